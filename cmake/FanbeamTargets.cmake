@@ -1,0 +1,35 @@
+# One static library per folder, with the same flags everywhere.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+include(GNUInstallDirs)
+
+add_library(fanbeam_options INTERFACE)
+target_compile_options(fanbeam_options INTERFACE
+  # Fused multiply-add would make results depend on the instruction set.
+  -ffp-contract=off
+  -Wall -Wextra -Wshadow -Wdouble-promotion -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
+if(FANBEAM_SANITIZER STREQUAL "address")
+  target_compile_options(fanbeam_options INTERFACE
+    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(fanbeam_options INTERFACE -fsanitize=address,undefined)
+elseif(FANBEAM_SANITIZER STREQUAL "thread")
+  target_compile_options(fanbeam_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
+  target_link_options(fanbeam_options INTERFACE -fsanitize=thread)
+endif()
+
+# fanbeam_library(core PUBLIC a b PRIVATE c d): sources are all .cpp files of the folder.
+function(fanbeam_library name)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS "*.cpp")
+  add_library(fanbeam_${name} STATIC ${sources})
+  add_library(fanbeam::${name} ALIAS fanbeam_${name})
+  set_target_properties(fanbeam_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(fanbeam_${name} PUBLIC
+    "$<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>" "$<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/fanbeam>")
+  target_compile_features(fanbeam_${name} PUBLIC cxx_std_20)
+  target_link_libraries(fanbeam_${name} PUBLIC ${ARG_PUBLIC}
+    PRIVATE "$<BUILD_INTERFACE:fanbeam_options>" ${ARG_PRIVATE})
+endfunction()
