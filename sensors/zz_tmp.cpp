@@ -1,1 +1,1 @@
-// placeholder until first source
+// no sources yet

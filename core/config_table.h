@@ -1,0 +1,95 @@
+// Reading TOML with every problem reported: each question names the key, its unit (in the key) and its allowed range;
+// a wrong type or value becomes a Problem with line and column, and the fallback is returned so that reading goes on.
+// Keys that nobody asked for are errors too. Used by scenes, sensors and material libraries alike.
+//
+// Limits: files up to 4 MiB, 64 levels of nesting (E-LIMIT). A syntax error is one E-PARSE: the parser stops there.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace fanbeam::core {
+
+// Closed interval of allowed values, or with `above_low` the half-open (low, high].
+struct NumberRange {
+  double low = -std::numeric_limits<double>::max();
+  double high = std::numeric_limits<double>::max();
+  bool above_low = false;
+};
+
+// One value as the program understood it, defaults included: {"weather.visibility_m", 150.0}.
+using ConfigValue = std::variant<bool, double, std::string>;
+using ResolvedConfig = std::vector<std::pair<std::string, ConfigValue>>;
+
+class ConfigTable {
+ public:
+  // Parses the file; on a syntax error reports it and returns an empty table.
+  static ConfigTable from_file(const std::filesystem::path& file, ProblemList& problems);
+  static ConfigTable from_text(std::string_view text, const std::string& file_name, ProblemList& problems);
+
+  bool has(std::string_view key) const;
+
+  double number(std::string_view key, NumberRange range, double fallback);
+  std::optional<double> optional_number(std::string_view key, NumberRange range);
+  // Missing is an error (E-REF "missing"); then the low end of the range, or 0, is returned.
+  double required_number(std::string_view key, NumberRange range);
+  std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high, std::int64_t fallback);
+  bool boolean(std::string_view key, bool fallback);
+  std::string text(std::string_view key, std::string_view fallback);
+  std::optional<std::string> optional_text(std::string_view key);
+  std::string required_text(std::string_view key);
+  // The index of the text in `names`; anything else is E-RANGE with the list of names.
+  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> names, std::size_t fallback);
+  // An array of numbers with a length in [fewest, most]; empty when the key is missing.
+  std::vector<double> numbers(std::string_view key, NumberRange range, std::size_t fewest, std::size_t most);
+  std::vector<std::string> texts(std::string_view key);
+
+  // A sub-table; when the key is missing, an empty one that answers with fallbacks (its `present()` is false).
+  ConfigTable table(std::string_view key);
+  // An array of tables ([[runway]]); empty when the key is missing.
+  std::vector<ConfigTable> tables(std::string_view key);
+  // Names of all keys whose value is a table, in file order; for free-form maps such as material mappings.
+  std::vector<std::string> keys() const;
+
+  bool present() const { return present_; }
+  Place place(std::string_view key) const;  // of the key, or of the table when the key is missing
+  std::string path(std::string_view key) const;  // "weather.visibility_m"
+  // Reports a problem that only the caller can see, at the place of `key`.
+  void error(ErrorClass error_class, std::string_view key, std::string value, std::string expected);
+  void warning(std::string_view name, std::string_view key, std::string value, std::string done);
+  ProblemList& problems();
+
+  // Call once everything was asked, on the root: each key never asked for is E-REF, with the nearest known name.
+  void report_unknown_keys();
+  // Every answer given so far in the whole file, defaults included, in the order asked.
+  const ResolvedConfig& resolved() const;
+
+ private:
+  struct Document;
+  ConfigTable() = default;
+  const void* find(std::string_view key);
+  template <class T>
+  void record(std::string_view key, T value);
+  std::optional<double> checked_number(std::string_view key, NumberRange range);
+
+  std::shared_ptr<Document> document_;
+  const void* table_ = nullptr;
+  std::string prefix_;
+  bool present_ = false;
+};
+
+// "0 to 10", "above 0, at most 10", "at least 1": for messages.
+std::string to_string(const NumberRange& range);
+
+}  // namespace fanbeam::core

@@ -1,0 +1,113 @@
+// The radar as plain data: what a sensor file says, in SI. `derived figures` are functions, never stored twice.
+//
+// Angles are in the antenna frame: azimuth positive right of the antenna's forward axis, elevation positive up.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fanbeam::sensors {
+
+// One cut of an antenna pattern. Gains are one-way power relative to the peak; the two-way pattern is the square.
+struct BeamCut {
+  enum class Shape { gaussian, sinc_squared, table };
+  Shape shape = Shape::gaussian;
+  double half_power_width_rad = 0.0;  // one-way, full width between the -3 dB points
+  double cut_rad = 0.0;               // the pattern is zero beyond this angle from the peak
+  // Shape::table only: increasing angles from the peak, and linear one-way gain relative to the peak there.
+  std::vector<double> table_angle_rad;
+  std::vector<double> table_gain;
+};
+
+struct Antenna {
+  BeamCut azimuth;
+  BeamCut elevation;
+  double boresight_elevation_rad = 0.0;
+  double peak_gain = 1.0;   // linear, one-way
+  double efficiency = 1.0;  // peak gain over directivity; informative
+};
+
+// How the beam moves over a picture's columns.
+enum class ScanSurface {
+  plane,  // azimuth is the angle in the antenna's horizontal plane
+  cone,   // a frequency-scanned line array: azimuth is the angle from the plane across the array axis
+};
+
+struct Scan {
+  ScanSurface surface = ScanSurface::plane;
+  double field_of_view_rad = 0.0;  // centred on the forward axis
+  int columns = 0;
+  double frame_rate_Hz = 0.0;
+  bool stabilised = true;  // roll and pitch of the aircraft are removed
+
+  double column_width_rad() const { return field_of_view_rad / columns; }
+};
+
+struct RangeGate {
+  double minimum_m = 0.0;
+  double cell_m = 0.0;  // row k spans [minimum + k cell, minimum + (k + 1) cell)
+  int cells = 0;
+
+  double maximum_m() const { return minimum_m + cell_m * cells; }
+};
+
+struct Waveform {
+  double frequency_Hz = 0.0;
+  double bandwidth_Hz = 0.0;  // per column
+  double transmit_power_W = 0.0;
+  bool doppler_compensated = true;
+};
+
+struct Receiver {
+  double noise_figure = 1.0;  // linear
+  double loss = 1.0;          // linear, at least 1; divides the received power
+  double dwell_s = 0.0;       // per column
+};
+
+// Angles at which the antenna sits on the aircraft, applied only when the scan is not stabilised (heading always).
+struct Mounting {
+  double forward_m = 0.0, right_m = 0.0, down_m = 0.0;  // antenna phase centre in body axes
+  double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
+};
+
+// How received power becomes grey; see display.h for the mappings.
+struct Display {
+  enum class Mapping { stc, log, seed };
+  Mapping mapping = Mapping::stc;
+  double low_dB = -55.0;  // shown as grey 0
+  double high_dB = 5.0;   // shown as grey 255
+  enum class CScopeMode { true_elevation, flat_earth };
+  CScopeMode cscope_mode = CScopeMode::true_elevation;
+  double cscope_top_rad = 0.0;  // upper edge of the C-scope window
+  double cscope_span_rad = 0.0;
+  int cscope_rows = 0;
+};
+
+// Constants that the seed's Table 2 fixes differently from physics, kept so that it can be reproduced to the letter.
+struct SeedConvention {
+  bool active = false;
+  double speed_of_light_mps = 0.0;
+  double azimuth_patch_rad = 0.0;  // the beam's width itself stands for the integral of its squared pattern
+};
+
+struct Sensor {
+  std::string name;
+  Antenna antenna;
+  Scan scan;
+  RangeGate range;
+  Waveform waveform;
+  Receiver receiver;
+  Mounting mounting;
+  Display display;
+  SeedConvention seed;
+  // "antenna.elevation.cut_deg: assumed": values whose source the file marks as assumed.
+  std::vector<std::string> assumed;
+
+  double wavelength_m() const;
+  // Pt G0^2 lambda^2 / (4 pi)^3 / loss, in W m^2: received power is this times sigma g^2 L / R^4.
+  double radar_constant_W_m2() const;
+  // k T0 F / dwell: mean noise power per range cell; the bandwidth is that of a bin of the range FFT.
+  double noise_power_W() const;
+};
+
+}  // namespace fanbeam::sensors
