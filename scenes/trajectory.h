@@ -8,25 +8,41 @@
 
 namespace fanbeam::scenes {
 
-// Poses at increasing times; heights above the scene's vertical datum are already ellipsoidal (or the scene's own).
+// Poses at increasing times; heights above the scene's vertical datum are already ellipsoidal (or
+// the scene's own).
 //
-// Position is interpolated along the chord in Earth-centred coordinates (correct over poles and the date line; the sag
-// below the arc over a step d is d^2 / 8 Re, 0.2 m at 3 km, and is put back by interpolating the height), attitude on
-// the short arc (slerp), velocity linearly. One pose is a fixed pose.
+// Between two poses the position follows the chord of the two points on the ellipsoid, projected
+// back onto it, so that poles and the date line are ordinary places; the height is interpolated by
+// itself, so that the chord's sag (d^2 / 8 Re, 0.2 m at 3 km) is not in it. Along the track the
+// chord is not walked at exactly constant speed; the error is below d^3 / (60 Re^2), 0.5 mm at
+// 10 km. Attitude turns on the short arc (slerp) and velocity changes linearly, both in axes fixed
+// to the Earth: north turns when the pole is passed. The path has corners in its poses: give them
+// closely enough (0.1 s leaves 13 mm at 1 g).
 class Trajectory {
  public:
-  // Throws InputError: E-TIME when times do not increase, E-RANGE or E-NONFINITE for an impossible pose.
+  // Throws InputError with every problem: E-TIME when times do not increase; E-NONFINITE; E-RANGE
+  // for a position outside terrain::check_geodetic, an attitude of a length not 1 within 1e-3, no
+  // pose at all, or neighbours more than 1000 km apart.
   explicit Trajectory(std::vector<core::Pose> poses);
 
-  double begin_s() const;
-  double end_s() const;
-  // `time_s` outside [begin, end] is E-TIME.
+  double begin_s() const { return poses_.front().time_s; }
+  double end_s() const { return poses_.back().time_s; }
+
+  // Exactly the stored pose at a stored time. `time_s` outside [begin, end] is E-TIME and not
+  // finite E-NONFINITE; a trajectory of one pose holds it at any time.
   core::Pose at(double time_s) const;
 
-  // Frame k's time is the middle of its scan: begin + (k + 0.5) / rate, never accumulated. As many frames as end
-  // before the trajectory does; one for a fixed pose.
+  // Frame k scans from begin + k / rate to begin + (k + 1) / rate; its time is the middle. Never
+  // accumulated, so that a day at 16 Hz ends on the microsecond it should.
+  // As many frames as end before the trajectory does; one for a fixed pose.
+  // Throws InputError: E-RANGE for a rate outside 1e-3 to 1e6 Hz or a negative frame, E-NONFINITE,
+  // E-LIMIT for more than 2^31 - 1 frames.
   int frame_count(double frame_rate_Hz) const;
+  double frame_start_s(int frame, double frame_rate_Hz) const;
   double frame_time_s(int frame, double frame_rate_Hz) const;
+
+  // Sum of the geodesics between neighbours at height 0.
+  double ground_length_m() const;
 
   const std::vector<core::Pose>& poses() const { return poses_; }
 

@@ -80,8 +80,7 @@ LocalFrame::LocalFrame(const core::Geodetic& origin, EarthModel model)
 
 glm::dvec3 LocalFrame::to_local_m(const core::Geodetic& position) const {
   if (model_ == EarthModel::plane) {
-    const double longitude_rad =
-        core::wrap_pi_rad(position.longitude_rad - origin_.longitude_rad);
+    const double longitude_rad = core::wrap_pi_rad(position.longitude_rad - origin_.longitude_rad);
     return {longitude_rad * metres_per_longitude_rad_,
             (position.latitude_rad - origin_.latitude_rad) * metres_per_latitude_rad_,
             position.height_m - origin_.height_m};
@@ -127,8 +126,8 @@ void check_geodetic(const core::Geodetic& position, const char* field) {
   const std::string name = field;
   check_coordinate(problems, name + ".latitude_deg", core::degrees(position.latitude_rad), -90.0,
                    90.0, "-90 to 90 deg");
-  check_coordinate(problems, name + ".longitude_deg", core::degrees(position.longitude_rad),
-                   -540.0, 540.0, "-540 to 540 deg");
+  check_coordinate(problems, name + ".longitude_deg", core::degrees(position.longitude_rad), -540.0,
+                   540.0, "-540 to 540 deg");
   check_coordinate(problems, name + ".height_m", position.height_m, kLowestHeight_m,
                    kHighestHeight_m, "-20000 to 1000000 m");
   problems.throw_if_errors();

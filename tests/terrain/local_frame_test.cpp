@@ -67,8 +67,8 @@ TEST_CASE("T04: a million positions survive the round trip", "[local_frame]") {
   }
   for (const double latitude_deg : {-90.0, 0.0, 90.0})
     for (const double longitude_deg : {-180.0, 0.0, 180.0})
-      largest_error_m =
-          std::max(largest_error_m, round_trip_error_m(geodetic_deg(latitude_deg, longitude_deg, 0.0)));
+      largest_error_m = std::max(
+          largest_error_m, round_trip_error_m(geodetic_deg(latitude_deg, longitude_deg, 0.0)));
   INFO("largest error " << largest_error_m << " m");
   CHECK(largest_error_m < 2e-8);
 }

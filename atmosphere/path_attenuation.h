@@ -1,0 +1,89 @@
+// Loss along a straight path through the layered air of a scene: gases, fog and rain.
+//
+// Loss in dB, one way: integral of gamma(h(s)) ds with gamma in dB/km and s in km; two-way power
+// factor 10^(-0.2 integral). Sources of gamma: gases.h in the air of standard_atmosphere.h, fog.h,
+// rain.h. Air inside the fog is saturated.
+//
+// The gases are tabulated over height when the object is built, linear within cells of at most
+// 50 m; fog and rain are uniform up to their tops, which are cell borders: nothing is smeared
+// there. The integral of this profile over a slanted path is then exact: no steps along the path,
+// and the sum over the pieces of a path equals the whole.
+//
+// Neglected: ray bending and Earth curvature within the path (2 m over 5 km), change of the
+// weather along the ground, elevation in the rain law (weather.h), melting layer, temperature over
+// height in fog. Beyond kLowest_m and kHighest_m the values at these heights go on.
+// Accuracy: 2e-5 relative from 24 to 94 GHz against a 4000-step integration of the gases.
+// Cost: tens of nanoseconds per path, no allocation; nothing at all where is_clear().
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "atmosphere/weather.h"
+
+namespace fanbeam::atmosphere {
+
+// One-way specific attenuation by cause.
+struct SpecificAttenuation {
+  double gas_dB_per_km = 0.0;
+  double fog_dB_per_km = 0.0;
+  double rain_dB_per_km = 0.0;
+
+  double total_dB_per_km() const noexcept {
+    return gas_dB_per_km + fog_dB_per_km + rain_dB_per_km;
+  }
+};
+
+// Heights are above the scene's origin, finite; lengths are finite and not negative.
+class PathAttenuation {
+ public:
+  static constexpr double kLowest_m = -2000.0;
+  static constexpr double kHighest_m = 12000.0;
+
+  // Throws InputError with every problem of problems_in(weather, frequency_Hz).
+  PathAttenuation(const Weather& weather, double frequency_Hz);
+
+  // No loss anywhere: every path has 0 dB and factor 1, and callers may skip the question.
+  bool is_clear() const noexcept { return is_clear_; }
+
+  // At the very top of fog or rain the air above counts.
+  SpecificAttenuation one_way_attenuation_dB_per_km(double height_m) const noexcept;
+
+  // Straight path of `length_m` between two heights, in either direction, level or not.
+  double one_way_dB(double from_height_m, double to_height_m, double length_m) const noexcept;
+
+  // Power left after going there and back, 1 to 0 (0 past about 3200 dB, where a double ends).
+  double two_way_power_factor(double from_height_m, double to_height_m,
+                              double length_m) const noexcept;
+
+ private:
+  // Heights without a jump in the profile: equal cells, uniform fog and rain.
+  struct Layer {
+    double start_m = 0.0;
+    double cells_per_m = 0.0;
+    std::size_t first_cell = 0;
+    std::size_t last_cell = 0;
+    double fog_dB_per_km = 0.0;
+    double rain_dB_per_km = 0.0;
+  };
+  struct Cell {
+    double start_m = 0.0;
+    double gas_at_start_dB_per_km = 0.0;
+    double gas_slope_dB_per_km_m = 0.0;
+    double integral_at_start_dB_m_per_km = 0.0;  // of the total from kLowest_m up
+  };
+  struct Location {
+    const Layer* layer;
+    std::size_t cell;
+  };
+  class Builder;
+
+  Location locate(double height_m) const noexcept;
+  SpecificAttenuation profile(const Location& location, double height_m) const noexcept;
+
+  std::vector<Layer> layers_;
+  std::vector<Cell> cells_;
+  bool is_clear_ = true;
+};
+
+}  // namespace fanbeam::atmosphere

@@ -1,0 +1,28 @@
+# cmake --install: the program with its data, and a package that find_package(fanbeam) finds. Data lie in
+# share/fanbeam beside bin/, where the program looks for them.
+include(CMakePackageConfigHelpers)
+set(data "${CMAKE_INSTALL_DATADIR}/fanbeam")
+set(package "${CMAKE_INSTALL_LIBDIR}/cmake/fanbeam")
+
+install(TARGETS fanbeam)
+foreach(folder core materials atmosphere terrain sensors renderer scenes)
+  install(TARGETS fanbeam_${folder} EXPORT fanbeamTargets)
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fanbeam"
+          FILES_MATCHING PATTERN "*.h" PATTERN "*_private.h" EXCLUDE)
+endforeach()
+
+foreach(folder materials sensors)
+  file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.toml")
+  install(FILES ${files} DESTINATION "${data}/${folder}")
+endforeach()
+file(GLOB scene_files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/scenes/*/scene.toml")
+foreach(scene_file IN LISTS scene_files)
+  cmake_path(GET scene_file PARENT_PATH scene)
+  install(DIRECTORY "${scene}" DESTINATION "${data}/scenes")
+endforeach()
+
+install(EXPORT fanbeamTargets NAMESPACE fanbeam:: DESTINATION "${package}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/fanbeamConfigVersion.cmake"
+  COMPATIBILITY SameMinorVersion)
+install(FILES cmake/fanbeamConfig.cmake cmake/FanbeamDependencies.cmake
+              "${PROJECT_BINARY_DIR}/fanbeamConfigVersion.cmake" DESTINATION "${package}")

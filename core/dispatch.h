@@ -1,0 +1,11 @@
+// Hot functions are compiled for three levels of x86-64 and the best one is chosen when the program starts.
+// Results do not depend on the level: contraction into fused multiply-add is off everywhere. Sanitizers cannot
+// look through the choice, so there the plain version runs.
+#pragma once
+
+#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
+    !(defined(__clang__) && (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer)))
+#define FANBEAM_HOT __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
+#else
+#define FANBEAM_HOT
+#endif

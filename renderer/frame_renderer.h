@@ -1,0 +1,64 @@
+// From a pose to pictures: cast, beam, targets, receiver, display.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/pose.h"
+#include "renderer/caster.h"
+#include "renderer/sampling.h"
+#include "renderer/world.h"
+
+namespace fanbeam::renderer {
+
+// What is wanted of each frame; only that is computed.
+struct Products {
+  bool bscope = true;
+  bool cscope = true;
+};
+
+// The aircraft at one instant in scene axes.
+struct FramePose {
+  double time_s = 0.0;
+  glm::dvec3 position_m{0.0};
+  glm::dmat3 north_east_down{1.0};  // columns: unit vectors at the aircraft
+  glm::dquat q_NB{1.0, 0.0, 0.0, 0.0};
+};
+
+// Arrays are row-major [row][column]; B-scope row 0 is the nearest range cell, C-scope row 0 the highest elevation.
+struct Frame {
+  std::vector<double> bscope_W;     // received power without noise
+  std::vector<double> cscope_W_m3;  // power times R^3 summed over range, without noise
+  std::vector<double> bscope_grey;  // unrounded, 0 to 255, with the mean noise power when noise is on
+  std::vector<double> cscope_grey;
+  std::uint64_t rays = 0;
+  std::uint64_t blanked = 0;
+  std::vector<std::string> events;  // "below_terrain", "empty_view"
+};
+
+class FrameRenderer {
+ public:
+  // `world` must outlive the renderer. `with_noise`: the effect thermal noise is on.
+  FrameRenderer(const World& world, const Sampling& sampling, const Products& products, bool with_noise);
+
+  // Thread-safe. Throws InputError E-NONFINITE or E-RANGE for an impossible pose.
+  Frame render(const FramePose& pose) const;
+
+ private:
+  void display(const FramePose& pose, const sensors::AntennaFrame& antenna, Frame& frame) const;
+
+  const World& world_;
+  Sampling sampling_;
+  Products products_;
+  bool with_noise_;
+  std::unique_ptr<Caster> caster_;
+};
+
+// Unrounded grey of a B-scope [cell][column] in watts plus `noise_W` per cell.
+std::vector<double> bscope_grey(const std::vector<double>& power_W, const sensors::Sensor& sensor, double noise_W);
+// Unrounded grey of a C-scope [row][column] in W m^3 plus `noise_W_m3` per row.
+std::vector<double> cscope_grey(const std::vector<double>& power_W_m3, const sensors::Sensor& sensor,
+                                double noise_W_m3);
+
+}  // namespace fanbeam::renderer

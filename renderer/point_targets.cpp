@@ -1,0 +1,87 @@
+#include "renderer/point_targets.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "sensors/beam_pattern.h"
+#include "sensors/range_gate.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+// A light stands 0.3 m above ground that is known to 0.1 m: nearer than this the ground does not hide it.
+constexpr double kClearance_m = 1.0;
+
+}  // namespace
+
+glm::dvec3 PointTarget::position_at(double time_s) const {
+  if (time_s <= path.front().time_s) return path.front().position_m;
+  if (time_s >= path.back().time_s) return path.back().position_m;
+  const auto after = std::upper_bound(path.begin(), path.end(), time_s,
+                                      [](double time, const Waypoint& waypoint) { return time < waypoint.time_s; });
+  const Waypoint& a = *(after - 1);
+  const Waypoint& b = *after;
+  return a.position_m + (b.position_m - a.position_m) * ((time_s - a.time_s) / (b.time_s - a.time_s));
+}
+
+std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna, double time_s) {
+  const sensors::Sensor& sensor = world.sensor;
+  const sensors::Antenna& beams = sensor.antenna;
+  std::vector<core::Echo> echoes;
+  for (std::size_t i = 0; i < world.targets.size(); ++i) {
+    const PointTarget& target = world.targets[i];
+    const glm::dvec3 position_m = target.position_at(time_s);
+    const glm::dvec3 path_m = position_m - antenna.position_m;
+    const double range_m = glm::length(path_m);
+    if (range_m < sensor.range.minimum_m || range_m >= sensor.range.maximum_m()) continue;
+    const glm::dvec3 direction = path_m / range_m;
+    const auto angles = sensors::angles(antenna, direction, sensor.scan.surface);
+    if (!angles) continue;
+    const double reach_rad = sensor.scan.field_of_view_rad / 2 + beams.azimuth.cut_rad;
+    if (std::abs(angles->azimuth_rad) > reach_rad) continue;
+    const double elevation_gain =
+        sensors::two_way_gain(beams.elevation, angles->elevation_rad - beams.boresight_elevation_rad);
+    const double rcs_m2 = materials::rcs_m2(target.rcs, glm::transpose(target.axes) * -direction, sensor.wavelength_m());
+    if (!(elevation_gain * rcs_m2 > 0.0)) continue;
+    if (world.surfaces->occluded(antenna.position_m, position_m, kClearance_m)) continue;
+    core::Echo echo;
+    echo.range_m = range_m;
+    echo.azimuth_rad = angles->azimuth_rad;
+    echo.elevation_rad = angles->elevation_rad;
+    echo.object_id = static_cast<std::uint32_t>(i);
+    echo.power_W = sensor.radar_constant_W_m2() * rcs_m2 * elevation_gain *
+                   world.attenuation.two_way_power_factor(antenna.position_m.z, position_m.z, range_m) /
+                   (range_m * range_m * range_m * range_m);
+    echoes.push_back(echo);
+  }
+  return echoes;
+}
+
+void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& sensor, std::vector<double>& bscope_W,
+                std::vector<double>& cscope_W_m3) {
+  const sensors::Scan& scan = sensor.scan;
+  const double width_rad = scan.column_width_rad();
+  const double cut_rad = sensor.antenna.azimuth.cut_rad;
+  for (const core::Echo& echo : echoes) {
+    const auto cell = sensors::cell_of(sensor.range, echo.range_m);
+    if (!cell) continue;
+    const double position = (echo.azimuth_rad + scan.field_of_view_rad / 2) / width_rad - 0.5;
+    const int first = std::max(0, static_cast<int>(std::ceil(position - cut_rad / width_rad)));
+    const int last = std::min(scan.columns - 1, static_cast<int>(std::floor(position + cut_rad / width_rad)));
+    const double row = (sensor.display.cscope_top_rad - echo.elevation_rad) / sensor.display.cscope_span_rad *
+                       sensor.display.cscope_rows;
+    const bool in_window = !cscope_W_m3.empty() && row >= 0.0 && row < sensor.display.cscope_rows;
+    for (int column = first; column <= last; ++column) {
+      const double gain = sensors::two_way_gain(sensor.antenna.azimuth, (column - position) * width_rad);
+      const auto columns = static_cast<std::size_t>(scan.columns);
+      bscope_W[static_cast<std::size_t>(*cell) * columns + static_cast<std::size_t>(column)] += echo.power_W * gain;
+      if (in_window)
+        cscope_W_m3[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] +=
+            echo.power_W * gain * echo.range_m * echo.range_m * echo.range_m;
+    }
+  }
+}
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,380 @@
+#include "renderer/ray_kernel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/dispatch.h"
+#include "core/random.h"
+#include "renderer/deposit.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+using terrain::RayPacket;
+
+// Rays one packet sends, in the antenna's angles.
+template <int N>
+struct Lanes {
+  alignas(64) double cos_elevation[N];
+  alignas(64) double sin_elevation[N];
+  alignas(64) double cos_azimuth[N];
+  alignas(64) double sin_azimuth[N];
+  alignas(64) int active[N];
+};
+
+// Direction and its derivative by elevation, as weights of the antenna's axes.
+struct Axes {
+  double forward, right, up;
+};
+inline Axes direction_weights(bool cone, double ce, double se, double ca, double sa) {
+  return cone ? Axes{ca * ce, sa, ca * se} : Axes{ce * ca, ce * sa, se};
+}
+inline Axes elevation_derivative(bool cone, double ce, double se, double ca, double sa) {
+  return cone ? Axes{-ca * se, 0.0, ca * ce} : Axes{-se * ca, -se * sa, ce};
+}
+
+// A low-discrepancy place inside the sub-column for ray `index`: multiples of the golden ratio, shifted from
+// sub-column to sub-column by another irrational so that neighbours do not repeat each other.
+inline double dither(std::uint64_t index, int sub_column) {
+  const double value = static_cast<double>(index) * 0.6180339887498949 + sub_column * 0.7548776662466927;
+  return value - std::floor(value);
+}
+
+struct SubColumn {
+  double centre_rad, cosine, sine, step_rad;
+
+  // Cosine and sine at `place` in [0, 1) of the sub-column; third order in a width below 5 mrad leaves 2e-8.
+  void at(double place, double& cos_azimuth, double& sin_azimuth) const {
+    const double d = step_rad * (place - 0.5);
+    cos_azimuth = cosine - sine * d - cosine * d * d / 2;
+    sin_azimuth = sine + cosine * d - sine * d * d / 2;
+  }
+};
+
+template <int N>
+class GroupCaster {
+ public:
+  GroupCaster(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums, std::vector<RayPacket<N>>* record)
+      : frame_(frame), group_(group), scratch_(scratch), sums_(sums), record_(record),
+        cone_(frame.world.sensor.scan.surface == sensors::ScanSurface::cone) {
+    for (int a = 0; a < kGroupAzimuths; ++a) {
+      const double centre = sums.first_azimuth_rad + (kGroupAzimuths * group + a + 0.5) * sums.step_rad;
+      columns_[a] = {centre, std::cos(centre), std::sin(centre), sums.step_rad};
+    }
+  }
+
+  void run() {
+    frame_.fan.place(frame_.antenna, columns_[0].centre_rad, columns_[kGroupAzimuths - 1].centre_rad, scratch_.edges);
+    if (scratch_.edges.size() < 2) return;
+    if (frame_.sampling.jittered_passes > 0) {
+      for (int pass = 0; pass < frame_.sampling.jittered_passes; ++pass) {
+        cast_fan(pass);
+        for (int a = 0; a < kGroupAzimuths; ++a) deposit_points(a);
+      }
+      return;
+    }
+    cast_fan(0);
+    for (int level = 0; level < frame_.sampling.refinement_depth; ++level)
+      if (!refine()) break;
+    for (int a = 0; a < kGroupAzimuths; ++a) {
+      if (frame_.sampling.deposit_intervals) deposit_intervals(a);
+      else deposit_points(a);
+    }
+  }
+
+ private:
+  static constexpr int kRows = N / kGroupAzimuths;
+
+  double gap_limit_m() const {
+    const double stride = std::max(1.0, 1.0 / frame_.sampling.rays_per_cell);
+    return frame_.sampling.gap_cells * stride * frame_.world.sensor.range.cell_m;
+  }
+
+  void cast_fan(int pass);
+  bool refine();
+  bool wants_ray_between(const CastRay& below, const CastRay& above) const;
+  void cast_requests();
+  void send(Lanes<N>& lanes, RayPacket<N>& packet);
+  CastRay shade(const Lanes<N>& lanes, const RayPacket<N>& packet, int lane, double elevation_rad);
+  void deposit_intervals(int azimuth);
+  void deposit_points(int azimuth);
+  double end_of_interval_m(const CastRay& ray, const CastRay* neighbour, double edge_rad) const;
+  void add(int azimuth, double near_m, double far_m, double low_rad, double high_rad, const CastRay& ray);
+
+  const RayFrame& frame_;
+  int group_;
+  RayScratch& scratch_;
+  FanSums& sums_;
+  std::vector<RayPacket<N>>* record_;
+  bool cone_;
+  std::array<SubColumn, kGroupAzimuths> columns_;
+};
+
+template <int N>
+inline void fill_packet_inline(const sensors::AntennaFrame& antenna, bool cone, double far_m, const Lanes<N>& lanes,
+                               RayPacket<N>& packet) {
+  const glm::dvec3 f = antenna.forward;
+  const glm::dvec3 r = antenna.right;
+  const glm::dvec3 u = antenna.up;
+  for (int i = 0; i < N; ++i) {
+    const Axes w = direction_weights(cone, lanes.cos_elevation[i], lanes.sin_elevation[i], lanes.cos_azimuth[i],
+                                     lanes.sin_azimuth[i]);
+    packet.origin_x[i] = static_cast<float>(antenna.position_m.x);
+    packet.origin_y[i] = static_cast<float>(antenna.position_m.y);
+    packet.origin_z[i] = static_cast<float>(antenna.position_m.z);
+    packet.near[i] = 0.0F;
+    packet.direction_x[i] = static_cast<float>(w.forward * f.x + w.right * r.x + w.up * u.x);
+    packet.direction_y[i] = static_cast<float>(w.forward * f.y + w.right * r.y + w.up * u.y);
+    packet.direction_z[i] = static_cast<float>(w.forward * f.z + w.right * r.z + w.up * u.z);
+    packet.time[i] = 0.0F;
+    packet.distance[i] = static_cast<float>(far_m);
+    packet.mask[i] = 0xFFFFFFFFU;
+    packet.id[i] = 0;
+    packet.flags[i] = 0;
+    packet.geometry[i] = terrain::kNoHit;
+    packet.instance[i] = terrain::kNoHit;
+  }
+}
+FANBEAM_HOT void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double far_m, const Lanes<8>& lanes,
+                             RayPacket<8>& packet) {
+  fill_packet_inline<8>(antenna, cone, far_m, lanes, packet);
+}
+FANBEAM_HOT void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double far_m,
+                                 const Lanes<16>& lanes, RayPacket<16>& packet) {
+  fill_packet_inline<16>(antenna, cone, far_m, lanes, packet);
+}
+
+template <int N>
+void GroupCaster<N>::send(Lanes<N>& lanes, RayPacket<N>& packet) {
+  const sensors::RangeGate& gate = frame_.world.sensor.range;
+  fill_packet(frame_.antenna, cone_, gate.maximum_m() + 2.0 * gate.cell_m, lanes, packet);
+  if (record_ != nullptr) {
+    for (int i = 0; i < N; ++i)
+      if (lanes.active[i] == 0) packet.near[i] = packet.distance[i] * 2.0F;  // an empty interval: never hits
+    record_->push_back(packet);
+  }
+  frame_.world.surfaces->intersect(lanes.active, packet);
+}
+
+template <int N>
+CastRay GroupCaster<N>::shade(const Lanes<N>& lanes, const RayPacket<N>& packet, int i, double elevation_rad) {
+  CastRay ray;
+  ray.elevation_rad = elevation_rad;
+  ++scratch_.ray_count;
+  if (packet.geometry[i] == terrain::kNoHit) return ray;
+  ++scratch_.hit_count;
+  const double range_m = static_cast<double>(packet.distance[i]);
+  const glm::dvec3 direction(packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]);
+  const glm::dvec3 normal(packet.normal_x[i], packet.normal_y[i], packet.normal_z[i]);
+  const Axes w = elevation_derivative(cone_, lanes.cos_elevation[i], lanes.sin_elevation[i], lanes.cos_azimuth[i],
+                                      lanes.sin_azimuth[i]);
+  const glm::dvec3 higher =
+      w.forward * frame_.antenna.forward + w.right * frame_.antenna.right + w.up * frame_.antenna.up;
+  const double along = glm::dot(normal, direction);
+  const double inverse_length = 1.0 / std::sqrt(glm::dot(normal, normal));
+  const double sin_grazing = -along * inverse_length;
+  ray.range_m = packet.distance[i];
+  // Walls and roofs of one mesh do not share intervals.
+  const bool upright = std::abs(normal.z) * inverse_length < 0.7;
+  ray.surface = 2 * packet.geometry[i] + (upright ? 1U : 0U);
+  if (sin_grazing <= 0.0 || range_m <= 0.0) return ray;
+  ray.range_slope = static_cast<float>(glm::dot(normal, higher) / along);
+  const glm::dvec3 point = frame_.antenna.position_m + direction * range_m;
+  const terrain::MaterialId material =
+      frame_.world.surfaces->material(packet.geometry[i], packet.primitive[i], point.x, point.y);
+  const double jacobian = cone_ ? lanes.cos_azimuth[i] : lanes.cos_elevation[i];
+  ray.density_W_per_rad2 = static_cast<float>(
+      frame_.radar_constant_W_m2 * frame_.nrcs[material].sigma0_over_sine(sin_grazing) *
+      frame_.elevation_gain(elevation_rad - frame_.world.sensor.antenna.boresight_elevation_rad) *
+      frame_.path_loss.two_way_factor(point.z, range_m) * jacobian / (range_m * range_m));
+  return ray;
+}
+
+template <int N>
+void GroupCaster<N>::cast_fan(int pass) {
+  const std::vector<double>& edges = scratch_.edges;
+  const int count = static_cast<int>(edges.size()) - 1;
+  const bool jittered = frame_.sampling.jittered_passes > 0;
+  const core::RandomKey key{frame_.sampling.seed, core::kStreamReferenceJitter, 0};
+  Lanes<N> lanes;
+  RayPacket<N> packet;
+  double elevation_rad[N];
+  for (auto& rays : scratch_.rays) rays.clear();
+  for (int first = 0; first < count; first += kRows) {
+    for (int row = 0; row < kRows; ++row) {
+      const int j = std::min(first + row, count - 1);
+      const double middle_rad = (edges[j] + edges[j + 1]) / 2;
+      const double cosine = std::cos(middle_rad);
+      const double sine = std::sin(middle_rad);
+      for (int a = 0; a < kGroupAzimuths; ++a) {
+        const int i = row * kGroupAzimuths + a;
+        const int sub_column = kGroupAzimuths * group_ + a;
+        lanes.active[i] = first + row < count ? -1 : 0;
+        elevation_rad[i] = middle_rad;
+        lanes.cos_elevation[i] = cosine;
+        lanes.sin_elevation[i] = sine;
+        double place = dither(static_cast<std::uint64_t>(j), sub_column);
+        if (jittered) {
+          const std::uint64_t cell =
+              static_cast<std::uint64_t>(sub_column) * static_cast<std::uint64_t>(frame_.sampling.jittered_passes) +
+              static_cast<std::uint64_t>(pass);
+          const auto words = core::random_words(key, cell, static_cast<std::uint32_t>(j));
+          place = core::uniform_from(words[0]);
+          elevation_rad[i] = edges[j] + core::uniform_from(words[1]) * (edges[j + 1] - edges[j]);
+          lanes.cos_elevation[i] = std::cos(elevation_rad[i]);
+          lanes.sin_elevation[i] = std::sin(elevation_rad[i]);
+        }
+        columns_[a].at(place, lanes.cos_azimuth[i], lanes.sin_azimuth[i]);
+      }
+    }
+    send(lanes, packet);
+    for (int i = 0; i < N; ++i)
+      if (lanes.active[i] != 0) scratch_.rays[i % kGroupAzimuths].push_back(shade(lanes, packet, i, elevation_rad[i]));
+  }
+}
+
+template <int N>
+bool GroupCaster<N>::wants_ray_between(const CastRay& below, const CastRay& above) const {
+  constexpr double kSmallestStep_rad = 1e-5;  // 4 cm at 3.7 km: finer than any surface we model
+  if (above.elevation_rad - below.elevation_rad < kSmallestStep_rad) return false;
+  const bool sky_below = below.surface == terrain::kNoHit;
+  const bool sky_above = above.surface == terrain::kNoHit;
+  if (sky_below || sky_above) return sky_below != sky_above;
+  return below.surface != above.surface || std::abs(above.range_m - below.range_m) > gap_limit_m();
+}
+
+template <int N>
+bool GroupCaster<N>::refine() {
+  for (int a = 0; a < kGroupAzimuths; ++a) {
+    auto& wanted = scratch_.wanted[a];
+    wanted.clear();
+    const auto& rays = scratch_.rays[a];
+    for (std::size_t i = 1; i < rays.size(); ++i)
+      if (wants_ray_between(rays[i - 1], rays[i]))
+        wanted.push_back((rays[i - 1].elevation_rad + rays[i].elevation_rad) / 2);
+  }
+  // By elevation, so that a packet's rays stay close together.
+  scratch_.requests.clear();
+  std::array<std::size_t, kGroupAzimuths> next{};
+  for (;;) {
+    int lowest = -1;
+    for (int a = 0; a < kGroupAzimuths; ++a) {
+      if (next[a] < scratch_.wanted[a].size() &&
+          (lowest < 0 || scratch_.wanted[a][next[a]] < scratch_.wanted[lowest][next[lowest]]))
+        lowest = a;
+    }
+    if (lowest < 0) break;
+    scratch_.requests.push_back({scratch_.wanted[lowest][next[lowest]++], lowest});
+  }
+  if (scratch_.requests.empty()) return false;
+  cast_requests();
+  for (int a = 0; a < kGroupAzimuths; ++a) {
+    if (scratch_.refined[a].empty()) continue;
+    scratch_.merged.resize(scratch_.rays[a].size() + scratch_.refined[a].size());
+    std::merge(scratch_.rays[a].begin(), scratch_.rays[a].end(), scratch_.refined[a].begin(), scratch_.refined[a].end(),
+               scratch_.merged.begin(),
+               [](const CastRay& x, const CastRay& y) { return x.elevation_rad < y.elevation_rad; });
+    std::swap(scratch_.rays[a], scratch_.merged);
+  }
+  return true;
+}
+
+template <int N>
+void GroupCaster<N>::cast_requests() {
+  Lanes<N> lanes;
+  RayPacket<N> packet;
+  for (auto& refined : scratch_.refined) refined.clear();
+  const std::size_t count = scratch_.requests.size();
+  for (std::size_t first = 0; first < count; first += N) {
+    for (std::size_t i = 0; i < N; ++i) {
+      const auto& request = scratch_.requests[std::min(first + i, count - 1)];
+      lanes.active[i] = first + i < count ? -1 : 0;
+      lanes.cos_elevation[i] = std::cos(request.elevation_rad);
+      lanes.sin_elevation[i] = std::sin(request.elevation_rad);
+      // Keyed by the elevation itself: the same ray gets the same azimuth whatever was refined before it.
+      const auto index = static_cast<std::uint64_t>((request.elevation_rad + core::kPi) * 1e7);
+      columns_[request.azimuth].at(dither(index, kGroupAzimuths * group_ + request.azimuth), lanes.cos_azimuth[i],
+                                   lanes.sin_azimuth[i]);
+    }
+    send(lanes, packet);
+    for (std::size_t i = 0; i < N && first + i < count; ++i) {
+      const auto& request = scratch_.requests[first + i];
+      scratch_.refined[request.azimuth].push_back(shade(lanes, packet, static_cast<int>(i), request.elevation_rad));
+    }
+  }
+}
+
+template <int N>
+double GroupCaster<N>::end_of_interval_m(const CastRay& ray, const CastRay* neighbour, double edge_rad) const {
+  const double range_m = static_cast<double>(ray.range_m);
+  const double limit_m = gap_limit_m();
+  if (neighbour != nullptr && neighbour->surface == ray.surface &&
+      std::abs(static_cast<double>(neighbour->range_m) - range_m) <= limit_m)
+    return (range_m + static_cast<double>(neighbour->range_m)) / 2;
+  const double denominator = 1.0 + static_cast<double>(ray.range_slope) * (edge_rad - ray.elevation_rad);
+  const double along_plane_m = denominator > 0.1 ? range_m / denominator - range_m : limit_m;
+  return range_m + std::clamp(along_plane_m, -limit_m / 2, limit_m / 2);
+}
+
+template <int N>
+void GroupCaster<N>::add(int azimuth, double near_m, double far_m, double low_rad, double high_rad,
+                         const CastRay& ray) {
+  const sensors::Sensor& sensor = frame_.world.sensor;
+  const auto sub_column = static_cast<std::size_t>(kGroupAzimuths * group_ + azimuth);
+  const double power = static_cast<double>(ray.density_W_per_rad2) * (high_rad - low_rad);
+  const double from = (near_m - sensor.range.minimum_m) / sensor.range.cell_m;
+  const double to = (far_m - sensor.range.minimum_m) / sensor.range.cell_m;
+  deposit(from, to, power, &sums_.range_W_per_rad[sub_column * static_cast<std::size_t>(sums_.cells)], sums_.cells);
+  const double range_m = static_cast<double>(ray.range_m);
+  if (range_m < sensor.range.minimum_m) ++scratch_.blanked_count;
+  if (!frame_.with_cscope || range_m < sensor.range.minimum_m || range_m >= sensor.range.maximum_m()) return;
+  const double per_rad = sensor.display.cscope_rows / sensor.display.cscope_span_rad;
+  deposit((sensor.display.cscope_top_rad - high_rad) * per_rad, (sensor.display.cscope_top_rad - low_rad) * per_rad,
+          power * range_m * range_m * range_m,
+          &sums_.elevation_W_m3_per_rad[sub_column * static_cast<std::size_t>(sums_.rows)], sums_.rows);
+}
+
+template <int N>
+void GroupCaster<N>::deposit_intervals(int azimuth) {
+  const std::vector<CastRay>& rays = scratch_.rays[azimuth];
+  const std::size_t count = rays.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const CastRay& ray = rays[i];
+    if (!(ray.density_W_per_rad2 > 0.0F)) continue;
+    const CastRay* below = i > 0 ? &rays[i - 1] : nullptr;
+    const CastRay* above = i + 1 < count ? &rays[i + 1] : nullptr;
+    const double low_rad =
+        below != nullptr ? (below->elevation_rad + ray.elevation_rad) / 2 : scratch_.edges.front();
+    const double high_rad = above != nullptr ? (above->elevation_rad + ray.elevation_rad) / 2 : scratch_.edges.back();
+    const double a_m = end_of_interval_m(ray, below, low_rad);
+    const double b_m = end_of_interval_m(ray, above, high_rad);
+    add(azimuth, std::min(a_m, b_m), std::max(a_m, b_m), low_rad, high_rad, ray);
+  }
+}
+
+template <int N>
+void GroupCaster<N>::deposit_points(int azimuth) {
+  const std::vector<CastRay>& rays = scratch_.rays[azimuth];
+  const double share = 1.0 / std::max(1, frame_.sampling.jittered_passes);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    CastRay ray = rays[i];
+    if (!(ray.density_W_per_rad2 > 0.0F)) continue;
+    ray.density_W_per_rad2 *= static_cast<float>(share);
+    const double range_m = static_cast<double>(ray.range_m);
+    add(azimuth, range_m, range_m, scratch_.edges[i], scratch_.edges[i + 1], ray);
+  }
+}
+
+}  // namespace
+
+template <int N>
+void cast_group(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+                std::vector<RayPacket<N>>* record) {
+  GroupCaster<N>(frame, group, scratch, sums, record).run();
+}
+
+template void cast_group<8>(const RayFrame&, int, RayScratch&, FanSums&, std::vector<RayPacket<8>>*);
+template void cast_group<16>(const RayFrame&, int, RayScratch&, FanSums&, std::vector<RayPacket<16>>*);
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,42 @@
+// Everything that stays the same while a sequence is rendered, ready for the casters.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "atmosphere/path_attenuation.h"
+#include "materials/phong_nrcs.h"
+#include "materials/rcs.h"
+#include "sensors/sensor.h"
+#include "terrain/ray_scene.h"
+
+namespace fanbeam::renderer {
+
+// A point scatterer, standing (one waypoint) or moving along straight legs between waypoints; before the first and
+// after the last one it stands there. Positions in local metres.
+struct PointTarget {
+  struct Waypoint {
+    double time_s = 0.0;
+    glm::dvec3 position_m{0.0};
+  };
+  std::string name;
+  materials::RcsModel rcs;
+  std::vector<Waypoint> path;
+  glm::dmat3 axes{1.0};  // columns: the target's x (boresight), y and z axes in scene axes
+
+  glm::dvec3 position_at(double time_s) const;
+};
+
+struct World {
+  std::unique_ptr<terrain::RayScene> surfaces;
+  std::vector<materials::PhongNrcs> nrcs;  // by material id, at the sensor's frequency
+  std::vector<std::string> material_names;
+  std::vector<PointTarget> targets;
+  atmosphere::PathAttenuation attenuation;
+  sensors::Sensor sensor;
+};
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,87 @@
+// Reads a recorded flight from a table in text form.
+//
+// One header line, then one row per instant; cells separated by commas, quotes around a cell
+// allowed. A byte order mark, CRLF line ends, blank lines and lines beginning with '#' are fine.
+// Numbers use a decimal point whatever the locale.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/geodetic.h"
+
+namespace fanbeam::scenes {
+
+// Where one quantity is found.
+struct TrackColumn {
+  std::string name;
+  // Time: "s", "ms". Angles: "deg", "rad". Height: "m", "ft". Empty: the part of `name` behind its
+  // last underscore.
+  std::string unit;
+  // A quantity that may be missing counts as not recorded; a missing other one is E-PARSE.
+  bool may_be_missing = false;
+};
+
+// What to read from a file. The defaults are fanbeam's own form.
+struct TrackColumns {
+  TrackColumn time{"time_s", "", false};
+  TrackColumn latitude{"latitude_deg", "", false};
+  TrackColumn longitude{"longitude_deg", "", false};
+  TrackColumn height{"height_m", "", false};
+  TrackColumn roll{"roll_deg", "", true};
+  TrackColumn pitch{"pitch_deg", "", true};
+  TrackColumn heading{"heading_deg", "", true};  // true, not magnetic
+
+  double height_offset_m = 0.0;  // added to every height, -20000 to 20000
+
+  // Only rows inside both windows are read, ends included; the others are not even checked, but
+  // for their time. Times count as in the file; rows count from 1 behind the header.
+  std::optional<double> from_time_s;
+  std::optional<double> to_time_s;
+  std::optional<std::int64_t> first_row;
+  std::optional<std::int64_t> last_row;
+};
+
+// Longitude and heading as in the file; heights from whatever the file's heights count from.
+// Angles that were not recorded are 0.
+struct TrackRow {
+  double time_s = 0.0;
+  core::Geodetic position;
+  double roll_rad = 0.0;
+  double pitch_rad = 0.0;
+  double heading_rad = 0.0;
+};
+
+// A flight as recorded: times increase, everything is finite and in range.
+struct RawTrack {
+  std::vector<TrackRow> rows;
+  bool has_roll = false;
+  bool has_pitch = false;
+  bool has_heading = false;
+};
+
+// Most rows that one track may keep: 18 hours at 60 Hz, 224 MB. A longer file can be read through
+// a window; the file itself is never held in memory.
+inline constexpr std::size_t kMostTrackRows = 4'000'000;
+
+// Adds to `problems` everything that is wrong, with its line; where that holds an error, the track
+// returned must not be used.
+//   E-IO       file cannot be read
+//   E-PARSE    no header or no row; a column missing or there twice; another number of cells than
+//              the header has ("1,5" makes two cells); not a number, or one that a double cannot
+//              hold (1e400); an unknown unit
+//   E-NONFINITE  nan or inf
+//   E-RANGE    latitude beyond +-90 deg, longitude beyond +-540 deg, height outside -20 to 1000 km,
+//              roll beyond +-180, pitch beyond +-90, heading beyond +-540 deg
+//   E-TIME     time not later than that of the row before
+//   E-LIMIT    more than kMostTrackRows rows, a line longer than 64 kB
+//   W-EMPTY    rows without a position, skipped and counted
+//   W-GAPS     an angle that only some rows have, taken as not recorded
+RawTrack read_track_csv(const std::filesystem::path& path, const TrackColumns& columns,
+                        core::ProblemList& problems);
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,245 @@
+#include "terrain/ray_scene.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <glm/geometric.hpp>
+
+#include "core/errors.h"
+
+namespace fanbeam::terrain {
+
+static_assert(sizeof(RayPacket<8>) == sizeof(RTCRayHit8) && sizeof(RayPacket<16>) == sizeof(RTCRayHit16));
+static_assert(offsetof(RayPacket<16>, direction_x) == offsetof(RTCRayHit16, ray.dir_x));
+static_assert(offsetof(RayPacket<16>, normal_x) == offsetof(RTCRayHit16, hit.Ng_x));
+static_assert(offsetof(RayPacket<16>, instance) == offsetof(RTCRayHit16, hit.instID));
+
+struct RayScene::Library {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::string error;
+
+  ~Library() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+  void throw_on_error() const {
+    if (!error.empty()) throw core::InternalError("Embree: " + error);
+  }
+};
+
+namespace {
+
+void remember_error(void* user, RTCError error, const char* message) {
+  auto* text = static_cast<std::string*>(user);
+  if (text->empty())
+    *text = "error " + std::to_string(static_cast<int>(error)) + ": " + (message != nullptr ? message : "");
+}
+
+template <class T>
+T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride, std::size_t count) {
+  return static_cast<T*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count));
+}
+
+RTCIntersectContext coherent_context() {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  return context;
+}
+
+}  // namespace
+
+RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch> patches,
+                   std::vector<PlacedMesh> meshes, const std::string& instruction_set)
+    : library_(std::make_unique<Library>()), has_terrain_(terrain.has_value()) {
+  // The number of threads of the build does not change the tree.
+  const std::string configuration = instruction_set.empty() ? "" : "isa=" + instruction_set;
+  library_->device = rtcNewDevice(configuration.c_str());
+  if (library_->device == nullptr) throw core::InternalError("Embree: no device for \"" + configuration + "\"");
+  rtcSetDeviceErrorFunction(library_->device, remember_error, &library_->error);
+  library_->scene = rtcNewScene(library_->device);
+  rtcSetSceneFlags(library_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(library_->scene, RTC_BUILD_QUALITY_HIGH);
+  if (has_terrain_) {
+    terrain_ = std::move(*terrain);
+    surface_map_ = std::make_unique<SurfaceMap>(terrain_, std::move(patches));
+    add_terrain();
+  }
+  for (const PlacedMesh& mesh : meshes)
+    if (!mesh.mesh.triangles.empty()) add_mesh(mesh);
+  rtcCommitScene(library_->scene);
+  library_->throw_on_error();
+  native_packet_ = rtcGetDeviceProperty(library_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0 ? 16 : 8;
+  index_tops(meshes);
+}
+
+RayScene::~RayScene() = default;
+
+void RayScene::add_terrain() {
+  RTCGeometry geometry = rtcNewGeometry(library_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  const auto posts = static_cast<std::size_t>(terrain_.columns) * static_cast<std::size_t>(terrain_.rows);
+  auto* vertex = new_buffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 12, posts);
+  auto* index = new_buffer<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12,
+                                          2 * terrain_.cell_material.size());
+  library_->throw_on_error();
+  for (int j = 0; j < terrain_.rows; ++j) {
+    for (int i = 0; i < terrain_.columns; ++i) {
+      *vertex++ = static_cast<float>(terrain_.west_m + terrain_.spacing_m * i);
+      *vertex++ = static_cast<float>(terrain_.south_m + terrain_.spacing_m * j);
+      *vertex++ = static_cast<float>(terrain_.height_m[terrain_.post(i, j)]);
+    }
+  }
+  for (int j = 0; j + 1 < terrain_.rows; ++j) {
+    for (int i = 0; i + 1 < terrain_.columns; ++i) {
+      const auto sw = static_cast<std::uint32_t>(terrain_.post(i, j));
+      const auto nw = static_cast<std::uint32_t>(terrain_.post(i, j + 1));
+      for (const std::uint32_t corner : {sw, sw + 1, nw + 1, sw, nw + 1, nw}) *index++ = corner;
+    }
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(library_->scene, geometry, kTerrainGeometry);
+  rtcReleaseGeometry(geometry);
+  mesh_material_.emplace_back();
+  triangle_count_ += 2 * terrain_.cell_material.size();
+}
+
+void RayScene::add_mesh(const PlacedMesh& placed) {
+  const TriangleMesh& mesh = placed.mesh;
+  RTCGeometry geometry = rtcNewGeometry(library_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  auto* vertex = new_buffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 12, mesh.vertices_m.size());
+  auto* index = new_buffer<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12, mesh.triangles.size());
+  library_->throw_on_error();
+  for (const glm::dvec3& position : mesh.vertices_m)
+    for (int axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(position[axis]);
+  std::vector<MaterialId> materials;
+  materials.reserve(mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (int corner = 0; corner < 3; ++corner) *index++ = mesh.triangles[i][corner];
+    materials.push_back(placed.material_of_name.at(mesh.triangle_material[i]));
+  }
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometryByID(library_->scene, geometry, static_cast<unsigned>(mesh_material_.size()));
+  rtcReleaseGeometry(geometry);
+  mesh_material_.push_back(std::move(materials));
+  triangle_count_ += mesh.triangles.size();
+  has_meshes_ = true;
+}
+
+void RayScene::index_tops(const std::vector<PlacedMesh>& meshes) {
+  glm::dvec3 low(1e300);
+  glm::dvec3 high(-1e300);
+  for (const PlacedMesh& placed : meshes) {
+    for (const glm::dvec3& position : placed.mesh.vertices_m) {
+      low = glm::min(low, position);
+      high = glm::max(high, position);
+    }
+  }
+  if (low.x > high.x) return;
+  tops_west_m_ = low.x;
+  tops_south_m_ = low.y;
+  tops_columns_ = static_cast<int>((high.x - low.x) / kTopsSpacing_m) + 1;
+  tops_rows_ = static_cast<int>((high.y - low.y) / kTopsSpacing_m) + 1;
+  tops_m_.assign(static_cast<std::size_t>(tops_columns_) * static_cast<std::size_t>(tops_rows_), -1e30F);
+  for (const PlacedMesh& placed : meshes) {
+    for (const glm::uvec3& triangle : placed.mesh.triangles) {
+      const glm::dvec3& a = placed.mesh.vertices_m[triangle.x];
+      const glm::dvec3& b = placed.mesh.vertices_m[triangle.y];
+      const glm::dvec3& c = placed.mesh.vertices_m[triangle.z];
+      const glm::dvec3 from = glm::min(a, glm::min(b, c));
+      const glm::dvec3 to = glm::max(a, glm::max(b, c));
+      for (int j = static_cast<int>((from.y - low.y) / kTopsSpacing_m); j <= static_cast<int>((to.y - low.y) / kTopsSpacing_m); ++j)
+        for (int i = static_cast<int>((from.x - low.x) / kTopsSpacing_m); i <= static_cast<int>((to.x - low.x) / kTopsSpacing_m); ++i) {
+          float& top = tops_m_[static_cast<std::size_t>(j) * static_cast<std::size_t>(tops_columns_) + static_cast<std::size_t>(i)];
+          top = std::max(top, static_cast<float>(to.z));
+        }
+    }
+  }
+}
+
+double RayScene::mesh_top_m(double x_m, double y_m) const noexcept {
+  const double u = (x_m - tops_west_m_) / kTopsSpacing_m;
+  const double v = (y_m - tops_south_m_) / kTopsSpacing_m;
+  if (!(u >= 0.0 && v >= 0.0 && u < tops_columns_ && v < tops_rows_)) return -1e30;
+  return static_cast<double>(tops_m_[static_cast<std::size_t>(v) * static_cast<std::size_t>(tops_columns_) + static_cast<std::size_t>(u)]);
+}
+
+void RayScene::intersect(const int* active, RayPacket<8>& packet) const noexcept {
+  RTCIntersectContext context = coherent_context();
+  rtcIntersect8(active, library_->scene, &context, reinterpret_cast<RTCRayHit8*>(&packet));
+}
+
+void RayScene::intersect(const int* active, RayPacket<16>& packet) const noexcept {
+  RTCIntersectContext context = coherent_context();
+  rtcIntersect16(active, library_->scene, &context, reinterpret_cast<RTCRayHit16*>(&packet));
+}
+
+std::optional<SceneHit> RayScene::intersect(const glm::dvec3& origin_m, const glm::dvec3& direction,
+                                            double far_m) const {
+  check_ray(origin_m, direction, 0.0, far_m);
+  const double length = glm::length(direction);
+  if (length == 0.0) return std::nullopt;
+  const glm::dvec3 unit = direction / length;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRayHit ray{};
+  ray.ray.org_x = static_cast<float>(origin_m.x);
+  ray.ray.org_y = static_cast<float>(origin_m.y);
+  ray.ray.org_z = static_cast<float>(origin_m.z);
+  ray.ray.dir_x = static_cast<float>(unit.x);
+  ray.ray.dir_y = static_cast<float>(unit.y);
+  ray.ray.dir_z = static_cast<float>(unit.z);
+  ray.ray.tfar = static_cast<float>(far_m);
+  ray.ray.mask = 0xFFFFFFFFU;
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(library_->scene, &context, &ray);
+  if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  SceneHit hit;
+  hit.distance_m = static_cast<double>(ray.ray.tfar);
+  hit.normal = glm::normalize(glm::dvec3(ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z));
+  const glm::dvec3 point = origin_m + unit * hit.distance_m;
+  hit.geometry = ray.hit.geomID;
+  hit.material = material(hit.geometry, ray.hit.primID, point.x, point.y);
+  return hit;
+}
+
+bool RayScene::occluded(const glm::dvec3& from_m, const glm::dvec3& to_m, double clearance_m) const {
+  const glm::dvec3 path = to_m - from_m;
+  const double length = glm::length(path);
+  if (length <= clearance_m) return false;
+  const glm::dvec3 unit = path / length;
+  check_ray(from_m, unit, 0.0, length);
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  RTCRay ray{};
+  ray.org_x = static_cast<float>(from_m.x);
+  ray.org_y = static_cast<float>(from_m.y);
+  ray.org_z = static_cast<float>(from_m.z);
+  ray.dir_x = static_cast<float>(unit.x);
+  ray.dir_y = static_cast<float>(unit.y);
+  ray.dir_z = static_cast<float>(unit.z);
+  ray.tfar = static_cast<float>(length - clearance_m);
+  ray.mask = 0xFFFFFFFFU;
+  rtcOccluded1(library_->scene, &context, &ray);
+  return ray.tfar < 0.0F;
+}
+
+void check_ray(const glm::dvec3& origin_m, const glm::dvec3& direction, double near_m, double far_m) {
+  constexpr double kLargest = 1.0e18;
+  const auto check = [](const char* field, double value, double low, double high) {
+    if (!std::isfinite(value)) core::throw_input_error(core::ErrorClass::nonfinite, field, value, "a finite number");
+    if (value < low || value > high)
+      core::throw_input_error(core::ErrorClass::range, field, value,
+                              core::number_text(low) + " to " + core::number_text(high));
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    check("ray origin", origin_m[axis], -kLargest, kLargest);
+    check("ray direction", direction[axis], -kLargest, kLargest);
+  }
+  check("ray near limit", near_m, 0.0, kLargest);
+  check("ray far limit", far_m, -kLargest, kLargest);
+}
+
+}  // namespace fanbeam::terrain

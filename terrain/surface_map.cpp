@@ -1,0 +1,70 @@
+#include "terrain/surface_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fanbeam::terrain {
+
+SurfacePatch rectangle_patch(glm::dvec2 centre_m, glm::dvec2 along, double length_m, double width_m,
+                             MaterialId material) {
+  const glm::dvec2 l = along * (length_m / 2);
+  const glm::dvec2 w = glm::dvec2(-along.y, along.x) * (width_m / 2);
+  return {{centre_m - l - w, centre_m + l - w, centre_m + l + w, centre_m - l + w}, material};
+}
+
+SurfaceMap::SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patches)
+    : west_m_(field.west_m),
+      south_m_(field.south_m),
+      per_spacing_(1.0 / field.spacing_m),
+      columns_(field.columns - 1),
+      rows_(field.rows - 1),
+      cells_(field.cell_material),
+      patches_(std::move(patches)) {
+  std::vector<std::vector<std::uint32_t>> touching(cells_.size());
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    Box box{1e300, 1e300, -1e300, -1e300};
+    for (const glm::dvec2& corner : patches_[p].outline_m) {
+      box.west_m = std::min(box.west_m, corner.x);
+      box.east_m = std::max(box.east_m, corner.x);
+      box.south_m = std::min(box.south_m, corner.y);
+      box.north_m = std::max(box.north_m, corner.y);
+    }
+    boxes_.push_back(box);
+    const auto index = [&](double value, double from, int count) {
+      return std::clamp(static_cast<int>(std::floor((value - from) * per_spacing_)), 0, count - 1);
+    };
+    for (int j = index(box.south_m, south_m_, rows_); j <= index(box.north_m, south_m_, rows_); ++j)
+      for (int i = index(box.west_m, west_m_, columns_); i <= index(box.east_m, west_m_, columns_); ++i)
+        touching[field.cell(i, j)].push_back(static_cast<std::uint32_t>(p));
+  }
+  patch_begin_.push_back(0);
+  for (auto& list : touching) {
+    patch_index_.insert(patch_index_.end(), list.rbegin(), list.rend());
+    patch_begin_.push_back(static_cast<std::uint32_t>(patch_index_.size()));
+  }
+}
+
+bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m, double y_m) const noexcept {
+  if (x_m < box.west_m || x_m > box.east_m || y_m < box.south_m || y_m > box.north_m) return false;
+  bool odd = false;
+  const auto& outline = patch.outline_m;
+  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
+    const glm::dvec2& a = outline[i];
+    const glm::dvec2& b = outline[j];
+    if ((a.y > y_m) != (b.y > y_m) && x_m < (b.x - a.x) * (y_m - a.y) / (b.y - a.y) + a.x) odd = !odd;
+  }
+  return odd;
+}
+
+MaterialId SurfaceMap::material_at(double x_m, double y_m) const noexcept {
+  const int i = std::clamp(static_cast<int>((x_m - west_m_) * per_spacing_), 0, columns_ - 1);
+  const int j = std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
+  const std::size_t cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
+  for (std::uint32_t k = patch_begin_[cell]; k < patch_begin_[cell + 1]; ++k) {
+    const std::uint32_t p = patch_index_[k];
+    if (inside(patches_[p], boxes_[p], x_m, y_m)) return patches_[p].material;
+  }
+  return cells_[cell];
+}
+
+}  // namespace fanbeam::terrain

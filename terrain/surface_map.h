@@ -1,0 +1,52 @@
+// Which material lies at a ground point: land cover per terrain cell, and flat patches (runway, markings, aprons)
+// painted over it in order.
+//
+// Patches have no geometry of their own: they cannot fight with the terrain for depth, and the order in which they are
+// added alone decides which is on top (the last one).
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <memory>
+#include <vector>
+
+#include "terrain/height_field.h"
+
+namespace fanbeam::terrain {
+
+// A simple polygon in local east-north metres.
+struct SurfacePatch {
+  std::vector<glm::dvec2> outline_m;
+  MaterialId material = 0;
+};
+
+// An axis-free rectangle: `along` is a unit vector.
+SurfacePatch rectangle_patch(glm::dvec2 centre_m, glm::dvec2 along, double length_m, double width_m,
+                             MaterialId material);
+
+class SurfaceMap {
+ public:
+  // Copies the cells' materials; patches later in the list lie on top.
+  SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patches);
+
+  // Point is clamped to the grid.
+  MaterialId material_at(double x_m, double y_m) const noexcept;
+
+  const std::vector<SurfacePatch>& patches() const { return patches_; }
+
+ private:
+  struct Box {
+    double west_m, south_m, east_m, north_m;
+  };
+  bool inside(const SurfacePatch& patch, const Box& box, double x_m, double y_m) const noexcept;
+
+  double west_m_, south_m_, per_spacing_;
+  int columns_, rows_;  // cells
+  std::vector<MaterialId> cells_;
+  std::vector<SurfacePatch> patches_;
+  std::vector<Box> boxes_;
+  // Per cell, the patches that touch it, topmost first: patch_index_[patch_begin_[cell] .. patch_begin_[cell + 1]).
+  std::vector<std::uint32_t> patch_begin_;
+  std::vector<std::uint32_t> patch_index_;
+};
+
+}  // namespace fanbeam::terrain

@@ -1,0 +1,86 @@
+#include "core/errors.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <string>
+
+#include "core/text.h"
+
+using namespace fanbeam::core;
+
+TEST_CASE("Each error class prints its catalogue code", "[errors]") {
+  CHECK(code(ErrorClass::parse) == "E-PARSE");
+  CHECK(code(ErrorClass::range) == "E-RANGE");
+  CHECK(code(ErrorClass::nonfinite) == "E-NONFINITE");
+  CHECK(code(ErrorClass::ref) == "E-REF");
+  CHECK(code(ErrorClass::limit) == "E-LIMIT");
+  CHECK(code(ErrorClass::path) == "E-PATH");
+  CHECK(code(ErrorClass::time) == "E-TIME");
+  CHECK(code(ErrorClass::unsupported) == "E-UNSUPPORTED");
+  CHECK(code(ErrorClass::io) == "E-IO");
+}
+
+TEST_CASE("A problem is told with place, field, value and what was expected", "[errors]") {
+  const Problem range{"E-RANGE", {"scene.toml", 12, 5}, "visibility_m", "-3", "1 to 100000 m"};
+  CHECK(to_string(range) == "scene.toml:12:5: E-RANGE visibility_m = -3: expected 1 to 100000 m");
+  const Place byte_place{"mesh.glb", 0, 0, 4096};
+  const Problem at_byte{"E-PARSE", byte_place, "chunk", "", "a shorter length"};
+  CHECK(to_string(at_byte) == "mesh.glb byte 4096: E-PARSE chunk: expected a shorter length");
+  const Problem warning{"W-DEGENERATE", {}, "mesh 'truck'", "3 triangles", "left out"};
+  CHECK(to_string(warning) == "W-DEGENERATE mesh 'truck' = 3 triangles: left out");
+  const Problem bare{"E-IO", {"a.csv", 7, 0}, "", "", ""};
+  CHECK(to_string(bare) == "a.csv:7: E-IO");
+}
+
+TEST_CASE("Numbers in messages read back to the same value", "[errors]") {
+  CHECK(number_text(0.1) == "0.1");
+  CHECK(number_text(-3.0) == "-3");
+  CHECK(number_text(std::numeric_limits<double>::quiet_NaN()) == "nan");
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  for (const double value : {1.0 / 3.0, 6.02214076e23, -1e-300, 5e-324, kLargest})
+    CHECK(parse_number(number_text(value)).value == value);
+}
+
+TEST_CASE("All problems of a list travel together, warnings beside errors", "[errors]") {
+  ProblemList list;
+  CHECK_NOTHROW(list.throw_if_errors());
+  list.warning("FILLED", {"dem.tif"}, "voids", "3", "filled");
+  CHECK_FALSE(list.has_errors());
+  CHECK_NOTHROW(list.throw_if_errors());
+  list.error(ErrorClass::ref, {"scene.toml", 3, 1}, "sensor.file", "\"x.toml\"",
+             "an existing file");
+  list.error(ErrorClass::range, {"scene.toml", 4, 1}, "width_m", "0", "above 0");
+  try {
+    list.throw_if_errors();
+    FAIL("nothing thrown");
+  } catch (const InputError& error) {
+    CHECK(error.problems().size() == 3);
+    CHECK(error.has(ErrorClass::ref));
+    CHECK(error.has(ErrorClass::range));
+    CHECK_FALSE(error.has(ErrorClass::io));
+    CHECK(std::string(error.what()) ==
+          "dem.tif: W-FILLED voids = 3: filled\n"
+          "scene.toml:3:1: E-REF sensor.file = \"x.toml\": expected an existing file\n"
+          "scene.toml:4:1: E-RANGE width_m = 0: expected above 0");
+  }
+}
+
+TEST_CASE("A hostile input cannot fill memory with problems, and errors past the cap still count",
+          "[errors]") {
+  ProblemList list;
+  for (std::size_t i = 0; i < ProblemList::kMost; ++i) list.warning("ODD", {}, "field", "", "kept");
+  for (int i = 0; i < 1000; ++i) list.error(ErrorClass::range, {}, "field", "1", "0");
+  CHECK(list.all().size() == ProblemList::kMost + 1);
+  CHECK(list.all().back().code == "W-MORE");
+  CHECK(list.has_errors());
+  CHECK_THROWS_AS(list.throw_if_errors(), InputError);
+}
+
+TEST_CASE("throw_input_error carries one problem", "[errors]") {
+  try {
+    throw_input_error(ErrorClass::range, "rain_rate_mm_per_h", -2.5, "0 to 300");
+    FAIL("nothing thrown");
+  } catch (const InputError& error) {
+    CHECK(std::string(error.what()) == "E-RANGE rain_rate_mm_per_h = -2.5: expected 0 to 300");
+  }
+}

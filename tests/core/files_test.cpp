@@ -1,0 +1,153 @@
+// Reading with a cap, writing whole files or nothing, and paths that must stay inside their folder
+// (F05, F17).
+#include "core/files.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+#include "core/errors.h"
+
+using namespace fanbeam::core;
+namespace fs = std::filesystem;
+
+namespace {
+
+// An empty folder of its own for a test case.
+class Scratch {
+ public:
+  Scratch() : folder_(fs::path(FANBEAM_BINARY_DIR) / "files_test") {
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~Scratch() { fs::remove_all(folder_); }
+  Scratch(const Scratch&) = delete;
+  Scratch& operator=(const Scratch&) = delete;
+  fs::path operator/(const std::string& name) const { return folder_ / name; }
+  const fs::path& folder() const { return folder_; }
+
+ private:
+  fs::path folder_;
+};
+
+std::string code_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& error) {
+    return error.problems().at(0).code;
+  }
+  return "accepted";
+}
+
+std::size_t entries(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+}  // namespace
+
+TEST_CASE("What is written is what is read, zero bytes and line ends included", "[files]") {
+  const Scratch scratch;
+  const std::string bytes("a\0b\r\nc\xff", 7);
+  write_file_atomically(scratch / "deep/er/file.bin", bytes);
+  CHECK(read_file(scratch / "deep/er/file.bin", 7) == bytes);
+  write_file_atomically(scratch / "deep/er/file.bin", "new");
+  CHECK(read_file(scratch / "deep/er/file.bin", 7) == "new");
+  CHECK(entries(scratch / "deep/er") == 1);
+}
+
+TEST_CASE("Reading refuses what is too large, missing or a folder", "[files]") {
+  const Scratch scratch;
+  write_file_atomically(scratch / "eight", "12345678");
+  CHECK(code_of([&] { read_file(scratch / "eight", 8); }) == "accepted");
+  CHECK(code_of([&] { read_file(scratch / "eight", 7); }) == "E-LIMIT");
+  CHECK(code_of([&] { read_file(scratch / "missing", 8); }) == "E-IO");
+  CHECK(code_of([&] { read_file(scratch.folder(), 8); }) == "E-IO");
+}
+
+TEST_CASE("The size is checked before memory is asked for", "[files]") {
+  const Scratch scratch;
+  write_file_atomically(scratch / "sparse", "");
+  fs::resize_file(scratch / "sparse",
+                  std::uintmax_t{1} << 40U);  // a terabyte that occupies nothing
+  CHECK(code_of([&] { read_file(scratch / "sparse", 1U << 20U); }) == "E-LIMIT");
+}
+
+TEST_CASE("A writer that fails leaves the old file and no temporary one", "[files]") {
+  const Scratch scratch;
+  write_file_atomically(scratch / "picture.png", "old");
+  CHECK_THROWS_AS(write_atomically(scratch / "picture.png",
+                                   [](const fs::path& temporary) {
+                                     CHECK(temporary.extension() == ".png");
+                                     std::ofstream(temporary) << "half";
+                                     throw std::runtime_error("disk full");
+                                   }),
+                  std::runtime_error);
+  CHECK(read_file(scratch / "picture.png", 100) == "old");
+  CHECK(entries(scratch.folder()) == 1);
+}
+
+TEST_CASE("The final name never holds a part of a file", "[files]") {
+  const Scratch scratch;
+  write_atomically(scratch / "run.json", [&](const fs::path& temporary) {
+    std::ofstream(temporary) << "{";
+    CHECK_FALSE(fs::exists(scratch / "run.json"));
+  });
+  CHECK(fs::exists(scratch / "run.json"));
+}
+
+TEST_CASE("F17 a place that cannot be written to is told with its path", "[files][F17]") {
+  const Scratch scratch;
+  write_file_atomically(scratch / "file", "not a folder");
+  CHECK(code_of([&] { write_file_atomically(scratch / "file/below", "x"); }) == "E-IO");
+  fs::create_directories(scratch / "folder/inside");
+  CHECK(code_of([&] { write_file_atomically(scratch / "folder", "x"); }) == "E-IO");
+  CHECK(read_file(scratch / "file", 100) == "not a folder");
+  CHECK(entries(scratch.folder()) == 2);
+  CHECK(code_of([] { write_file_atomically("/proc/no_such_folder/x", "x"); }) == "E-IO");
+}
+
+TEST_CASE("F05 paths inside the folder resolve, with detours that come back", "[files][F05]") {
+  const Scratch scratch;
+  fs::create_directories(scratch / "models");
+  const fs::path root = fs::canonical(scratch.folder());
+  const Place place{"scene.toml", 3, 1};
+  CHECK(path_inside(scratch.folder(), "models/truck.glb", place, "file") ==
+        root / "models/truck.glb");
+  CHECK(path_inside(scratch.folder(), "models/../dem.tif", place, "file") == root / "dem.tif");
+  CHECK(path_inside(scratch.folder(), "./with space.tif", place, "file") ==
+        root / "with space.tif");
+  CHECK(path_inside(scratch.folder(), "..almost.tif", place, "file") == root / "..almost.tif");
+  fs::create_symlink("models", scratch / "link");
+  CHECK(path_inside(scratch.folder(), "link/truck.glb", place, "file") ==
+        root / "models/truck.glb");
+}
+
+TEST_CASE("F05 paths outside the folder are refused with place and field", "[files][F05]") {
+  const Scratch scratch;
+  const fs::path scene = scratch / "scene";
+  fs::create_directories(scene);
+  fs::create_directories(scratch / "scene-secrets");
+  fs::create_symlink("/etc", scene / "etc");
+  fs::create_symlink("../scene-secrets", scene / "neighbour");
+  for (const std::string& bad :
+       {std::string("/etc/passwd"), std::string("../secret"), std::string("a/../../secret"),
+        std::string("../scene-secrets/key"), std::string("etc/passwd"),
+        std::string("neighbour/key"), std::string("file:///etc/passwd"),
+        std::string("http://host/a.bin"), std::string("data:text/plain,x"), std::string(""),
+        std::string("a\0b", 3)}) {
+    INFO("path: " << bad);
+    CHECK(code_of([&] {
+            path_inside(scene, bad, {"scene.toml", 3, 1}, "model.file");
+          }) == "E-PATH");
+  }
+  try {
+    path_inside(scene, "../secret", {"scene.toml", 3, 1}, "model.file");
+  } catch (const InputError& error) {
+    CHECK(
+        std::string(error.what()).starts_with("scene.toml:3:1: E-PATH model.file = \"../secret\""));
+  }
+}

@@ -1,0 +1,272 @@
+// The rules of the house: which folder may include which, where third-party libraries may appear,
+// how long a file may grow. The checker runs over the checkout, and over a tree of offenders to
+// show that it would notice.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+// Folder -> folders whose headers it may include besides its own.
+const std::map<std::string, Names>& layers() {
+  static const std::map<std::string, Names> kLayers = {
+      {"core", {}},
+      {"materials", {"core"}},
+      {"atmosphere", {"core"}},
+      {"terrain", {"core"}},
+      {"sensors", {"core"}},
+      {"renderer", {"core", "materials", "atmosphere", "terrain", "sensors"}},
+      {"signal", {"core", "sensors"}},
+      {"tracking", {"core", "sensors", "signal"}},
+      {"scenes", {"core", "materials", "atmosphere", "terrain", "sensors", "renderer"}},
+      {"apps",
+       {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "signal", "tracking",
+        "scenes"}}};
+  return kLayers;
+}
+
+// A library that only one folder may include, and there only in sources.
+struct Confined {
+  const char* header_pattern;
+  const char* folder;
+};
+constexpr Confined kConfined[] = {
+    {"embree[0-9]*/.*", "terrain"},      {"tiny_gltf\\.h", "terrain"},
+    {"GeographicLib/.*", "terrain"},     {"(gdal|ogr|cpl_|gdal/).*", "terrain"},
+    {"(geos_c\\.h|geos/.*)", "terrain"}, {"proj(_.*)?\\.h", "terrain"},
+    {"OpenImageIO/.*", "core"},
+};
+
+// How third-party types look when they get into a header without an include, as a forward
+// declaration.
+constexpr const char* kForeignTypes =
+    R"(\b(RTC[A-Z]\w*|GDAL\w+|OGR\w+|GEOS\w+|PJ_\w+|OIIO|GeographicLib|tinygltf|nlohmann|tbb|toml|CLI|spdlog|fmt|r123)\b)";
+
+constexpr std::size_t kMostLines = 600;
+
+std::vector<std::string> lines_of(const fs::path& file) {
+  std::ifstream stream(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+struct Source {
+  std::string name;     // "terrain/mesh.h"
+  std::string folder;   // "terrain"
+  bool header = false;  // one that other folders may include
+};
+
+// Headers named *_private.h are for sources of their own folder: they may show what a library looks
+// like.
+bool is_private_header(std::string_view name) { return name.ends_with("_private.h"); }
+
+bool matches(const std::string& text, const char* pattern) {
+  return std::regex_match(text, std::regex(pattern));
+}
+
+// Standard headers have neither a folder nor an extension: <vector>.
+bool is_standard_or_glm(const std::string& included) {
+  return included.starts_with("glm/") || included.find_first_of("/.") == std::string::npos;
+}
+
+void check_own_include(const Source& source, const std::string& included, Names& violations) {
+  const std::string folder = included.substr(0, included.find('/'));
+  if (layers().count(folder) == 0 || included.find("..") != std::string::npos)
+    violations.insert(source.name + " includes \"" + included +
+                      "\", which is no path from the root to a library folder");
+  else if (folder != source.folder && layers().at(source.folder).count(folder) == 0)
+    violations.insert(source.name + " may not include " + folder + "/");
+  else if (is_private_header(included) && (folder != source.folder || source.header))
+    violations.insert(source.name + " may not include " + included);
+}
+
+void check_foreign_include(const Source& source, const std::string& included, Names& violations) {
+  if (source.header && source.folder != "apps" && !is_standard_or_glm(included))
+    violations.insert(source.name + " shows <" + included + "> in a header");
+  for (const Confined& confined : kConfined)
+    if (matches(included, confined.header_pattern) &&
+        (source.folder != confined.folder || source.header))
+      violations.insert(source.name + " includes <" + included + ">, which belongs in sources of " +
+                        confined.folder);
+  if (source.folder == "renderer" && included == "fstream")
+    violations.insert(source.name + " includes <fstream>: the renderer reads no files");
+}
+
+void check_source(const Source& source, const std::vector<std::string>& lines, Names& violations) {
+  static const std::regex kInclude(R"(^\s*#\s*include\s*([<"])([^>"]+)[>"].*)");
+  static const std::regex kForeign(kForeignTypes);
+  if (source.folder == "renderer" && !source.header)
+    for (const std::string& line : lines)
+      if (line.starts_with("#include \"core/files.h\""))
+        violations.insert(source.name + " includes core/files.h: the renderer reads no files");
+  for (const std::string& line : lines) {
+    std::smatch parts;
+    if (std::regex_match(line, parts, kInclude)) {
+      if (parts[1] == "<")
+        check_foreign_include(source, parts[2], violations);
+      else
+        check_own_include(source, parts[2], violations);
+    } else if (source.header && source.folder != "apps") {
+      const std::string code = line.substr(0, line.find("//"));
+      if (std::regex_search(code, parts, kForeign))
+        violations.insert(source.name + " shows the type " + parts[1].str() + " in a header");
+    }
+  }
+}
+
+bool is_hidden_or_output(const fs::path& folder, const fs::path& root) {
+  const std::string name = folder.filename().string();
+  const bool output = folder.parent_path() == root && (name == "build" || name == "out");
+  return output || name.starts_with('.');
+}
+
+void check_file(const fs::path& root, const fs::path& file, Names& violations) {
+  const fs::path relative = file.lexically_relative(root);
+  const std::string extension = file.extension().string();
+  const bool code = extension == ".h" || extension == ".cpp";
+  const bool build_file = file.filename() == "CMakeLists.txt" || extension == ".cmake" ||
+                          file.filename() == "CMakePresets.json" || relative == "dev";
+  if (!code && !build_file) return;
+
+  const std::vector<std::string> lines = lines_of(file);
+  if (lines.size() > kMostLines)
+    violations.insert(relative.string() + " has " + std::to_string(lines.size()) + " lines");
+  const bool header = extension == ".h" && !is_private_header(relative.string());
+  const Source source{relative.string(), relative.begin()->string(), header};
+  const bool ours = layers().count(source.folder) > 0;
+  if (build_file || ours)
+    for (const std::string& line : lines)
+      if (matches(line, R"(.*(-ffast-math|-Ofast|-funsafe-math-optimizations|"fast-math").*)"))
+        violations.insert(relative.string() + " gives up IEEE arithmetic");
+  if (code && ours) check_source(source, lines, violations);
+}
+
+Names violations_in(const fs::path& root) {
+  Names violations;
+  for (auto entry = fs::recursive_directory_iterator(root); entry != fs::end(entry); ++entry) {
+    if (entry->is_directory() && is_hidden_or_output(entry->path(), root))
+      entry.disable_recursion_pending();
+    else if (entry->is_regular_file())
+      check_file(root, entry->path(), violations);
+  }
+  return violations;
+}
+
+std::string listed(const Names& names) {
+  std::string text;
+  for (const std::string& name : names) text += "  " + name + '\n';
+  return text;
+}
+
+// A folder of its own that goes away at the end.
+class SyntheticTree {
+ public:
+  explicit SyntheticTree(const std::string& name) : root_(fs::path(FANBEAM_BINARY_DIR) / name) {
+    fs::remove_all(root_);
+  }
+  ~SyntheticTree() { fs::remove_all(root_); }
+  SyntheticTree(const SyntheticTree&) = delete;
+  SyntheticTree& operator=(const SyntheticTree&) = delete;
+
+  void add(const std::string& relative, std::string_view text) const {
+    fs::create_directories((root_ / relative).parent_path());
+    std::ofstream(root_ / relative) << text;
+  }
+  const fs::path& root() const { return root_; }
+
+ private:
+  fs::path root_;
+};
+
+}  // namespace
+
+TEST_CASE("The sources keep the layering, the confinement of libraries and the file length",
+          "[layering]") {
+  const fs::path root(FANBEAM_SOURCE_DIR);
+  REQUIRE(fs::exists(root / "core" / "errors.h"));
+  const Names violations = violations_in(root);
+  INFO("violations:\n" << listed(violations));
+  CHECK(violations.empty());
+}
+
+TEST_CASE("The layering check accepts what the design allows", "[layering]") {
+  const SyntheticTree tree("layering_good");
+  tree.add("core/image.cpp", "#include <OpenImageIO/imageio.h>\n");
+  tree.add("terrain/mesh.h",
+           "#include <glm/vec3.hpp>\n#include \"core/errors.h\"\n// built by tinygltf\n");
+  tree.add("terrain/mesh.cpp",
+           "#include <embree3/rtcore.h>\n#include <gdal_priv.h>\nRTCScene scene;\n");
+  tree.add("terrain/gltf_private.h", "#include <tiny_gltf.h>\ntinygltf::Model load();\n");
+  tree.add("terrain/gltf.cpp", "#include \"terrain/gltf_private.h\"\n");
+  tree.add("renderer/cast.cpp", "#include \"sensors/sensor.h\"\n#include \"terrain/mesh.h\"\n");
+  tree.add("tracking/filter.h", "#include \"signal/cfar.h\"\n");
+  tree.add("apps/options.h", "#include <CLI/CLI.hpp>\n");
+  tree.add("tests/core/mesh_test.cpp", "#include \"terrain/mesh.h\"\n");
+  tree.add("build/release/core/copy.h", "#include <embree3/rtcore.h>\n");
+  const Names violations = violations_in(tree.root());
+  INFO("violations:\n" << listed(violations));
+  CHECK(violations.empty());
+}
+
+TEST_CASE("The layering check notices each kind of offence", "[layering]") {
+  struct Offence {
+    const char* file;
+    std::string text;
+    const char* told;
+  };
+  const Offence offence = GENERATE(values<Offence>({
+      {"core/a.cpp", "#include \"terrain/mesh.h\"\n", "may not include terrain/"},
+      {"materials/a.h", "  #  include \"atmosphere/fog.h\"\n", "may not include atmosphere/"},
+      {"terrain/a.cpp", "#include \"materials/nrcs.h\"\n", "may not include materials/"},
+      {"renderer/a.cpp", "#include \"scenes/scene.h\"\n", "may not include scenes/"},
+      {"signal/a.cpp", "#include \"renderer/cast.h\"\n", "may not include renderer/"},
+      {"tracking/a.cpp", "#include \"terrain/mesh.h\"\n", "may not include terrain/"},
+      {"scenes/a.cpp", "#include \"apps/main.h\"\n", "may not include apps/"},
+      {"apps/a.cpp", "#include \"tests/shared_data.h\"\n", "no path from the root"},
+      {"core/a.cpp", "#include \"errors.h\"\n", "no path from the root"},
+      {"core/a.cpp", "#include \"core/../terrain/mesh.h\"\n", "no path from the root"},
+      {"renderer/a.cpp", "#include <embree3/rtcore.h>\n", "belongs in sources of terrain"},
+      {"scenes/a.cpp", "#include <gdal.h>\n", "belongs in sources of terrain"},
+      {"scenes/a.cpp", "#include <ogrsf_frmts.h>\n", "belongs in sources of terrain"},
+      {"scenes/a.cpp", "#include <tiny_gltf.h>\n", "belongs in sources of terrain"},
+      {"core/a.cpp", "#include <GeographicLib/Geodesic.hpp>\n", "belongs in sources of terrain"},
+      {"core/a.cpp", "#include <geos_c.h>\n", "belongs in sources of terrain"},
+      {"scenes/a.cpp", "#include <proj.h>\n", "belongs in sources of terrain"},
+      {"apps/a.cpp", "#include <OpenImageIO/imageio.h>\n", "belongs in sources of core"},
+      {"core/a.h", "#include <OpenImageIO/imageio.h>\n", "in a header"},
+      {"terrain/a.h", "#include <embree3/rtcore.h>\n", "in a header"},
+      {"scenes/a.h", "#include <toml++/toml.h>\n", "in a header"},
+      {"terrain/a.h", "struct A { RTCScene scene; };\n", "shows the type RTCScene"},
+      {"terrain/a.h", "namespace tinygltf { class Model; }\n", "shows the type tinygltf"},
+      {"scenes/a.cpp", "#include \"terrain/gltf_private.h\"\n",
+       "may not include terrain/gltf_private.h"},
+      {"terrain/a.h", "#include \"terrain/gltf_private.h\"\n",
+       "may not include terrain/gltf_private.h"},
+      {"renderer/a_private.h", "#include <embree3/rtcore.h>\n", "belongs in sources of terrain"},
+      {"renderer/a.cpp", "#include <fstream>\n", "the renderer reads no files"},
+      {"renderer/a.cpp", "#include \"core/files.h\"\n", "the renderer reads no files"},
+      {"CMakeLists.txt", "add_compile_options(-O3 -ffast-math)\n", "IEEE"},
+      {"core/a.cpp", "#pragma GCC optimize(\"fast-math\")\n", "IEEE"},
+      {"tests/core/a.cpp", std::string(kMostLines + 1, '\n'), "601 lines"},
+  }));
+  const SyntheticTree tree("layering_bad");
+  tree.add(offence.file, offence.text);
+  const Names violations = violations_in(tree.root());
+  INFO(offence.file << ": " << offence.text.substr(0, 80) << "told:\n" << listed(violations));
+  CHECK(std::any_of(violations.begin(), violations.end(), [&](const std::string& violation) {
+    return violation.find(offence.told) != std::string::npos &&
+           violation.find(offence.file) != std::string::npos;
+  }));
+}

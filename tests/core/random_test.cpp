@@ -1,0 +1,65 @@
+// Hard case M06: random numbers that do not depend on scheduling.
+#include "core/random.h"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdint>
+#include <set>
+
+using namespace fanbeam::core;
+using Block = std::array<std::uint32_t, 4>;
+
+TEST_CASE("M06 Philox 4x32-10 gives the published known answers", "[M06]") {
+  // kat_vectors of Random123 (Salmon et al., SC'11): zeros, ones, digits of pi.
+  constexpr std::uint32_t kOnes = 0xFFFFFFFFU;
+  CHECK(philox_block({0, 0, 0, 0}, {0, 0}) ==
+        Block{0x6627E8D5, 0xE169C58D, 0xBC57AC4C, 0x9B00DBD8});
+  CHECK(philox_block({kOnes, kOnes, kOnes, kOnes}, {kOnes, kOnes}) ==
+        Block{0x408F276D, 0x41C83B0E, 0xA20BC7C6, 0x6D5451FD});
+  CHECK(philox_block({0x243F6A88, 0x85A308D3, 0x13198A2E, 0x03707344}, {0xA4093822, 0x299F31D0}) ==
+        Block{0xD16CFE09, 0x94FDCCEB, 0x5001E420, 0x24126EA1});
+}
+
+TEST_CASE("M06 a draw depends on every part of its name and on nothing else", "[M06]") {
+  const RandomKey key{7, kStreamTerrain, 3};
+  std::set<Block> blocks;
+  blocks.insert(random_words(key, 11, 0));
+  blocks.insert(random_words(key, 11, 1));
+  blocks.insert(random_words(key, 12, 0));
+  blocks.insert(random_words(key, 11 + (std::uint64_t{1} << 32U), 0));
+  blocks.insert(random_words({8, kStreamTerrain, 3}, 11, 0));
+  blocks.insert(random_words({7 + (std::uint64_t{1} << 32U), kStreamTerrain, 3}, 11, 0));
+  blocks.insert(random_words({7, kStreamTurbulence, 3}, 11, 0));
+  blocks.insert(random_words({7, kStreamTerrain, 4}, 11, 0));
+  CHECK(blocks.size() == 8);
+  // Drawn again after all the others: the same.
+  CHECK(blocks.count(random_words(key, 11, 0)) == 1);
+  CHECK(random_words(key, 11, 0) == random_words(key, 11, 0));
+}
+
+TEST_CASE("Uniform numbers lie in the open interval, also for the extreme words", "[random]") {
+  CHECK(uniform_from(0) == 0x1p-33);
+  CHECK(uniform_from(0xFFFFFFFFU) == 1.0 - 0x1p-33);
+  CHECK(-std::log(uniform_from(0)) == Approx(22.8739).margin(1e-4));
+}
+
+TEST_CASE("Normal numbers have mean 0, variance 1, no correlation and normal tails", "[random]") {
+  constexpr int kPairs = 500000;  // a million numbers
+  const RandomKey key{20, kStreamTurbulence, 0};
+  double sum = 0.0, squares = 0.0, products = 0.0;
+  int beyond_two = 0;
+  for (int cell = 0; cell < kPairs; ++cell) {
+    const auto [a, b] = normal_pair(key, static_cast<std::uint64_t>(cell), 0);
+    sum += a + b;
+    squares += a * a + b * b;
+    products += a * b;
+    beyond_two += static_cast<int>(std::abs(a) > 2.0) + static_cast<int>(std::abs(b) > 2.0);
+  }
+  // Four standard deviations of each estimate: 1/sqrt(1e6), sqrt(2/1e6), 1/sqrt(5e5), sqrt(0.0455 *
+  // 0.9545 / 1e6).
+  CHECK(sum / (2.0 * kPairs) == Approx(0.0).margin(0.004));
+  CHECK(squares / (2.0 * kPairs) == Approx(1.0).margin(0.0057));
+  CHECK(products / kPairs == Approx(0.0).margin(0.0057));
+  CHECK(beyond_two / (2.0 * kPairs) == Approx(0.0455003).margin(0.00084));
+}

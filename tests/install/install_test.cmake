@@ -1,0 +1,32 @@
+# Installs into a folder whose name holds a space, starts the installed program from elsewhere, then configures, builds
+# and runs another project against the installed package. Called with -D BUILD, SCRATCH, SOURCE, CXX.
+set(prefix "${SCRATCH}/the prefix")
+file(REMOVE_RECURSE "${SCRATCH}")
+file(MAKE_DIRECTORY "${SCRATCH}/elsewhere")
+
+function(run)
+  execute_process(COMMAND ${ARGV} WORKING_DIRECTORY "${SCRATCH}/elsewhere" RESULT_VARIABLE result
+                  OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT result EQUAL 0)
+    list(JOIN ARGV " " command)
+    message(FATAL_ERROR "${command}\nended with ${result}:\n${output}")
+  endif()
+endfunction()
+
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
+run("${prefix}/bin/fanbeam" --version)
+
+# Every shipped data file arrives.
+file(GLOB shipped RELATIVE "${SOURCE}" "${SOURCE}/scenes/*/scene.toml" "${SOURCE}/sensors/*.toml"
+     "${SOURCE}/materials/*.toml")
+foreach(file IN LISTS shipped)
+  if(NOT EXISTS "${prefix}/share/fanbeam/${file}")
+    message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
+
+run("${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}/tests/install/consumer" -B "${SCRATCH}/consumer"
+    "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}" -DCMAKE_BUILD_TYPE=Release)
+run("${CMAKE_COMMAND}" --build "${SCRATCH}/consumer")
+run("${SCRATCH}/consumer/consumer")
+file(REMOVE_RECURSE "${SCRATCH}")
