@@ -11,7 +11,7 @@
 // 10 mm and 25 C). Above about 12 mm it turns negative in warm air.
 //
 // centimetre: K = 0.438 / L^2, L in cm, accepted from 2 to 10 cm. It knows no temperature:
-// against P.840 it is 1.5 % high at 25 C, 13 % low at 18 C and 48 % low at 0 C.
+// against P.840 it is 1.5 % high at 25 C, 13 % low at 18 C and almost 50 % low at 0 C.
 #pragma once
 
 #include <string_view>

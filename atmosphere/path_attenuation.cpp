@@ -10,8 +10,8 @@
 namespace fanbeam::atmosphere {
 namespace {
 
-// The gas profile bends over about 2 km: linear cells of this height are good to 1e-4 of it.
-constexpr double kCellHeight_m = 50.0;
+// The gas profile bends over about 2 km: linear cells of this height are good to 2e-5 of it.
+constexpr double kCellHeight_m = 25.0;
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 // Accuracy against the ITU's examples: 2e-7 relative (their printed digits).
 //
 // georgia-tech-95: 1.6 R^0.64, the 95 GHz member of the Georgia Tech 1975 set, accepted from 90 to
-// 100 GHz only, whatever the polarisation; within 21 % of P.838-3 at 94 GHz from 1 to 100 mm/h. At
+// 100 GHz only, whatever the polarisation; within 22 % of P.838-3 at 94 GHz from 1 to 100 mm/h. At
 // 35 GHz the formula would give more than twice the loss of P.838-3 up to 10 mm/h.
 #pragma once
 

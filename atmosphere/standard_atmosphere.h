@@ -7,7 +7,7 @@
 // Known surface values replace the reference at their height: the temperature is shifted as a
 // whole (same lapse rate), the pressure is hydrostatic in the shifted temperature, the vapour
 // keeps its scale height of 2 km. The vapour never exceeds saturation over water, Recommendation
-// ITU-R P.453-14 (saturation vapour pressure over water with enhancement factor).
+// ITU-R P.453-14 equation 9 (stated for -40 to 50 C, continued beyond).
 // Neglected: inversions, weather fronts, ice saturation, heights above 20 km.
 // Accuracy: without surface values the formulas of P.835-6 themselves.
 #pragma once
@@ -52,7 +52,7 @@ class StandardAtmosphere {
   double surface_vapour_density_g_per_m3_ = 0.0;
 };
 
-// Vapour density in saturated air over water. Temperature 100 to 350 K, total pressure in hPa.
+// Vapour density in saturated air over water (P.453-14). Temperature 100 to 350 K, total pressure.
 double saturation_vapour_density_g_per_m3(double temperature_K, double pressure_hPa);
 
 }  // namespace fanbeam::atmosphere

@@ -3,9 +3,13 @@
 // look through the choice, so there the plain version runs.
 #pragma once
 
-#if defined(__x86_64__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) && \
-    !(defined(__clang__) && (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer)))
-#define FANBEAM_HOT __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__x86_64__)
 #define FANBEAM_HOT
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define FANBEAM_HOT
+#endif
+#endif
+#ifndef FANBEAM_HOT
+#define FANBEAM_HOT __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #endif

@@ -13,9 +13,6 @@ using core::ErrorClass;
 using core::NumberRange;
 
 constexpr std::size_t kMostMaterials = 65535;
-constexpr std::initializer_list<std::string_view> kPolarisations = {"HH", "VV", "any"};
-constexpr std::initializer_list<std::string_view> kConfidences = {"seen", "fitted", "recalled",
-                                                                  "assumed"};
 
 // Two increasing numbers; a missing key is an error too.
 Interval read_interval(ConfigTable& table, const char* key, NumberRange range, double unit) {
@@ -49,8 +46,10 @@ Material read_material(ConfigTable& table, const std::string& name) {
   material.frequency_range_Hz = read_interval(table, "frequency_range_GHz", {0.1, 1000.0}, 1e9);
   material.grazing_range_rad =
       read_interval(table, "grazing_range_deg", {0.0, 90.0}, core::radians(1.0));
-  material.polarisation = kPolarisations.begin()[read_choice(table, "polarisation", kPolarisations)];
-  material.confidence = static_cast<Confidence>(read_choice(table, "confidence", kConfidences));
+  const std::initializer_list<std::string_view> polarisations = {"HH", "VV", "any"};
+  material.polarisation = polarisations.begin()[read_choice(table, "polarisation", polarisations)];
+  material.confidence = static_cast<Confidence>(
+      read_choice(table, "confidence", {"seen", "fitted", "recalled", "assumed"}));
   material.source = table.required_text("source");
   material.note = table.text("note", "");
   return material;

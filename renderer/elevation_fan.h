@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "core/constants.h"
 #include "renderer/sampling.h"
 #include "renderer/world.h"
 #include "sensors/antenna_frame.h"

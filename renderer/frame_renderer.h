@@ -9,6 +9,7 @@
 #include "renderer/caster.h"
 #include "renderer/sampling.h"
 #include "renderer/world.h"
+#include "sensors/antenna_frame.h"
 
 namespace fanbeam::renderer {
 
@@ -33,8 +34,10 @@ struct Frame {
   std::vector<double> bscope_grey;  // unrounded, 0 to 255, with the mean noise power when noise is on
   std::vector<double> cscope_grey;
   std::uint64_t rays = 0;
-  std::uint64_t blanked = 0;
-  std::vector<std::string> events;  // "below_terrain", "empty_view"
+  std::uint64_t blanked = 0;  // hits nearer than the first range cell
+  // "below_terrain": the sensor is not above the ground, the picture holds noise alone.
+  // "empty_view": nothing was hit.
+  std::vector<std::string> events;
 };
 
 class FrameRenderer {
@@ -46,7 +49,7 @@ class FrameRenderer {
   Frame render(const FramePose& pose) const;
 
  private:
-  void display(const FramePose& pose, const sensors::AntennaFrame& antenna, Frame& frame) const;
+  void display(double height_above_ground_m, Frame& frame) const;
 
   const World& world_;
   Sampling sampling_;
@@ -54,11 +57,5 @@ class FrameRenderer {
   bool with_noise_;
   std::unique_ptr<Caster> caster_;
 };
-
-// Unrounded grey of a B-scope [cell][column] in watts plus `noise_W` per cell.
-std::vector<double> bscope_grey(const std::vector<double>& power_W, const sensors::Sensor& sensor, double noise_W);
-// Unrounded grey of a C-scope [row][column] in W m^3 plus `noise_W_m3` per row.
-std::vector<double> cscope_grey(const std::vector<double>& power_W_m3, const sensors::Sensor& sensor,
-                                double noise_W_m3);
 
 }  // namespace fanbeam::renderer

@@ -6,7 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "sensors/beam_pattern.h"
-#include "sensors/range_gate.h"
+#include "sensors/cells.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -65,19 +65,17 @@ void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& se
   const double width_rad = scan.column_width_rad();
   const double cut_rad = sensor.antenna.azimuth.cut_rad;
   for (const core::Echo& echo : echoes) {
-    const auto cell = sensors::cell_of(sensor.range, echo.range_m);
-    if (!cell) continue;
+    const int cell = sensors::range_row(sensor.range, echo.range_m);
+    if (cell == sensors::kOutside) continue;
     const double position = (echo.azimuth_rad + scan.field_of_view_rad / 2) / width_rad - 0.5;
     const int first = std::max(0, static_cast<int>(std::ceil(position - cut_rad / width_rad)));
     const int last = std::min(scan.columns - 1, static_cast<int>(std::floor(position + cut_rad / width_rad)));
-    const double row = (sensor.display.cscope_top_rad - echo.elevation_rad) / sensor.display.cscope_span_rad *
-                       sensor.display.cscope_rows;
-    const bool in_window = !cscope_W_m3.empty() && row >= 0.0 && row < sensor.display.cscope_rows;
+    const int row = cscope_W_m3.empty() ? sensors::kOutside : sensors::cscope_row(sensor.display, echo.elevation_rad);
     for (int column = first; column <= last; ++column) {
       const double gain = sensors::two_way_gain(sensor.antenna.azimuth, (column - position) * width_rad);
       const auto columns = static_cast<std::size_t>(scan.columns);
-      bscope_W[static_cast<std::size_t>(*cell) * columns + static_cast<std::size_t>(column)] += echo.power_W * gain;
-      if (in_window)
+      bscope_W[static_cast<std::size_t>(cell) * columns + static_cast<std::size_t>(column)] += echo.power_W * gain;
+      if (row != sensors::kOutside)
         cscope_W_m3[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] +=
             echo.power_W * gain * echo.range_m * echo.range_m * echo.range_m;
     }

@@ -57,18 +57,6 @@ void cast_all(const RayFrame& frame, FanSums& sums, std::vector<std::vector<terr
 
 }  // namespace
 
-Sampling reference_sampling(std::uint64_t seed) {
-  Sampling sampling;
-  sampling.sub_columns = 16;
-  sampling.jittered_passes = 16;
-  sampling.rays_per_cell = 8.0;
-  sampling.refinement_depth = 0;
-  sampling.largest_step_rad = 1.0e-4;
-  sampling.deposit_intervals = false;
-  sampling.seed = seed;
-  return sampling;
-}
-
 int margin_sub_columns(const sensors::Sensor& sensor, int sub_columns_per_column) {
   const double step_rad = sensor.scan.column_width_rad() / sub_columns_per_column;
   return static_cast<int>(std::ceil(sensor.antenna.azimuth.cut_rad / step_rad));

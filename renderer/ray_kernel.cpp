@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/constants.h"
 #include "core/dispatch.h"
 #include "core/random.h"
 #include "renderer/deposit.h"

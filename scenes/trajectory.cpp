@@ -10,6 +10,7 @@
 
 #include "core/constants.h"
 #include "core/errors.h"
+#include "scenes/trajectory_kinematics.h"
 #include "terrain/local_frame.h"
 
 namespace fanbeam::scenes {
@@ -27,10 +28,6 @@ constexpr double kFrameSlack = 1e-5;
 
 double length(const glm::dquat& q) {
   return std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-}
-
-core::Geodetic on_ellipsoid(const core::Geodetic& position) {
-  return {position.latitude_rad, position.longitude_rad, 0.0};
 }
 
 void check_pose(ProblemList& problems, const core::Pose& pose, std::size_t index) {
@@ -63,8 +60,8 @@ void check_step(ProblemList& problems, const core::Pose& from, const core::Pose&
   if (to.time_s <= from.time_s)
     problems.error(ErrorClass::time, {}, name + " time", core::number_text(to.time_s) + " s",
                    "later than " + core::number_text(from.time_s) + " s");
-  const double step_m = glm::distance(terrain::ecef_from_geodetic(on_ellipsoid(from.position)),
-                                      terrain::ecef_from_geodetic(on_ellipsoid(to.position)));
+  const double step_m = glm::distance(terrain::ecef_from_geodetic(foot_point(from.position)),
+                                      terrain::ecef_from_geodetic(foot_point(to.position)));
   if (step_m > kLongestStep_m)
     problems.error(ErrorClass::range, {}, name + " distance from the one before",
                    core::number_text(step_m) + " m", "at most 1000 km");
@@ -79,10 +76,10 @@ void check_rate(double frame_rate_Hz) {
 
 core::Pose between(const core::Pose& from, const core::Pose& to, double time_s) {
   const double s = (time_s - from.time_s) / (to.time_s - from.time_s);
-  const terrain::LocalFrame frame(on_ellipsoid(from.position));
+  const terrain::LocalFrame frame(foot_point(from.position));
   core::Pose pose;
   pose.time_s = time_s;
-  pose.position = frame.to_geodetic(s * frame.to_local_m(on_ellipsoid(to.position)));
+  pose.position = frame.to_geodetic(s * frame.to_local_m(foot_point(to.position)));
   pose.position.height_m = std::lerp(from.position.height_m, to.position.height_m, s);
 
   const glm::dmat3 local_from_first = frame.north_east_down_at(from.position);

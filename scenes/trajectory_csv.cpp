@@ -36,8 +36,8 @@ class LineReader {
   bool next(std::string_view& line) {
     while (stream_.good()) {
       stream_.getline(buffer_.data(), kLongestLine_bytes);
-      ++place_.line;
       const auto count = static_cast<std::size_t>(stream_.gcount());
+      if (count > 0 || place_.line == 0) ++place_.line;
       if (stream_.bad()) {
         problems_.error(ErrorClass::io, place_, "", "read failed", "a readable file");
         return false;
@@ -85,12 +85,12 @@ class TrackBuilder {
     if (!read(values, cells_.time, place, row.time_s)) return;
     if (row.time_s < columns_.from_time_s.value_or(row.time_s)) return;
     if (row.time_s > columns_.to_time_s.value_or(row.time_s)) return;
-    check_order(row.time_s, place);
     for (const TrackCell& cell : cells_.position) {
       if (!values[cell.index].empty()) continue;
       if (empty_rows_++ == 0) first_empty_ = place;
       return;
     }
+    check_order(row.time_s, place);
     read_position_and_attitude(values, place, row);
     track_.rows.push_back(row);
   }

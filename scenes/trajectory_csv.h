@@ -38,8 +38,9 @@ struct TrackColumns {
 
   double height_offset_m = 0.0;  // added to every height, -20000 to 20000
 
-  // Only rows inside both windows are read, ends included; the others are not even checked, but
-  // for their time. Times count as in the file; rows count from 1 behind the header.
+  // Only rows inside both windows are read, ends included. Rows outside are not checked, but for
+  // the time of those that the row window lets through. Times are seconds of the file's own clock;
+  // rows count from 1 behind the header.
   std::optional<double> from_time_s;
   std::optional<double> to_time_s;
   std::optional<std::int64_t> first_row;

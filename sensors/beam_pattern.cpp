@@ -71,15 +71,14 @@ double table_two_way_integral(const BeamCut& cut, double from, double to) {
   return sum;
 }
 
-// Integral of the one-way pattern times the cosine of (angle from the peak + peak_rad).
-double weighted_width(const BeamCut& cut, double peak_rad) {
-  const auto weighted = [&](double offset) {
-    return one_way_gain(cut, offset) * std::max(0.0, std::cos(offset + peak_rad));
-  };
+// Integral of the one-way pattern times weight(offset). Panels end at a table's knots, where its slope jumps.
+template <class Weight>
+double weighted_width(const BeamCut& cut, const Weight& weight) {
+  const auto weighted = [&](double offset) { return one_way_gain(cut, offset) * weight(offset); };
   const double panel = cut.half_power_width_rad / 10.0;
   if (cut.shape != BeamCut::Shape::table)
     return integral(-cut.cut_rad, cut.cut_rad, panel, weighted);
-  double sum = 0.0;  // panels end at the knots, where the slope jumps
+  double sum = 0.0;
   for (std::size_t i = 1; i < cut.table_angle_rad.size(); ++i) {
     const double a = std::max(-cut.cut_rad, cut.table_angle_rad[i - 1]);
     const double b = std::min(cut.cut_rad, cut.table_angle_rad[i]);
@@ -144,18 +143,15 @@ double two_way_width(const BeamCut& cut) {
 }
 
 double directivity(const Antenna& antenna, ScanSurface surface) {
-  // The azimuth pattern is centred on broadside. Only one of the two angles carries the cosine; the other's
-  // integral is taken with the cosine's argument moved to where it stays 1.
-  const double boresight = antenna.boresight_elevation_rad;
-  const auto plain_width = [](const BeamCut& cut) {
-    const double panel = cut.half_power_width_rad / 10.0;
-    return integral(-cut.cut_rad, cut.cut_rad, panel,
-                    [&](double offset) { return one_way_gain(cut, offset); });
+  const auto even = [](double) { return 1.0; };
+  const auto cosine_from = [](double peak_rad) {
+    return [peak_rad](double offset_rad) { return std::max(0.0, std::cos(peak_rad + offset_rad)); };
   };
   const double solid_angle_sr =
       surface == ScanSurface::cone
-          ? weighted_width(antenna.azimuth, 0.0) * plain_width(antenna.elevation)
-          : plain_width(antenna.azimuth) * weighted_width(antenna.elevation, boresight);
+          ? weighted_width(antenna.azimuth, cosine_from(0.0)) * weighted_width(antenna.elevation, even)
+          : weighted_width(antenna.azimuth, even) *
+                weighted_width(antenna.elevation, cosine_from(antenna.boresight_elevation_rad));
   return 4.0 * core::kPi / solid_angle_sr;
 }
 

@@ -1,6 +1,7 @@
-// The radar as plain data: what a sensor file says, in SI. `derived figures` are functions, never stored twice.
+// The radar as plain data: what a sensor file says, in SI. Derived figures are functions, never stored twice.
 //
 // Angles are in the antenna frame: azimuth positive right of the antenna's forward axis, elevation positive up.
+// Ranges of valid values: sensor_file.h.
 #pragma once
 
 #include <string>
@@ -83,11 +84,15 @@ struct Display {
   int cscope_rows = 0;
 };
 
-// Constants that the seed's Table 2 fixes differently from physics, kept so that it can be reproduced to the letter.
+// Constants that the published table of the HiVision radar fixes differently from physics, kept so that it can be
+// reproduced to the letter; see seed_signal.h for the table and its formulas.
 struct SeedConvention {
   bool active = false;
   double speed_of_light_mps = 0.0;
   double azimuth_patch_rad = 0.0;  // the beam's width itself stands for the integral of its squared pattern
+  double pulse_s = 0.0;            // the table's tau: a patch is c tau / 2 deep
+  double elevation_minimum_rad = 0.0;  // the table divides the patch by its cosine
+  double maximum_range_m = 0.0;        // of the minimum signal; the last range cell may end before
 };
 
 struct Sensor {
@@ -100,12 +105,14 @@ struct Sensor {
   Mounting mounting;
   Display display;
   SeedConvention seed;
-  // "antenna.elevation.cut_deg: assumed": values whose source the file marks as assumed.
+  // Keys of the values that the sensor file marks as assumed: "antenna.elevation.cut_deg".
   std::vector<std::string> assumed;
 
   double wavelength_m() const;
   // Pt G0^2 lambda^2 / (4 pi)^3 / loss, in W m^2: received power is this times sigma g^2 L / R^4.
   double radar_constant_W_m2() const;
+  // Integral of the two-way azimuth pattern; with the seed's convention, its azimuth patch.
+  double azimuth_patch_rad() const;
   // k T0 F / dwell: mean noise power per range cell; the bandwidth is that of a bin of the range FFT.
   double noise_power_W() const;
 };

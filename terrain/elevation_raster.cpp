@@ -135,7 +135,7 @@ void ElevationRaster::treat_voids(const std::string& file, VoidPolicy policy,
       post_name(static_cast<std::size_t>(first - samples.begin()), band_.width);
   if (policy == VoidPolicy::refuse || voids_ == samples.size())
     refuse_range(file, "posts without height", found,
-                 policy == VoidPolicy::refuse ? "none, or leave to fill them"
+                 policy == VoidPolicy::refuse ? "none, or the option to fill them"
                                               : "at least one post with a height");
   fill_voids(band_);
   holes_ = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), is_void));

@@ -131,6 +131,9 @@ GeodeticBox LatticeBuilder::find_box() {
     refuse(file_, core::ErrorClass::unsupported, "a raster of half the globe or more");
   // Edges may bulge between their samples; about a pixel more is enough for that.
   const double margin_deg = std::min((*north - *south) / height_, (*east - *west) / width_);
+  // Pixels of a raster of points may reach past a pole by half of themselves.
+  if (*south < -90.0 - margin_deg || *north > 90.0 + margin_deg)
+    refuse(file_, core::ErrorClass::ref, "latitudes beyond a pole");
   return {core::radians(std::max(*south - margin_deg, -90.0)),
           core::radians(std::min(*north + margin_deg, 90.0)), core::radians(*west - margin_deg),
           core::radians(*east + margin_deg)};

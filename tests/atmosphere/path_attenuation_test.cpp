@@ -45,7 +45,7 @@ TEST_CASE("Gas loss on slant paths agrees with a 4000-step integration", "[path_
     const double from_m = 1e3 * row.number("h1_km");
     const double to_m = 1e3 * row.number("h2_km");
     const double length_m = 1e3 * row.number("range_km");
-    // 1e-3 is asked for; linear cells of 50 m give 2e-5 (largest at 94 GHz).
+    // 1e-3 is asked for; linear cells of 25 m give 2e-5 (largest at 94 GHz).
     CHECK(path.one_way_dB(from_m, to_m, length_m) ==
           tests::within(row.number("one_way_dB"), 2e-5));
     CHECK(path.two_way_power_factor(from_m, to_m, length_m) ==
@@ -161,11 +161,11 @@ TEST_CASE("A05 cutting the path into pieces changes nothing", "[path_attenuation
 
   const core::RandomKey key{5};
   for (const std::size_t cuts : {std::size_t{1}, std::size_t{7}, std::size_t{1000}}) {
-    // The borders, the sensor and the end are among the cuts, twice: pieces of no length add nothing.
+    // The borders and both ends are among the cuts, twice: pieces of no length add nothing.
     std::vector<double> s = {0.0, 0.0, length_m, length_m};
     for (const double border : border_s) s.insert(s.end(), {border, border});
-    for (std::size_t i = 0; i < cuts; ++i)
-      s.push_back(length_m * core::uniform(key, i));
+    for (std::uint64_t i = 0; i < cuts; ++i)
+      s.push_back(length_m * core::uniform_from(core::random_words(key, i, 0)[0]));
     std::sort(s.begin(), s.end());
     double sum = 0.0;
     for (std::size_t i = 0; i + 1 < s.size(); ++i)
@@ -187,7 +187,7 @@ TEST_CASE("A06 more rain never helps", "[path_attenuation][A06]") {
 }
 
 TEST_CASE("A07 the power factor and the decibels are the same loss", "[path_attenuation][A07]") {
-  for (const double rate : {0.1, 1.0, 30.0, 80.0}) {
+  for (const double rate : {0.1, 1.0, 30.0, 78.0}) {
     const PathAttenuation path(only_rain(rate), 35e9);
     const double loss_dB = 2.0 * path.one_way_dB(300.0, 0.0, 10000.0);
     REQUIRE(loss_dB < 350.1);

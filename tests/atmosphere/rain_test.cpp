@@ -116,13 +116,15 @@ TEST_CASE("The W-band rain law is refused at 35 GHz and accepted from 90 to 100 
   };
   CHECK(law_at(90e9) == tests::within(1.6 * std::pow(10.0, 0.64), 1e-15));
   CHECK(law_at(100e9) == law_at(90e9));
-  tests::check_rejected([&] { law_at(35e9); }, ErrorClass::range, "90000000000 to 100000000000 Hz");
+  tests::check_rejected([&] { law_at(35e9); }, ErrorClass::range, "9e+10 to 1e+11 Hz");
   // Against P.838-3 at 94 GHz, ratios read from the comparison of both formulas: 1.21 at 1 mm/h.
   for (const double rate : {1.0, 4.0, 10.0, 50.0, 100.0}) {
-    const double itu = rain_attenuation_dB_per_km(RainLaw::itu_p838, rate, 94e9, 0.0, 0.0);
-    const double named = rain_attenuation_dB_per_km(RainLaw::georgia_tech_95, rate, 94e9, 0.0, 0.0);
-    CHECK(named / itu > 0.96);
-    CHECK(named / itu < 1.215);
+    const auto loss = [&](RainLaw law) {
+      return rain_attenuation_dB_per_km(law, rate, 94e9, 0.0, 0.0);
+    };
+    const double ratio = loss(RainLaw::georgia_tech_95) / loss(RainLaw::itu_p838);
+    CHECK(ratio > 0.96);
+    CHECK(ratio < 1.215);
   }
 }
 

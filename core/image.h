@@ -1,0 +1,43 @@
+// Pictures and layered images, and their files (PNG, OpenEXR through OpenImageIO).
+//
+// Written files hold no time and no host name: the same image gives the same bytes. Files are written under a
+// temporary name and renamed.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace fanbeam::core {
+
+using Metadata = std::vector<std::pair<std::string, std::string>>;
+
+// 8-bit grey, row-major, top row first.
+struct Picture8 {
+  int columns = 0;
+  int rows = 0;
+  std::vector<std::uint8_t> pixels;
+};
+
+// Named layers of equal size, row-major, top row first; doubles inside, 32-bit floats in files.
+struct Image {
+  struct Layer {
+    std::string name;
+    std::vector<double> values;
+  };
+  int columns = 0;
+  int rows = 0;
+  std::vector<Layer> layers;
+};
+
+// Throws InputError E-IO when the file cannot be written.
+void write_png(const std::filesystem::path& path, const Picture8& picture, const Metadata& metadata);
+void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
+
+// Any format OpenImageIO reads; 8-bit channels come back as 0..255, floats as they are.
+// Throws InputError: E-IO (missing), E-PARSE (damaged), E-LIMIT before allocation above 32 million values.
+Image read_image(const std::filesystem::path& path);
+
+}  // namespace fanbeam::core

@@ -1,0 +1,97 @@
+#include "renderer/frame_renderer.h"
+
+#include <cmath>
+
+#include "core/errors.h"
+#include "renderer/azimuth_beam.h"
+#include "renderer/point_targets.h"
+#include "renderer/ray_caster.h"
+#include "sensors/display.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+void check_pose(const FramePose& pose) {
+  // Beyond 1000 km from the scene's origin a float inside the ray caster no longer resolves a range cell.
+  constexpr double kFarthest_m = 1.0e6;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(pose.position_m[axis]))
+      core::throw_input_error(core::ErrorClass::nonfinite, "sensor position", pose.position_m[axis],
+                              "a finite coordinate");
+    if (std::abs(pose.position_m[axis]) > kFarthest_m)
+      core::throw_input_error(core::ErrorClass::range, "sensor position", pose.position_m[axis],
+                              "within 1000 km of the scene's origin");
+  }
+}
+
+std::vector<double> plus(const std::vector<double>& values, double constant) {
+  std::vector<double> result(values);
+  for (double& value : result) value += constant;
+  return result;
+}
+
+}  // namespace
+
+FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products, bool with_noise)
+    : world_(world),
+      sampling_(sampling),
+      products_(products),
+      with_noise_(with_noise),
+      caster_(std::make_unique<RayCaster>(world, sampling)) {}
+
+Frame FrameRenderer::render(const FramePose& pose) const {
+  check_pose(pose);
+  const sensors::Sensor& sensor = world_.sensor;
+  const sensors::AntennaFrame antenna = sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB,
+                                                               sensor.mounting, sensor.scan.stabilised);
+  const bool elevation_resolved =
+      products_.cscope && sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
+  const auto columns = static_cast<std::size_t>(sensor.scan.columns);
+  Frame frame;
+  frame.bscope_W.assign(columns * static_cast<std::size_t>(sensor.range.cells), 0.0);
+  if (elevation_resolved) frame.cscope_W_m3.assign(columns * static_cast<std::size_t>(sensor.display.cscope_rows), 0.0);
+
+  double height_above_ground_m = antenna.position_m.z;
+  if (const terrain::HeightField* ground = world_.surfaces->terrain(); ground != nullptr) {
+    const auto ground_m = ground->height_at(antenna.position_m.x, antenna.position_m.y);
+    if (ground_m) height_above_ground_m = antenna.position_m.z - *ground_m;
+    if (ground_m && height_above_ground_m <= 0.0) {
+      frame.events.emplace_back("below_terrain");
+      display(height_above_ground_m, frame);
+      return frame;
+    }
+  }
+  FanSums sums;
+  caster_->cast(antenna, elevation_resolved, sums);
+  frame.rays = sums.rays;
+  frame.blanked = sums.blanked;
+  frame.bscope_W = apply_azimuth_beam(sums.range_W_per_rad, sums.cells, sums, sensor, sampling_.sub_columns);
+  if (elevation_resolved)
+    frame.cscope_W_m3 = apply_azimuth_beam(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor, sampling_.sub_columns);
+  const std::vector<core::Echo> echoes = point_echoes(world_, antenna, pose.time_s);
+  add_echoes(echoes, sensor, frame.bscope_W, frame.cscope_W_m3);
+  if (sums.hits == 0 && echoes.empty()) frame.events.emplace_back("empty_view");
+  display(height_above_ground_m, frame);
+  return frame;
+}
+
+void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
+  const sensors::Sensor& sensor = world_.sensor;
+  const double noise_W = with_noise_ ? sensor.noise_power_W() : 0.0;
+  const std::vector<double> received_W = plus(frame.bscope_W, noise_W);
+  if (products_.bscope) frame.bscope_grey = sensors::bscope_grey(sensor, received_W);
+  if (!products_.cscope) return;
+  if (sensor.display.cscope_mode == sensors::Display::CScopeMode::flat_earth) {
+    const bool above = height_above_ground_m > 0.0;
+    frame.cscope_W_m3 = above ? sensors::flat_earth_cscope_W_m3(sensor, received_W, height_above_ground_m)
+                              : std::vector<double>(static_cast<std::size_t>(sensor.display.cscope_rows) *
+                                                        static_cast<std::size_t>(sensor.scan.columns),
+                                                    0.0);
+    frame.cscope_grey = sensors::cscope_grey(sensor, frame.cscope_W_m3);
+    return;
+  }
+  const double noise_W_m3 = with_noise_ ? sensors::cscope_noise_W_m3(sensor) : 0.0;
+  frame.cscope_grey = sensors::cscope_grey(sensor, plus(frame.cscope_W_m3, noise_W_m3));
+}
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,175 @@
+// A scene as its file says it: checked values in SI, nothing loaded or built yet. One struct per table of scene.toml.
+// docs/scene-format.md documents every key.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "atmosphere/weather.h"
+#include "core/config_table.h"
+#include "core/geodetic.h"
+#include "materials/rcs.h"
+#include "scenes/ils_approach.h"
+#include "scenes/trajectory_csv.h"
+#include "sensors/sensor.h"
+#include "terrain/local_frame.h"
+
+namespace fanbeam::scenes {
+
+// A horizontal place: geodetic, or relative to the scene's first runway.
+struct Spot {
+  bool on_runway = false;
+  double latitude_rad = 0.0, longitude_rad = 0.0;
+  // Seen on landing on the named threshold: metres behind it and metres left of the centre line.
+  std::string runway_end;
+  double behind_threshold_m = 0.0, left_m = 0.0;
+  core::Place place;
+};
+
+struct TerrainDescription {
+  enum class Source { plane, rolling, raster };
+  Source source = Source::plane;
+  double west_m = -5000.0, south_m = -5000.0, east_m = 5000.0, north_m = 5000.0;
+  double spacing_m = 10.0;
+  std::string material = "short_grass";  // where no land cover says otherwise
+  // rolling
+  double relief_m = 8.0, field_size_m = 260.0, wood_share = 0.15, canopy_m = 14.0;
+  std::uint64_t seed = 1;
+  std::vector<std::string> fields;
+  std::string wood_material = "forest", airfield_material = "short_grass";
+  double airfield_beyond_m = 250.0;  // kept grass on all sides of the runway strip
+  // raster
+  std::filesystem::path elevation;
+  bool fill_voids = false;
+  double smoothing_m = 0.0;  // see elevation_raster.h
+  std::filesystem::path land_cover;
+  std::map<int, std::string> classes;
+  core::Place place;
+};
+
+struct RunwayEndDescription {
+  std::string name;  // "26": the designator of a landing on this end's threshold
+  core::Geodetic pavement_end;
+  double displaced_m = 0.0;
+};
+
+struct RunwayDescription {
+  RunwayEndDescription ends[2];
+  double width_m = 45.0, shoulder_m = 7.5, strip_half_width_m = 75.0, blend_m = 100.0;
+  bool markings = true, edge_lights = true;
+  std::string approach_lights;  // an end's name, or empty
+  double approach_light_slope = 0.0;
+  double light_rcs_m2 = 0.0;
+  std::string surface = "asphalt_worn", shoulder_material = "asphalt_worn", marking_material = "paint";
+  double fence_beyond_m = 0.0;  // 0 for no fence
+  double fence_height_m = 2.4, fence_spacing_m = 3.0, fence_post_rcs_m2 = 0.0;
+  core::Place place;
+};
+
+// A rectangle in runway coordinates painted on the ground: aprons, taxiways.
+struct SurfaceDescription {
+  std::string runway_end, material;
+  double from_behind_m = 0.0, to_behind_m = 0.0, from_left_m = 0.0, to_left_m = 0.0;
+  core::Place place;
+};
+
+struct ModelDescription {
+  std::string name;
+  std::filesystem::path file;
+  Spot at;
+  double above_ground_m = 0.0, heading_rad = 0.0;
+  std::map<std::string, std::string> materials;  // glTF material name to ours
+  std::string default_material = "metal";
+  core::Place place;
+};
+
+struct BoxDescription {
+  std::string name;
+  Spot at;
+  double length_m = 0.0, width_m = 0.0, height_m = 0.0, heading_rad = 0.0;  // length along the heading
+  std::string wall_material = "wall", roof_material = "roof";
+  core::Place place;
+};
+
+struct BuildingsDescription {
+  std::filesystem::path file;
+  std::string height_property = "render_height", min_height_property = "render_min_height";
+  bool base_is_mean = false;
+  std::string wall_material = "wall", roof_material = "roof";
+  core::Place place;
+};
+
+struct TargetDescription {
+  struct Waypoint {
+    double time_s = 0.0;
+    Spot at;
+    double above_ground_m = 0.0;
+  };
+  std::string name;
+  materials::RcsModel rcs;
+  double heading_rad = 0.0, tilt_rad = 0.0;  // boresight: clockwise from north, up from horizontal
+  std::vector<Waypoint> path;
+  core::Place place;
+};
+
+// A wire, pole or fence: point scatterers along a straight line.
+struct LineDescription {
+  std::string name;
+  Spot from, to;
+  double from_above_m = 0.0, to_above_m = 0.0;
+  double rcs_m2_per_m = 0.0, spacing_m = 1.0;
+  core::Place place;
+};
+
+struct TrajectoryDescription {
+  enum class Kind { ils, file, fixed };
+  Kind kind = Kind::fixed;
+  // file
+  std::filesystem::path file;
+  TrajectoryColumns columns;
+  core::VerticalDatum datum = core::VerticalDatum::scene;
+  double height_offset_m = 0.0;
+  std::optional<double> from_s, to_s;
+  double angle_of_attack_rad = 0.0;
+  // Moves the flight: from this runway end to the named end of the scene's runway.
+  bool transplanted = false;
+  core::Geodetic source_threshold;
+  double source_bearing_rad = 0.0;
+  std::string onto_end;
+  // ils
+  std::string ils_end;
+  IlsApproach ils;
+  // fixed
+  Spot at;
+  double above_ground_m = 0.0, heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
+  core::Place place;
+};
+
+struct SceneDescription {
+  std::filesystem::path folder;
+  std::string name, title;
+  core::Geodetic origin;
+  core::VerticalDatum datum = core::VerticalDatum::ellipsoid;
+  terrain::EarthModel earth = terrain::EarthModel::wgs84;
+  TerrainDescription terrain;
+  std::vector<RunwayDescription> runways;
+  std::vector<SurfaceDescription> surfaces;
+  std::vector<ModelDescription> models;
+  std::vector<BoxDescription> boxes;
+  std::vector<BuildingsDescription> buildings;
+  std::vector<TargetDescription> targets;
+  std::vector<LineDescription> lines;
+  atmosphere::Weather weather;
+  sensors::Sensor sensor;
+  std::filesystem::path material_library;
+  TrajectoryDescription trajectory;
+  double rays_per_cell = 0.0;  // of the scene's [accuracy]; 0 when it does not say
+  core::ResolvedConfig resolved;         // every setting with its default, for run.json
+  core::ResolvedConfig resolved_sensor;  // the same of the sensor file
+};
+
+}  // namespace fanbeam::scenes

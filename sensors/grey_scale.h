@@ -1,0 +1,55 @@
+// From received power to grey: one prepared scale per sensor.
+//
+// grey = 255 (level - low) / (high - low), clamped to 0..255, with the level in dB by mapping:
+//   stc   10 log10(P (4 pi)^3 R^3 L / (Pt G0^2 lambda^2 phi c)): the NRCS of flat ground that would return P at
+//         full beam, phi the sensor's azimuth patch, c its range cell (sensitivity-time control, R^3)
+//   log   10 log10(P / 1 W): received power in dBW, low and high in dBW
+//   seed  10 log10(P / 1 W) between the seed's minimum and maximum signal (seed_signal.h); low_dB and high_dB of the
+//         sensor are not used. Real ground clips, because those signals assume sigma0 = 1
+// P is linear received power in W, 0 or more, and includes the noise when noise shall be seen. R is the middle of the
+// range cell. Zero power is grey 0. Nothing is scaled per frame. Flat ground is taken at grazing incidence, cosine 1.
+//
+// The C-scope's input is the sum over range of P R^3 in W m^3. Under stc its level is that of a B-scope cell with the
+// same P R^3; under log and seed it is as if the sum came from the middle of the nearest range cell.
+//
+// Errors: E-NONFINITE for NaN, E-RANGE for negative power. Infinite levels clamp. Accuracy 1e-12 dB; one logarithm
+// per pixel.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sensors/sensor.h"
+
+namespace fanbeam::sensors {
+
+class GreyScale {
+ public:
+  // Throws as seed_signal_limits does.
+  explicit GreyScale(const Sensor& sensor);
+
+  double low_dB() const { return low_dB_; }
+  double high_dB() const { return high_dB_; }
+
+  // Unrounded, 0 to 255. -infinity is 0, +infinity 255.
+  double grey_of_level(double level_dB) const;
+
+  // Of B-scope cells. -infinity for zero power.
+  double level_dB(double power_W, int range_row) const;
+  double bscope_grey(double power_W, int range_row) const;
+  // Of C-scope cells.
+  double cscope_grey(double compensated_power_W_m3) const;
+
+ private:
+  double low_dB_ = 0.0;
+  double high_dB_ = 0.0;
+  double greys_per_dB_ = 0.0;
+  std::vector<double> level_per_power_per_W_;  // by range row
+  double level_per_compensated_per_W_m3_ = 0.0;
+};
+
+// Rounds to the nearest whole number, halves up, after clamping to 0..255; never decreases as `grey` rises.
+// Throws InputError E-NONFINITE for NaN.
+std::uint8_t grey8(double grey);
+
+}  // namespace fanbeam::sensors
