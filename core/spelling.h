@@ -1,4 +1,5 @@
-// Suggestions for names that do not exist: which known names look most like the one that was written.
+// Suggestions for names that do not exist: which known names look most like the one that was
+// written.
 #pragma once
 
 #include <cstddef>

@@ -1,10 +1,10 @@
 // Constant-gamma reflectivity: sigma0 = gamma sin(psi), psi the local grazing angle.
 //
-// The gammas are those published for 10 GHz in the source of MathWorks' `surfacegamma` (its comments cite Nathanson
-// 1999 and Long 2001); they grow by 5 log10(f / 10 GHz) dB, a rule of thumb at millimetre waves. The Phong-like form
-// with b = 0 is the same law.
-// Neglected: shadowing below about 1 degree, the rise near vertical incidence, polarisation.
-// Accuracy: a terrain class spreads by +-5 dB.
+// The gammas are those published for 10 GHz in the source of MathWorks' `surfacegamma` (its
+// comments cite Nathanson 1999 and Long 2001); they grow by 5 log10(f / 10 GHz) dB, a rule of thumb
+// at millimetre waves. The Phong-like form with b = 0 is the same law. Neglected: shadowing below
+// about 1 degree, the rise near vertical incidence, polarisation. Accuracy: a terrain class spreads
+// by +-5 dB.
 #pragma once
 
 namespace fanbeam::materials {

@@ -15,7 +15,8 @@ FresnelReflection fresnel_reflection(const Permittivity& permittivity, double in
 
   const double cos_t = std::cos(incidence_rad);
   const std::complex<double> eps = permittivity.complex();
-  // eps - sin^2 without cancellation for eps near 1; loss >= 0 puts the principal root on the decaying branch.
+  // eps - sin^2 without cancellation for eps near 1; loss >= 0 puts the principal root on the
+  // decaying branch.
   const std::complex<double> contrast(permittivity.real - 1.0, -permittivity.loss);
   const std::complex<double> q =
       std::sqrt(std::complex<double>(contrast.real() + cos_t * cos_t, contrast.imag()));

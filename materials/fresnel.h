@@ -3,10 +3,11 @@
 //   Gamma_H = (cos t - q) / (cos t + q),   Gamma_V = (eps cos t - q) / (eps cos t + q),
 //   q = sqrt(eps - sin^2 t), the root that decays into the medium; t is the angle of incidence from the normal.
 //
-// Signs as usual in radar: at normal incidence Gamma_V = -Gamma_H, at grazing both tend to -1. Any textbook, for
-// example Ulaby, Moore, Fung, Microwave Remote Sensing I (1981), section 2-8.
-// The numerators are evaluated as (1 - eps) and (eps - 1)((eps + 1) cos^2 t - 1), which have no cancellation at
-// grazing incidence or near Brewster's angle. Accuracy: 1e-12 absolute. Neglected: roughness (see roughness.h), layers.
+// Signs as usual in radar: at normal incidence Gamma_V = -Gamma_H, at grazing both tend to -1. Any
+// textbook, for example Ulaby, Moore, Fung, Microwave Remote Sensing I (1981), section 2-8. The
+// numerators are evaluated as (1 - eps) and (eps - 1)((eps + 1) cos^2 t - 1), which have no
+// cancellation at grazing incidence or near Brewster's angle. Accuracy: 1e-12 absolute. Neglected:
+// roughness (see roughness.h), layers.
 #pragma once
 
 #include <complex>
@@ -20,7 +21,8 @@ struct FresnelReflection {
   std::complex<double> vertical;
 };
 
-// Incidence 0 to pi/2; permittivity as check_permittivity demands; else InputError E-RANGE or E-NONFINITE.
+// Incidence 0 to pi/2; permittivity as check_permittivity demands; else InputError E-RANGE or
+// E-NONFINITE.
 FresnelReflection fresnel_reflection(const Permittivity& permittivity, double incidence_rad);
 
 // |Gamma|^2 at normal incidence, the same for both polarisations.

@@ -2,11 +2,12 @@
 //
 //   sigma0_dB = A1 + A2 log10(psi / 20 deg) + A3 log10(f / 10 GHz)
 //
-// Source: G. P. Kulemin, Millimeter-Wave Radar Targets and Clutter, Artech House 2003, land NRCS table. The
-// coefficients are recalled, not checked against the book; they are used as fit references and marked so.
-// Valid for 3 to 100 GHz and grazing angles up to 30 deg; above that the formula is extrapolated.
-// Neglected: polarisation, season other than the two forest rows, moisture. Spread of a class: about +-5 dB; the
-// concrete row lies 20 dB under Oh's surface model at 3 deg, see docs/materials.md.
+// Source: G. P. Kulemin, Millimeter-Wave Radar Targets and Clutter, Artech House 2003, land NRCS
+// table. The coefficients are recalled, not checked against the book; they are used as fit
+// references and marked so. Valid for 3 to 100 GHz and grazing angles up to 30 deg; above that the
+// formula is extrapolated. Neglected: polarisation, season other than the two forest rows,
+// moisture. Spread of a class: about +-5 dB; the concrete row lies 20 dB under Oh's surface model
+// at 3 deg, see docs/materials.md.
 #pragma once
 
 namespace fanbeam::materials {

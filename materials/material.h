@@ -1,11 +1,11 @@
-// A surface material: its reflectivity at a reference frequency, how that changes with frequency, and where the figures
-// come from.
+// A surface material: its reflectivity at a reference frequency, how that changes with frequency,
+// and where the figures come from.
 //
 //   a(f) = a (f / f_ref)^n,  b(f) = b (f / f_ref)^n,  c unchanged
 //
-// which is exact for a reference model that separates into angle and frequency (Kulemin, constant gamma) and a
-// linearisation in decibels for the others; docs/materials.md gives the deviation. The exponents between 35 and 94 GHz
-// are the least certain figures of the library.
+// which is exact for a reference model that separates into angle and frequency (Kulemin, constant
+// gamma) and a linearisation in decibels for the others; docs/materials.md gives the deviation. The
+// exponents between 35 and 94 GHz are the least certain figures of the library.
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ Interval read_interval(ConfigTable& table, const char* key, NumberRange range, d
   if (ends.size() != 2) return {};
   if (ends[0] > ends[1])
     table.error(ErrorClass::range, key,
-                "[" + core::number_text(ends[0]) + ", " + core::number_text(ends[1]) + "]",
+                core::number_text(ends[0]) + " to " + core::number_text(ends[1]),
                 "the low end first");
   return {ends[0] * unit, ends[1] * unit};
 }
@@ -116,7 +116,7 @@ std::optional<std::size_t> MaterialLibrary::find(std::string_view name, const co
     expected += separator + nearest;
     separator = ", ";
   }
-  problems.error(ErrorClass::ref, place, field, "\"" + std::string(name.substr(0, 200)) + "\"",
+  problems.error(ErrorClass::ref, place, field, '"' + std::string(name.substr(0, 200)) + '"',
                  expected);
   return std::nullopt;
 }

@@ -17,7 +17,8 @@ OhNrcs oh1992_sigma0(const Permittivity& permittivity, double rms_height_m, doub
   require_range("grazing_rad", grazing_rad, -core::kPi / 2.0, core::kPi / 2.0);
   const double normal = normal_reflectivity(permittivity);
   const double ks = 2.0 * core::kPi / wavelength_m * rms_height_m;
-  // A surface that is smooth or has no contrast scatters nothing; the limits of the formulas are 0/0 there.
+  // A surface that is smooth or has no contrast scatters nothing; the limits of the formulas are
+  // 0/0 there.
   if (grazing_rad <= 0.0 || ks == 0.0 || normal == 0.0) return {};
 
   const double incidence_rad = std::max(0.0, core::kPi / 2.0 - grazing_rad);

@@ -7,9 +7,10 @@
 //   pure ice             Maetzler, Thermal Microwave Radiation, IET 2006
 //   dry snow             eps' = 1 + 1.7 rho + 0.7 rho^2 with rho in g/cm3, Kendra, Sarabandi and Ulaby 1998; lossless
 //
-// Inputs outside the stated ranges throw InputError E-RANGE or E-NONFINITE: the ground rows of P.2040 end at 10 GHz
-// and brick at 40 GHz, and no value is made up beyond. Neglected: moisture, salinity, impurities.
-// Accuracy: published values of one material differ; concrete near 60 GHz is given as 4, 5.24 and 6.5.
+// Inputs outside the stated ranges throw InputError E-RANGE or E-NONFINITE: the ground rows of
+// P.2040 end at 10 GHz and brick at 40 GHz, and no value is made up beyond. Neglected: moisture,
+// salinity, impurities. Accuracy: published values of one material differ; concrete near 60 GHz is
+// given as 4, 5.24 and 6.5.
 #pragma once
 
 #include <complex>
@@ -27,7 +28,8 @@ struct Permittivity {
 
 inline constexpr double kLargestPermittivity = 1e12;
 
-// Throws InputError E-RANGE (real outside 1..1e12, loss outside 0..1e12: a negative loss would be gain) or E-NONFINITE.
+// Throws InputError E-RANGE (real outside 1..1e12, loss outside 0..1e12: a negative loss would be
+// gain) or E-NONFINITE.
 void check_permittivity(const Permittivity& permittivity);
 
 enum class BuildingMaterial {

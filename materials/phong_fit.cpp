@@ -12,6 +12,8 @@ namespace fanbeam::materials {
 namespace {
 
 constexpr double kGolden = 0.61803398874989485;
+// The RMS is known to about 5e-7 dB; a parameter that gains less is left out.
+constexpr double kNegligible_dB = 1e-6;
 constexpr int kRefinements = 60;  // golden^60 = 3e-13 of the starting interval
 
 // Least value of a function on [low, high]: best of a grid, then golden section around it.
@@ -72,12 +74,13 @@ class DecibelFit {
 
   Candidate best() {
     const Candidate lambert = scaled(1.0, 0.0, 1.0);
-    // Exponents are searched evenly in log(c): the form changes as much from 1 to 2 as from 10 to 20.
+    // Exponents are searched evenly in log(c): the form changes as much from 1 to 2 as from 10 to
+    // 20.
     const auto of_exponent = [this](double log_c) { return best_at(std::exp(log_c)).rms_dB; };
     const double log_c = minimum_at(of_exponent, 0.0, std::log(100.0), 46);
     const Candidate lobed = best_at(std::exp(log_c));
     // At c = 1 both terms have one shape; the plain form is preferred where the lobe gains nothing.
-    return lobed.rms_dB < lambert.rms_dB - 1e-9 ? lobed : lambert;
+    return lobed.rms_dB < lambert.rms_dB - kNegligible_dB ? lobed : lambert;
   }
 
  private:
@@ -89,7 +92,7 @@ class DecibelFit {
     const double log_ratio = minimum_at(of_ratio, -12.0, 25.0, 37);
     Candidate best = scaled(1.0, std::exp(log_ratio), c);
     for (const Candidate& bound : {scaled(0.0, 1.0, c), scaled(1.0, 0.0, c)})
-      if (bound.rms_dB <= best.rms_dB) best = bound;
+      if (bound.rms_dB <= best.rms_dB + kNegligible_dB) best = bound;
     return best;
   }
 

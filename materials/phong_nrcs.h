@@ -2,13 +2,15 @@
 //
 //   sigma0 = a sin(psi) + b sin(psi)^c,   a, b >= 0, c >= 1        [m2 per m2 of surface]
 //
-// psi is the local grazing angle on the facet, so sin(psi) is the cosine between the facet's normal and the direction
-// to the radar. The form is that of Peinecke, Doehler and Korn (SPIE 7117, 2008; JAIS 10(7), 2013); for a monostatic
-// radar it is Blinn-Phong shading: a constant-gamma part and a lobe around the normal. The coefficients are our own
-// fits (see phong_fit.h and docs/materials.md), not those of the papers.
+// psi is the local grazing angle on the facet, so sin(psi) is the cosine between the facet's normal
+// and the direction to the radar. The form is that of Peinecke, Doehler and Korn (SPIE 7117, 2008;
+// JAIS 10(7), 2013); for a monostatic radar it is Blinn-Phong shading: a constant-gamma part and a
+// lobe around the normal. The coefficients are our own fits (see phong_fit.h and
+// docs/materials.md), not those of the papers.
 //
-// Neglected: azimuth dependence, the coherent echo near vertical incidence, and anything that falls more slowly than
-// sin(psi) towards grazing (urban blocks, rough sea): there the fit misses its reference by several dB.
+// Neglected: azimuth dependence, the coherent echo near vertical incidence, and anything that falls
+// more slowly than sin(psi) towards grazing (urban blocks, rough sea): there the fit misses its
+// reference by several dB.
 #pragma once
 
 #include <cmath>
@@ -20,10 +22,12 @@ class PhongNrcs {
   // A surface that returns nothing.
   PhongNrcs() = default;
 
-  // Throws InputError: E-NONFINITE for NaN or infinity, E-RANGE unless 0 <= a, b <= 1e6 and 1 <= c <= 1000.
+  // Throws InputError: E-NONFINITE for NaN or infinity, E-RANGE unless 0 <= a, b <= 1e6 and 1 <= c
+  // <= 1000.
   PhongNrcs(double a, double b, double c);
 
-  // Zero for back faces (not mirrored) and at psi = 0. For sin_grazing in [0, 1] never negative, at most a + b.
+  // Zero for back faces (not mirrored) and at psi = 0. For sin_grazing in [0, 1] never negative, at
+  // most a + b.
   double sigma0(double sin_grazing) const noexcept {
     if (!(sin_grazing > 0.0)) return 0.0;
     const double diffuse = a_ * sin_grazing;

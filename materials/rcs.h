@@ -10,16 +10,17 @@
 //                         to its sides
 //   cylinder              2 pi r L^2 / lambda cos(e) sinc^2(k L sin e), e the elevation off broadside
 //
-// Physical and geometrical optics, textbook forms (Knott, Shaeffer, Tuley, Radar Cross Section; Ruck, Radar Cross
-// Section Handbook 1970; trihedral area: Robertson, Bell Syst. Tech. J. 26, 1947). Two published reflector values are
-// reproduced to 0.01 dB in the tests.
+// Physical and geometrical optics, textbook forms (Knott, Shaeffer, Tuley, Radar Cross Section;
+// Ruck, Radar Cross Section Handbook 1970; trihedral area: Robertson, Bell Syst. Tech. J. 26,
+// 1947). Two published reflector values are reproduced to 0.01 dB in the tests.
 //
-// Target axes: x is the boresight, y to the left, z up. The trihedral's symmetry axis is x and its upper edge lies in
-// the x-z plane; the dihedral's crease is along z and its bisector along x; the plate's normal is x with the width along
-// y and the height along z; the cylinder's axis is z. Where no mechanism named above works (behind a plate, outside the
-// trihedral's octant, more than 45 deg from the dihedral's bisector) the cross-section is 0.
-// Neglected: edges, single and double bounces of the trihedral, losses, polarisation, and the near field: all sizes are
-// taken as large against the wavelength and small against the range (2 D^2 / lambda).
+// Target axes: x is the boresight, y to the left, z up. The trihedral's symmetry axis is x and its
+// upper edge lies in the x-z plane; the dihedral's crease is along z and its bisector along x; the
+// plate's normal is x with the width along y and the height along z; the cylinder's axis is z.
+// Where no mechanism named above works (behind a plate, outside the trihedral's octant, more than
+// 45 deg from the dihedral's bisector) the cross-section is 0. Neglected: edges, single and double
+// bounces of the trihedral, losses, polarisation, and the near field: all sizes are taken as large
+// against the wavelength and small against the range (2 D^2 / lambda).
 #pragma once
 
 #include <variant>
@@ -54,11 +55,12 @@ struct Cylinder {
 using RcsModel =
     std::variant<ConstantRcs, TriangularTrihedral, Dihedral, RectangularPlate, Cylinder>;
 
-// Throws InputError E-RANGE or E-NONFINITE for sizes outside 1e-6 to 1e3 m and RCS outside 0 to 1e9 m2.
+// Throws InputError E-RANGE or E-NONFINITE for sizes outside 1e-6 to 1e3 m and RCS outside 0 to 1e9
+// m2.
 void check_rcs_model(const RcsModel& model);
 
-// The model as check_rcs_model accepts it; the direction needs no unit length but must not be zero; wavelength 1e-6 to
-// 1e3 m. Throws InputError E-RANGE or E-NONFINITE.
+// The model as check_rcs_model accepts it; the direction needs no unit length but must not be zero;
+// wavelength 1e-6 to 1e3 m. Throws InputError E-RANGE or E-NONFINITE.
 double rcs_m2(const RcsModel& model, const glm::dvec3& direction_to_radar_in_target_axes,
               double wavelength_m);
 

@@ -17,7 +17,8 @@ double rough_metal_sigma0(const RoughMetal& surface, double wavelength_m, double
   if (grazing_rad <= 0.0) return 0.0;
   const double twice_slope2 = 2.0 * surface.rms_slope * surface.rms_slope;
   const double sin2 = sin_grazing * sin_grazing;
-  // Below 0.6 deg the lobe is under exp(-4000) for every allowed slope, and its terms would overflow.
+  // Below 0.6 deg the lobe is under exp(-4000) for every allowed slope, and its terms would
+  // overflow.
   const double lobe =
       sin2 < 1e-4 ? 0.0
                   : std::exp(-(1.0 - sin2) / (sin2 * twice_slope2)) / (twice_slope2 * sin2 * sin2);

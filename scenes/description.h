@@ -14,6 +14,7 @@
 #include "core/geodetic.h"
 #include "materials/rcs.h"
 #include "scenes/ils_approach.h"
+#include "scenes/trajectory_attitude.h"
 #include "scenes/trajectory_csv.h"
 #include "sensors/sensor.h"
 #include "terrain/local_frame.h"
@@ -45,7 +46,7 @@ struct TerrainDescription {
   // raster
   std::filesystem::path elevation;
   bool fill_voids = false;
-  double smoothing_m = 0.0;  // see elevation_raster.h
+  double quantisation_step_m = 0.0;  // see elevation_raster.h
   std::filesystem::path land_cover;
   std::map<int, std::string> classes;
   core::Place place;
@@ -80,6 +81,7 @@ struct SurfaceDescription {
 struct ModelDescription {
   std::string name;
   std::filesystem::path file;
+  std::filesystem::path root;  // the folder its buffers must lie in
   Spot at;
   double above_ground_m = 0.0, heading_rad = 0.0;
   std::map<std::string, std::string> materials;  // glTF material name to ours
@@ -132,9 +134,7 @@ struct TrajectoryDescription {
   std::filesystem::path file;
   TrajectoryColumns columns;
   core::VerticalDatum datum = core::VerticalDatum::scene;
-  double height_offset_m = 0.0;
-  std::optional<double> from_s, to_s;
-  double angle_of_attack_rad = 0.0;
+  AttitudeAssumptions assumptions;
   // Moves the flight: from this runway end to the named end of the scene's runway.
   bool transplanted = false;
   core::Geodetic source_threshold;

@@ -67,7 +67,7 @@ class LineReader {
 // Turns rows into the track, one after the other.
 class TrackBuilder {
  public:
-  TrackBuilder(const TrackColumns& columns, const TrackCells& cells, ProblemList& problems)
+  TrackBuilder(const TrajectoryColumns& columns, const TrackCells& cells, ProblemList& problems)
       : columns_(columns), cells_(cells), problems_(problems) {
     for (std::size_t i = 0; i < 3; ++i) recorded_[i] = cells.attitude[i].has_value();
   }
@@ -171,7 +171,7 @@ class TrackBuilder {
     }
   }
 
-  const TrackColumns& columns_;
+  const TrajectoryColumns& columns_;
   const TrackCells& cells_;
   ProblemList& problems_;
   RawTrack track_;
@@ -184,7 +184,7 @@ class TrackBuilder {
   std::array<Place, 3> first_gap_;
 };
 
-void check_options(const TrackColumns& columns, ProblemList& problems) {
+void check_options(const TrajectoryColumns& columns, ProblemList& problems) {
   const auto check_finite = [&](const char* field, std::optional<double> value) {
     if (value && !std::isfinite(*value))
       problems.error(ErrorClass::nonfinite, {}, field, core::number_text(*value),
@@ -200,7 +200,7 @@ void check_options(const TrackColumns& columns, ProblemList& problems) {
 
 }  // namespace
 
-RawTrack read_track_csv(const std::filesystem::path& path, const TrackColumns& columns,
+RawTrack read_track_csv(const std::filesystem::path& path, const TrajectoryColumns& columns,
                         ProblemList& problems) {
   ProblemList found;
   check_options(columns, found);

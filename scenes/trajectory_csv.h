@@ -17,7 +17,7 @@
 namespace fanbeam::scenes {
 
 // Where one quantity is found.
-struct TrackColumn {
+struct TrajectoryColumn {
   std::string name;
   // Time: "s", "ms". Angles: "deg", "rad". Height: "m", "ft". Empty: the part of `name` behind its
   // last underscore.
@@ -27,14 +27,14 @@ struct TrackColumn {
 };
 
 // What to read from a file. The defaults are fanbeam's own form.
-struct TrackColumns {
-  TrackColumn time{"time_s", "", false};
-  TrackColumn latitude{"latitude_deg", "", false};
-  TrackColumn longitude{"longitude_deg", "", false};
-  TrackColumn height{"height_m", "", false};
-  TrackColumn roll{"roll_deg", "", true};
-  TrackColumn pitch{"pitch_deg", "", true};
-  TrackColumn heading{"heading_deg", "", true};  // true, not magnetic
+struct TrajectoryColumns {
+  TrajectoryColumn time{"time_s", "", false};
+  TrajectoryColumn latitude{"latitude_deg", "", false};
+  TrajectoryColumn longitude{"longitude_deg", "", false};
+  TrajectoryColumn height{"height_m", "", false};
+  TrajectoryColumn roll{"roll_deg", "", true};
+  TrajectoryColumn pitch{"pitch_deg", "", true};
+  TrajectoryColumn heading{"heading_deg", "", true};  // true, not magnetic
 
   double height_offset_m = 0.0;  // added to every height, -20000 to 20000
 
@@ -82,7 +82,7 @@ inline constexpr std::size_t kMostTrackRows = 4'000'000;
 //   E-LIMIT    more than kMostTrackRows rows, a line longer than 64 kB
 //   W-EMPTY    rows without a position, skipped and counted
 //   W-GAPS     an angle that only some rows have, taken as not recorded
-RawTrack read_track_csv(const std::filesystem::path& path, const TrackColumns& columns,
+RawTrack read_track_csv(const std::filesystem::path& path, const TrajectoryColumns& columns,
                         core::ProblemList& problems);
 
 }  // namespace fanbeam::scenes

@@ -42,7 +42,7 @@ constexpr Quantity kHalfTurn{kAngle, -core::radians(180.0), core::radians(180.0)
 constexpr Quantity kTurn{kAngle, -core::radians(540.0), core::radians(540.0), "-540 to 540 deg"};
 constexpr Quantity kHeight{kLength, -20e3, 1000e3, "-20000 to 1000000 m"};
 
-std::string_view unit_name(const TrackColumn& column) {
+std::string_view unit_name(const TrajectoryColumn& column) {
   if (!column.unit.empty()) return column.unit;
   const std::size_t underscore = column.name.rfind('_');
   if (underscore == std::string::npos) return {};
@@ -55,7 +55,7 @@ class HeaderSearch {
                core::ProblemList& problems)
       : header_(header), place_(place), problems_(problems) {}
 
-  std::optional<TrackCell> find(const TrackColumn& column, const Quantity& quantity) {
+  std::optional<TrackCell> find(const TrajectoryColumn& column, const Quantity& quantity) {
     const auto found = std::find(header_.begin(), header_.end(), column.name);
     if (found == header_.end()) {
       if (!column.may_be_missing) complain(column, "missing", "a column of this name");
@@ -74,7 +74,7 @@ class HeaderSearch {
   }
 
  private:
-  void complain(const TrackColumn& column, const std::string& found, const char* expected) {
+  void complain(const TrajectoryColumn& column, const std::string& found, const char* expected) {
     problems_.error(ErrorClass::parse, place_, "column \"" + column.name + "\"", found, expected);
   }
 
@@ -104,7 +104,7 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
 }
 
 TrackCells find_track_cells(const std::vector<std::string_view>& header,
-                            const TrackColumns& columns, const core::Place& place,
+                            const TrajectoryColumns& columns, const core::Place& place,
                             core::ProblemList& problems) {
   HeaderSearch search(header, place, problems);
   TrackCells cells;

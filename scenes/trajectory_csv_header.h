@@ -34,7 +34,7 @@ struct TrackCells {
 // Adds E-PARSE to `problems` for every column that is missing, doubled, or of an unknown unit.
 // The names inside the result are those of `columns`.
 TrackCells find_track_cells(const std::vector<std::string_view>& header,
-                            const TrackColumns& columns, const core::Place& place,
+                            const TrajectoryColumns& columns, const core::Place& place,
                             core::ProblemList& problems);
 
 }  // namespace fanbeam::scenes

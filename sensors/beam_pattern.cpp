@@ -25,7 +25,8 @@ double integral_of_panel(double from, double to, const Function& function) {
   const double half = 0.5 * (to - from);
   double sum = 0.0;
   for (std::size_t i = 0; i < kNodes.size(); ++i)
-    sum += kWeights[i] * (function(middle - half * kNodes[i]) + function(middle + half * kNodes[i]));
+    sum +=
+        kWeights[i] * (function(middle - half * kNodes[i]) + function(middle + half * kNodes[i]));
   return sum * half;
 }
 
@@ -49,7 +50,8 @@ double table_gain(const BeamCut& cut, double offset_rad) {
   return cut.table_gain[i - 1] + share * (cut.table_gain[i] - cut.table_gain[i - 1]);
 }
 
-// Integral of exp(-(s x)^2); of two angles on one side of the peak the far tails would cancel in erf.
+// Integral of exp(-(s x)^2); of two angles on one side of the peak the far tails would cancel in
+// erf.
 double gaussian_integral(double s, double from, double to) {
   const double scale = std::sqrt(core::kPi) / (2.0 * s);
   if (from > 0.0) return scale * (std::erfc(s * from) - std::erfc(s * to));
@@ -71,7 +73,8 @@ double table_two_way_integral(const BeamCut& cut, double from, double to) {
   return sum;
 }
 
-// Integral of the one-way pattern times weight(offset). Panels end at a table's knots, where its slope jumps.
+// Integral of the one-way pattern times weight(offset). Panels end at a table's knots, where its
+// slope jumps.
 template <class Weight>
 double weighted_width(const BeamCut& cut, const Weight& weight) {
   const auto weighted = [&](double offset) { return one_way_gain(cut, offset) * weight(offset); };
@@ -149,7 +152,8 @@ double directivity(const Antenna& antenna, ScanSurface surface) {
   };
   const double solid_angle_sr =
       surface == ScanSurface::cone
-          ? weighted_width(antenna.azimuth, cosine_from(0.0)) * weighted_width(antenna.elevation, even)
+          ? weighted_width(antenna.azimuth, cosine_from(0.0)) *
+                weighted_width(antenna.elevation, even)
           : weighted_width(antenna.azimuth, even) *
                 weighted_width(antenna.elevation, cosine_from(antenna.boresight_elevation_rad));
   return 4.0 * core::kPi / solid_angle_sr;
@@ -165,8 +169,7 @@ TwoWayTable::TwoWayTable(const BeamCut& cut) : cut_rad_(cut.cut_rad) {
   const auto nodes = static_cast<std::size_t>(steps) + 1;
   gain_.reserve(nodes + 1);
   for (std::size_t i = 0; i < nodes; ++i)
-    gain_.push_back(two_way_gain(
-        cut, cut_rad_ * ((2.0 * static_cast<double>(i) - steps) / steps)));
+    gain_.push_back(two_way_gain(cut, cut_rad_ * ((2.0 * static_cast<double>(i) - steps) / steps)));
   gain_.push_back(gain_.back());
 }
 

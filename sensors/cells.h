@@ -1,10 +1,13 @@
-// Which cell of a picture a range or an angle falls into. Cells are half open and share their edges, so that every
-// value inside belongs to exactly one of them; edges are compared as evaluated in double, never through a division.
+// Which cell of a picture a range or an angle falls into. Cells are half open and share their
+// edges, so that every value inside belongs to exactly one of them; edges are compared as
+// evaluated in double, never through a division.
 //
 //   range row k      [minimum + k cell, minimum + (k + 1) cell), 0 nearest
-//   azimuth column k [edge k, edge k+1), edge k = field of view (2k - columns) / (2 columns), 0 leftmost
+//   azimuth column k [edge k, edge k + 1), 0 leftmost,
+//                    edge k = field of view (2k - columns) / (2 columns)
 //   C-scope row k    (top - (k + 1) height, top - k height], 0 highest
-// The outermost right, far and lower edges are outside. A scan of 360 deg has no outside: +-180 deg is column 0.
+// The outermost right, far and lower edges are outside. A scan of 360 deg has no outside: +-180
+// deg is column 0.
 // -1 means outside, also for NaN and infinity. Valid: counts of at least 1, cell sizes above 0.
 #pragma once
 

@@ -27,7 +27,8 @@ double compensation_m3(const RangeGate& gate, int row) {
 
 // Grey of each cell, grey_of(value, row); rows are independent.
 template <class GreyOf>
-std::vector<double> grey_of_rows(std::span<const double> values, int columns, const GreyOf& grey_of) {
+std::vector<double> grey_of_rows(std::span<const double> values, int columns,
+                                 const GreyOf& grey_of) {
   std::vector<double> grey(values.size());
   const auto width = static_cast<std::size_t>(columns);
   core::parallel_for(values.size() / width, [&](std::size_t row) {
@@ -37,7 +38,8 @@ std::vector<double> grey_of_rows(std::span<const double> values, int columns, co
   return grey;
 }
 
-// Share of the interval of elevations [low, high] that each C-scope row covers, called as add(row, share).
+// Share of the interval of elevations [low, high] that each C-scope row covers, called as add(row,
+// share).
 template <class Add>
 void share_among_rows(const Display& display, double low_rad, double high_rad, const Add& add) {
   const double rows_per_rad = display.cscope_rows / display.cscope_span_rad;
@@ -103,8 +105,8 @@ std::vector<double> flat_earth_cscope_W_m3(const Sensor& sensor, std::span<const
     core::throw_input_error(core::ErrorClass::range, "height above ground", height_m, "above 0 m");
 
   const auto width = static_cast<std::size_t>(sensor.scan.columns);
-  std::vector<double> compensated_W_m3(
-      static_cast<std::size_t>(sensor.display.cscope_rows) * width, 0.0);
+  std::vector<double> compensated_W_m3(static_cast<std::size_t>(sensor.display.cscope_rows) * width,
+                                       0.0);
   const auto ground_elevation_rad = [&](double range_m) {
     return range_m > height_m ? -std::asin(height_m / range_m) : -core::kPi / 2;
   };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 #include "sensors/cells.h"
@@ -46,7 +47,8 @@ GreyScale::GreyScale(const Sensor& sensor)
 
 double GreyScale::grey_of_level(double level_dB) const {
   if (std::isnan(level_dB))
-    core::throw_input_error(core::ErrorClass::nonfinite, "display level", level_dB, "a level in dB");
+    core::throw_input_error(core::ErrorClass::nonfinite, "display level", level_dB,
+                            "a level in dB");
   if (level_dB <= low_dB_) return 0.0;
   if (level_dB >= high_dB_) return 255.0;
   return std::min(255.0, (level_dB - low_dB_) * greys_per_dB_);

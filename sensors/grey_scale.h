@@ -1,19 +1,23 @@
 // From received power to grey: one prepared scale per sensor.
 //
 // grey = 255 (level - low) / (high - low), clamped to 0..255, with the level in dB by mapping:
-//   stc   10 log10(P (4 pi)^3 R^3 L / (Pt G0^2 lambda^2 phi c)): the NRCS of flat ground that would return P at
-//         full beam, phi the sensor's azimuth patch, c its range cell (sensitivity-time control, R^3)
+//   stc   10 log10(P (4 pi)^3 R^3 L / (Pt G0^2 lambda^2 phi c)): the NRCS of flat ground that would
+//         return P at full beam (sensitivity-time control); phi is the sensor's azimuth patch, c
+//         its range cell
 //   log   10 log10(P / 1 W): received power in dBW, low and high in dBW
-//   seed  10 log10(P / 1 W) between the seed's minimum and maximum signal (seed_signal.h); low_dB and high_dB of the
-//         sensor are not used. Real ground clips, because those signals assume sigma0 = 1
-// P is linear received power in W, 0 or more, and includes the noise when noise shall be seen. R is the middle of the
-// range cell. Zero power is grey 0. Nothing is scaled per frame. Flat ground is taken at grazing incidence, cosine 1.
+//   seed  10 log10(P / 1 W) between the seed's minimum and maximum signal (seed_signal.h); the
+//         sensor's low_dB and high_dB are not used. Real ground clips, because
+//         those signals assume sigma0 = 1
+// P is linear received power in W, 0 or more, and includes the noise when noise shall be seen. R
+// is the middle of the range cell. Zero power is grey 0. Nothing is scaled per frame. Flat ground
+// is taken at grazing incidence, cosine 1.
 //
-// The C-scope's input is the sum over range of P R^3 in W m^3. Under stc its level is that of a B-scope cell with the
-// same P R^3; under log and seed it is as if the sum came from the middle of the nearest range cell.
+// The C-scope's input is the sum over range of P R^3 in W m^3. Under stc its level is that of a
+// B-scope cell with the same P R^3; under log and seed it is as if the sum came from the middle of
+// the nearest range cell.
 //
-// Errors: E-NONFINITE for NaN, E-RANGE for negative power. Infinite levels clamp. Accuracy 1e-12 dB; one logarithm
-// per pixel.
+// Errors: E-NONFINITE for NaN, E-RANGE for negative power. Infinite levels clamp. Accuracy 1e-12
+// dB; one logarithm per pixel.
 #pragma once
 
 #include <cstdint>
@@ -48,7 +52,8 @@ class GreyScale {
   double level_per_compensated_per_W_m3_ = 0.0;
 };
 
-// Rounds to the nearest whole number, halves up, after clamping to 0..255; never decreases as `grey` rises.
+// Rounds to the nearest whole number, halves up, after clamping to 0..255; never decreases as
+// `grey` rises.
 // Throws InputError E-NONFINITE for NaN.
 std::uint8_t grey8(double grey);
 

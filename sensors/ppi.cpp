@@ -53,8 +53,8 @@ class CellReader {
     const int column = azimuth_column(sensor_.scan, azimuth_rad);
     if (row == kOutside || column == kOutside) return 0.0;
     const double rows_off = (range_m - range_middle_m(sensor_.range, row)) / sensor_.range.cell_m;
-    const double columns_off = (azimuth_rad - column_middle_rad(sensor_.scan, column)) /
-                               sensor_.scan.column_width_rad();
+    const double columns_off =
+        (azimuth_rad - column_middle_rad(sensor_.scan, column)) / sensor_.scan.column_width_rad();
     const int other_row = std::clamp(row + (rows_off < 0.0 ? -1 : 1), 0, sensor_.range.cells - 1);
     const int other_column =
         std::clamp(column + (columns_off < 0.0 ? -1 : 1), 0, sensor_.scan.columns - 1);
@@ -105,14 +105,15 @@ std::vector<double> ppi_grey(const Sensor& sensor, std::span<const double> bscop
   const auto width = static_cast<std::size_t>(view.columns);
   std::vector<double> grey(static_cast<std::size_t>(view.rows) * width);
   core::parallel_for(static_cast<std::size_t>(view.rows), [&](std::size_t row) {
-    const double up_m = (view.antenna_row - (static_cast<double>(row) + 0.5)) * view.metres_per_pixel;
+    const double up_m =
+        (view.antenna_row - (static_cast<double>(row) + 0.5)) * view.metres_per_pixel;
     for (std::size_t column = 0; column < width; ++column) {
       const double right_m =
           (static_cast<double>(column) + 0.5 - view.antenna_column) * view.metres_per_pixel;
       const double range_m = std::hypot(right_m, up_m);
       const double azimuth_rad = core::wrap_pi_rad(std::atan2(right_m, up_m) - turn_rad);
-      grey[row * width + column] = bilinear ? reader.bilinear(range_m, azimuth_rad)
-                                            : reader.nearest(range_m, azimuth_rad);
+      grey[row * width + column] =
+          bilinear ? reader.bilinear(range_m, azimuth_rad) : reader.nearest(range_m, azimuth_rad);
     }
   });
   return grey;

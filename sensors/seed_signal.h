@@ -3,12 +3,13 @@
 //   constant power = Pt G^2 lambda^2 c tau phi / ((4 pi)^3 2 cos(elevation minimum) L)
 //   minimum signal = constant power / (maximum range)^3
 //   maximum signal = constant power / (minimum range)^3
-// Source: Devendran B., S. K. Kashyap, T. V. Rama Murthy, "Modeling specifications for HiVision Millimeter
-// Wave Radar for multisensory Enhanced Vision Systems", Table 2 (with c = 3e8 m/s, no loss L).
+// Source: Devendran B., S. K. Kashyap, T. V. Rama Murthy, "Modeling specifications for HiVision
+// Millimeter Wave Radar for multisensory Enhanced Vision Systems", Table 2 (with c = 3e8 m/s, no
+// loss L).
 //
-// The signals assume sigma0 = 1. A sensor with the seed's convention uses the table's c, tau, phi (the beam
-// width) and elevation minimum; any other sensor its own range cell, the integral of its two-way azimuth
-// pattern, cosine 1 and the end of its last range cell.
+// The signals assume sigma0 = 1. A sensor with the seed's convention uses the table's c, tau, phi
+// (the beam width) and elevation minimum; any other sensor its own range cell, the integral of its
+// two-way azimuth pattern, cosine 1 and the end of its last range cell.
 // Needs a minimum range above 0. Accuracy: the table's figures within 1e-6.
 #pragma once
 

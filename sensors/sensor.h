@@ -1,6 +1,8 @@
-// The radar as plain data: what a sensor file says, in SI. Derived figures are functions, never stored twice.
+// The radar as plain data: what a sensor file says, in SI. Derived figures are functions, never
+// stored twice.
 //
-// Angles are in the antenna frame: azimuth positive right of the antenna's forward axis, elevation positive up.
+// Angles are in the antenna frame: azimuth positive right of the antenna's forward axis, elevation
+// positive up.
 // Ranges of valid values: sensor_file.h.
 #pragma once
 
@@ -9,13 +11,15 @@
 
 namespace fanbeam::sensors {
 
-// One cut of an antenna pattern. Gains are one-way power relative to the peak; the two-way pattern is the square.
+// One cut of an antenna pattern. Gains are one-way power relative to the peak; the two-way pattern
+// is the square.
 struct BeamCut {
   enum class Shape { gaussian, sinc_squared, table };
   Shape shape = Shape::gaussian;
   double half_power_width_rad = 0.0;  // one-way, full width between the -3 dB points
   double cut_rad = 0.0;               // the pattern is zero beyond this angle from the peak
-  // Shape::table only: increasing angles from the peak, and linear one-way gain relative to the peak there.
+  // Shape::table only: increasing angles from the peak, and linear one-way gain relative to the
+  // peak there.
   std::vector<double> table_angle_rad;
   std::vector<double> table_gain;
 };
@@ -31,7 +35,7 @@ struct Antenna {
 // How the beam moves over a picture's columns.
 enum class ScanSurface {
   plane,  // azimuth is the angle in the antenna's horizontal plane
-  cone,   // a frequency-scanned line array: azimuth is the angle from the plane across the array axis
+  cone,   // a frequency-scanned line array: azimuth counts from the plane across the array axis
 };
 
 struct Scan {
@@ -65,7 +69,8 @@ struct Receiver {
   double dwell_s = 0.0;       // per column
 };
 
-// Angles at which the antenna sits on the aircraft, applied only when the scan is not stabilised (heading always).
+// Angles at which the antenna sits on the aircraft, applied only when the scan is not stabilised
+// (heading always).
 struct Mounting {
   double forward_m = 0.0, right_m = 0.0, down_m = 0.0;  // antenna phase centre in body axes
   double yaw_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
@@ -84,13 +89,13 @@ struct Display {
   int cscope_rows = 0;
 };
 
-// Constants that the published table of the HiVision radar fixes differently from physics, kept so that it can be
-// reproduced to the letter; see seed_signal.h for the table and its formulas.
+// Constants that the published table of the HiVision radar fixes differently from physics, kept so
+// that it can be reproduced to the letter; see seed_signal.h for the table and its formulas.
 struct SeedConvention {
   bool active = false;
   double speed_of_light_mps = 0.0;
-  double azimuth_patch_rad = 0.0;  // the beam's width itself stands for the integral of its squared pattern
-  double pulse_s = 0.0;            // the table's tau: a patch is c tau / 2 deep
+  double azimuth_patch_rad = 0.0;      // the beam's width: stands for the two-way integral
+  double pulse_s = 0.0;                // the table's tau: a patch is c tau / 2 deep
   double elevation_minimum_rad = 0.0;  // the table divides the patch by its cosine
   double maximum_range_m = 0.0;        // of the minimum signal; the last range cell may end before
 };
@@ -113,7 +118,7 @@ struct Sensor {
   double radar_constant_W_m2() const;
   // Integral of the two-way azimuth pattern; with the seed's convention, its azimuth patch.
   double azimuth_patch_rad() const;
-  // k T0 F / dwell: mean noise power per range cell; the bandwidth is that of a bin of the range FFT.
+  // k T0 F / dwell: mean noise power per range cell, the bandwidth being that of a range FFT bin.
   double noise_power_W() const;
 };
 

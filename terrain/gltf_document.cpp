@@ -208,6 +208,12 @@ core::Place place_of(const GltfContainer& container, const std::string& file, st
   return place;
 }
 
+// Without the "[json.exception.parse_error.101] " in front.
+std::string words_of(const json::exception& error) {
+  const std::string_view text = error.what();
+  return std::string(text.substr(text.find(']') + 2));
+}
+
 json parsed_json(const GltfContainer& container, const std::string& file) {
   try {
     json root = json::parse(container.json);
@@ -217,9 +223,9 @@ json parsed_json(const GltfContainer& container, const std::string& file) {
   } catch (const json::parse_error& error) {
     const std::size_t offset = error.byte > 0 ? error.byte - 1 : 0;
     core::throw_input_error(ErrorClass::parse, place_of(container, file, offset), "JSON text",
-                            error.what(), "well-formed JSON in UTF-8");
+                            words_of(error), "well-formed JSON in UTF-8");
   } catch (const json::out_of_range& error) {
-    core::throw_input_error(ErrorClass::nonfinite, core::Place{file}, "JSON text", error.what(),
+    core::throw_input_error(ErrorClass::nonfinite, core::Place{file}, "JSON text", words_of(error),
                             "numbers that a double holds");
   }
 }

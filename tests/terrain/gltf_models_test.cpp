@@ -131,11 +131,11 @@ TEST_CASE("shared files that break what geometry needs are refused", "[gltf]") {
         "tinygltf/models/BoundsChecking/integer-out-of-bounds.gltf",
         "validator/base/accessor/small_stride.gltf",
         "validator/base/accessor/unresolved_bufferviews.gltf",
-        "validator/base/buffer_view/too_long.gltf", "validator/base/glb/chunk_too_big.glb",
+        "validator/base/buffer_view/invalid_length.gltf", "validator/base/glb/chunk_too_big.glb",
         "validator/base/glb/invalid_magic.glb", "validator/base/glb/misplaced_bin_chunk.glb",
         "validator/base/glb/only_bin_chunk.glb", "validator/base/glb/truncated_chunk_data.glb",
         "validator/base/glb/two_valid_json_chunks.glb", "validator/base/glb/zero_length.glb",
-        "validator/base/node/loop.gltf", "validator/base/node/parent_override.gltf"}) {
+        "validator/base/node/node_loop.gltf", "validator/base/node/node_parent_override.gltf"}) {
     const fs::path file = *folder / name;
     INFO(name);
     REQUIRE(fs::exists(file));

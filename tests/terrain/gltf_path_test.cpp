@@ -20,7 +20,7 @@ struct Load {
   Load(const fs::path& file, const fs::path& allowed_folder) {
     core::ProblemList warnings;
     const FileReader read = [this](const fs::path& path, std::uint64_t largest_bytes) {
-      opened.push_back(fs::canonical(path));
+      opened.push_back(fs::weakly_canonical(path));
       return core::read_file(path, largest_bytes);
     };
     try {

@@ -1,0 +1,41 @@
+#include "scenes/data_search.h"
+
+#include "core/files.h"
+
+namespace fanbeam::scenes {
+
+namespace fs = std::filesystem;
+
+DataSearch::DataSearch(fs::path scene_folder, std::vector<fs::path> data_folders) {
+  folders_.push_back(std::move(scene_folder));
+  for (fs::path& folder : data_folders) folders_.push_back(std::move(folder));
+}
+
+fs::path DataSearch::find(core::ConfigTable& table, std::string_view key) const {
+  const std::string name = table.required_text(key);
+  if (name.empty()) return {};
+  std::string searched;
+  for (const fs::path& folder : folders_) {
+    try {
+      const fs::path candidate = core::path_inside(folder, name, table.place(key), table.path(key));
+      if (fs::is_regular_file(candidate)) return candidate;
+    } catch (const core::InputError& error) {
+      table.problems().append(error.problems());
+      return {};
+    }
+    searched += (searched.empty() ? "" : ", ") + folder.string();
+  }
+  table.error(core::ErrorClass::io, key, "\"" + name + "\" not found",
+              "a file in one of: " + searched + "; name another data folder with --data DIR or FANBEAM_DATA");
+  return {};
+}
+
+fs::path DataSearch::root_of(const fs::path& file) const {
+  for (const fs::path& folder : folders_) {
+    const fs::path back = file.lexically_relative(fs::weakly_canonical(folder));
+    if (!back.empty() && *back.begin() != "..") return fs::weakly_canonical(folder);
+  }
+  return file.parent_path();
+}
+
+}  // namespace fanbeam::scenes

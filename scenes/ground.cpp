@@ -1,0 +1,257 @@
+#include "scenes/ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <glm/geometric.hpp>
+#include <mutex>
+
+#include "core/parallel.h"
+#include "core/units.h"
+#include "terrain/elevation_raster.h"
+#include "terrain/geoid.h"
+#include "terrain/land_cover_raster.h"
+#include "terrain/landscape.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+using core::ErrorClass;
+
+// Natural height in the scene's datum and material of a place; nothing where the data end.
+struct Sources {
+  std::function<std::optional<double>(const core::Geodetic&, glm::dvec2)> height_m;
+  std::function<terrain::MaterialId(const core::Geodetic&, glm::dvec2)> material;
+  std::function<double(glm::dvec2)> canopy_m;
+};
+
+std::string degrees_text(const core::Geodetic& position) {
+  return core::number_text(core::degrees(position.latitude_rad)) + ", " +
+         core::number_text(core::degrees(position.longitude_rad));
+}
+
+double mean_elevation_m(const std::vector<terrain::Runway>& runways, double otherwise_m) {
+  if (runways.empty()) return otherwise_m;
+  return (runways[0].ends[0].elevation_m + runways[0].ends[1].elevation_m) / 2;
+}
+
+}  // namespace
+
+terrain::MaterialId MaterialNames::id(const std::string& name, const core::Place& place,
+                                      const std::string& field) const {
+  return static_cast<terrain::MaterialId>(library_.find(name, place, field, problems_).value_or(0));
+}
+
+Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame, const MaterialNames& names,
+               core::ProblemList& problems)
+    : scene_(scene), frame_(frame), problems_(problems) {
+  const TerrainDescription& terrain = scene.terrain;
+  field_ = terrain::make_height_field(terrain.west_m, terrain.south_m, terrain.east_m, terrain.north_m,
+                                      terrain.spacing_m);
+  for (const RunwayDescription& runway : scene.runways) runways_.push_back(place_runway(runway, names));
+  shape(names);
+}
+
+double Ground::ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad,
+                             core::VerticalDatum datum) const {
+  if (datum == core::VerticalDatum::scene) datum = scene_.datum;
+  return datum == core::VerticalDatum::egm96
+             ? height_m + terrain::egm96_geoid_height_m(latitude_rad, longitude_rad)
+             : height_m;
+}
+
+glm::dvec2 Ground::local_m(double latitude_rad, double longitude_rad) const {
+  glm::dvec3 local = frame_.to_local_m({latitude_rad, longitude_rad, scene_.origin.height_m});
+  if (frame_.model() == terrain::EarthModel::plane) return local;
+  // East and north depend a little on height: settle on the ground there.
+  for (int i = 0; i < 2; ++i) {
+    const double up_m = field_.height_at(local.x, local.y).value_or(local.z);
+    const double height_m = frame_.to_geodetic({local.x, local.y, up_m}).height_m;
+    local = frame_.to_local_m({latitude_rad, longitude_rad, height_m});
+  }
+  return local;
+}
+
+terrain::Runway Ground::place_runway(const RunwayDescription& description, const MaterialNames& names) const {
+  terrain::Runway runway;
+  for (const int end : {0, 1}) {
+    const RunwayEndDescription& from = description.ends[end];
+    core::Geodetic position = from.pavement_end;
+    position.height_m =
+        ellipsoidal_m(position.height_m, position.latitude_rad, position.longitude_rad, scene_.datum);
+    runway.ends[end] = {frame_.to_local_m(position), from.displaced_m, from.pavement_end.height_m};
+  }
+  runway.width_m = description.width_m;
+  runway.shoulder_m = description.shoulder_m;
+  runway.markings = description.markings;
+  runway.strip_half_width_m = description.strip_half_width_m;
+  runway.blend_m = description.blend_m;
+  runway.materials = {names.id(description.surface, description.place, "runway.surface"),
+                      names.id(description.shoulder_material, description.place, "runway.shoulder"),
+                      names.id(description.marking_material, description.place, "runway.marking")};
+  if (runway.length_m() < 100.0)
+    problems_.error(ErrorClass::range, description.place, "runway length", core::number_text(runway.length_m()) + " m",
+                    "ends at least 100 m apart");
+  for (const terrain::RunwayEnd& end : runway.ends)
+    if (!field_.height_at(end.pavement_end_m.x, end.pavement_end_m.y))
+      problems_.error(ErrorClass::range, description.place, "runway end",
+                      core::number_text(std::round(end.pavement_end_m.x)) + " m east, " +
+                          core::number_text(std::round(end.pavement_end_m.y)) + " m north of the origin",
+                      "a place on the scene's terrain");
+  return runway;
+}
+
+bool Ground::on_airfield(glm::dvec2 position_m) const {
+  for (const terrain::Runway& runway : runways_) {
+    const glm::dvec2 relative = position_m - runway.ends[0].pavement_end_m;
+    const double s_m = glm::dot(relative, runway.along());
+    const double t_m = std::abs(relative.x * runway.along().y - relative.y * runway.along().x);
+    const double beyond_m = std::max({-s_m, s_m - runway.length_m(), 0.0});
+    const double keep_m = scene_.terrain.airfield_beyond_m;
+    if (beyond_m < 60.0 + keep_m && t_m < runway.strip_half_width_m + keep_m) return true;
+  }
+  return false;
+}
+
+void Ground::shape(const MaterialNames& names) {
+  const TerrainDescription& terrain = scene_.terrain;
+  const terrain::MaterialId base = names.id(terrain.material, terrain.place, "terrain.material");
+  Sources sources;
+  sources.height_m = [this](const core::Geodetic&, glm::dvec2) { return mean_elevation_m(runways_, scene_.origin.height_m); };
+  sources.material = [base](const core::Geodetic&, glm::dvec2) { return base; };
+  sources.canopy_m = [](glm::dvec2) { return 0.0; };
+
+  std::optional<terrain::Landscape> landscape;
+  std::optional<terrain::ElevationRaster> elevation;
+  std::optional<terrain::LandCoverRaster> cover;
+  std::vector<terrain::MaterialId> material_of_class;
+  try {
+    if (terrain.source == TerrainDescription::Source::rolling) {
+      terrain::LandscapeMaterials materials;
+      for (const std::string& field : terrain.fields)
+        materials.fields.push_back(names.id(field, terrain.place, "terrain.fields"));
+      materials.wood = names.id(terrain.wood_material, terrain.place, "terrain.wood_material");
+      materials.airfield = names.id(terrain.airfield_material, terrain.place, "terrain.airfield_material");
+      landscape.emplace(terrain::LandscapeSettings{terrain.relief_m, terrain.field_size_m, terrain.wood_share,
+                                                   terrain.canopy_m, terrain.seed},
+                        materials);
+      sources.height_m = [&, base_m = mean_elevation_m(runways_, scene_.origin.height_m)](const core::Geodetic&, glm::dvec2 p) {
+        return base_m + landscape->ground_m(p);
+      };
+      sources.canopy_m = [&](glm::dvec2 p) { return on_airfield(p) ? 0.0 : landscape->canopy_m(p); };
+      sources.material = [&](const core::Geodetic&, glm::dvec2 p) {
+        return on_airfield(p) ? landscape->airfield() : landscape->material(p);
+      };
+    } else if (terrain.source == TerrainDescription::Source::raster) {
+      terrain::ElevationOptions options;
+      options.voids = terrain.fill_voids ? terrain::VoidPolicy::fill : terrain::VoidPolicy::refuse;
+      options.interpolation = terrain::Interpolation::cubic_spline;
+      options.quantisation_step_m = terrain.quantisation_step_m;
+      elevation.emplace(terrain.elevation, options, problems_);
+      sources.height_m = [&](const core::Geodetic& g, glm::dvec2) {
+        return elevation->height_m(g.latitude_rad, g.longitude_rad);
+      };
+    }
+    if (!terrain.land_cover.empty()) {
+      cover.emplace(terrain.land_cover);
+      material_of_class.assign(terrain::kLargestLandCoverClass + 1, base);
+      for (const auto& [number, name] : terrain.classes)
+        material_of_class[static_cast<std::size_t>(number)] = names.id(name, terrain.place, "terrain.land_cover.classes." + std::to_string(number));
+      for (const int number : cover->classes())
+        if (!terrain.classes.contains(number))
+          problems_.error(ErrorClass::ref, terrain.place, "terrain.land_cover.classes",
+                          "class " + std::to_string(number) + " of the raster has no material",
+                          std::to_string(number) + " = \"...\"");
+      sources.material = [&, base](const core::Geodetic& g, glm::dvec2) {
+        const int number = cover->class_at(g.latitude_rad, g.longitude_rad);
+        return number < 0 ? base : material_of_class[static_cast<std::size_t>(number)];
+      };
+    }
+  } catch (const core::InputError& error) {
+    problems_.append(error.problems());
+    return;
+  }
+
+  std::mutex guard;
+  std::size_t outside = 0;
+  std::string first_outside;
+  core::parallel_for(static_cast<std::size_t>(field_.rows), [&](std::size_t row) {
+    const int j = static_cast<int>(row);
+    for (int i = 0; i < field_.columns; ++i) {
+      const glm::dvec2 p(field_.west_m + field_.spacing_m * i, field_.south_m + field_.spacing_m * j);
+      double up_m = 0.0;
+      // The second round uses the latitude and longitude at the height that the first one found.
+      for (int round = 0; round < 2; ++round) {
+        const core::Geodetic g = frame_.to_geodetic({p.x, p.y, up_m});
+        std::optional<double> height_m = sources.height_m(g, p);
+        if (!height_m) {
+          const std::lock_guard<std::mutex> lock(guard);
+          if (outside++ == 0) first_outside = degrees_text(g);
+          break;
+        }
+        for (const terrain::Runway& runway : runways_) height_m = terrain::flattened_height_m(runway, p, *height_m);
+        *height_m += sources.canopy_m(p);
+        up_m += ellipsoidal_m(*height_m, g.latitude_rad, g.longitude_rad, scene_.datum) - g.height_m;
+      }
+      field_.height_m[field_.post(i, j)] = up_m;
+      if (i + 1 < field_.columns && j + 1 < field_.rows) {
+        const glm::dvec2 middle = p + glm::dvec2(field_.spacing_m / 2);
+        field_.cell_material[field_.cell(i, j)] = sources.material(frame_.to_geodetic({middle.x, middle.y, up_m}), middle);
+      }
+    }
+  });
+  if (outside > 0)
+    problems_.error(ErrorClass::range, terrain.place, "terrain extent",
+                    std::to_string(outside) + " posts without elevation, the first at " + first_outside + " deg",
+                    "a smaller extent, or elevation data that cover it");
+}
+
+std::optional<Ground::LandingEnd> Ground::landing_end(const std::string& name, const core::Place& place) const {
+  std::string known;
+  for (std::size_t i = 0; i < runways_.size(); ++i) {
+    for (const int end : {0, 1}) {
+      const std::string& candidate = scene_.runways[i].ends[end].name;
+      known += (known.empty() ? "\"" : ", \"") + candidate + "\"";
+      if (candidate != name) continue;
+      const glm::dvec2 direction = end == 0 ? runways_[i].along() : -runways_[i].along();
+      return LandingEnd{&runways_[i], &scene_.runways[i], end, runways_[i].threshold_m(end), direction};
+    }
+  }
+  problems_.error(ErrorClass::ref, place, "runway", "\"" + name + "\"",
+                  known.empty() ? "a [[runway]] in this scene" : "one of the runway ends " + known);
+  return std::nullopt;
+}
+
+core::Geodetic Ground::threshold(const LandingEnd& end) const {
+  return frame_.to_geodetic(on_ground_m(end.threshold_m, 0.0));
+}
+
+double Ground::bearing_rad(const LandingEnd& end) const {
+  const auto& ends = end.description->ends;
+  const double azimuth_rad = terrain::geodesic_between(ends[end.end].pavement_end, ends[1 - end.end].pavement_end).azimuth_rad;
+  return azimuth_rad < 0.0 ? azimuth_rad + 2.0 * core::kPi : azimuth_rad;
+}
+
+std::optional<glm::dvec2> Ground::local_m(const Spot& spot) const {
+  glm::dvec2 position_m(0.0);
+  if (spot.on_runway) {
+    const std::optional<LandingEnd> end = landing_end(spot.runway_end, spot.place);
+    if (!end) return std::nullopt;
+    position_m = end->threshold_m + end->direction * spot.behind_threshold_m +
+                 glm::dvec2(-end->direction.y, end->direction.x) * spot.left_m;
+  } else {
+    position_m = local_m(spot.latitude_rad, spot.longitude_rad);
+  }
+  if (field_.height_at(position_m.x, position_m.y)) return position_m;
+  problems_.error(ErrorClass::range, spot.place, "place",
+                  core::number_text(std::round(position_m.x)) + " m east, " +
+                      core::number_text(std::round(position_m.y)) + " m north of the origin",
+                  "a place on the scene's terrain");
+  return std::nullopt;
+}
+
+glm::dvec3 Ground::on_ground_m(glm::dvec2 position_m, double above_m) const {
+  return {position_m, field_.height_at(position_m.x, position_m.y).value_or(0.0) + above_m};
+}
+
+}  // namespace fanbeam::scenes

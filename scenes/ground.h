@@ -1,0 +1,74 @@
+// The ground of a scene while it is being built: frame, runways in local metres, posts, and how places and heights in
+// the scene's datum become local coordinates.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "materials/material_library.h"
+#include "scenes/description.h"
+#include "terrain/height_field.h"
+#include "terrain/local_frame.h"
+#include "terrain/runway.h"
+
+namespace fanbeam::scenes {
+
+// Material ids of names, with E-REF for unknown ones.
+class MaterialNames {
+ public:
+  MaterialNames(const materials::MaterialLibrary& library, core::ProblemList& problems)
+      : library_(library), problems_(problems) {}
+  terrain::MaterialId id(const std::string& name, const core::Place& place, const std::string& field) const;
+
+ private:
+  const materials::MaterialLibrary& library_;
+  core::ProblemList& problems_;
+};
+
+class Ground {
+ public:
+  // Loads rasters, generates what is to be generated, flattens the runway strips.
+  Ground(const SceneDescription& scene, const terrain::LocalFrame& frame, const MaterialNames& names,
+         core::ProblemList& problems);
+
+  const terrain::HeightField& field() const { return field_; }
+  const std::vector<terrain::Runway>& runways() const { return runways_; }
+
+  // Height above the ellipsoid (or the scene's unknown datum) of a height in the datum at a position.
+  double ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad, core::VerticalDatum datum) const;
+
+  // Landing on the named end: threshold and direction; E-REF when there is no such end.
+  struct LandingEnd {
+    const terrain::Runway* runway = nullptr;
+    const RunwayDescription* description = nullptr;
+    int end = 0;
+    glm::dvec2 threshold_m{0.0}, direction{0.0, 1.0};
+  };
+  std::optional<LandingEnd> landing_end(const std::string& name, const core::Place& place) const;
+  // The threshold's position with its ellipsoidal height, and the true bearing of landing.
+  core::Geodetic threshold(const LandingEnd& end) const;
+  double bearing_rad(const LandingEnd& end) const;
+
+  // Local east-north of a spot; E-RANGE outside the terrain.
+  std::optional<glm::dvec2> local_m(const Spot& spot) const;
+  // The point `above_m` over the ground there.
+  glm::dvec3 on_ground_m(glm::dvec2 position_m, double above_m) const;
+  glm::dvec2 local_m(double latitude_rad, double longitude_rad) const;
+
+ private:
+  terrain::Runway place_runway(const RunwayDescription& description, const MaterialNames& names) const;
+  void shape(const MaterialNames& names);
+  bool on_airfield(glm::dvec2 position_m) const;
+
+  const SceneDescription& scene_;
+  const terrain::LocalFrame& frame_;
+  core::ProblemList& problems_;
+  std::vector<terrain::Runway> runways_;
+  terrain::HeightField field_;
+};
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,201 @@
+#include "scenes/object_reader.h"
+
+#include "core/decibel.h"
+#include "core/units.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+using core::ConfigTable;
+using core::radians;
+
+constexpr core::NumberRange kDistance_m{-100000.0, 100000.0};
+constexpr core::NumberRange kRcs_dBsm{-80.0, 80.0};
+constexpr core::NumberRange kHeading_deg{-360.0, 360.0};
+
+double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBsm) {
+  return core::power_from_dB(table.number(key, kRcs_dBsm, fallback_dBsm));
+}
+
+void read_runway_end(ConfigTable& runway, const char* key, RunwayEndDescription& end) {
+  ConfigTable table = runway.table(key);
+  if (!table.present()) {
+    runway.error(core::ErrorClass::ref, key, "missing",
+                 "a table { name, latitude_deg, longitude_deg, elevation_m, displaced_m }");
+    return;
+  }
+  end.name = table.required_text("name");
+  end.pavement_end.latitude_rad = radians(table.required_number("latitude_deg", {-90, 90}));
+  end.pavement_end.longitude_rad = radians(table.required_number("longitude_deg", {-180, 180}));
+  end.pavement_end.height_m = table.required_number("elevation_m", {-500, 6000});
+  end.displaced_m = table.number("displaced_m", {0, 3000}, 0.0);
+}
+
+RunwayDescription read_runway(ConfigTable& table) {
+  RunwayDescription runway;
+  runway.place = table.place("");
+  read_runway_end(table, "first", runway.ends[0]);
+  read_runway_end(table, "second", runway.ends[1]);
+  runway.width_m = table.number("width_m", {5, 200}, runway.width_m);
+  runway.shoulder_m = table.number("shoulder_m", {0, 100}, runway.shoulder_m);
+  runway.surface = table.text("surface", runway.surface);
+  runway.shoulder_material = table.text("shoulder", runway.shoulder_material);
+  runway.marking_material = table.text("marking", runway.marking_material);
+  runway.markings = table.boolean("markings", true);
+  runway.strip_half_width_m = table.number("strip_half_width_m", {0, 1000}, runway.strip_half_width_m);
+  runway.blend_m = table.number("blend_m", {1, 5000}, runway.blend_m);
+  runway.edge_lights = table.boolean("edge_lights", true);
+  runway.approach_lights = table.text("approach_lights", "");
+  runway.approach_light_slope = table.number("approach_light_slope", {0, 0.1}, 0.0);
+  runway.light_rcs_m2 = rcs_m2_from(table, "light_rcs_dBsm", -10.0);
+  ConfigTable fence = table.table("fence");
+  if (fence.present()) {
+    runway.fence_beyond_m = fence.number("beyond_m", {1, 5000}, 60.0);
+    runway.fence_height_m = fence.number("height_m", {0.1, 20}, 2.4);
+    runway.fence_spacing_m = fence.number("spacing_m", {0.5, 100}, 3.0);
+    runway.fence_post_rcs_m2 = rcs_m2_from(fence, "post_rcs_dBsm", 0.0);
+  }
+  return runway;
+}
+
+SurfaceDescription read_surface(ConfigTable& table) {
+  SurfaceDescription surface;
+  surface.place = table.place("");
+  surface.runway_end = table.required_text("runway");
+  surface.material = table.required_text("material");
+  const auto pair = [&](std::string_view key, double& from, double& to) {
+    const std::vector<double> values = table.numbers(key, kDistance_m, 2, 2);
+    if (!table.has(key)) table.error(core::ErrorClass::ref, key, "missing", "[from, to] in metres");
+    if (values.size() != 2) return;
+    from = values[0];
+    to = values[1];
+    if (!(to > from)) table.error(core::ErrorClass::range, key, core::number_text(to), "an end above its beginning");
+  };
+  pair("behind_threshold_m", surface.from_behind_m, surface.to_behind_m);
+  pair("left_m", surface.from_left_m, surface.to_left_m);
+  return surface;
+}
+
+ModelDescription read_model(ConfigTable& table, const DataSearch& search) {
+  ModelDescription model;
+  model.place = table.place("");
+  model.file = search.find(table, "file");
+  if (!model.file.empty()) model.root = search.root_of(model.file);
+  model.name = table.text("name", model.file.stem().string());
+  model.at = read_spot(table, "at");
+  model.above_ground_m = table.number("above_ground_m", {-100, 10000}, 0.0);
+  model.heading_rad = radians(table.number("heading_deg", kHeading_deg, 0.0));
+  model.default_material = table.text("default_material", model.default_material);
+  ConfigTable materials = table.table("materials");
+  for (const std::string& key : materials.keys()) model.materials[key] = materials.text(key, "");
+  return model;
+}
+
+BoxDescription read_box(ConfigTable& table) {
+  BoxDescription box;
+  box.place = table.place("");
+  box.name = table.text("name", "box");
+  box.at = read_spot(table, "at");
+  box.length_m = table.required_number("length_m", {0.01, 5000});
+  box.width_m = table.required_number("width_m", {0.01, 5000});
+  box.height_m = table.required_number("height_m", {0.01, 1000});
+  box.heading_rad = radians(table.number("heading_deg", kHeading_deg, 0.0));
+  box.wall_material = table.text("wall", box.wall_material);
+  box.roof_material = table.text("roof", box.roof_material);
+  return box;
+}
+
+BuildingsDescription read_buildings(ConfigTable& table, const DataSearch& search) {
+  BuildingsDescription buildings;
+  buildings.place = table.place("");
+  buildings.file = search.find(table, "file");
+  buildings.height_property = table.text("height_property", buildings.height_property);
+  buildings.min_height_property = table.text("min_height_property", buildings.min_height_property);
+  buildings.base_is_mean = table.choice("base", {"lowest", "mean"}, 0) == 1;
+  buildings.wall_material = table.text("wall", buildings.wall_material);
+  buildings.roof_material = table.text("roof", buildings.roof_material);
+  return buildings;
+}
+
+materials::RcsModel read_rcs(ConfigTable& target) {
+  ConfigTable table = target.table("rcs");
+  if (!table.present()) target.error(core::ErrorClass::ref, "rcs", "missing", "{ shape, ... }, see docs/scene-format.md");
+  const core::NumberRange size_m{0.001, 100.0};
+  switch (table.choice("shape", {"constant", "trihedral", "dihedral", "plate", "cylinder"}, 0)) {
+    case 1: return materials::TriangularTrihedral{table.number("edge_m", size_m, 0.1)};
+    case 2: return materials::Dihedral{table.number("width_m", size_m, 0.1), table.number("height_m", size_m, 0.1)};
+    case 3:
+      return materials::RectangularPlate{table.number("width_m", size_m, 0.1), table.number("height_m", size_m, 0.1)};
+    case 4: return materials::Cylinder{table.number("radius_m", size_m, 0.1), table.number("length_m", size_m, 1.0)};
+    default: return materials::ConstantRcs{rcs_m2_from(table, "rcs_dBsm", 0.0)};
+  }
+}
+
+TargetDescription read_target(ConfigTable& table) {
+  TargetDescription target;
+  target.place = table.place("");
+  target.name = table.text("name", "target");
+  target.rcs = read_rcs(table);
+  target.heading_rad = radians(table.number("heading_deg", kHeading_deg, 0.0));
+  target.tilt_rad = radians(table.number("tilt_deg", {-90, 90}, 0.0));
+  std::vector<ConfigTable> waypoints = table.tables("waypoint");
+  for (ConfigTable& waypoint : waypoints) {
+    const double time_s = waypoint.required_number("time_s", {-1e6, 1e6});
+    if (!target.path.empty() && time_s <= target.path.back().time_s)
+      waypoint.error(core::ErrorClass::time, "time_s", core::number_text(time_s), "later than the waypoint before");
+    target.path.push_back({time_s, read_spot(waypoint, "at"), waypoint.number("above_ground_m", {-100, 20000}, 0.0)});
+  }
+  if (waypoints.empty()) {
+    target.path.push_back({0.0, read_spot(table, "at"), table.number("above_ground_m", {-100, 20000}, 0.0)});
+  }
+  return target;
+}
+
+LineDescription read_line(ConfigTable& table) {
+  LineDescription line;
+  line.place = table.place("");
+  line.name = table.text("name", "line");
+  line.from = read_spot(table, "from");
+  line.to = read_spot(table, "to");
+  line.from_above_m = table.number("from_above_m", {-100, 2000}, 0.0);
+  line.to_above_m = table.number("to_above_m", {-100, 2000}, 0.0);
+  line.rcs_m2_per_m = rcs_m2_from(table, "rcs_dBsm_per_m", -10.0);
+  line.spacing_m = table.number("spacing_m", {0.01, 100}, 1.0);
+  return line;
+}
+
+}  // namespace
+
+Spot read_spot(ConfigTable& parent, std::string_view key) {
+  ConfigTable table = parent.table(key);
+  Spot spot;
+  spot.place = parent.place(key);
+  if (!table.present()) {
+    if (!parent.has(key))
+      parent.error(core::ErrorClass::ref, key, "missing",
+                   "{ latitude_deg, longitude_deg } or { runway, behind_threshold_m, left_m }");
+    return spot;
+  }
+  spot.on_runway = table.has("runway");
+  if (spot.on_runway) {
+    spot.runway_end = table.required_text("runway");
+    spot.behind_threshold_m = table.required_number("behind_threshold_m", kDistance_m);
+    spot.left_m = table.number("left_m", kDistance_m, 0.0);
+  } else {
+    spot.latitude_rad = radians(table.required_number("latitude_deg", {-90, 90}));
+    spot.longitude_rad = radians(table.required_number("longitude_deg", {-180, 180}));
+  }
+  return spot;
+}
+
+void read_objects(ConfigTable& root, const DataSearch& search, SceneDescription& scene) {
+  for (ConfigTable& table : root.tables("runway")) scene.runways.push_back(read_runway(table));
+  for (ConfigTable& table : root.tables("surface")) scene.surfaces.push_back(read_surface(table));
+  for (ConfigTable& table : root.tables("model")) scene.models.push_back(read_model(table, search));
+  for (ConfigTable& table : root.tables("box")) scene.boxes.push_back(read_box(table));
+  for (ConfigTable& table : root.tables("buildings")) scene.buildings.push_back(read_buildings(table, search));
+  for (ConfigTable& table : root.tables("target")) scene.targets.push_back(read_target(table));
+  for (ConfigTable& table : root.tables("line")) scene.lines.push_back(read_line(table));
+}
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,23 @@
+// Turns the described objects into patches, meshes and point targets on the scene's ground.
+#pragma once
+
+#include <vector>
+
+#include "renderer/world.h"
+#include "scenes/description.h"
+#include "scenes/ground.h"
+#include "terrain/ray_scene.h"
+
+namespace fanbeam::scenes {
+
+// Runways below, then the rectangles of [[surface]] in file order, markings on top of both.
+std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene, const Ground& ground,
+                                                 const MaterialNames& names, core::ProblemList& problems);
+
+std::vector<terrain::PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
+                                              const MaterialNames& names, core::ProblemList& problems);
+
+std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
+                                                 core::ProblemList& problems);
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,111 @@
+#include "scenes/scene.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/matrix.hpp>
+
+#include "materials/material_library.h"
+#include "scenes/ground.h"
+#include "scenes/objects.h"
+#include "scenes/trajectory_builder.h"
+#include "terrain/geoid.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+// Every frame's aircraft must be over the terrain and above it.
+void check_flight(const SceneDescription& scene, const terrain::LocalFrame& frame, const Trajectory& trajectory,
+                  const Ground& ground, core::ProblemList& problems) {
+  const double rate_Hz = scene.sensor.scan.frame_rate_Hz;
+  const int frames = trajectory.frame_count(rate_Hz);
+  int outside = 0;
+  int below = 0;
+  for (int k = 0; k < frames; ++k) {
+    const double time_s = trajectory.frame_time_s(k, rate_Hz);
+    const glm::dvec3 at_m = frame.to_local_m(trajectory.at(time_s).position);
+    const auto ground_m = ground.field().height_at(at_m.x, at_m.y);
+    const std::string when = "frame " + std::to_string(k) + " at " + core::number_text(time_s) + " s";
+    if (!ground_m && outside++ == 0)
+      problems.error(core::ErrorClass::range, scene.trajectory.place, "trajectory",
+                     when + ": " + core::number_text(std::round(at_m.x)) + " m east, " +
+                         core::number_text(std::round(at_m.y)) + " m north of the origin",
+                     "positions over the scene's terrain (this is the first frame outside it)");
+    if (ground_m && at_m.z <= *ground_m && below++ == 0)
+      problems.error(core::ErrorClass::range, scene.trajectory.place, "trajectory",
+                     when + ": " + core::number_text(std::round((*ground_m - at_m.z) * 10.0) / 10.0) +
+                         " m inside the ground",
+                     "a sensor above the ground; check vertical_datum (this is the first such frame)");
+  }
+}
+
+renderer::SceneFacts facts_of(const SceneDescription& scene, const terrain::LocalFrame& frame,
+                              const Trajectory& trajectory) {
+  renderer::SceneFacts facts{scene.weather, scene.sensor, 1e300, -1e300};
+  for (const core::Pose& pose : trajectory.poses()) {
+    const double height_m = frame.to_local_m(pose.position).z;
+    facts.lowest_sensor_m = std::min(facts.lowest_sensor_m, height_m);
+    facts.highest_sensor_m = std::max(facts.highest_sensor_m, height_m);
+  }
+  return facts;
+}
+
+atmosphere::Weather simulated_weather(const SceneDescription& scene, const core::EffectPlan& plan) {
+  atmosphere::Weather weather = scene.weather;
+  weather.simulate_gas = plan.runs(renderer::kGas);
+  weather.simulate_fog = plan.runs(renderer::kFog);
+  weather.simulate_rain = plan.runs(renderer::kRain);
+  return weather;
+}
+
+core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
+  core::Geodetic origin = scene.origin;
+  if (scene.datum == core::VerticalDatum::egm96)
+    origin.height_m += terrain::egm96_geoid_height_m(origin.latitude_rad, origin.longitude_rad);
+  return origin;
+}
+
+}  // namespace
+
+renderer::FramePose Scene::pose_at(const core::Pose& pose) const {
+  return {pose.time_s, frame.to_local_m(pose.position), frame.north_east_down_at(pose.position), pose.q_NB};
+}
+
+renderer::FramePose Scene::frame_pose(int frame_index) const {
+  return pose_at(trajectory.at(trajectory.frame_time_s(frame_index, description.sensor.scan.frame_rate_Hz)));
+}
+
+std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
+                                   core::ProblemList& problems) {
+  const auto begin = std::chrono::steady_clock::now();
+  problems.throw_if_errors();
+  const materials::MaterialLibrary library = materials::MaterialLibrary::from_file(description.material_library, problems);
+  const MaterialNames names(library, problems);
+  const terrain::LocalFrame frame(ellipsoidal_origin(description), description.earth);
+  const Ground ground(description, frame, names, problems);
+  std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names, problems);
+  std::vector<terrain::PlacedMesh> meshes = build_meshes(description, ground, names, problems);
+  std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems);
+  std::optional<Trajectory> trajectory;
+  if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);
+  if (trajectory) check_flight(description, frame, *trajectory, ground, problems);
+  problems.throw_if_errors();
+
+  core::EffectPlan plan = renderer::plan(facts_of(description, frame, *trajectory), options.accuracy_grey, options.wishes);
+  const double frequency_Hz = description.sensor.waveform.frequency_Hz;
+  std::vector<std::string> material_names;
+  for (const materials::Material& material : library.all()) material_names.push_back(material.name);
+  renderer::World world{
+      std::make_unique<terrain::RayScene>(ground.field(), std::move(patches), std::move(meshes), options.instruction_set),
+      library.at_frequency(frequency_Hz),
+      std::move(material_names),
+      std::move(targets),
+      atmosphere::PathAttenuation(simulated_weather(description, plan), frequency_Hz),
+      description.sensor};
+  auto scene = std::make_unique<Scene>(
+      Scene{description, frame, std::move(*trajectory), std::move(plan), std::move(world), 0.0});
+  scene->build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return scene;
+}
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,193 @@
+#include "scenes/scene_reader.h"
+
+#include <algorithm>
+
+#include "core/files.h"
+#include "core/units.h"
+#include "scenes/data_search.h"
+#include "scenes/object_reader.h"
+#include "scenes/trajectory_reader.h"
+#include "sensors/sensor_file.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using core::ConfigTable;
+using core::radians;
+
+constexpr core::NumberRange kExtent_m{10.0, 200000.0};
+
+void read_scene_table(ConfigTable& root, SceneDescription& scene) {
+  ConfigTable table = root.table("scene");
+  if (!table.present()) root.error(core::ErrorClass::ref, "scene", "missing", "a table [scene] with name and origin");
+  scene.name = table.text("name", scene.folder.filename().string());
+  scene.title = table.text("title", scene.name);
+  ConfigTable origin = table.table("origin");
+  if (table.present() && !origin.present())
+    table.error(core::ErrorClass::ref, "origin", "missing", "{ latitude_deg, longitude_deg, height_m }");
+  scene.origin.latitude_rad = radians(origin.number("latitude_deg", {-90, 90}, 0.0));
+  scene.origin.longitude_rad = radians(origin.number("longitude_deg", {-180, 180}, 0.0));
+  scene.origin.height_m = origin.number("height_m", {-1000, 9000}, 0.0);
+  scene.datum = static_cast<core::VerticalDatum>(table.choice("vertical_datum", {"ellipsoid", "egm96", "scene"}, 0));
+  if (table.present() && !table.has("vertical_datum"))
+    table.error(core::ErrorClass::ref, "vertical_datum", "missing",
+                "what heights count from: \"ellipsoid\", \"egm96\" or \"scene\"");
+  scene.earth = table.choice("earth", {"wgs84", "plane"}, 0) == 0 ? terrain::EarthModel::wgs84 : terrain::EarthModel::plane;
+}
+
+void read_land_cover(ConfigTable& table, const DataSearch& search, TerrainDescription& terrain) {
+  ConfigTable cover = table.table("land_cover");
+  if (!cover.present()) return;
+  terrain.land_cover = search.find(cover, "file");
+  ConfigTable classes = cover.table("classes");
+  for (const std::string& key : classes.keys()) {
+    const bool whole = !key.empty() && key.size() <= 5 &&
+                       std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const std::string material = classes.text(key, "");
+    if (whole) terrain.classes[std::stoi(key)] = material;
+    else classes.error(core::ErrorClass::parse, key, "\"" + key + "\"", "a class number as the key");
+  }
+}
+
+void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescription& terrain) {
+  ConfigTable table = root.table("terrain");
+  terrain.place = table.place("");
+  const double half_m = table.number("half_extent_m", kExtent_m, 5000.0);
+  terrain.west_m = -table.number("west_m", kExtent_m, half_m);
+  terrain.south_m = -table.number("south_m", kExtent_m, half_m);
+  terrain.east_m = table.number("east_m", kExtent_m, half_m);
+  terrain.north_m = table.number("north_m", kExtent_m, half_m);
+  terrain.spacing_m = table.number("spacing_m", {0.5, 1000.0}, 10.0);
+  terrain.material = table.text("material", terrain.material);
+  read_land_cover(table, search, terrain);
+  if (table.has("elevation")) {
+    terrain.source = TerrainDescription::Source::raster;
+    terrain.elevation = search.find(table, "elevation");
+    terrain.fill_voids = table.choice("voids", {"refuse", "fill"}, 0) == 1;
+    terrain.quantisation_step_m = table.number("quantisation_step_m", {0.0, 100.0}, 0.0);
+    if (table.has("generator"))
+      table.error(core::ErrorClass::range, "generator", "given beside elevation", "either elevation or generator");
+    return;
+  }
+  const bool rolling = table.choice("generator", {"plane", "rolling"}, 0) == 1;
+  if (!rolling) return;
+  terrain.source = TerrainDescription::Source::rolling;
+  terrain.relief_m = table.number("relief_m", {0.0, 500.0}, terrain.relief_m);
+  terrain.field_size_m = table.number("field_size_m", {20.0, 5000.0}, terrain.field_size_m);
+  terrain.wood_share = table.number("wood_share", {0.0, 0.5}, terrain.wood_share);
+  terrain.canopy_m = table.number("canopy_m", {0.0, 60.0}, terrain.canopy_m);
+  terrain.seed = static_cast<std::uint64_t>(table.integer("seed", 0, 1'000'000'000, 1));
+  terrain.fields = table.texts("fields");
+  if (terrain.fields.empty()) terrain.fields = {"crops", "tall_grass", "bare_soil"};
+  terrain.wood_material = table.text("wood_material", terrain.wood_material);
+  terrain.airfield_material = table.text("airfield_material", terrain.airfield_material);
+  terrain.airfield_beyond_m = table.number("airfield_beyond_m", {0.0, 5000.0}, terrain.airfield_beyond_m);
+}
+
+// Numbers of [weather] keep the ranges that atmosphere documents; it checks them once more with the frequency.
+void read_weather(ConfigTable& root, const SceneDescription& scene, atmosphere::Weather& weather) {
+  ConfigTable table = root.table("weather");
+  weather.visibility_m = table.optional_number("visibility_m", {10, 100000});
+  weather.liquid_water_g_per_m3 = table.optional_number("liquid_water_g_per_m3", {0, 20});
+  const auto named = [&](const char* key, const char* fallback, auto parse, auto& into) {
+    try {
+      into = parse(table.text(key, fallback));
+    } catch (const core::InputError& error) {
+      for (const core::Problem& problem : error.problems())
+        table.error(core::ErrorClass::ref, key, problem.value, problem.expected);
+    }
+  };
+  named("fog_type", "kunkel", atmosphere::fog_water_model_named, weather.fog_water_model);
+  named("fog_law", "itu-p840", atmosphere::fog_law_named, weather.fog_law);
+  named("rain_law", "itu-p838", atmosphere::rain_law_named, weather.rain_law);
+  weather.fog_top_m = table.number("fog_top_m", {-2000, 12000}, weather.fog_top_m);
+  weather.rain_rate_mm_per_h = table.number("rain_rate_mm_per_h", {0, 300}, 0.0);
+  weather.rain_top_m = table.number("rain_top_m", {-2000, 12000}, weather.rain_top_m);
+  weather.polarisation_tilt_rad = radians(table.number("polarisation_tilt_deg", {-180, 180}, 0.0));
+  weather.origin_height_m = table.number("origin_height_m", {-500, 6000}, std::clamp(scene.origin.height_m, -500.0, 6000.0));
+  weather.temperature_C = table.optional_number("temperature_C", {-60, 50});
+  weather.pressure_hPa = table.optional_number("pressure_hPa", {300, 1100});
+  weather.humidity = table.optional_number("humidity", {0, 1});
+  const core::ProblemList found = atmosphere::problems_in(weather, scene.sensor.waveform.frequency_Hz);
+  // A value outside the range was reported with its line already and replaced by its default.
+  for (const core::Problem& problem : found.all()) {
+    core::Problem placed = problem;
+    placed.field = "weather." + problem.field;
+    placed.place = table.place(problem.field);
+    table.problems().append({placed});
+  }
+}
+
+void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs::path& folder, SceneDescription& scene,
+                       core::ProblemList& problems) {
+  ConfigTable table = root.table("sensor");
+  const std::string name = table.text("file", "hivision.toml");
+  fs::path file = options.sensor;
+  if (file.empty()) {
+    try {
+      file = core::path_inside(folder, name, table.place("file"), table.path("file"));
+      if (!fs::is_regular_file(file)) file = options.shipped / "sensors" / name;
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+      return;
+    }
+  }
+  if (!fs::is_regular_file(file)) {
+    table.error(core::ErrorClass::io, "file", "\"" + name + "\" not found",
+                "a sensor file in the scene's folder or " + (options.shipped / "sensors").string());
+    return;
+  }
+  scene.sensor = sensors::read_sensor(file, problems);
+  sensors::Mounting& mounting = scene.sensor.mounting;
+  mounting.forward_m = table.number("forward_m", {-100, 100}, mounting.forward_m);
+  mounting.right_m = table.number("right_m", {-100, 100}, mounting.right_m);
+  mounting.down_m = table.number("down_m", {-100, 100}, mounting.down_m);
+  mounting.yaw_rad = radians(table.number("yaw_deg", {-180, 180}, core::degrees(mounting.yaw_rad)));
+  mounting.pitch_rad = radians(table.number("pitch_deg", {-90, 90}, core::degrees(mounting.pitch_rad)));
+  mounting.roll_rad = radians(table.number("roll_deg", {-180, 180}, core::degrees(mounting.roll_rad)));
+  scene.sensor.scan.stabilised = table.boolean("stabilised", scene.sensor.scan.stabilised);
+}
+
+void read_display(ConfigTable& root, sensors::Display& display) {
+  ConfigTable table = root.table("display");
+  using Display = sensors::Display;
+  display.mapping = static_cast<Display::Mapping>(
+      table.choice("mapping", {"stc", "log", "seed"}, static_cast<std::size_t>(display.mapping)));
+  display.low_dB = table.number("low_dB", {-300, 300}, display.low_dB);
+  display.high_dB = table.number("high_dB", {-300, 300}, display.high_dB);
+  if (display.high_dB <= display.low_dB)
+    table.error(core::ErrorClass::range, "high_dB", core::number_text(display.high_dB),
+                "above low_dB = " + core::number_text(display.low_dB));
+  display.cscope_mode = static_cast<Display::CScopeMode>(
+      table.choice("cscope_mode", {"true_elevation", "flat_earth"}, static_cast<std::size_t>(display.cscope_mode)));
+}
+
+}  // namespace
+
+SceneDescription read_scene(const fs::path& path, const SceneOptions& options, core::ProblemList& problems) {
+  const fs::path file = fs::is_directory(path) ? path / "scene.toml" : path;
+  SceneDescription scene;
+  scene.folder = fs::weakly_canonical(file).parent_path();
+  ConfigTable root = ConfigTable::from_file(file, problems);
+  if (!root.present()) return scene;
+  std::vector<fs::path> data = options.data_folders;
+  for (const std::string& folder : root.texts("data_folders")) data.insert(data.begin(), scene.folder / folder);
+  const DataSearch search(scene.folder, data);
+  read_scene_table(root, scene);
+  read_sensor_table(root, options, scene.folder, scene, problems);
+  read_terrain(root, search, scene.terrain);
+  read_objects(root, search, scene);
+  read_weather(root, scene, scene.weather);
+  read_trajectory(root, search, scene);
+  read_display(root, scene.sensor.display);
+  ConfigTable accuracy = root.table("accuracy");
+  scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
+  scene.material_library = root.has("material_library") ? search.find(root, "material_library")
+                                                        : options.shipped / "materials" / "library.toml";
+  root.report_unknown_keys();
+  scene.resolved = root.resolved();
+  return scene;
+}
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "scenes/objects.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+using renderer::PointTarget;
+
+// Boresight `heading_rad` clockwise from north and `tilt_rad` up; y to the left of it, z up.
+glm::dmat3 target_axes(double heading_rad, double tilt_rad) {
+  const glm::dvec3 level(std::sin(heading_rad), std::cos(heading_rad), 0.0);
+  const glm::dvec3 up(0.0, 0.0, 1.0);
+  const glm::dvec3 x = std::cos(tilt_rad) * level + std::sin(tilt_rad) * up;
+  const glm::dvec3 z = std::cos(tilt_rad) * up - std::sin(tilt_rad) * level;
+  return {x, glm::cross(z, x), z};
+}
+
+void add_constant(const std::string& name, const glm::dvec3& position_m, double rcs_m2,
+                  std::vector<PointTarget>& targets) {
+  targets.push_back({name, materials::ConstantRcs{rcs_m2}, {{0.0, position_m}}, glm::dmat3(1.0)});
+}
+
+void add_runway_reflectors(const RunwayDescription& description, const terrain::Runway& runway, const Ground& ground,
+                           core::ProblemList& problems, std::vector<PointTarget>& targets) {
+  const auto add_sites = [&](const std::vector<terrain::ReflectorSite>& sites, const char* name, double rcs_m2) {
+    for (const terrain::ReflectorSite& site : sites)
+      if (ground.field().height_at(site.position_m.x, site.position_m.y))
+        add_constant(name, ground.on_ground_m(site.position_m, site.above_ground_m), rcs_m2, targets);
+  };
+  if (description.edge_lights) add_sites(terrain::edge_light_sites(runway), "runway light", description.light_rcs_m2);
+  if (!description.approach_lights.empty()) {
+    if (const auto end = ground.landing_end(description.approach_lights, description.place))
+      add_sites(terrain::approach_light_sites(*end->runway, end->end, description.approach_light_slope),
+                "approach light", description.light_rcs_m2);
+  }
+  if (description.fence_beyond_m > 0.0)
+    add_sites(terrain::post_sites(terrain::perimeter(runway, description.fence_beyond_m), true,
+                                  description.fence_spacing_m, description.fence_height_m),
+              "fence post", description.fence_post_rcs_m2);
+  (void)problems;
+}
+
+void add_line(const LineDescription& line, const Ground& ground, std::vector<PointTarget>& targets) {
+  const auto from = ground.local_m(line.from);
+  const auto to = ground.local_m(line.to);
+  if (!from || !to) return;
+  const glm::dvec3 begin_m = ground.on_ground_m(*from, line.from_above_m);
+  const glm::dvec3 end_m = ground.on_ground_m(*to, line.to_above_m);
+  const double length_m = glm::length(end_m - begin_m);
+  const int count = std::max(1, static_cast<int>(std::ceil(length_m / line.spacing_m)));
+  for (int i = 0; i < count; ++i)
+    add_constant(line.name, begin_m + (end_m - begin_m) * ((i + 0.5) / count), line.rcs_m2_per_m * length_m / count,
+                 targets);
+}
+
+}  // namespace
+
+std::vector<PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
+                                       core::ProblemList& problems) {
+  std::vector<PointTarget> targets;
+  for (std::size_t i = 0; i < scene.runways.size(); ++i)
+    add_runway_reflectors(scene.runways[i], ground.runways()[i], ground, problems, targets);
+  for (const LineDescription& line : scene.lines) add_line(line, ground, targets);
+  for (const TargetDescription& description : scene.targets) {
+    PointTarget target{description.name, description.rcs, {}, target_axes(description.heading_rad, description.tilt_rad)};
+    for (const TargetDescription::Waypoint& waypoint : description.path) {
+      if (const auto at_m = ground.local_m(waypoint.at))
+        target.path.push_back({waypoint.time_s, ground.on_ground_m(*at_m, waypoint.above_ground_m)});
+    }
+    if (!target.path.empty()) targets.push_back(std::move(target));
+  }
+  return targets;
+}
+
+}  // namespace fanbeam::scenes

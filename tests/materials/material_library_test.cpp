@@ -1,0 +1,174 @@
+#include "materials/material_library.h"
+
+#include <cmath>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/materials/error_class.h"
+
+namespace fanbeam::materials {
+namespace {
+
+using core::ErrorClass;
+using core::Problem;
+using core::ProblemList;
+
+const std::string kShipped = std::string(FANBEAM_SOURCE_DIR) + "/materials/library.toml";
+
+MaterialLibrary shipped() {
+  ProblemList problems;
+  MaterialLibrary library = MaterialLibrary::from_file(kShipped, problems);
+  for (const Problem& problem : problems.all()) UNSCOPED_INFO(to_string(problem));
+  REQUIRE(problems.all().empty());
+  return library;
+}
+
+// A material with one line replaced; the coefficients stand on lines 2 to 4.
+std::string material_text(const std::string& a, const std::string& b, const std::string& c,
+                          const std::string& more = "") {
+  return "[test_grass]\na = " + a + "\nb = " + b + "\nc = " + c +
+         "\nreference_frequency_GHz = 35\nfrequency_exponent = 0.5\nfrequency_range_GHz = [30, 40]\n"
+         "grazing_range_deg = [1, 60]\npolarisation = \"HH\"\nconfidence = \"seen\"\n"
+         "source = \"a test\"\n" + more;
+}
+
+ProblemList problems_of(const std::string& text, std::size_t expected_size = 0) {
+  ProblemList problems;
+  const MaterialLibrary library = MaterialLibrary::from_text(text, "test.toml", problems);
+  REQUIRE(library.size() == expected_size);
+  return problems;
+}
+
+void require_problem(const ProblemList& problems, const char* code, int line, const char* field) {
+  for (const Problem& problem : problems.all()) INFO(to_string(problem));
+  REQUIRE(problems.all().size() == 1);
+  const Problem& problem = problems.all().front();
+  REQUIRE(problem.code == code);
+  REQUIRE(problem.place.file == "test.toml");
+  REQUIRE(problem.place.line == line);
+  REQUIRE(problem.field == field);
+}
+
+TEST_CASE("M07 an unknown material name is E-REF with the nearest names", "[materials][M07]") {
+  const MaterialLibrary library = shipped();
+  ProblemList problems;
+  REQUIRE_FALSE(library.index_of("asfalt_smooth"));
+  REQUIRE_FALSE(library.find("asfalt_smooth", {"scene.toml", 12, 5}, "runway[0].surface", problems));
+  REQUIRE(problems.all().size() == 1);
+  const Problem& problem = problems.all().front();
+  REQUIRE(problem.code == "E-REF");
+  REQUIRE(problem.place.line == 12);
+  REQUIRE(problem.value == "\"asfalt_smooth\"");
+  REQUIRE(problem.expected.find("nearest are asphalt_smooth,") != std::string::npos);
+}
+
+TEST_CASE("M07 bad coefficients are refused by class, with file and line", "[materials][M07]") {
+  require_problem(problems_of(material_text("nan", "0", "1")), "E-NONFINITE", 2, "test_grass.a");
+  require_problem(problems_of(material_text("0", "inf", "1")), "E-NONFINITE", 3, "test_grass.b");
+  require_problem(problems_of(material_text("-0.1", "0", "1")), "E-RANGE", 2, "test_grass.a");
+  require_problem(problems_of(material_text("0", "-1e-9", "1")), "E-RANGE", 3, "test_grass.b");
+  require_problem(problems_of(material_text("0", "0", "0.5")), "E-RANGE", 4, "test_grass.c");
+  require_problem(problems_of(material_text("\"dark\"", "0", "1")), "E-PARSE", 2, "test_grass.a");
+}
+
+TEST_CASE("M07 an empty table is E-PARSE, a table with one row is a library", "[materials][M07]") {
+  const ProblemList empty = problems_of("# nothing\n");
+  REQUIRE(empty.all().size() == 1);
+  REQUIRE(empty.all().front().code == "E-PARSE");
+  REQUIRE(empty.all().front().place.file == "test.toml");
+  REQUIRE_FALSE(problems_of(material_text("0.1", "0", "1"), 1).has_errors());
+}
+
+TEST_CASE("M07 all problems of a library are reported together", "[materials][M07]") {
+  const ProblemList problems =
+      problems_of(material_text("nan", "-1", "0", "colour = \"green\"\n") +
+                  "[other]\na = 0.1\nfrequency_range_GHz = [40, 30]\nconfidence = \"sure\"\n");
+  int nonfinite = 0, range = 0, ref = 0;
+  for (const Problem& problem : problems.all()) {
+    INFO(to_string(problem));
+    REQUIRE(problem.place.line > 0);
+    nonfinite += problem.code == "E-NONFINITE" ? 1 : 0;
+    range += problem.code == "E-RANGE" ? 1 : 0;
+    ref += problem.code == "E-REF" ? 1 : 0;
+  }
+  REQUIRE(nonfinite == 1);
+  REQUIRE(range == 4);  // b, c, reversed range, confidence
+  REQUIRE(ref == 8);    // seven missing keys of [other], and "colour"
+}
+
+TEST_CASE("A missing library file is E-IO and a broken one E-PARSE", "[materials][library]") {
+  ProblemList missing;
+  REQUIRE(MaterialLibrary::from_file("/nonexistent/library.toml", missing).size() == 0);
+  REQUIRE(missing.all().front().code == "E-IO");
+  const ProblemList broken = problems_of("[grass\n");
+  REQUIRE(broken.all().size() == 1);
+  REQUIRE(broken.all().front().code == "E-PARSE");
+}
+
+TEST_CASE("Reflectivity scales with the stated power of frequency", "[materials][library]") {
+  ProblemList problems;
+  const MaterialLibrary library =
+      MaterialLibrary::from_text(material_text("0.1", "0.2", "3"), "test.toml", problems);
+  const PhongNrcs scaled = library.at_frequency(140e9).at(0);
+  // (140 / 35)^0.5 = 2.
+  REQUIRE(scaled.a() == Approx(0.2).epsilon(1e-14));
+  REQUIRE(scaled.b() == Approx(0.4).epsilon(1e-14));
+  REQUIRE(scaled.c() == 3.0);
+  const PhongNrcs same = library.at_frequency(35e9).at(0);
+  REQUIRE(same.a() == 0.1);
+  REQUIRE(tests::refuses([&] { library.at_frequency(0.0); }, ErrorClass::range));
+  REQUIRE(tests::refuses([&] { library.at_frequency(std::nan("")); }, ErrorClass::nonfinite));
+}
+
+TEST_CASE("A frequency outside the material's range is a warning, its ends are not",
+          "[materials][library]") {
+  ProblemList problems;
+  const MaterialLibrary library =
+      MaterialLibrary::from_text(material_text("0.1", "0.2", "3"), "test.toml", problems);
+  for (const double frequency_Hz : {30e9, 35e9, 40e9})
+    library.warn_if_extrapolated(0, frequency_Hz, problems);
+  REQUIRE(problems.all().empty());
+  library.warn_if_extrapolated(0, 76e9, problems);
+  REQUIRE(problems.all().size() == 1);
+  REQUIRE(problems.all().front().code == "W-EXTRAPOLATED");
+  REQUIRE(problems.all().front().place.line == 1);
+  REQUIRE_FALSE(problems.has_errors());
+}
+
+TEST_CASE("The shipped library holds every material a scene names", "[materials][library]") {
+  const MaterialLibrary library = shipped();
+  for (const char* name :
+       {"short_grass", "tall_grass", "crops", "forest", "bare_soil", "gravel", "asphalt_smooth",
+        "asphalt_worn", "concrete", "paint", "snow_dry", "snow_wet", "water_calm", "water_rough",
+        "urban", "metal", "brick", "wall", "roof", "rock"}) {
+    INFO(name);
+    const std::optional<std::size_t> index = library.index_of(name);
+    REQUIRE(index);
+    const Material& material = library[*index];
+    REQUIRE(material.name == name);
+    REQUIRE(material.source.size() > 10);
+    REQUIRE(material.note.size() > 10);
+    REQUIRE(material.frequency_range_Hz.contains(35e9));
+  }
+}
+
+TEST_CASE("At approach angles grass is brighter than asphalt, asphalt than concrete, concrete than water",
+          "[materials][library]") {
+  const MaterialLibrary library = shipped();
+  const std::vector<PhongNrcs> nrcs = library.at_frequency(35e9);
+  for (const double grazing_deg : {2.0, 3.0, 5.0, 10.0}) {
+    const double sine = std::sin(grazing_deg * 3.14159265358979 / 180.0);
+    double previous = 1e9;
+    for (const char* name :
+         {"short_grass", "asphalt_worn", "asphalt_smooth", "concrete", "water_calm"}) {
+      INFO(name << " at " << grazing_deg << " deg");
+      const double sigma0 = nrcs[*library.index_of(name)].sigma0(sine);
+      REQUIRE(sigma0 < previous / 1.5);  // at least 1.8 dB apart: eight grey levels
+      previous = sigma0;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fanbeam::materials
