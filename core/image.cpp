@@ -45,6 +45,18 @@ void write_exr(const std::filesystem::path& path, const Image& image, const Meta
   write(path, spec, metadata, OIIO::TypeDesc::FLOAT, pixels.data());
 }
 
+Metadata read_metadata(const std::filesystem::path& path) {
+  const Place place{path.string()};
+  if (!std::filesystem::is_regular_file(path))
+    throw_input_error(ErrorClass::io, place, "", "missing", "an image file");
+  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+  if (!input) throw_input_error(ErrorClass::parse, place, "", OIIO::geterror(), "an image file");
+  Metadata metadata;
+  for (const OIIO::ParamValue& attribute : input->spec().extra_attribs)
+    if (attribute.type() == OIIO::TypeDesc::STRING) metadata.emplace_back(attribute.name().string(), attribute.get_string());
+  return metadata;
+}
+
 Image read_image(const std::filesystem::path& path) {
   const Place place{path.string()};
   if (!std::filesystem::is_regular_file(path))

@@ -36,6 +36,9 @@ struct Image {
 void write_png(const std::filesystem::path& path, const Picture8& picture, const Metadata& metadata);
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
 
+// The texts stored with an image. Throws InputError E-IO or E-PARSE.
+Metadata read_metadata(const std::filesystem::path& path);
+
 // Any format OpenImageIO reads; 8-bit channels come back as 0..255, floats as they are.
 // Throws InputError: E-IO (missing), E-PARSE (damaged), E-LIMIT before allocation above 32 million values.
 Image read_image(const std::filesystem::path& path);

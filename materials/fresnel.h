@@ -1,10 +1,10 @@
 // Fresnel reflection at a smooth plane boundary from air into a lossy medium.
 //
 //   Gamma_H = (cos t - q) / (cos t + q),   Gamma_V = (eps cos t - q) / (eps cos t + q),
-//   q = sqrt(eps - sin^2 t), the root that decays into the medium; t is the angle of incidence from the normal.
+//   q = sqrt(eps - sin^2 t), the root that decays into the medium; t is the incidence angle.
 //
 // Signs as usual in radar: at normal incidence Gamma_V = -Gamma_H, at grazing both tend to -1. Any
-// textbook, for example Ulaby, Moore, Fung, Microwave Remote Sensing I (1981), section 2-8. The
+// textbook, for example Ulaby, Moore, Fung, Microwave Remote Sensing I (1981). The
 // numerators are evaluated as (1 - eps) and (eps - 1)((eps + 1) cos^2 t - 1), which have no
 // cancellation at grazing incidence or near Brewster's angle. Accuracy: 1e-12 absolute. Neglected:
 // roughness (see roughness.h), layers.

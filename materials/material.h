@@ -19,7 +19,7 @@ namespace fanbeam::materials {
 enum class Confidence {
   seen,      // coefficients follow directly from a source that was read
   fitted,    // our fit to a published model that was read, without inputs of our own
-  recalled,  // our fit to a model whose coefficients were recalled and not checked against the source
+  recalled,  // our fit to a model whose coefficients were not checked against the source
   assumed,   // rests on an input that we assumed, such as a surface height
 };
 

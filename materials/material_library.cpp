@@ -133,7 +133,8 @@ void MaterialLibrary::warn_if_extrapolated(std::size_t index, double frequency_H
   const Material& material = materials_[index];
   const Interval& range = material.frequency_range_Hz;
   if (range.contains(frequency_Hz)) return;
-  problems.warning("EXTRAPOLATED", material.place, "material '" + material.name + "' at frequency_GHz",
+  problems.warning("EXTRAPOLATED", material.place,
+                   "material '" + material.name + "' at frequency_GHz",
                    core::number_text(frequency_Hz / 1e9),
                    "known for " + core::number_text(range.low / 1e9) + " to " +
                        core::number_text(range.high / 1e9) + " GHz; scaled beyond with exponent " +

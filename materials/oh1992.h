@@ -1,6 +1,7 @@
 // Reflectivity of bare rough surfaces after Oh, Sarabandi and Ulaby.
 //
-//   vv = 0.7 (1 - exp(-0.65 ks^1.8)) cos^3(t) (|Gamma_V|^2 + |Gamma_H|^2) / sqrt(p),   hh = p vv,   hv = q vv
+//   vv = 0.7 (1 - exp(-0.65 ks^1.8)) cos^3(t) (|Gamma_V|^2 + |Gamma_H|^2) / sqrt(p)
+//   hh = p vv,   hv = q vv
 //   sqrt(p) = 1 - (2 t / pi)^(1 / (3 G0)) exp(-ks),   q = 0.23 sqrt(G0) (1 - exp(-ks))
 //
 // t is the incidence angle from the normal, ks the wave number times the rms height, G0 the normal

@@ -1,11 +1,12 @@
 // Relative permittivity of building materials, water, ice and dry snow.
 //
-//   building materials   eps' = a f^b,  eps'' = 17.98 sigma / f,  sigma = c f^d S/m, f in GHz
-//                        ITU-R P.2040-3 (2023), section 2.1.4, Table 3. Asphalt concrete is listed there only by some
-//                        later transcriptions of the recommendation.
-//   pure water           double Debye relaxation, Liebe, Hufford and Manabe (1991)
-//   pure ice             Maetzler, Thermal Microwave Radiation, IET 2006
-//   dry snow             eps' = 1 + 1.7 rho + 0.7 rho^2 with rho in g/cm3, Kendra, Sarabandi and Ulaby 1998; lossless
+//   building materials  eps' = a f^b,  eps'' = 17.98 sigma / f,  sigma = c f^d S/m, f in GHz
+//                       ITU-R P.2040-3 (2023), section 2.1.4, Table 3; asphalt concrete as listed
+//                       by later transcriptions of the recommendation
+//   pure water          double Debye relaxation, Liebe, Hufford and Manabe (1991)
+//   pure ice            Maetzler, Thermal Microwave Radiation, IET 2006
+//   dry snow            eps' = 1 + 1.7 rho + 0.7 rho^2, rho in g/cm3, no loss; Kendra, Sarabandi
+//                       and Ulaby 1998
 //
 // Inputs outside the stated ranges throw InputError E-RANGE or E-NONFINITE: the ground rows of
 // P.2040 end at 10 GHz and brick at 40 GHz, and no value is made up beyond. Neglected: moisture,

@@ -22,8 +22,8 @@ class PhongNrcs {
   // A surface that returns nothing.
   PhongNrcs() = default;
 
-  // Throws InputError: E-NONFINITE for NaN or infinity, E-RANGE unless 0 <= a, b <= 1e6 and 1 <= c
-  // <= 1000.
+  // Throws InputError: E-NONFINITE for NaN or infinity, E-RANGE for a or b outside 0 to 1e6 or c
+  // outside 1 to 1000.
   PhongNrcs(double a, double b, double c);
 
   // Zero for back faces (not mirrored) and at psi = 0. For sin_grazing in [0, 1] never negative, at

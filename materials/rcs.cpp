@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
@@ -30,9 +29,10 @@ double evaluate(const ConstantRcs& constant, const glm::dvec3&, double) { return
 double evaluate(const TriangularTrihedral& trihedral, const glm::dvec3& direction,
                 double wavelength_m) {
   const double along = direction.x / std::sqrt(3.0);
-  std::array<double, 3> cosines = {along + direction.z * std::sqrt(2.0 / 3.0),
-                                   along + direction.y / std::sqrt(2.0) - direction.z / std::sqrt(6.0),
-                                   along - direction.y / std::sqrt(2.0) - direction.z / std::sqrt(6.0)};
+  std::array<double, 3> cosines = {
+      along + direction.z * std::sqrt(2.0 / 3.0),
+      along + direction.y / std::sqrt(2.0) - direction.z / std::sqrt(6.0),
+      along - direction.y / std::sqrt(2.0) - direction.z / std::sqrt(6.0)};
   std::sort(cosines.begin(), cosines.end());
   const double l = cosines[0];
   const double m = cosines[1];
@@ -97,8 +97,8 @@ double rcs_m2(const RcsModel& model, const glm::dvec3& direction_to_radar_in_tar
   const double length = glm::length(direction_to_radar_in_target_axes);
   require_range("length of direction_to_radar", length, 1e-100, 1e100);
   const glm::dvec3 direction = direction_to_radar_in_target_axes / length;
-  return std::visit(
-      [&](const auto& shape) { return evaluate(shape, direction, wavelength_m); }, model);
+  return std::visit([&](const auto& shape) { return evaluate(shape, direction, wavelength_m); },
+                    model);
 }
 
 }  // namespace fanbeam::materials

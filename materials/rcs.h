@@ -1,14 +1,15 @@
 // Radar cross-section of point scatterers: standard shapes seen from one direction.
 //
 //   constant              sigma = given
-//   triangular trihedral  4 pi A^2 / lambda^2 with the effective area of triple reflection; peak 4 pi a^4 / (3 lambda^2)
-//                         A / a^2 = 4 l m / (l + m + n) for l + m <= n, else (l + m + n) - 2 / (l + m + n), where
-//                         l <= m <= n are the direction cosines to the three edges
-//   dihedral              4 pi A^2 / lambda^2 cos^2(e) sinc^2(k h sin e), A = 2 w h sin(45 deg - |az|); peak
-//                         8 pi (w h)^2 / lambda^2
-//   rectangular plate     4 pi (w h)^2 / lambda^2 cos^2(t) sinc^2(k w u) sinc^2(k h v), u and v the direction cosines
-//                         to its sides
-//   cylinder              2 pi r L^2 / lambda cos(e) sinc^2(k L sin e), e the elevation off broadside
+//   triangular trihedral  4 pi A^2 / lambda^2, peak 4 pi a^4 / (3 lambda^2). A is the area that
+//                         triple reflection uses: with l <= m <= n the direction cosines to the
+//                         edges, A / a^2 = 4 l m / (l + m + n) where l + m <= n,
+//                         and (l + m + n) - 2 / (l + m + n) elsewhere
+//   dihedral              4 pi A^2 / lambda^2 cos^2(e) sinc^2(k h sin e), e along the crease,
+//                         A = 2 w h sin(45 deg - |az|); peak 8 pi (w h)^2 / lambda^2
+//   rectangular plate     4 pi (w h)^2 / lambda^2 cos^2(t) sinc^2(k w u) sinc^2(k h v),
+//                         u and v the direction cosines to its sides
+//   cylinder              2 pi r L^2 / lambda cos(e) sinc^2(k L sin e), e off broadside
 //
 // Physical and geometrical optics, textbook forms (Knott, Shaeffer, Tuley, Radar Cross Section;
 // Ruck, Radar Cross Section Handbook 1970; trihedral area: Robertson, Bell Syst. Tech. J. 26,
@@ -18,14 +19,15 @@
 // upper edge lies in the x-z plane; the dihedral's crease is along z and its bisector along x; the
 // plate's normal is x with the width along y and the height along z; the cylinder's axis is z.
 // Where no mechanism named above works (behind a plate, outside the trihedral's octant, more than
-// 45 deg from the dihedral's bisector) the cross-section is 0. Neglected: edges, single and double
-// bounces of the trihedral, losses, polarisation, and the near field: all sizes are taken as large
-// against the wavelength and small against the range (2 D^2 / lambda).
+// 45 deg from the dihedral's bisector) the cross-section is 0.
+//
+// Neglected: edges, single and double bounces of the trihedral, losses, polarisation, and the near
+// field: sizes are taken as large against the wavelength, and 2 D^2 / lambda as small against the
+// range.
 #pragma once
 
-#include <variant>
-
 #include <glm/vec3.hpp>
+#include <variant>
 
 namespace fanbeam::materials {
 
@@ -55,8 +57,8 @@ struct Cylinder {
 using RcsModel =
     std::variant<ConstantRcs, TriangularTrihedral, Dihedral, RectangularPlate, Cylinder>;
 
-// Throws InputError E-RANGE or E-NONFINITE for sizes outside 1e-6 to 1e3 m and RCS outside 0 to 1e9
-// m2.
+// Throws InputError E-RANGE or E-NONFINITE for sizes outside 1e-6 to 1e3 m, RCS outside 0 to
+// 1e9 m2.
 void check_rcs_model(const RcsModel& model);
 
 // The model as check_rcs_model accepts it; the direction needs no unit length but must not be zero;

@@ -6,7 +6,7 @@
 //
 // The first term is the geometric-optics limit of a perfectly reflecting surface with Gaussian
 // slopes of rms value m (Barrick, IEEE Trans. Antennas Propag. 16(4), 1968; Ulaby, Moore, Fung II
-// (1982), section 12-4): dents, curvature and ribs that the model geometry does not resolve. The
+// (1982)): dents, curvature and ribs that the model geometry does not resolve. The
 // second term spreads the incoherent fraction d of the intercepted power (Ament's factor at normal
 // incidence, rms height s of seams and rivets) evenly over the half-space, which conserves energy:
 // isotropic re-radiation of d sin(psi) into 2 pi gives sigma0 = 4 pi d sin(psi) / (2 pi).
@@ -18,7 +18,7 @@
 namespace fanbeam::materials {
 
 struct RoughMetal {
-  double rms_slope = 0.2;       // m, 0.01 to 1
+  double rms_slope = 0.2;        // m, 0.01 to 1
   double rms_height_m = 0.2e-3;  // s, 0 to 1 m
 };
 

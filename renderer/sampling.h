@@ -26,6 +26,8 @@ struct Sampling {
 // no interval, no refinement. `seed` offsets the jitter, for the reference's own error.
 Sampling reference_sampling(std::uint64_t seed);
 
+inline constexpr double kDefaultRaysPerCell = 16.0;
+
 // `rays_per_cell` rays per range cell and column, split between azimuth and range in the proportion that measured best
 // (docs/performance.md): azimuth first.
 Sampling sampling_for(double rays_per_cell);

@@ -10,14 +10,14 @@
 
 namespace fanbeam::scenes {
 
-// Runways below, then the rectangles of [[surface]] in file order, markings on top of both.
+// The rectangles of [[surface]] in file order, the runways on top of them.
 std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene, const Ground& ground,
-                                                 const MaterialNames& names, core::ProblemList& problems);
+                                                 const MaterialNames& names);
 
 std::vector<terrain::PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
                                               const MaterialNames& names, core::ProblemList& problems);
 
-std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
-                                                 core::ProblemList& problems);
+// Problems with places go to the ground's list.
+std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene, const Ground& ground);
 
 }  // namespace fanbeam::scenes

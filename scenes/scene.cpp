@@ -83,9 +83,9 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   const MaterialNames names(library, problems);
   const terrain::LocalFrame frame(ellipsoidal_origin(description), description.earth);
   const Ground ground(description, frame, names, problems);
-  std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names, problems);
+  std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names);
   std::vector<terrain::PlacedMesh> meshes = build_meshes(description, ground, names, problems);
-  std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems);
+  std::vector<renderer::PointTarget> targets = build_targets(description, ground);
   std::optional<Trajectory> trajectory;
   if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);
   if (trajectory) check_flight(description, frame, *trajectory, ground, problems);

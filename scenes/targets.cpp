@@ -24,7 +24,7 @@ void add_constant(const std::string& name, const glm::dvec3& position_m, double 
 }
 
 void add_runway_reflectors(const RunwayDescription& description, const terrain::Runway& runway, const Ground& ground,
-                           core::ProblemList& problems, std::vector<PointTarget>& targets) {
+                           std::vector<PointTarget>& targets) {
   const auto add_sites = [&](const std::vector<terrain::ReflectorSite>& sites, const char* name, double rcs_m2) {
     for (const terrain::ReflectorSite& site : sites)
       if (ground.field().height_at(site.position_m.x, site.position_m.y))
@@ -40,7 +40,6 @@ void add_runway_reflectors(const RunwayDescription& description, const terrain::
     add_sites(terrain::post_sites(terrain::perimeter(runway, description.fence_beyond_m), true,
                                   description.fence_spacing_m, description.fence_height_m),
               "fence post", description.fence_post_rcs_m2);
-  (void)problems;
 }
 
 void add_line(const LineDescription& line, const Ground& ground, std::vector<PointTarget>& targets) {
@@ -58,11 +57,10 @@ void add_line(const LineDescription& line, const Ground& ground, std::vector<Poi
 
 }  // namespace
 
-std::vector<PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
-                                       core::ProblemList& problems) {
+std::vector<PointTarget> build_targets(const SceneDescription& scene, const Ground& ground) {
   std::vector<PointTarget> targets;
   for (std::size_t i = 0; i < scene.runways.size(); ++i)
-    add_runway_reflectors(scene.runways[i], ground.runways()[i], ground, problems, targets);
+    add_runway_reflectors(scene.runways[i], ground.runways()[i], ground, targets);
   for (const LineDescription& line : scene.lines) add_line(line, ground, targets);
   for (const TargetDescription& description : scene.targets) {
     PointTarget target{description.name, description.rcs, {}, target_axes(description.heading_rad, description.tilt_rad)};

@@ -9,8 +9,8 @@
 //            Below `slowest_mps` the last heading is kept.
 //   pitch    path angle over ground plus an assumed angle of attack
 //   roll     coordinated turn, tan(roll) = lateral acceleration / g
-// Measured on the airliner's approach to Denver among the test data: path angle -3.0 deg in the
-// mean and 0.5 deg standard deviation over the last 30 km.
+// Measured on an airliner's approach to Denver (ADS-B, rows 8 s apart) over the last 20 km: path
+// angle -3.1 deg in the mean, 0.3 deg standard deviation, roll below 5 deg, on a 3 deg glide path.
 #pragma once
 
 #include "core/errors.h"

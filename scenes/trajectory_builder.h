@@ -11,6 +11,7 @@ namespace fanbeam::scenes {
 
 // Nothing after reporting errors to `problems`.
 std::optional<Trajectory> build_trajectory(const SceneDescription& scene, const Ground& ground,
-                                           const terrain::LocalFrame& frame, core::ProblemList& problems);
+                                           const terrain::LocalFrame& frame,
+                                           core::ProblemList& problems);
 
 }  // namespace fanbeam::scenes

@@ -7,7 +7,7 @@ namespace fanbeam::scenes {
 GustResponse::Disturbance GustResponse::next(const glm::dvec3& gust_mps, double airspeed_mps,
                                              double step_s) {
   constexpr double kAirframe_s = 1.5;
-  constexpr double kAutopilot_rad_per_s = 0.3;
+  constexpr double kAutopilot_rad_per_s = 0.5;
   constexpr double kAngles_s = 0.8;
   const glm::dvec3 not_taken_mps = gust_mps - rate_mps_;
   const glm::dvec3 pull_mps2 = kAutopilot_rad_per_s * kAutopilot_rad_per_s * now_.offset_m;

@@ -2,8 +2,8 @@
 //
 // A simple linear model, no particular aircraft: in each axis the airframe takes on the gust's
 // velocity with a time constant of 1.5 s, and the autopilot pulls it back to the path with a
-// natural frequency of 0.3 rad/s,
-//   d'' = (gust - d') / 1.5 s - (0.3 / s)^2 d.
+// natural frequency of 0.5 rad/s,
+//   d'' = (gust - d') / 1.5 s - (0.5 / s)^2 d.
 // Nose and wings follow the wind that the airframe has not yet taken on (gust - d') with a lag of
 // 0.8 s: the nose turns into it by the angle it makes with the airspeed, and the bank leans away
 // from a side gust by the same angle. All constants are assumed.

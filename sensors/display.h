@@ -12,16 +12,12 @@
 #include <span>
 #include <vector>
 
+#include "core/image.h"
 #include "sensors/sensor.h"
 
 namespace fanbeam::sensors {
 
-// Row-major, top row first.
-struct Picture8 {
-  int columns = 0;
-  int rows = 0;
-  std::vector<std::uint8_t> pixels;
-};
+using core::Picture8;
 
 // Unrounded grey, 0 to 255, of received power in W (with its noise). Errors as GreyScale.
 std::vector<double> bscope_grey(const Sensor& sensor, std::span<const double> power_W);

@@ -220,7 +220,7 @@ void read_assumed(ConfigTable& root, Sensor& sensor) {
   for (const std::string& name : sensor.assumed) {
     const bool found = std::any_of(known.begin(), known.end(),
                                    [&](const auto& value) { return value.first == name; });
-    if (!found) root.error(ErrorClass::ref, "assumed", name, "a key of this file");
+    if (!found) root.error(ErrorClass::ref, "assumed", name, "a key of sensor files");
   }
 }
 

@@ -1,9 +1,8 @@
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <utility>
 #include <vector>
-
-#include <catch2/catch.hpp>
 
 #include "core/units.h"
 #include "materials/constant_gamma.h"
@@ -25,9 +24,17 @@ std::vector<Model> every_model() {
       {"phong", [](double psi) { return PhongNrcs(0.1, 0.2, 3.3).sigma0(std::sin(psi)); }},
       {"constant gamma", [](double psi) { return constant_gamma_sigma0(0.1, psi); }},
       {"rough metal", [](double psi) { return rough_metal_sigma0({}, kWavelength_m, psi); }},
-      {"oh vv", [](double psi) { return oh1992_sigma0({5.24, 0.38}, 2e-4, kWavelength_m, psi).vv; }},
-      {"oh hh", [](double psi) { return oh1992_sigma0({5.24, 0.38}, 2e-4, kWavelength_m, psi).hh; }},
-      {"oh hv", [](double psi) { return oh1992_sigma0({5.24, 0.38}, 2e-4, kWavelength_m, psi).hv; }}};
+      {"oh vv",
+       [](double psi) {
+         return oh1992_sigma0({5.24, 0.38}, 2e-4, kWavelength_m, psi).vv;
+       }},
+      {"oh hh",
+       [](double psi) {
+         return oh1992_sigma0({5.24, 0.38}, 2e-4, kWavelength_m, psi).hh;
+       }},
+      {"oh hv", [](double psi) {
+         return oh1992_sigma0({5.24, 0.38}, 2e-4, kWavelength_m, psi).hv;
+       }}};
   for (int i = 0; i < 8; ++i)
     models.emplace_back("kulemin", [i](double psi) {
       return kulemin_sigma0(static_cast<KuleminTerrain>(i), 35e9, psi);
@@ -54,8 +61,9 @@ TEST_CASE("M01 backscatter at the ends of the angle range: constant gamma", "[ma
   REQUIRE(constant_gamma_sigma0(gamma, core::radians(-5.0)) == 0.0);
 }
 
-TEST_CASE("M01 every model is finite and not negative at 0, 1e-12, 90 and -5 degrees, and dark behind",
-          "[materials][M01]") {
+TEST_CASE(
+    "M01 every model is finite and not negative at 0, 1e-12, 90 and -5 degrees, and dark behind",
+    "[materials][M01]") {
   for (const auto& [name, sigma0] : every_model()) {
     INFO(name);
     for (const double grazing_deg : {0.0, 1e-12, 1e-300, 90.0, -5.0, -90.0}) {

@@ -2,13 +2,12 @@
 // columns.
 #pragma once
 
+#include <catch2/catch.hpp>
 #include <fstream>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
-
-#include <catch2/catch.hpp>
 
 #include "core/text.h"
 

@@ -1,9 +1,8 @@
 #include "materials/fresnel.h"
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
-
-#include <catch2/catch.hpp>
 
 #include "core/constants.h"
 #include "core/units.h"

@@ -1,10 +1,9 @@
 // Constant gamma, Kulemin, GIT land and NRL sea against values computed by another implementation
 // and published ones.
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
 #include <string>
-
-#include <catch2/catch.hpp>
 
 #include "core/units.h"
 #include "materials/constant_gamma.h"
@@ -46,11 +45,12 @@ double evaluate(const tests::CsvRow& row) {
   return nrl_sea_sigma0(polarisation, row.number("sea_state"), frequency_Hz, grazing_rad);
 }
 
-TEST_CASE("Kulemin, GIT and NRL models give the independently computed values", "[materials][models]") {
+TEST_CASE("Kulemin, GIT and NRL models give the independently computed values",
+          "[materials][models]") {
   for (const tests::CsvRow& row : tests::csv_rows("nrcs_model_vectors.csv")) {
-    INFO(row.text("model") << ' ' << row.text("terrain") << ' ' << row.text("polarisation") << " sea "
-                           << row.text("sea_state") << ' ' << row.text("frequency_GHz") << " GHz "
-                           << row.text("grazing_deg") << " deg");
+    INFO(row.text("model") << ' ' << row.text("terrain") << ' ' << row.text("polarisation")
+                           << " sea " << row.text("sea_state") << ' ' << row.text("frequency_GHz")
+                           << " GHz " << row.text("grazing_deg") << " deg");
     // The NRL rows use the report's coefficients, rounded one digit earlier than the authors' code:
     // up to 0.02 dB.
     const double tolerance_dB = row.text("model") == "nrl_sea" ? 0.02 : 6e-4;
@@ -64,7 +64,8 @@ TEST_CASE("NRL sea model gives MathWorks' published example", "[materials][model
           Approx(2.1555e-4).margin(5e-9));
 }
 
-TEST_CASE("NRL sea model deviates from Nathanson's tables as its authors publish", "[materials][models]") {
+TEST_CASE("NRL sea model deviates from Nathanson's tables as its authors publish",
+          "[materials][models]") {
   // NRL/MR/5310--12-9346: mean absolute deviation 2.3 / 2.2 dB to 10 deg and 2.6 / 2.6 dB over all,
   // H / V.
   struct Sum {
@@ -113,7 +114,8 @@ TEST_CASE("Grass of GIT and gamma farmland agree within 2.3 dB from 3 to 30 degr
   }
 }
 
-TEST_CASE("Models refuse frequencies and sea states outside their publications", "[materials][models]") {
+TEST_CASE("Models refuse frequencies and sea states outside their publications",
+          "[materials][models]") {
   const auto sea = [](double sea_state, double frequency_Hz) {
     return [=] { nrl_sea_sigma0(Polarisation::vertical, sea_state, frequency_Hz, 0.1); };
   };

@@ -1,5 +1,6 @@
 // Where the shipped library comes from: every row is computed again from its model, and the tables
 // of docs/materials.md are compared with the library line by line.
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -7,8 +8,6 @@
 #include <set>
 #include <string>
 #include <vector>
-
-#include <catch2/catch.hpp>
 
 #include "core/constants.h"
 #include "core/units.h"
@@ -39,7 +38,7 @@ struct Derivation {
   std::string reference;  // as shown in docs/materials.md
   Model model;
   std::vector<double> grazing_deg;
-  double exponent = 0.0;      // stated by the source, unless the other frequency is given:
+  double exponent = 0.0;            // stated by the source, unless the other frequency is given:
   double other_frequency_Hz = 0.0;  // then the mean slope in dB between the two frequencies
 };
 
@@ -51,10 +50,12 @@ std::vector<double> angles_to_normal_deg() {
   return angles;
 }
 
-Derivation from_git(const char* material, const char* reference, GitTerrain terrain, double exponent) {
-  return {material, reference,
-          [terrain](double, double psi) { return git_land_sigma0(terrain, GitBand::ka_35GHz, psi); },
-          standard_fit_angles_deg(), exponent};
+Derivation from_git(const char* material, const char* reference, GitTerrain terrain,
+                    double exponent) {
+  return {
+      material, reference,
+      [terrain](double, double psi) { return git_land_sigma0(terrain, GitBand::ka_35GHz, psi); },
+      standard_fit_angles_deg(), exponent};
 }
 
 Derivation from_kulemin(const char* material, const char* reference, KuleminTerrain terrain) {
@@ -64,28 +65,35 @@ Derivation from_kulemin(const char* material, const char* reference, KuleminTerr
 }
 
 Derivation from_gamma(const char* material, const char* reference, GammaTerrain terrain) {
-  return {material, reference,
-          [terrain](double f, double psi) { return constant_gamma_sigma0(gamma_at(terrain, f), psi); },
-          standard_fit_angles_deg(), 0.5};
+  return {
+      material, reference,
+      [terrain](double f, double psi) { return constant_gamma_sigma0(gamma_at(terrain, f), psi); },
+      standard_fit_angles_deg(), 0.5};
 }
 
 Derivation from_sea(const char* material, const char* reference, double sea_state) {
-  return {material, reference,
+  return {material,
+          reference,
           [sea_state](double f, double psi) {
             return nrl_sea_sigma0(Polarisation::horizontal, sea_state, f, psi);
           },
-          standard_fit_angles_deg(), 0.0, 17e9};
+          standard_fit_angles_deg(),
+          0.0,
+          17e9};
 }
 
 using PermittivityAt = std::function<Permittivity(double frequency_Hz)>;
 
 Derivation from_oh(const char* material, const char* reference, PermittivityAt permittivity,
                    double rms_height_m, double other_frequency_Hz) {
-  return {material, reference,
+  return {material,
+          reference,
           [=](double f, double psi) {
             return oh1992_sigma0(permittivity(f), rms_height_m, wavelength_m(f), psi).hh;
           },
-          kSteep_deg, 0.0, other_frequency_Hz};
+          kSteep_deg,
+          0.0,
+          other_frequency_Hz};
 }
 
 PermittivityAt itu(BuildingMaterial material) {
@@ -97,14 +105,16 @@ std::vector<Derivation> derivations() {
   const auto concrete = itu(BuildingMaterial::concrete);
   return {
       from_git("short_grass", "GIT grass, 35 GHz", GitTerrain::grass, 0.6),
-      from_kulemin("tall_grass", "Kulemin grass above 0.5 m", KuleminTerrain::grass_above_half_metre),
+      from_kulemin("tall_grass", "Kulemin grass above 0.5 m",
+                   KuleminTerrain::grass_above_half_metre),
       from_kulemin("crops", "Kulemin grass above 0.5 m", KuleminTerrain::grass_above_half_metre),
       from_kulemin("forest", "Kulemin forest, summer", KuleminTerrain::forest_summer),
       from_gamma("bare_soil", "constant gamma, flatland", GammaTerrain::flatland),
       from_kulemin("arable_soil", "Kulemin arable land", KuleminTerrain::arable_land),
       from_oh("gravel", "Oh HH, 5.1 - 0.3j, s = 2 mm", asphalt, 2e-3, 94e9),
       from_oh("rock", "Oh HH, P.2040 marble, s = 3 mm", itu(BuildingMaterial::marble), 3e-3, 60e9),
-      from_gamma("rugged_mountain", "constant gamma, rugged mountain", GammaTerrain::rugged_mountain),
+      from_gamma("rugged_mountain", "constant gamma, rugged mountain",
+                 GammaTerrain::rugged_mountain),
       from_oh("asphalt_smooth", "Oh HH, 5.1 - 0.3j, s = 0.5 mm", asphalt, 0.5e-3, 94e9),
       from_oh("asphalt_worn", "Oh HH, 5.1 - 0.3j, s = 1 mm", asphalt, 1e-3, 94e9),
       from_oh("concrete", "Oh HH, P.2040 concrete, s = 0.2 mm", concrete, 0.2e-3, 94e9),
@@ -115,7 +125,9 @@ std::vector<Derivation> derivations() {
       from_sea("water_rough", "NRL sea HH, sea state 3", 3.0),
       from_kulemin("urban", "Kulemin urban", KuleminTerrain::urban),
       {"metal", "rough metal, m = 0.2, s = 0.2 mm",
-       [](double f, double psi) { return rough_metal_sigma0({0.2, 0.2e-3}, wavelength_m(f), psi); },
+       [](double f, double psi) {
+         return rough_metal_sigma0({0.2, 0.2e-3}, wavelength_m(f), psi);
+       },
        angles_to_normal_deg()},
       from_oh("brick", "Oh HH, P.2040 brick, s = 1 mm", itu(BuildingMaterial::brick), 1e-3, 40e9),
       from_oh("wall", "Oh HH, P.2040 concrete, s = 0.5 mm", concrete, 0.5e-3, 94e9),
@@ -198,8 +210,8 @@ TEST_CASE("The library's values are what the fit to each row's model gives, to 1
   for (const Derivation& row : rows) {
     const Derived derived = derive(row);
     const PhongNrcs& fitted = derived.fit.nrcs;
-    INFO('[' << row.material << "]\na = " << formatted("%.5g", fitted.a())
-             << "\nb = " << formatted("%.5g", fitted.b()) << "\nc = " << formatted("%.5g", fitted.c())
+    INFO('[' << row.material << "]\na = " << formatted("%.5g", fitted.a()) << "\nb = "
+             << formatted("%.5g", fitted.b()) << "\nc = " << formatted("%.5g", fitted.c())
              << "\nfrequency_exponent = " << formatted("%.4g", derived.exponent));
     const std::optional<std::size_t> index = library.index_of(row.material);
     CHECK(index.has_value());
@@ -232,7 +244,8 @@ TEST_CASE("Scaling by the exponent follows the model within 1 dB where the model
 TEST_CASE("Oh's asphalt changes by less than half a dB with the permittivity of the ITU",
           "[materials][derivation]") {
   const double lambda_m = wavelength_m(kReference_Hz);
-  const Permittivity listed = building_permittivity(BuildingMaterial::asphalt_concrete, kReference_Hz);
+  const Permittivity listed =
+      building_permittivity(BuildingMaterial::asphalt_concrete, kReference_Hz);
   for (const double angle_deg : kSteep_deg) {
     const double assumed_hh = oh1992_sigma0({5.1, 0.3}, 0.5e-3, lambda_m, radians(angle_deg)).hh;
     const double listed_hh = oh1992_sigma0(listed, 0.5e-3, lambda_m, radians(angle_deg)).hh;

@@ -1,9 +1,8 @@
 #include "materials/material_library.h"
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
-
-#include <catch2/catch.hpp>
 
 #include "tests/materials/error_class.h"
 
@@ -28,9 +27,11 @@ MaterialLibrary shipped() {
 std::string material_text(const std::string& a, const std::string& b, const std::string& c,
                           const std::string& more = "") {
   return "[test_grass]\na = " + a + "\nb = " + b + "\nc = " + c +
-         "\nreference_frequency_GHz = 35\nfrequency_exponent = 0.5\nfrequency_range_GHz = [30, 40]\n"
+         "\nreference_frequency_GHz = 35\nfrequency_exponent = 0.5\nfrequency_range_GHz = [30, "
+         "40]\n"
          "grazing_range_deg = [1, 60]\npolarisation = \"HH\"\nconfidence = \"seen\"\n"
-         "source = \"a test\"\n" + more;
+         "source = \"a test\"\n" +
+         more;
 }
 
 ProblemList problems_of(const std::string& text, std::size_t expected_size = 0) {
@@ -54,7 +55,8 @@ TEST_CASE("M07 an unknown material name is E-REF with the nearest names", "[mate
   const MaterialLibrary library = shipped();
   ProblemList problems;
   REQUIRE_FALSE(library.index_of("asfalt_smooth"));
-  REQUIRE_FALSE(library.find("asfalt_smooth", {"scene.toml", 12, 5}, "runway[0].surface", problems));
+  REQUIRE_FALSE(
+      library.find("asfalt_smooth", {"scene.toml", 12, 5}, "runway[0].surface", problems));
   REQUIRE(problems.all().size() == 1);
   const Problem& problem = problems.all().front();
   REQUIRE(problem.code == "E-REF");
@@ -139,9 +141,10 @@ TEST_CASE("A frequency outside the material's range is a warning, its ends are n
 TEST_CASE("The shipped library holds every material a scene names", "[materials][library]") {
   const MaterialLibrary library = shipped();
   for (const char* name :
-       {"short_grass", "tall_grass", "crops", "forest", "bare_soil", "gravel", "asphalt_smooth",
-        "asphalt_worn", "concrete", "paint", "snow_dry", "snow_wet", "water_calm", "water_rough",
-        "urban", "metal", "brick", "wall", "roof", "rock"}) {
+       {"short_grass", "tall_grass",     "crops",        "forest",      "bare_soil",
+        "gravel",      "asphalt_smooth", "asphalt_worn", "concrete",    "paint",
+        "snow_dry",    "snow_wet",       "water_calm",   "water_rough", "urban",
+        "metal",       "brick",          "wall",         "roof",        "rock"}) {
     INFO(name);
     const std::optional<std::size_t> index = library.index_of(name);
     REQUIRE(index);
@@ -153,8 +156,9 @@ TEST_CASE("The shipped library holds every material a scene names", "[materials]
   }
 }
 
-TEST_CASE("At approach angles grass is brighter than asphalt, asphalt than concrete, concrete than water",
-          "[materials][library]") {
+TEST_CASE(
+    "At approach angles grass is brighter than asphalt, asphalt than concrete, concrete than water",
+    "[materials][library]") {
   const MaterialLibrary library = shipped();
   const std::vector<PhongNrcs> nrcs = library.at_frequency(35e9);
   for (const double grazing_deg : {2.0, 3.0, 5.0, 10.0}) {

@@ -1,9 +1,8 @@
 #include "materials/permittivity.h"
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
-
-#include <catch2/catch.hpp>
 
 #include "materials/fresnel.h"
 #include "tests/materials/csv_rows.h"
@@ -20,7 +19,8 @@ Permittivity evaluate(const std::string& material, double frequency_Hz) {
   if (material == "water_0C") return water_permittivity(frequency_Hz, 273.15);
   if (material == "ice_-5C") return ice_permittivity(frequency_Hz, 268.15);
   if (material == "dry_snow_rho0.3") return dry_snow_permittivity(300.0);
-  if (material == "concrete") return building_permittivity(BuildingMaterial::concrete, frequency_Hz);
+  if (material == "concrete")
+    return building_permittivity(BuildingMaterial::concrete, frequency_Hz);
   if (material == "glass") return building_permittivity(BuildingMaterial::glass, frequency_Hz);
   REQUIRE(material == "metal");
   return building_permittivity(BuildingMaterial::metal, frequency_Hz);

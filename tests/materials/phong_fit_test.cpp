@@ -1,11 +1,10 @@
 #include "materials/phong_fit.h"
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <string>
-
-#include <catch2/catch.hpp>
 
 #include "core/constants.h"
 #include "core/units.h"

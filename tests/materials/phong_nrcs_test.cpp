@@ -1,9 +1,8 @@
 #include "materials/phong_nrcs.h"
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
-
-#include <catch2/catch.hpp>
 
 #include "core/units.h"
 #include "tests/materials/error_class.h"

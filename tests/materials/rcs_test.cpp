@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <random>
-#include <vector>
-
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <random>
+#include <vector>
 
 #include "core/constants.h"
 #include "core/units.h"
@@ -24,7 +23,9 @@ using tests::refuses;
 
 const glm::dvec3 kBoresight(1.0, 0.0, 0.0);
 
-double wavelength_m(double frequency_GHz) { return core::kSpeedOfLight_mps / (frequency_GHz * 1e9); }
+double wavelength_m(double frequency_GHz) {
+  return core::kSpeedOfLight_mps / (frequency_GHz * 1e9);
+}
 double level_dBsm(const RcsModel& model, const glm::dvec3& direction, double frequency_GHz) {
   return 10.0 * std::log10(rcs_m2(model, direction, wavelength_m(frequency_GHz)));
 }
@@ -34,7 +35,8 @@ std::array<glm::dvec3, 3> trihedral_edges() {
   const double along = 1.0 / std::sqrt(3.0);
   const double out = std::sqrt(2.0 / 3.0);
   const auto edge = [&](double angle_deg) {
-    return glm::dvec3(along, out * std::sin(radians(angle_deg)), out * std::cos(radians(angle_deg)));
+    return glm::dvec3(along, out * std::sin(radians(angle_deg)),
+                      out * std::cos(radians(angle_deg)));
   };
   return {edge(0.0), edge(120.0), edge(240.0)};
 }
@@ -81,21 +83,24 @@ TEST_CASE("Trihedral and plate of 0.1 m have the textbook peaks at 35, 76 and 94
     double frequency_GHz, trihedral_dBsm, dihedral_dBsm, plate_dBsm, cylinder_dBsm;
   };
   // Evaluated independently from the closed forms, 0.001 dB; the cylinder has r = 0.05 m, L = 1 m.
-  for (const Row& row : {Row{35.0, 7.566, 15.347, 12.337, 15.644},
-                         Row{76.0, 14.301, 22.082, 19.072, 19.011},
-                         Row{94.0, 16.147, 23.929, 20.918, 19.935}}) {
+  for (const Row& row :
+       {Row{35.0, 7.566, 15.347, 12.337, 15.644}, Row{76.0, 14.301, 22.082, 19.072, 19.011},
+        Row{94.0, 16.147, 23.929, 20.918, 19.935}}) {
     const double f = row.frequency_GHz;
     INFO(f << " GHz");
     REQUIRE(level_dBsm(TriangularTrihedral{0.1}, kBoresight, f) ==
             Approx(row.trihedral_dBsm).margin(6e-4));
-    REQUIRE(level_dBsm(Dihedral{0.1, 0.1}, kBoresight, f) == Approx(row.dihedral_dBsm).margin(6e-4));
+    REQUIRE(level_dBsm(Dihedral{0.1, 0.1}, kBoresight, f) ==
+            Approx(row.dihedral_dBsm).margin(6e-4));
     REQUIRE(level_dBsm(RectangularPlate{0.1, 0.1}, kBoresight, f) ==
             Approx(row.plate_dBsm).margin(6e-4));
-    REQUIRE(level_dBsm(Cylinder{0.05, 1.0}, kBoresight, f) == Approx(row.cylinder_dBsm).margin(6e-4));
+    REQUIRE(level_dBsm(Cylinder{0.05, 1.0}, kBoresight, f) ==
+            Approx(row.cylinder_dBsm).margin(6e-4));
   }
 }
 
-TEST_CASE("Published reflectors of a SAR calibration site come out to 0.01 dB", "[materials][rcs]") {
+TEST_CASE("Published reflectors of a SAR calibration site come out to 0.01 dB",
+          "[materials][rcs]") {
   // forum.step.esa.int topic 14333, 5.405 GHz: dihedral 1.5 m 46.17 dB, triangular trihedral 2.5 m
   // 47.26 dB.
   REQUIRE(level_dBsm(Dihedral{1.5, 1.5}, kBoresight, 5.405) == Approx(46.17).margin(0.01));
@@ -136,7 +141,8 @@ TEST_CASE("Trihedral falls to half about 20 degrees off its axis", "[materials][
   REQUIRE(loss_dB == Approx(3.0).margin(0.8));
 }
 
-TEST_CASE("Plate has its first null at sin t = lambda / 2w and is dark behind", "[materials][rcs]") {
+TEST_CASE("Plate has its first null at sin t = lambda / 2w and is dark behind",
+          "[materials][rcs]") {
   const double lambda_m = wavelength_m(35.0);
   const RectangularPlate plate{0.2, 0.1};
   const double peak = rcs_m2(plate, kBoresight, lambda_m);
@@ -158,7 +164,8 @@ TEST_CASE("Dihedral is broad across its crease, narrow along it, and zero beyond
   const Dihedral dihedral{0.1, 0.1};
   const double peak = rcs_m2(dihedral, kBoresight, lambda_m);
   const auto azimuth = [&](double angle_deg) {
-    return rcs_m2(dihedral, {std::cos(radians(angle_deg)), std::sin(radians(angle_deg)), 0.0}, lambda_m);
+    return rcs_m2(dihedral, {std::cos(radians(angle_deg)), std::sin(radians(angle_deg)), 0.0},
+                  lambda_m);
   };
   // (sin 30 / sin 45)^2 = 1/2 at 15 deg, on both sides.
   REQUIRE(azimuth(15.0) == Approx(0.5 * peak).epsilon(1e-12));
@@ -183,12 +190,19 @@ TEST_CASE("Point-scatterer input: any length of direction, but no nonsense", "[m
   REQUIRE(rcs_m2(TriangularTrihedral{0.1}, kBoresight * 4000.0, lambda_m) ==
           Approx(rcs_m2(TriangularTrihedral{0.1}, kBoresight, lambda_m)).epsilon(1e-14));
   REQUIRE(refuses([&] { rcs_m2(ConstantRcs{}, {0, 0, 0}, lambda_m); }, ErrorClass::range));
-  REQUIRE(refuses([&] { rcs_m2(ConstantRcs{}, {std::nan(""), 0, 0}, lambda_m); },
-                  ErrorClass::nonfinite));
+  REQUIRE(refuses(
+      [&] {
+        rcs_m2(ConstantRcs{}, {std::nan(""), 0, 0}, lambda_m);
+      },
+      ErrorClass::nonfinite));
   REQUIRE(refuses([] { rcs_m2(ConstantRcs{}, {1, 0, 0}, 0.0); }, ErrorClass::range));
   REQUIRE(refuses([] { check_rcs_model(ConstantRcs{-1.0}); }, ErrorClass::range));
   REQUIRE(refuses([] { check_rcs_model(TriangularTrihedral{0.0}); }, ErrorClass::range));
-  REQUIRE(refuses([] { check_rcs_model(RectangularPlate{0.1, std::nan("")}); }, ErrorClass::nonfinite));
+  REQUIRE(refuses(
+      [] {
+        check_rcs_model(RectangularPlate{0.1, std::nan("")});
+      },
+      ErrorClass::nonfinite));
 }
 
 }  // namespace

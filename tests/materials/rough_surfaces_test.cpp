@@ -1,7 +1,6 @@
 // Roughness criteria, Oh's model and the rough-metal model.
-#include <cmath>
-
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "core/constants.h"
 #include "core/units.h"
@@ -50,9 +49,9 @@ TEST_CASE("Oh's model gives the independently computed levels of concrete at 20 
     double frequency_GHz, rms_height_mm, vv_dB, hh_dB;
   };
   // Computed by another implementation of the formula, rounded to 0.1 dB; P.2040-3 concrete.
-  for (const Row& row : {Row{35.0, 0.2, -32.2, -38.3}, Row{35.0, 0.5, -26.0, -30.5},
-                         Row{35.0, 1.0, -22.0, -24.8}, Row{94.0, 0.2, -25.6, -29.9},
-                         Row{94.0, 0.5, -20.6, -22.7}}) {
+  for (const Row& row :
+       {Row{35.0, 0.2, -32.2, -38.3}, Row{35.0, 0.5, -26.0, -30.5}, Row{35.0, 1.0, -22.0, -24.8},
+        Row{94.0, 0.2, -25.6, -29.9}, Row{94.0, 0.5, -20.6, -22.7}}) {
     const double frequency_Hz = row.frequency_GHz * 1e9;
     const OhNrcs nrcs = oh1992_sigma0(
         building_permittivity(BuildingMaterial::concrete, frequency_Hz), row.rms_height_mm * 1e-3,
@@ -63,8 +62,9 @@ TEST_CASE("Oh's model gives the independently computed levels of concrete at 20 
   }
 }
 
-TEST_CASE("Oh's model does not tell HH from VV at vertical incidence and keeps HH below VV elsewhere",
-          "[materials][oh]") {
+TEST_CASE(
+    "Oh's model does not tell HH from VV at vertical incidence and keeps HH below VV elsewhere",
+    "[materials][oh]") {
   const Permittivity concrete{5.24, 0.383};
   const OhNrcs top = oh1992_sigma0(concrete, 1e-3, kWavelength_m, kPi / 2.0);
   REQUIRE(top.hh == Approx(top.vv).epsilon(1e-12));
@@ -75,7 +75,8 @@ TEST_CASE("Oh's model does not tell HH from VV at vertical incidence and keeps H
   }
 }
 
-TEST_CASE("Oh's model is dark for a perfectly smooth surface and for no contrast", "[materials][oh]") {
+TEST_CASE("Oh's model is dark for a perfectly smooth surface and for no contrast",
+          "[materials][oh]") {
   REQUIRE(oh1992_sigma0({5.0, 0.3}, 0.0, kWavelength_m, 0.5).vv == 0.0);
   REQUIRE(oh1992_sigma0({1.0, 0.0}, 1e-3, kWavelength_m, 0.5).vv == 0.0);
   REQUIRE(refuses([] { oh1992_sigma0({5.0, -0.3}, 1e-3, 1e-2, 0.5); }, ErrorClass::range));
@@ -94,7 +95,8 @@ TEST_CASE("Rough metal: lobe top, diffuse floor and their energy", "[materials][
   REQUIRE(refuses([] { rough_metal_sigma0({0.0, 1e-4}, 1e-2, 0.5); }, ErrorClass::range));
 }
 
-TEST_CASE("Rough metal's lobe is the flash of a vehicle's side in 3GPP TR 38.901", "[materials][metal]") {
+TEST_CASE("Rough metal's lobe is the flash of a vehicle's side in 3GPP TR 38.901",
+          "[materials][metal]") {
   // Clause 7.9.2, vehicle of 5 x 2 x 1.6 m: lobes of 20.75 dBsm (side, 8 m2), 14.56 (rear, 3.2 m2),
   // 15.52 (front), 21.26 (roof, 10 m2), thus 9.5 to 11.7 dB per area; m = 0.2 is chosen for that.
   const double top_dB = level_dB(rough_metal_sigma0({}, kWavelength_m, kPi / 2.0));

@@ -216,7 +216,7 @@ TEST_CASE("What was assumed or bridged is said", "[trajectory_attitude]") {
 TEST_CASE("Real flight: the airliner to Denver descends at 3 degrees", "[trajectory_attitude]") {
   const auto path = tests::shared_data("trajectories/kden_rwy26_dal1812.csv");
   if (!path) return;
-  // From the intercept of the localiser to before the flare, 30 km.
+  // From the intercept of the localiser to before the flare, 21 km.
   const RawTrack track = adsb_track(*path, "alt_geom_ft", 1738784100.0, 1738785279.0);
   const Trajectory trajectory = without_problems(track);
   std::vector<double> angles_deg;
@@ -230,8 +230,9 @@ TEST_CASE("Real flight: the airliner to Denver descends at 3 degrees", "[traject
   }
   const Statistics angle = statistics_of(angles_deg);
   CAPTURE(angle.mean, angle.deviation);
-  CHECK(angle.mean == Approx(-3.0).margin(0.1));
-  CHECK(angle.deviation < 0.6);
+  // The beam's 3.0 deg at the runway are 3.1 deg against the horizon 11 km before it, the middle.
+  CHECK(angle.mean == Approx(-3.1).margin(0.1));
+  CHECK(angle.deviation < 0.4);
   // The path stays with what was recorded: within the noise assumed.
   for (const TrackRow& row : track.rows) {
     const core::Geodetic smooth = trajectory.at(row.time_s).position;
@@ -246,7 +247,11 @@ TEST_CASE("Real flight: the calibration aircraft at Munich flies down runway 08L
   if (!path) return;
   // The first run, from 12 km out to before the level pass along the runway.
   const RawTrack track = adsb_track(*path, "alt_baro_ft", 1551741060.0, 1551741330.0);
-  const Trajectory trajectory = without_problems(track);
+  // The positions are filled in linearly between fixes that are late by up to 2 s: their speed
+  // jumps between 60 and 120 m/s.
+  AttitudeAssumptions assumed;
+  assumed.smoothing.position_noise_m = 200.0;
+  const Trajectory trajectory = without_problems(track, assumed);
   std::vector<double> angles_deg;
   for (double t = 1551741140.0; t < 1551741250.0; t += 1.0) {
     const core::Pose pose = trajectory.at(t);
@@ -256,8 +261,7 @@ TEST_CASE("Real flight: the calibration aircraft at Munich flies down runway 08L
   }
   // Glide path 3.0 deg; recorded ground speed and vertical rate give the same within their steps.
   CHECK(statistics_of(angles_deg).mean == Approx(-3.0).margin(0.3));
-  // The positions are filled in linearly between late ones: their steps alternate between 60 and
-  // 120 m/s, the smoothed speed does not.
+  // Recorded ground speeds are 175 to 190 kt, 90 to 98 m/s.
   for (double t = 1551741140.0; t < 1551741250.0; t += 1.0) {
     const glm::dvec3 v = trajectory.at(t).v_N_mps;
     CHECK(std::hypot(v.x, v.y) == Approx(95.0).margin(15.0));
@@ -284,11 +288,12 @@ TEST_CASE("Real flight: the simulator's own attitude is taken as it is", "[traje
   CHECK(core::degrees(core::attitude_from(first.q_NB).pitch_rad) == Approx(-1.542540613));
   CHECK(core::degrees(core::attitude_from(first.q_NB).roll_rad) == Approx(-0.379545090));
   CHECK(first.position.height_m == Approx(910.687222 * 0.3048));
-  // The simulator's velocity at 60.25 s in the middle of the descent is its own oracle:
-  // row 3001, v_north, v_east, v_down in ft/s.
-  const core::Pose middle = trajectory.at(60.25);
-  CAPTURE(middle.v_N_mps.x, middle.v_N_mps.y, middle.v_N_mps.z);
-  CHECK(std::hypot(middle.v_N_mps.x, middle.v_N_mps.y) > 35.0);
+  // Velocity is not read; the simulator wrote its own in the row of 60.258333 s, in ft/s. The mean
+  // over a second differs from it by what it changes in a second.
+  const glm::dvec3 v_N_mps = trajectory.at(60.258333).v_N_mps;
+  CHECK(v_N_mps.x == Approx(0.109266 * 0.3048).margin(0.05));
+  CHECK(v_N_mps.y == Approx(132.809856 * 0.3048).margin(0.05));
+  CHECK(v_N_mps.z == Approx(6.932083 * 0.3048).margin(0.05));
 }
 
 }  // namespace fanbeam::scenes

@@ -140,8 +140,9 @@ TEST_CASE("a stated dwell must fit its column and sets the noise", "[sensor_file
       tests::hivision_text("loss_dB = 0.0", "loss_dB = 0.0\ndwell_us = 100.0"), "t", problems);
   CHECK(problems.all().empty());
   CHECK(sensor.noise_power_W() == Approx(4.18258e-17 * 381.0976 / 100.0).epsilon(1e-5));
-  check_single(problems_of(tests::hivision_text("loss_dB = 0.0", "dwell_us = 400.0")), "E-REF",
-               "assumed");  // loss_dB was an assumption and is still known
+  check_single(
+      problems_of(tests::hivision_text("loss_dB = 0.0", "loss_dB = 0.0\ndwell_us = 400.0")),
+      "E-RANGE", "receiver.dwell_us");
 }
 
 TEST_CASE("a beam may be given as a table of angles and decibels", "[sensor_file]") {

@@ -1,0 +1,96 @@
+#include "apps/common.h"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+
+#include "apps/version.h"
+
+namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool holds_shipped_files(const fs::path& folder) {
+  return fs::is_regular_file(folder / "materials" / "library.toml") &&
+         fs::is_regular_file(folder / "sensors" / "hivision.toml");
+}
+
+}  // namespace
+
+void set_up_log(const CommonOptions& options) {
+  auto logger = spdlog::stderr_color_mt("fanbeam");
+  logger->set_pattern("%^%l%$: %v");
+  spdlog::set_default_logger(logger);
+  spdlog::set_level(options.quiet ? spdlog::level::err : spdlog::level::from_str(options.log_level));
+}
+
+fs::path shipped_folder() {
+  const fs::path program = fs::read_symlink("/proc/self/exe");
+  for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+    if (holds_shipped_files(folder / "share" / "fanbeam")) return folder / "share" / "fanbeam";
+    if (holds_shipped_files(folder)) return folder;
+  }
+  core::throw_input_error(core::ErrorClass::io, core::Place{program.string()}, "shipped files", "not found",
+                          "share/fanbeam beside the installed program, or a source tree around it");
+}
+
+std::vector<fs::path> data_folders(const std::string& from_command_line) {
+  std::vector<fs::path> folders;
+  if (!from_command_line.empty()) folders.emplace_back(from_command_line);
+  if (const char* variable = std::getenv("FANBEAM_DATA"); variable != nullptr && *variable != '\0')
+    folders.emplace_back(variable);
+  const fs::path beside = shipped_folder().parent_path() / "shared" / "data";
+  if (fs::is_directory(beside)) folders.push_back(beside);
+  return folders;
+}
+
+fs::path find_scene(const std::string& name) {
+  if (fs::exists(name)) return name;
+  const fs::path shipped = shipped_folder();
+  for (const fs::path& candidate : {shipped / name, shipped / "scenes" / name})
+    if (fs::exists(candidate)) return candidate;
+  std::string known;
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(shipped / "scenes"))
+    if (fs::is_regular_file(entry.path() / "scene.toml")) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  for (const std::string& scene : names) known += " " + scene;
+  core::throw_input_error(core::ErrorClass::io, core::Place{name}, "scene", "not found",
+                          "a folder with scene.toml, or one of the shipped scenes:" + known);
+}
+
+void print_problems(const std::vector<core::Problem>& problems) {
+  std::size_t errors = 0;
+  for (const core::Problem& problem : problems) {
+    if (!problem.is_error()) continue;
+    ++errors;
+    std::cerr << core::to_string(problem) << '\n';
+  }
+  for (const core::Problem& problem : problems)
+    if (!problem.is_error()) std::cerr << core::to_string(problem) << '\n';
+  if (errors > 0) std::cerr << errors << (errors == 1 ? " error" : " errors") << "\n";
+}
+
+int run_guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const core::InputError& error) {
+    print_problems(error.problems());
+    const bool only_io = std::all_of(error.problems().begin(), error.problems().end(), [](const core::Problem& problem) {
+      return !problem.is_error() || problem.code == code(core::ErrorClass::io);
+    });
+    return only_io ? kExitIo : kExitInvalidInput;
+  } catch (const std::exception& error) {
+    std::cerr << "fanbeam: internal error: " << error.what() << "\nThis is a bug: please report it with the scene.\n";
+    return kExitBug;
+  }
+}
+
+std::string version_text() { return kVersion; }
+std::string commit_text() { return kCommit; }
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,47 @@
+// What the commands share: where shipped files are, how problems are told, exit codes.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "scenes/scene_reader.h"
+
+namespace fanbeam::apps {
+
+inline constexpr int kExitDone = 0;
+inline constexpr int kExitCompareFailed = 1;
+inline constexpr int kExitUsage = 2;
+inline constexpr int kExitInvalidInput = 3;
+inline constexpr int kExitIo = 4;
+inline constexpr int kExitBug = 5;
+
+// Options that every command has.
+struct CommonOptions {
+  bool quiet = false;
+  std::string log_level = "info";
+};
+void set_up_log(const CommonOptions& options);
+
+// The folder with scenes/, sensors/ and materials/: share/fanbeam beside an installed program, the source tree around
+// a build. Throws InputError E-IO when neither is there.
+std::filesystem::path shipped_folder();
+
+// `--data DIR` first, then FANBEAM_DATA, then ../shared/data beside a source tree.
+std::vector<std::filesystem::path> data_folders(const std::string& from_command_line);
+
+// A folder, a scene.toml, or the name of a shipped scene ("braunschweig-26", "scenes/braunschweig-26").
+std::filesystem::path find_scene(const std::string& name);
+
+// Prints each problem on a line of its own, errors before warnings, with a count at the end.
+void print_problems(const std::vector<core::Problem>& problems);
+
+// Runs a command and turns its exceptions into messages and exit codes.
+int run_guarded(const std::function<int()>& command);
+
+std::string version_text();
+std::string commit_text();
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,118 @@
+#include "apps/frame_writer.h"
+
+#include <fmt/core.h>
+
+#include "sensors/display.h"
+#include "sensors/ppi.h"
+
+namespace fanbeam::apps {
+namespace {
+
+constexpr int kPpiSize_px = 700;
+
+// Rows of a B-scope array [cell][column] turned so that the farthest range is on top.
+std::vector<double> farthest_on_top(const std::vector<double>& values, int columns) {
+  std::vector<double> turned;
+  turned.reserve(values.size());
+  for (auto row = values.end(); row != values.begin();) {
+    row -= columns;
+    turned.insert(turned.end(), row, row + columns);
+  }
+  return turned;
+}
+
+}  // namespace
+
+std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product, int index) {
+  return folder / product / fmt::format("{:05}.{}", index, product == "power" ? "exr" : "png");
+}
+
+core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& right) {
+  constexpr int kGap = 8;
+  core::Picture8 both;
+  both.columns = 2 * left.columns + kGap + 2 * right.columns;
+  both.rows = std::max(left.rows, right.rows);
+  both.pixels.assign(static_cast<std::size_t>(both.columns) * static_cast<std::size_t>(both.rows), 0);
+  const auto paste = [&](const core::Picture8& from, int at) {
+    for (int row = 0; row < from.rows; ++row)
+      for (int column = 0; column < 2 * from.columns; ++column)
+        both.pixels[static_cast<std::size_t>(row * both.columns + at + column)] =
+            from.pixels[static_cast<std::size_t>(row * from.columns + column / 2)];
+  };
+  paste(left, 0);
+  paste(right, 2 * left.columns + kGap);
+  return both;
+}
+
+FrameWriter::FrameWriter(std::filesystem::path folder, ProductSet products, const sensors::Sensor& sensor)
+    : folder_(std::move(folder)), products_(std::move(products)), sensor_(sensor), thread_([this] { run(); }) {}
+
+FrameWriter::~FrameWriter() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stopping_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void FrameWriter::push(FrameOutput output) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [&] { return queue_.size() < kMostQueued || failure_; });
+  if (failure_) std::rethrow_exception(failure_);
+  queue_.push_back(std::move(output));
+  changed_.notify_all();
+}
+
+void FrameWriter::finish() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  changed_.wait(lock, [&] { return (queue_.empty() && !busy_) || failure_; });
+  if (failure_) std::rethrow_exception(failure_);
+}
+
+void FrameWriter::run() {
+  for (;;) {
+    FrameOutput output;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      busy_ = false;
+      changed_.notify_all();
+      changed_.wait(lock, [&] { return stopping_ || !queue_.empty(); });
+      if (queue_.empty() || failure_) return;
+      output = std::move(queue_.front());
+      queue_.pop_front();
+      busy_ = true;
+    }
+    changed_.notify_all();
+    try {
+      write(output);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      failure_ = std::current_exception();
+      changed_.notify_all();
+      return;
+    }
+  }
+}
+
+void FrameWriter::write(const FrameOutput& output) const {
+  const renderer::Frame& frame = output.frame;
+  if (products_.contains("bscope"))
+    core::write_png(frame_path(folder_, "bscope", output.index), sensors::bscope_picture(sensor_, frame.bscope_grey),
+                    output.metadata);
+  if (products_.contains("cscope"))
+    core::write_png(frame_path(folder_, "cscope", output.index), sensors::cscope_picture(sensor_, frame.cscope_grey),
+                    output.metadata);
+  if (products_.contains("ppi")) {
+    const sensors::PpiView view = sensors::ppi_view(sensor_, sensors::PpiView::Up::track, kPpiSize_px);
+    const std::vector<double> grey = sensors::ppi_grey(sensor_, frame.bscope_grey, output.heading_rad, view);
+    core::write_png(frame_path(folder_, "ppi", output.index), sensors::ppi_picture(view, grey), output.metadata);
+  }
+  if (products_.contains("power")) {
+    core::Image image{sensor_.scan.columns, sensor_.range.cells, {}};
+    image.layers.push_back({"power_W", farthest_on_top(frame.bscope_W, sensor_.scan.columns)});
+    core::write_exr(frame_path(folder_, "power", output.index), image, output.metadata);
+  }
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,63 @@
+// Writes the products of frames while the next frames are rendered.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <set>
+#include <string>
+#include <thread>
+
+#include "core/image.h"
+#include "renderer/frame_renderer.h"
+#include "sensors/sensor.h"
+
+namespace fanbeam::apps {
+
+// What one frame leaves on disk, and how it is described there.
+struct FrameOutput {
+  int index = 0;
+  double heading_rad = 0.0;
+  renderer::Frame frame;
+  core::Metadata metadata;
+};
+
+// Names of products: "bscope", "cscope", "power", "ppi", "preview".
+using ProductSet = std::set<std::string>;
+
+std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product, int index);
+
+// The B-scope and the C-scope side by side, each pixel doubled in width.
+core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& right);
+
+class FrameWriter {
+ public:
+  FrameWriter(std::filesystem::path folder, ProductSet products, const sensors::Sensor& sensor);
+  ~FrameWriter();
+
+  // Waits while too many frames are queued. Rethrows what went wrong with an earlier frame.
+  void push(FrameOutput output);
+  // Waits until everything is on disk. Rethrows as push.
+  void finish();
+
+ private:
+  void run();
+  void write(const FrameOutput& output) const;
+
+  static constexpr std::size_t kMostQueued = 8;
+  std::filesystem::path folder_;
+  ProductSet products_;
+  const sensors::Sensor& sensor_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<FrameOutput> queue_;
+  bool busy_ = false;
+  bool stopping_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_;
+};
+
+}  // namespace fanbeam::apps

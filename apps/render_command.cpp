@@ -1,0 +1,252 @@
+#include "apps/render_command.h"
+
+#include <fmt/core.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <chrono>
+#include <charconv>
+#include <iostream>
+#include <optional>
+
+#include "apps/frame_writer.h"
+#include "apps/preview.h"
+#include "apps/progress.h"
+#include "apps/run_record.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "scenes/scene.h"
+#include "sensors/display.h"
+
+namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+
+ProductSet parse_products(const std::string& text) {
+  const ProductSet known = {"bscope", "cscope", "power", "ppi", "preview"};
+  ProductSet products;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string name = text.substr(from, comma - from);
+    from = comma + 1;
+    if (!known.contains(name))
+      core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
+                              "a list of bscope, cscope, power, ppi, preview");
+    products.insert(name);
+  }
+  return products;
+}
+
+core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& record, const std::string& fingerprint) {
+  const sensors::Sensor& sensor = scene.description.sensor;
+  std::string events;
+  for (const std::string& event : record.events) events += (events.empty() ? "" : " ") + event;
+  return {{"Software", "fanbeam " + version_text() + " " + commit_text()},
+          {"fanbeam:scene", scene.description.name},
+          {"fanbeam:sensor", sensor.name},
+          {"fanbeam:input", fingerprint},
+          {"fanbeam:frame", std::to_string(record.index)},
+          {"fanbeam:time_s", core::number_text(record.time_s)},
+          {"fanbeam:latitude_deg", core::number_text(core::degrees(record.pose.position.latitude_rad))},
+          {"fanbeam:longitude_deg", core::number_text(core::degrees(record.pose.position.longitude_rad))},
+          {"fanbeam:height_m", core::number_text(record.pose.position.height_m)},
+          {"fanbeam:heading_deg", core::number_text(core::degrees(core::attitude_from(record.pose.q_NB).heading_rad))},
+          {"fanbeam:azimuth", fmt::format("{} columns, {} deg", sensor.scan.columns, core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
+          {"fanbeam:range", fmt::format("{} m + {} x {} m", core::number_text(sensor.range.minimum_m), sensor.range.cells, core::number_text(sensor.range.cell_m))},
+          {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(sensor.display.low_dB), core::number_text(sensor.display.high_dB))},
+          {"fanbeam:rays", std::to_string(record.rays)},
+          {"fanbeam:blanked", std::to_string(record.blanked)},
+          {"fanbeam:events", events}};
+}
+
+std::string value_of(const core::Metadata& metadata, const std::string& name) {
+  for (const auto& [key, value] : metadata)
+    if (key == name) return value;
+  return "";
+}
+
+// What an earlier run with the same input left of this frame; nothing when any product is missing or differs.
+bool take_over(const fs::path& folder, const ProductSet& products, const std::string& fingerprint,
+               FrameRecord& record) {
+  for (const std::string& product : products) {
+    if (product == "preview") return false;
+    const fs::path file = frame_path(folder, product, record.index);
+    if (!fs::is_regular_file(file)) return false;
+    core::Metadata metadata;
+    try {
+      metadata = core::read_metadata(file);
+    } catch (const core::InputError&) {
+      return false;  // damaged: render it again
+    }
+    if (value_of(metadata, "fanbeam:input") != fingerprint) return false;
+    record.rays = std::stoull("0" + value_of(metadata, "fanbeam:rays"));
+    record.blanked = std::stoull("0" + value_of(metadata, "fanbeam:blanked"));
+    record.events.clear();
+    const std::string events = value_of(metadata, "fanbeam:events");
+    for (std::size_t from = 0; from < events.size();) {
+      const std::size_t blank = std::min(events.find(' ', from), events.size());
+      record.events.push_back(events.substr(from, blank - from));
+      from = blank + 1;
+    }
+  }
+  record.resumed = true;
+  return true;
+}
+
+renderer::Sampling choose_sampling(const RenderOptions& options, const scenes::SceneDescription& scene) {
+  if (options.reference) return renderer::reference_sampling(options.seed);
+  double rays_per_cell = options.rays_per_cell > 0.0 ? options.rays_per_cell : scene.rays_per_cell;
+  if (!(rays_per_cell > 0.0)) rays_per_cell = renderer::kDefaultRaysPerCell;
+  return renderer::sampling_for(rays_per_cell);
+}
+
+class Run {
+ public:
+  Run(const RenderOptions& options, const CommonOptions& common, const scenes::Scene& scene, int threads)
+      : options_(options),
+        common_(common),
+        scene_(scene),
+        products_(parse_products(options.products)),
+        folder_(options.output.empty() ? fs::path("out") / scene.description.name : fs::path(options.output)) {
+    record_.sampling = choose_sampling(options, scene.description);
+    record_.seed = options.seed;
+    record_.threads = threads;
+    record_.scene_build_s = scene.build_s;
+    fingerprint_ = input_fingerprint(scene, record_);
+  }
+
+  void render_frames();
+  void write_records() {
+    core::write_file_atomically(folder_ / "run.json", run_json(scene_, record_));
+    core::write_file_atomically(folder_ / "timing.json", timing_json(record_));
+  }
+  void print_summary() const;
+
+ private:
+  renderer::Products wanted() const {
+    return {products_.contains("bscope") || products_.contains("ppi") || products_.contains("preview"),
+            products_.contains("cscope") || products_.contains("preview")};
+  }
+
+  const RenderOptions& options_;
+  const CommonOptions& common_;
+  const scenes::Scene& scene_;
+  ProductSet products_;
+  fs::path folder_;
+  RunRecord record_;
+  std::string fingerprint_;
+};
+
+void Run::render_frames() {
+  const sensors::Sensor& sensor = scene_.description.sensor;
+  const std::vector<int> frames = parse_frames(options_.frames, scene_.frame_count());
+  const renderer::FrameRenderer frame_renderer(scene_.world, record_.sampling, wanted(),
+                                               scene_.plan.runs(renderer::kThermalNoise));
+  FrameWriter writer(folder_, products_, sensor);
+  std::optional<Preview> preview;
+  if (products_.contains("preview"))
+    preview.emplace(folder_ / ("preview." + options_.preview_format), 4 * sensor.scan.columns + 8,
+                    std::max(sensor.range.cells, sensor.display.cscope_rows), sensor.scan.frame_rate_Hz);
+  Progress progress(scene_.description.name, static_cast<int>(frames.size()), common_.quiet);
+  const Clock::time_point begin = Clock::now();
+  for (const int index : frames) {
+    FrameRecord record;
+    record.index = index;
+    record.time_s = scene_.trajectory.frame_time_s(index, sensor.scan.frame_rate_Hz);
+    record.pose = scene_.trajectory.at(record.time_s);
+    if (!options_.resume || !take_over(folder_, products_, fingerprint_, record)) {
+      const Clock::time_point frame_begin = Clock::now();
+      FrameOutput output{index, core::attitude_from(record.pose.q_NB).heading_rad,
+                         frame_renderer.render(scene_.pose_at(record.pose)), {}};
+      record.frame_ms = 1000.0 * seconds_since(frame_begin);
+      record.rays = output.frame.rays;
+      record.blanked = output.frame.blanked;
+      record.events = output.frame.events;
+      output.metadata = frame_metadata(scene_, record, fingerprint_);
+      if (preview)
+        preview->add(side_by_side(sensors::bscope_picture(sensor, output.frame.bscope_grey),
+                                  sensors::cscope_picture(sensor, output.frame.cscope_grey)));
+      writer.push(std::move(output));
+    }
+    record_.frames.push_back(std::move(record));
+    progress.step(static_cast<int>(record_.frames.size()));
+  }
+  writer.finish();
+  if (preview) preview->finish();
+  record_.wall_s = seconds_since(begin);
+}
+
+void Run::print_summary() const {
+  if (common_.quiet) return;
+  const auto resumed = std::count_if(record_.frames.begin(), record_.frames.end(), [](const FrameRecord& f) { return f.resumed; });
+  fmt::print("{} frames in {:.1f} s", record_.frames.size(), record_.wall_s);
+  if (resumed > 0) fmt::print(" ({} already there)", resumed);
+  fmt::print(", scene built in {:.1f} s\n", record_.scene_build_s);
+  for (const core::EffectDecision& decision : scene_.plan.decisions)
+    fmt::print("  {:14} {:3}  {}\n", decision.effect, decision.on ? "on" : "off", decision.reason);
+  for (const std::string& product : products_) {
+    const fs::path path = product == "preview" ? folder_ / ("preview." + options_.preview_format) : folder_ / product;
+    fmt::print("{:8} {}\n", product, fs::absolute(path).lexically_normal().string());
+  }
+  fmt::print("{:8} {}\n", "record", fs::absolute(folder_ / "run.json").lexically_normal().string());
+}
+
+}  // namespace
+
+std::vector<int> parse_frames(const std::string& text, int count) {
+  std::vector<int> frames;
+  std::vector<std::optional<long>> parts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t colon = std::min(text.find(':', from), text.size());
+    const std::string part = text.substr(from, colon - from);
+    from = colon + 1;
+    long value = 0;
+    const auto [end, status] = std::from_chars(part.data(), part.data() + part.size(), value);
+    if (!part.empty() && (status != std::errc() || end != part.data() + part.size()))
+      core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"", "A:B or A:B:STEP with whole numbers");
+    parts.push_back(part.empty() ? std::nullopt : std::optional<long>(value));
+  }
+  if (parts.size() > 3)
+    core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"", "A:B or A:B:STEP with whole numbers");
+  const long total = count;
+  const auto from_end = [&](long index) { return std::clamp(index < 0 ? index + total : index, 0L, total); };
+  if (parts.size() == 1 && parts[0]) {
+    const long index = *parts[0] < 0 ? *parts[0] + total : *parts[0];
+    if (index < 0 || index >= total)
+      core::throw_input_error(core::ErrorClass::range, "--frames", text, fmt::format("a frame from 0 to {}", total - 1));
+    return {static_cast<int>(index)};
+  }
+  const long step = parts.size() == 3 ? parts[2].value_or(1) : 1;
+  if (step < 1) core::throw_input_error(core::ErrorClass::range, "--frames", text, "a STEP of at least 1");
+  const long begin = parts.empty() ? 0 : from_end(parts[0].value_or(0));
+  const long end = parts.size() < 2 ? total : from_end(parts[1].value_or(total));
+  for (long index = begin; index < end; index += step) frames.push_back(static_cast<int>(index));
+  if (frames.empty())
+    core::throw_input_error(core::ErrorClass::range, "--frames", text, fmt::format("at least one of the {} frames", total));
+  return frames;
+}
+
+int render(const RenderOptions& options, const CommonOptions& common) {
+  const core::ThreadLimit threads(options.threads);
+  core::ProblemList problems;
+  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data), options.sensor};
+  const scenes::SceneDescription description = scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  scenes::BuildOptions build;
+  if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
+  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
+  if (!common.quiet) print_problems(problems.all());
+  if (scene->trajectory.attitude_derived)
+    spdlog::info("the trajectory has no full attitude: missing angles are derived from its path");
+  Run run(options, common, *scene, threads.threads());
+  run.render_frames();
+  run.write_records();
+  run.print_summary();
+  return kExitDone;
+}
+
+}  // namespace fanbeam::apps

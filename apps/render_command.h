@@ -1,0 +1,34 @@
+// fanbeam render: a scene's approach as pictures.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/common.h"
+
+namespace fanbeam::apps {
+
+struct RenderOptions {
+  std::string scene = "braunschweig-26";
+  std::string output;  // default out/<scene name>
+  std::string frames;  // "A:B[:STEP]", like a Python slice
+  std::string products = "bscope,cscope";
+  std::string sensor;
+  std::string data;
+  std::string effects;
+  std::string preview_format = "mp4";
+  int threads = 0;
+  double rays_per_cell = 0.0;  // 0: the scene's, else the default
+  bool reference = false;
+  bool resume = false;
+  std::uint64_t seed = 0;
+};
+
+// Returns an exit code; throws InputError for bad input.
+int render(const RenderOptions& options, const CommonOptions& common);
+
+// The frames that "A:B[:STEP]" selects of `count`, as Python's range(count)[A:B:STEP] with STEP above 0; a single
+// number is that frame. Throws InputError E-PARSE or E-RANGE.
+std::vector<int> parse_frames(const std::string& text, int count);
+
+}  // namespace fanbeam::apps

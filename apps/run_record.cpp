@@ -1,0 +1,162 @@
+#include "apps/run_record.h"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/common.h"
+#include "core/units.h"
+
+namespace fanbeam::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json resolved_json(const core::ResolvedConfig& resolved) {
+  Json json = Json::object();
+  for (const auto& [path, value] : resolved) std::visit([&, &key = path](const auto& v) { json[key] = v; }, value);
+  return json;
+}
+
+Json sampling_json(const renderer::Sampling& sampling) {
+  return {{"sub_columns", sampling.sub_columns},
+          {"rays_per_cell_and_sub_column", sampling.rays_per_cell},
+          {"refinement_depth", sampling.refinement_depth},
+          {"gap_cells", sampling.gap_cells},
+          {"largest_step_deg", core::degrees(sampling.largest_step_rad)},
+          {"deposit", sampling.deposit_intervals ? "intervals" : "points"},
+          {"jittered_passes", sampling.jittered_passes}};
+}
+
+Json sensor_json(const sensors::Sensor& sensor) {
+  return {{"name", sensor.name},
+          {"frequency_Hz", sensor.waveform.frequency_Hz},
+          {"transmit_power_W", sensor.waveform.transmit_power_W},
+          {"peak_gain", sensor.antenna.peak_gain},
+          {"azimuth_width_deg", core::degrees(sensor.antenna.azimuth.half_power_width_rad)},
+          {"azimuth_cut_deg", core::degrees(sensor.antenna.azimuth.cut_rad)},
+          {"elevation_width_deg", core::degrees(sensor.antenna.elevation.half_power_width_rad)},
+          {"elevation_cut_deg", core::degrees(sensor.antenna.elevation.cut_rad)},
+          {"boresight_elevation_deg", core::degrees(sensor.antenna.boresight_elevation_rad)},
+          {"columns", sensor.scan.columns},
+          {"field_of_view_deg", core::degrees(sensor.scan.field_of_view_rad)},
+          {"frame_rate_Hz", sensor.scan.frame_rate_Hz},
+          {"scan_surface", sensor.scan.surface == sensors::ScanSurface::cone ? "cone" : "plane"},
+          {"stabilised", sensor.scan.stabilised},
+          {"range_minimum_m", sensor.range.minimum_m},
+          {"range_cell_m", sensor.range.cell_m},
+          {"range_cells", sensor.range.cells},
+          {"noise_power_W", sensor.noise_power_W()},
+          {"display_low_dB", sensor.display.low_dB},
+          {"display_high_dB", sensor.display.high_dB},
+          {"cscope_top_deg", core::degrees(sensor.display.cscope_top_rad)},
+          {"cscope_span_deg", core::degrees(sensor.display.cscope_span_rad)},
+          {"assumed", sensor.assumed}};
+}
+
+Json pose_json(const core::Pose& pose) {
+  const core::Attitude attitude = core::attitude_from(pose.q_NB);
+  return {{"latitude_deg", core::degrees(pose.position.latitude_rad)},
+          {"longitude_deg", core::degrees(pose.position.longitude_rad)},
+          {"height_m", pose.position.height_m},
+          {"roll_deg", core::degrees(attitude.roll_rad)},
+          {"pitch_deg", core::degrees(attitude.pitch_rad)},
+          {"heading_deg", core::degrees(attitude.heading_rad)}};
+}
+
+Json header_json(const scenes::Scene& scene, const RunRecord& record) {
+  Json json;
+  json["version"] = version_text();
+  json["commit"] = commit_text();
+  json["scene"] = scene.description.name;
+  json["sensor"] = scene.description.sensor.name;
+  json["seed"] = record.seed;
+  json["caster"] = record.caster;
+  json["input"] = resolved_json(scene.description.resolved);
+  json["sensor_values"] = sensor_json(scene.description.sensor);
+  json["sampling"] = sampling_json(record.sampling);
+  json["plan"] = Json::array();
+  for (const core::EffectDecision& decision : scene.plan.decisions)
+    json["plan"].push_back({{"effect", decision.effect},
+                            {"on", decision.on},
+                            {"reason", decision.reason},
+                            {"bound_grey", decision.bound_grey}});
+  json["attitude_derived"] = scene.trajectory.attitude_derived;
+  return json;
+}
+
+std::string processor_name() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+std::string instruction_level() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512vl") != 0) return "x86-64-v4";
+  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) return "x86-64-v3";
+#endif
+  return "x86-64";
+}
+
+std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
+  Json json = header_json(scene, record);
+  json["frames"] = Json::array();
+  for (const FrameRecord& frame : record.frames)
+    json["frames"].push_back({{"index", frame.index},
+                              {"time_s", frame.time_s},
+                              {"pose", pose_json(frame.pose)},
+                              {"rays", frame.rays},
+                              {"blanked", frame.blanked},
+                              {"events", frame.events}});
+  return json.dump(1) + "\n";
+}
+
+std::string timing_json(const RunRecord& record) {
+  Json json;
+  json["threads"] = record.threads;
+  json["isa"] = instruction_level();
+  json["machine"] = processor_name();
+  json["frames"] = Json::array();
+  std::vector<double> times_ms;
+  double total_ms = 0.0;
+  double rays = 0.0;
+  for (const FrameRecord& frame : record.frames) {
+    if (frame.resumed) continue;
+    json["frames"].push_back({{"index", frame.index}, {"frame_ms", frame.frame_ms}});
+    times_ms.push_back(frame.frame_ms);
+    total_ms += frame.frame_ms;
+    rays += static_cast<double>(frame.rays);
+  }
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double median_ms = median(times_ms);
+  json["summary"] = {{"frame_ms_median", median_ms},
+                     {"frames_per_s", median_ms > 0.0 ? 1000.0 / median_ms : 0.0},
+                     {"frames_per_s_written", record.wall_s > 0.0 ? static_cast<double>(times_ms.size()) / record.wall_s : 0.0},
+                     {"rays_per_s", total_ms > 0.0 ? rays / total_ms * 1000.0 : 0.0},
+                     {"scene_build_s", record.scene_build_s},
+                     {"peak_memory_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024}};
+  return json.dump(1) + "\n";
+}
+
+std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record) {
+  // FNV-1a, 64 bits: tells inputs apart, guards nothing.
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char c : header_json(scene, record).dump()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  return fmt::format("{:016x}", hash);
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,45 @@
+// run.json (what was computed: the same bytes for the same input) and timing.json (how long it took).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "renderer/frame_renderer.h"
+#include "renderer/sampling.h"
+#include "scenes/scene.h"
+
+namespace fanbeam::apps {
+
+struct FrameRecord {
+  int index = 0;
+  double time_s = 0.0;
+  core::Pose pose;
+  std::uint64_t rays = 0;
+  std::uint64_t blanked = 0;
+  std::vector<std::string> events;
+  double frame_ms = 0.0;
+  bool resumed = false;  // taken over from an earlier run: no time was measured
+};
+
+struct RunRecord {
+  std::string caster = "rays";
+  renderer::Sampling sampling;
+  std::uint64_t seed = 0;
+  std::vector<FrameRecord> frames;
+  int threads = 0;
+  double scene_build_s = 0.0;
+  double wall_s = 0.0;  // frames, writing included
+};
+
+std::string run_json(const scenes::Scene& scene, const RunRecord& record);
+std::string timing_json(const RunRecord& record);
+
+// A short text that changes when anything that shapes the pictures does; stands in every picture.
+std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record);
+
+// "v3": the level of x86-64 that hot functions run at.
+std::string instruction_level();
+
+}  // namespace fanbeam::apps

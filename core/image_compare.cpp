@@ -1,0 +1,74 @@
+#include "core/image_compare.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+
+namespace fanbeam::core {
+namespace {
+
+LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int columns) {
+  LayerDifference result;
+  result.layer = a.name;
+  result.cells = a.values.size();
+  std::vector<double> magnitudes;
+  magnitudes.reserve(result.cells);
+  double sum = 0.0, squares = 0.0, sum_dB = 0.0, squares_dB = 0.0;
+  for (std::size_t i = 0; i < result.cells; ++i) {
+    const double difference = b.values[i] - a.values[i];
+    if (difference != 0.0) ++result.different;
+    sum += difference;
+    squares += difference * difference;
+    magnitudes.push_back(std::abs(difference));
+    if (magnitudes.back() > result.largest) {
+      result.largest = magnitudes.back();
+      result.largest_column = static_cast<int>(i) % columns;
+      result.largest_row = static_cast<int>(i) / columns;
+    }
+    const bool positive_a = a.values[i] > 0.0;
+    const bool positive_b = b.values[i] > 0.0;
+    if (positive_a != positive_b) ++result.only_one_positive;
+    if (!positive_a || !positive_b) continue;
+    ++result.both_positive;
+    const double dB = 10.0 * std::log10(b.values[i] / a.values[i]);
+    sum_dB += dB;
+    squares_dB += dB * dB;
+    result.largest_dB = std::max(result.largest_dB, std::abs(dB));
+  }
+  const auto cells = static_cast<double>(std::max<std::size_t>(result.cells, 1));
+  const auto positive = static_cast<double>(std::max<std::size_t>(result.both_positive, 1));
+  result.mean = sum / cells;
+  result.rms = std::sqrt(squares / cells);
+  result.mean_dB = sum_dB / positive;
+  result.rms_dB = std::sqrt(squares_dB / positive);
+  if (!magnitudes.empty()) {
+    const auto at = magnitudes.begin() + static_cast<std::ptrdiff_t>(0.99 * (cells - 1.0));
+    std::nth_element(magnitudes.begin(), at, magnitudes.end());
+    result.percentile_99 = *at;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<LayerDifference> compare_images(const Image& a, const Image& b, const std::string& name_a,
+                                            const std::string& name_b) {
+  const auto size_text = [](const Image& image) {
+    return std::to_string(image.columns) + " x " + std::to_string(image.rows) + ", " +
+           std::to_string(image.layers.size()) + " layers";
+  };
+  if (a.columns != b.columns || a.rows != b.rows || a.layers.size() != b.layers.size())
+    throw_input_error(ErrorClass::ref, Place{name_b}, "size", size_text(b), size_text(a) + " as in " + name_a);
+  std::vector<LayerDifference> differences;
+  for (const Image::Layer& layer : a.layers) {
+    const auto other = std::find_if(b.layers.begin(), b.layers.end(),
+                                    [&](const Image::Layer& candidate) { return candidate.name == layer.name; });
+    if (other == b.layers.end())
+      throw_input_error(ErrorClass::ref, Place{name_b}, "layer", "missing", "\"" + layer.name + "\" as in " + name_a);
+    differences.push_back(compare_layer(layer, *other, a.columns));
+  }
+  return differences;
+}
+
+}  // namespace fanbeam::core

@@ -1,0 +1,161 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "scenes/objects.h"
+#include "terrain/extrusion.h"
+#include "terrain/footprints.h"
+#include "terrain/gltf_loader.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+using core::ErrorClass;
+using terrain::PlacedMesh;
+
+// Walls go this far into the ground, so that no gap shows on a slope between two posts.
+constexpr double kFoundation_m = 2.0;
+
+struct GroundSpan {
+  double lowest_m = 1e300, mean_m = 0.0;
+  bool covered = true;
+};
+
+GroundSpan ground_under(const Ground& ground, const terrain::Ring_m& ring) {
+  GroundSpan span;
+  for (const glm::dvec2& corner : ring) {
+    const auto height_m = ground.field().height_at(corner.x, corner.y);
+    span.covered = span.covered && height_m.has_value();
+    span.lowest_m = std::min(span.lowest_m, height_m.value_or(0.0));
+    span.mean_m += height_m.value_or(0.0) / static_cast<double>(ring.size());
+  }
+  return span;
+}
+
+std::vector<terrain::MaterialId> ids_of(const terrain::TriangleMesh& mesh, const MaterialNames& names,
+                                        const core::Place& place, const std::string& field) {
+  std::vector<terrain::MaterialId> ids;
+  for (const std::string& name : mesh.material_names) ids.push_back(names.id(name, place, field));
+  return ids;
+}
+
+void add_boxes(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
+               core::ProblemList& problems, std::vector<PlacedMesh>& meshes) {
+  for (const BoxDescription& box : scene.boxes) {
+    const auto centre_m = ground.local_m(box.at);
+    if (!centre_m) continue;
+    const glm::dvec2 along = glm::dvec2(std::sin(box.heading_rad), std::cos(box.heading_rad)) * (box.length_m / 2);
+    const glm::dvec2 side = glm::dvec2(std::cos(box.heading_rad), -std::sin(box.heading_rad)) * (box.width_m / 2);
+    terrain::Prism prism;
+    prism.outer_m = {*centre_m - along - side, *centre_m - along + side, *centre_m + along + side,
+                     *centre_m + along - side};
+    const GroundSpan span = ground_under(ground, prism.outer_m);
+    prism.bottom_m = span.lowest_m - kFoundation_m;
+    prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
+    terrain::Extrusion solid = terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
+    std::vector<terrain::MaterialId> ids = ids_of(solid.mesh, names, box.place, "box");
+    meshes.push_back({std::move(solid.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
+  }
+}
+
+void add_buildings(const BuildingsDescription& buildings, const Ground& ground, const MaterialNames& names,
+                   core::ProblemList& problems, std::vector<PlacedMesh>& meshes) {
+  const std::vector<terrain::Footprint> footprints = terrain::read_footprints(
+      buildings.file, {buildings.height_property, buildings.min_height_property}, problems);
+  std::vector<terrain::Prism> prisms;
+  std::size_t outside = 0;
+  for (const terrain::Footprint& footprint : footprints) {
+    const auto ring_m = [&](const terrain::GeodeticRing& ring) {
+      terrain::Ring_m local_m;
+      for (const terrain::GeodeticPoint& point : ring)
+        local_m.push_back(ground.local_m(point.latitude_rad, point.longitude_rad));
+      return local_m;
+    };
+    terrain::Prism prism;
+    prism.outer_m = ring_m(footprint.outer);
+    const GroundSpan span = ground_under(ground, prism.outer_m);
+    if (!span.covered) {
+      ++outside;
+      continue;
+    }
+    for (const terrain::GeodeticRing& hole : footprint.holes) prism.holes_m.push_back(ring_m(hole));
+    const double base_m = buildings.base_is_mean ? span.mean_m : span.lowest_m;
+    prism.top_m = base_m + footprint.height_m;
+    prism.bottom_m = footprint.min_height_m > 0.0 ? base_m + footprint.min_height_m : span.lowest_m - kFoundation_m;
+    if (prism.top_m > prism.bottom_m) prisms.push_back(std::move(prism));
+  }
+  if (outside > 0)
+    problems.warning("OUTSIDE", buildings.place, "buildings", std::to_string(outside) + " footprints",
+                     "not on the scene's terrain, left out");
+  terrain::Extrusion city =
+      terrain::extrude(prisms, buildings.file.filename().string(), {buildings.wall_material, buildings.roof_material}, problems);
+  std::vector<terrain::MaterialId> ids = ids_of(city.mesh, names, buildings.place, "buildings");
+  meshes.push_back({std::move(city.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
+}
+
+void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,
+               core::ProblemList& problems, std::vector<PlacedMesh>& meshes) {
+  const auto at_m = ground.local_m(model.at);
+  if (!at_m) return;
+  PlacedMesh placed;
+  placed.mesh = terrain::load_gltf(model.file, model.root, problems);
+  placed.object_id = static_cast<std::uint32_t>(meshes.size());
+  const glm::dvec3 base_m = ground.on_ground_m(*at_m, model.above_ground_m);
+  const glm::dvec3 forward(std::sin(model.heading_rad), std::cos(model.heading_rad), 0.0);
+  const glm::dvec3 right(std::cos(model.heading_rad), -std::sin(model.heading_rad), 0.0);
+  for (glm::dvec3& vertex : placed.mesh.vertices_m)
+    vertex = base_m + right * vertex.x + forward * vertex.y + glm::dvec3(0.0, 0.0, vertex.z);
+  for (const std::string& name : placed.mesh.material_names) {
+    const auto mapped = model.materials.find(name);
+    placed.material_of_name.push_back(
+        names.id(mapped != model.materials.end() ? mapped->second : model.default_material, model.place, "model.materials"));
+  }
+  for (const auto& [name, material] : model.materials) {
+    const auto& used = placed.mesh.material_names;
+    if (std::find(used.begin(), used.end(), name) == used.end())
+      problems.warning("UNUSED", model.place, "model.materials", "\"" + name + "\"",
+                       "no triangle of " + model.file.filename().string() + " has this material");
+  }
+  meshes.push_back(std::move(placed));
+}
+
+}  // namespace
+
+std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene, const Ground& ground,
+                                                 const MaterialNames& names) {
+  std::vector<terrain::SurfacePatch> patches;
+  for (const SurfaceDescription& surface : scene.surfaces) {
+    const auto end = ground.landing_end(surface.runway_end, surface.place);
+    if (!end) continue;
+    const glm::dvec2 left(-end->direction.y, end->direction.x);
+    const glm::dvec2 centre = end->threshold_m +
+                              end->direction * ((surface.from_behind_m + surface.to_behind_m) / 2) +
+                              left * ((surface.from_left_m + surface.to_left_m) / 2);
+    patches.push_back(terrain::rectangle_patch(centre, end->direction, surface.to_behind_m - surface.from_behind_m,
+                                               surface.to_left_m - surface.from_left_m,
+                                               names.id(surface.material, surface.place, "surface.material")));
+  }
+  for (const terrain::Runway& runway : ground.runways())
+    for (terrain::SurfacePatch& patch : terrain::runway_patches(runway)) patches.push_back(std::move(patch));
+  return patches;
+}
+
+std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
+                                     core::ProblemList& problems) {
+  std::vector<PlacedMesh> meshes;
+  const auto guarded = [&](auto&& add) {
+    try {
+      add();
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+    }
+  };
+  guarded([&] { add_boxes(scene, ground, names, problems, meshes); });
+  for (const BuildingsDescription& buildings : scene.buildings)
+    guarded([&] { add_buildings(buildings, ground, names, problems, meshes); });
+  for (const ModelDescription& model : scene.models)
+    guarded([&] { add_model(model, ground, names, problems, meshes); });
+  return meshes;
+}
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,53 @@
+// Building footprints from a GeoJSON file (RFC 7946), read through GDAL.
+//
+// Polygons and the parts of multi-polygons become one footprint each, courtyards kept as holes.
+// Rings that cross or touch themselves are repaired by GEOS (OGR's MakeValid): the area they
+// enclose stays, ambiguous linework does not. Coordinates in another system than WGS 84 (the old
+// "crs" member) are converted; heights of vertices are ignored.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+
+namespace fanbeam::terrain {
+
+struct GeodeticPoint {
+  double latitude_rad = 0.0;
+  double longitude_rad = 0.0;
+};
+
+// At least three points; the last is not the first again.
+using GeodeticRing = std::vector<GeodeticPoint>;
+
+struct Footprint {
+  GeodeticRing outer;               // counter-clockwise seen from above
+  std::vector<GeodeticRing> holes;  // clockwise
+  double min_height_m = 0.0;        // both above ground
+  double height_m = 0.0;
+  std::size_t feature = 0;  // place in the file, from 0; parts of a multi-polygon share it
+};
+
+struct FootprintOptions {
+  std::string height_property = "render_height";
+  std::string min_height_property = "render_min_height";
+  // For features without the height property: the default of the OpenMapTiles schema.
+  double default_height_m = 5.0;
+};
+
+inline constexpr std::uint64_t kLargestFootprintFile_bytes = 200'000'000;
+
+// Throws InputError: E-IO, E-LIMIT (larger than kLargestFootprintFile_bytes), E-PARSE (no GeoJSON,
+// or damaged), E-REF (a "crs" that is not on the Earth), E-RANGE (coordinates outside the Earth;
+// heights that are no numbers or outside 0 to 1000 m), all features together. Warnings, with
+// counts: W-REPAIRED rings, W-DEFAULT heights, W-SKIPPED features that are no polygons,
+// W-DEGENERATE footprints without area or height.
+std::vector<Footprint> read_footprints(const std::filesystem::path& file,
+                                       const FootprintOptions& options,
+                                       core::ProblemList& problems);
+
+}  // namespace fanbeam::terrain

@@ -1,0 +1,225 @@
+#include "terrain/footprints.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/units.h"
+#include "tests/shared_data.h"
+#include "tests/terrain/ascii_grid.h"
+
+namespace fanbeam::terrain {
+namespace {
+
+using Catch::Matchers::Contains;
+using tests::TemporaryFolder;
+
+std::string feature(const std::string& properties, const std::string& type,
+                    const std::string& coordinates) {
+  return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type +
+         R"(","coordinates":)" + coordinates + "}}";
+}
+
+std::string collection(const std::string& features) {
+  return R"({"type":"FeatureCollection","features":[)" + features + "]}";
+}
+
+const std::string kSquare = "[[[11,47],[11.002,47],[11.002,47.002],[11,47.002],[11,47]]]";
+
+double signed_area_deg2(const GeodeticRing& ring) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const GeodeticPoint& a = ring[i];
+    const GeodeticPoint& b = ring[(i + 1) % ring.size()];
+    twice += a.longitude_rad * b.latitude_rad - b.longitude_rad * a.latitude_rad;
+  }
+  return core::degrees(core::degrees(0.5 * twice));
+}
+
+std::vector<Footprint> read(const std::string& text, core::ProblemList& problems,
+                            const FootprintOptions& options = {}) {
+  const TemporaryFolder folder;
+  return read_footprints(folder.write("buildings.geojson", text), options, problems);
+}
+
+std::string refusal_of(const std::string& text) {
+  core::ProblemList problems;
+  try {
+    read(text, problems);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string warnings_of(const core::ProblemList& problems) {
+  std::string text;
+  for (const core::Problem& problem : problems.all()) text += core::to_string(problem) + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("Courtyards stay and rings get their direction", "[footprints]") {
+  // Outer ring clockwise and hole counter-clockwise, the wrong way round for RFC 7946.
+  const std::string with_hole =
+      "[[[11,47],[11,47.004],[11.004,47.004],[11.004,47],[11,47]],"
+      "[[11.001,47.001],[11.002,47.001],[11.002,47.002],[11.001,47.002],[11.001,47.001]]]";
+  core::ProblemList problems;
+  const auto footprints = read(
+      collection(feature(R"("render_height":12.5,"render_min_height":3)", "Polygon", with_hole)),
+      problems);
+  REQUIRE(footprints.size() == 1);
+  const Footprint& footprint = footprints.front();
+  CHECK(footprint.height_m == 12.5);
+  CHECK(footprint.min_height_m == 3.0);
+  CHECK(footprint.outer.size() == 4);
+  CHECK(signed_area_deg2(footprint.outer) == Approx(16e-6));
+  REQUIRE(footprint.holes.size() == 1);
+  CHECK(signed_area_deg2(footprint.holes.front()) == Approx(-1e-6));
+  CHECK(problems.all().empty());
+}
+
+TEST_CASE("Parts of a multi-polygon become footprints of one feature", "[footprints]") {
+  const std::string two = "[" + kSquare + ",[[[12,47],[12.001,47],[12.001,47.001],[12,47]]]]";
+  core::ProblemList problems;
+  const auto footprints =
+      read(collection(feature(R"("render_height":5)", "Polygon", kSquare) + "," +
+                      feature(R"("render_height":9)", "MultiPolygon", two)),
+           problems);
+  REQUIRE(footprints.size() == 3);
+  CHECK(footprints[0].feature == 0);
+  CHECK(footprints[1].feature == 1);
+  CHECK(footprints[2].feature == 1);
+  CHECK(footprints[2].height_m == 9.0);
+  CHECK(footprints[2].outer.size() == 3);
+}
+
+TEST_CASE("Rings that touch or cross themselves are repaired and counted", "[footprints]") {
+  // A square whose outline pinches to a point on its own edge, and a bow tie of two triangles.
+  const std::string pinched =
+      "[[[11,47],[11.002,47],[11.004,47],[11.004,47.004],[11,47.004],[11,47],"
+      "[11.001,47.002],[11.002,47.002],[11,47]]]";
+  const std::string bow_tie = "[[[11,47],[11.002,47.002],[11.002,47],[11,47.002],[11,47]]]";
+  core::ProblemList problems;
+  const auto footprints =
+      read(collection(feature(R"("render_height":5)", "Polygon", pinched) + "," +
+                      feature(R"("render_height":6)", "Polygon", bow_tie)),
+           problems);
+  double pinched_area = 0.0;
+  double bow_tie_area = 0.0;
+  for (const Footprint& footprint : footprints) {
+    double& area = footprint.feature == 0 ? pinched_area : bow_tie_area;
+    area += signed_area_deg2(footprint.outer);
+    for (const GeodeticRing& hole : footprint.holes) area += signed_area_deg2(hole);
+  }
+  CHECK(pinched_area == Approx(16e-6 - 1e-6));
+  CHECK(bow_tie_area == Approx(2e-6));
+  CHECK_THAT(warnings_of(problems), Contains("W-REPAIRED") && Contains("= 2"));
+}
+
+TEST_CASE("Missing heights, other shapes and empty footprints are counted", "[footprints]") {
+  const std::string line = R"([[11,47],[11.1,47.1]])";
+  const std::string flat = "[[[11,47],[11.001,47],[11.002,47],[11,47]]]";
+  FootprintOptions options;
+  options.height_property = "height";
+  options.default_height_m = 7.0;
+  core::ProblemList problems;
+  const auto footprints =
+      read(collection(feature("", "Polygon", kSquare) + "," +
+                      feature(R"("height":null)", "Polygon", kSquare) + "," +
+                      feature(R"("height":"8.5")", "Polygon", kSquare) + "," +
+                      feature(R"("height":3)", "LineString", line) + "," +
+                      feature(R"("height":3)", "Polygon", flat) + "," +
+                      feature(R"("height":3,"render_min_height":3)", "Polygon", kSquare)),
+           problems, options);
+  REQUIRE(footprints.size() == 3);
+  CHECK(footprints[0].height_m == 7.0);
+  CHECK(footprints[1].height_m == 7.0);
+  CHECK(footprints[2].height_m == 8.5);
+  CHECK_THAT(warnings_of(problems),
+             Contains("W-DEFAULT features without height = 2: 7 m is used") &&
+                 Contains("W-SKIPPED features that are no polygons = 1") &&
+                 Contains("W-DEGENERATE footprints without area or height = 2"));
+}
+
+TEST_CASE("Every bad height and coordinate is reported at once", "[footprints]") {
+  const std::string off_earth = "[[[11,47],[11.1,97],[11.1,47],[11,47]]]";
+  const std::string overflow = "[[[11,47],[1e999,47],[11.1,47.1],[11,47]]]";
+  const std::string text =
+      refusal_of(collection(feature(R"("render_height":"12 m")", "Polygon", kSquare) + "," +
+                            feature(R"("render_height":-3)", "Polygon", kSquare) + "," +
+                            feature(R"("render_height":5)", "Polygon", off_earth) + "," +
+                            feature(R"("render_height":5)", "Polygon", overflow)));
+  CHECK_THAT(text, Contains("E-RANGE feature 0 render_height = 12 m") &&
+                       Contains("E-RANGE feature 1 render_height = -3") &&
+                       Contains("E-RANGE feature 2 coordinates") &&
+                       Contains("E-RANGE feature 3 coordinates"));
+}
+
+TEST_CASE("Coordinates of another system are converted", "[footprints]") {
+  // Web Mercator: x = R longitude with R = 6378137 m; the equator has y = 0.
+  const std::string square =
+      R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:3857"}},)"
+      R"("features":[)" +
+      feature(R"("render_height":5)", "Polygon",
+              "[[[1224000,0],[1224100,0],[1224100,100],[1224000,100],[1224000,0]]]") +
+      "]}";
+  core::ProblemList problems;
+  const auto footprints = read(square, problems);
+  REQUIRE(footprints.size() == 1);
+  double west_rad = 10.0;
+  for (const GeodeticPoint& point : footprints.front().outer)
+    west_rad = std::min(west_rad, point.longitude_rad);
+  CHECK(west_rad == Approx(1224000.0 / 6378137.0).epsilon(1e-12));
+}
+
+TEST_CASE("Files that are no GeoJSON, cut off, or missing are refused", "[footprints]") {
+  const std::string whole = collection(feature(R"("render_height":5)", "Polygon", kSquare) + "," +
+                                       feature(R"("render_height":6)", "Polygon", kSquare));
+  for (std::size_t length = 0; length < whole.size(); length += 7) {
+    CAPTURE(length);
+    CHECK_THAT(refusal_of(whole.substr(0, length)), Contains("E-PARSE"));
+  }
+  CHECK_THAT(refusal_of("{\"type\":\"Topology\"}"), Contains("E-PARSE"));
+  CHECK_THAT(refusal_of(std::string(100'000, '[')), Contains("E-PARSE"));
+  core::ProblemList problems;
+  CHECK_THROWS_WITH(read_footprints("/nonexistent.geojson", {}, problems), Contains("E-IO"));
+}
+
+TEST_CASE("Innsbruck's 21,117 footprints are read with their published extent",
+          "[footprints][data]") {
+  const auto file = tests::shared_data("lowi-innsbruck/buildings.geojson");
+  if (!file) return;
+  core::ProblemList problems;
+  const auto footprints = read_footprints(*file, {}, problems);
+  std::set<std::size_t> features;
+  std::size_t with_holes = 0;
+  double highest_m = 0.0;
+  for (const Footprint& footprint : footprints) {
+    features.insert(footprint.feature);
+    with_holes += footprint.holes.empty() ? 0 : 1;
+    highest_m = std::max(highest_m, footprint.height_m);
+    for (const GeodeticPoint& point : footprint.outer) {
+      if (core::degrees(point.latitude_rad) < 47.234 ||
+          core::degrees(point.latitude_rad) > 47.286 ||
+          core::degrees(point.longitude_rad) < 11.284 ||
+          core::degrees(point.longitude_rad) > 11.441)
+        FAIL_CHECK("footprint of feature " << footprint.feature << " out of the window");
+    }
+  }
+  INFO(warnings_of(problems) << footprints.size() << " footprints, " << with_holes
+                             << " with courtyards");
+  CHECK(features.size() == 21'117);
+  CHECK(footprints.size() > 21'117);
+  CHECK(with_holes > 100);
+  CHECK(highest_m == 59.0);
+}
+
+}  // namespace fanbeam::terrain
