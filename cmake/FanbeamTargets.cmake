@@ -13,7 +13,9 @@ target_compile_options(fanbeam_options INTERFACE
   -Wall -Wextra -Wshadow -Wdouble-promotion -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
 if(FANBEAM_SANITIZER STREQUAL "address")
   target_compile_options(fanbeam_options INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+    # GCC 12 sees uninitialised members in the standard library's regex once it is instrumented.
+    -Wno-maybe-uninitialized)
   target_link_options(fanbeam_options INTERFACE -fsanitize=address,undefined)
 elseif(FANBEAM_SANITIZER STREQUAL "thread")
   target_compile_options(fanbeam_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)

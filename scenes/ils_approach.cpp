@@ -1,6 +1,5 @@
 #include "scenes/ils_approach.h"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/mat3x3.hpp>
 #include <utility>

@@ -1,7 +1,6 @@
 // A flight path that answers with a pose at any time.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "core/pose.h"

@@ -1,7 +1,7 @@
 #include "scenes/trajectory_transplant.h"
 
 #include <cmath>
-#include <glm/mat3x3.hpp>
+#include <string>
 #include <utility>
 #include <vector>
 

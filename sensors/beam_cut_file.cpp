@@ -48,7 +48,8 @@ void read_gain_table(core::ConfigTable& table, BeamCut& cut) {
   if (*peak != 0.0)
     table.error(ErrorClass::range, "table_gain_dB", core::number_text(*peak) + " at most",
                 "0 at the peak, which the gains are relative to");
-  if (not_increasing != angles_deg.end() || angles_deg.size() != gains_dB.size()) return;
+  if (not_increasing != angles_deg.end() || angles_deg.size() != gains_dB.size() || *peak != 0.0)
+    return;
 
   for (const double angle_deg : angles_deg) cut.table_angle_rad.push_back(radians(angle_deg));
   for (const double gain_dB : gains_dB) cut.table_gain.push_back(core::power_from_dB(gain_dB));

@@ -60,9 +60,13 @@ inline int range_row(const RangeGate& gate, double range_m) {
 
 inline int azimuth_column(const Scan& scan, double azimuth_rad) {
   const bool all_round = scan.field_of_view_rad >= 2.0 * core::kPi * (1.0 - 1e-15);
-  if (all_round && std::isfinite(azimuth_rad))  // the edges may lie a rounding inside +-pi
-    azimuth_rad = std::clamp(core::wrap_pi_rad(azimuth_rad), column_edge_rad(scan, 0),
+  if (all_round && std::isfinite(azimuth_rad)) {
+    if (!(azimuth_rad >= -core::kPi && azimuth_rad < core::kPi))
+      azimuth_rad = core::wrap_pi_rad(azimuth_rad);
+    // The outermost edges may lie a rounding inside +-pi.
+    azimuth_rad = std::clamp(azimuth_rad, column_edge_rad(scan, 0),
                              std::nextafter(column_edge_rad(scan, scan.columns), 0.0));
+  }
   const double guess = (azimuth_rad / scan.field_of_view_rad + 0.5) * scan.columns;
   return cell_holding(azimuth_rad, guess, scan.columns,
                       [&](int column) { return column_edge_rad(scan, column); });

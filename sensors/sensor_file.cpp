@@ -226,7 +226,7 @@ void read_assumed(ConfigTable& root, Sensor& sensor) {
 
 Sensor read(ConfigTable root, const core::ProblemList& problems) {
   Sensor sensor;
-  if (!root.present()) return sensor;
+  if (problems.has_errors()) return sensor;  // no file, or no TOML
   sensor.name = root.required_text("name");
   read_antenna(root.table("antenna"), sensor.antenna);
   read_scan(root.table("scan"), sensor.scan);

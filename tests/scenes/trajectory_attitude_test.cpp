@@ -1,11 +1,11 @@
 #include "scenes/trajectory_attitude.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
 #include "core/errors.h"
-#include "core/random.h"
 #include "core/units.h"
 #include "scenes/trajectory_smoothing.h"
 #include "terrain/local_frame.h"

@@ -1,5 +1,6 @@
 #include "scenes/trajectory.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -119,12 +120,14 @@ TEST_CASE("S09: frame times of a day do not drift", "[trajectory]") {
   const double tolerance_s = begin_s == 0.0 ? 1e-9 : 2.4e-7;
   double largest_error_s = 0.0;
   for (int k = 0; k < frames; ++k) {
-    const long double start_s =
-        static_cast<long double>(begin_s) + k / static_cast<long double>(rate_Hz);
-    const long double middle_s = start_s + 0.5L / static_cast<long double>(rate_Hz);
-    largest_error_s = std::max(
-        {largest_error_s, std::abs(static_cast<double>(day.frame_start_s(k, rate_Hz) - start_s)),
-         std::abs(static_cast<double>(day.frame_time_s(k, rate_Hz) - middle_s))});
+    // The exact times in extended precision.
+    const long double rate = static_cast<long double>(rate_Hz);
+    const long double start_s = static_cast<long double>(begin_s) + k / rate;
+    const auto error_s = [&](double time_s, long double exact_s) {
+      return static_cast<double>(std::abs(static_cast<long double>(time_s) - exact_s));
+    };
+    largest_error_s = std::max({largest_error_s, error_s(day.frame_start_s(k, rate_Hz), start_s),
+                                error_s(day.frame_time_s(k, rate_Hz), start_s + 0.5L / rate)});
   }
   CHECK(largest_error_s <= tolerance_s);
   CHECK(day.frame_time_s(frames - 1, rate_Hz) < day.end_s());

@@ -111,8 +111,9 @@ TEST_CASE("A flight to another airport is refused", "[trajectory_transplant]") {
   nowhere.bearing_rad = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(transplant(denver_flight(), nowhere, kDenver),
                     Catch::Contains("E-NONFINITE from.bearing"));
-  CHECK_THROWS_WITH(transplant(denver_flight(), kDenver, kDenver, INFINITY),
-                    Catch::Contains("E-NONFINITE"));
+  CHECK_THROWS_WITH(
+      transplant(denver_flight(), kDenver, kDenver, std::numeric_limits<double>::infinity()),
+      Catch::Contains("E-NONFINITE"));
 }
 
 }  // namespace fanbeam::scenes

@@ -140,7 +140,7 @@ TEST_CASE("parts of the two-way integral agree with a plain sum and add up", "[b
     for (int i = -12; i < 12; ++i) {
       const double from = radians(0.25 * i), to = radians(0.25 * (i + 1));
       const double part = two_way_integral(cut, from, to);
-      // The cut is a jump inside no piece, or at its end: trapezoids of 1e-4 of it are good to 1e-6.
+      // Cuts and knots fall on ends of pieces, so the trapezoidal sum is good to 1e-6.
       CHECK(part == Approx(summed(cut, from, to, 2000)).margin(2e-6 * two_way_width(cut)));
       CHECK(two_way_integral(cut, to, from) == -part);
       parts += part;
@@ -160,8 +160,8 @@ TEST_CASE("the far tail of the Gaussian integral keeps its digits", "[beam_patte
 
 TEST_CASE("the two-way integral of a wide sinc beam is 2/3 over its null number per radian",
           "[beam_pattern]") {
-  // Integral of (sin(pi u)/(pi u))^4 over all u is 2/3 (Gradshteyn and Ryzhik 3.821); u = k sin x with
-  // sin x = x to 1e-5 over a beam of 0.8 deg.
+  // The integral of (sin(pi u)/(pi u))^4 over all u is 2/3 (Gradshteyn and Ryzhik 3.821); here
+  // u = k sin x, and sin x = x to 1e-5 over a beam of 0.8 deg.
   const BeamCut cut = cut_of(BeamCut::Shape::sinc_squared, 0.8, 90.0);
   const double k = 1.391557378251510 / kPi / std::sin(radians(0.4));
   CHECK(two_way_width(cut) == Approx(2.0 / 3.0 / k).epsilon(1e-4));

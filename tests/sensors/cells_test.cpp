@@ -65,7 +65,7 @@ TEST_CASE("S04 a target on a column's edge lies in exactly one column", "[cells]
   const Scan scan = tests::hivision().scan;
   for (int k = 0; k < scan.columns; ++k) {
     REQUIRE(azimuth_column(scan, column_edge_rad(scan, k)) == k);
-    // The same edge as users compute it, in degrees: a rounding may put it on either side, but on one.
+    // The same edge computed in degrees: rounding may put it on either side, but on one only.
     const double azimuth_rad = radians(-20.5 + 0.25 * k);
     REQUIRE(columns_holding(scan, azimuth_rad) == 1);
     const int column = azimuth_column(scan, azimuth_rad);

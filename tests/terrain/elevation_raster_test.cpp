@@ -4,8 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -13,7 +12,6 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "tests/shared_data.h"
 #include "tests/terrain/ascii_grid.h"
 
 namespace fanbeam::terrain {
@@ -22,7 +20,6 @@ namespace {
 using Catch::Matchers::Contains;
 using core::radians;
 using tests::AsciiGrid;
-using tests::shared_data;
 using tests::TemporaryFolder;
 
 ElevationRaster load(const std::filesystem::path& file, const ElevationOptions& options = {}) {
@@ -49,11 +46,6 @@ std::string refusal_of(const std::filesystem::path& file, const ElevationOptions
     return error.what();
   }
   return "accepted";
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 double height_deg(const ElevationRaster& raster, double latitude_deg, double longitude_deg) {
@@ -236,50 +228,6 @@ TEST_CASE("Smoothing removes whole-metre terraces and stays within the rounding"
 
   options.quantisation_step_m = -1.0;
   CHECK_THAT(refusal_of(file, options), Contains("E-RANGE quantisation_step_m"));
-}
-
-TEST_CASE("Rasters that cannot be placed on the Earth are refused", "[elevation]") {
-  const TemporaryFolder folder;
-  const auto ten = [](int, int) { return std::string("10"); };
-  AsciiGrid grid{4, 4, 11.0, 47.0, 0.01};
-  grid.wkt = "";
-  CHECK_THAT(refusal_of(grid.write(folder, "no_crs", ten)),
-             Contains("E-REF georeference") && Contains("a geotransform and a coordinate"));
-  grid.wkt = "LOCAL_CS[\"site grid\",UNIT[\"metre\",1]]";
-  CHECK_THAT(refusal_of(grid.write(folder, "site", ten)), Contains("E-REF"));
-  AsciiGrid globe{36, 18, -180.0, -90.0, 10.0};
-  CHECK_THAT(refusal_of(globe.write(folder, "globe", ten)), Contains("E-UNSUPPORTED"));
-  AsciiGrid far{4, 4, 11.0, 147.0, 0.01};
-  CHECK_THAT(refusal_of(far.write(folder, "far", ten)), Contains("E-REF"));
-}
-
-TEST_CASE("Missing, foreign and damaged raster files are refused", "[elevation]") {
-  const TemporaryFolder folder;
-  CHECK_THAT(refusal_of(folder.path() / "nothing.tif"), Contains("E-IO"));
-  CHECK_THAT(refusal_of(folder.path()), Contains("E-IO"));
-  CHECK_THAT(refusal_of("/vsicurl/http://localhost/x.tif"), Contains("E-IO"));
-  CHECK_THAT(refusal_of(folder.write("text.tif", "this is no raster")), Contains("E-PARSE"));
-  CHECK_THAT(refusal_of(folder.write("empty.hgt", "")), Contains("E-PARSE"));
-  CHECK_THAT(refusal_of(folder.write("x.vrt", "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"/>")),
-             Contains("E-PARSE"));
-  const AsciiGrid grid{30, 30, 11.0, 47.0, 0.01};
-  const auto file = grid.write(folder, "whole", [](int, int) { return std::string("250"); });
-  const std::string whole = bytes_of(file);
-  for (const double part : {0.3, 0.6, 0.97})
-    CHECK_THAT(
-        refusal_of(folder.write(
-            "whole.asc",
-            whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))))),
-        Contains("E-PARSE"));
-}
-
-TEST_CASE("A header that claims a huge raster is refused before memory is taken", "[elevation]") {
-  const TemporaryFolder folder;
-  folder.write("huge.prj", tests::kWgs84Wkt);
-  const auto file = folder.write("huge.asc",
-                                 "ncols 20000\nnrows 20000\nxllcorner 11\nyllcorner 47\n"
-                                 "cellsize 0.00001\nNODATA_value -9999\n1 2 3\n");
-  CHECK_THAT(refusal_of(file), Contains("E-LIMIT") && Contains("20000 x 20000"));
 }
 
 TEST_CASE("Lookups from many threads agree with those of one", "[elevation]") {

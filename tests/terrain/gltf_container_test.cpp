@@ -1,8 +1,8 @@
 // Files that lie about their own size and shape.
 #include "terrain/gltf_container.h"
 
-#include "gltf_test_files.h"
 #include "terrain/gltf_limits.h"
+#include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {
 namespace {
@@ -11,7 +11,7 @@ using tests::has;
 using tests::problems_of;
 
 std::vector<core::Problem> problems_of_bytes(const std::string& name, const std::string& bytes) {
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   return problems_of(folder.write(name, bytes), folder.path());
 }
 
@@ -51,7 +51,7 @@ TEST_CASE("F01 millions of JSON values are refused", "[gltf]") {
 
 TEST_CASE("F07 a GLB cut anywhere is E-PARSE", "[gltf]") {
   const std::string whole = tests::triangle_glb();
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   for (std::size_t length = 0; length < whole.size(); ++length) {
     const auto problems =
         problems_of(folder.write("cut.glb", whole.substr(0, length)), folder.path());
@@ -63,7 +63,7 @@ TEST_CASE("F07 a GLB cut anywhere is E-PARSE", "[gltf]") {
 
 TEST_CASE("F07 a GLB cut anywhere with its header set right never passes", "[gltf]") {
   const std::string whole = tests::triangle_glb();
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   for (std::size_t length = 12; length < whole.size(); ++length) {
     std::string cut = whole.substr(0, length);
     cut.replace(8, 4, tests::word(static_cast<std::uint32_t>(length)));
@@ -74,7 +74,7 @@ TEST_CASE("F07 a GLB cut anywhere with its header set right never passes", "[glt
 
 TEST_CASE("F07 a gltf cut anywhere never passes", "[gltf]") {
   const std::string whole = tests::triangle_document().dump();
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   folder.write("triangle.bin", tests::triangle_bytes());
   for (std::size_t length = 0; length < whole.size(); ++length) {
     const auto problems =
@@ -120,7 +120,7 @@ TEST_CASE("F07 unknown chunks are skipped wherever they stand", "[gltf]") {
 }
 
 TEST_CASE("F07 a BIN chunk of zero bytes is legal", "[gltf]") {
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   folder.write("triangle.bin", tests::triangle_bytes());
   const std::string bytes =
       tests::glb(tests::json_chunk(tests::triangle_document()) + tests::binary_chunk(""));

@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "gltf_test_files.h"
+#include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {
 namespace {
@@ -173,7 +173,7 @@ TEST_CASE("the default scene is the named one, the first, or all roots", "[gltf]
 TEST_CASE("F06 positions that are not numbers are E-NONFINITE with their element", "[gltf]") {
   for (const float poison :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    const tests::TemporaryFolder folder;
+    const tests::ModelFolder folder;
     folder.write("triangle.bin", tests::floats({0, 0, 0, 1, 0, 0, 0, poison, 0}));
     const auto file = folder.write("model.gltf", triangle_document().dump());
     CHECK(has(tests::problems_of(file, folder.path()), "E-NONFINITE",

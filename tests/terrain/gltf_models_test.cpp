@@ -4,8 +4,8 @@
 #include <glm/geometric.hpp>
 #include <iostream>
 
-#include "gltf_test_files.h"
 #include "tests/shared_data.h"
+#include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {
 namespace {

@@ -2,7 +2,7 @@
 #include <sys/resource.h>
 
 #include "core/files.h"
-#include "gltf_test_files.h"
+#include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {
 namespace {
@@ -32,9 +32,9 @@ struct Load {
 };
 
 TEST_CASE("F05 no file outside the folder is opened for a buffer or an image", "[gltf]") {
-  const tests::TemporaryFolder outside;
+  const tests::ModelFolder outside;
   const fs::path secret = outside.write("secret.bin", tests::triangle_bytes());
-  const tests::TemporaryFolder inside;
+  const tests::ModelFolder inside;
   inside.write("triangle.bin", tests::triangle_bytes());
   fs::create_symlink(secret, inside.path() / "link.bin");
   fs::create_directory_symlink(outside.path(), inside.path() / "folder");
@@ -64,7 +64,7 @@ TEST_CASE("F05 no file outside the folder is opened for a buffer or an image", "
 }
 
 TEST_CASE("F05 files inside the allowed folder are found from the file's own folder", "[gltf]") {
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   folder.write("shared data/triangle.bin", tests::triangle_bytes());
   fs::create_symlink(folder.path() / "shared data" / "triangle.bin", folder.path() / "link.bin");
   json document = tests::triangle_document();
@@ -86,7 +86,7 @@ TEST_CASE("F05 files inside the allowed folder are found from the file's own fol
 }
 
 TEST_CASE("F05 data URIs in base64 need no file", "[gltf]") {
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   json document = tests::triangle_document();
   // Twelve zero bytes, then 1.0f, 8 zero bytes, 4 zero bytes, 1.0f, 4 zero bytes.
   const std::string payload = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
@@ -116,7 +116,7 @@ TEST_CASE("F08 an image bomb is neither opened nor decoded", "[gltf]") {
   // A PNG header that claims 65535 x 65535 pixels, and nothing behind it.
   const std::string bomb =
       std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\xff\xff\0\0\xff\xff\x10\x02\0\0\0", 29);
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   const fs::path bomb_file = folder.write("bomb.png", bomb);
   json document = tests::triangle_document();
   document["buffers"][0].erase("uri");

@@ -1,6 +1,6 @@
 // References and sizes that lead out of the file.
-#include "gltf_test_files.h"
 #include "terrain/gltf_limits.h"
+#include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {
 namespace {
@@ -134,7 +134,7 @@ TEST_CASE("F03 an index past the positions is E-REF", "[gltf]") {
   document["accessors"].push_back(
       {{"bufferView", 1}, {"componentType", 5125}, {"count", 3}, {"type", "SCALAR"}});
   document["meshes"][0]["primitives"][0]["indices"] = 1;
-  const tests::TemporaryFolder folder;
+  const tests::ModelFolder folder;
   const auto file = folder.write("model.gltf", document.dump());
   for (const std::uint32_t index : {3u, 0xFFFFFFFFu}) {
     folder.write("triangle.bin",

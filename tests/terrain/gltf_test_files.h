@@ -20,17 +20,17 @@
 namespace fanbeam::tests {
 
 // Gone with everything in it at the end of the test.
-class TemporaryFolder {
+class ModelFolder {
  public:
-  TemporaryFolder() {
+  ModelFolder() {
     static int counter = 0;
     path_ = std::filesystem::temp_directory_path() /
             ("fanbeam_gltf_" + std::to_string(getpid()) + "_" + std::to_string(counter++));
     std::filesystem::create_directories(path_);
   }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~ModelFolder() { std::filesystem::remove_all(path_); }
+  ModelFolder(const ModelFolder&) = delete;
+  ModelFolder& operator=(const ModelFolder&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
 
@@ -118,14 +118,14 @@ inline std::vector<core::Problem> problems_of(const std::filesystem::path& file,
 
 // A document beside a good triangle.bin.
 inline std::vector<core::Problem> problems_of(const nlohmann::json& document) {
-  const TemporaryFolder folder;
+  const ModelFolder folder;
   folder.write("triangle.bin", triangle_bytes());
   return problems_of(folder.write("model.gltf", document.dump()), folder.path());
 }
 
 inline terrain::TriangleMesh loaded(const nlohmann::json& document, core::ProblemList& warnings,
                                     const std::string& bytes = triangle_bytes()) {
-  const TemporaryFolder folder;
+  const ModelFolder folder;
   folder.write("triangle.bin", bytes);
   return terrain::load_gltf(folder.write("model.gltf", document.dump()), folder.path(), warnings);
 }

@@ -1,0 +1,144 @@
+#include "terrain/raster_file.h"
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "tests/terrain/ascii_grid.h"
+
+namespace fanbeam::terrain {
+namespace {
+
+using Catch::Matchers::Contains;
+using tests::AsciiGrid;
+using tests::TemporaryFolder;
+
+std::string refusal_of(const std::filesystem::path& file) {
+  try {
+    read_raster_band(file);
+  } catch (const core::InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+template <typename Number>
+void append(std::string& bytes, Number number) {
+  std::array<char, sizeof(Number)> raw{};
+  std::memcpy(raw.data(), &number, sizeof(Number));
+  bytes.append(raw.data(), raw.size());
+}
+
+// A little-endian GeoTIFF of 4 x 4 Int16 samples of 77 in longitude and latitude, one strip. Fields
+// as in TIFF 6.0 and GeoTIFF 1.1 (OGC 19-008).
+std::string tiny_geotiff(bool strip_written, std::uint16_t samples_per_pixel) {
+  constexpr std::uint16_t kShort = 3, kLong = 4, kDouble = 12;
+  constexpr std::uint32_t kEntries = 13, kExtra = 8 + 2 + 12 * kEntries + 4;
+  constexpr std::uint32_t kTiepoint = kExtra + 24, kKeys = kTiepoint + 48, kStrip = kKeys + 32;
+  const std::uint32_t strip_bytes = strip_written ? 32U * samples_per_pixel : 0U;
+  std::string bytes = "II";
+  append(bytes, std::uint16_t{42});
+  append(bytes, std::uint32_t{8});
+  append(bytes, static_cast<std::uint16_t>(kEntries));
+  const auto field = [&bytes](std::uint16_t tag, std::uint16_t type, std::uint32_t count,
+                              std::uint32_t value) {
+    append(bytes, tag);
+    append(bytes, type);
+    append(bytes, count);
+    append(bytes, value);
+  };
+  field(256, kShort, 1, 4);
+  field(257, kShort, 1, 4);
+  field(258, kShort, 1, 16);
+  field(259, kShort, 1, 1);
+  field(262, kShort, 1, 1);
+  field(273, kLong, 1, strip_written ? kStrip : 0);
+  field(277, kShort, 1, samples_per_pixel);
+  field(278, kShort, 1, 4);
+  field(279, kLong, 1, strip_bytes);
+  field(339, kShort, 1, 2);
+  field(33550, kDouble, 3, kExtra);
+  field(33922, kDouble, 6, kTiepoint);
+  field(34735, kShort, 16, kKeys);
+  append(bytes, std::uint32_t{0});
+  for (const double scale : {0.01, 0.01, 0.0}) append(bytes, scale);
+  for (const double tie : {0.0, 0.0, 0.0, 11.0, 47.0, 0.0}) append(bytes, tie);
+  // Geographic, pixel is area, EPSG:4326.
+  for (const int key : {1, 1, 0, 3, 1024, 0, 1, 2, 1025, 0, 1, 1, 2048, 0, 1, 4326})
+    append(bytes, static_cast<std::uint16_t>(key));
+  for (std::uint32_t i = 0; i < strip_bytes / 2; ++i) append(bytes, std::int16_t{77});
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("GeoTIFF blocks that were never written are no heights of zero", "[raster_file]") {
+  const TemporaryFolder folder;
+  const RasterBand whole = read_raster_band(folder.write("whole.tif", tiny_geotiff(true, 1)));
+  CHECK(whole.samples == std::vector<float>(16, 77.0F));
+  CHECK_THAT(refusal_of(folder.write("sparse.tif", tiny_geotiff(false, 1))),
+             Contains("E-PARSE samples = blocks that were never written"));
+}
+
+TEST_CASE("A picture of three bands is no terrain", "[raster_file]") {
+  const TemporaryFolder folder;
+  CHECK_THAT(refusal_of(folder.write("picture.tif", tiny_geotiff(true, 3))),
+             Contains("E-UNSUPPORTED bands = 3"));
+}
+
+TEST_CASE("Rasters that cannot be placed on the Earth are refused", "[raster_file]") {
+  const TemporaryFolder folder;
+  const auto ten = [](int, int) { return std::string("10"); };
+  AsciiGrid grid{4, 4, 11.0, 47.0, 0.01};
+  grid.wkt = "";
+  CHECK_THAT(refusal_of(grid.write(folder, "no_crs", ten)),
+             Contains("E-REF georeference") && Contains("a geotransform and a coordinate"));
+  grid.wkt = "LOCAL_CS[\"site grid\",UNIT[\"metre\",1]]";
+  CHECK_THAT(refusal_of(grid.write(folder, "site", ten)), Contains("E-REF"));
+  AsciiGrid globe{36, 18, -180.0, -90.0, 10.0};
+  CHECK_THAT(refusal_of(globe.write(folder, "globe", ten)), Contains("E-UNSUPPORTED"));
+  AsciiGrid far{4, 4, 11.0, 147.0, 0.01};
+  CHECK_THAT(refusal_of(far.write(folder, "far", ten)), Contains("E-REF"));
+}
+
+TEST_CASE("Missing, foreign and damaged raster files are refused", "[raster_file]") {
+  const TemporaryFolder folder;
+  CHECK_THAT(refusal_of(folder.path() / "nothing.tif"), Contains("E-IO"));
+  CHECK_THAT(refusal_of(folder.path()), Contains("E-IO"));
+  CHECK_THAT(refusal_of("/vsicurl/http://localhost/x.tif"), Contains("E-IO"));
+  CHECK_THAT(refusal_of(folder.write("text.tif", "this is no raster")), Contains("E-PARSE"));
+  CHECK_THAT(refusal_of(folder.write("empty.hgt", "")), Contains("E-PARSE"));
+  CHECK_THAT(refusal_of(folder.write("x.vrt", "<VRTDataset rasterXSize=\"2\" rasterYSize=\"2\"/>")),
+             Contains("E-PARSE"));
+  const AsciiGrid grid{30, 30, 11.0, 47.0, 0.01};
+  const auto file = grid.write(folder, "whole", [](int, int) { return std::string("250"); });
+  const std::string whole = bytes_of(file);
+  for (const double part : {0.3, 0.6, 0.97})
+    CHECK_THAT(
+        refusal_of(folder.write(
+            "whole.asc",
+            whole.substr(0, static_cast<std::size_t>(part * static_cast<double>(whole.size()))))),
+        Contains("E-PARSE"));
+}
+
+TEST_CASE("A header that claims a huge raster is refused before memory is taken", "[raster_file]") {
+  const TemporaryFolder folder;
+  folder.write("huge.prj", tests::kWgs84Wkt);
+  const auto file = folder.write("huge.asc",
+                                 "ncols 20000\nnrows 20000\nxllcorner 11\nyllcorner 47\n"
+                                 "cellsize 0.00001\nNODATA_value -9999\n1 2 3\n");
+  CHECK_THAT(refusal_of(file), Contains("E-LIMIT") && Contains("20000 x 20000"));
+}
+
+}  // namespace fanbeam::terrain
