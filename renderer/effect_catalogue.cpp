@@ -11,18 +11,17 @@ namespace {
 
 using atmosphere::Weather;
 
-// Specific attenuation is largest at the lowest height of its layer, so the longest level path there bounds every path.
+// A path at one height bounds every path of the same length once the height with the largest attenuation is taken. The
+// layers' attenuation falls with height inside a layer, so the lowest height and the layer tops are enough.
 double longest_level_path_dB(const SceneFacts& facts, bool gas, bool fog, bool rain) {
   Weather weather = facts.weather;
   weather.simulate_gas = gas;
   weather.simulate_fog = fog;
   weather.simulate_rain = rain;
   const atmosphere::PathAttenuation path(weather, facts.sensor.waveform.frequency_Hz);
-  const double range_m = facts.sensor.range.maximum_m();
-  const double lowest_m = facts.lowest_sensor_m - range_m;
   double most_dB = 0.0;
-  for (const double height_m : {lowest_m, 0.0, facts.lowest_sensor_m})
-    most_dB = std::max(most_dB, path.one_way_dB(height_m, height_m, range_m));
+  for (const double height_m : {facts.lowest_m, weather.fog_top_m, weather.rain_top_m})
+    most_dB = std::max(most_dB, path.one_way_dB(height_m, height_m, facts.sensor.range.maximum_m()));
   return 2.0 * most_dB;
 }
 

@@ -14,12 +14,12 @@
 
 namespace fanbeam::renderer {
 
-// What a bound may use: the sensor, the weather and the heights the sequence reaches (above the scene's origin).
+// What a bound may use: the sensor, the weather and the heights that rays pass through (above the scene's origin).
 struct SceneFacts {
   atmosphere::Weather weather;
   sensors::Sensor sensor;
-  double lowest_sensor_m = 0.0;
-  double highest_sensor_m = 0.0;
+  double lowest_m = 0.0;   // of ground and sensor
+  double highest_m = 0.0;
 };
 
 struct Effect {

@@ -40,12 +40,13 @@ void check_flight(const SceneDescription& scene, const terrain::LocalFrame& fram
 }
 
 renderer::SceneFacts facts_of(const SceneDescription& scene, const terrain::LocalFrame& frame,
-                              const Trajectory& trajectory) {
-  renderer::SceneFacts facts{scene.weather, scene.sensor, 1e300, -1e300};
+                              const Trajectory& trajectory, const terrain::HeightField& field) {
+  const auto [lowest, highest] = std::minmax_element(field.height_m.begin(), field.height_m.end());
+  renderer::SceneFacts facts{scene.weather, scene.sensor, *lowest, *highest};
   for (const core::Pose& pose : trajectory.poses()) {
     const double height_m = frame.to_local_m(pose.position).z;
-    facts.lowest_sensor_m = std::min(facts.lowest_sensor_m, height_m);
-    facts.highest_sensor_m = std::max(facts.highest_sensor_m, height_m);
+    facts.lowest_m = std::min(facts.lowest_m, height_m);
+    facts.highest_m = std::max(facts.highest_m, height_m);
   }
   return facts;
 }
@@ -91,7 +92,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   if (trajectory) check_flight(description, frame, *trajectory, ground, problems);
   problems.throw_if_errors();
 
-  core::EffectPlan plan = renderer::plan(facts_of(description, frame, *trajectory), options.accuracy_grey, options.wishes);
+  core::EffectPlan plan = renderer::plan(facts_of(description, frame, *trajectory, ground.field()), options.accuracy_grey, options.wishes);
   const double frequency_Hz = description.sensor.waveform.frequency_Hz;
   std::vector<std::string> material_names;
   for (const materials::Material& material : library.all()) material_names.push_back(material.name);

@@ -80,7 +80,7 @@ TEST_CASE("a target appears at its bearing, north up by true heading, track up w
   CHECK(seen.range_m == Approx(2000.0).margin(7.0));
   CHECK(seen.bearing_deg == Approx(10.1).margin(0.25));
 
-  view = ppi_view(sensor, Up::north, 4000);
+  view = ppi_view(sensor, Up::north, 2400);
   seen = brightest(view, ppi_grey(sensor, grey, radians(264.74), view));
   CHECK(seen.range_m == Approx(2000.0).margin(7.0));
   CHECK(seen.bearing_deg == Approx(264.74 + 10.1 - 360.0).margin(0.25));
