@@ -1,6 +1,6 @@
 // Phong-like surface reflectivity, the form every material of a scene is evaluated in.
 //
-//   sigma0 = a sin(psi) + b sin(psi)^c,   a, b >= 0, c >= 1        [m2 per m2 of surface]
+//   sigma0 = a sin(psi) + b sin(psi)^c,   a, b >= 0, c >= 0        [m2 per m2 of surface]
 //
 // psi is the local grazing angle on the facet, so sin(psi) is the cosine between the facet's normal
 // and the direction to the radar. The form is that of Peinecke, Doehler and Korn (SPIE 7117, 2008;
@@ -8,9 +8,10 @@
 // lobe around the normal. The coefficients are our own fits (see phong_fit.h and
 // docs/materials.md), not those of the papers.
 //
-// Neglected: azimuth dependence, the coherent echo near vertical incidence, and anything that falls
-// more slowly than sin(psi) towards grazing (urban blocks, rough sea): there the fit misses its
-// reference by several dB.
+// With c below 1 the form falls more slowly than sin(psi) towards grazing, as urban blocks do, and c = 0 is a constant;
+// the shipped library keeps to c >= 1.
+//
+// Neglected: azimuth dependence and the coherent echo near vertical incidence.
 #pragma once
 
 #include <cmath>

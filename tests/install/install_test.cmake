@@ -1,5 +1,6 @@
-# Installs into a folder whose name holds a space, starts the installed program from elsewhere, then configures, builds
-# and runs another project against the installed package. Called with -D BUILD, SCRATCH, SOURCE, CXX.
+# Installs into a folder whose name holds a space, renders a frame of the default scene with the installed program from
+# elsewhere, then configures, builds and runs another project against the installed package.
+# Called with -D BUILD, SCRATCH, SOURCE, CXX.
 set(prefix "${SCRATCH}/the prefix")
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}/elsewhere")
@@ -14,14 +15,23 @@ function(run)
 endfunction()
 
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
-run("${prefix}/bin/fanbeam" --version)
 
-# Every shipped data file arrives.
-file(GLOB shipped RELATIVE "${SOURCE}" "${SOURCE}/scenes/*/scene.toml" "${SOURCE}/sensors/*.toml"
+# Every shipped data file arrives; without this the program could still find those of the source tree around it.
+file(GLOB_RECURSE shipped RELATIVE "${SOURCE}" "${SOURCE}/scenes/*/*" "${SOURCE}/sensors/*.toml"
      "${SOURCE}/materials/*.toml")
+if(NOT shipped)
+  message(FATAL_ERROR "no data files in ${SOURCE}")
+endif()
 foreach(file IN LISTS shipped)
   if(NOT EXISTS "${prefix}/share/fanbeam/${file}")
     message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
+
+run("${prefix}/bin/fanbeam" render --frames 0:1 -o "${SCRATCH}/pictures")
+foreach(file bscope/00000.png cscope/00000.png run.json)
+  if(NOT EXISTS "${SCRATCH}/pictures/${file}")
+    message(FATAL_ERROR "not rendered: ${file}")
   endif()
 endforeach()
 

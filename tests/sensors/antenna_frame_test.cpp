@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "core/constants.h"
 #include "core/errors.h"
@@ -15,6 +16,8 @@ using core::kPi;
 using core::radians;
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // North, east, down in a scene frame of east, north, up.
 const glm::dmat3 kNed{{0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}};
@@ -120,9 +123,9 @@ TEST_CASE("the surfaces differ by 0.25 deg at the corner of HiVision's picture",
 TEST_CASE("S05 points on the lateral plane, behind or at zero distance are outside",
           "[antenna_frame]") {
   const AntennaFrame frame;
-  const glm::dvec3 outside[] = {{0.0, 100.0, 0.0},   {0.0, 0.0, -50.0},   {-1.0, 0.0, 0.0},
-                                {-1e-300, 1.0, 0.0}, {-100.0, 5.0, 1.0},  {0.0, 0.0, 0.0},
-                                {NAN, 0.0, 0.0},     {INFINITY, 0.0, 0.0}};
+  const glm::dvec3 outside[] = {{0.0, 100.0, 0.0},        {0.0, 0.0, -50.0},    {-1.0, 0.0, 0.0},
+                                {-1e-300, 1.0, 0.0},      {-100.0, 5.0, 1.0},   {0.0, 0.0, 0.0},
+                                {std::nan(""), 0.0, 0.0}, {kInfinity, 0.0, 0.0}};
   for (const glm::dvec3& point : outside) {
     CHECK_FALSE(angles(frame, point, ScanSurface::plane));
     CHECK_FALSE(angles(frame, point, ScanSurface::cone));
@@ -140,7 +143,8 @@ TEST_CASE("a scan all round sees behind it, with +-180 deg in range", "[antenna_
 
 TEST_CASE("an attitude that is no rotation is refused", "[antenna_frame]") {
   CHECK_THROWS_AS(antenna_frame({}, kNed, {0.0, 0.0, 0.0, 0.0}, {}, true), core::InputError);
-  CHECK_THROWS_AS(antenna_frame({}, kNed, {NAN, 0.0, 0.0, 0.0}, {}, true), core::InputError);
-  CHECK_THROWS_AS(antenna_frame({NAN, 0.0, 0.0}, kNed, attitude_deg(0, 0, 0), {}, true),
+  CHECK_THROWS_AS(antenna_frame({}, kNed, {std::nan(""), 0.0, 0.0, 0.0}, {}, true),
+                  core::InputError);
+  CHECK_THROWS_AS(antenna_frame({std::nan(""), 0.0, 0.0}, kNed, attitude_deg(0, 0, 0), {}, true),
                   core::InputError);
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "core/random.h"
 #include "tests/sensors/shipped_sensor.h"
@@ -12,6 +13,8 @@ using core::kPi;
 using core::radians;
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Scan full_circle(int columns) {
   Scan scan;
@@ -56,8 +59,7 @@ TEST_CASE("R06 every edge of HiVision's range gate begins its own row", "[cells]
   }
   CHECK(range_row(gate, gate.maximum_m()) == kOutside);
   CHECK(range_row(gate, std::nextafter(200.0, 0.0)) == kOutside);
-  for (const double range_m : {-1.0, 0.0, 1e300, static_cast<double>(INFINITY),
-                               -static_cast<double>(INFINITY), std::nan("")})
+  for (const double range_m : {-1.0, 0.0, 1e300, kInfinity, -kInfinity, std::nan("")})
     CHECK(range_row(gate, range_m) == kOutside);
 }
 
@@ -77,7 +79,7 @@ TEST_CASE("S04 a target on a column's edge lies in exactly one column", "[cells]
   CHECK(azimuth_column(scan, radians(20.5)) == kOutside);
   CHECK(azimuth_column(scan, std::nextafter(radians(20.5), 0.0)) == 163);
   CHECK(azimuth_column(scan, std::nextafter(radians(-20.5), -1.0)) == kOutside);
-  for (const double azimuth_rad : {kPi, -kPi, static_cast<double>(INFINITY), std::nan("")})
+  for (const double azimuth_rad : {kPi, -kPi, kInfinity, std::nan("")})
     CHECK(azimuth_column(scan, azimuth_rad) == kOutside);
 }
 
@@ -90,7 +92,7 @@ TEST_CASE("S04 in a full circle +180 and -180 deg are one target in one column",
     CHECK(azimuth_column(scan, 3.0 * kPi) == 0);
     for (int k = 0; k < columns; ++k) REQUIRE(azimuth_column(scan, column_edge_rad(scan, k)) == k);
     CHECK(azimuth_column(scan, std::nan("")) == kOutside);
-    CHECK(azimuth_column(scan, INFINITY) == kOutside);
+    CHECK(azimuth_column(scan, kInfinity) == kOutside);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "core/errors.h"
@@ -14,6 +15,8 @@ using namespace fanbeam::sensors;
 using core::radians;
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<double> bscope_of(const Sensor& sensor, double value) {
   return std::vector<double>(static_cast<std::size_t>(sensor.range.cells * sensor.scan.columns),
@@ -146,7 +149,7 @@ TEST_CASE("flat earth shares a cell's power in proportion to the elevation cover
 TEST_CASE("flat earth refuses a height that is not above ground", "[display]") {
   const Sensor sensor = tests::hivision();
   const std::vector<double> power_W = bscope_of(sensor, 0.0);
-  for (const double height_m : {0.0, -5.0, std::nan(""), static_cast<double>(INFINITY)})
+  for (const double height_m : {0.0, -5.0, std::nan(""), kInfinity})
     CHECK_THROWS_AS(flat_earth_cscope_W_m3(sensor, power_W, height_m), core::InputError);
   // Higher than the farthest range: no ground in view, nothing to show.
   for (const double value : flat_earth_cscope_W_m3(sensor, bscope_of(sensor, 1.0), 5000.0))

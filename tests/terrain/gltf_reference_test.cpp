@@ -61,8 +61,9 @@ TEST_CASE("F02 strides, empty counts and wrong types", "[gltf]") {
             "meshes[0].primitives[0].attributes.POSITION"));
   CHECK(has(problems_of(changed("/accessors/0/componentType", 5122)), "E-UNSUPPORTED",
             "meshes[0].primitives[0].attributes.POSITION"));
-  CHECK(has(problems_of(changed("/meshes/0/primitives/0/mode", 7)), "E-RANGE",
-            "meshes[0].primitives[0].mode"));
+  for (const std::uint64_t mode : {std::uint64_t{7}, (std::uint64_t{1} << 32) + 4})
+    CHECK(has(problems_of(changed("/meshes/0/primitives/0/mode", mode)), "E-RANGE",
+              "meshes[0].primitives[0].mode"));
 }
 
 TEST_CASE("F02 sparse accessors beyond their bytes are E-REF", "[gltf]") {

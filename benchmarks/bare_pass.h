@@ -1,0 +1,34 @@
+// What the ray-casting library alone needs for the rays of a frame.
+//
+// The packets of a frame, refinement rays included, are recorded, filled before the clock starts and
+// cast by as many threads; nothing is done with the hits. Packets are tried as recorded (16 wide)
+// and cut into two kinds of 8 wide ones; the quickest counts.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "benchmarks/bench_scene.h"
+#include "renderer/sampling.h"
+
+namespace fanbeam::benchmarks {
+
+struct BarePass {
+  std::uint64_t rays = 0;
+  double bare_ms = 0.0;   // of the quickest shape
+  double frame_ms = 0.0;  // pose to display images, measured in turns with the bare pass
+  std::string shape;      // of the quickest
+
+  double ratio() const { return frame_ms / bare_ms; }
+};
+
+BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling);
+
+// Elevations of the lowest and highest ray that the ray caster sends at default sampling.
+struct ElevationSpan {
+  double lowest_rad = 0.0;
+  double highest_rad = 0.0;
+};
+ElevationSpan elevation_span(const View& view);
+
+}  // namespace fanbeam::benchmarks

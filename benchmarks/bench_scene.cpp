@@ -1,0 +1,99 @@
+#include "benchmarks/bench_scene.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+
+#include "scenes/scene_reader.h"
+
+namespace fanbeam::benchmarks {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A line of /proc/self/status, "VmHWM" or "VmRSS"; 0 where there is none.
+double process_memory_bytes(const std::string& field) {
+  std::ifstream stream("/proc/self/status");
+  for (std::string word; stream >> word;) {
+    double kibibytes = 0.0;
+    if (word == field + ":" && stream >> kibibytes) return kibibytes * 1024.0;
+  }
+  return 0.0;
+}
+
+void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
+
+}  // namespace
+
+bool BenchScene::noise() const { return scene->plan.runs(renderer::kThermalNoise); }
+
+std::string data_folder() {
+  const char* variable = std::getenv("FANBEAM_DATA");
+  if (variable != nullptr && *variable != '\0') return variable;
+  return (fs::path(FANBEAM_SOURCE_DIR) / ".." / "shared" / "data").lexically_normal().string();
+}
+
+std::unique_ptr<scenes::Scene> build(const std::string& name) {
+  const fs::path shipped = FANBEAM_SOURCE_DIR;
+  core::ProblemList problems;
+  const scenes::SceneDescription description =
+      scenes::read_scene(shipped / "scenes" / name, {shipped, {data_folder()}, {}}, problems);
+  return scenes::build_scene(description, {}, problems);
+}
+
+std::optional<BenchScene> load(const std::string& name) {
+  fmt::print(stderr, "building {}\n", name);
+  forget_peak_memory();
+  const double before_bytes = process_memory_bytes("VmRSS");
+  BenchScene result;
+  result.name = name;
+  try {
+    result.scene = build(name);
+  } catch (const core::InputError& error) {
+    const auto& problems = error.problems();
+    const bool only_missing =
+        std::all_of(problems.begin(), problems.end(), [](const core::Problem& problem) {
+          return !problem.is_error() || problem.code == core::code(core::ErrorClass::io);
+        });
+    if (!only_missing) throw;
+    fmt::print(stderr, "[skipped] {} needs data that are not in {}\n", name, data_folder());
+    return std::nullopt;
+  }
+  const renderer::FrameRenderer renderer(result.scene->world,
+                                         renderer::sampling_for(renderer::kDefaultRaysPerCell), {},
+                                         result.noise());
+  renderer.render(view_at(result, 2500.0).pose);
+  result.peak_memory_bytes = process_memory_bytes("VmHWM") - before_bytes;
+  return result;
+}
+
+View view_at(const BenchScene& scene, double distance_m) {
+  View view;
+  view.scene = &scene;
+  const auto ground_distance_m = [](const renderer::FramePose& pose) {
+    return std::hypot(pose.position_m.x, pose.position_m.y);
+  };
+  double nearest_m = 1e300;
+  double last_m = 1e300;
+  for (int frame = 0; frame < scene.scene->frame_count(); ++frame) {
+    const renderer::FramePose pose = scene.scene->frame_pose(frame);
+    const double at_m = ground_distance_m(pose);
+    if (at_m > last_m) break;  // behind the threshold
+    last_m = at_m;
+    if (std::abs(at_m - distance_m) >= nearest_m) continue;
+    nearest_m = std::abs(at_m - distance_m);
+    view.frame = frame;
+    view.pose = pose;
+  }
+  view.distance_m = ground_distance_m(view.pose);
+  view.height_m = view.pose.position_m.z;
+  view.antenna = sensors::antenna_frame(view.pose.position_m, view.pose.north_east_down,
+                                        view.pose.q_NB, view.sensor().mounting,
+                                        view.sensor().scan.stabilised);
+  return view;
+}
+
+}  // namespace fanbeam::benchmarks

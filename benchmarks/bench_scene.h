@@ -1,0 +1,51 @@
+// Shipped scenes and the views of them that are measured.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "scenes/scene.h"
+#include "sensors/antenna_frame.h"
+
+namespace fanbeam::benchmarks {
+
+inline constexpr const char* kDefaultScene = "braunschweig-26";
+inline constexpr const char* kCityScene = "innsbruck-26";
+
+struct BenchScene {
+  std::string name;
+  std::unique_ptr<scenes::Scene> scene;
+  // Highest resident memory while the scene was built and one frame rendered, over what the process
+  // held before.
+  double peak_memory_bytes = 0.0;
+
+  bool noise() const;
+};
+
+// FANBEAM_DATA, else ../shared/data beside the source tree.
+std::string data_folder();
+
+// Reads and builds a shipped scene of the source tree. Throws core::InputError.
+std::unique_ptr<scenes::Scene> build(const std::string& name);
+
+// The same with its memory; nothing, and a line on stderr, when its data are not there.
+std::optional<BenchScene> load(const std::string& name);
+
+// One frame of the approach.
+struct View {
+  const BenchScene* scene = nullptr;
+  int frame = 0;
+  double distance_m = 0.0;  // along the ground to the scene's origin, which is the threshold
+  double height_m = 0.0;    // above it
+  renderer::FramePose pose;
+  sensors::AntennaFrame antenna;
+
+  const renderer::World& world() const { return scene->scene->world; }
+  const sensors::Sensor& sensor() const { return world().sensor; }
+};
+
+// The frame nearest to `distance_m` before the threshold.
+View view_at(const BenchScene& scene, double distance_m);
+
+}  // namespace fanbeam::benchmarks

@@ -1,0 +1,41 @@
+// The renderer people write first, as a yardstick: uniform elevation angles, one ray at a time,
+// each hit put into the one cell it falls in. Radar equation, tables, azimuth beam, point targets
+// and display are the project's own, so that only the sampling differs.
+//
+//   plain     one azimuth per picture column, its centre
+//   dithered  four sub-columns per column, every ray at its own azimuth inside its sub-column
+#pragma once
+
+#include <cstdint>
+
+#include "benchmarks/bare_pass.h"
+#include "benchmarks/bench_scene.h"
+#include "benchmarks/grey_error.h"
+
+namespace fanbeam::benchmarks {
+
+enum class NaiveKind { plain, dithered };
+
+struct NaiveFrame {
+  FramePower power;
+  std::uint64_t rays = 0;
+};
+
+class NaiveRenderer {
+ public:
+  // About `rays` rays per frame, over `span` in elevation. `view` must outlive the renderer.
+  NaiveRenderer(const View& view, NaiveKind kind, double rays, const ElevationSpan& span);
+
+  // From the pose to both display images, as FrameClock; the images are thrown away.
+  NaiveFrame render() const;
+
+ private:
+  const View& view_;
+  NaiveKind kind_;
+  int sub_columns_ = 1;  // per picture column
+  int all_sub_columns_ = 0;
+  int elevations_ = 0;
+  ElevationSpan span_;
+};
+
+}  // namespace fanbeam::benchmarks

@@ -1,0 +1,45 @@
+// Median times.
+#pragma once
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace fanbeam::benchmarks {
+
+using Clock = std::chrono::steady_clock;
+
+inline double milliseconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+inline double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const std::size_t half = values.size() / 2;
+  return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+// Repeats `least` times, then on until `most` repetitions or `most_ms` are spent.
+struct Repetitions {
+  int least = 11;
+  int most = 31;
+  double most_ms = 1000.0;
+};
+
+// Runs `work` once to warm up, then as often as asked.
+template <class Work>
+double median_ms(const Repetitions& repetitions, const Work& work) {
+  work();
+  std::vector<double> times_ms;
+  double spent_ms = 0.0;
+  for (int i = 0; i < repetitions.most; ++i) {
+    if (i >= repetitions.least && spent_ms >= repetitions.most_ms) break;
+    const Clock::time_point begin = Clock::now();
+    work();
+    times_ms.push_back(milliseconds_since(begin));
+    spent_ms += times_ms.back();
+  }
+  return median(times_ms);
+}
+
+}  // namespace fanbeam::benchmarks
