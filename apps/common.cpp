@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <system_error>
+#include <tuple>
 
 #include "apps/version.h"
 
@@ -49,10 +51,10 @@ std::vector<fs::path> data_folders(const std::string& from_command_line) {
 }
 
 fs::path find_scene(const std::string& name) {
-  if (fs::exists(name)) return name;
   const fs::path shipped = shipped_folder();
-  for (const fs::path& candidate : {shipped / name, shipped / "scenes" / name})
-    if (fs::exists(candidate)) return candidate;
+  std::error_code refused;  // such as a name too long to be one
+  for (const fs::path& candidate : {fs::path(name), shipped / name, shipped / "scenes" / name})
+    if (fs::exists(candidate, refused)) return candidate;
   std::string known;
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(shipped / "scenes"))
@@ -63,16 +65,29 @@ fs::path find_scene(const std::string& name) {
                           "a folder with scene.toml, or one of the shipped scenes:" + known);
 }
 
-void print_problems(const std::vector<core::Problem>& problems) {
-  std::size_t errors = 0;
+void print_problems(std::vector<core::Problem> problems) {
+  std::stable_sort(problems.begin(), problems.end(), [](const core::Problem& a, const core::Problem& b) {
+    const auto key = [](const core::Problem& p) {
+      return std::make_tuple(!p.is_error(), p.code == "W-MORE", std::cref(p.place.file), p.place.line, p.place.column);
+    };
+    return key(a) < key(b);
+  });
+  for (const core::Problem& problem : problems) std::cerr << core::to_string(problem) << '\n';
+  const auto errors = std::count_if(problems.begin(), problems.end(), [](const auto& p) { return p.is_error(); });
+  if (errors > 0) std::cerr << errors << (errors == 1 ? " error" : " errors") << "\n";
+}
+
+int exit_code_of(const std::vector<core::Problem>& problems) {
+  bool usage = true;
+  bool io = true;
   for (const core::Problem& problem : problems) {
     if (!problem.is_error()) continue;
-    ++errors;
-    std::cerr << core::to_string(problem) << '\n';
+    usage = usage && problem.field.starts_with("--") && problem.code != code(core::ErrorClass::io);
+    // A missing file that a line of the scene names is the scene's fault.
+    io = io && problem.code == code(core::ErrorClass::io) && problem.place.line == 0;
   }
-  for (const core::Problem& problem : problems)
-    if (!problem.is_error()) std::cerr << core::to_string(problem) << '\n';
-  if (errors > 0) std::cerr << errors << (errors == 1 ? " error" : " errors") << "\n";
+  if (io) return kExitIo;
+  return usage ? kExitUsage : kExitInvalidInput;
 }
 
 int run_guarded(const std::function<int()>& command) {
@@ -80,10 +95,10 @@ int run_guarded(const std::function<int()>& command) {
     return command();
   } catch (const core::InputError& error) {
     print_problems(error.problems());
-    const bool only_io = std::all_of(error.problems().begin(), error.problems().end(), [](const core::Problem& problem) {
-      return !problem.is_error() || problem.code == code(core::ErrorClass::io);
-    });
-    return only_io ? kExitIo : kExitInvalidInput;
+    return exit_code_of(error.problems());
+  } catch (const fs::filesystem_error& error) {
+    std::cerr << "fanbeam: " << error.what() << '\n';
+    return kExitIo;
   } catch (const std::exception& error) {
     std::cerr << "fanbeam: internal error: " << error.what() << "\nThis is a bug: please report it with the scene.\n";
     return kExitBug;

@@ -35,8 +35,12 @@ std::vector<std::filesystem::path> data_folders(const std::string& from_command_
 // A folder, a scene.toml, or the name of a shipped scene ("braunschweig-26", "scenes/braunschweig-26").
 std::filesystem::path find_scene(const std::string& name);
 
-// Prints each problem on a line of its own, errors before warnings, with a count at the end.
-void print_problems(const std::vector<core::Problem>& problems);
+// Prints each problem on a line of its own, errors before warnings, each by file and line, with a count at the end.
+void print_problems(std::vector<core::Problem> problems);
+
+// What a program that met these errors exits with: kExitUsage when all concern options of the command line, kExitIo
+// when the system refused all (E-IO without a line that asked for it), else kExitInvalidInput.
+int exit_code_of(const std::vector<core::Problem>& problems);
 
 // Runs a command and turns its exceptions into messages and exit codes.
 int run_guarded(const std::function<int()>& command);

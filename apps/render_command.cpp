@@ -80,6 +80,7 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
     core::Metadata metadata;
     try {
       metadata = core::read_metadata(file);
+      core::read_image(file);  // whole?
     } catch (const core::InputError&) {
       return false;  // damaged: render it again
     }
@@ -107,11 +108,12 @@ renderer::Sampling choose_sampling(const RenderOptions& options, const scenes::S
 
 class Run {
  public:
-  Run(const RenderOptions& options, const CommonOptions& common, const scenes::Scene& scene, int threads)
+  Run(const RenderOptions& options, const CommonOptions& common, const scenes::Scene& scene, ProductSet products,
+      int threads)
       : options_(options),
         common_(common),
         scene_(scene),
-        products_(parse_products(options.products)),
+        products_(std::move(products)),
         folder_(options.output.empty() ? fs::path("out") / scene.description.name : fs::path(options.output)) {
     record_.sampling = choose_sampling(options, scene.description);
     record_.seed = options.seed;
@@ -225,13 +227,17 @@ std::vector<int> parse_frames(const std::string& text, int count) {
   if (step < 1) core::throw_input_error(core::ErrorClass::range, "--frames", text, "a STEP of at least 1");
   const long begin = parts.empty() ? 0 : from_end(parts[0].value_or(0));
   const long end = parts.size() < 2 ? total : from_end(parts[1].value_or(total));
-  for (long index = begin; index < end; index += step) frames.push_back(static_cast<int>(index));
+  for (long index = begin; index < end; index += step) {
+    frames.push_back(static_cast<int>(index));
+    if (step >= end - index) break;  // index + step may not fit
+  }
   if (frames.empty())
     core::throw_input_error(core::ErrorClass::range, "--frames", text, fmt::format("at least one of the {} frames", total));
   return frames;
 }
 
 int render(const RenderOptions& options, const CommonOptions& common) {
+  ProductSet products = parse_products(options.products);
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
   const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data), options.sensor};
@@ -242,7 +248,7 @@ int render(const RenderOptions& options, const CommonOptions& common) {
   if (!common.quiet) print_problems(problems.all());
   if (scene->trajectory.attitude_derived)
     spdlog::info("the trajectory has no full attitude: missing angles are derived from its path");
-  Run run(options, common, *scene, threads.threads());
+  Run run(options, common, *scene, std::move(products), threads.threads());
   run.render_frames();
   run.write_records();
   run.print_summary();

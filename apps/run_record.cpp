@@ -155,7 +155,17 @@ std::string timing_json(const RunRecord& record) {
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record) {
   // FNV-1a, 64 bits: tells inputs apart, guards nothing.
   std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : header_json(scene, record).dump()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
+  const auto add = [&hash](const char* bytes, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3U;
+  };
+  const std::string header = header_json(scene, record).dump();
+  add(header.data(), header.size());
+  std::vector<char> chunk(1U << 16U);
+  for (const std::filesystem::path& file : scene.description.files) {
+    std::ifstream stream(file, std::ios::binary);
+    while (stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || stream.gcount() > 0)
+      add(chunk.data(), static_cast<std::size_t>(stream.gcount()));
+  }
   return fmt::format("{:016x}", hash);
 }
 

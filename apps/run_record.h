@@ -36,7 +36,8 @@ struct RunRecord {
 std::string run_json(const scenes::Scene& scene, const RunRecord& record);
 std::string timing_json(const RunRecord& record);
 
-// A short text that changes when anything that shapes the pictures does; stands in every picture.
+// A short text that changes when anything that shapes the pictures does: a setting, the program, or a byte of a file
+// that the scene names (buffers beside a glTF model excepted). Stands in every picture.
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record);
 
 // "v3": the level of x86-64 that hot functions run at.

@@ -16,6 +16,7 @@ int validate(const std::string& name, const std::string& data, const std::string
   if (common.quiet) return kExitDone;
   const sensors::Sensor& radar = description.sensor;
   fmt::print("{}: valid\n", description.name);
+  fmt::print("  title       {}\n", description.title);
   fmt::print("  frames      {} at {:.3g} Hz, {:.1f} s of flight\n", scene->frame_count(), radar.scan.frame_rate_Hz,
              scene->trajectory.end_s() - scene->trajectory.begin_s());
   fmt::print("  surfaces    {} triangles\n", scene->world.surfaces->triangle_count());

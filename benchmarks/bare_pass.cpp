@@ -121,9 +121,9 @@ BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling)
   measure_cut({{{0, 1, 4, 5, 8, 9, 12, 13}, {2, 3, 6, 7, 10, 11, 14, 15}}},
               "8 wide, 2 azimuths x 4 elevations");
 
-  BarePass best = *std::min_element(
-      passes.begin(), passes.end(),
-      [](const BarePass& a, const BarePass& b) { return a.bare_ms < b.bare_ms; });
+  BarePass best =
+      *std::min_element(passes.begin(), passes.end(),
+                        [](const BarePass& a, const BarePass& b) { return a.bare_ms < b.bare_ms; });
   best.rays = rays;
   return best;
 }
@@ -137,8 +137,7 @@ ElevationSpan elevation_span(const View& view) {
       if (!holds_ray(packet, i)) continue;
       const glm::dvec3 direction(packet.direction_x[i], packet.direction_y[i],
                                  packet.direction_z[i]);
-      const auto angles =
-          sensors::angles(view.antenna, direction, view.sensor().scan.surface);
+      const auto angles = sensors::angles(view.antenna, direction, view.sensor().scan.surface);
       if (!angles) continue;
       span.lowest_rad = std::min(span.lowest_rad, angles->elevation_rad);
       span.highest_rad = std::max(span.highest_rad, angles->elevation_rad);

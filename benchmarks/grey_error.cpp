@@ -43,8 +43,9 @@ FrameGrey grey_of(const sensors::Sensor& sensor, const FramePower& power, bool n
   if (!noise)
     return {sensors::bscope_grey(sensor, power.bscope_W),
             sensors::cscope_grey(sensor, power.cscope_W_m3)};
-  return {sensors::bscope_grey(sensor, plus(power.bscope_W, sensor.noise_power_W())),
-          sensors::cscope_grey(sensor, plus(power.cscope_W_m3, sensors::cscope_noise_W_m3(sensor)))};
+  return {
+      sensors::bscope_grey(sensor, plus(power.bscope_W, sensor.noise_power_W())),
+      sensors::cscope_grey(sensor, plus(power.cscope_W_m3, sensors::cscope_noise_W_m3(sensor)))};
 }
 
 GreyReference::GreyReference(const sensors::Sensor& sensor, const FramePower& power)

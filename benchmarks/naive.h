@@ -7,10 +7,12 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "benchmarks/bare_pass.h"
 #include "benchmarks/bench_scene.h"
 #include "benchmarks/grey_error.h"
+#include "renderer/nrcs_table.h"
 
 namespace fanbeam::benchmarks {
 
@@ -34,8 +36,17 @@ class NaiveRenderer {
   NaiveKind kind_;
   int sub_columns_ = 1;  // per picture column
   int all_sub_columns_ = 0;
-  int elevations_ = 0;
-  ElevationSpan span_;
+  double step_rad_ = 0.0;  // between elevations
+  struct Turn {
+    double cosine, sine;
+  };
+  struct Shared;
+  void cast_ray(const Shared& shared, const Turn& azimuth, std::size_t elevation,
+                double* range_W_per_rad, double* elevation_W_m3_per_rad) const;
+
+  std::vector<double> elevations_rad_;
+  std::vector<Turn> elevation_turns_;
+  std::vector<renderer::NrcsTable> nrcs_;  // by material
 };
 
 }  // namespace fanbeam::benchmarks

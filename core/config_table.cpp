@@ -1,6 +1,5 @@
 #include "core/config_table.h"
 
-#define TOML_HEADER_ONLY 1
 #include <toml++/toml.h>
 
 #include <algorithm>
@@ -9,35 +8,14 @@
 #include <set>
 
 #include "core/files.h"
+#include "core/spelling.h"
+#include "core/toml_nesting.h"
 
 namespace fanbeam::core {
 namespace {
 
 constexpr std::uint64_t kLargestFile_bytes = 4U << 20U;
 constexpr int kDeepestNesting = 64;
-
-// The parser recurses, so depth is bounded before it sees the text. Brackets in strings only make the bound stricter.
-bool too_deep(std::string_view text) {
-  int depth = 0;
-  for (const char c : text) {
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') depth = std::max(0, depth - 1);
-    if (c == '\n' && depth < 0) depth = 0;
-    if (depth > kDeepestNesting) return true;
-  }
-  return false;
-}
-
-// Dotted keys nest too: "a.a.a.a = 1".
-bool too_many_dots(std::string_view text) {
-  int dots = 0;
-  for (const char c : text) {
-    if (c == '.') ++dots;
-    if (c == '\n' || c == '"' || c == '=') dots = 0;
-    if (dots > kDeepestNesting) return true;
-  }
-  return false;
-}
 
 Place place_of(const toml::source_region& source, const std::string& file) {
   return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
@@ -62,19 +40,17 @@ std::string value_text(const toml::node& node) {
   return stream.str();
 }
 
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t above = row[j];
-      row[j] = std::min({above + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)});
-      diagonal = above;
-    }
-  }
-  return row[b.size()];
+// The likely meant key, or the ones that look most like it.
+std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
+  constexpr std::size_t kLikelyMistyped = 3;  // edits
+  constexpr std::size_t kMostNames = 5;
+  const std::vector<std::string> nearest = nearest_names(name, known, kMostNames);
+  if (nearest.empty()) return "";
+  if (edit_distance(name.substr(0, 100), nearest.front()) <= kLikelyMistyped)
+    return ", perhaps \"" + nearest.front() + "\"";
+  std::string names;
+  for (const std::string& each : nearest) names += (names.empty() ? ", such as \"" : "\", \"") + each;
+  return names + "\"";
 }
 
 }  // namespace
@@ -105,7 +81,9 @@ ConfigTable ConfigTable::from_file(const std::filesystem::path& file, ProblemLis
     return from_text(read_file(file, kLargestFile_bytes), file.string(), problems);
   } catch (const InputError& error) {
     problems.append(error.problems());
-    return from_text("", file.string(), problems);
+    ConfigTable empty = from_text("", file.string(), problems);
+    empty.present_ = false;
+    return empty;
   }
 }
 
@@ -115,8 +93,9 @@ ConfigTable ConfigTable::from_text(std::string_view text, const std::string& fil
   table.document_->file = file_name;
   table.document_->problems = &problems;
   table.table_ = &table.document_->root;
-  if (too_deep(text) || too_many_dots(text)) {
-    problems.error(ErrorClass::limit, {file_name}, "nesting", "more than " + std::to_string(kDeepestNesting) + " levels",
+  if (const std::optional<TextPlace> deep = nested_deeper_than(text, kDeepestNesting)) {
+    problems.error(ErrorClass::limit, {file_name, deep->line, deep->column}, "nesting",
+                   "more than " + std::to_string(kDeepestNesting) + " levels",
                    "at most " + std::to_string(kDeepestNesting) + " levels");
     return table;
   }
@@ -124,8 +103,8 @@ ConfigTable ConfigTable::from_text(std::string_view text, const std::string& fil
     table.document_->root = toml::parse(text, file_name);
     table.present_ = true;
   } catch (const toml::parse_error& error) {
-    problems.error(ErrorClass::parse, place_of(error.source(), file_name), "", "",
-                   "TOML; " + std::string(error.description()));
+    problems.error(ErrorClass::parse, place_of(error.source(), file_name), "syntax",
+                   std::string(error.description()), "TOML");
   }
   return table;
 }
@@ -361,17 +340,8 @@ void ConfigTable::Document::report_unknown(const toml::table& table, const std::
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
     if (!known.contains(name)) {
-      std::string nearest;
-      std::size_t best = 4;  // farther apart than three edits is no likely typing error
-      for (const std::string& candidate : known) {
-        const std::size_t distance = edit_distance(name, candidate);
-        if (distance < best) {
-          best = distance;
-          nearest = candidate;
-        }
-      }
       problems->error(ErrorClass::ref, place_of(key.source(), file), prefix + name, "unknown key",
-                      nearest.empty() ? "a key that this table knows" : "perhaps \"" + nearest + "\"");
+                      "a key of this table" + suggestion(name, {known.begin(), known.end()}));
       continue;
     }
     if (const toml::table* child = node.as_table(); child != nullptr && asked.contains(child)) report_unknown(*child, prefix + name + ".");

@@ -34,7 +34,8 @@ using ResolvedConfig = std::vector<std::pair<std::string, ConfigValue>>;
 
 class ConfigTable {
  public:
-  // Parses the file; on a syntax error reports it and returns an empty table.
+  // Parses the text. When it cannot be read or is no TOML, that is reported and an empty table
+  // returned whose `present()` is false.
   static ConfigTable from_file(const std::filesystem::path& file, ProblemList& problems);
   static ConfigTable from_text(std::string_view text, const std::string& file_name, ProblemList& problems);
 
@@ -59,7 +60,7 @@ class ConfigTable {
   ConfigTable table(std::string_view key);
   // An array of tables ([[runway]]); empty when the key is missing.
   std::vector<ConfigTable> tables(std::string_view key);
-  // Names of all keys whose value is a table, in file order; for free-form maps such as material mappings.
+  // Names of all keys of this table in file order; for free-form maps such as material mappings.
   std::vector<std::string> keys() const;
 
   bool present() const { return present_; }

@@ -40,7 +40,7 @@ std::string to_string(const Problem& problem) {
   }
   text += problem.code;
   if (!problem.field.empty()) text += " " + problem.field;
-  if (!problem.value.empty()) text += " = " + problem.value;
+  if (!problem.value.empty()) text += (problem.field.empty() ? " " : " = ") + problem.value;
   if (!problem.expected.empty()) text += (problem.is_error() ? ": expected " : ": ") + problem.expected;
   return text;
 }

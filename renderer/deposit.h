@@ -10,7 +10,7 @@ namespace fanbeam::renderer {
 // deposited; a zero width goes to one bin; borders are half open. The shares inside add up to `amount` within
 // rounding because each is cut from the same running remainder.
 inline void deposit(double from, double to, double amount, double* bins, int count) noexcept {
-  if (to <= 0.0 || from >= count) return;
+  if (from >= count || to < 0.0 || (to == 0.0 && from < 0.0)) return;
   const int first = static_cast<int>(std::floor(from));
   const int last = static_cast<int>(std::floor(to));
   if (first == last) {

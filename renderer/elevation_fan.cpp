@@ -10,6 +10,16 @@ namespace {
 // Ranges before the first and behind the last cell that still get rays, so that border cells are full.
 constexpr int kMarginCells = 2;
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
+// An antenna tilted less than this (0.06 deg) sees a column as one vertical plane.
+constexpr double kLevelCosine = 1.0 - 5e-7;
+
+glm::dvec3 horizontal(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
+                      sensors::ScanSurface surface) {
+  glm::dvec3 heading = sensors::direction(frame, azimuth_rad, elevation_rad, surface);
+  heading.z = 0.0;
+  const double length = glm::length(heading);
+  return length > 1e-9 ? heading / length : glm::dvec3(0.0, 1.0, 0.0);
+}
 
 double elevation_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m) {
   return std::atan2(glm::dot(relative_m, frame.up),
@@ -27,23 +37,20 @@ ElevationFan::ElevationFan(const World& world, const Sampling& sampling) : world
 void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
                          std::vector<double>& edges) const {
   edges.clear();
-  const auto horizontal = [&](double azimuth_rad) {
-    glm::dvec3 heading = sensors::direction(frame, azimuth_rad, 0.0, world_.sensor.scan.surface);
-    heading.z = 0.0;
-    const double length = glm::length(heading);
-    return length > 1e-9 ? heading / length : glm::dvec3(0.0, 1.0, 0.0);
+  const auto heading = [&](double azimuth_rad) {
+    return horizontal(frame, azimuth_rad, 0.0, world_.sensor.scan.surface);
   };
-  const glm::dvec3 centre = horizontal((left_rad + right_rad) / 2);
+  const double middle_rad = (left_rad + right_rad) / 2;
   if (world_.surfaces->terrain() != nullptr) {
-    follow_ground(frame, centre, edges);
+    follow_ground(frame, middle_rad, edges);
     // Beside the centre azimuth the horizon may stand a little higher.
     for (const double margin_rad : kHorizonMargin_rad)
       if (!edges.empty()) add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, edges);
   }
   if (!world_.surfaces->has_meshes()) return;
-  double top_rad = highest_object_rad(frame, centre);
-  top_rad = std::max(top_rad, highest_object_rad(frame, horizontal(left_rad)));
-  top_rad = std::max(top_rad, highest_object_rad(frame, horizontal(right_rad)));
+  double top_rad = highest_object_rad(frame, heading(middle_rad));
+  top_rad = std::max(top_rad, highest_object_rad(frame, heading(left_rad)));
+  top_rad = std::max(top_rad, highest_object_rad(frame, heading(right_rad)));
   if (edges.empty()) {
     if (top_rad <= lowest_rad_) return;
     edges.push_back(lowest_rad_);
@@ -51,13 +58,16 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
   add_until(std::min(top_rad, highest_rad_), 1, edges);
 }
 
-void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, const glm::dvec3& heading,
+void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
                                  std::vector<double>& edges) const {
   const terrain::HeightField& ground = *world_.surfaces->terrain();
   const sensors::RangeGate& gate = world_.sensor.range;
   const double stride = std::max(1.0, 1.0 / sampling_.rays_per_cell);
   const int parts = std::max(1, static_cast<int>(std::lround(sampling_.rays_per_cell * stride)));
   const glm::dvec3& sensor = frame.position_m;
+  const sensors::ScanSurface surface = world_.sensor.scan.surface;
+  const bool level = frame.up.z > kLevelCosine && surface == sensors::ScanSurface::plane;
+  glm::dvec3 heading = horizontal(frame, azimuth_rad, level ? 0.0 : lowest_rad_, surface);
   double drop_m = 0.0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = gate.minimum_m + gate.cell_m * k;
@@ -69,6 +79,8 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, const glm::
     if (!height_m) break;
     drop_m = std::min(std::abs(sensor.z - *height_m), range_m);
     const double elevation_rad = elevation_of(frame, {x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z});
+    // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
+    if (!level) heading = horizontal(frame, azimuth_rad, elevation_rad, surface);
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
     } else {

@@ -24,7 +24,7 @@ class ElevationFan {
   void place(const sensors::AntennaFrame& frame, double left_rad, double right_rad, std::vector<double>& edges) const;
 
  private:
-  void follow_ground(const sensors::AntennaFrame& frame, const glm::dvec3& heading, std::vector<double>& edges) const;
+  void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad, std::vector<double>& edges) const;
   double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec3& heading) const;
   void add_until(double elevation_rad, int parts, std::vector<double>& edges) const;
 

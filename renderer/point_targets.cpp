@@ -65,14 +65,17 @@ void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& se
   const double width_rad = scan.column_width_rad();
   const double cut_rad = sensor.antenna.azimuth.cut_rad;
   for (const core::Echo& echo : echoes) {
+    // The beam is an angle on the sky; columns of a plane scan count azimuth in the horizontal plane.
+    const double sky = scan.surface == sensors::ScanSurface::plane ? std::cos(echo.elevation_rad) : 1.0;
     const int cell = sensors::range_row(sensor.range, echo.range_m);
     if (cell == sensors::kOutside) continue;
     const double position = (echo.azimuth_rad + scan.field_of_view_rad / 2) / width_rad - 0.5;
-    const int first = std::max(0, static_cast<int>(std::ceil(position - cut_rad / width_rad)));
-    const int last = std::min(scan.columns - 1, static_cast<int>(std::floor(position + cut_rad / width_rad)));
+    const double reach = cut_rad / (width_rad * std::max(sky, 0.01));
+    const int first = std::max(0, static_cast<int>(std::ceil(position - reach)));
+    const int last = std::min(scan.columns - 1, static_cast<int>(std::floor(position + reach)));
     const int row = cscope_W_m3.empty() ? sensors::kOutside : sensors::cscope_row(sensor.display, echo.elevation_rad);
     for (int column = first; column <= last; ++column) {
-      const double gain = sensors::two_way_gain(sensor.antenna.azimuth, (column - position) * width_rad);
+      const double gain = sensors::two_way_gain(sensor.antenna.azimuth, (column - position) * width_rad * sky);
       const auto columns = static_cast<std::size_t>(scan.columns);
       bscope_W[static_cast<std::size_t>(cell) * columns + static_cast<std::size_t>(column)] += echo.power_W * gain;
       if (row != sensors::kOutside)

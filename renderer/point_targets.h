@@ -1,6 +1,6 @@
 // Point scatterers: reflectors, posts, lights and whatever is smaller than a ray.
 //
-//     P(column) = K sigma g_el(el)^2 g_az(az - az_column)^2 L / R^4
+//     P(column) = K sigma g_el(el)^2 g_az((az - az_column) cos el)^2 L / R^4   (a cone scan: without cos el)
 // in the one range cell that holds R (rectangular range response). Visibility is one ray to the scatterer; a scatterer
 // on a surface is not hidden by that surface (1 m clearance). Neglected: multipath, shadow of the scatterer itself.
 #pragma once

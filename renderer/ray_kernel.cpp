@@ -184,7 +184,7 @@ CastRay GroupCaster<N>::shade(const Lanes<N>& lanes, const RayPacket<N>& packet,
   const glm::dvec3 point = frame_.antenna.position_m + direction * range_m;
   const terrain::MaterialId material =
       frame_.world.surfaces->material(packet.geometry[i], packet.primitive[i], point.x, point.y);
-  const double jacobian = cone_ ? lanes.cos_azimuth[i] : lanes.cos_elevation[i];
+  const double jacobian = cone_ ? lanes.cos_azimuth[i] : 1.0;  // ray_caster.h says why not cos(e)
   ray.density_W_per_rad2 = static_cast<float>(
       frame_.radar_constant_W_m2 * frame_.nrcs[material].sigma0_over_sine(sin_grazing) *
       frame_.elevation_gain(elevation_rad - frame_.world.sensor.antenna.boresight_elevation_rad) *

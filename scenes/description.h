@@ -28,6 +28,7 @@ struct Spot {
   // Seen on landing on the named threshold: metres behind it and metres left of the centre line.
   std::string runway_end;
   double behind_threshold_m = 0.0, left_m = 0.0;
+  std::string field;  // "box[2].at"
   core::Place place;
 };
 
@@ -49,7 +50,7 @@ struct TerrainDescription {
   double quantisation_step_m = 0.0;  // see elevation_raster.h
   std::filesystem::path land_cover;
   std::map<int, std::string> classes;
-  core::Place place;
+  core::Place place, elevation_place, land_cover_place;
 };
 
 struct RunwayEndDescription {
@@ -168,8 +169,8 @@ struct SceneDescription {
   std::filesystem::path material_library;
   TrajectoryDescription trajectory;
   double rays_per_cell = 0.0;  // of the scene's [accuracy]; 0 when it does not say
-  core::ResolvedConfig resolved;         // every setting with its default, for run.json
-  core::ResolvedConfig resolved_sensor;  // the same of the sensor file
+  core::ResolvedConfig resolved;  // every setting with its default, for run.json
+  std::vector<std::filesystem::path> files;  // what the scene is made of beside scene.toml
 };
 
 }  // namespace fanbeam::scenes

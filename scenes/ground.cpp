@@ -8,6 +8,7 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "scenes/placed_problems.h"
 #include "terrain/elevation_raster.h"
 #include "terrain/geoid.h"
 #include "terrain/land_cover_raster.h"
@@ -26,8 +27,16 @@ struct Sources {
 };
 
 std::string degrees_text(const core::Geodetic& position) {
-  return core::number_text(core::degrees(position.latitude_rad)) + ", " +
-         core::number_text(core::degrees(position.longitude_rad));
+  const auto text = [](double angle_rad) {
+    return core::number_text(std::round(core::degrees(angle_rad) * 1e6) / 1e6);
+  };
+  return text(position.latitude_rad) + ", " + text(position.longitude_rad);
+}
+
+// "120 m east, -30 m north of the origin"
+std::string local_text(glm::dvec2 position_m) {
+  const auto whole = [](double value) { return core::number_text(std::round(value) + 0.0); };  // no -0
+  return whole(position_m.x) + " m east, " + whole(position_m.y) + " m north of the origin";
 }
 
 double mean_elevation_m(const std::vector<terrain::Runway>& runways, double otherwise_m) {
@@ -95,9 +104,7 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description, const
   for (const terrain::RunwayEnd& end : runway.ends)
     if (!field_.height_at(end.pavement_end_m.x, end.pavement_end_m.y))
       problems_.error(ErrorClass::range, description.place, "runway end",
-                      core::number_text(std::round(end.pavement_end_m.x)) + " m east, " +
-                          core::number_text(std::round(end.pavement_end_m.y)) + " m north of the origin",
-                      "a place on the scene's terrain");
+                      local_text(end.pavement_end_m), "a place on the scene's terrain");
   return runway;
 }
 
@@ -125,6 +132,8 @@ void Ground::shape(const MaterialNames& names) {
   std::optional<terrain::ElevationRaster> elevation;
   std::optional<terrain::LandCoverRaster> cover;
   std::vector<terrain::MaterialId> material_of_class;
+  const core::Place* reading = &terrain.place;  // what is to blame for an exception
+  std::string reading_field = "terrain";
   try {
     if (terrain.source == TerrainDescription::Source::rolling) {
       terrain::LandscapeMaterials materials;
@@ -147,12 +156,16 @@ void Ground::shape(const MaterialNames& names) {
       options.voids = terrain.fill_voids ? terrain::VoidPolicy::fill : terrain::VoidPolicy::refuse;
       options.interpolation = terrain::Interpolation::cubic_spline;
       options.quantisation_step_m = terrain.quantisation_step_m;
+      reading = &terrain.elevation_place;
+      reading_field = "terrain.elevation";
       elevation.emplace(terrain.elevation, options, problems_);
       sources.height_m = [&](const core::Geodetic& g, glm::dvec2) {
         return elevation->height_m(g.latitude_rad, g.longitude_rad);
       };
     }
     if (!terrain.land_cover.empty()) {
+      reading = &terrain.land_cover_place;
+      reading_field = "terrain.land_cover.file";
       cover.emplace(terrain.land_cover);
       material_of_class.assign(terrain::kLargestLandCoverClass + 1, base);
       for (const auto& [number, name] : terrain.classes)
@@ -168,13 +181,13 @@ void Ground::shape(const MaterialNames& names) {
       };
     }
   } catch (const core::InputError& error) {
-    problems_.append(error.problems());
+    append_placed(problems_, error, *reading, reading_field);
     return;
   }
 
   std::mutex guard;
   std::size_t outside = 0;
-  std::string first_outside;
+  std::pair<std::size_t, std::string> first_outside{field_.height_m.size(), ""};  // post, position
   core::parallel_for(static_cast<std::size_t>(field_.rows), [&](std::size_t row) {
     const int j = static_cast<int>(row);
     for (int i = 0; i < field_.columns; ++i) {
@@ -186,7 +199,8 @@ void Ground::shape(const MaterialNames& names) {
         std::optional<double> height_m = sources.height_m(g, p);
         if (!height_m) {
           const std::lock_guard<std::mutex> lock(guard);
-          if (outside++ == 0) first_outside = degrees_text(g);
+          ++outside;
+          first_outside = std::min(first_outside, {field_.post(i, j), degrees_text(g)});
           break;
         }
         for (const terrain::Runway& runway : runways_) height_m = terrain::flattened_height_m(runway, p, *height_m);
@@ -202,7 +216,7 @@ void Ground::shape(const MaterialNames& names) {
   });
   if (outside > 0)
     problems_.error(ErrorClass::range, terrain.place, "terrain extent",
-                    std::to_string(outside) + " posts without elevation, the first at " + first_outside + " deg",
+                    std::to_string(outside) + " posts without elevation, the first at " + first_outside.second + " deg",
                     "a smaller extent, or elevation data that cover it");
 }
 
@@ -243,10 +257,7 @@ std::optional<glm::dvec2> Ground::local_m(const Spot& spot) const {
     position_m = local_m(spot.latitude_rad, spot.longitude_rad);
   }
   if (field_.height_at(position_m.x, position_m.y)) return position_m;
-  problems_.error(ErrorClass::range, spot.place, "place",
-                  core::number_text(std::round(position_m.x)) + " m east, " +
-                      core::number_text(std::round(position_m.y)) + " m north of the origin",
-                  "a place on the scene's terrain");
+  problems_.error(ErrorClass::range, spot.place, spot.field, local_text(position_m), "a place on the scene's terrain");
   return std::nullopt;
 }
 

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "scenes/objects.h"
+#include "scenes/placed_problems.h"
 #include "terrain/extrusion.h"
 #include "terrain/footprints.h"
 #include "terrain/gltf_loader.h"
@@ -39,23 +40,26 @@ std::vector<terrain::MaterialId> ids_of(const terrain::TriangleMesh& mesh, const
   return ids;
 }
 
-void add_boxes(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
-               core::ProblemList& problems, std::vector<PlacedMesh>& meshes) {
-  for (const BoxDescription& box : scene.boxes) {
-    const auto centre_m = ground.local_m(box.at);
-    if (!centre_m) continue;
-    const glm::dvec2 along = glm::dvec2(std::sin(box.heading_rad), std::cos(box.heading_rad)) * (box.length_m / 2);
-    const glm::dvec2 side = glm::dvec2(std::cos(box.heading_rad), -std::sin(box.heading_rad)) * (box.width_m / 2);
-    terrain::Prism prism;
-    prism.outer_m = {*centre_m - along - side, *centre_m - along + side, *centre_m + along + side,
-                     *centre_m + along - side};
-    const GroundSpan span = ground_under(ground, prism.outer_m);
-    prism.bottom_m = span.lowest_m - kFoundation_m;
-    prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
-    terrain::Extrusion solid = terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
-    std::vector<terrain::MaterialId> ids = ids_of(solid.mesh, names, box.place, "box");
-    meshes.push_back({std::move(solid.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
+void add_box(const BoxDescription& box, const Ground& ground, const MaterialNames& names, core::ProblemList& problems,
+             std::vector<PlacedMesh>& meshes) {
+  const auto centre_m = ground.local_m(box.at);
+  if (!centre_m) return;
+  const glm::dvec2 along = glm::dvec2(std::sin(box.heading_rad), std::cos(box.heading_rad)) * (box.length_m / 2);
+  const glm::dvec2 side = glm::dvec2(std::cos(box.heading_rad), -std::sin(box.heading_rad)) * (box.width_m / 2);
+  terrain::Prism prism;
+  prism.outer_m = {*centre_m - along - side, *centre_m - along + side, *centre_m + along + side,
+                   *centre_m + along - side};
+  const GroundSpan span = ground_under(ground, prism.outer_m);
+  if (!span.covered) {
+    problems.error(ErrorClass::range, box.place, "box", "\"" + box.name + "\" reaches beyond the terrain",
+                   "corners on the scene's terrain");
+    return;
   }
+  prism.bottom_m = span.lowest_m - kFoundation_m;
+  prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
+  terrain::Extrusion solid = terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
+  std::vector<terrain::MaterialId> ids = ids_of(solid.mesh, names, box.place, "box material");
+  meshes.push_back({std::move(solid.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
 }
 
 void add_buildings(const BuildingsDescription& buildings, const Ground& ground, const MaterialNames& names,
@@ -89,7 +93,7 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground, 
                      "not on the scene's terrain, left out");
   terrain::Extrusion city =
       terrain::extrude(prisms, buildings.file.filename().string(), {buildings.wall_material, buildings.roof_material}, problems);
-  std::vector<terrain::MaterialId> ids = ids_of(city.mesh, names, buildings.place, "buildings");
+  std::vector<terrain::MaterialId> ids = ids_of(city.mesh, names, buildings.place, "buildings material");
   meshes.push_back({std::move(city.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
 }
 
@@ -143,18 +147,19 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene, 
 std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
                                      core::ProblemList& problems) {
   std::vector<PlacedMesh> meshes;
-  const auto guarded = [&](auto&& add) {
+  const auto guarded = [&](const core::Place& place, const char* field, auto&& add) {
     try {
       add();
     } catch (const core::InputError& error) {
-      problems.append(error.problems());
+      append_placed(problems, error, place, field);
     }
   };
-  guarded([&] { add_boxes(scene, ground, names, problems, meshes); });
+  for (const BoxDescription& box : scene.boxes)
+    guarded(box.place, "box", [&] { add_box(box, ground, names, problems, meshes); });
   for (const BuildingsDescription& buildings : scene.buildings)
-    guarded([&] { add_buildings(buildings, ground, names, problems, meshes); });
+    guarded(buildings.place, "buildings", [&] { add_buildings(buildings, ground, names, problems, meshes); });
   for (const ModelDescription& model : scene.models)
-    guarded([&] { add_model(model, ground, names, problems, meshes); });
+    guarded(model.place, "model", [&] { add_model(model, ground, names, problems, meshes); });
   return meshes;
 }
 

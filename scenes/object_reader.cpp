@@ -1,5 +1,7 @@
 #include "scenes/object_reader.h"
 
+#include <set>
+
 #include "core/decibel.h"
 #include "core/units.h"
 
@@ -169,6 +171,7 @@ LineDescription read_line(ConfigTable& table) {
 Spot read_spot(ConfigTable& parent, std::string_view key) {
   ConfigTable table = parent.table(key);
   Spot spot;
+  spot.field = parent.path(key);
   spot.place = parent.place(key);
   if (!table.present()) {
     if (!parent.has(key))
@@ -189,7 +192,14 @@ Spot read_spot(ConfigTable& parent, std::string_view key) {
 }
 
 void read_objects(ConfigTable& root, const DataSearch& search, SceneDescription& scene) {
-  for (ConfigTable& table : root.tables("runway")) scene.runways.push_back(read_runway(table));
+  std::set<std::string> ends;
+  for (ConfigTable& table : root.tables("runway")) {
+    scene.runways.push_back(read_runway(table));
+    for (const RunwayEndDescription& end : scene.runways.back().ends)
+      if (!end.name.empty() && !ends.insert(end.name).second)
+        table.error(core::ErrorClass::ref, "", "name \"" + end.name + "\" given twice",
+                    "a name of its own for every runway end");
+  }
   for (ConfigTable& table : root.tables("surface")) scene.surfaces.push_back(read_surface(table));
   for (ConfigTable& table : root.tables("model")) scene.models.push_back(read_model(table, search));
   for (ConfigTable& table : root.tables("box")) scene.boxes.push_back(read_box(table));

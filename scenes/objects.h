@@ -17,7 +17,8 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene, 
 std::vector<terrain::PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
                                               const MaterialNames& names, core::ProblemList& problems);
 
-// Problems with places go to the ground's list.
-std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene, const Ground& ground);
+// E-LIMIT for a line of more than 100000 points.
+std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
+                                                 core::ProblemList& problems);
 
 }  // namespace fanbeam::scenes

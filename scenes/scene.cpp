@@ -28,8 +28,8 @@ void check_flight(const SceneDescription& scene, const terrain::LocalFrame& fram
     const std::string when = "frame " + std::to_string(k) + " at " + core::number_text(time_s) + " s";
     if (!ground_m && outside++ == 0)
       problems.error(core::ErrorClass::range, scene.trajectory.place, "trajectory",
-                     when + ": " + core::number_text(std::round(at_m.x)) + " m east, " +
-                         core::number_text(std::round(at_m.y)) + " m north of the origin",
+                     when + ": " + core::number_text(std::round(at_m.x) + 0.0) + " m east, " +
+                         core::number_text(std::round(at_m.y) + 0.0) + " m north of the origin",
                      "positions over the scene's terrain (this is the first frame outside it)");
     if (ground_m && at_m.z <= *ground_m && below++ == 0)
       problems.error(core::ErrorClass::range, scene.trajectory.place, "trajectory",
@@ -86,7 +86,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   const Ground ground(description, frame, names, problems);
   std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names);
   std::vector<terrain::PlacedMesh> meshes = build_meshes(description, ground, names, problems);
-  std::vector<renderer::PointTarget> targets = build_targets(description, ground);
+  std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems);
   std::optional<Trajectory> trajectory;
   if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);
   if (trajectory) check_flight(description, frame, *trajectory, ground, problems);

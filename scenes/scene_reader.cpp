@@ -8,6 +8,7 @@
 #include "scenes/object_reader.h"
 #include "scenes/trajectory_reader.h"
 #include "sensors/sensor_file.h"
+#include "terrain/land_cover_raster.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -40,13 +41,19 @@ void read_land_cover(ConfigTable& table, const DataSearch& search, TerrainDescri
   ConfigTable cover = table.table("land_cover");
   if (!cover.present()) return;
   terrain.land_cover = search.find(cover, "file");
+  terrain.land_cover_place = cover.place("file");
   ConfigTable classes = cover.table("classes");
   for (const std::string& key : classes.keys()) {
     const bool whole = !key.empty() && key.size() <= 5 &&
                        std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
     const std::string material = classes.text(key, "");
-    if (whole) terrain.classes[std::stoi(key)] = material;
-    else classes.error(core::ErrorClass::parse, key, "\"" + key + "\"", "a class number as the key");
+    if (!whole)
+      classes.error(core::ErrorClass::parse, key, "\"" + key + "\"", "a class number as the key");
+    else if (std::stoi(key) > terrain::kLargestLandCoverClass)
+      classes.error(core::ErrorClass::range, key, key,
+                    "a class from 0 to " + std::to_string(terrain::kLargestLandCoverClass));
+    else
+      terrain.classes[std::stoi(key)] = material;
   }
 }
 
@@ -64,9 +71,10 @@ void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescriptio
   if (table.has("elevation")) {
     terrain.source = TerrainDescription::Source::raster;
     terrain.elevation = search.find(table, "elevation");
+    terrain.elevation_place = table.place("elevation");
     terrain.fill_voids = table.choice("voids", {"refuse", "fill"}, 0) == 1;
     terrain.quantisation_step_m = table.number("quantisation_step_m", {0.0, 100.0}, 0.0);
-    if (table.has("generator"))
+    if (table.optional_text("generator"))
       table.error(core::ErrorClass::range, "generator", "given beside elevation", "either elevation or generator");
     return;
   }
@@ -109,6 +117,7 @@ void read_weather(ConfigTable& root, const SceneDescription& scene, atmosphere::
   weather.temperature_C = table.optional_number("temperature_C", {-60, 50});
   weather.pressure_hPa = table.optional_number("pressure_hPa", {300, 1100});
   weather.humidity = table.optional_number("humidity", {0, 1});
+  if (!(scene.sensor.waveform.frequency_Hz > 0.0)) return;  // no usable sensor: already reported
   const core::ProblemList found = atmosphere::problems_in(weather, scene.sensor.waveform.frequency_Hz);
   // A value outside the range was reported with its line already and replaced by its default.
   for (const core::Problem& problem : found.all()) {
@@ -119,26 +128,34 @@ void read_weather(ConfigTable& root, const SceneDescription& scene, atmosphere::
   }
 }
 
-void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs::path& folder, SceneDescription& scene,
-                       core::ProblemList& problems) {
-  ConfigTable table = root.table("sensor");
+// The file that [sensor] names: in the scene's folder, else shipped. Empty after reporting.
+fs::path find_sensor(ConfigTable& table, const SceneOptions& options, const fs::path& folder) {
   const std::string name = table.text("file", "hivision.toml");
-  fs::path file = options.sensor;
-  if (file.empty()) {
-    try {
-      file = core::path_inside(folder, name, table.place("file"), table.path("file"));
-      if (!fs::is_regular_file(file)) file = options.shipped / "sensors" / name;
-    } catch (const core::InputError& error) {
-      problems.append(error.problems());
-      return;
-    }
+  if (!options.sensor.empty()) {
+    if (fs::is_regular_file(options.sensor)) return options.sensor;
+    table.problems().error(core::ErrorClass::io, {}, "--sensor", options.sensor.string() + " not found", "a sensor file");
+    return {};
   }
-  if (!fs::is_regular_file(file)) {
-    table.error(core::ErrorClass::io, "file", "\"" + name + "\" not found",
-                "a sensor file in the scene's folder or " + (options.shipped / "sensors").string());
-    return;
+  try {
+    const fs::path own = core::path_inside(folder, name, table.place("file"), table.path("file"));
+    if (fs::is_regular_file(own)) return own;
+  } catch (const core::InputError& error) {
+    table.problems().append(error.problems());
+    return {};
   }
-  scene.sensor = sensors::read_sensor(file, problems);
+  if (fs::is_regular_file(options.shipped / "sensors" / name)) return options.shipped / "sensors" / name;
+  table.error(core::ErrorClass::io, "file", "\"" + name + "\" not found",
+              "a sensor file in the scene's folder or " + (options.shipped / "sensors").string());
+  return {};
+}
+
+void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs::path& folder, SceneDescription& scene) {
+  ConfigTable table = root.table("sensor");
+  const fs::path file = find_sensor(table, options, folder);
+  if (!file.empty()) {
+    scene.sensor = sensors::read_sensor(file, root.problems());
+    scene.files.push_back(file);
+  }
   sensors::Mounting& mounting = scene.sensor.mounting;
   mounting.forward_m = table.number("forward_m", {-100, 100}, mounting.forward_m);
   mounting.right_m = table.number("right_m", {-100, 100}, mounting.right_m);
@@ -163,6 +180,14 @@ void read_display(ConfigTable& root, sensors::Display& display) {
       table.choice("cscope_mode", {"true_elevation", "flat_earth"}, static_cast<std::size_t>(display.cscope_mode)));
 }
 
+void list_files(SceneDescription& scene) {
+  scene.files.push_back(scene.material_library);
+  for (const fs::path& file : {scene.terrain.elevation, scene.terrain.land_cover, scene.trajectory.file})
+    if (!file.empty()) scene.files.push_back(file);
+  for (const ModelDescription& model : scene.models) scene.files.push_back(model.file);
+  for (const BuildingsDescription& buildings : scene.buildings) scene.files.push_back(buildings.file);
+}
+
 }  // namespace
 
 SceneDescription read_scene(const fs::path& path, const SceneOptions& options, core::ProblemList& problems) {
@@ -172,10 +197,11 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options, c
   ConfigTable root = ConfigTable::from_file(file, problems);
   if (!root.present()) return scene;
   std::vector<fs::path> data = options.data_folders;
-  for (const std::string& folder : root.texts("data_folders")) data.insert(data.begin(), scene.folder / folder);
+  const std::vector<std::string> own = root.texts("data_folders");
+  for (auto folder = own.rbegin(); folder != own.rend(); ++folder) data.insert(data.begin(), scene.folder / *folder);
   const DataSearch search(scene.folder, data);
   read_scene_table(root, scene);
-  read_sensor_table(root, options, scene.folder, scene, problems);
+  read_sensor_table(root, options, scene.folder, scene);
   read_terrain(root, search, scene.terrain);
   read_objects(root, search, scene);
   read_weather(root, scene, scene.weather);
@@ -187,6 +213,7 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options, c
                                                         : options.shipped / "materials" / "library.toml";
   root.report_unknown_keys();
   scene.resolved = root.resolved();
+  list_files(scene);
   return scene;
 }
 

