@@ -40,6 +40,10 @@ std::string value_text(const toml::node& node) {
   return stream.str();
 }
 
+bool holds(const NumberRange& range, double value) {
+  return value >= range.low && value <= range.high && !(range.above_low && value == range.low);
+}
+
 // The likely meant key, or the ones that look most like it.
 std::string suggestion(const std::string& name, const std::vector<std::string>& known) {
   constexpr std::size_t kLikelyMistyped = 3;  // edits
@@ -135,7 +139,7 @@ std::optional<double> ConfigTable::checked_number(std::string_view key, NumberRa
     error(ErrorClass::nonfinite, key, number_text(value), to_string(range));
     return std::nullopt;
   }
-  if (value < range.low || value > range.high || (range.above_low && value == range.low)) {
+  if (!holds(range, value)) {
     error(ErrorClass::range, key, number_text(value), to_string(range));
     return std::nullopt;
   }
@@ -242,7 +246,7 @@ std::vector<double> ConfigTable::numbers(std::string_view key, NumberRange range
   }
   for (const toml::node& element : *array) {
     const std::optional<double> value = element.is_number() ? element.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value) || *value < range.low || *value > range.high) {
+    if (!value || !std::isfinite(*value) || !holds(range, *value)) {
       const bool nonfinite = value && !std::isfinite(*value);
       document_->problems->error(!value ? ErrorClass::parse : nonfinite ? ErrorClass::nonfinite : ErrorClass::range,
                                  place_of(element.source(), document_->file), path(key), value_text(element), expected);

@@ -33,9 +33,9 @@ std::string to_string(const Problem& problem) {
   std::string text;
   if (!problem.place.file.empty()) {
     text += problem.place.file;
-    if (problem.place.line > 0) text += ":" + std::to_string(problem.place.line);
-    if (problem.place.line > 0 && problem.place.column > 0) text += ":" + std::to_string(problem.place.column);
-    if (problem.place.byte_offset >= 0) text += " byte " + std::to_string(problem.place.byte_offset);
+    if (problem.place.line > 0) text.append(":").append(std::to_string(problem.place.line));
+    if (problem.place.line > 0 && problem.place.column > 0) text.append(":").append(std::to_string(problem.place.column));
+    if (problem.place.byte_offset >= 0) text.append(" byte ").append(std::to_string(problem.place.byte_offset));
     text += ": ";
   }
   text += problem.code;
@@ -91,7 +91,10 @@ void ProblemList::add(Problem problem) {
   if (problems_.size() < kMost) {
     problems_.push_back(std::move(problem));
   } else if (problems_.size() == kMost) {
-    problems_.push_back(Problem{"W-MORE", {}, "", "", "further problems are not listed"});
+    Problem more;
+    more.code = "W-MORE";
+    more.expected = "further problems are not listed";
+    problems_.push_back(std::move(more));
   }
 }
 

@@ -32,14 +32,16 @@ struct Image {
   std::vector<Layer> layers;
 };
 
-// Throws InputError E-IO when the file cannot be written.
+// Throws InputError E-IO when the file cannot be written; an old file is then untouched. Sizes that do not match the
+// values are a broken invariant (InternalError).
 void write_png(const std::filesystem::path& path, const Picture8& picture, const Metadata& metadata);
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
 
 // The texts stored with an image. Throws InputError E-IO or E-PARSE.
 Metadata read_metadata(const std::filesystem::path& path);
 
-// Any format OpenImageIO reads; 8-bit channels come back as 0..255, floats as they are.
+// Any format OpenImageIO reads. Floats come back as they are, whole numbers as stored: 0 to 255 for 8 bits, 0 to
+// 65535 for 16; palettes as colours.
 // Throws InputError: E-IO (missing), E-PARSE (damaged), E-LIMIT before allocation above 32 million values.
 Image read_image(const std::filesystem::path& path);
 

@@ -10,8 +10,6 @@ namespace {
 // Ranges before the first and behind the last cell that still get rays, so that border cells are full.
 constexpr int kMarginCells = 2;
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
-// An antenna tilted less than this (0.06 deg) sees a column as one vertical plane.
-constexpr double kLevelCosine = 1.0 - 5e-7;
 
 glm::dvec3 horizontal(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
                       sensors::ScanSurface surface) {

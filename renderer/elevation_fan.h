@@ -15,6 +15,9 @@
 
 namespace fanbeam::renderer {
 
+// An antenna tilted less than this (0.06 deg) sees a column as one vertical plane.
+inline constexpr double kLevelCosine = 1.0 - 5e-7;
+
 class ElevationFan {
  public:
   ElevationFan(const World& world, const Sampling& sampling);

@@ -35,6 +35,10 @@ inline Axes elevation_derivative(bool cone, double ce, double se, double ca, dou
   return cone ? Axes{-ca * se, 0.0, ca * ce} : Axes{-se * ca, -se * sa, ce};
 }
 
+inline Axes azimuth_derivative(bool cone, double ce, double se, double ca, double sa) {
+  return cone ? Axes{-sa * ce, ca, -sa * se} : Axes{-ce * sa, ce * ca, 0.0};
+}
+
 // A low-discrepancy place inside the sub-column for ray `index`: multiples of the golden ratio, shifted from
 // sub-column to sub-column by another irrational so that neighbours do not repeat each other.
 inline double dither(std::uint64_t index, int sub_column) {
@@ -45,9 +49,11 @@ inline double dither(std::uint64_t index, int sub_column) {
 struct SubColumn {
   double centre_rad, cosine, sine, step_rad;
 
+  double offset_rad(double place) const { return step_rad * (place - 0.5); }
+
   // Cosine and sine at `place` in [0, 1) of the sub-column; third order in a width below 5 mrad leaves 2e-8.
   void at(double place, double& cos_azimuth, double& sin_azimuth) const {
-    const double d = step_rad * (place - 0.5);
+    const double d = offset_rad(place);
     cos_azimuth = cosine - sine * d - cosine * d * d / 2;
     sin_azimuth = sine + cosine * d - sine * d * d / 2;
   }
@@ -58,7 +64,8 @@ class GroupCaster {
  public:
   GroupCaster(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums, std::vector<RayPacket<N>>* record)
       : frame_(frame), group_(group), scratch_(scratch), sums_(sums), record_(record),
-        cone_(frame.world.sensor.scan.surface == sensors::ScanSurface::cone) {
+        cone_(frame.world.sensor.scan.surface == sensors::ScanSurface::cone),
+        level_(!cone_ && frame.antenna.up.z > kLevelCosine) {
     for (int a = 0; a < kGroupAzimuths; ++a) {
       const double centre = sums.first_azimuth_rad + (kGroupAzimuths * group + a + 0.5) * sums.step_rad;
       columns_[a] = {centre, std::cos(centre), std::sin(centre), sums.step_rad};
@@ -96,6 +103,7 @@ class GroupCaster {
   bool refine();
   bool wants_ray_between(const CastRay& below, const CastRay& above) const;
   void cast_requests();
+  void aim(Lanes<N>& lanes, int lane, int azimuth, double place, double elevation_rad) const;
   void send(Lanes<N>& lanes, RayPacket<N>& packet);
   CastRay shade(const Lanes<N>& lanes, const RayPacket<N>& packet, int lane, double elevation_rad);
   void deposit_intervals(int azimuth);
@@ -109,6 +117,7 @@ class GroupCaster {
   FanSums& sums_;
   std::vector<RayPacket<N>>* record_;
   bool cone_;
+  bool level_;  // azimuth alone does not change the range of level ground
   std::array<SubColumn, kGroupAzimuths> columns_;
 };
 
@@ -144,6 +153,28 @@ FANBEAM_HOT void fill_packet(const sensors::AntennaFrame& antenna, bool cone, do
 FANBEAM_HOT void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double far_m,
                                  const Lanes<16>& lanes, RayPacket<16>& packet) {
   fill_packet_inline<16>(antenna, cone, far_m, lanes, packet);
+}
+
+// Points a lane. Where the antenna is tilted, or the scan a cone, a step in azimuth alone would change the range of
+// level ground: the elevation then goes along with it, so that rays of one interval stay in its cells.
+template <int N>
+void GroupCaster<N>::aim(Lanes<N>& lanes, int lane, int azimuth, double place, double elevation_rad) const {
+  const SubColumn& column = columns_[azimuth];
+  column.at(place, lanes.cos_azimuth[lane], lanes.sin_azimuth[lane]);
+  lanes.cos_elevation[lane] = std::cos(elevation_rad);
+  lanes.sin_elevation[lane] = std::sin(elevation_rad);
+  if (level_) return;
+  const auto upwards = [&](const Axes& w) {
+    const sensors::AntennaFrame& antenna = frame_.antenna;
+    return w.forward * antenna.forward.z + w.right * antenna.right.z + w.up * antenna.up.z;
+  };
+  const double ce = lanes.cos_elevation[lane], se = lanes.sin_elevation[lane];
+  const double by_azimuth = upwards(azimuth_derivative(cone_, ce, se, column.cosine, column.sine));
+  const double by_elevation = upwards(elevation_derivative(cone_, ce, se, column.cosine, column.sine));
+  if (std::abs(by_elevation) < 0.1) return;  // rolled on its side: range no longer follows elevation
+  const double sheared_rad = elevation_rad - by_azimuth / by_elevation * column.offset_rad(place);
+  lanes.cos_elevation[lane] = std::cos(sheared_rad);
+  lanes.sin_elevation[lane] = std::sin(sheared_rad);
 }
 
 template <int N>
@@ -203,31 +234,22 @@ void GroupCaster<N>::cast_fan(int pass) {
   double elevation_rad[N];
   for (auto& rays : scratch_.rays) rays.clear();
   for (int first = 0; first < count; first += kRows) {
-    for (int row = 0; row < kRows; ++row) {
-      const int j = std::min(first + row, count - 1);
-      const double middle_rad = (edges[j] + edges[j + 1]) / 2;
-      const double cosine = std::cos(middle_rad);
-      const double sine = std::sin(middle_rad);
-      for (int a = 0; a < kGroupAzimuths; ++a) {
-        const int i = row * kGroupAzimuths + a;
-        const int sub_column = kGroupAzimuths * group_ + a;
-        lanes.active[i] = first + row < count ? -1 : 0;
-        elevation_rad[i] = middle_rad;
-        lanes.cos_elevation[i] = cosine;
-        lanes.sin_elevation[i] = sine;
-        double place = dither(static_cast<std::uint64_t>(j), sub_column);
-        if (jittered) {
-          const std::uint64_t cell =
-              static_cast<std::uint64_t>(sub_column) * static_cast<std::uint64_t>(frame_.sampling.jittered_passes) +
-              static_cast<std::uint64_t>(pass);
-          const auto words = core::random_words(key, cell, static_cast<std::uint32_t>(j));
-          place = core::uniform_from(words[0]);
-          elevation_rad[i] = edges[j] + core::uniform_from(words[1]) * (edges[j + 1] - edges[j]);
-          lanes.cos_elevation[i] = std::cos(elevation_rad[i]);
-          lanes.sin_elevation[i] = std::sin(elevation_rad[i]);
-        }
-        columns_[a].at(place, lanes.cos_azimuth[i], lanes.sin_azimuth[i]);
+    for (int i = 0; i < N; ++i) {
+      const int j = std::min(first + i / kGroupAzimuths, count - 1);
+      const int azimuth = i % kGroupAzimuths;
+      const int sub_column = kGroupAzimuths * group_ + azimuth;
+      lanes.active[i] = first + i / kGroupAzimuths < count ? -1 : 0;
+      elevation_rad[i] = (edges[j] + edges[j + 1]) / 2;
+      double place = dither(static_cast<std::uint64_t>(j), sub_column);
+      if (jittered) {
+        const std::uint64_t cell =
+            static_cast<std::uint64_t>(sub_column) * static_cast<std::uint64_t>(frame_.sampling.jittered_passes) +
+            static_cast<std::uint64_t>(pass);
+        const auto words = core::random_words(key, cell, static_cast<std::uint32_t>(j));
+        place = core::uniform_from(words[0]);
+        elevation_rad[i] = edges[j] + core::uniform_from(words[1]) * (edges[j + 1] - edges[j]);
       }
+      aim(lanes, i, azimuth, place, elevation_rad[i]);
     }
     send(lanes, packet);
     for (int i = 0; i < N; ++i)
@@ -291,12 +313,10 @@ void GroupCaster<N>::cast_requests() {
     for (std::size_t i = 0; i < N; ++i) {
       const auto& request = scratch_.requests[std::min(first + i, count - 1)];
       lanes.active[i] = first + i < count ? -1 : 0;
-      lanes.cos_elevation[i] = std::cos(request.elevation_rad);
-      lanes.sin_elevation[i] = std::sin(request.elevation_rad);
       // Keyed by the elevation itself: the same ray gets the same azimuth whatever was refined before it.
       const auto index = static_cast<std::uint64_t>((request.elevation_rad + core::kPi) * 1e7);
-      columns_[request.azimuth].at(dither(index, kGroupAzimuths * group_ + request.azimuth), lanes.cos_azimuth[i],
-                                   lanes.sin_azimuth[i]);
+      aim(lanes, static_cast<int>(i), request.azimuth,
+          dither(index, kGroupAzimuths * group_ + request.azimuth), request.elevation_rad);
     }
     send(lanes, packet);
     for (std::size_t i = 0; i < N && first + i < count; ++i) {
