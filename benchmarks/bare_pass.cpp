@@ -6,6 +6,7 @@
 
 #include "benchmarks/frame_clock.h"
 #include "benchmarks/stopwatch.h"
+#include "core/errors.h"
 #include "core/parallel.h"
 #include "renderer/ray_caster.h"
 
@@ -101,6 +102,11 @@ BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling)
     for (int lane = 0; lane < 16; ++lane) rays += holds_ray(packet, lane) ? 1 : 0;
 
   const FrameClock clock(view, sampling);
+  renderer::Frame frame;
+  clock.frame_ms(&frame);
+  if (frame.rays != rays)
+    throw core::InternalError("a frame of " + std::to_string(frame.rays) +
+                              " rays was recorded as " + std::to_string(rays));
   using Cut8 = std::array<std::array<int, 8>, 2>;
   std::vector<BarePass> passes;
   {

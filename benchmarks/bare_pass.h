@@ -1,8 +1,8 @@
 // What the ray-casting library alone needs for the rays of a frame.
 //
-// The packets of a frame, refinement rays included, are recorded, filled before the clock starts and
-// cast by as many threads; nothing is done with the hits. Packets are tried as recorded (16 wide)
-// and cut into two kinds of 8 wide ones; the quickest counts.
+// The packets of a frame, refinement rays included, are recorded, filled before the clock starts
+// and cast by as many threads; nothing is done with the hits. Packets are tried as recorded (16
+// wide) and cut into two kinds of 8 wide ones; the quickest counts.
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,7 @@ struct BarePass {
   double ratio() const { return frame_ms / bare_ms; }
 };
 
+// Throws core::InternalError when the recorded rays are not as many as a frame's.
 BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling);
 
 // Elevations of the lowest and highest ray that the ray caster sends at default sampling.

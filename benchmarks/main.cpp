@@ -69,10 +69,13 @@ Report measure(const std::vector<BenchScene>& scenes, std::vector<std::string> s
     figures.scene = &scene;
     const View farthest = view_at(scene, kDistances_m[0]);
     figures.sequence = measure_sequence(farthest, kSequenceFrames, threads);
-    for (const double distance_m : kDistances_m)
-      // Over a city the split between azimuth and range matters most: measured in one view of the last scene.
-      figures.views.push_back(measure_view(view_at(scene, distance_m),
-                                           &scene == &scenes.back() && figures.views.empty()));
+    for (const double distance_m : kDistances_m) {
+      Extras extras;
+      extras.second_reference = figures.views.empty();
+      // Over a city the split between azimuth and range matters most.
+      extras.splits = figures.views.empty() && &scene == &scenes.back();
+      figures.views.push_back(measure_view(view_at(scene, distance_m), extras));
+    }
     report.scenes.push_back(std::move(figures));
   }
   return report;

@@ -37,7 +37,8 @@ struct ViewFigures {
   View view;
   double reference_s = 0.0;
   std::uint64_t reference_rays = 0;
-  FrameError reference_error;  // a second reference with another seed against the first
+  // A second reference with another seed against the first.
+  std::optional<FrameError> reference_error;
   std::vector<SamplingFigures> ladder;
   SamplingFigures at_16Hz, at_90Hz;  // the finest that fits, or the coarsest there is
   double one_thread_ms = 0.0;        // at_16Hz with one thread
@@ -46,10 +47,19 @@ struct ViewFigures {
   std::vector<SamplingFigures> splits;  // the same rays per cell, split otherwise; only where asked
 };
 
-ViewFigures measure_view(const View& view, bool with_splits);
+// What need not be measured in every view.
+struct Extras {
+  bool second_reference = false;
+  bool splits = false;
+};
 
-// Milliseconds for a noise-free B-scope error of `rms`, interpolated in a double logarithmic ladder;
-// nothing when the ladder's finest step is not that good.
+ViewFigures measure_view(const View& view, const Extras& extras);
+
+// Noise-free B-scope errors at which ways of sampling are compared in time.
+inline constexpr double kEqualErrors[] = {2.6, 1.2};
+
+// Milliseconds for a noise-free B-scope error of `rms`, interpolated in a double logarithmic
+// ladder: nothing when no step is that good, the first step's time when that one is already.
 std::optional<double> ms_at_error(const std::vector<SamplingFigures>& ladder, double rms);
 std::optional<double> ms_at_error(const std::vector<NaiveFigures>& ladder, NaiveKind kind,
                                   double rms);

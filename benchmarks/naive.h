@@ -1,6 +1,7 @@
 // The renderer people write first, as a yardstick: uniform elevation angles, one ray at a time,
 // each hit put into the one cell it falls in. Radar equation, tables, azimuth beam, point targets
-// and display are the project's own, so that only the sampling differs.
+// and display are the project's own, so that only the sampling differs. The rays are RayScene's
+// checked single ones.
 //
 //   plain     one azimuth per picture column, its centre
 //   dithered  four sub-columns per column, every ray at its own azimuth inside its sub-column

@@ -22,8 +22,8 @@ inline double median(std::vector<double> values) {
 // Repeats `least` times, then on until `most` repetitions or `most_ms` are spent.
 struct Repetitions {
   int least = 11;
-  int most = 31;
-  double most_ms = 1000.0;
+  int most = 21;
+  double most_ms = 600.0;
 };
 
 // Runs `work` once to warm up, then as often as asked.

@@ -33,7 +33,6 @@ const std::vector<RateTarget>& rate_targets() {
 
 constexpr double kMostBareRatio = 1.5;
 constexpr double kAimBareRatio = 1.2;
-constexpr double kEqualErrors[] = {2.6, 1.2};
 constexpr double kMostOfNaive = 0.25;
 constexpr double kMostBuild_s = 15.0;
 constexpr double kMostMemory_bytes = 2e9;

@@ -280,6 +280,7 @@ ConfigTable ConfigTable::table(std::string_view key) {
   ConfigTable child;
   child.document_ = document_;
   child.prefix_ = path(key) + ".";
+  child.nearby_ = place(key);
   if (node != nullptr && !node->is_table()) error(ErrorClass::parse, key, value_text(*node), "a table");
   if (node != nullptr && node->is_table()) {
     child.table_ = node->as_table();
@@ -319,10 +320,13 @@ std::vector<std::string> ConfigTable::keys() const {
   return names;
 }
 
-std::string ConfigTable::path(std::string_view key) const { return prefix_ + std::string(key); }
+std::string ConfigTable::path(std::string_view key) const {
+  if (key.empty()) return prefix_.substr(0, prefix_.empty() ? 0 : prefix_.size() - 1);  // without the point
+  return prefix_ + std::string(key);
+}
 
 Place ConfigTable::place(std::string_view key) const {
-  if (table_ == nullptr) return {document_->file};
+  if (table_ == nullptr) return nearby_;
   const auto* table = static_cast<const toml::table*>(table_);
   const auto entry = table->find(key);
   if (entry != table->end()) return place_of(entry->first.source(), document_->file);

@@ -64,7 +64,8 @@ class ConfigTable {
   std::vector<std::string> keys() const;
 
   bool present() const { return present_; }
-  Place place(std::string_view key) const;  // of the key, or of the table when the key is missing
+  // Of the key, or of the nearest table around it that is there. An empty key stands for this table.
+  Place place(std::string_view key) const;
   std::string path(std::string_view key) const;  // "weather.visibility_m"
   // Reports a problem that only the caller can see, at the place of `key`.
   void error(ErrorClass error_class, std::string_view key, std::string value, std::string expected);
@@ -87,6 +88,7 @@ class ConfigTable {
   std::shared_ptr<Document> document_;
   const void* table_ = nullptr;
   std::string prefix_;
+  Place nearby_;  // of a missing table: where it would belong
   bool present_ = false;
 };
 

@@ -13,3 +13,6 @@
 #ifndef FANBEAM_HOT
 #define FANBEAM_HOT __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #endif
+
+// Inlines whatever a hot function calls into it, so that the callees are compiled for its level too.
+#define FANBEAM_INLINE_ALL __attribute__((flatten))

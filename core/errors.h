@@ -37,7 +37,8 @@ struct Problem {
 // "scene.toml:12:5: E-RANGE weather.visibility_m = -3: expected 1 to 100000 m"
 std::string to_string(const Problem& problem);
 
-// Numbers in messages: shortest form that reads back to the same value, independent of the locale.
+// Numbers in messages: shortest form that reads back to the same value, independent of the locale; without an exponent
+// from 1e-4 to 1e7.
 std::string number_text(double value);
 
 // Thrown when an input has at least one error; carries the warnings found beside it too.

@@ -1,14 +1,13 @@
 #include "core/image.h"
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
-#include <array>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/png_check.h"
 
 namespace fanbeam::core {
 namespace {
@@ -20,18 +19,18 @@ std::size_t cells(int columns, int rows) {
   return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
 }
 
+// Through memory: the libraries' own file output does not tell when the disk is full.
 void write(const std::filesystem::path& path, OIIO::ImageSpec& spec, const Metadata& metadata, OIIO::TypeDesc type,
            const void* pixels) {
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  write_atomically(path, [&](const std::filesystem::path& temporary) {
-    const auto refuse = [&](const std::string& reason) {
-      throw_input_error(ErrorClass::io, Place{path.string()}, "", reason, "a file that can be written");
-    };
-    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(temporary.string());
-    if (!output) refuse(OIIO::geterror());
-    if (!output->open(temporary.string(), spec) || !output->write_image(type, pixels) || !output->close())
-      refuse(output->geterror());
-  });
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.extension().string().substr(1));
+  if (!output) throw InternalError("no writer of " + path.extension().string() + ": " + OIIO::geterror());
+  OIIO::Filesystem::IOVecOutput bytes;
+  if (!output->set_ioproxy(&bytes) || !output->open(path.string(), spec) || !output->write_image(type, pixels) ||
+      !output->close())
+    throw InternalError("writing " + path.filename().string() + " to memory: " + output->geterror());
+  const std::vector<unsigned char>& buffer = bytes.buffer();
+  write_file_atomically(path, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
 }
 
 // Keeps sizes that a file only claims away from every allocation.
@@ -43,23 +42,11 @@ void check_size(const Place& place, std::int64_t columns, std::int64_t rows, std
     throw_input_error(ErrorClass::limit, place, "image size", found, "at most " + std::to_string(kMostValues) + " values");
 }
 
-// PNG: the size stands at byte 16 (ISO/IEC 15948:2004, 11.2.2), seen before the library sees the file.
-void check_png_size(const std::filesystem::path& path) {
-  std::array<unsigned char, 24> head{};
-  std::ifstream stream(path, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(head.data()), head.size());
-  if (stream.gcount() < 24 || std::memcmp(head.data(), "\x89PNG\r\n\x1a\n", 8) != 0) return;
-  const auto number = [&](std::size_t at) {
-    return std::int64_t{head[at]} << 24 | head[at + 1] << 16 | head[at + 2] << 8 | head[at + 3];
-  };
-  check_size(Place{path.string()}, number(16), number(20), 1);
-}
-
 std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   const Place place{path.string()};
   if (!std::filesystem::is_regular_file(path))
     throw_input_error(ErrorClass::io, place, "", "missing", "an image file");
-  check_png_size(path);
+  if (const std::optional<ClaimedSize> claimed = check_png(path)) check_size(place, claimed->columns, claimed->rows, 1);
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
   if (!input) throw_input_error(ErrorClass::parse, place, "", OIIO::geterror(), "an image file");
   return input;
@@ -80,6 +67,7 @@ void write_exr(const std::filesystem::path& path, const Image& image, const Meta
   spec.channelnames.clear();
   for (const Image::Layer& layer : image.layers) spec.channelnames.push_back(layer.name);
   spec.attribute("compression", "zip");
+  spec.attribute("DateTime", "");  // else the time of writing
   const std::size_t count = cells(image.columns, image.rows);
   std::vector<float> pixels(count * layers);
   for (std::size_t layer = 0; layer < layers; ++layer) {

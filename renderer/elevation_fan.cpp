@@ -19,9 +19,11 @@ glm::dvec3 horizontal(const sensors::AntennaFrame& frame, double azimuth_rad, do
   return length > 1e-9 ? heading / length : glm::dvec3(0.0, 1.0, 0.0);
 }
 
-double elevation_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m) {
-  return std::atan2(glm::dot(relative_m, frame.up),
-                    std::hypot(glm::dot(relative_m, frame.forward), glm::dot(relative_m, frame.right)));
+// Tangent of the elevation; rises with it.
+double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m) {
+  const double forward = glm::dot(relative_m, frame.forward);
+  const double right = glm::dot(relative_m, frame.right);
+  return glm::dot(relative_m, frame.up) / std::sqrt(forward * forward + right * right);
 }
 
 }  // namespace
@@ -76,7 +78,7 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     const std::optional<double> height_m = ground.height_at(x_m, y_m);
     if (!height_m) break;
     drop_m = std::min(std::abs(sensor.z - *height_m), range_m);
-    const double elevation_rad = elevation_of(frame, {x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z});
+    const double elevation_rad = std::atan(slope_of(frame, {x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z}));
     // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
     if (!level) heading = horizontal(frame, azimuth_rad, elevation_rad, surface);
     if (edges.empty()) {
@@ -91,7 +93,7 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame, cons
   const terrain::RayScene& surfaces = *world_.surfaces;
   const double square_m = surfaces.tops_spacing_m();
   const glm::dvec3& sensor = frame.position_m;
-  double top_rad = -core::kPi / 2;
+  double top_slope = -1e30;
   for (double distance_m = 0.0; distance_m <= world_.sensor.range.maximum_m(); distance_m += square_m / 2) {
     const double x_m = heading.x * distance_m;
     const double y_m = heading.y * distance_m;
@@ -100,9 +102,9 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame, cons
     // The top may stand anywhere in the square: take its near side when above the sensor, its far side when below.
     const double shift_m = z_m > 0.0 ? -1.5 * square_m : 1.5 * square_m;
     const double at_m = std::max(distance_m + shift_m, 1.0);
-    top_rad = std::max(top_rad, elevation_of(frame, {heading.x * at_m, heading.y * at_m, z_m}));
+    top_slope = std::max(top_slope, slope_of(frame, {heading.x * at_m, heading.y * at_m, z_m}));
   }
-  return top_rad;
+  return std::atan(top_slope);
 }
 
 void ElevationFan::add_until(double elevation_rad, int parts, std::vector<double>& edges) const {

@@ -11,18 +11,6 @@
 namespace fanbeam::renderer {
 namespace {
 
-PathLossTable make_path_loss(const World& world, double sensor_height_m) {
-  double lowest_m = sensor_height_m;
-  double highest_m = sensor_height_m;
-  if (const terrain::HeightField* ground = world.surfaces->terrain(); ground != nullptr) {
-    const auto [low, high] = std::minmax_element(ground->height_m.begin(), ground->height_m.end());
-    lowest_m = std::min(lowest_m, *low);
-    highest_m = std::max(highest_m, *high);
-  }
-  // Buildings and models rise above the ground; higher tops would be clamped to this.
-  return {world.attenuation, sensor_height_m, lowest_m - 10.0, highest_m + 300.0};
-}
-
 void prepare(const World& world, const Sampling& sampling, bool with_cscope, FanSums& sums) {
   const sensors::Scan& scan = world.sensor.scan;
   const int margin = margin_sub_columns(world.sensor, sampling.sub_columns);
@@ -47,7 +35,8 @@ void cast_all(const RayFrame& frame, FanSums& sums, std::vector<std::vector<terr
   core::parallel_for(groups, [&](std::size_t group) {
     thread_local RayScratch scratch;
     scratch.ray_count = scratch.hit_count = scratch.blanked_count = 0;
-    cast_group<N>(frame, static_cast<int>(group), scratch, sums, record != nullptr ? &(*record)[group] : nullptr);
+    std::vector<terrain::RayPacket<N>>* packets = record != nullptr ? &(*record)[group] : nullptr;
+    cast_group(frame, static_cast<int>(group), scratch, sums, packets);
     const std::lock_guard<std::mutex> lock(totals);  // whole numbers: their sum has no order
     sums.rays += scratch.ray_count;
     sums.hits += scratch.hit_count;
@@ -63,15 +52,25 @@ int margin_sub_columns(const sensors::Sensor& sensor, int sub_columns_per_column
 }
 
 RayCaster::RayCaster(const World& world, const Sampling& sampling)
-    : world_(world), sampling_(sampling), fan_(world, sampling_) {
+    : world_(world), sampling_(sampling), fan_(world, sampling_), elevation_gain_(world.sensor.antenna.elevation) {
   for (const materials::PhongNrcs& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
+  if (const terrain::HeightField* ground = world.surfaces->terrain(); ground != nullptr) {
+    const auto [low, high] = std::minmax_element(ground->height_m.begin(), ground->height_m.end());
+    lowest_m_ = *low;
+    highest_m_ = *high;
+  }
+}
+
+PathLossTable RayCaster::path_loss_from(double sensor_height_m) const {
+  // Buildings and models rise above the ground; higher tops would be clamped to this.
+  return {world_.attenuation, sensor_height_m, std::min(sensor_height_m, lowest_m_) - 10.0,
+          std::max(sensor_height_m, highest_m_) + 300.0};
 }
 
 void RayCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums) const {
   prepare(world_, sampling_, with_cscope, sums);
-  const sensors::TwoWayTable elevation_gain(world_.sensor.antenna.elevation);
-  const PathLossTable path_loss = make_path_loss(world_, antenna.position_m.z);
-  const RayFrame frame{world_,    sampling_,      fan_,        nrcs_, antenna, elevation_gain,
+  const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
+  const RayFrame frame{world_,    sampling_,      fan_,        nrcs_, antenna, elevation_gain_,
                        path_loss, world_.sensor.radar_constant_W_m2(), with_cscope};
   if (world_.surfaces->native_packet() == 16) {
     cast_all<16>(frame, sums, nullptr);
@@ -83,9 +82,8 @@ void RayCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, Fan
 std::vector<terrain::RayPacket<16>> RayCaster::packets(const sensors::AntennaFrame& antenna) const {
   FanSums sums;
   prepare(world_, sampling_, true, sums);
-  const sensors::TwoWayTable elevation_gain(world_.sensor.antenna.elevation);
-  const PathLossTable path_loss = make_path_loss(world_, antenna.position_m.z);
-  const RayFrame frame{world_,    sampling_,      fan_,        nrcs_, antenna, elevation_gain,
+  const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
+  const RayFrame frame{world_,    sampling_,      fan_,        nrcs_, antenna, elevation_gain_,
                        path_loss, world_.sensor.radar_constant_W_m2(), true};
   std::vector<std::vector<terrain::RayPacket<16>>> groups;
   cast_all<16>(frame, sums, &groups);

@@ -22,8 +22,10 @@
 #include "renderer/caster.h"
 #include "renderer/elevation_fan.h"
 #include "renderer/nrcs_table.h"
+#include "renderer/path_loss_table.h"
 #include "renderer/sampling.h"
 #include "renderer/world.h"
+#include "sensors/beam_pattern.h"
 
 namespace fanbeam::renderer {
 
@@ -38,10 +40,14 @@ class RayCaster : public Caster {
   std::vector<terrain::RayPacket<16>> packets(const sensors::AntennaFrame& frame) const;
 
  private:
+  PathLossTable path_loss_from(double sensor_height_m) const;
+
   const World& world_;
   Sampling sampling_;
   ElevationFan fan_;
+  sensors::TwoWayTable elevation_gain_;
   std::vector<NrcsTable> nrcs_;  // by material id
+  double lowest_m_ = 0.0, highest_m_ = 0.0;  // of the terrain
 };
 
 // Number of sub-columns left and right of the picture that the azimuth beam reaches into.

@@ -41,9 +41,10 @@ inline Axes azimuth_derivative(bool cone, double ce, double se, double ca, doubl
 
 // A low-discrepancy place inside the sub-column for ray `index`: multiples of the golden ratio, shifted from
 // sub-column to sub-column by another irrational so that neighbours do not repeat each other.
-inline double dither(std::uint64_t index, int sub_column) {
-  const double value = static_cast<double>(index) * 0.6180339887498949 + sub_column * 0.7548776662466927;
-  return value - std::floor(value);
+inline double dither(std::uint32_t index, int sub_column) {
+  // Fractions as 32-bit integers wrap round by themselves: 0.6180339887 and 0.7548776662 times 2^32.
+  const std::uint32_t value = index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U;
+  return static_cast<double>(value) * 0x1p-32;
 }
 
 struct SubColumn {
@@ -65,7 +66,9 @@ class GroupCaster {
   GroupCaster(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums, std::vector<RayPacket<N>>* record)
       : frame_(frame), group_(group), scratch_(scratch), sums_(sums), record_(record),
         cone_(frame.world.sensor.scan.surface == sensors::ScanSurface::cone),
-        level_(!cone_ && frame.antenna.up.z > kLevelCosine) {
+        level_(!cone_ && frame.antenna.up.z > kLevelCosine),
+        gap_limit_m_(frame.sampling.gap_cells * std::max(1.0, 1.0 / frame.sampling.rays_per_cell) *
+                     frame.world.sensor.range.cell_m) {
     for (int a = 0; a < kGroupAzimuths; ++a) {
       const double centre = sums.first_azimuth_rad + (kGroupAzimuths * group + a + 0.5) * sums.step_rad;
       columns_[a] = {centre, std::cos(centre), std::sin(centre), sums.step_rad};
@@ -94,18 +97,14 @@ class GroupCaster {
  private:
   static constexpr int kRows = N / kGroupAzimuths;
 
-  double gap_limit_m() const {
-    const double stride = std::max(1.0, 1.0 / frame_.sampling.rays_per_cell);
-    return frame_.sampling.gap_cells * stride * frame_.world.sensor.range.cell_m;
-  }
-
   void cast_fan(int pass);
   bool refine();
   bool wants_ray_between(const CastRay& below, const CastRay& above) const;
   void cast_requests();
-  void aim(Lanes<N>& lanes, int lane, int azimuth, double place, double elevation_rad) const;
+  void aim(Lanes<N>& lanes, int lane, int azimuth, double place, double cos_elevation, double sin_elevation) const;
   void send(Lanes<N>& lanes, RayPacket<N>& packet);
-  CastRay shade(const Lanes<N>& lanes, const RayPacket<N>& packet, int lane, double elevation_rad);
+  // `rays` gets all N lanes, the inactive ones as sky.
+  void shade(const Lanes<N>& lanes, const RayPacket<N>& packet, const double* elevation_rad, CastRay* rays);
   void deposit_intervals(int azimuth);
   void deposit_points(int azimuth);
   double end_of_interval_m(const CastRay& ray, const CastRay* neighbour, double edge_rad) const;
@@ -118,11 +117,12 @@ class GroupCaster {
   std::vector<RayPacket<N>>* record_;
   bool cone_;
   bool level_;  // azimuth alone does not change the range of level ground
+  double gap_limit_m_;  // neighbours farther apart than this are not one piece of surface
   std::array<SubColumn, kGroupAzimuths> columns_;
 };
 
 template <int N>
-inline void fill_packet_inline(const sensors::AntennaFrame& antenna, bool cone, double far_m, const Lanes<N>& lanes,
+inline void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double far_m, const Lanes<N>& lanes,
                                RayPacket<N>& packet) {
   const glm::dvec3 f = antenna.forward;
   const glm::dvec3 r = antenna.right;
@@ -146,35 +146,57 @@ inline void fill_packet_inline(const sensors::AntennaFrame& antenna, bool cone, 
     packet.instance[i] = terrain::kNoHit;
   }
 }
-FANBEAM_HOT void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double far_m, const Lanes<8>& lanes,
-                             RayPacket<8>& packet) {
-  fill_packet_inline<8>(antenna, cone, far_m, lanes, packet);
-}
-FANBEAM_HOT void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double far_m,
-                                 const Lanes<16>& lanes, RayPacket<16>& packet) {
-  fill_packet_inline<16>(antenna, cone, far_m, lanes, packet);
-}
+// What the facets that were hit look like, lane by lane. Floats: the normal comes in floats.
+template <int N>
+struct Facets {
+  alignas(64) float x_m[N], y_m[N], z_m[N];
+  alignas(64) float sin_grazing[N];  // negative for back faces
+  alignas(64) float range_slope[N];
+  alignas(64) int upright[N];
+};
 
+template <int N>
+inline void measure_facets(const sensors::AntennaFrame& antenna, bool cone, const Lanes<N>& lanes,
+                                  const RayPacket<N>& packet, Facets<N>& facets) {
+  const glm::dvec3 f = antenna.forward;
+  const glm::dvec3 r = antenna.right;
+  const glm::dvec3 u = antenna.up;
+  for (int i = 0; i < N; ++i) {
+    const Axes w = elevation_derivative(cone, lanes.cos_elevation[i], lanes.sin_elevation[i], lanes.cos_azimuth[i],
+                                        lanes.sin_azimuth[i]);
+    const float higher_x = static_cast<float>(w.forward * f.x + w.right * r.x + w.up * u.x);
+    const float higher_y = static_cast<float>(w.forward * f.y + w.right * r.y + w.up * u.y);
+    const float higher_z = static_cast<float>(w.forward * f.z + w.right * r.z + w.up * u.z);
+    const float nx = packet.normal_x[i], ny = packet.normal_y[i], nz = packet.normal_z[i];
+    const float along = nx * packet.direction_x[i] + ny * packet.direction_y[i] + nz * packet.direction_z[i];
+    const float square = nx * nx + ny * ny + nz * nz;
+    facets.sin_grazing[i] = -along / std::sqrt(square);
+    facets.range_slope[i] = (nx * higher_x + ny * higher_y + nz * higher_z) / along;
+    facets.upright[i] = nz * nz < 0.49F * square ? 1 : 0;
+    facets.x_m[i] = packet.origin_x[i] + packet.direction_x[i] * packet.distance[i];
+    facets.y_m[i] = packet.origin_y[i] + packet.direction_y[i] * packet.distance[i];
+    facets.z_m[i] = packet.origin_z[i] + packet.direction_z[i] * packet.distance[i];
+  }
+}
 // Points a lane. Where the antenna is tilted, or the scan a cone, a step in azimuth alone would change the range of
 // level ground: the elevation then goes along with it, so that rays of one interval stay in its cells.
 template <int N>
-void GroupCaster<N>::aim(Lanes<N>& lanes, int lane, int azimuth, double place, double elevation_rad) const {
+void GroupCaster<N>::aim(Lanes<N>& lanes, int lane, int azimuth, double place, double ce, double se) const {
   const SubColumn& column = columns_[azimuth];
   column.at(place, lanes.cos_azimuth[lane], lanes.sin_azimuth[lane]);
-  lanes.cos_elevation[lane] = std::cos(elevation_rad);
-  lanes.sin_elevation[lane] = std::sin(elevation_rad);
+  lanes.cos_elevation[lane] = ce;
+  lanes.sin_elevation[lane] = se;
   if (level_) return;
   const auto upwards = [&](const Axes& w) {
     const sensors::AntennaFrame& antenna = frame_.antenna;
     return w.forward * antenna.forward.z + w.right * antenna.right.z + w.up * antenna.up.z;
   };
-  const double ce = lanes.cos_elevation[lane], se = lanes.sin_elevation[lane];
   const double by_azimuth = upwards(azimuth_derivative(cone_, ce, se, column.cosine, column.sine));
   const double by_elevation = upwards(elevation_derivative(cone_, ce, se, column.cosine, column.sine));
   if (std::abs(by_elevation) < 0.1) return;  // rolled on its side: range no longer follows elevation
-  const double sheared_rad = elevation_rad - by_azimuth / by_elevation * column.offset_rad(place);
-  lanes.cos_elevation[lane] = std::cos(sheared_rad);
-  lanes.sin_elevation[lane] = std::sin(sheared_rad);
+  const double d = -by_azimuth / by_elevation * column.offset_rad(place);
+  lanes.cos_elevation[lane] = ce - se * d - ce * d * d / 2;
+  lanes.sin_elevation[lane] = se + ce * d - se * d * d / 2;
 }
 
 template <int N>
@@ -190,37 +212,37 @@ void GroupCaster<N>::send(Lanes<N>& lanes, RayPacket<N>& packet) {
 }
 
 template <int N>
-CastRay GroupCaster<N>::shade(const Lanes<N>& lanes, const RayPacket<N>& packet, int i, double elevation_rad) {
-  CastRay ray;
-  ray.elevation_rad = elevation_rad;
-  ++scratch_.ray_count;
-  if (packet.geometry[i] == terrain::kNoHit) return ray;
-  ++scratch_.hit_count;
-  const double range_m = static_cast<double>(packet.distance[i]);
-  const glm::dvec3 direction(packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]);
-  const glm::dvec3 normal(packet.normal_x[i], packet.normal_y[i], packet.normal_z[i]);
-  const Axes w = elevation_derivative(cone_, lanes.cos_elevation[i], lanes.sin_elevation[i], lanes.cos_azimuth[i],
-                                      lanes.sin_azimuth[i]);
-  const glm::dvec3 higher =
-      w.forward * frame_.antenna.forward + w.right * frame_.antenna.right + w.up * frame_.antenna.up;
-  const double along = glm::dot(normal, direction);
-  const double inverse_length = 1.0 / std::sqrt(glm::dot(normal, normal));
-  const double sin_grazing = -along * inverse_length;
-  ray.range_m = packet.distance[i];
-  // Walls and roofs of one mesh do not share intervals.
-  const bool upright = std::abs(normal.z) * inverse_length < 0.7;
-  ray.surface = 2 * packet.geometry[i] + (upright ? 1U : 0U);
-  if (sin_grazing <= 0.0 || range_m <= 0.0) return ray;
-  ray.range_slope = static_cast<float>(glm::dot(normal, higher) / along);
-  const glm::dvec3 point = frame_.antenna.position_m + direction * range_m;
-  const terrain::MaterialId material =
-      frame_.world.surfaces->material(packet.geometry[i], packet.primitive[i], point.x, point.y);
-  const double jacobian = cone_ ? lanes.cos_azimuth[i] : 1.0;  // ray_caster.h says why not cos(e)
-  ray.density_W_per_rad2 = static_cast<float>(
-      frame_.radar_constant_W_m2 * frame_.nrcs[material].sigma0_over_sine(sin_grazing) *
-      frame_.elevation_gain(elevation_rad - frame_.world.sensor.antenna.boresight_elevation_rad) *
-      frame_.path_loss.two_way_factor(point.z, range_m) * jacobian / (range_m * range_m));
-  return ray;
+void GroupCaster<N>::shade(const Lanes<N>& lanes, const RayPacket<N>& packet, const double* elevation_rad,
+                           CastRay* rays) {
+  Facets<N> facets;
+  measure_facets(frame_.antenna, cone_, lanes, packet, facets);
+  const terrain::RayScene& surfaces = *frame_.world.surfaces;
+  const double boresight_rad = frame_.world.sensor.antenna.boresight_elevation_rad;
+  for (int i = 0; i < N; ++i) {
+    CastRay& ray = rays[i];
+    ray = CastRay{};
+    ray.elevation_rad = elevation_rad[i];
+    if (lanes.active[i] == 0) continue;
+    ++scratch_.ray_count;
+    if (packet.geometry[i] == terrain::kNoHit) continue;
+    ++scratch_.hit_count;
+    ray.range_m = packet.distance[i];
+    // Walls and roofs of one mesh do not share intervals.
+    ray.surface = 2 * packet.geometry[i] + (facets.upright[i] != 0 ? 1U : 0U);
+    const double sin_grazing = static_cast<double>(facets.sin_grazing[i]);
+    if (sin_grazing <= 0.0 || ray.range_m <= 0.0F) continue;
+    ray.range_slope = facets.range_slope[i];
+    const double range_m = static_cast<double>(ray.range_m);
+    const terrain::MaterialId material =
+        surfaces.material(packet.geometry[i], packet.primitive[i], static_cast<double>(facets.x_m[i]),
+                          static_cast<double>(facets.y_m[i]));
+    const double jacobian = cone_ ? lanes.cos_azimuth[i] : 1.0;  // ray_caster.h says why not cos(e)
+    ray.density_W_per_rad2 = static_cast<float>(
+        frame_.radar_constant_W_m2 * frame_.nrcs[material].sigma0_over_sine(sin_grazing) *
+        frame_.elevation_gain(elevation_rad[i] - boresight_rad) *
+        frame_.path_loss.two_way_factor(static_cast<double>(facets.z_m[i]), range_m) * jacobian /
+        (range_m * range_m));
+  }
 }
 
 template <int N>
@@ -232,28 +254,36 @@ void GroupCaster<N>::cast_fan(int pass) {
   Lanes<N> lanes;
   RayPacket<N> packet;
   double elevation_rad[N];
-  for (auto& rays : scratch_.rays) rays.clear();
+  CastRay cast[N];
+  for (auto& rays : scratch_.rays) rays.resize(static_cast<std::size_t>(count));
   for (int first = 0; first < count; first += kRows) {
-    for (int i = 0; i < N; ++i) {
-      const int j = std::min(first + i / kGroupAzimuths, count - 1);
-      const int azimuth = i % kGroupAzimuths;
-      const int sub_column = kGroupAzimuths * group_ + azimuth;
-      lanes.active[i] = first + i / kGroupAzimuths < count ? -1 : 0;
-      elevation_rad[i] = (edges[j] + edges[j + 1]) / 2;
-      double place = dither(static_cast<std::uint64_t>(j), sub_column);
-      if (jittered) {
-        const std::uint64_t cell =
-            static_cast<std::uint64_t>(sub_column) * static_cast<std::uint64_t>(frame_.sampling.jittered_passes) +
-            static_cast<std::uint64_t>(pass);
-        const auto words = core::random_words(key, cell, static_cast<std::uint32_t>(j));
-        place = core::uniform_from(words[0]);
-        elevation_rad[i] = edges[j] + core::uniform_from(words[1]) * (edges[j + 1] - edges[j]);
+    for (int row = 0; row < kRows; ++row) {
+      const int j = std::min(first + row, count - 1);
+      const double middle_rad = (edges[j] + edges[j + 1]) / 2;
+      double ce = std::cos(middle_rad), se = std::sin(middle_rad);
+      for (int a = 0; a < kGroupAzimuths; ++a) {
+        const int i = row * kGroupAzimuths + a;
+        const int sub_column = kGroupAzimuths * group_ + a;
+        lanes.active[i] = first + row < count ? -1 : 0;
+        elevation_rad[i] = middle_rad;
+        double place = dither(static_cast<std::uint32_t>(j), sub_column);
+        if (jittered) {
+          const std::uint64_t cell =
+              static_cast<std::uint64_t>(sub_column) * static_cast<std::uint64_t>(frame_.sampling.jittered_passes) +
+              static_cast<std::uint64_t>(pass);
+          const auto words = core::random_words(key, cell, static_cast<std::uint32_t>(j));
+          place = core::uniform_from(words[0]);
+          elevation_rad[i] = edges[j] + core::uniform_from(words[1]) * (edges[j + 1] - edges[j]);
+          ce = std::cos(elevation_rad[i]);
+          se = std::sin(elevation_rad[i]);
+        }
+        aim(lanes, i, a, place, ce, se);
       }
-      aim(lanes, i, azimuth, place, elevation_rad[i]);
     }
     send(lanes, packet);
-    for (int i = 0; i < N; ++i)
-      if (lanes.active[i] != 0) scratch_.rays[i % kGroupAzimuths].push_back(shade(lanes, packet, i, elevation_rad[i]));
+    shade(lanes, packet, elevation_rad, cast);
+    for (int i = 0; i < N && first + i / kGroupAzimuths < count; ++i)
+      scratch_.rays[i % kGroupAzimuths][static_cast<std::size_t>(first + i / kGroupAzimuths)] = cast[i];
   }
 }
 
@@ -264,7 +294,7 @@ bool GroupCaster<N>::wants_ray_between(const CastRay& below, const CastRay& abov
   const bool sky_below = below.surface == terrain::kNoHit;
   const bool sky_above = above.surface == terrain::kNoHit;
   if (sky_below || sky_above) return sky_below != sky_above;
-  return below.surface != above.surface || std::abs(above.range_m - below.range_m) > gap_limit_m();
+  return below.surface != above.surface || static_cast<double>(std::abs(above.range_m - below.range_m)) > gap_limit_m_;
 }
 
 template <int N>
@@ -307,29 +337,32 @@ template <int N>
 void GroupCaster<N>::cast_requests() {
   Lanes<N> lanes;
   RayPacket<N> packet;
+  double elevation_rad[N];
+  CastRay cast[N];
   for (auto& refined : scratch_.refined) refined.clear();
   const std::size_t count = scratch_.requests.size();
   for (std::size_t first = 0; first < count; first += N) {
     for (std::size_t i = 0; i < N; ++i) {
       const auto& request = scratch_.requests[std::min(first + i, count - 1)];
       lanes.active[i] = first + i < count ? -1 : 0;
+      elevation_rad[i] = request.elevation_rad;
       // Keyed by the elevation itself: the same ray gets the same azimuth whatever was refined before it.
-      const auto index = static_cast<std::uint64_t>((request.elevation_rad + core::kPi) * 1e7);
+      const auto index = static_cast<std::uint32_t>((request.elevation_rad + core::kPi) * 1e7);
       aim(lanes, static_cast<int>(i), request.azimuth,
-          dither(index, kGroupAzimuths * group_ + request.azimuth), request.elevation_rad);
+          dither(index, kGroupAzimuths * group_ + request.azimuth), std::cos(request.elevation_rad),
+          std::sin(request.elevation_rad));
     }
     send(lanes, packet);
-    for (std::size_t i = 0; i < N && first + i < count; ++i) {
-      const auto& request = scratch_.requests[first + i];
-      scratch_.refined[request.azimuth].push_back(shade(lanes, packet, static_cast<int>(i), request.elevation_rad));
-    }
+    shade(lanes, packet, elevation_rad, cast);
+    for (std::size_t i = 0; i < N && first + i < count; ++i)
+      scratch_.refined[scratch_.requests[first + i].azimuth].push_back(cast[i]);
   }
 }
 
 template <int N>
 double GroupCaster<N>::end_of_interval_m(const CastRay& ray, const CastRay* neighbour, double edge_rad) const {
   const double range_m = static_cast<double>(ray.range_m);
-  const double limit_m = gap_limit_m();
+  const double limit_m = gap_limit_m_;
   if (neighbour != nullptr && neighbour->surface == ray.surface &&
       std::abs(static_cast<double>(neighbour->range_m) - range_m) <= limit_m)
     return (range_m + static_cast<double>(neighbour->range_m)) / 2;
@@ -389,13 +422,14 @@ void GroupCaster<N>::deposit_points(int azimuth) {
 
 }  // namespace
 
-template <int N>
-void cast_group(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
-                std::vector<RayPacket<N>>* record) {
-  GroupCaster<N>(frame, group, scratch, sums, record).run();
+// Everything is inlined into these two, so that the whole loop is compiled for the processor it runs on.
+FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+                                               std::vector<RayPacket<8>>* record) {
+  GroupCaster<8>(frame, group, scratch, sums, record).run();
 }
-
-template void cast_group<8>(const RayFrame&, int, RayScratch&, FanSums&, std::vector<RayPacket<8>>*);
-template void cast_group<16>(const RayFrame&, int, RayScratch&, FanSums&, std::vector<RayPacket<16>>*);
+FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+                                               std::vector<RayPacket<16>>* record) {
+  GroupCaster<16>(frame, group, scratch, sums, record).run();
+}
 
 }  // namespace fanbeam::renderer

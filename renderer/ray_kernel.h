@@ -52,17 +52,14 @@ struct RayScratch {
   std::array<std::vector<double>, kGroupAzimuths> wanted;
   std::vector<Request> requests;
   std::array<std::vector<CastRay>, kGroupAzimuths> refined;
-  std::vector<double> cos_elevation, sin_elevation;
   std::uint64_t ray_count = 0, hit_count = 0, blanked_count = 0;
 };
 
-// Casts sub-columns [4 group, 4 group + 4) and adds their power to `sums`. N is the packet size. `record`, when not
-// null, receives a copy of every packet as it was sent.
-template <int N>
+// Casts sub-columns [4 group, 4 group + 4) and adds their power to `sums`. The packet size of
+// `record` is the one used; when not null it receives a copy of every packet as it was sent.
 void cast_group(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
-                std::vector<terrain::RayPacket<N>>* record);
-
-extern template void cast_group<8>(const RayFrame&, int, RayScratch&, FanSums&, std::vector<terrain::RayPacket<8>>*);
-extern template void cast_group<16>(const RayFrame&, int, RayScratch&, FanSums&, std::vector<terrain::RayPacket<16>>*);
+                std::vector<terrain::RayPacket<8>>* record);
+void cast_group(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+                std::vector<terrain::RayPacket<16>>* record);
 
 }  // namespace fanbeam::renderer

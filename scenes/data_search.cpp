@@ -12,8 +12,9 @@ DataSearch::DataSearch(fs::path scene_folder, std::vector<fs::path> data_folders
 }
 
 fs::path DataSearch::find(core::ConfigTable& table, std::string_view key) const {
+  const std::size_t before = table.problems().all().size();
   const std::string name = table.required_text(key);
-  if (name.empty()) return {};
+  if (table.problems().all().size() > before) return {};
   std::string searched;
   for (const fs::path& folder : folders_) {
     try {

@@ -55,8 +55,13 @@ Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame, 
                core::ProblemList& problems)
     : scene_(scene), frame_(frame), problems_(problems) {
   const TerrainDescription& terrain = scene.terrain;
-  field_ = terrain::make_height_field(terrain.west_m, terrain.south_m, terrain.east_m, terrain.north_m,
-                                      terrain.spacing_m);
+  try {
+    field_ = terrain::make_height_field(terrain.west_m, terrain.south_m, terrain.east_m, terrain.north_m,
+                                        terrain.spacing_m);
+  } catch (const core::InputError& error) {  // without a ground nothing else can be judged
+    append_placed(problems, error, terrain.place, "terrain");
+    problems.throw_if_errors();
+  }
   for (const RunwayDescription& runway : scene.runways) runways_.push_back(place_runway(runway, names));
   shape(names);
 }
@@ -116,6 +121,8 @@ bool Ground::on_airfield(glm::dvec2 position_m) const {
     const double beyond_m = std::max({-s_m, s_m - runway.length_m(), 0.0});
     const double keep_m = scene_.terrain.airfield_beyond_m;
     if (beyond_m < 60.0 + keep_m && t_m < runway.strip_half_width_m + keep_m) return true;
+    // The first 3 km of the approach surfaces (ICAO Annex 14, 4.2: 15 % divergence) carry no trees.
+    if (beyond_m > 0.0 && beyond_m < 3000.0 && t_m < runway.strip_half_width_m + 0.15 * beyond_m) return true;
   }
   return false;
 }

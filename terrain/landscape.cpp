@@ -50,7 +50,7 @@ bool Landscape::is_wood(glm::dvec2 position_m) const {
 
 double Landscape::canopy_m(glm::dvec2 position_m) const {
   if (!is_wood(position_m)) return 0.0;
-  return settings_.canopy_m * (1.0 + 0.2 * noise(position_m, 25.0, 5));
+  return settings_.canopy_m * (1.0 + 0.1 * noise(position_m, 40.0, 5));
 }
 
 MaterialId Landscape::material(glm::dvec2 position_m) const {

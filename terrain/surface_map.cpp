@@ -38,7 +38,9 @@ SurfaceMap::SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patch
         touching[field.cell(i, j)].push_back(static_cast<std::uint32_t>(p));
   }
   patch_begin_.push_back(0);
-  for (auto& list : touching) {
+  for (std::size_t cell = 0; cell < touching.size(); ++cell) {
+    const auto& list = touching[cell];
+    if (!list.empty()) cells_[cell] |= kPatched;
     patch_index_.insert(patch_index_.end(), list.rbegin(), list.rend());
     patch_begin_.push_back(static_cast<std::uint32_t>(patch_index_.size()));
   }
@@ -60,11 +62,13 @@ MaterialId SurfaceMap::material_at(double x_m, double y_m) const noexcept {
   const int i = std::clamp(static_cast<int>((x_m - west_m_) * per_spacing_), 0, columns_ - 1);
   const int j = std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
   const std::size_t cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
+  const MaterialId base = cells_[cell];
+  if ((base & kPatched) == 0) return base;
   for (std::uint32_t k = patch_begin_[cell]; k < patch_begin_[cell + 1]; ++k) {
     const std::uint32_t p = patch_index_[k];
     if (inside(patches_[p], boxes_[p], x_m, y_m)) return patches_[p].material;
   }
-  return cells_[cell];
+  return static_cast<MaterialId>(base & ~kPatched);
 }
 
 }  // namespace fanbeam::terrain

@@ -25,7 +25,7 @@ SurfacePatch rectangle_patch(glm::dvec2 centre_m, glm::dvec2 along, double lengt
 
 class SurfaceMap {
  public:
-  // Copies the cells' materials; patches later in the list lie on top.
+  // Copies the cells' materials, ids below 32768; patches later in the list lie on top.
   SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patches);
 
   // Point is clamped to the grid.
@@ -41,6 +41,7 @@ class SurfaceMap {
 
   double west_m_, south_m_, per_spacing_;
   int columns_, rows_;  // cells
+  static constexpr MaterialId kPatched = 0x8000;  // set in a cell that patches touch
   std::vector<MaterialId> cells_;
   std::vector<SurfacePatch> patches_;
   std::vector<Box> boxes_;

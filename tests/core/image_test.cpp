@@ -211,12 +211,29 @@ TEST_CASE("F08 a file cut short anywhere is E-PARSE, never half a picture", "[im
   for (const char* name : {"a.png", "a.exr"}) {
     const std::string bytes = bytes_of(scratch / name);
     const std::size_t step = std::max<std::size_t>(1, bytes.size() / 40);
-    // The last 12 bytes of a PNG are its end chunk, which holds nothing.
-    const std::size_t whole = bytes.size() - (std::string(name) == "a.png" ? 12 : 0);
-    for (std::size_t size = 0; size < whole; size += step) {
+    for (std::size_t size = 0; size < bytes.size(); size += step) {
       INFO(name << " cut to " << size << " of " << bytes.size());
       write_file_atomically(scratch / ("cut" + fs::path(name).extension().string()), bytes.substr(0, size));
       CHECK(code_of([&] { read_image(scratch / ("cut" + fs::path(name).extension().string())); }) == "E-PARSE");
+    }
+  }
+}
+
+TEST_CASE("F08 a PNG with one byte changed is E-PARSE and tells the byte where it shows", "[image]") {
+  const Scratch scratch;
+  write_png(scratch / "a.png", gradient(30, 20), kNotes);
+  const std::string bytes = bytes_of(scratch / "a.png");
+  for (std::size_t at = 8; at < bytes.size(); at += 7) {
+    INFO("byte " << at);
+    std::string changed = bytes;
+    changed[at] = static_cast<char>(changed[at] ^ 0x10);
+    write_file_atomically(scratch / "b.png", changed);
+    try {
+      read_image(scratch / "b.png");
+      FAIL("accepted");
+    } catch (const InputError& error) {
+      CHECK(error.problems()[0].code == "E-PARSE");
+      CHECK(error.problems()[0].place.byte_offset >= 8);
     }
   }
 }
