@@ -113,18 +113,19 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description, const
   return runway;
 }
 
-bool Ground::on_airfield(glm::dvec2 position_m) const {
+Ground::Zone Ground::zone(glm::dvec2 position_m) const {
+  Zone zone = Zone::open;
   for (const terrain::Runway& runway : runways_) {
     const glm::dvec2 relative = position_m - runway.ends[0].pavement_end_m;
     const double s_m = glm::dot(relative, runway.along());
     const double t_m = std::abs(relative.x * runway.along().y - relative.y * runway.along().x);
     const double beyond_m = std::max({-s_m, s_m - runway.length_m(), 0.0});
     const double keep_m = scene_.terrain.airfield_beyond_m;
-    if (beyond_m < 60.0 + keep_m && t_m < runway.strip_half_width_m + keep_m) return true;
+    if (beyond_m < 60.0 + keep_m && t_m < runway.strip_half_width_m + keep_m) return Zone::airfield;
     // The first 3 km of the approach surfaces (ICAO Annex 14, 4.2: 15 % divergence) carry no trees.
-    if (beyond_m > 0.0 && beyond_m < 3000.0 && t_m < runway.strip_half_width_m + 0.15 * beyond_m) return true;
+    if (beyond_m < 3000.0 && t_m < runway.strip_half_width_m + 0.15 * beyond_m) zone = Zone::approach;
   }
-  return false;
+  return zone;
 }
 
 void Ground::shape(const MaterialNames& names) {
@@ -154,9 +155,11 @@ void Ground::shape(const MaterialNames& names) {
       sources.height_m = [&, base_m = mean_elevation_m(runways_, scene_.origin.height_m)](const core::Geodetic&, glm::dvec2 p) {
         return base_m + landscape->ground_m(p);
       };
-      sources.canopy_m = [&](glm::dvec2 p) { return on_airfield(p) ? 0.0 : landscape->canopy_m(p); };
+      sources.canopy_m = [&](glm::dvec2 p) { return zone(p) == Zone::open ? landscape->canopy_m(p) : 0.0; };
       sources.material = [&](const core::Geodetic&, glm::dvec2 p) {
-        return on_airfield(p) ? landscape->airfield() : landscape->material(p);
+        const Zone here = zone(p);
+        if (here == Zone::airfield) return landscape->airfield();
+        return here == Zone::approach ? landscape->field(p) : landscape->material(p);
       };
     } else if (terrain.source == TerrainDescription::Source::raster) {
       terrain::ElevationOptions options;

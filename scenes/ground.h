@@ -62,7 +62,8 @@ class Ground {
  private:
   terrain::Runway place_runway(const RunwayDescription& description, const MaterialNames& names) const;
   void shape(const MaterialNames& names);
-  bool on_airfield(glm::dvec2 position_m) const;
+  enum class Zone { open, approach, airfield };
+  Zone zone(glm::dvec2 position_m) const;
 
   const SceneDescription& scene_;
   const terrain::LocalFrame& frame_;

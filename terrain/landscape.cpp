@@ -54,7 +54,10 @@ double Landscape::canopy_m(glm::dvec2 position_m) const {
 }
 
 MaterialId Landscape::material(glm::dvec2 position_m) const {
-  if (is_wood(position_m)) return materials_.wood;
+  return is_wood(position_m) ? materials_.wood : field(position_m);
+}
+
+MaterialId Landscape::field(glm::dvec2 position_m) const {
   const core::RandomKey key{settings_.seed, core::kStreamTerrain, 6};
   const double size_m = settings_.field_size_m;
   const auto i = static_cast<std::int64_t>(std::floor(position_m.x / size_m));

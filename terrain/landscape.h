@@ -35,7 +35,10 @@ class Landscape {
   double ground_m(glm::dvec2 position_m) const;
   // Canopy above the ground, 0 outside woods. A wood ends within one post.
   double canopy_m(glm::dvec2 position_m) const;
+  // Wood where woods stand, fields elsewhere.
   MaterialId material(glm::dvec2 position_m) const;
+  // The field that would lie there without woods.
+  MaterialId field(glm::dvec2 position_m) const;
   MaterialId airfield() const { return materials_.airfield; }
 
  private:

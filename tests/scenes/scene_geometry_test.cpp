@@ -99,7 +99,7 @@ TEST_CASE("The runway's strip runs straight between the published elevations thr
   const std::unique_ptr<Scene> scene = tests::good_scene(folder, text);
   const glm::dvec2 begin = local_m(*scene, 52.0, 10.0);
   const glm::dvec2 end = local_m(*scene, 52.009, 10.0);
-  for (double share = 0.0; share <= 1.0; share += 0.125)
+  for (const double share : {0.02, 0.25, 0.5, 0.75, 0.98})  // a post or more from the ends, where the slope stops
     for (const double left_m : {-75.0, -30.0, 0.0, 30.0, 75.0})  // clear of the posts outside the strip
       CHECK(height_m(*scene, begin + (end - begin) * share + glm::dvec2(-left_m, 0)) ==
             Approx(50.0 + 10.0 * share).margin(0.01));
@@ -316,7 +316,7 @@ TEST_CASE("The truck on Braunschweig's runway stands on it, with its materials",
   CHECK(seen.material == "metal");
   CHECK(seen.up_m > ground_m(scene, truck_m) + 0.5);
   CHECK(seen.up_m < ground_m(scene, truck_m) + 4.5);
-  CHECK(seen_from_above(scene, along * 620.0).material == "asphalt_smooth");
+  CHECK(seen_from_above(scene, along * 640.0 + right * 4.0).material == "asphalt_smooth");
 }
 
 TEST_CASE("The approach starts where it should and flies over its threshold", "[scene_geometry]") {
