@@ -103,6 +103,11 @@ void FrameWriter::write(const FrameOutput& output) const {
   if (products_.contains("cscope"))
     core::write_png(frame_path(folder_, "cscope", output.index), sensors::cscope_picture(sensor_, frame.cscope_grey),
                     output.metadata);
+  if (products_.contains("pair"))
+    core::write_png(frame_path(folder_, "pair", output.index),
+                    side_by_side(sensors::bscope_picture(sensor_, frame.bscope_grey),
+                                 sensors::cscope_picture(sensor_, frame.cscope_grey)),
+                    output.metadata);
   if (products_.contains("ppi")) {
     const sensors::PpiView view = sensors::ppi_view(sensor_, sensors::PpiView::Up::track, kPpiSize_px);
     const std::vector<double> grey = sensors::ppi_grey(sensor_, frame.bscope_grey, output.heading_rad, view);

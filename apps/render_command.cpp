@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 ProductSet parse_products(const std::string& text) {
-  const ProductSet known = {"bscope", "cscope", "power", "ppi", "preview"};
+  const ProductSet known = {"bscope", "cscope", "pair", "power", "ppi", "preview"};
   ProductSet products;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
@@ -36,7 +36,7 @@ ProductSet parse_products(const std::string& text) {
     from = comma + 1;
     if (!known.contains(name))
       core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
-                              "a list of bscope, cscope, power, ppi, preview");
+                              "a list of bscope, cscope, pair, power, ppi, preview");
     products.insert(name);
   }
   return products;
@@ -131,8 +131,8 @@ class Run {
 
  private:
   renderer::Products wanted() const {
-    return {products_.contains("bscope") || products_.contains("ppi") || products_.contains("preview"),
-            products_.contains("cscope") || products_.contains("preview")};
+    const bool both = products_.contains("pair") || products_.contains("preview");
+    return {both || products_.contains("bscope") || products_.contains("ppi"), both || products_.contains("cscope")};
   }
 
   const RenderOptions& options_;
