@@ -54,7 +54,7 @@ fs::path find_scene(const std::string& name) {
   const fs::path shipped = shipped_folder();
   std::error_code refused;  // such as a name too long to be one
   for (const fs::path& candidate : {fs::path(name), shipped / name, shipped / "scenes" / name})
-    if (fs::exists(candidate, refused)) return candidate;
+    if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused)) return candidate;
   std::string known;
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(shipped / "scenes"))

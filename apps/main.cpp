@@ -27,7 +27,7 @@ void add_render(CLI::App& app, RenderOptions& options, CommonOptions& common) {
   command->add_option("--threads", options.threads, "Threads to use (default: all cores)")->check(CLI::Range(0, 1024));
   CLI::Option* rays = command
                           ->add_option("--rays-per-cell", options.rays_per_cell,
-                                       "Rays per range cell and column: more is sharper and slower (default: the scene's, else 16)")
+                                       "Rays per range cell and column: more is sharper and slower (default: the scene's, else 4)")
                           ->check(CLI::Range(0.1, 100000.0));
   command->add_flag("--reference", options.reference, "Converged sampling: 256 azimuths per column x 8 rays per cell, about 10 s a frame")
       ->excludes(rays);

@@ -4,10 +4,10 @@
 #include <sys/resource.h>
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/common.h"
+#include "core/machine.h"
 #include "core/units.h"
 
 namespace fanbeam::apps {
@@ -88,13 +88,6 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   return json;
 }
 
-std::string processor_name() {
-  std::ifstream stream("/proc/cpuinfo");
-  for (std::string line; std::getline(stream, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
@@ -102,14 +95,6 @@ double median(std::vector<double> values) {
 }
 
 }  // namespace
-
-std::string instruction_level() {
-#if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512bw") != 0 && __builtin_cpu_supports("avx512vl") != 0) return "x86-64-v4";
-  if (__builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0) return "x86-64-v3";
-#endif
-  return "x86-64";
-}
 
 std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
   Json json = header_json(scene, record);
@@ -127,8 +112,8 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
 std::string timing_json(const RunRecord& record) {
   Json json;
   json["threads"] = record.threads;
-  json["isa"] = instruction_level();
-  json["machine"] = processor_name();
+  json["isa"] = core::instruction_level();
+  json["machine"] = core::processor_name();
   json["frames"] = Json::array();
   std::vector<double> times_ms;
   double total_ms = 0.0;

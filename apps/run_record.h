@@ -40,7 +40,4 @@ std::string timing_json(const RunRecord& record);
 // that the scene names (buffers beside a glTF model excepted). Stands in every picture.
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record);
 
-// "v3": the level of x86-64 that hot functions run at.
-std::string instruction_level();
-
 }  // namespace fanbeam::apps

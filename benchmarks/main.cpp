@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
+#include <cstdlib>
 #include <string>
 #include <string_view>
 
@@ -53,7 +54,8 @@ Options parse(int count, char** arguments) {
         core::throw_input_error(core::ErrorClass::range, "--threads", arguments[i], "0 to 1024");
       options.threads = static_cast<int>(number.value);
     } else {
-      core::throw_input_error(core::ErrorClass::ref, "argument", std::string(argument), kUsage);
+      core::throw_input_error(core::ErrorClass::ref, "argument", std::string(argument),
+                              "an option that --help lists, with its value");
     }
   }
   return options;
@@ -81,7 +83,13 @@ Report measure(const std::vector<BenchScene>& scenes, std::vector<std::string> s
   return report;
 }
 
+double load_average() {
+  double load = 0.0;
+  return getloadavg(&load, 1) == 1 ? load : 0.0;
+}
+
 void run(const Options& options) {
+  const double load_before = load_average();
   const core::ThreadLimit threads(options.threads);
   std::vector<BenchScene> scenes;
   std::vector<std::string> skipped;
@@ -97,7 +105,9 @@ void run(const Options& options) {
     benchmark::RunSpecifiedBenchmarks();
   }
   if (!options.report) return;
-  const std::string text = markdown(measure(scenes, skipped, threads.threads()));
+  Report report = measure(scenes, std::move(skipped), threads.threads());
+  report.load_before = load_before;
+  const std::string text = markdown(report);
   if (options.report_file.empty()) {
     fmt::print("\n{}", text);
   } else {

@@ -69,11 +69,12 @@ std::string machine_markdown(const Report& report) {
       "| | |\n| --- | --- |\n"
       "| processor | {}, {} cores, {:.0f} GB |\n"
       "| threads | {} |\n"
+      "| load before the run | {:.2f} programs (mean over the minute before) |\n"
       "| instruction level of hot functions | {}, Embree packets {} wide |\n"
       "| system | {} |\n| compiler | {} |\n| commit | {} |\n\n",
       core::processor_name(), std::thread::hardware_concurrency(), memory_bytes / 1e9,
-      report.threads, core::instruction_level(), native_packet, system_name(), compiler_name(),
-      commit());
+      report.threads, report.load_before, core::instruction_level(), native_packet, system_name(),
+      compiler_name(), commit());
 }
 
 std::string scenes_markdown(const Report& report) {

@@ -18,6 +18,7 @@ struct SceneFigures {
 
 struct Report {
   int threads = 0;
+  double load_before = 0.0;  // programs that ran in the minute before: other work spoils times
   std::vector<SceneFigures> scenes;
   std::vector<std::string> skipped;  // scenes without their data
 };

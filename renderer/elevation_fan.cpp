@@ -63,12 +63,12 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   const terrain::HeightField& ground = *world_.surfaces->terrain();
   const sensors::RangeGate& gate = world_.sensor.range;
   const double stride = std::max(1.0, 1.0 / sampling_.rays_per_cell);
-  const int parts = std::max(1, static_cast<int>(std::lround(sampling_.rays_per_cell * stride)));
   const glm::dvec3& sensor = frame.position_m;
   const sensors::ScanSurface surface = world_.sensor.scan.surface;
   const bool level = frame.up.z > kLevelCosine && surface == sensors::ScanSurface::plane;
   glm::dvec3 heading = horizontal(frame, azimuth_rad, level ? 0.0 : lowest_rad_, surface);
   double drop_m = 0.0;
+  int step = 0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = gate.minimum_m + gate.cell_m * k;
     // The ground distance of a slant range needs the height there: the one of the step before is close enough.
@@ -79,6 +79,10 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     if (!height_m) break;
     drop_m = std::min(std::abs(sensor.z - *height_m), range_m);
     const double elevation_rad = std::atan(slope_of(frame, {x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z}));
+    // Rays per step need not be whole: steps take turns.
+    ++step;
+    const double rays = sampling_.rays_per_cell * stride;
+    const int parts = static_cast<int>(std::floor(step * rays) - std::floor((step - 1) * rays));
     // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
     if (!level) heading = horizontal(frame, azimuth_rad, elevation_rad, surface);
     if (edges.empty()) {
@@ -111,7 +115,7 @@ void ElevationFan::add_until(double elevation_rad, int parts, std::vector<double
   const double from_rad = edges.back();
   const double span_rad = elevation_rad - from_rad;
   if (span_rad <= 0.0) return;
-  const int count = std::max(parts, static_cast<int>(std::ceil(span_rad / sampling_.largest_step_rad)));
+  const int count = std::max({1, parts, static_cast<int>(std::ceil(span_rad / sampling_.largest_step_rad))});
   for (int i = 1; i <= count; ++i) edges.push_back(from_rad + span_rad * i / count);
 }
 

@@ -12,9 +12,9 @@ struct Sampling {
   double rays_per_cell = 1.0;
   // Between neighbouring rays that are more than `gap_cells` apart or hit different surfaces, halve this many times.
   int refinement_depth = 2;
-  double gap_cells = 1.6;
+  double gap_cells = 1.2;
   // Largest angle between neighbouring rays, on the ground close by and on what stands above the horizon.
-  double largest_step_rad = 1.7e-3;
+  double largest_step_rad = 3.0e-3;
   // One ray stands for its whole range interval (false: for the cell it falls in, unbiased, wants many rays).
   bool deposit_intervals = true;
   // Reference: this many passes over each sub-column, rays jittered in azimuth and elevation, keyed by `seed`.
@@ -26,7 +26,7 @@ struct Sampling {
 // no interval, no refinement. `seed` offsets the jitter, for the reference's own error.
 Sampling reference_sampling(std::uint64_t seed);
 
-inline constexpr double kDefaultRaysPerCell = 16.0;
+inline constexpr double kDefaultRaysPerCell = 4.0;
 
 // `rays_per_cell` rays per range cell and column, split between azimuth and range in the proportion that measured best
 // (docs/performance.md): azimuth first.

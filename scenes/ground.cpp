@@ -48,7 +48,13 @@ double mean_elevation_m(const std::vector<terrain::Runway>& runways, double othe
 
 terrain::MaterialId MaterialNames::id(const std::string& name, const core::Place& place,
                                       const std::string& field) const {
-  return static_cast<terrain::MaterialId>(library_.find(name, place, field, problems_).value_or(0));
+  const std::optional<std::size_t> index = library_.find(name, place, field, problems_);
+  if (index) used_.insert(*index);
+  return static_cast<terrain::MaterialId>(index.value_or(0));
+}
+
+void MaterialNames::warn_if_extrapolated(double frequency_Hz) const {
+  for (const std::size_t index : used_) library_.warn_if_extrapolated(index, frequency_Hz, problems_);
 }
 
 Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame, const MaterialNames& names,

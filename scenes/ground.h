@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,13 @@ class MaterialNames {
   MaterialNames(const materials::MaterialLibrary& library, core::ProblemList& problems)
       : library_(library), problems_(problems) {}
   terrain::MaterialId id(const std::string& name, const core::Place& place, const std::string& field) const;
+  // W-EXTRAPOLATED for each material asked for so far that is not known at this frequency.
+  void warn_if_extrapolated(double frequency_Hz) const;
 
  private:
   const materials::MaterialLibrary& library_;
   core::ProblemList& problems_;
+  mutable std::set<std::size_t> used_;
 };
 
 class Ground {

@@ -89,6 +89,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems);
   std::optional<Trajectory> trajectory;
   if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);
+  names.warn_if_extrapolated(description.sensor.waveform.frequency_Hz);
   if (trajectory) check_flight(description, frame, *trajectory, ground, problems);
   problems.throw_if_errors();
 

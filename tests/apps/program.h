@@ -1,0 +1,67 @@
+// Runs the built fanbeam program and looks at what it leaves behind.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+#include "tests/terrain/ascii_grid.h"
+
+namespace fanbeam::tests {
+
+struct Result {
+  int exit_code = -1;
+  std::string output;  // standard output and error together
+};
+
+// `words` go to the shell as they are.
+inline Result run_fanbeam(const std::string& words, const std::string& before = "") {
+  const std::string command = before + " '" FANBEAM_BINARY_DIR "/bin/fanbeam' " + words + " 2>&1 </dev/null";
+  Result result;
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  std::array<char, 4096> chunk{};
+  for (std::size_t count = 0; (count = fread(chunk.data(), 1, chunk.size(), pipe)) > 0;)
+    result.output.append(chunk.data(), count);
+  const int status = pclose(pipe);
+  result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return result;
+}
+
+inline std::string quoted(const std::filesystem::path& path) {
+  return std::string("'").append(path.string()).append("'");
+}
+
+inline std::string bytes_of(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  return bytes.str();
+}
+
+inline nlohmann::json json_of(const std::filesystem::path& path) { return nlohmann::json::parse(bytes_of(path)); }
+
+// Every file below a folder with its bytes; folders with none.
+inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    files[entry.path().lexically_relative(folder).string()] = entry.is_regular_file() ? bytes_of(entry.path()) : "";
+  return files;
+}
+
+// As contents, without the file that tells how long it took.
+inline std::map<std::string, std::string> results(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files = contents(folder);
+  files.erase("timing.json");
+  return files;
+}
+
+}  // namespace fanbeam::tests
