@@ -14,5 +14,10 @@
 #define FANBEAM_HOT __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #endif
 
-// Inlines whatever a hot function calls into it, so that the callees are compiled for its level too.
+// Inlines whatever a hot function calls into it, so that the callees are compiled for its level too. Clang 14 does not
+// combine the two: there only what it inlines by itself is.
+#if defined(__clang__)
+#define FANBEAM_INLINE_ALL
+#else
 #define FANBEAM_INLINE_ALL __attribute__((flatten))
+#endif
