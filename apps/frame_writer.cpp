@@ -108,10 +108,12 @@ void FrameWriter::write(const FrameOutput& output) const {
                     side_by_side(sensors::bscope_picture(sensor_, frame.bscope_grey),
                                  sensors::cscope_picture(sensor_, frame.cscope_grey)),
                     output.metadata);
-  if (products_.contains("ppi")) {
-    const sensors::PpiView view = sensors::ppi_view(sensor_, sensors::PpiView::Up::track, kPpiSize_px);
+  using Up = sensors::PpiView::Up;
+  for (const auto& [product, up] : {std::pair{"ppi", Up::track}, std::pair{"ppi_north", Up::north}}) {
+    if (!products_.contains(product)) continue;
+    const sensors::PpiView view = sensors::ppi_view(sensor_, up, kPpiSize_px);
     const std::vector<double> grey = sensors::ppi_grey(sensor_, frame.bscope_grey, output.heading_rad, view);
-    core::write_png(frame_path(folder_, "ppi", output.index), sensors::ppi_picture(view, grey), output.metadata);
+    core::write_png(frame_path(folder_, product, output.index), sensors::ppi_picture(view, grey), output.metadata);
   }
   if (products_.contains("power")) {
     core::Image image{sensor_.scan.columns, sensor_.range.cells, {}};

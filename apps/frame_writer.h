@@ -25,7 +25,8 @@ struct FrameOutput {
   core::Metadata metadata;
 };
 
-// Names of products: "bscope", "cscope", "pair" (both side by side), "power", "ppi", "preview".
+// Names of products: "bscope", "cscope", "pair" (both side by side), "power",
+// "ppi" (track up), "ppi_north" (north up), "preview".
 using ProductSet = std::set<std::string>;
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product, int index);

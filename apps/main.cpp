@@ -21,7 +21,7 @@ void add_render(CLI::App& app, RenderOptions& options, CommonOptions& common) {
       ->capture_default_str();
   command->add_option("-o,--output", options.output, "Folder to write to (default out/<scene name>)");
   command->add_option("--frames", options.frames, "A:B[:STEP], counted like a Python slice, or one frame");
-  command->add_option("--products", options.products, "Any of bscope, cscope, pair (both side by side), power (EXR, watts), ppi, preview (video)")
+  command->add_option("--products", options.products, "Any of bscope, cscope, pair (both side by side), ppi (plan view, track up), ppi_north, power (EXR, watts), preview (video)")
       ->capture_default_str();
   command->add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
   command->add_option("--threads", options.threads, "Threads to use (default: all cores)")->check(CLI::Range(0, 1024));

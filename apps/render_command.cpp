@@ -28,7 +28,7 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
 
 ProductSet parse_products(const std::string& text) {
-  const ProductSet known = {"bscope", "cscope", "pair", "power", "ppi", "preview"};
+  const ProductSet known = {"bscope", "cscope", "pair", "power", "ppi", "ppi_north", "preview"};
   ProductSet products;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
@@ -36,7 +36,7 @@ ProductSet parse_products(const std::string& text) {
     from = comma + 1;
     if (!known.contains(name))
       core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
-                              "a list of bscope, cscope, pair, power, ppi, preview");
+                              "a list of bscope, cscope, pair, power, ppi, ppi_north, preview");
     products.insert(name);
   }
   return products;
@@ -59,6 +59,9 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& rec
           {"fanbeam:azimuth", fmt::format("{} columns, {} deg", sensor.scan.columns, core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
           {"fanbeam:range", fmt::format("{} m + {} x {} m", core::number_text(sensor.range.minimum_m), sensor.range.cells, core::number_text(sensor.range.cell_m))},
           {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(sensor.display.low_dB), core::number_text(sensor.display.high_dB))},
+          {"fanbeam:cscope", sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation
+                                 ? "true_elevation: ground truth, a fan beam cannot measure elevation"
+                                 : "flat_earth: elevation from range and height above ground"},
           {"fanbeam:rays", std::to_string(record.rays)},
           {"fanbeam:blanked", std::to_string(record.blanked)},
           {"fanbeam:events", events}};
@@ -132,7 +135,8 @@ class Run {
  private:
   renderer::Products wanted() const {
     const bool both = products_.contains("pair") || products_.contains("preview");
-    return {both || products_.contains("bscope") || products_.contains("ppi"), both || products_.contains("cscope")};
+    const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north");
+    return {both || plan_view || products_.contains("bscope"), both || products_.contains("cscope")};
   }
 
   const RenderOptions& options_;

@@ -127,6 +127,9 @@ void read_waveform(ConfigTable table, Waveform& waveform) {
   waveform.bandwidth_Hz = 1e6 * table.required_number("bandwidth_MHz", above_zero(1e5));
   waveform.transmit_power_W = table.required_number("transmit_power_W", above_zero(1e9));
   waveform.doppler_compensated = table.boolean("doppler_compensated", true);
+  if (!waveform.doppler_compensated)
+    table.error(core::ErrorClass::unsupported, "doppler_compensated", "false",
+                "true: the range shift by own-ship Doppler is not simulated");
 }
 
 void check_bandwidth(ConfigTable table, const Waveform& waveform, const RangeGate& gate) {
