@@ -2,7 +2,6 @@
 #include <filesystem>
 
 #include "tests/apps/program.h"
-#include "tests/shared_data.h"
 
 using namespace fanbeam::tests;
 namespace fs = std::filesystem;
@@ -75,12 +74,17 @@ TEST_CASE("Exit code 3: every problem of a scene in one run, and the output fold
 
 TEST_CASE("Exit code 3 for a scene without its data, which it names; a new output folder is not made", "[cli]") {
   const TemporaryFolder folder;
-  const Result result = run_fanbeam("render innsbruck-26 -o " + quoted(folder.path() / "out"), "FANBEAM_DATA=/nowhere");
-  if (result.exit_code == 0) return;  // the data lie beside the source tree
+  folder.write("scene.toml",
+               "[scene]\nname = \"t\"\norigin = { latitude_deg = 52.0, longitude_deg = 10.0 }\nvertical_datum = \"scene\"\n"
+               "[terrain]\nelevation = \"no-such-data/dem.tif\"\n[trajectory.fixed]\n"
+               "at = { latitude_deg = 52.0, longitude_deg = 10.0 }\nabove_ground_m = 60.0\n");
+  const Result result = run_fanbeam("render " + quoted(folder.path()) + " --data /from/option -o " + quoted(folder.path() / "out"),
+                                    "FANBEAM_DATA=/from/environment");
   CHECK(result.exit_code == 3);
-  CHECK(result.output.find("dem_lowi_wgs84_1arcsec.tif\" not found") != std::string::npos);
+  CHECK(result.output.find("/scene.toml:6:1: E-IO terrain.elevation = \"no-such-data/dem.tif\" not found") != std::string::npos);
+  CHECK(result.output.find(folder.path().string() + ", /from/option, /from/environment") != std::string::npos);
   CHECK(result.output.find("--data DIR or FANBEAM_DATA") != std::string::npos);
-  CHECK(fs::is_empty(folder.path()));
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
 }
 
 TEST_CASE("Exit code 4: what the system refuses", "[cli]") {

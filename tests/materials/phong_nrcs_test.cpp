@@ -41,7 +41,7 @@ TEST_CASE("Phong coefficients outside their ranges are refused by class", "[mate
   const double inf = std::numeric_limits<double>::infinity();
   REQUIRE(refuses([] { PhongNrcs(-1e-9, 0.0, 1.0); }, ErrorClass::range));
   REQUIRE(refuses([] { PhongNrcs(0.0, -1e-9, 1.0); }, ErrorClass::range));
-  REQUIRE(refuses([] { PhongNrcs(0.0, 0.0, 0.999); }, ErrorClass::range));
+  REQUIRE(refuses([] { PhongNrcs(0.0, 0.0, -0.001); }, ErrorClass::range));
   REQUIRE(refuses([] { PhongNrcs(0.0, 0.0, 1001.0); }, ErrorClass::range));
   REQUIRE(refuses([nan] { PhongNrcs(nan, 0.0, 1.0); }, ErrorClass::nonfinite));
   REQUIRE(refuses([inf] { PhongNrcs(0.0, inf, 1.0); }, ErrorClass::nonfinite));
