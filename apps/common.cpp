@@ -27,16 +27,19 @@ void set_up_log(const CommonOptions& options) {
   auto logger = spdlog::stderr_color_mt("fanbeam");
   logger->set_pattern("%^%l%$: %v");
   spdlog::set_default_logger(logger);
-  spdlog::set_level(options.quiet ? spdlog::level::err : spdlog::level::from_str(options.log_level));
+  spdlog::set_level(options.quiet ? spdlog::level::err
+                                  : spdlog::level::from_str(options.log_level));
 }
 
 fs::path shipped_folder() {
   const fs::path program = fs::read_symlink("/proc/self/exe");
-  for (fs::path folder = program.parent_path(); folder.has_relative_path(); folder = folder.parent_path()) {
+  for (fs::path folder = program.parent_path(); folder.has_relative_path();
+       folder = folder.parent_path()) {
     if (holds_shipped_files(folder / "share" / "fanbeam")) return folder / "share" / "fanbeam";
     if (holds_shipped_files(folder)) return folder;
   }
-  core::throw_input_error(core::ErrorClass::io, core::Place{program.string()}, "shipped files", "not found",
+  core::throw_input_error(core::ErrorClass::io, core::Place{program.string()}, "shipped files",
+                          "not found",
                           "share/fanbeam beside the installed program, or a source tree around it");
 }
 
@@ -54,11 +57,13 @@ fs::path find_scene(const std::string& name) {
   const fs::path shipped = shipped_folder();
   std::error_code refused;  // such as a name too long to be one
   for (const fs::path& candidate : {fs::path(name), shipped / name, shipped / "scenes" / name})
-    if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused)) return candidate;
+    if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused))
+      return candidate;
   std::string known;
   std::vector<std::string> names;
   for (const auto& entry : fs::directory_iterator(shipped / "scenes"))
-    if (fs::is_regular_file(entry.path() / "scene.toml")) names.push_back(entry.path().filename().string());
+    if (fs::is_regular_file(entry.path() / "scene.toml"))
+      names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   for (const std::string& scene : names) known += " " + scene;
   core::throw_input_error(core::ErrorClass::io, core::Place{name}, "scene", "not found",
@@ -66,14 +71,17 @@ fs::path find_scene(const std::string& name) {
 }
 
 void print_problems(std::vector<core::Problem> problems) {
-  std::stable_sort(problems.begin(), problems.end(), [](const core::Problem& a, const core::Problem& b) {
-    const auto key = [](const core::Problem& p) {
-      return std::make_tuple(!p.is_error(), p.code == "W-MORE", std::cref(p.place.file), p.place.line, p.place.column);
-    };
-    return key(a) < key(b);
-  });
+  std::stable_sort(
+      problems.begin(), problems.end(), [](const core::Problem& a, const core::Problem& b) {
+        const auto key = [](const core::Problem& p) {
+          return std::make_tuple(!p.is_error(), p.code == "W-MORE", std::cref(p.place.file),
+                                 p.place.line, p.place.column);
+        };
+        return key(a) < key(b);
+      });
   for (const core::Problem& problem : problems) std::cerr << core::to_string(problem) << '\n';
-  const auto errors = std::count_if(problems.begin(), problems.end(), [](const auto& p) { return p.is_error(); });
+  const auto errors =
+      std::count_if(problems.begin(), problems.end(), [](const auto& p) { return p.is_error(); });
   if (errors > 0) std::cerr << errors << (errors == 1 ? " error" : " errors") << "\n";
 }
 
@@ -100,7 +108,8 @@ int run_guarded(const std::function<int()>& command) {
     std::cerr << "fanbeam: " << error.what() << '\n';
     return kExitIo;
   } catch (const std::exception& error) {
-    std::cerr << "fanbeam: internal error: " << error.what() << "\nThis is a bug: please report it with the scene.\n";
+    std::cerr << "fanbeam: internal error: " << error.what()
+              << "\nThis is a bug: please report it with the scene.\n";
     return kExitBug;
   }
 }

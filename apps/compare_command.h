@@ -9,8 +9,9 @@ namespace fanbeam::apps {
 
 struct CompareOptions {
   std::string a, b;
-  double rms = 0.0;              // largest allowed RMS difference: grey levels, or dB for power layers
-  double largest = 0.0;          // largest allowed single difference, same units; 0: as the RMS limit allows
+  double rms = 0.0;  // largest allowed RMS difference: grey levels, or dB for power layers
+  double largest =
+      0.0;  // largest allowed single difference, same units; 0: as the RMS limit allows
   double percent_different = 100.0;
   bool exact = false;
 };

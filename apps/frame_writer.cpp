@@ -23,7 +23,8 @@ std::vector<double> farthest_on_top(const std::vector<double>& values, int colum
 
 }  // namespace
 
-std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product, int index) {
+std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,
+                                 int index) {
   return folder / product / fmt::format("{:05}.{}", index, product == "power" ? "exr" : "png");
 }
 
@@ -32,7 +33,8 @@ core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& ri
   core::Picture8 both;
   both.columns = 2 * left.columns + kGap + 2 * right.columns;
   both.rows = std::max(left.rows, right.rows);
-  both.pixels.assign(static_cast<std::size_t>(both.columns) * static_cast<std::size_t>(both.rows), 0);
+  both.pixels.assign(static_cast<std::size_t>(both.columns) * static_cast<std::size_t>(both.rows),
+                     0);
   const auto paste = [&](const core::Picture8& from, int at) {
     for (int row = 0; row < from.rows; ++row)
       for (int column = 0; column < 2 * from.columns; ++column)
@@ -44,8 +46,12 @@ core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& ri
   return both;
 }
 
-FrameWriter::FrameWriter(std::filesystem::path folder, ProductSet products, const sensors::Sensor& sensor)
-    : folder_(std::move(folder)), products_(std::move(products)), sensor_(sensor), thread_([this] { run(); }) {}
+FrameWriter::FrameWriter(std::filesystem::path folder, ProductSet products,
+                         const sensors::Sensor& sensor)
+    : folder_(std::move(folder)),
+      products_(std::move(products)),
+      sensor_(sensor),
+      thread_([this] { run(); }) {}
 
 FrameWriter::~FrameWriter() {
   {
@@ -98,22 +104,25 @@ void FrameWriter::run() {
 void FrameWriter::write(const FrameOutput& output) const {
   const renderer::Frame& frame = output.frame;
   if (products_.contains("bscope"))
-    core::write_png(frame_path(folder_, "bscope", output.index), sensors::bscope_picture(sensor_, frame.bscope_grey),
-                    output.metadata);
+    core::write_png(frame_path(folder_, "bscope", output.index),
+                    sensors::bscope_picture(sensor_, frame.bscope_grey), output.metadata);
   if (products_.contains("cscope"))
-    core::write_png(frame_path(folder_, "cscope", output.index), sensors::cscope_picture(sensor_, frame.cscope_grey),
-                    output.metadata);
+    core::write_png(frame_path(folder_, "cscope", output.index),
+                    sensors::cscope_picture(sensor_, frame.cscope_grey), output.metadata);
   if (products_.contains("pair"))
     core::write_png(frame_path(folder_, "pair", output.index),
                     side_by_side(sensors::bscope_picture(sensor_, frame.bscope_grey),
                                  sensors::cscope_picture(sensor_, frame.cscope_grey)),
                     output.metadata);
   using Up = sensors::PpiView::Up;
-  for (const auto& [product, up] : {std::pair{"ppi", Up::track}, std::pair{"ppi_north", Up::north}}) {
+  for (const auto& [product, up] :
+       {std::pair{"ppi", Up::track}, std::pair{"ppi_north", Up::north}}) {
     if (!products_.contains(product)) continue;
     const sensors::PpiView view = sensors::ppi_view(sensor_, up, kPpiSize_px);
-    const std::vector<double> grey = sensors::ppi_grey(sensor_, frame.bscope_grey, output.heading_rad, view);
-    core::write_png(frame_path(folder_, product, output.index), sensors::ppi_picture(view, grey), output.metadata);
+    const std::vector<double> grey =
+        sensors::ppi_grey(sensor_, frame.bscope_grey, output.heading_rad, view);
+    core::write_png(frame_path(folder_, product, output.index), sensors::ppi_picture(view, grey),
+                    output.metadata);
   }
   if (products_.contains("power")) {
     core::Image image{sensor_.scan.columns, sensor_.range.cells, {}};

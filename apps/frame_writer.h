@@ -29,7 +29,8 @@ struct FrameOutput {
 // "ppi" (track up), "ppi_north" (north up), "preview".
 using ProductSet = std::set<std::string>;
 
-std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product, int index);
+std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,
+                                 int index);
 
 // The B-scope and the C-scope side by side, each pixel doubled in width.
 core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& right);

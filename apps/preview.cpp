@@ -24,15 +24,22 @@ namespace {
 }  // namespace
 
 Preview::Preview(std::filesystem::path file, int columns, int rows, double frame_rate_Hz)
-    : file_(std::move(file)), temporary_(file_.parent_path() / (".preview.tmp" + file_.extension().string())) {
+    : file_(std::move(file)),
+      temporary_(file_.parent_path() / (".preview.tmp" + file_.extension().string())) {
   std::filesystem::create_directories(file_.parent_path());
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) refuse(file_, "no pipe");
   std::signal(SIGPIPE, SIG_IGN);  // a dying ffmpeg shows as a failed write
-  std::vector<std::string> words = {"ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "gray", "-s",
-                                    fmt::format("{}x{}", columns, rows), "-r", fmt::format("{}", frame_rate_Hz), "-i", "-"};
+  std::vector<std::string> words = {"ffmpeg",   "-loglevel",
+                                    "error",    "-y",
+                                    "-f",       "rawvideo",
+                                    "-pix_fmt", "gray",
+                                    "-s",       fmt::format("{}x{}", columns, rows),
+                                    "-r",       fmt::format("{}", frame_rate_Hz),
+                                    "-i",       "-"};
   if (file_.extension() == ".mp4")
-    for (const char* word : {"-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart"})
+    for (const char* word :
+         {"-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart"})
       words.emplace_back(word);
   words.push_back(temporary_.string());
   std::vector<char*> arguments;
@@ -41,7 +48,8 @@ Preview::Preview(std::filesystem::path file, int columns, int rows, double frame
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-  const int failed = posix_spawnp(&process_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
+  const int failed =
+      posix_spawnp(&process_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
   close(ends[0]);
   pipe_ = ends[1];

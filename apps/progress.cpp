@@ -43,15 +43,18 @@ void Progress::step(int done) {
     draw_bar(done, rate, left_s);
   } else if (100 * done >= next_line_percent_ * total_) {
     next_line_percent_ = 100 * done / total_ / 10 * 10 + 10;
-    fmt::print(stderr, "{}: {} of {} frames, {:.1f} frames/s, {} left\n", what_, done, total_, rate, minutes_text(left_s));
+    fmt::print(stderr, "{}: {} of {} frames, {:.1f} frames/s, {} left\n", what_, done, total_, rate,
+               minutes_text(left_s));
   }
 }
 
 void Progress::draw_bar(int done, double rate, double left_s) {
   constexpr int kWidth = 30;
   const int filled = static_cast<int>(static_cast<long>(kWidth) * done / total_);
-  fmt::print(stderr, "\r{} [{}{}] {}/{} frames  {:.1f} frames/s  {} left ", what_, std::string(static_cast<std::size_t>(filled), '#'),
-             std::string(static_cast<std::size_t>(kWidth - filled), '.'), done, total_, rate, minutes_text(left_s));
+  fmt::print(stderr, "\r{} [{}{}] {}/{} frames  {:.1f} frames/s  {} left ", what_,
+             std::string(static_cast<std::size_t>(filled), '#'),
+             std::string(static_cast<std::size_t>(kWidth - filled), '.'), done, total_, rate,
+             minutes_text(left_s));
   std::fflush(stderr);
 }
 

@@ -4,8 +4,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <charconv>
+#include <chrono>
 #include <iostream>
 #include <optional>
 
@@ -25,7 +25,9 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point begin) { return std::chrono::duration<double>(Clock::now() - begin).count(); }
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 ProductSet parse_products(const std::string& text) {
   const ProductSet known = {"bscope", "cscope", "pair", "power", "ppi", "ppi_north", "preview"};
@@ -42,29 +44,37 @@ ProductSet parse_products(const std::string& text) {
   return products;
 }
 
-core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& record, const std::string& fingerprint) {
+core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& record,
+                              const std::string& fingerprint) {
   const sensors::Sensor& sensor = scene.description.sensor;
   std::string events;
   for (const std::string& event : record.events) events += (events.empty() ? "" : " ") + event;
-  return {{"Software", "fanbeam " + version_text() + " " + commit_text()},
-          {"fanbeam:scene", scene.description.name},
-          {"fanbeam:sensor", sensor.name},
-          {"fanbeam:input", fingerprint},
-          {"fanbeam:frame", std::to_string(record.index)},
-          {"fanbeam:time_s", core::number_text(record.time_s)},
-          {"fanbeam:latitude_deg", core::number_text(core::degrees(record.pose.position.latitude_rad))},
-          {"fanbeam:longitude_deg", core::number_text(core::degrees(record.pose.position.longitude_rad))},
-          {"fanbeam:height_m", core::number_text(record.pose.position.height_m)},
-          {"fanbeam:heading_deg", core::number_text(core::degrees(core::attitude_from(record.pose.q_NB).heading_rad))},
-          {"fanbeam:azimuth", fmt::format("{} columns, {} deg", sensor.scan.columns, core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
-          {"fanbeam:range", fmt::format("{} m + {} x {} m", core::number_text(sensor.range.minimum_m), sensor.range.cells, core::number_text(sensor.range.cell_m))},
-          {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(sensor.display.low_dB), core::number_text(sensor.display.high_dB))},
-          {"fanbeam:cscope", sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation
-                                 ? "true_elevation: ground truth, a fan beam cannot measure elevation"
-                                 : "flat_earth: elevation from range and height above ground"},
-          {"fanbeam:rays", std::to_string(record.rays)},
-          {"fanbeam:blanked", std::to_string(record.blanked)},
-          {"fanbeam:events", events}};
+  return {
+      {"Software", "fanbeam " + version_text() + " " + commit_text()},
+      {"fanbeam:scene", scene.description.name},
+      {"fanbeam:sensor", sensor.name},
+      {"fanbeam:input", fingerprint},
+      {"fanbeam:frame", std::to_string(record.index)},
+      {"fanbeam:time_s", core::number_text(record.time_s)},
+      {"fanbeam:latitude_deg", core::number_text(core::degrees(record.pose.position.latitude_rad))},
+      {"fanbeam:longitude_deg",
+       core::number_text(core::degrees(record.pose.position.longitude_rad))},
+      {"fanbeam:height_m", core::number_text(record.pose.position.height_m)},
+      {"fanbeam:heading_deg",
+       core::number_text(core::degrees(core::attitude_from(record.pose.q_NB).heading_rad))},
+      {"fanbeam:azimuth",
+       fmt::format("{} columns, {} deg", sensor.scan.columns,
+                   core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
+      {"fanbeam:range", fmt::format("{} m + {} x {} m", core::number_text(sensor.range.minimum_m),
+                                    sensor.range.cells, core::number_text(sensor.range.cell_m))},
+      {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(sensor.display.low_dB),
+                                         core::number_text(sensor.display.high_dB))},
+      {"fanbeam:cscope", sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation
+                             ? "true_elevation: ground truth, a fan beam cannot measure elevation"
+                             : "flat_earth: elevation from range and height above ground"},
+      {"fanbeam:rays", std::to_string(record.rays)},
+      {"fanbeam:blanked", std::to_string(record.blanked)},
+      {"fanbeam:events", events}};
 }
 
 std::string value_of(const core::Metadata& metadata, const std::string& name) {
@@ -102,7 +112,8 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
   return true;
 }
 
-renderer::Sampling choose_sampling(const RenderOptions& options, const scenes::SceneDescription& scene) {
+renderer::Sampling choose_sampling(const RenderOptions& options,
+                                   const scenes::SceneDescription& scene) {
   if (options.reference) return renderer::reference_sampling(options.seed);
   double rays_per_cell = options.rays_per_cell > 0.0 ? options.rays_per_cell : scene.rays_per_cell;
   if (!(rays_per_cell > 0.0)) rays_per_cell = renderer::kDefaultRaysPerCell;
@@ -111,13 +122,14 @@ renderer::Sampling choose_sampling(const RenderOptions& options, const scenes::S
 
 class Run {
  public:
-  Run(const RenderOptions& options, const CommonOptions& common, const scenes::Scene& scene, ProductSet products,
-      int threads)
+  Run(const RenderOptions& options, const CommonOptions& common, const scenes::Scene& scene,
+      ProductSet products, int threads)
       : options_(options),
         common_(common),
         scene_(scene),
         products_(std::move(products)),
-        folder_(options.output.empty() ? fs::path("out") / scene.description.name : fs::path(options.output)) {
+        folder_(options.output.empty() ? fs::path("out") / scene.description.name
+                                       : fs::path(options.output)) {
     record_.sampling = choose_sampling(options, scene.description);
     record_.seed = options.seed;
     record_.threads = threads;
@@ -136,7 +148,8 @@ class Run {
   renderer::Products wanted() const {
     const bool both = products_.contains("pair") || products_.contains("preview");
     const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north");
-    return {both || plan_view || products_.contains("bscope"), both || products_.contains("cscope")};
+    return {both || plan_view || products_.contains("bscope"),
+            both || products_.contains("cscope")};
   }
 
   const RenderOptions& options_;
@@ -157,7 +170,8 @@ void Run::render_frames() {
   std::optional<Preview> preview;
   if (products_.contains("preview"))
     preview.emplace(folder_ / ("preview." + options_.preview_format), 4 * sensor.scan.columns + 8,
-                    std::max(sensor.range.cells, sensor.display.cscope_rows), sensor.scan.frame_rate_Hz);
+                    std::max(sensor.range.cells, sensor.display.cscope_rows),
+                    sensor.scan.frame_rate_Hz);
   Progress progress(scene_.description.name, static_cast<int>(frames.size()), common_.quiet);
   const Clock::time_point begin = Clock::now();
   for (const int index : frames) {
@@ -167,8 +181,10 @@ void Run::render_frames() {
     record.pose = scene_.trajectory.at(record.time_s);
     if (!options_.resume || !take_over(folder_, products_, fingerprint_, record)) {
       const Clock::time_point frame_begin = Clock::now();
-      FrameOutput output{index, core::attitude_from(record.pose.q_NB).heading_rad,
-                         frame_renderer.render(scene_.pose_at(record.pose)), {}};
+      FrameOutput output{index,
+                         core::attitude_from(record.pose.q_NB).heading_rad,
+                         frame_renderer.render(scene_.pose_at(record.pose)),
+                         {}};
       record.frame_ms = 1000.0 * seconds_since(frame_begin);
       record.rays = output.frame.rays;
       record.blanked = output.frame.blanked;
@@ -189,14 +205,16 @@ void Run::render_frames() {
 
 void Run::print_summary() const {
   if (common_.quiet) return;
-  const auto resumed = std::count_if(record_.frames.begin(), record_.frames.end(), [](const FrameRecord& f) { return f.resumed; });
+  const auto resumed = std::count_if(record_.frames.begin(), record_.frames.end(),
+                                     [](const FrameRecord& f) { return f.resumed; });
   fmt::print("{} frames in {:.1f} s", record_.frames.size(), record_.wall_s);
   if (resumed > 0) fmt::print(" ({} already there)", resumed);
   fmt::print(", scene built in {:.1f} s\n", record_.scene_build_s);
   for (const core::EffectDecision& decision : scene_.plan.decisions)
     fmt::print("  {:14} {:3}  {}\n", decision.effect, decision.on ? "on" : "off", decision.reason);
   for (const std::string& product : products_) {
-    const fs::path path = product == "preview" ? folder_ / ("preview." + options_.preview_format) : folder_ / product;
+    const fs::path path =
+        product == "preview" ? folder_ / ("preview." + options_.preview_format) : folder_ / product;
     fmt::print("{:8} {}\n", product, fs::absolute(path).lexically_normal().string());
   }
   fmt::print("{:8} {}\n", "record", fs::absolute(folder_ / "run.json").lexically_normal().string());
@@ -214,21 +232,27 @@ std::vector<int> parse_frames(const std::string& text, int count) {
     long value = 0;
     const auto [end, status] = std::from_chars(part.data(), part.data() + part.size(), value);
     if (!part.empty() && (status != std::errc() || end != part.data() + part.size()))
-      core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"", "A:B or A:B:STEP with whole numbers");
+      core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"",
+                              "A:B or A:B:STEP with whole numbers");
     parts.push_back(part.empty() ? std::nullopt : std::optional<long>(value));
   }
   if (parts.size() > 3)
-    core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"", "A:B or A:B:STEP with whole numbers");
+    core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"",
+                            "A:B or A:B:STEP with whole numbers");
   const long total = count;
-  const auto from_end = [&](long index) { return std::clamp(index < 0 ? index + total : index, 0L, total); };
+  const auto from_end = [&](long index) {
+    return std::clamp(index < 0 ? index + total : index, 0L, total);
+  };
   if (parts.size() == 1 && parts[0]) {
     const long index = *parts[0] < 0 ? *parts[0] + total : *parts[0];
     if (index < 0 || index >= total)
-      core::throw_input_error(core::ErrorClass::range, "--frames", text, fmt::format("a frame from 0 to {}", total - 1));
+      core::throw_input_error(core::ErrorClass::range, "--frames", text,
+                              fmt::format("a frame from 0 to {}", total - 1));
     return {static_cast<int>(index)};
   }
   const long step = parts.size() == 3 ? parts[2].value_or(1) : 1;
-  if (step < 1) core::throw_input_error(core::ErrorClass::range, "--frames", text, "a STEP of at least 1");
+  if (step < 1)
+    core::throw_input_error(core::ErrorClass::range, "--frames", text, "a STEP of at least 1");
   const long begin = parts.empty() ? 0 : from_end(parts[0].value_or(0));
   const long end = parts.size() < 2 ? total : from_end(parts[1].value_or(total));
   for (long index = begin; index < end; index += step) {
@@ -236,7 +260,8 @@ std::vector<int> parse_frames(const std::string& text, int count) {
     if (step >= end - index) break;  // index + step may not fit
   }
   if (frames.empty())
-    core::throw_input_error(core::ErrorClass::range, "--frames", text, fmt::format("at least one of the {} frames", total));
+    core::throw_input_error(core::ErrorClass::range, "--frames", text,
+                            fmt::format("at least one of the {} frames", total));
   return frames;
 }
 
@@ -244,8 +269,10 @@ int render(const RenderOptions& options, const CommonOptions& common) {
   ProductSet products = parse_products(options.products);
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
-  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data), options.sensor};
-  const scenes::SceneDescription description = scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data),
+                                           options.sensor};
+  const scenes::SceneDescription description =
+      scenes::read_scene(find_scene(options.scene), scene_options, problems);
   scenes::BuildOptions build;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);

@@ -18,7 +18,8 @@ using Json = nlohmann::ordered_json;
 
 Json resolved_json(const core::ResolvedConfig& resolved) {
   Json json = Json::object();
-  for (const auto& [path, value] : resolved) std::visit([&, &key = path](const auto& v) { json[key] = v; }, value);
+  for (const auto& [path, value] : resolved)
+    std::visit([&, &key = path](const auto& v) { json[key] = v; }, value);
   return json;
 }
 
@@ -129,12 +130,14 @@ std::string timing_json(const RunRecord& record) {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   const double median_ms = median(times_ms);
-  json["summary"] = {{"frame_ms_median", median_ms},
-                     {"frames_per_s", median_ms > 0.0 ? 1000.0 / median_ms : 0.0},
-                     {"frames_per_s_written", record.wall_s > 0.0 ? static_cast<double>(times_ms.size()) / record.wall_s : 0.0},
-                     {"rays_per_s", total_ms > 0.0 ? rays / total_ms * 1000.0 : 0.0},
-                     {"scene_build_s", record.scene_build_s},
-                     {"peak_memory_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024}};
+  json["summary"] = {
+      {"frame_ms_median", median_ms},
+      {"frames_per_s", median_ms > 0.0 ? 1000.0 / median_ms : 0.0},
+      {"frames_per_s_written",
+       record.wall_s > 0.0 ? static_cast<double>(times_ms.size()) / record.wall_s : 0.0},
+      {"rays_per_s", total_ms > 0.0 ? rays / total_ms * 1000.0 : 0.0},
+      {"scene_build_s", record.scene_build_s},
+      {"peak_memory_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024}};
   return json.dump(1) + "\n";
 }
 
@@ -142,14 +145,16 @@ std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& recor
   // FNV-1a, 64 bits: tells inputs apart, guards nothing.
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&hash](const char* bytes, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3U;
+    for (std::size_t i = 0; i < count; ++i)
+      hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3U;
   };
   const std::string header = header_json(scene, record).dump();
   add(header.data(), header.size());
   std::vector<char> chunk(1U << 16U);
   for (const std::filesystem::path& file : scene.description.files) {
     std::ifstream stream(file, std::ios::binary);
-    while (stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || stream.gcount() > 0)
+    while (stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) ||
+           stream.gcount() > 0)
       add(chunk.data(), static_cast<std::size_t>(stream.gcount()));
   }
   return fmt::format("{:016x}", hash);

@@ -10,19 +10,20 @@ int validate(const std::string& name, const std::string& data, const std::string
              const CommonOptions& common) {
   core::ProblemList problems;
   const scenes::SceneOptions options{shipped_folder(), data_folders(data), sensor};
-  const scenes::SceneDescription description = scenes::read_scene(find_scene(name), options, problems);
+  const scenes::SceneDescription description =
+      scenes::read_scene(find_scene(name), options, problems);
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, {}, problems);
   print_problems(problems.all());
   if (common.quiet) return kExitDone;
   const sensors::Sensor& radar = description.sensor;
   fmt::print("{}: valid\n", description.name);
   fmt::print("  title       {}\n", description.title);
-  fmt::print("  frames      {} at {:.3g} Hz, {:.1f} s of flight\n", scene->frame_count(), radar.scan.frame_rate_Hz,
-             scene->trajectory.end_s() - scene->trajectory.begin_s());
+  fmt::print("  frames      {} at {:.3g} Hz, {:.1f} s of flight\n", scene->frame_count(),
+             radar.scan.frame_rate_Hz, scene->trajectory.end_s() - scene->trajectory.begin_s());
   fmt::print("  surfaces    {} triangles\n", scene->world.surfaces->triangle_count());
   fmt::print("  scatterers  {} points\n", scene->world.targets.size());
-  fmt::print("  sensor      {}, {} x {} cells, {:.4g} GHz\n", radar.name, radar.scan.columns, radar.range.cells,
-             radar.waveform.frequency_Hz / 1e9);
+  fmt::print("  sensor      {}, {} x {} cells, {:.4g} GHz\n", radar.name, radar.scan.columns,
+             radar.range.cells, radar.waveform.frequency_Hz / 1e9);
   fmt::print("  built in    {:.1f} s\n", scene->build_s);
   return kExitDone;
 }

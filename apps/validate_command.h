@@ -7,6 +7,7 @@
 
 namespace fanbeam::apps {
 
-int validate(const std::string& scene, const std::string& data, const std::string& sensor, const CommonOptions& common);
+int validate(const std::string& scene, const std::string& data, const std::string& sensor,
+             const CommonOptions& common);
 
 }  // namespace fanbeam::apps

@@ -22,12 +22,18 @@ struct PowerLaw {
 
 PowerLaw power_law(FogWaterModel model) {
   switch (model) {
-    case FogWaterModel::kunkel: return {3.912 / 144.7, 1.0 / 0.88};
-    case FogWaterModel::eldridge_altshuler: return {0.024, 1.54};
-    case FogWaterModel::zhao_radiation: return {1.0 / 42.0, 1.54};
-    case FogWaterModel::zhao_advection: return {1.0 / 18.35, 1.43};
-    case FogWaterModel::tomasi_dry_cold: return {0.034, 1.5};
-    case FogWaterModel::tomasi_wet_warm: return {0.060, 1.5};
+    case FogWaterModel::kunkel:
+      return {3.912 / 144.7, 1.0 / 0.88};
+    case FogWaterModel::eldridge_altshuler:
+      return {0.024, 1.54};
+    case FogWaterModel::zhao_radiation:
+      return {1.0 / 42.0, 1.54};
+    case FogWaterModel::zhao_advection:
+      return {1.0 / 18.35, 1.43};
+    case FogWaterModel::tomasi_dry_cold:
+      return {0.034, 1.5};
+    case FogWaterModel::tomasi_wet_warm:
+      return {0.060, 1.5};
   }
   throw core::InternalError("unknown fog water model");
 }

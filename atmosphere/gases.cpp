@@ -32,8 +32,7 @@ double oxygen_line(const OxygenLine& line, const Air& air) {
   const double pressure_width =
       line.a3 * 1e-4 * (air.p * std::pow(theta, 0.8 - line.a4) + 1.1 * air.e * theta);
   const double width = std::sqrt(pressure_width * pressure_width + 2.25e-6);
-  const double delta =
-      (line.a5 + line.a6 * theta) * 1e-4 * (air.p + air.e) * std::pow(theta, 0.8);
+  const double delta = (line.a5 + line.a6 * theta) * 1e-4 * (air.p + air.e) * std::pow(theta, 0.8);
   return strength * line_shape(air.f, line.centre_GHz, width, delta);
 }
 
@@ -41,9 +40,9 @@ double water_line(const WaterLine& line, const Air& air) {
   const double theta = air.theta;
   const double strength =
       line.b1 * 0.1 * air.e * std::pow(theta, 3.5) * std::exp(line.b2 * (1.0 - theta));
-  const double pressure_width = line.b3 * 1e-4 *
-                                (air.p * std::pow(theta, line.b4) +
-                                 line.b5 * air.e * std::pow(theta, line.b6));
+  const double pressure_width =
+      line.b3 * 1e-4 *
+      (air.p * std::pow(theta, line.b4) + line.b5 * air.e * std::pow(theta, line.b6));
   const double doppler = 2.1316e-12 * line.centre_GHz * line.centre_GHz / theta;
   const double width =
       0.535 * pressure_width + std::sqrt(0.217 * pressure_width * pressure_width + doppler);
@@ -75,8 +74,7 @@ GasAttenuation gas_attenuation(double frequency_Hz, double dry_pressure_hPa, dou
   problems.throw_if_errors();
 
   const Air air{frequency_Hz * 1e-9, dry_pressure_hPa,
-                vapour_pressure_hPa(vapour_density_g_per_m3, temperature_K),
-                300.0 / temperature_K};
+                vapour_pressure_hPa(vapour_density_g_per_m3, temperature_K), 300.0 / temperature_K};
   double oxygen = dry_continuum(air);
   for (const OxygenLine& line : kOxygenLines) oxygen += oxygen_line(line, air);
   double water = 0.0;

@@ -41,9 +41,7 @@ class PathAttenuation::Builder {
   }
 
  private:
-  bool in_fog(double layer_start_m) const {
-    return has_fog_ && layer_start_m < weather_.fog_top_m;
-  }
+  bool in_fog(double layer_start_m) const { return has_fog_ && layer_start_m < weather_.fog_top_m; }
 
   double gas_dB_per_km(double height_m, bool saturated) const {
     if (!weather_.simulate_gas) return 0.0;
@@ -124,8 +122,7 @@ SpecificAttenuation PathAttenuation::profile(const Location& location,
           location.layer->fog_dB_per_km, location.layer->rain_dB_per_km};
 }
 
-SpecificAttenuation PathAttenuation::one_way_attenuation_dB_per_km(
-    double height_m) const noexcept {
+SpecificAttenuation PathAttenuation::one_way_attenuation_dB_per_km(double height_m) const noexcept {
   return profile(locate(height_m), height_m);
 }
 

@@ -30,9 +30,7 @@ struct SpecificAttenuation {
   double fog_dB_per_km = 0.0;
   double rain_dB_per_km = 0.0;
 
-  double total_dB_per_km() const noexcept {
-    return gas_dB_per_km + fog_dB_per_km + rain_dB_per_km;
-  }
+  double total_dB_per_km() const noexcept { return gas_dB_per_km + fog_dB_per_km + rain_dB_per_km; }
 };
 
 // Heights are above the scene's origin, finite; lengths are finite and not negative.

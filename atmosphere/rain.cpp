@@ -81,8 +81,7 @@ RainCoefficients rain_coefficients(double frequency_Hz, double path_elevation_ra
 
 double rain_attenuation_dB_per_km(RainLaw law, double rain_rate_mm_per_h, double frequency_Hz,
                                   double path_elevation_rad, double polarisation_tilt_rad) {
-  require_range("rain_rate_mm_per_h", rain_rate_mm_per_h,
-                {0.0, kLargestRainRate_mm_per_h, "mm/h"});
+  require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.0, kLargestRainRate_mm_per_h, "mm/h"});
   RainCoefficients coefficients =
       rain_coefficients(frequency_Hz, path_elevation_rad, polarisation_tilt_rad);
   if (law == RainLaw::georgia_tech_95) {

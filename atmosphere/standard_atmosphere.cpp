@@ -45,8 +45,7 @@ double AirState::dry_pressure_hPa() const {
 double saturation_vapour_density_g_per_m3(double temperature_K, double pressure_hPa) {
   const double t = temperature_K - kZeroCelsius_K;
   const double enhancement = 1.0 + 1e-4 * (7.2 + pressure_hPa * (0.0320 + 5.9e-6 * t * t));
-  const double pressure =
-      enhancement * 6.1121 * std::exp((18.678 - t / 234.5) * t / (t + 257.14));
+  const double pressure = enhancement * 6.1121 * std::exp((18.678 - t / 234.5) * t / (t + 257.14));
   return 216.7 * pressure / temperature_K;
 }
 

@@ -27,8 +27,7 @@ double fog_liquid_water_g_per_m3(const Weather& weather) {
   if (weather.visibility_m)
     return liquid_water_g_per_m3(weather.fog_water_model, *weather.visibility_m);
   const double liquid_water = weather.liquid_water_g_per_m3.value_or(0.0);
-  require_range("liquid_water_g_per_m3", liquid_water,
-                {0.0, kLargestLiquidWater_g_per_m3, "g/m3"});
+  require_range("liquid_water_g_per_m3", liquid_water, {0.0, kLargestLiquidWater_g_per_m3, "g/m3"});
   return liquid_water;
 }
 
@@ -54,8 +53,8 @@ core::ProblemList problems_in(const Weather& weather, double frequency_Hz) {
   core::ProblemList problems;
   check_range(problems, "frequency_Hz", frequency_Hz, {1e9, 1e12, "Hz"});
   collect(problems, [&] {
-    StandardAtmosphere({weather.origin_height_m, weather.temperature_C, weather.pressure_hPa,
-                        weather.humidity});
+    StandardAtmosphere(
+        {weather.origin_height_m, weather.temperature_C, weather.pressure_hPa, weather.humidity});
   });
   const Range tops{PathAttenuation::kLowest_m, PathAttenuation::kHighest_m, "m above the origin"};
   check_range(problems, "fog_top_m", weather.fog_top_m, tops);

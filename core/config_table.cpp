@@ -53,7 +53,8 @@ std::string suggestion(const std::string& name, const std::vector<std::string>& 
   if (edit_distance(name.substr(0, 100), nearest.front()) <= kLikelyMistyped)
     return ", perhaps \"" + nearest.front() + "\"";
   std::string names;
-  for (const std::string& each : nearest) names += (names.empty() ? ", such as \"" : "\", \"") + each;
+  for (const std::string& each : nearest)
+    names += (names.empty() ? ", such as \"" : "\", \"") + each;
   return names + "\"";
 }
 
@@ -63,7 +64,8 @@ struct ConfigTable::Document {
   toml::table root;
   std::string file;
   ProblemList* problems = nullptr;
-  std::map<const void*, std::set<std::string, std::less<>>> asked;  // per table: keys that exist or could
+  std::map<const void*, std::set<std::string, std::less<>>>
+      asked;  // per table: keys that exist or could
   ResolvedConfig resolved;
 
   void report_unknown(const toml::table& table, const std::string& prefix);
@@ -74,7 +76,8 @@ std::string to_string(const NumberRange& range) {
   const bool has_high = range.high < std::numeric_limits<double>::max();
   if (!has_low && !has_high) return "a finite number";
   if (range.above_low)
-    return "above " + number_text(range.low) + (has_high ? ", at most " + number_text(range.high) : "");
+    return "above " + number_text(range.low) +
+           (has_high ? ", at most " + number_text(range.high) : "");
   if (!has_high) return "at least " + number_text(range.low);
   if (!has_low) return "at most " + number_text(range.high);
   return number_text(range.low) + " to " + number_text(range.high);
@@ -91,7 +94,8 @@ ConfigTable ConfigTable::from_file(const std::filesystem::path& file, ProblemLis
   }
 }
 
-ConfigTable ConfigTable::from_text(std::string_view text, const std::string& file_name, ProblemList& problems) {
+ConfigTable ConfigTable::from_text(std::string_view text, const std::string& file_name,
+                                   ProblemList& problems) {
   ConfigTable table;
   table.document_ = std::make_shared<Document>();
   table.document_->file = file_name;
@@ -134,7 +138,8 @@ std::optional<double> ConfigTable::checked_number(std::string_view key, NumberRa
     error(ErrorClass::parse, key, value_text(*node), "a number, " + to_string(range));
     return std::nullopt;
   }
-  const double value = node->is_integer() ? static_cast<double>(node->as_integer()->get()) : node->as_floating_point()->get();
+  const double value = node->is_integer() ? static_cast<double>(node->as_integer()->get())
+                                          : node->as_floating_point()->get();
   if (!std::isfinite(value)) {
     error(ErrorClass::nonfinite, key, number_text(value), to_string(range));
     return std::nullopt;
@@ -164,13 +169,16 @@ double ConfigTable::required_number(std::string_view key, NumberRange range) {
   return number(key, range, low);
 }
 
-std::int64_t ConfigTable::integer(std::string_view key, std::int64_t low, std::int64_t high, std::int64_t fallback) {
+std::int64_t ConfigTable::integer(std::string_view key, std::int64_t low, std::int64_t high,
+                                  std::int64_t fallback) {
   const auto* node = static_cast<const toml::node*>(find(key));
-  const std::string expected = "a whole number, " + std::to_string(low) + " to " + std::to_string(high);
+  const std::string expected =
+      "a whole number, " + std::to_string(low) + " to " + std::to_string(high);
   std::int64_t value = fallback;
   if (node != nullptr && !node->is_integer()) {
     error(ErrorClass::parse, key, value_text(*node), expected);
-  } else if (node != nullptr && (node->as_integer()->get() < low || node->as_integer()->get() > high)) {
+  } else if (node != nullptr &&
+             (node->as_integer()->get() < low || node->as_integer()->get() > high)) {
     error(ErrorClass::range, key, value_text(*node), expected);
   } else if (node != nullptr) {
     value = node->as_integer()->get();
@@ -224,32 +232,41 @@ std::size_t ConfigTable::choice(std::string_view key, std::initializer_list<std:
       index = static_cast<std::size_t>(found - names.begin());
     } else {
       std::string list;
-      for (const std::string_view name : names) list += (list.empty() ? "\"" : ", \"") + std::string(name) + "\"";
-      error(node->is_string() ? ErrorClass::range : ErrorClass::parse, key, value_text(*node), "one of " + list);
+      for (const std::string_view name : names)
+        list += (list.empty() ? "\"" : ", \"") + std::string(name) + "\"";
+      error(node->is_string() ? ErrorClass::range : ErrorClass::parse, key, value_text(*node),
+            "one of " + list);
     }
   }
   record(key, std::string(names.begin()[index]));
   return index;
 }
 
-std::vector<double> ConfigTable::numbers(std::string_view key, NumberRange range, std::size_t fewest,
-                                         std::size_t most) {
+std::vector<double> ConfigTable::numbers(std::string_view key, NumberRange range,
+                                         std::size_t fewest, std::size_t most) {
   const auto* node = static_cast<const toml::node*>(find(key));
   std::vector<double> values;
   if (node == nullptr) return values;
-  const std::string expected = (fewest == most ? std::to_string(fewest) : std::to_string(fewest) + " to " + std::to_string(most)) +
-                               " numbers, each " + to_string(range);
+  const std::string expected =
+      (fewest == most ? std::to_string(fewest)
+                      : std::to_string(fewest) + " to " + std::to_string(most)) +
+      " numbers, each " + to_string(range);
   const toml::array* array = node->as_array();
   if (array == nullptr || array->size() < fewest || array->size() > most) {
-    error(array == nullptr ? ErrorClass::parse : ErrorClass::range, key, value_text(*node), expected);
+    error(array == nullptr ? ErrorClass::parse : ErrorClass::range, key, value_text(*node),
+          expected);
     return values;
   }
   for (const toml::node& element : *array) {
-    const std::optional<double> value = element.is_number() ? element.value<double>() : std::nullopt;
+    const std::optional<double> value =
+        element.is_number() ? element.value<double>() : std::nullopt;
     if (!value || !std::isfinite(*value) || !holds(range, *value)) {
       const bool nonfinite = value && !std::isfinite(*value);
-      document_->problems->error(!value ? ErrorClass::parse : nonfinite ? ErrorClass::nonfinite : ErrorClass::range,
-                                 place_of(element.source(), document_->file), path(key), value_text(element), expected);
+      document_->problems->error(!value      ? ErrorClass::parse
+                                 : nonfinite ? ErrorClass::nonfinite
+                                             : ErrorClass::range,
+                                 place_of(element.source(), document_->file), path(key),
+                                 value_text(element), expected);
       return {};
     }
     values.push_back(*value);
@@ -263,7 +280,9 @@ std::vector<std::string> ConfigTable::texts(std::string_view key) {
   std::vector<std::string> values;
   if (node == nullptr) return values;
   const toml::array* array = node->as_array();
-  const bool all_text = array != nullptr && std::all_of(array->begin(), array->end(), [](const toml::node& element) { return element.is_string(); });
+  const bool all_text = array != nullptr &&
+                        std::all_of(array->begin(), array->end(),
+                                    [](const toml::node& element) { return element.is_string(); });
   if (!all_text) {
     error(ErrorClass::parse, key, value_text(*node), "an array of texts");
     return values;
@@ -281,7 +300,8 @@ ConfigTable ConfigTable::table(std::string_view key) {
   child.document_ = document_;
   child.prefix_ = path(key) + ".";
   child.nearby_ = place(key);
-  if (node != nullptr && !node->is_table()) error(ErrorClass::parse, key, value_text(*node), "a table");
+  if (node != nullptr && !node->is_table())
+    error(ErrorClass::parse, key, value_text(*node), "a table");
   if (node != nullptr && node->is_table()) {
     child.table_ = node->as_table();
     child.present_ = true;
@@ -294,8 +314,10 @@ std::vector<ConfigTable> ConfigTable::tables(std::string_view key) {
   std::vector<ConfigTable> children;
   if (node == nullptr) return children;
   const toml::array* array = node->as_array();
-  if (array == nullptr || !std::all_of(array->begin(), array->end(), [](const toml::node& e) { return e.is_table(); })) {
-    error(ErrorClass::parse, key, value_text(*node), "an array of tables, [[" + std::string(key) + "]]");
+  if (array == nullptr || !std::all_of(array->begin(), array->end(),
+                                       [](const toml::node& e) { return e.is_table(); })) {
+    error(ErrorClass::parse, key, value_text(*node),
+          "an array of tables, [[" + std::string(key) + "]]");
     return children;
   }
   for (const toml::node& element : *array) {
@@ -313,7 +335,8 @@ std::vector<std::string> ConfigTable::keys() const {
   std::vector<std::pair<std::pair<toml::source_index, toml::source_index>, std::string>> ordered;
   if (table_ == nullptr) return {};
   for (const auto& [key, node] : *static_cast<const toml::table*>(table_))
-    ordered.push_back({{key.source().begin.line, key.source().begin.column}, std::string(key.str())});
+    ordered.push_back(
+        {{key.source().begin.line, key.source().begin.column}, std::string(key.str())});
   std::sort(ordered.begin(), ordered.end());
   std::vector<std::string> names;
   for (auto& entry : ordered) names.push_back(std::move(entry.second));
@@ -321,7 +344,8 @@ std::vector<std::string> ConfigTable::keys() const {
 }
 
 std::string ConfigTable::path(std::string_view key) const {
-  if (key.empty()) return prefix_.substr(0, prefix_.empty() ? 0 : prefix_.size() - 1);  // without the point
+  if (key.empty())
+    return prefix_.substr(0, prefix_.empty() ? 0 : prefix_.size() - 1);  // without the point
   return prefix_ + std::string(key);
 }
 
@@ -330,14 +354,18 @@ Place ConfigTable::place(std::string_view key) const {
   const auto* table = static_cast<const toml::table*>(table_);
   const auto entry = table->find(key);
   if (entry != table->end()) return place_of(entry->first.source(), document_->file);
-  return table->source().begin ? place_of(table->source(), document_->file) : Place{document_->file};
+  return table->source().begin ? place_of(table->source(), document_->file)
+                               : Place{document_->file};
 }
 
-void ConfigTable::error(ErrorClass error_class, std::string_view key, std::string value, std::string expected) {
-  document_->problems->error(error_class, place(key), path(key), std::move(value), std::move(expected));
+void ConfigTable::error(ErrorClass error_class, std::string_view key, std::string value,
+                        std::string expected) {
+  document_->problems->error(error_class, place(key), path(key), std::move(value),
+                             std::move(expected));
 }
 
-void ConfigTable::warning(std::string_view name, std::string_view key, std::string value, std::string done) {
+void ConfigTable::warning(std::string_view name, std::string_view key, std::string value,
+                          std::string done) {
   document_->problems->warning(name, place(key), path(key), std::move(value), std::move(done));
 }
 
@@ -352,10 +380,12 @@ void ConfigTable::Document::report_unknown(const toml::table& table, const std::
                       "a key of this table" + suggestion(name, {known.begin(), known.end()}));
       continue;
     }
-    if (const toml::table* child = node.as_table(); child != nullptr && asked.contains(child)) report_unknown(*child, prefix + name + ".");
+    if (const toml::table* child = node.as_table(); child != nullptr && asked.contains(child))
+      report_unknown(*child, prefix + name + ".");
     if (const toml::array* array = node.as_array()) {
       for (std::size_t i = 0; i < array->size(); ++i)
-        if (const toml::table* child = (*array)[i].as_table(); child != nullptr && asked.contains(child))
+        if (const toml::table* child = (*array)[i].as_table();
+            child != nullptr && asked.contains(child))
           report_unknown(*child, prefix + name + "[" + std::to_string(i) + "].");
     }
   }

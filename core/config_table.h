@@ -37,7 +37,8 @@ class ConfigTable {
   // Parses the text. When it cannot be read or is no TOML, that is reported and an empty table
   // returned whose `present()` is false.
   static ConfigTable from_file(const std::filesystem::path& file, ProblemList& problems);
-  static ConfigTable from_text(std::string_view text, const std::string& file_name, ProblemList& problems);
+  static ConfigTable from_text(std::string_view text, const std::string& file_name,
+                               ProblemList& problems);
 
   bool has(std::string_view key) const;
 
@@ -45,15 +46,18 @@ class ConfigTable {
   std::optional<double> optional_number(std::string_view key, NumberRange range);
   // Missing is an error (E-REF "missing"); then the low end of the range, or 0, is returned.
   double required_number(std::string_view key, NumberRange range);
-  std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high, std::int64_t fallback);
+  std::int64_t integer(std::string_view key, std::int64_t low, std::int64_t high,
+                       std::int64_t fallback);
   bool boolean(std::string_view key, bool fallback);
   std::string text(std::string_view key, std::string_view fallback);
   std::optional<std::string> optional_text(std::string_view key);
   std::string required_text(std::string_view key);
   // The index of the text in `names`; anything else is E-RANGE with the list of names.
-  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> names, std::size_t fallback);
+  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> names,
+                     std::size_t fallback);
   // An array of numbers with a length in [fewest, most]; empty when the key is missing.
-  std::vector<double> numbers(std::string_view key, NumberRange range, std::size_t fewest, std::size_t most);
+  std::vector<double> numbers(std::string_view key, NumberRange range, std::size_t fewest,
+                              std::size_t most);
   std::vector<std::string> texts(std::string_view key);
 
   // A sub-table; when the key is missing, an empty one that answers with fallbacks (its `present()` is false).

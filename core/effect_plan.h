@@ -10,8 +10,9 @@ namespace fanbeam::core {
 struct EffectDecision {
   std::string effect;
   bool on = false;
-  std::string reason;       // one sentence
-  double bound_grey = 0.0;  // largest change of any displayed pixel, in grey levels, that leaving it out can cause
+  std::string reason;  // one sentence
+  double bound_grey =
+      0.0;  // largest change of any displayed pixel, in grey levels, that leaving it out can cause
   double bound_dB = 0.0;
 };
 

@@ -19,8 +19,9 @@ std::string summary(const std::vector<Problem>& problems) {
 }  // namespace
 
 std::string_view code(ErrorClass error_class) {
-  constexpr std::array<std::string_view, 9> kCodes = {"E-PARSE", "E-RANGE", "E-NONFINITE",   "E-REF", "E-LIMIT",
-                                                      "E-PATH",  "E-TIME",  "E-UNSUPPORTED", "E-IO"};
+  constexpr std::array<std::string_view, 9> kCodes = {"E-PARSE", "E-RANGE",       "E-NONFINITE",
+                                                      "E-REF",   "E-LIMIT",       "E-PATH",
+                                                      "E-TIME",  "E-UNSUPPORTED", "E-IO"};
   return kCodes.at(static_cast<std::size_t>(error_class));
 }
 
@@ -39,14 +40,17 @@ std::string to_string(const Problem& problem) {
   if (!problem.place.file.empty()) {
     text += problem.place.file;
     if (problem.place.line > 0) text.append(":").append(std::to_string(problem.place.line));
-    if (problem.place.line > 0 && problem.place.column > 0) text.append(":").append(std::to_string(problem.place.column));
-    if (problem.place.byte_offset >= 0) text.append(" byte ").append(std::to_string(problem.place.byte_offset));
+    if (problem.place.line > 0 && problem.place.column > 0)
+      text.append(":").append(std::to_string(problem.place.column));
+    if (problem.place.byte_offset >= 0)
+      text.append(" byte ").append(std::to_string(problem.place.byte_offset));
     text += ": ";
   }
   text += problem.code;
   if (!problem.field.empty()) text += " " + problem.field;
   if (!problem.value.empty()) text += (problem.field.empty() ? " " : " = ") + problem.value;
-  if (!problem.expected.empty()) text += (problem.is_error() ? ": expected " : ": ") + problem.expected;
+  if (!problem.expected.empty())
+    text += (problem.is_error() ? ": expected " : ": ") + problem.expected;
   return text;
 }
 
@@ -59,18 +63,21 @@ bool InputError::has(ErrorClass error_class) const {
   return false;
 }
 
-void throw_input_error(ErrorClass error_class, std::string field, double value, std::string expected) {
-  throw_input_error(error_class, Place{}, std::move(field), number_text(value), std::move(expected));
+void throw_input_error(ErrorClass error_class, std::string field, double value,
+                       std::string expected) {
+  throw_input_error(error_class, Place{}, std::move(field), number_text(value),
+                    std::move(expected));
 }
 
-void throw_input_error(ErrorClass error_class, std::string field, std::string value, std::string expected) {
+void throw_input_error(ErrorClass error_class, std::string field, std::string value,
+                       std::string expected) {
   throw_input_error(error_class, Place{}, std::move(field), std::move(value), std::move(expected));
 }
 
 void throw_input_error(ErrorClass error_class, Place place, std::string field, std::string value,
                        std::string expected) {
-  throw InputError({Problem{std::string(code(error_class)), std::move(place), std::move(field), std::move(value),
-                            std::move(expected)}});
+  throw InputError({Problem{std::string(code(error_class)), std::move(place), std::move(field),
+                            std::move(value), std::move(expected)}});
 }
 
 void ProblemList::error(ErrorClass error_class, Place place, std::string field, std::string value,
@@ -82,7 +89,8 @@ void ProblemList::error(ErrorClass error_class, Place place, std::string field, 
 
 void ProblemList::warning(std::string_view name, Place place, std::string field, std::string value,
                           std::string done) {
-  add(Problem{"W-" + std::string(name), std::move(place), std::move(field), std::move(value), std::move(done)});
+  add(Problem{"W-" + std::string(name), std::move(place), std::move(field), std::move(value),
+              std::move(done)});
 }
 
 void ProblemList::append(const std::vector<Problem>& problems) {

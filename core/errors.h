@@ -59,19 +59,23 @@ class InternalError : public std::logic_error {
 };
 
 // Throws an InputError of a single problem without a place.
-[[noreturn]] void throw_input_error(ErrorClass error_class, std::string field, double value, std::string expected);
-[[noreturn]] void throw_input_error(ErrorClass error_class, std::string field, std::string value, std::string expected);
-[[noreturn]] void throw_input_error(ErrorClass error_class, Place place, std::string field, std::string value,
+[[noreturn]] void throw_input_error(ErrorClass error_class, std::string field, double value,
                                     std::string expected);
+[[noreturn]] void throw_input_error(ErrorClass error_class, std::string field, std::string value,
+                                    std::string expected);
+[[noreturn]] void throw_input_error(ErrorClass error_class, Place place, std::string field,
+                                    std::string value, std::string expected);
 
 // Collects what is wrong while reading goes on. Caps the list so that a hostile file cannot fill memory.
 class ProblemList {
  public:
   static constexpr std::size_t kMost = 200;
 
-  void error(ErrorClass error_class, Place place, std::string field, std::string value, std::string expected);
+  void error(ErrorClass error_class, Place place, std::string field, std::string value,
+             std::string expected);
   // `name` is the part behind "W-", in capitals: "DEGENERATE".
-  void warning(std::string_view name, Place place, std::string field, std::string value, std::string done);
+  void warning(std::string_view name, Place place, std::string field, std::string value,
+               std::string done);
   void append(const std::vector<Problem>& problems);
 
   bool has_errors() const { return errors_ > 0; }

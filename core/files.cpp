@@ -15,13 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void throw_io(const fs::path& path, const std::string& reason, const std::string& expected) {
+[[noreturn]] void throw_io(const fs::path& path, const std::string& reason,
+                           const std::string& expected) {
   throw_input_error(ErrorClass::io, Place{path.string()}, "", reason, expected);
 }
 
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
-  fs::path name = "." + path.stem().string() + "." + std::to_string(getpid()) + "." + std::to_string(counter++) + ".tmp";
+  fs::path name = "." + path.stem().string() + "." + std::to_string(getpid()) + "." +
+                  std::to_string(counter++) + ".tmp";
   name += path.extension();
   return path.parent_path() / name;
 }
@@ -30,11 +32,13 @@ fs::path temporary_beside(const fs::path& path) {
 
 std::string read_file(const fs::path& path, std::uint64_t largest_bytes) {
   std::error_code status;
-  if (!fs::is_regular_file(path, status)) throw_io(path, status ? status.message() : "not a file", "a readable file");
+  if (!fs::is_regular_file(path, status))
+    throw_io(path, status ? status.message() : "not a file", "a readable file");
   const std::uint64_t size = fs::file_size(path, status);
   if (status) throw_io(path, status.message(), "a readable file");
   if (size > largest_bytes)
-    throw_input_error(ErrorClass::limit, Place{path.string()}, "file size", std::to_string(size) + " bytes",
+    throw_input_error(ErrorClass::limit, Place{path.string()}, "file size",
+                      std::to_string(size) + " bytes",
                       "at most " + std::to_string(largest_bytes) + " bytes");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw_io(path, std::strerror(errno), "a readable file");
@@ -48,7 +52,8 @@ std::string read_file(const fs::path& path, std::uint64_t largest_bytes) {
 void write_atomically(const fs::path& path, const std::function<void(const fs::path&)>& write) {
   std::error_code status;
   if (!path.parent_path().empty()) fs::create_directories(path.parent_path(), status);
-  if (status) throw_io(path.parent_path(), status.message(), "a folder that can be made and written to");
+  if (status)
+    throw_io(path.parent_path(), status.message(), "a folder that can be made and written to");
   const fs::path temporary = temporary_beside(path);
   try {
     write(temporary);
@@ -70,14 +75,16 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
     if (!stream) throw_io(path, std::strerror(errno), "a file that can be written");
     stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     stream.close();
-    if (!stream) throw_io(path, "write failed: " + std::string(std::strerror(errno)), "enough space to write");
+    if (!stream)
+      throw_io(path, "write failed: " + std::string(std::strerror(errno)), "enough space to write");
   });
 }
 
 fs::path path_inside(const fs::path& folder, const std::string& relative, const Place& place,
                      const std::string& field) {
   const auto refuse = [&](const std::string& why) {
-    throw_input_error(ErrorClass::path, place, field, "\"" + relative + "\"", "a path inside " + folder.string() + " (" + why + ")");
+    throw_input_error(ErrorClass::path, place, field, "\"" + relative + "\"",
+                      "a path inside " + folder.string() + " (" + why + ")");
   };
   const fs::path asked(relative);
   if (relative.empty()) refuse("it is empty");

@@ -18,7 +18,8 @@ std::string read_file(const std::filesystem::path& path, std::uint64_t largest_b
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
 // The same for writers that want a path: `write` gets the temporary path (same extension as the target).
-void write_atomically(const std::filesystem::path& path, const std::function<void(const std::filesystem::path&)>& write);
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(const std::filesystem::path&)>& write);
 
 // `relative` resolved inside `folder`. Throws InputError E-PATH when it is absolute, holds a URI scheme, or leaves the
 // folder (".." or a symbolic link). `place` and `field` go into the message.

@@ -20,33 +20,41 @@ std::size_t cells(int columns, int rows) {
 }
 
 // Through memory: the libraries' own file output does not tell when the disk is full.
-void write(const std::filesystem::path& path, OIIO::ImageSpec& spec, const Metadata& metadata, OIIO::TypeDesc type,
-           const void* pixels) {
+void write(const std::filesystem::path& path, OIIO::ImageSpec& spec, const Metadata& metadata,
+           OIIO::TypeDesc type, const void* pixels) {
   for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.extension().string().substr(1));
-  if (!output) throw InternalError("no writer of " + path.extension().string() + ": " + OIIO::geterror());
+  const std::unique_ptr<OIIO::ImageOutput> output =
+      OIIO::ImageOutput::create(path.extension().string().substr(1));
+  if (!output)
+    throw InternalError("no writer of " + path.extension().string() + ": " + OIIO::geterror());
   OIIO::Filesystem::IOVecOutput bytes;
-  if (!output->set_ioproxy(&bytes) || !output->open(path.string(), spec) || !output->write_image(type, pixels) ||
-      !output->close())
-    throw InternalError("writing " + path.filename().string() + " to memory: " + output->geterror());
+  if (!output->set_ioproxy(&bytes) || !output->open(path.string(), spec) ||
+      !output->write_image(type, pixels) || !output->close())
+    throw InternalError("writing " + path.filename().string() +
+                        " to memory: " + output->geterror());
   const std::vector<unsigned char>& buffer = bytes.buffer();
   write_file_atomically(path, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
 }
 
 // Keeps sizes that a file only claims away from every allocation.
-void check_size(const Place& place, std::int64_t columns, std::int64_t rows, std::int64_t channels) {
-  const std::string found = std::to_string(columns) + " x " + std::to_string(rows) + " x " + std::to_string(channels);
+void check_size(const Place& place, std::int64_t columns, std::int64_t rows,
+                std::int64_t channels) {
+  const std::string found =
+      std::to_string(columns) + " x " + std::to_string(rows) + " x " + std::to_string(channels);
   if (columns < 1 || rows < 1 || channels < 1)
     throw_input_error(ErrorClass::parse, place, "image size", found, "at least one value");
-  if (columns > kMostValues || rows > kMostValues / columns || channels > kMostValues / (columns * rows))
-    throw_input_error(ErrorClass::limit, place, "image size", found, "at most " + std::to_string(kMostValues) + " values");
+  if (columns > kMostValues || rows > kMostValues / columns ||
+      channels > kMostValues / (columns * rows))
+    throw_input_error(ErrorClass::limit, place, "image size", found,
+                      "at most " + std::to_string(kMostValues) + " values");
 }
 
 std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   const Place place{path.string()};
   if (!std::filesystem::is_regular_file(path))
     throw_input_error(ErrorClass::io, place, "", "missing", "an image file");
-  if (const std::optional<ClaimedSize> claimed = check_png(path)) check_size(place, claimed->columns, claimed->rows, 1);
+  if (const std::optional<ClaimedSize> claimed = check_png(path))
+    check_size(place, claimed->columns, claimed->rows, 1);
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
   if (!input) throw_input_error(ErrorClass::parse, place, "", OIIO::geterror(), "an image file");
   return input;
@@ -54,8 +62,10 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
 
 }  // namespace
 
-void write_png(const std::filesystem::path& path, const Picture8& picture, const Metadata& metadata) {
-  if (picture.pixels.size() != cells(picture.columns, picture.rows)) throw InternalError("picture size");
+void write_png(const std::filesystem::path& path, const Picture8& picture,
+               const Metadata& metadata) {
+  if (picture.pixels.size() != cells(picture.columns, picture.rows))
+    throw InternalError("picture size");
   OIIO::ImageSpec spec(picture.columns, picture.rows, 1, OIIO::TypeDesc::UINT8);
   spec.attribute("png:compressionLevel", 6);
   write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
@@ -73,7 +83,8 @@ void write_exr(const std::filesystem::path& path, const Image& image, const Meta
   for (std::size_t layer = 0; layer < layers; ++layer) {
     const std::vector<double>& values = image.layers[layer].values;
     if (values.size() != count) throw InternalError("size of layer " + image.layers[layer].name);
-    for (std::size_t i = 0; i < count; ++i) pixels[i * layers + layer] = static_cast<float>(values[i]);
+    for (std::size_t i = 0; i < count; ++i)
+      pixels[i * layers + layer] = static_cast<float>(values[i]);
   }
   write(path, spec, metadata, OIIO::TypeDesc::FLOAT, pixels.data());
 }
@@ -82,7 +93,8 @@ Metadata read_metadata(const std::filesystem::path& path) {
   const std::unique_ptr<OIIO::ImageInput> input = open(path);
   Metadata metadata;
   for (const OIIO::ParamValue& attribute : input->spec().extra_attribs)
-    if (attribute.type() == OIIO::TypeDesc::STRING) metadata.emplace_back(attribute.name().string(), attribute.get_string());
+    if (attribute.type() == OIIO::TypeDesc::STRING)
+      metadata.emplace_back(attribute.name().string(), attribute.get_string());
   return metadata;
 }
 
@@ -91,7 +103,9 @@ Image read_image(const std::filesystem::path& path) {
   const std::unique_ptr<OIIO::ImageInput> input = open(path);
   const OIIO::ImageSpec& spec = input->spec();
   check_size(place, spec.width, spec.height, spec.nchannels);
-  const double largest = spec.format == OIIO::TypeDesc::UINT8 ? 255.0 : spec.format == OIIO::TypeDesc::UINT16 ? 65535.0 : 0.0;
+  const double largest = spec.format == OIIO::TypeDesc::UINT8    ? 255.0
+                         : spec.format == OIIO::TypeDesc::UINT16 ? 65535.0
+                                                                 : 0.0;
   const auto channels = static_cast<std::size_t>(spec.nchannels);
   std::vector<float> pixels(cells(spec.width, spec.height) * channels);
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data()))

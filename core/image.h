@@ -34,7 +34,8 @@ struct Image {
 
 // Throws InputError E-IO when the file cannot be written; an old file is then untouched. Sizes that do not match the
 // values are a broken invariant (InternalError).
-void write_png(const std::filesystem::path& path, const Picture8& picture, const Metadata& metadata);
+void write_png(const std::filesystem::path& path, const Picture8& picture,
+               const Metadata& metadata);
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
 
 // The texts stored with an image. Throws InputError E-IO or E-PARSE.

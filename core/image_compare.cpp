@@ -52,20 +52,23 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
 
 }  // namespace
 
-std::vector<LayerDifference> compare_images(const Image& a, const Image& b, const std::string& name_a,
-                                            const std::string& name_b) {
+std::vector<LayerDifference> compare_images(const Image& a, const Image& b,
+                                            const std::string& name_a, const std::string& name_b) {
   const auto size_text = [](const Image& image) {
     return std::to_string(image.columns) + " x " + std::to_string(image.rows) + ", " +
            std::to_string(image.layers.size()) + " layers";
   };
   if (a.columns != b.columns || a.rows != b.rows || a.layers.size() != b.layers.size())
-    throw_input_error(ErrorClass::ref, Place{name_b}, "size", size_text(b), size_text(a) + " as in " + name_a);
+    throw_input_error(ErrorClass::ref, Place{name_b}, "size", size_text(b),
+                      size_text(a) + " as in " + name_a);
   std::vector<LayerDifference> differences;
   for (const Image::Layer& layer : a.layers) {
-    const auto other = std::find_if(b.layers.begin(), b.layers.end(),
-                                    [&](const Image::Layer& candidate) { return candidate.name == layer.name; });
+    const auto other =
+        std::find_if(b.layers.begin(), b.layers.end(),
+                     [&](const Image::Layer& candidate) { return candidate.name == layer.name; });
     if (other == b.layers.end())
-      throw_input_error(ErrorClass::ref, Place{name_b}, "layer", "missing", "\"" + layer.name + "\" as in " + name_a);
+      throw_input_error(ErrorClass::ref, Place{name_b}, "layer", "missing",
+                        "\"" + layer.name + "\" as in " + name_a);
     differences.push_back(compare_layer(layer, *other, a.columns));
   }
   return differences;

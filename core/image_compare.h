@@ -11,10 +11,10 @@ namespace fanbeam::core {
 struct LayerDifference {
   std::string layer;
   std::size_t cells = 0;
-  std::size_t different = 0;      // values that are not equal
-  double mean = 0.0;              // of B - A, in the layer's own unit (grey levels for 8-bit pictures)
+  std::size_t different = 0;  // values that are not equal
+  double mean = 0.0;          // of B - A, in the layer's own unit (grey levels for 8-bit pictures)
   double rms = 0.0;
-  double percentile_99 = 0.0;     // of |B - A|
+  double percentile_99 = 0.0;  // of |B - A|
   double largest = 0.0;
   int largest_column = 0, largest_row = 0;
   // Power layers (positive floats): over cells positive in both, in dB.
@@ -24,7 +24,7 @@ struct LayerDifference {
 };
 
 // Layer by layer, paired by name. Throws InputError E-REF when sizes or layer names differ.
-std::vector<LayerDifference> compare_images(const Image& a, const Image& b, const std::string& name_a,
-                                            const std::string& name_b);
+std::vector<LayerDifference> compare_images(const Image& a, const Image& b,
+                                            const std::string& name_a, const std::string& name_b);
 
 }  // namespace fanbeam::core

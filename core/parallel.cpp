@@ -43,8 +43,10 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
 }
 
 ThreadLimit::ThreadLimit(int threads)
-    : control_(nullptr), threads_(threads > 0 ? threads : std::max(1, tbb::info::default_concurrency())) {
-  control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads_));
+    : control_(nullptr),
+      threads_(threads > 0 ? threads : std::max(1, tbb::info::default_concurrency())) {
+  control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                     static_cast<std::size_t>(threads_));
 }
 
 ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }

@@ -17,7 +17,8 @@ std::array<std::uint32_t, 256> make_crc_table() {
   std::array<std::uint32_t, 256> table{};
   for (std::uint32_t i = 0; i < 256; ++i) {
     std::uint32_t value = i;
-    for (int bit = 0; bit < 8; ++bit) value = (value & 1U) != 0 ? value >> 1U ^ 0xEDB88320U : value >> 1U;
+    for (int bit = 0; bit < 8; ++bit)
+      value = (value & 1U) != 0 ? value >> 1U ^ 0xEDB88320U : value >> 1U;
     table[i] = value;
   }
   return table;
@@ -25,8 +26,10 @@ std::array<std::uint32_t, 256> make_crc_table() {
 
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& path) : path_(path), stream_(path, std::ios::binary) {
-    if (!stream_) throw_input_error(ErrorClass::io, Place{path.string()}, "", "not readable", "an image file");
+  explicit Reader(const std::filesystem::path& path)
+      : path_(path), stream_(path, std::ios::binary) {
+    if (!stream_)
+      throw_input_error(ErrorClass::io, Place{path.string()}, "", "not readable", "an image file");
   }
 
   bool begins_as_png() {
@@ -90,7 +93,8 @@ std::optional<ClaimedSize> check_png(const std::filesystem::path& path) {
     const std::uint32_t length = reader.number();
     reader.begin_checksum();
     const std::uint32_t type = reader.number();
-    if (first != (type == kHead) || (first && length != 13)) reader.refuse("chunks out of order", "one head, at the beginning");
+    if (first != (type == kHead) || (first && length != 13))
+      reader.refuse("chunks out of order", "one head, at the beginning");
     if (first) size = {reader.number(), reader.number()};
     reader.skip(first ? length - 8 : length);
     const std::uint32_t checksum = reader.checksum();

@@ -14,8 +14,10 @@ namespace {
 
 glm::dquat checked_unit(const glm::dquat& q) {
   const double norm = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
-  if (!std::isfinite(norm)) throw_input_error(ErrorClass::nonfinite, "quaternion length", norm, "a finite quaternion");
-  if (norm < 1e-12) throw_input_error(ErrorClass::range, "quaternion length", norm, "a length above 1e-12");
+  if (!std::isfinite(norm))
+    throw_input_error(ErrorClass::nonfinite, "quaternion length", norm, "a finite quaternion");
+  if (norm < 1e-12)
+    throw_input_error(ErrorClass::range, "quaternion length", norm, "a length above 1e-12");
   return {q.w / norm, q.x / norm, q.y / norm, q.z / norm};
 }
 
@@ -60,7 +62,8 @@ glm::dquat interpolate(const glm::dquat& from, const glm::dquat& to, double s) {
     wa = std::sin((1.0 - s) * angle) / std::sin(angle);
     wb = std::sin(s * angle) / std::sin(angle);
   }
-  return checked_unit({wa * a.w + wb * b.w, wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z});
+  return checked_unit(
+      {wa * a.w + wb * b.w, wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z});
 }
 
 }  // namespace fanbeam::core

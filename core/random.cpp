@@ -8,7 +8,8 @@
 
 namespace fanbeam::core {
 
-std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key) {
+std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter,
+                                          std::array<std::uint32_t, 2> key) {
   const r123::Philox4x32 generator;
   const r123::Philox4x32::ctr_type c = {{counter[0], counter[1], counter[2], counter[3]}};
   const r123::Philox4x32::key_type k = {{key[0], key[1]}};
@@ -16,12 +17,14 @@ std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter, 
   return {r[0], r[1], r[2], r[3]};
 }
 
-std::array<std::uint32_t, 4> random_words(const RandomKey& key, std::uint64_t cell, std::uint32_t draw) {
+std::array<std::uint32_t, 4> random_words(const RandomKey& key, std::uint64_t cell,
+                                          std::uint32_t draw) {
   // Seed and frame make the key, cell and draw the counter; the stream is mixed into both so that streams never meet.
   const auto seed_low = static_cast<std::uint32_t>(key.seed);
   const auto seed_high = static_cast<std::uint32_t>(key.seed >> 32U);
-  return philox_block({static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(cell >> 32U), draw, key.frame},
-                    {seed_low, seed_high ^ (key.stream * 0x9E3779B9U)});
+  return philox_block(
+      {static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(cell >> 32U), draw, key.frame},
+      {seed_low, seed_high ^ (key.stream * 0x9E3779B9U)});
 }
 
 std::array<double, 2> normal_pair(const RandomKey& key, std::uint64_t cell, std::uint32_t draw) {

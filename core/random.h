@@ -20,13 +20,17 @@ inline constexpr std::uint32_t kStreamTurbulence = 1;
 inline constexpr std::uint32_t kStreamTerrain = 2;
 inline constexpr std::uint32_t kStreamReferenceJitter = 3;
 
-std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter,
+                                          std::array<std::uint32_t, 2> key);
 
 // Four words for (cell, draw).
-std::array<std::uint32_t, 4> random_words(const RandomKey& key, std::uint64_t cell, std::uint32_t draw);
+std::array<std::uint32_t, 4> random_words(const RandomKey& key, std::uint64_t cell,
+                                          std::uint32_t draw);
 
 // (word + 0.5) / 2^32: in the open interval (0, 1), so that its logarithm is finite.
-constexpr double uniform_from(std::uint32_t word) { return (static_cast<double>(word) + 0.5) * 0x1p-32; }
+constexpr double uniform_from(std::uint32_t word) {
+  return (static_cast<double>(word) + 0.5) * 0x1p-32;
+}
 
 // Two independent standard normal numbers (Box-Muller).
 std::array<double, 2> normal_pair(const RandomKey& key, std::uint64_t cell, std::uint32_t draw);

@@ -16,15 +16,17 @@ FANBEAM_HOT void add_weighted(const double* from, double weight, int count, doub
 
 }  // namespace
 
-std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins, const FanSums& fan,
-                                       const sensors::Sensor& sensor, int sub_columns_per_column) {
+std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins,
+                                       const FanSums& fan, const sensors::Sensor& sensor,
+                                       int sub_columns_per_column) {
   const int margin = margin_sub_columns(sensor, sub_columns_per_column);
   const int reach = 2 * margin + sub_columns_per_column;
   // The same for every column: sub-column s of a column's reach begins this far from the column's centre.
   std::vector<double> weights;
   for (int s = 0; s < reach; ++s) {
     const double from_rad = (s - margin - sub_columns_per_column / 2.0) * fan.step_rad;
-    weights.push_back(sensors::two_way_integral(sensor.antenna.azimuth, from_rad, from_rad + fan.step_rad));
+    weights.push_back(
+        sensors::two_way_integral(sensor.antenna.azimuth, from_rad, from_rad + fan.step_rad));
   }
   const int columns = sensor.scan.columns;
   const auto bin_count = static_cast<std::size_t>(bins);
@@ -32,8 +34,8 @@ std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins
   core::parallel_for(static_cast<std::size_t>(columns), [&](std::size_t column) {
     const std::size_t first = column * static_cast<std::size_t>(sub_columns_per_column);
     for (int s = 0; s < reach; ++s)
-      add_weighted(&sums[(first + static_cast<std::size_t>(s)) * bin_count], weights[static_cast<std::size_t>(s)], bins,
-                   &by_column[column * bin_count]);
+      add_weighted(&sums[(first + static_cast<std::size_t>(s)) * bin_count],
+                   weights[static_cast<std::size_t>(s)], bins, &by_column[column * bin_count]);
   });
   std::vector<double> image(by_column.size());
   for (std::size_t column = 0; column < static_cast<std::size_t>(columns); ++column)

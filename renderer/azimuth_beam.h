@@ -13,7 +13,8 @@
 namespace fanbeam::renderer {
 
 // `sums` [sub-column][bin] -> [bin][column], row-major. `margin` sub-columns lie left of the first column's edge.
-std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins, const FanSums& fan,
-                                       const sensors::Sensor& sensor, int sub_columns_per_column);
+std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins,
+                                       const FanSums& fan, const sensors::Sensor& sensor,
+                                       int sub_columns_per_column);
 
 }  // namespace fanbeam::renderer

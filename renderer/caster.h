@@ -17,13 +17,15 @@ struct FanSums {
   double step_rad = 0.0;
   int cells = 0;  // range cells, nearest first
   int rows = 0;   // elevation rows, highest first; 0 when no C-scope is asked for
-  std::vector<double> range_W_per_rad;         // [sub-column][cell]
-  std::vector<double> elevation_W_m3_per_rad;  // [sub-column][row]: power times R^3, summed over range
+  std::vector<double> range_W_per_rad;  // [sub-column][cell]
+  std::vector<double>
+      elevation_W_m3_per_rad;  // [sub-column][row]: power times R^3, summed over range
 
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;
   std::uint64_t blanked = 0;  // hits nearer than the first range cell
-  double cast_s = 0.0;        // time inside the ray-casting library, summed over threads; 0 unless asked for
+  double cast_s =
+      0.0;  // time inside the ray-casting library, summed over threads; 0 unless asked for
 };
 
 class Caster {

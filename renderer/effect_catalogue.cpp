@@ -21,12 +21,15 @@ double longest_level_path_dB(const SceneFacts& facts, bool gas, bool fog, bool r
   const atmosphere::PathAttenuation path(weather, facts.sensor.waveform.frequency_Hz);
   double most_dB = 0.0;
   for (const double height_m : {facts.lowest_m, weather.fog_top_m, weather.rain_top_m})
-    most_dB = std::max(most_dB, path.one_way_dB(height_m, height_m, facts.sensor.range.maximum_m()));
+    most_dB =
+        std::max(most_dB, path.one_way_dB(height_m, height_m, facts.sensor.range.maximum_m()));
   return 2.0 * most_dB;
 }
 
 bool always(const SceneFacts&) { return true; }
-bool has_fog(const SceneFacts& facts) { return atmosphere::fog_liquid_water_g_per_m3(facts.weather) > 0.0; }
+bool has_fog(const SceneFacts& facts) {
+  return atmosphere::fog_liquid_water_g_per_m3(facts.weather) > 0.0;
+}
 bool has_rain(const SceneFacts& facts) { return facts.weather.rain_rate_mm_per_h > 0.0; }
 
 double gas_dB(const SceneFacts& facts) { return longest_level_path_dB(facts, true, false, false); }
@@ -37,8 +40,9 @@ double rain_dB(const SceneFacts& facts) { return longest_level_path_dB(facts, fa
 double noise_dB(const SceneFacts& facts) {
   const sensors::Sensor& sensor = facts.sensor;
   const double range_m = sensor.range.maximum_m();
-  const double ground_W = sensor.radar_constant_W_m2() * sensors::two_way_width(sensor.antenna.azimuth) *
-                          sensor.range.cell_m / (range_m * range_m * range_m);
+  const double ground_W = sensor.radar_constant_W_m2() *
+                          sensors::two_way_width(sensor.antenna.azimuth) * sensor.range.cell_m /
+                          (range_m * range_m * range_m);
   const double floor_W = sensor.display.mapping == sensors::Display::Mapping::stc
                              ? ground_W * std::pow(10.0, sensor.display.low_dB / 10.0)
                              : std::pow(10.0, sensor.display.low_dB / 10.0);
@@ -49,12 +53,13 @@ double noise_dB(const SceneFacts& facts) {
 
 const std::vector<Effect>& effect_catalogue() {
   static const std::vector<Effect> kCatalogue = {
-      {kGas, "two-way loss in oxygen and water vapour", "ITU-R P.676-13 Annex 1 on the P.835-6 standard atmosphere",
-       always, gas_dB, ""},
-      {kFog, "two-way loss in fog droplets", "ITU-R P.840-8", has_fog, fog_dB, "the scene has no fog"},
+      {kGas, "two-way loss in oxygen and water vapour",
+       "ITU-R P.676-13 Annex 1 on the P.835-6 standard atmosphere", always, gas_dB, ""},
+      {kFog, "two-way loss in fog droplets", "ITU-R P.840-8", has_fog, fog_dB,
+       "the scene has no fog"},
       {kRain, "two-way loss in rain", "ITU-R P.838-3", has_rain, rain_dB, "the scene has no rain"},
-      {kThermalNoise, "mean noise power of the receiver", "k T0 F / dwell, IEEE Std 686 noise figure", always, noise_dB,
-       ""},
+      {kThermalNoise, "mean noise power of the receiver",
+       "k T0 F / dwell, IEEE Std 686 noise figure", always, noise_dB, ""},
   };
   return kCatalogue;
 }

@@ -18,7 +18,7 @@ namespace fanbeam::renderer {
 struct SceneFacts {
   atmosphere::Weather weather;
   sensors::Sensor sensor;
-  double lowest_m = 0.0;   // of ground and sensor
+  double lowest_m = 0.0;  // of ground and sensor
   double highest_m = 0.0;
 };
 

@@ -28,10 +28,13 @@ double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m
 
 }  // namespace
 
-ElevationFan::ElevationFan(const World& world, const Sampling& sampling) : world_(world), sampling_(sampling) {
+ElevationFan::ElevationFan(const World& world, const Sampling& sampling)
+    : world_(world), sampling_(sampling) {
   const sensors::Antenna& antenna = world.sensor.antenna;
-  lowest_rad_ = std::max(antenna.boresight_elevation_rad - antenna.elevation.cut_rad, -core::kPi / 2);
-  highest_rad_ = std::min(antenna.boresight_elevation_rad + antenna.elevation.cut_rad, core::kPi / 2);
+  lowest_rad_ =
+      std::max(antenna.boresight_elevation_rad - antenna.elevation.cut_rad, -core::kPi / 2);
+  highest_rad_ =
+      std::min(antenna.boresight_elevation_rad + antenna.elevation.cut_rad, core::kPi / 2);
 }
 
 void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
@@ -78,7 +81,8 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     const std::optional<double> height_m = ground.height_at(x_m, y_m);
     if (!height_m) break;
     drop_m = std::min(std::abs(sensor.z - *height_m), range_m);
-    const double elevation_rad = std::atan(slope_of(frame, {x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z}));
+    const double elevation_rad =
+        std::atan(slope_of(frame, {x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z}));
     // Rays per step need not be whole: steps take turns.
     ++step;
     const double rays = sampling_.rays_per_cell * stride;
@@ -93,12 +97,14 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   }
 }
 
-double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec3& heading) const {
+double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
+                                        const glm::dvec3& heading) const {
   const terrain::RayScene& surfaces = *world_.surfaces;
   const double square_m = surfaces.tops_spacing_m();
   const glm::dvec3& sensor = frame.position_m;
   double top_slope = -1e30;
-  for (double distance_m = 0.0; distance_m <= world_.sensor.range.maximum_m(); distance_m += square_m / 2) {
+  for (double distance_m = 0.0; distance_m <= world_.sensor.range.maximum_m();
+       distance_m += square_m / 2) {
     const double x_m = heading.x * distance_m;
     const double y_m = heading.y * distance_m;
     const double z_m = surfaces.mesh_top_m(sensor.x + x_m, sensor.y + y_m) - sensor.z;
@@ -115,7 +121,8 @@ void ElevationFan::add_until(double elevation_rad, int parts, std::vector<double
   const double from_rad = edges.back();
   const double span_rad = elevation_rad - from_rad;
   if (span_rad <= 0.0) return;
-  const int count = std::max({1, parts, static_cast<int>(std::ceil(span_rad / sampling_.largest_step_rad))});
+  const int count =
+      std::max({1, parts, static_cast<int>(std::ceil(span_rad / sampling_.largest_step_rad))});
   for (int i = 1; i <= count; ++i) edges.push_back(from_rad + span_rad * i / count);
 }
 

@@ -24,10 +24,12 @@ class ElevationFan {
 
   // Increasing elevations: `edges` bound the intervals that rays stand for. Azimuths from `left_rad` to `right_rad`.
   // Empty when nothing can be seen there.
-  void place(const sensors::AntennaFrame& frame, double left_rad, double right_rad, std::vector<double>& edges) const;
+  void place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
+             std::vector<double>& edges) const;
 
  private:
-  void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad, std::vector<double>& edges) const;
+  void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
+                     std::vector<double>& edges) const;
   double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec3& heading) const;
   void add_until(double elevation_rad, int parts, std::vector<double>& edges) const;
 

@@ -32,7 +32,8 @@ std::vector<double> plus(const std::vector<double>& values, double constant) {
 
 }  // namespace
 
-FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products, bool with_noise)
+FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
+                             bool with_noise)
     : world_(world),
       sampling_(sampling),
       products_(products),
@@ -42,14 +43,16 @@ FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const
 Frame FrameRenderer::render(const FramePose& pose) const {
   check_pose(pose);
   const sensors::Sensor& sensor = world_.sensor;
-  const sensors::AntennaFrame antenna = sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB,
-                                                               sensor.mounting, sensor.scan.stabilised);
+  const sensors::AntennaFrame antenna = sensors::antenna_frame(
+      pose.position_m, pose.north_east_down, pose.q_NB, sensor.mounting, sensor.scan.stabilised);
   const bool elevation_resolved =
-      products_.cscope && sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
+      products_.cscope &&
+      sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
   const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   Frame frame;
   frame.bscope_W.assign(columns * static_cast<std::size_t>(sensor.range.cells), 0.0);
-  if (elevation_resolved) frame.cscope_W_m3.assign(columns * static_cast<std::size_t>(sensor.display.cscope_rows), 0.0);
+  if (elevation_resolved)
+    frame.cscope_W_m3.assign(columns * static_cast<std::size_t>(sensor.display.cscope_rows), 0.0);
 
   double height_above_ground_m = antenna.position_m.z;
   if (const terrain::HeightField* ground = world_.surfaces->terrain(); ground != nullptr) {
@@ -66,9 +69,11 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   caster_->cast(antenna, elevation_resolved, sums);
   frame.rays = sums.rays;
   frame.blanked = sums.blanked;
-  frame.bscope_W = apply_azimuth_beam(sums.range_W_per_rad, sums.cells, sums, sensor, sampling_.sub_columns);
+  frame.bscope_W =
+      apply_azimuth_beam(sums.range_W_per_rad, sums.cells, sums, sensor, sampling_.sub_columns);
   if (elevation_resolved)
-    frame.cscope_W_m3 = apply_azimuth_beam(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor, sampling_.sub_columns);
+    frame.cscope_W_m3 = apply_azimuth_beam(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor,
+                                           sampling_.sub_columns);
   const std::vector<core::Echo> echoes = point_echoes(world_, antenna, pose.time_s);
   add_echoes(echoes, sensor, frame.bscope_W, frame.cscope_W_m3);
   if (sums.hits == 0 && echoes.empty()) frame.events.emplace_back("empty_view");
@@ -84,10 +89,11 @@ void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
   if (!products_.cscope) return;
   if (sensor.display.cscope_mode == sensors::Display::CScopeMode::flat_earth) {
     const bool above = height_above_ground_m > 0.0;
-    frame.cscope_W_m3 = above ? sensors::flat_earth_cscope_W_m3(sensor, received_W, height_above_ground_m)
-                              : std::vector<double>(static_cast<std::size_t>(sensor.display.cscope_rows) *
-                                                        static_cast<std::size_t>(sensor.scan.columns),
-                                                    0.0);
+    frame.cscope_W_m3 =
+        above ? sensors::flat_earth_cscope_W_m3(sensor, received_W, height_above_ground_m)
+              : std::vector<double>(static_cast<std::size_t>(sensor.display.cscope_rows) *
+                                        static_cast<std::size_t>(sensor.scan.columns),
+                                    0.0);
     frame.cscope_grey = sensors::cscope_grey(sensor, frame.cscope_W_m3);
     return;
   }

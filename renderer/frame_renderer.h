@@ -31,7 +31,8 @@ struct FramePose {
 struct Frame {
   std::vector<double> bscope_W;     // received power without noise
   std::vector<double> cscope_W_m3;  // power times R^3 summed over range, without noise
-  std::vector<double> bscope_grey;  // unrounded, 0 to 255, with the mean noise power when noise is on
+  std::vector<double>
+      bscope_grey;  // unrounded, 0 to 255, with the mean noise power when noise is on
   std::vector<double> cscope_grey;
   std::uint64_t rays = 0;
   std::uint64_t blanked = 0;  // hits nearer than the first range cell
@@ -43,7 +44,8 @@ struct Frame {
 class FrameRenderer {
  public:
   // `world` must outlive the renderer. `with_noise`: the effect thermal noise is on.
-  FrameRenderer(const World& world, const Sampling& sampling, const Products& products, bool with_noise);
+  FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
+                bool with_noise);
 
   // Thread-safe. Throws InputError E-NONFINITE or E-RANGE for an impossible pose.
   Frame render(const FramePose& pose) const;

@@ -24,7 +24,8 @@ class NrcsTable {
     const double position = std::fmin(sin_grazing, 1.0) * kSteps;
     const int index = static_cast<int>(position);
     const double share = position - index;
-    return values_[static_cast<std::size_t>(index)] * (1.0 - share) + values_[static_cast<std::size_t>(index) + 1] * share;
+    return values_[static_cast<std::size_t>(index)] * (1.0 - share) +
+           values_[static_cast<std::size_t>(index) + 1] * share;
   }
 
  private:

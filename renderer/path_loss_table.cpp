@@ -4,8 +4,8 @@
 
 namespace fanbeam::renderer {
 
-PathLossTable::PathLossTable(const atmosphere::PathAttenuation& attenuation, double sensor_height_m, double lowest_m,
-                             double highest_m)
+PathLossTable::PathLossTable(const atmosphere::PathAttenuation& attenuation, double sensor_height_m,
+                             double lowest_m, double highest_m)
     : clear_(attenuation.is_clear()), lowest_m_(lowest_m) {
   const double step_m = std::max((highest_m - lowest_m) / kSteps, 1e-6);
   per_step_ = 1.0 / step_m;

@@ -15,15 +15,17 @@ namespace fanbeam::renderer {
 
 class PathLossTable {
  public:
-  PathLossTable(const atmosphere::PathAttenuation& attenuation, double sensor_height_m, double lowest_m,
-                double highest_m);
+  PathLossTable(const atmosphere::PathAttenuation& attenuation, double sensor_height_m,
+                double lowest_m, double highest_m);
 
   double two_way_factor(double height_m, double range_m) const noexcept {
     if (clear_) return 1.0;
-    const double position = std::fmin(std::fmax((height_m - lowest_m_) * per_step_, 0.0), kSteps - 1e-9);
+    const double position =
+        std::fmin(std::fmax((height_m - lowest_m_) * per_step_, 0.0), kSteps - 1e-9);
     const auto index = static_cast<std::size_t>(position);
     const double share = position - static_cast<double>(index);
-    const double nepers_per_m = nepers_per_m_[index] * (1.0 - share) + nepers_per_m_[index + 1] * share;
+    const double nepers_per_m =
+        nepers_per_m_[index] * (1.0 - share) + nepers_per_m_[index + 1] * share;
     return decay(nepers_per_m * range_m);
   }
 

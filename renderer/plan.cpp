@@ -19,7 +19,9 @@ std::string rounded(double value) {
   return text;
 }
 
-double dB_per_grey(const sensors::Display& display) { return (display.high_dB - display.low_dB) / 255.0; }
+double dB_per_grey(const sensors::Display& display) {
+  return (display.high_dB - display.low_dB) / 255.0;
+}
 
 }  // namespace
 
@@ -88,8 +90,9 @@ core::EffectPlan plan(const SceneFacts& facts, double accuracy_grey, const Effec
     core::EffectDecision& decision = result.decisions[i];
     decision.on = decision.bound_grey > left_grey;
     if (!decision.on) left_grey -= decision.bound_grey;
-    decision.reason = std::string(catalogue[i].what) + " can change a pixel by up to " + rounded(decision.bound_grey) +
-                      " grey levels, " + (decision.on ? "more" : "less") + " than the budget leaves";
+    decision.reason = std::string(catalogue[i].what) + " can change a pixel by up to " +
+                      rounded(decision.bound_grey) + " grey levels, " +
+                      (decision.on ? "more" : "less") + " than the budget leaves";
   }
   return result;
 }

@@ -16,10 +16,11 @@ namespace fanbeam::renderer {
 
 // Echoes of all visible targets at `time_s` in front of the antenna and inside the range gate, with power at azimuth
 // gain 1; `object_id` is the target's index. Sorted as the targets are.
-std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna, double time_s);
+std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
+                                     double time_s);
 
 // Adds the echoes to a B-scope [cell][column] in watts and, when not empty, a C-scope [row][column] in W m^3.
-void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& sensor, std::vector<double>& bscope_W,
-                std::vector<double>& cscope_W_m3);
+void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& sensor,
+                std::vector<double>& bscope_W, std::vector<double>& cscope_W_m3);
 
 }  // namespace fanbeam::renderer

@@ -28,7 +28,8 @@ void prepare(const World& world, const Sampling& sampling, bool with_cscope, Fan
 
 // Runs all groups; `record` keeps the packets of each group in group order.
 template <int N>
-void cast_all(const RayFrame& frame, FanSums& sums, std::vector<std::vector<terrain::RayPacket<N>>>* record) {
+void cast_all(const RayFrame& frame, FanSums& sums,
+              std::vector<std::vector<terrain::RayPacket<N>>>* record) {
   const auto groups = static_cast<std::size_t>(sums.sub_columns / kGroupAzimuths);
   std::mutex totals;
   if (record != nullptr) record->resize(groups);
@@ -52,7 +53,10 @@ int margin_sub_columns(const sensors::Sensor& sensor, int sub_columns_per_column
 }
 
 RayCaster::RayCaster(const World& world, const Sampling& sampling)
-    : world_(world), sampling_(sampling), fan_(world, sampling_), elevation_gain_(world.sensor.antenna.elevation) {
+    : world_(world),
+      sampling_(sampling),
+      fan_(world, sampling_),
+      elevation_gain_(world.sensor.antenna.elevation) {
   for (const materials::PhongNrcs& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
   if (const terrain::HeightField* ground = world.surfaces->terrain(); ground != nullptr) {
     const auto [low, high] = std::minmax_element(ground->height_m.begin(), ground->height_m.end());
@@ -70,8 +74,9 @@ PathLossTable RayCaster::path_loss_from(double sensor_height_m) const {
 void RayCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums) const {
   prepare(world_, sampling_, with_cscope, sums);
   const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
-  const RayFrame frame{world_,    sampling_,      fan_,        nrcs_, antenna, elevation_gain_,
-                       path_loss, world_.sensor.radar_constant_W_m2(), with_cscope};
+  const RayFrame frame{world_,     sampling_,       fan_,      nrcs_,
+                       antenna,    elevation_gain_, path_loss, world_.sensor.radar_constant_W_m2(),
+                       with_cscope};
   if (world_.surfaces->native_packet() == 16) {
     cast_all<16>(frame, sums, nullptr);
   } else {
@@ -83,8 +88,9 @@ std::vector<terrain::RayPacket<16>> RayCaster::packets(const sensors::AntennaFra
   FanSums sums;
   prepare(world_, sampling_, true, sums);
   const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
-  const RayFrame frame{world_,    sampling_,      fan_,        nrcs_, antenna, elevation_gain_,
-                       path_loss, world_.sensor.radar_constant_W_m2(), true};
+  const RayFrame frame{world_,  sampling_,       fan_,      nrcs_,
+                       antenna, elevation_gain_, path_loss, world_.sensor.radar_constant_W_m2(),
+                       true};
   std::vector<std::vector<terrain::RayPacket<16>>> groups;
   cast_all<16>(frame, sums, &groups);
   std::vector<terrain::RayPacket<16>> packets;

@@ -46,7 +46,7 @@ class RayCaster : public Caster {
   Sampling sampling_;
   ElevationFan fan_;
   sensors::TwoWayTable elevation_gain_;
-  std::vector<NrcsTable> nrcs_;  // by material id
+  std::vector<NrcsTable> nrcs_;              // by material id
   double lowest_m_ = 0.0, highest_m_ = 0.0;  // of the terrain
 };
 

@@ -43,7 +43,8 @@ inline Axes azimuth_derivative(bool cone, double ce, double se, double ca, doubl
 // sub-column to sub-column by another irrational so that neighbours do not repeat each other.
 inline double dither(std::uint32_t index, int sub_column) {
   // Fractions as 32-bit integers wrap round by themselves: 0.6180339887 and 0.7548776662 times 2^32.
-  const std::uint32_t value = index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U;
+  const std::uint32_t value =
+      index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U;
   return static_cast<double>(value) * 0x1p-32;
 }
 
@@ -63,20 +64,27 @@ struct SubColumn {
 template <int N>
 class GroupCaster {
  public:
-  GroupCaster(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums, std::vector<RayPacket<N>>* record)
-      : frame_(frame), group_(group), scratch_(scratch), sums_(sums), record_(record),
+  GroupCaster(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+              std::vector<RayPacket<N>>* record)
+      : frame_(frame),
+        group_(group),
+        scratch_(scratch),
+        sums_(sums),
+        record_(record),
         cone_(frame.world.sensor.scan.surface == sensors::ScanSurface::cone),
         level_(!cone_ && frame.antenna.up.z > kLevelCosine),
         gap_limit_m_(frame.sampling.gap_cells * std::max(1.0, 1.0 / frame.sampling.rays_per_cell) *
                      frame.world.sensor.range.cell_m) {
     for (int a = 0; a < kGroupAzimuths; ++a) {
-      const double centre = sums.first_azimuth_rad + (kGroupAzimuths * group + a + 0.5) * sums.step_rad;
+      const double centre =
+          sums.first_azimuth_rad + (kGroupAzimuths * group + a + 0.5) * sums.step_rad;
       columns_[a] = {centre, std::cos(centre), std::sin(centre), sums.step_rad};
     }
   }
 
   void run() {
-    frame_.fan.place(frame_.antenna, columns_[0].centre_rad, columns_[kGroupAzimuths - 1].centre_rad, scratch_.edges);
+    frame_.fan.place(frame_.antenna, columns_[0].centre_rad,
+                     columns_[kGroupAzimuths - 1].centre_rad, scratch_.edges);
     if (scratch_.edges.size() < 2) return;
     if (frame_.sampling.jittered_passes > 0) {
       for (int pass = 0; pass < frame_.sampling.jittered_passes; ++pass) {
@@ -89,8 +97,10 @@ class GroupCaster {
     for (int level = 0; level < frame_.sampling.refinement_depth; ++level)
       if (!refine()) break;
     for (int a = 0; a < kGroupAzimuths; ++a) {
-      if (frame_.sampling.deposit_intervals) deposit_intervals(a);
-      else deposit_points(a);
+      if (frame_.sampling.deposit_intervals)
+        deposit_intervals(a);
+      else
+        deposit_points(a);
     }
   }
 
@@ -101,14 +111,17 @@ class GroupCaster {
   bool refine();
   bool wants_ray_between(const CastRay& below, const CastRay& above) const;
   void cast_requests();
-  void aim(Lanes<N>& lanes, int lane, int azimuth, double place, double cos_elevation, double sin_elevation) const;
+  void aim(Lanes<N>& lanes, int lane, int azimuth, double place, double cos_elevation,
+           double sin_elevation) const;
   void send(Lanes<N>& lanes, RayPacket<N>& packet);
   // `rays` gets all N lanes, the inactive ones as sky.
-  void shade(const Lanes<N>& lanes, const RayPacket<N>& packet, const double* elevation_rad, CastRay* rays);
+  void shade(const Lanes<N>& lanes, const RayPacket<N>& packet, const double* elevation_rad,
+             CastRay* rays);
   void deposit_intervals(int azimuth);
   void deposit_points(int azimuth);
   double end_of_interval_m(const CastRay& ray, const CastRay* neighbour, double edge_rad) const;
-  void add(int azimuth, double near_m, double far_m, double low_rad, double high_rad, const CastRay& ray);
+  void add(int azimuth, double near_m, double far_m, double low_rad, double high_rad,
+           const CastRay& ray);
 
   const RayFrame& frame_;
   int group_;
@@ -116,20 +129,20 @@ class GroupCaster {
   FanSums& sums_;
   std::vector<RayPacket<N>>* record_;
   bool cone_;
-  bool level_;  // azimuth alone does not change the range of level ground
+  bool level_;          // azimuth alone does not change the range of level ground
   double gap_limit_m_;  // neighbours farther apart than this are not one piece of surface
   std::array<SubColumn, kGroupAzimuths> columns_;
 };
 
 template <int N>
-inline void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double far_m, const Lanes<N>& lanes,
-                               RayPacket<N>& packet) {
+inline void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double far_m,
+                        const Lanes<N>& lanes, RayPacket<N>& packet) {
   const glm::dvec3 f = antenna.forward;
   const glm::dvec3 r = antenna.right;
   const glm::dvec3 u = antenna.up;
   for (int i = 0; i < N; ++i) {
-    const Axes w = direction_weights(cone, lanes.cos_elevation[i], lanes.sin_elevation[i], lanes.cos_azimuth[i],
-                                     lanes.sin_azimuth[i]);
+    const Axes w = direction_weights(cone, lanes.cos_elevation[i], lanes.sin_elevation[i],
+                                     lanes.cos_azimuth[i], lanes.sin_azimuth[i]);
     packet.origin_x[i] = static_cast<float>(antenna.position_m.x);
     packet.origin_y[i] = static_cast<float>(antenna.position_m.y);
     packet.origin_z[i] = static_cast<float>(antenna.position_m.z);
@@ -157,18 +170,19 @@ struct Facets {
 
 template <int N>
 inline void measure_facets(const sensors::AntennaFrame& antenna, bool cone, const Lanes<N>& lanes,
-                                  const RayPacket<N>& packet, Facets<N>& facets) {
+                           const RayPacket<N>& packet, Facets<N>& facets) {
   const glm::dvec3 f = antenna.forward;
   const glm::dvec3 r = antenna.right;
   const glm::dvec3 u = antenna.up;
   for (int i = 0; i < N; ++i) {
-    const Axes w = elevation_derivative(cone, lanes.cos_elevation[i], lanes.sin_elevation[i], lanes.cos_azimuth[i],
-                                        lanes.sin_azimuth[i]);
+    const Axes w = elevation_derivative(cone, lanes.cos_elevation[i], lanes.sin_elevation[i],
+                                        lanes.cos_azimuth[i], lanes.sin_azimuth[i]);
     const float higher_x = static_cast<float>(w.forward * f.x + w.right * r.x + w.up * u.x);
     const float higher_y = static_cast<float>(w.forward * f.y + w.right * r.y + w.up * u.y);
     const float higher_z = static_cast<float>(w.forward * f.z + w.right * r.z + w.up * u.z);
     const float nx = packet.normal_x[i], ny = packet.normal_y[i], nz = packet.normal_z[i];
-    const float along = nx * packet.direction_x[i] + ny * packet.direction_y[i] + nz * packet.direction_z[i];
+    const float along =
+        nx * packet.direction_x[i] + ny * packet.direction_y[i] + nz * packet.direction_z[i];
     const float square = nx * nx + ny * ny + nz * nz;
     facets.sin_grazing[i] = -along / std::sqrt(square);
     facets.range_slope[i] = (nx * higher_x + ny * higher_y + nz * higher_z) / along;
@@ -181,7 +195,8 @@ inline void measure_facets(const sensors::AntennaFrame& antenna, bool cone, cons
 // Points a lane. Where the antenna is tilted, or the scan a cone, a step in azimuth alone would change the range of
 // level ground: the elevation then goes along with it, so that rays of one interval stay in its cells.
 template <int N>
-void GroupCaster<N>::aim(Lanes<N>& lanes, int lane, int azimuth, double place, double ce, double se) const {
+void GroupCaster<N>::aim(Lanes<N>& lanes, int lane, int azimuth, double place, double ce,
+                         double se) const {
   const SubColumn& column = columns_[azimuth];
   column.at(place, lanes.cos_azimuth[lane], lanes.sin_azimuth[lane]);
   lanes.cos_elevation[lane] = ce;
@@ -192,8 +207,10 @@ void GroupCaster<N>::aim(Lanes<N>& lanes, int lane, int azimuth, double place, d
     return w.forward * antenna.forward.z + w.right * antenna.right.z + w.up * antenna.up.z;
   };
   const double by_azimuth = upwards(azimuth_derivative(cone_, ce, se, column.cosine, column.sine));
-  const double by_elevation = upwards(elevation_derivative(cone_, ce, se, column.cosine, column.sine));
-  if (std::abs(by_elevation) < 0.1) return;  // rolled on its side: range no longer follows elevation
+  const double by_elevation =
+      upwards(elevation_derivative(cone_, ce, se, column.cosine, column.sine));
+  if (std::abs(by_elevation) < 0.1)
+    return;  // rolled on its side: range no longer follows elevation
   const double d = -by_azimuth / by_elevation * column.offset_rad(place);
   lanes.cos_elevation[lane] = ce - se * d - ce * d * d / 2;
   lanes.sin_elevation[lane] = se + ce * d - se * d * d / 2;
@@ -205,15 +222,16 @@ void GroupCaster<N>::send(Lanes<N>& lanes, RayPacket<N>& packet) {
   fill_packet(frame_.antenna, cone_, gate.maximum_m() + 2.0 * gate.cell_m, lanes, packet);
   if (record_ != nullptr) {
     for (int i = 0; i < N; ++i)
-      if (lanes.active[i] == 0) packet.near[i] = packet.distance[i] * 2.0F;  // an empty interval: never hits
+      if (lanes.active[i] == 0)
+        packet.near[i] = packet.distance[i] * 2.0F;  // an empty interval: never hits
     record_->push_back(packet);
   }
   frame_.world.surfaces->intersect(lanes.active, packet);
 }
 
 template <int N>
-void GroupCaster<N>::shade(const Lanes<N>& lanes, const RayPacket<N>& packet, const double* elevation_rad,
-                           CastRay* rays) {
+void GroupCaster<N>::shade(const Lanes<N>& lanes, const RayPacket<N>& packet,
+                           const double* elevation_rad, CastRay* rays) {
   Facets<N> facets;
   measure_facets(frame_.antenna, cone_, lanes, packet, facets);
   const terrain::RayScene& surfaces = *frame_.world.surfaces;
@@ -234,8 +252,8 @@ void GroupCaster<N>::shade(const Lanes<N>& lanes, const RayPacket<N>& packet, co
     ray.range_slope = facets.range_slope[i];
     const double range_m = static_cast<double>(ray.range_m);
     const terrain::MaterialId material =
-        surfaces.material(packet.geometry[i], packet.primitive[i], static_cast<double>(facets.x_m[i]),
-                          static_cast<double>(facets.y_m[i]));
+        surfaces.material(packet.geometry[i], packet.primitive[i],
+                          static_cast<double>(facets.x_m[i]), static_cast<double>(facets.y_m[i]));
     const double jacobian = cone_ ? lanes.cos_azimuth[i] : 1.0;  // ray_caster.h says why not cos(e)
     ray.density_W_per_rad2 = static_cast<float>(
         frame_.radar_constant_W_m2 * frame_.nrcs[material].sigma0_over_sine(sin_grazing) *
@@ -269,7 +287,8 @@ void GroupCaster<N>::cast_fan(int pass) {
         double place = dither(static_cast<std::uint32_t>(j), sub_column);
         if (jittered) {
           const std::uint64_t cell =
-              static_cast<std::uint64_t>(sub_column) * static_cast<std::uint64_t>(frame_.sampling.jittered_passes) +
+              static_cast<std::uint64_t>(sub_column) *
+                  static_cast<std::uint64_t>(frame_.sampling.jittered_passes) +
               static_cast<std::uint64_t>(pass);
           const auto words = core::random_words(key, cell, static_cast<std::uint32_t>(j));
           place = core::uniform_from(words[0]);
@@ -283,7 +302,8 @@ void GroupCaster<N>::cast_fan(int pass) {
     send(lanes, packet);
     shade(lanes, packet, elevation_rad, cast);
     for (int i = 0; i < N && first + i / kGroupAzimuths < count; ++i)
-      scratch_.rays[i % kGroupAzimuths][static_cast<std::size_t>(first + i / kGroupAzimuths)] = cast[i];
+      scratch_.rays[i % kGroupAzimuths][static_cast<std::size_t>(first + i / kGroupAzimuths)] =
+          cast[i];
   }
 }
 
@@ -294,7 +314,8 @@ bool GroupCaster<N>::wants_ray_between(const CastRay& below, const CastRay& abov
   const bool sky_below = below.surface == terrain::kNoHit;
   const bool sky_above = above.surface == terrain::kNoHit;
   if (sky_below || sky_above) return sky_below != sky_above;
-  return below.surface != above.surface || static_cast<double>(std::abs(above.range_m - below.range_m)) > gap_limit_m_;
+  return below.surface != above.surface ||
+         static_cast<double>(std::abs(above.range_m - below.range_m)) > gap_limit_m_;
 }
 
 template <int N>
@@ -325,9 +346,10 @@ bool GroupCaster<N>::refine() {
   for (int a = 0; a < kGroupAzimuths; ++a) {
     if (scratch_.refined[a].empty()) continue;
     scratch_.merged.resize(scratch_.rays[a].size() + scratch_.refined[a].size());
-    std::merge(scratch_.rays[a].begin(), scratch_.rays[a].end(), scratch_.refined[a].begin(), scratch_.refined[a].end(),
-               scratch_.merged.begin(),
-               [](const CastRay& x, const CastRay& y) { return x.elevation_rad < y.elevation_rad; });
+    std::merge(
+        scratch_.rays[a].begin(), scratch_.rays[a].end(), scratch_.refined[a].begin(),
+        scratch_.refined[a].end(), scratch_.merged.begin(),
+        [](const CastRay& x, const CastRay& y) { return x.elevation_rad < y.elevation_rad; });
     std::swap(scratch_.rays[a], scratch_.merged);
   }
   return true;
@@ -360,13 +382,15 @@ void GroupCaster<N>::cast_requests() {
 }
 
 template <int N>
-double GroupCaster<N>::end_of_interval_m(const CastRay& ray, const CastRay* neighbour, double edge_rad) const {
+double GroupCaster<N>::end_of_interval_m(const CastRay& ray, const CastRay* neighbour,
+                                         double edge_rad) const {
   const double range_m = static_cast<double>(ray.range_m);
   const double limit_m = gap_limit_m_;
   if (neighbour != nullptr && neighbour->surface == ray.surface &&
       std::abs(static_cast<double>(neighbour->range_m) - range_m) <= limit_m)
     return (range_m + static_cast<double>(neighbour->range_m)) / 2;
-  const double denominator = 1.0 + static_cast<double>(ray.range_slope) * (edge_rad - ray.elevation_rad);
+  const double denominator =
+      1.0 + static_cast<double>(ray.range_slope) * (edge_rad - ray.elevation_rad);
   const double along_plane_m = denominator > 0.1 ? range_m / denominator - range_m : limit_m;
   return range_m + std::clamp(along_plane_m, -limit_m / 2, limit_m / 2);
 }
@@ -379,14 +403,18 @@ void GroupCaster<N>::add(int azimuth, double near_m, double far_m, double low_ra
   const double power = static_cast<double>(ray.density_W_per_rad2) * (high_rad - low_rad);
   const double from = (near_m - sensor.range.minimum_m) / sensor.range.cell_m;
   const double to = (far_m - sensor.range.minimum_m) / sensor.range.cell_m;
-  deposit(from, to, power, &sums_.range_W_per_rad[sub_column * static_cast<std::size_t>(sums_.cells)], sums_.cells);
+  deposit(from, to, power,
+          &sums_.range_W_per_rad[sub_column * static_cast<std::size_t>(sums_.cells)], sums_.cells);
   const double range_m = static_cast<double>(ray.range_m);
   if (range_m < sensor.range.minimum_m) ++scratch_.blanked_count;
-  if (!frame_.with_cscope || range_m < sensor.range.minimum_m || range_m >= sensor.range.maximum_m()) return;
+  if (!frame_.with_cscope || range_m < sensor.range.minimum_m ||
+      range_m >= sensor.range.maximum_m())
+    return;
   const double per_rad = sensor.display.cscope_rows / sensor.display.cscope_span_rad;
-  deposit((sensor.display.cscope_top_rad - high_rad) * per_rad, (sensor.display.cscope_top_rad - low_rad) * per_rad,
-          power * range_m * range_m * range_m,
-          &sums_.elevation_W_m3_per_rad[sub_column * static_cast<std::size_t>(sums_.rows)], sums_.rows);
+  deposit((sensor.display.cscope_top_rad - high_rad) * per_rad,
+          (sensor.display.cscope_top_rad - low_rad) * per_rad, power * range_m * range_m * range_m,
+          &sums_.elevation_W_m3_per_rad[sub_column * static_cast<std::size_t>(sums_.rows)],
+          sums_.rows);
 }
 
 template <int N>
@@ -400,7 +428,8 @@ void GroupCaster<N>::deposit_intervals(int azimuth) {
     const CastRay* above = i + 1 < count ? &rays[i + 1] : nullptr;
     const double low_rad =
         below != nullptr ? (below->elevation_rad + ray.elevation_rad) / 2 : scratch_.edges.front();
-    const double high_rad = above != nullptr ? (above->elevation_rad + ray.elevation_rad) / 2 : scratch_.edges.back();
+    const double high_rad =
+        above != nullptr ? (above->elevation_rad + ray.elevation_rad) / 2 : scratch_.edges.back();
     const double a_m = end_of_interval_m(ray, below, low_rad);
     const double b_m = end_of_interval_m(ray, above, high_rad);
     add(azimuth, std::min(a_m, b_m), std::max(a_m, b_m), low_rad, high_rad, ray);
@@ -423,11 +452,13 @@ void GroupCaster<N>::deposit_points(int azimuth) {
 }  // namespace
 
 // Everything is inlined into these two, so that the whole loop is compiled for the processor it runs on.
-FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group,
+                                               RayScratch& scratch, FanSums& sums,
                                                std::vector<RayPacket<8>>* record) {
   GroupCaster<8>(frame, group, scratch, sums, record).run();
 }
-FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group,
+                                               RayScratch& scratch, FanSums& sums,
                                                std::vector<RayPacket<16>>* record) {
   GroupCaster<16>(frame, group, scratch, sums, record).run();
 }

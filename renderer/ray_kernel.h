@@ -35,8 +35,8 @@ struct RayFrame {
 struct CastRay {
   double elevation_rad = 0.0;
   float range_m = 0.0F;
-  float range_slope = 0.0F;          // q: the facet's plane lies at R / (1 + q de) for a ray de higher
-  float density_W_per_rad2 = 0.0F;   // dP / (de daz)
+  float range_slope = 0.0F;  // q: the facet's plane lies at R / (1 + q de) for a ray de higher
+  float density_W_per_rad2 = 0.0F;          // dP / (de daz)
   std::uint32_t surface = terrain::kNoHit;  // rays with equal surface may share a range interval
 };
 

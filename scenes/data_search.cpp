@@ -27,7 +27,8 @@ fs::path DataSearch::find(core::ConfigTable& table, std::string_view key) const 
     searched += (searched.empty() ? "" : ", ") + folder.string();
   }
   table.error(core::ErrorClass::io, key, "\"" + name + "\" not found",
-              "a file in one of: " + searched + "; name another data folder with --data DIR or FANBEAM_DATA");
+              "a file in one of: " + searched +
+                  "; name another data folder with --data DIR or FANBEAM_DATA");
   return {};
 }
 

@@ -66,7 +66,8 @@ struct RunwayDescription {
   std::string approach_lights;  // an end's name, or empty
   double approach_light_slope = 0.0;
   double light_rcs_m2 = 0.0;
-  std::string surface = "asphalt_worn", shoulder_material = "asphalt_worn", marking_material = "paint";
+  std::string surface = "asphalt_worn", shoulder_material = "asphalt_worn",
+              marking_material = "paint";
   double fence_beyond_m = 0.0;  // 0 for no fence
   double fence_height_m = 2.4, fence_spacing_m = 3.0, fence_post_rcs_m2 = 0.0;
   core::Place place;
@@ -93,7 +94,8 @@ struct ModelDescription {
 struct BoxDescription {
   std::string name;
   Spot at;
-  double length_m = 0.0, width_m = 0.0, height_m = 0.0, heading_rad = 0.0;  // length along the heading
+  double length_m = 0.0, width_m = 0.0, height_m = 0.0,
+         heading_rad = 0.0;  // length along the heading
   std::string wall_material = "wall", roof_material = "roof";
   core::Place place;
 };
@@ -168,8 +170,8 @@ struct SceneDescription {
   sensors::Sensor sensor;
   std::filesystem::path material_library;
   TrajectoryDescription trajectory;
-  double rays_per_cell = 0.0;  // of the scene's [accuracy]; 0 when it does not say
-  core::ResolvedConfig resolved;  // every setting with its default, for run.json
+  double rays_per_cell = 0.0;                // of the scene's [accuracy]; 0 when it does not say
+  core::ResolvedConfig resolved;             // every setting with its default, for run.json
   std::vector<std::filesystem::path> files;  // what the scene is made of beside scene.toml
 };
 

@@ -2,29 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <glm/geometric.hpp>
 #include <mutex>
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "scenes/natural_ground.h"
 #include "scenes/placed_problems.h"
-#include "terrain/elevation_raster.h"
 #include "terrain/geoid.h"
-#include "terrain/land_cover_raster.h"
-#include "terrain/landscape.h"
 
 namespace fanbeam::scenes {
 namespace {
 
 using core::ErrorClass;
-
-// Natural height in the scene's datum and material of a place; nothing where the data end.
-struct Sources {
-  std::function<std::optional<double>(const core::Geodetic&, glm::dvec2)> height_m;
-  std::function<terrain::MaterialId(const core::Geodetic&, glm::dvec2)> material;
-  std::function<double(glm::dvec2)> canopy_m;
-};
 
 std::string degrees_text(const core::Geodetic& position) {
   const auto text = [](double angle_rad) {
@@ -35,7 +25,9 @@ std::string degrees_text(const core::Geodetic& position) {
 
 // "120 m east, -30 m north of the origin"
 std::string local_text(glm::dvec2 position_m) {
-  const auto whole = [](double value) { return core::number_text(std::round(value) + 0.0); };  // no -0
+  const auto whole = [](double value) {
+    return core::number_text(std::round(value) + 0.0);
+  };  // no -0
   return whole(position_m.x) + " m east, " + whole(position_m.y) + " m north of the origin";
 }
 
@@ -54,21 +46,23 @@ terrain::MaterialId MaterialNames::id(const std::string& name, const core::Place
 }
 
 void MaterialNames::warn_if_extrapolated(double frequency_Hz) const {
-  for (const std::size_t index : used_) library_.warn_if_extrapolated(index, frequency_Hz, problems_);
+  for (const std::size_t index : used_)
+    library_.warn_if_extrapolated(index, frequency_Hz, problems_);
 }
 
-Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame, const MaterialNames& names,
-               core::ProblemList& problems)
+Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame,
+               const MaterialNames& names, core::ProblemList& problems)
     : scene_(scene), frame_(frame), problems_(problems) {
   const TerrainDescription& terrain = scene.terrain;
   try {
-    field_ = terrain::make_height_field(terrain.west_m, terrain.south_m, terrain.east_m, terrain.north_m,
-                                        terrain.spacing_m);
+    field_ = terrain::make_height_field(terrain.west_m, terrain.south_m, terrain.east_m,
+                                        terrain.north_m, terrain.spacing_m);
   } catch (const core::InputError& error) {  // without a ground nothing else can be judged
     append_placed(problems, error, terrain.place, "terrain");
     problems.throw_if_errors();
   }
-  for (const RunwayDescription& runway : scene.runways) runways_.push_back(place_runway(runway, names));
+  for (const RunwayDescription& runway : scene.runways)
+    runways_.push_back(place_runway(runway, names));
   shape(names);
 }
 
@@ -92,13 +86,14 @@ glm::dvec2 Ground::local_m(double latitude_rad, double longitude_rad) const {
   return local;
 }
 
-terrain::Runway Ground::place_runway(const RunwayDescription& description, const MaterialNames& names) const {
+terrain::Runway Ground::place_runway(const RunwayDescription& description,
+                                     const MaterialNames& names) const {
   terrain::Runway runway;
   for (const int end : {0, 1}) {
     const RunwayEndDescription& from = description.ends[end];
     core::Geodetic position = from.pavement_end;
-    position.height_m =
-        ellipsoidal_m(position.height_m, position.latitude_rad, position.longitude_rad, scene_.datum);
+    position.height_m = ellipsoidal_m(position.height_m, position.latitude_rad,
+                                      position.longitude_rad, scene_.datum);
     runway.ends[end] = {frame_.to_local_m(position), from.displaced_m, from.pavement_end.height_m};
   }
   runway.width_m = description.width_m;
@@ -110,8 +105,8 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description, const
                       names.id(description.shoulder_material, description.place, "runway.shoulder"),
                       names.id(description.marking_material, description.place, "runway.marking")};
   if (runway.length_m() < 100.0)
-    problems_.error(ErrorClass::range, description.place, "runway length", core::number_text(runway.length_m()) + " m",
-                    "ends at least 100 m apart");
+    problems_.error(ErrorClass::range, description.place, "runway length",
+                    core::number_text(runway.length_m()) + " m", "ends at least 100 m apart");
   for (const terrain::RunwayEnd& end : runway.ends)
     if (!field_.height_at(end.pavement_end_m.x, end.pavement_end_m.y))
       problems_.error(ErrorClass::range, description.place, "runway end",
@@ -119,7 +114,7 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description, const
   return runway;
 }
 
-Ground::Zone Ground::zone(glm::dvec2 position_m) const {
+Zone Ground::zone(glm::dvec2 position_m) const {
   Zone zone = Zone::open;
   for (const terrain::Runway& runway : runways_) {
     const glm::dvec2 relative = position_m - runway.ends[0].pavement_end_m;
@@ -129,114 +124,63 @@ Ground::Zone Ground::zone(glm::dvec2 position_m) const {
     const double keep_m = scene_.terrain.airfield_beyond_m;
     if (beyond_m < 60.0 + keep_m && t_m < runway.strip_half_width_m + keep_m) return Zone::airfield;
     // The first 3 km of the approach surfaces (ICAO Annex 14, 4.2: 15 % divergence) carry no trees.
-    if (beyond_m < 3000.0 && t_m < runway.strip_half_width_m + 0.15 * beyond_m) zone = Zone::approach;
+    if (beyond_m < 3000.0 && t_m < runway.strip_half_width_m + 0.15 * beyond_m)
+      zone = Zone::approach;
   }
   return zone;
 }
 
 void Ground::shape(const MaterialNames& names) {
-  const TerrainDescription& terrain = scene_.terrain;
-  const terrain::MaterialId base = names.id(terrain.material, terrain.place, "terrain.material");
-  Sources sources;
-  sources.height_m = [this](const core::Geodetic&, glm::dvec2) { return mean_elevation_m(runways_, scene_.origin.height_m); };
-  sources.material = [base](const core::Geodetic&, glm::dvec2) { return base; };
-  sources.canopy_m = [](glm::dvec2) { return 0.0; };
-
-  std::optional<terrain::Landscape> landscape;
-  std::optional<terrain::ElevationRaster> elevation;
-  std::optional<terrain::LandCoverRaster> cover;
-  std::vector<terrain::MaterialId> material_of_class;
-  const core::Place* reading = &terrain.place;  // what is to blame for an exception
-  std::string reading_field = "terrain";
-  try {
-    if (terrain.source == TerrainDescription::Source::rolling) {
-      terrain::LandscapeMaterials materials;
-      for (const std::string& field : terrain.fields)
-        materials.fields.push_back(names.id(field, terrain.place, "terrain.fields"));
-      materials.wood = names.id(terrain.wood_material, terrain.place, "terrain.wood_material");
-      materials.airfield = names.id(terrain.airfield_material, terrain.place, "terrain.airfield_material");
-      landscape.emplace(terrain::LandscapeSettings{terrain.relief_m, terrain.field_size_m, terrain.wood_share,
-                                                   terrain.canopy_m, terrain.seed},
-                        materials);
-      sources.height_m = [&, base_m = mean_elevation_m(runways_, scene_.origin.height_m)](const core::Geodetic&, glm::dvec2 p) {
-        return base_m + landscape->ground_m(p);
-      };
-      sources.canopy_m = [&](glm::dvec2 p) { return zone(p) == Zone::open ? landscape->canopy_m(p) : 0.0; };
-      sources.material = [&](const core::Geodetic&, glm::dvec2 p) {
-        const Zone here = zone(p);
-        if (here == Zone::airfield) return landscape->airfield();
-        return here == Zone::approach ? landscape->field(p) : landscape->material(p);
-      };
-    } else if (terrain.source == TerrainDescription::Source::raster) {
-      terrain::ElevationOptions options;
-      options.voids = terrain.fill_voids ? terrain::VoidPolicy::fill : terrain::VoidPolicy::refuse;
-      options.interpolation = terrain::Interpolation::cubic_spline;
-      options.quantisation_step_m = terrain.quantisation_step_m;
-      reading = &terrain.elevation_place;
-      reading_field = "terrain.elevation";
-      elevation.emplace(terrain.elevation, options, problems_);
-      sources.height_m = [&](const core::Geodetic& g, glm::dvec2) {
-        return elevation->height_m(g.latitude_rad, g.longitude_rad);
-      };
-    }
-    if (!terrain.land_cover.empty()) {
-      reading = &terrain.land_cover_place;
-      reading_field = "terrain.land_cover.file";
-      cover.emplace(terrain.land_cover);
-      material_of_class.assign(terrain::kLargestLandCoverClass + 1, base);
-      for (const auto& [number, name] : terrain.classes)
-        material_of_class[static_cast<std::size_t>(number)] = names.id(name, terrain.place, "terrain.land_cover.classes." + std::to_string(number));
-      for (const int number : cover->classes())
-        if (!terrain.classes.contains(number))
-          problems_.error(ErrorClass::ref, terrain.place, "terrain.land_cover.classes",
-                          "class " + std::to_string(number) + " of the raster has no material",
-                          std::to_string(number) + " = \"...\"");
-      sources.material = [&, base](const core::Geodetic& g, glm::dvec2) {
-        const int number = cover->class_at(g.latitude_rad, g.longitude_rad);
-        return number < 0 ? base : material_of_class[static_cast<std::size_t>(number)];
-      };
-    }
-  } catch (const core::InputError& error) {
-    append_placed(problems_, error, *reading, reading_field);
-    return;
-  }
-
+  const NaturalGround natural(scene_.terrain, mean_elevation_m(runways_, scene_.origin.height_m),
+                              names, problems_);
+  if (!natural.usable()) return;
   std::mutex guard;
   std::size_t outside = 0;
   std::pair<std::size_t, std::string> first_outside{field_.height_m.size(), ""};  // post, position
   core::parallel_for(static_cast<std::size_t>(field_.rows), [&](std::size_t row) {
     const int j = static_cast<int>(row);
     for (int i = 0; i < field_.columns; ++i) {
-      const glm::dvec2 p(field_.west_m + field_.spacing_m * i, field_.south_m + field_.spacing_m * j);
-      double up_m = 0.0;
-      // The second round uses the latitude and longitude at the height that the first one found.
-      for (int round = 0; round < 2; ++round) {
-        const core::Geodetic g = frame_.to_geodetic({p.x, p.y, up_m});
-        std::optional<double> height_m = sources.height_m(g, p);
-        if (!height_m) {
-          const std::lock_guard<std::mutex> lock(guard);
-          ++outside;
-          first_outside = std::min(first_outside, {field_.post(i, j), degrees_text(g)});
-          break;
-        }
-        for (const terrain::Runway& runway : runways_) height_m = terrain::flattened_height_m(runway, p, *height_m);
-        *height_m += sources.canopy_m(p);
-        up_m += ellipsoidal_m(*height_m, g.latitude_rad, g.longitude_rad, scene_.datum) - g.height_m;
+      const glm::dvec2 p(field_.west_m + field_.spacing_m * i,
+                         field_.south_m + field_.spacing_m * j);
+      const std::optional<double> up_m = post_up_m(natural, p);
+      if (!up_m) {
+        const std::lock_guard<std::mutex> lock(guard);
+        ++outside;
+        first_outside = std::min(first_outside,
+                                 {field_.post(i, j), degrees_text(frame_.to_geodetic({p, 0.0}))});
+        continue;
       }
-      field_.height_m[field_.post(i, j)] = up_m;
-      if (i + 1 < field_.columns && j + 1 < field_.rows) {
-        const glm::dvec2 middle = p + glm::dvec2(field_.spacing_m / 2);
-        field_.cell_material[field_.cell(i, j)] = sources.material(frame_.to_geodetic({middle.x, middle.y, up_m}), middle);
-      }
+      field_.height_m[field_.post(i, j)] = *up_m;
+      if (i + 1 == field_.columns || j + 1 == field_.rows) continue;
+      const glm::dvec2 middle = p + glm::dvec2(field_.spacing_m / 2);
+      field_.cell_material[field_.cell(i, j)] =
+          natural.material(frame_.to_geodetic({middle, *up_m}), middle, zone(middle));
     }
   });
   if (outside > 0)
-    problems_.error(ErrorClass::range, terrain.place, "terrain extent",
-                    std::to_string(outside) + " posts without elevation, the first at " + first_outside.second + " deg",
+    problems_.error(ErrorClass::range, scene_.terrain.place, "terrain extent",
+                    std::to_string(outside) + " posts without elevation, the first at " +
+                        first_outside.second + " deg",
                     "a smaller extent, or elevation data that cover it");
 }
 
-std::optional<Ground::LandingEnd> Ground::landing_end(const std::string& name, const core::Place& place) const {
+std::optional<double> Ground::post_up_m(const NaturalGround& natural, glm::dvec2 position_m) const {
+  double up_m = 0.0;
+  // The second round uses the latitude and longitude at the height that the first one found.
+  for (int round = 0; round < 2; ++round) {
+    const core::Geodetic g = frame_.to_geodetic({position_m, up_m});
+    std::optional<double> height_m = natural.height_m(g, position_m);
+    if (!height_m) return std::nullopt;
+    for (const terrain::Runway& runway : runways_)
+      height_m = terrain::flattened_height_m(runway, position_m, *height_m);
+    *height_m += natural.canopy_m(position_m, zone(position_m));
+    up_m += ellipsoidal_m(*height_m, g.latitude_rad, g.longitude_rad, scene_.datum) - g.height_m;
+  }
+  return up_m;
+}
+
+std::optional<Ground::LandingEnd> Ground::landing_end(const std::string& name,
+                                                      const core::Place& place) const {
   std::string known;
   for (std::size_t i = 0; i < runways_.size(); ++i) {
     for (const int end : {0, 1}) {
@@ -244,7 +188,8 @@ std::optional<Ground::LandingEnd> Ground::landing_end(const std::string& name, c
       known += (known.empty() ? "\"" : ", \"") + candidate + "\"";
       if (candidate != name) continue;
       const glm::dvec2 direction = end == 0 ? runways_[i].along() : -runways_[i].along();
-      return LandingEnd{&runways_[i], &scene_.runways[i], end, runways_[i].threshold_m(end), direction};
+      return LandingEnd{&runways_[i], &scene_.runways[i], end, runways_[i].threshold_m(end),
+                        direction};
     }
   }
   problems_.error(ErrorClass::ref, place, "runway", "\"" + name + "\"",
@@ -258,7 +203,9 @@ core::Geodetic Ground::threshold(const LandingEnd& end) const {
 
 double Ground::bearing_rad(const LandingEnd& end) const {
   const auto& ends = end.description->ends;
-  const double azimuth_rad = terrain::geodesic_between(ends[end.end].pavement_end, ends[1 - end.end].pavement_end).azimuth_rad;
+  const double azimuth_rad =
+      terrain::geodesic_between(ends[end.end].pavement_end, ends[1 - end.end].pavement_end)
+          .azimuth_rad;
   return azimuth_rad < 0.0 ? azimuth_rad + 2.0 * core::kPi : azimuth_rad;
 }
 
@@ -273,7 +220,8 @@ std::optional<glm::dvec2> Ground::local_m(const Spot& spot) const {
     position_m = local_m(spot.latitude_rad, spot.longitude_rad);
   }
   if (field_.height_at(position_m.x, position_m.y)) return position_m;
-  problems_.error(ErrorClass::range, spot.place, spot.field, local_text(position_m), "a place on the scene's terrain");
+  problems_.error(ErrorClass::range, spot.place, spot.field, local_text(position_m),
+                  "a place on the scene's terrain");
   return std::nullopt;
 }
 

@@ -23,7 +23,8 @@ class MaterialNames {
  public:
   MaterialNames(const materials::MaterialLibrary& library, core::ProblemList& problems)
       : library_(library), problems_(problems) {}
-  terrain::MaterialId id(const std::string& name, const core::Place& place, const std::string& field) const;
+  terrain::MaterialId id(const std::string& name, const core::Place& place,
+                         const std::string& field) const;
   // W-EXTRAPOLATED for each material asked for so far that is not known at this frequency.
   void warn_if_extrapolated(double frequency_Hz) const;
 
@@ -33,17 +34,23 @@ class MaterialNames {
   mutable std::set<std::size_t> used_;
 };
 
+class NaturalGround;
+
+// How near a runway a place is: what grows there depends on it.
+enum class Zone { open, approach, airfield };
+
 class Ground {
  public:
   // Loads rasters, generates what is to be generated, flattens the runway strips.
-  Ground(const SceneDescription& scene, const terrain::LocalFrame& frame, const MaterialNames& names,
-         core::ProblemList& problems);
+  Ground(const SceneDescription& scene, const terrain::LocalFrame& frame,
+         const MaterialNames& names, core::ProblemList& problems);
 
   const terrain::HeightField& field() const { return field_; }
   const std::vector<terrain::Runway>& runways() const { return runways_; }
 
   // Height above the ellipsoid (or the scene's unknown datum) of a height in the datum at a position.
-  double ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad, core::VerticalDatum datum) const;
+  double ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad,
+                       core::VerticalDatum datum) const;
 
   // Landing on the named end: threshold and direction; E-REF when there is no such end.
   struct LandingEnd {
@@ -64,9 +71,11 @@ class Ground {
   glm::dvec2 local_m(double latitude_rad, double longitude_rad) const;
 
  private:
-  terrain::Runway place_runway(const RunwayDescription& description, const MaterialNames& names) const;
+  terrain::Runway place_runway(const RunwayDescription& description,
+                               const MaterialNames& names) const;
   void shape(const MaterialNames& names);
-  enum class Zone { open, approach, airfield };
+  // Local up of a post, nothing where the elevation data end.
+  std::optional<double> post_up_m(const NaturalGround& natural, glm::dvec2 position_m) const;
   Zone zone(glm::dvec2 position_m) const;
 
   const SceneDescription& scene_;

@@ -33,37 +33,44 @@ GroundSpan ground_under(const Ground& ground, const terrain::Ring_m& ring) {
   return span;
 }
 
-std::vector<terrain::MaterialId> ids_of(const terrain::TriangleMesh& mesh, const MaterialNames& names,
-                                        const core::Place& place, const std::string& field) {
+std::vector<terrain::MaterialId> ids_of(const terrain::TriangleMesh& mesh,
+                                        const MaterialNames& names, const core::Place& place,
+                                        const std::string& field) {
   std::vector<terrain::MaterialId> ids;
   for (const std::string& name : mesh.material_names) ids.push_back(names.id(name, place, field));
   return ids;
 }
 
-void add_box(const BoxDescription& box, const Ground& ground, const MaterialNames& names, core::ProblemList& problems,
-             std::vector<PlacedMesh>& meshes) {
+void add_box(const BoxDescription& box, const Ground& ground, const MaterialNames& names,
+             core::ProblemList& problems, std::vector<PlacedMesh>& meshes) {
   const auto centre_m = ground.local_m(box.at);
   if (!centre_m) return;
-  const glm::dvec2 along = glm::dvec2(std::sin(box.heading_rad), std::cos(box.heading_rad)) * (box.length_m / 2);
-  const glm::dvec2 side = glm::dvec2(std::cos(box.heading_rad), -std::sin(box.heading_rad)) * (box.width_m / 2);
+  const glm::dvec2 along =
+      glm::dvec2(std::sin(box.heading_rad), std::cos(box.heading_rad)) * (box.length_m / 2);
+  const glm::dvec2 side =
+      glm::dvec2(std::cos(box.heading_rad), -std::sin(box.heading_rad)) * (box.width_m / 2);
   terrain::Prism prism;
   prism.outer_m = {*centre_m - along - side, *centre_m - along + side, *centre_m + along + side,
                    *centre_m + along - side};
   const GroundSpan span = ground_under(ground, prism.outer_m);
   if (!span.covered) {
-    problems.error(ErrorClass::range, box.place, "box", "\"" + box.name + "\" reaches beyond the terrain",
+    problems.error(ErrorClass::range, box.place, "box",
+                   "\"" + box.name + "\" reaches beyond the terrain",
                    "corners on the scene's terrain");
     return;
   }
   prism.bottom_m = span.lowest_m - kFoundation_m;
   prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
-  terrain::Extrusion solid = terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
+  terrain::Extrusion solid =
+      terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
   std::vector<terrain::MaterialId> ids = ids_of(solid.mesh, names, box.place, "box material");
-  meshes.push_back({std::move(solid.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
+  meshes.push_back(
+      {std::move(solid.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
 }
 
-void add_buildings(const BuildingsDescription& buildings, const Ground& ground, const MaterialNames& names,
-                   core::ProblemList& problems, std::vector<PlacedMesh>& meshes) {
+void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
+                   const MaterialNames& names, core::ProblemList& problems,
+                   std::vector<PlacedMesh>& meshes) {
   const std::vector<terrain::Footprint> footprints = terrain::read_footprints(
       buildings.file, {buildings.height_property, buildings.min_height_property}, problems);
   std::vector<terrain::Prism> prisms;
@@ -85,16 +92,21 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground, 
     for (const terrain::GeodeticRing& hole : footprint.holes) prism.holes_m.push_back(ring_m(hole));
     const double base_m = buildings.base_is_mean ? span.mean_m : span.lowest_m;
     prism.top_m = base_m + footprint.height_m;
-    prism.bottom_m = footprint.min_height_m > 0.0 ? base_m + footprint.min_height_m : span.lowest_m - kFoundation_m;
+    prism.bottom_m = footprint.min_height_m > 0.0 ? base_m + footprint.min_height_m
+                                                  : span.lowest_m - kFoundation_m;
     if (prism.top_m > prism.bottom_m) prisms.push_back(std::move(prism));
   }
   if (outside > 0)
-    problems.warning("OUTSIDE", buildings.place, "buildings", std::to_string(outside) + " footprints",
+    problems.warning("OUTSIDE", buildings.place, "buildings",
+                     std::to_string(outside) + " footprints",
                      "not on the scene's terrain, left out");
   terrain::Extrusion city =
-      terrain::extrude(prisms, buildings.file.filename().string(), {buildings.wall_material, buildings.roof_material}, problems);
-  std::vector<terrain::MaterialId> ids = ids_of(city.mesh, names, buildings.place, "buildings material");
-  meshes.push_back({std::move(city.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
+      terrain::extrude(prisms, buildings.file.filename().string(),
+                       {buildings.wall_material, buildings.roof_material}, problems);
+  std::vector<terrain::MaterialId> ids =
+      ids_of(city.mesh, names, buildings.place, "buildings material");
+  meshes.push_back(
+      {std::move(city.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,
@@ -112,7 +124,8 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
   for (const std::string& name : placed.mesh.material_names) {
     const auto mapped = model.materials.find(name);
     placed.material_of_name.push_back(
-        names.id(mapped != model.materials.end() ? mapped->second : model.default_material, model.place, "model.materials"));
+        names.id(mapped != model.materials.end() ? mapped->second : model.default_material,
+                 model.place, "model.materials"));
   }
   for (const auto& [name, material] : model.materials) {
     const auto& used = placed.mesh.material_names;
@@ -125,8 +138,8 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
 
 }  // namespace
 
-std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene, const Ground& ground,
-                                                 const MaterialNames& names) {
+std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
+                                                 const Ground& ground, const MaterialNames& names) {
   std::vector<terrain::SurfacePatch> patches;
   for (const SurfaceDescription& surface : scene.surfaces) {
     const auto end = ground.landing_end(surface.runway_end, surface.place);
@@ -135,17 +148,19 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene, 
     const glm::dvec2 centre = end->threshold_m +
                               end->direction * ((surface.from_behind_m + surface.to_behind_m) / 2) +
                               left * ((surface.from_left_m + surface.to_left_m) / 2);
-    patches.push_back(terrain::rectangle_patch(centre, end->direction, surface.to_behind_m - surface.from_behind_m,
-                                               surface.to_left_m - surface.from_left_m,
-                                               names.id(surface.material, surface.place, "surface.material")));
+    patches.push_back(terrain::rectangle_patch(
+        centre, end->direction, surface.to_behind_m - surface.from_behind_m,
+        surface.to_left_m - surface.from_left_m,
+        names.id(surface.material, surface.place, "surface.material")));
   }
   for (const terrain::Runway& runway : ground.runways())
-    for (terrain::SurfacePatch& patch : terrain::runway_patches(runway)) patches.push_back(std::move(patch));
+    for (terrain::SurfacePatch& patch : terrain::runway_patches(runway))
+      patches.push_back(std::move(patch));
   return patches;
 }
 
-std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
-                                     core::ProblemList& problems) {
+std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
+                                     const MaterialNames& names, core::ProblemList& problems) {
   std::vector<PlacedMesh> meshes;
   const auto guarded = [&](const core::Place& place, const char* field, auto&& add) {
     try {
@@ -157,7 +172,8 @@ std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground
   for (const BoxDescription& box : scene.boxes)
     guarded(box.place, "box", [&] { add_box(box, ground, names, problems, meshes); });
   for (const BuildingsDescription& buildings : scene.buildings)
-    guarded(buildings.place, "buildings", [&] { add_buildings(buildings, ground, names, problems, meshes); });
+    guarded(buildings.place, "buildings",
+            [&] { add_buildings(buildings, ground, names, problems, meshes); });
   for (const ModelDescription& model : scene.models)
     guarded(model.place, "model", [&] { add_model(model, ground, names, problems, meshes); });
   return meshes;

@@ -44,7 +44,8 @@ RunwayDescription read_runway(ConfigTable& table) {
   runway.shoulder_material = table.text("shoulder", runway.shoulder_material);
   runway.marking_material = table.text("marking", runway.marking_material);
   runway.markings = table.boolean("markings", true);
-  runway.strip_half_width_m = table.number("strip_half_width_m", {0, 1000}, runway.strip_half_width_m);
+  runway.strip_half_width_m =
+      table.number("strip_half_width_m", {0, 1000}, runway.strip_half_width_m);
   runway.blend_m = table.number("blend_m", {1, 5000}, runway.blend_m);
   runway.edge_lights = table.boolean("edge_lights", true);
   runway.approach_lights = table.text("approach_lights", "");
@@ -71,7 +72,9 @@ SurfaceDescription read_surface(ConfigTable& table) {
     if (values.size() != 2) return;
     from = values[0];
     to = values[1];
-    if (!(to > from)) table.error(core::ErrorClass::range, key, core::number_text(to), "an end above its beginning");
+    if (!(to > from))
+      table.error(core::ErrorClass::range, key, core::number_text(to),
+                  "an end above its beginning");
   };
   pair("behind_threshold_m", surface.from_behind_m, surface.to_behind_m);
   pair("left_m", surface.from_left_m, surface.to_left_m);
@@ -121,15 +124,24 @@ BuildingsDescription read_buildings(ConfigTable& table, const DataSearch& search
 
 materials::RcsModel read_rcs(ConfigTable& target) {
   ConfigTable table = target.table("rcs");
-  if (!table.present()) target.error(core::ErrorClass::ref, "rcs", "missing", "{ shape, ... }, see docs/scene-format.md");
+  if (!table.present())
+    target.error(core::ErrorClass::ref, "rcs", "missing",
+                 "{ shape, ... }, see docs/scene-format.md");
   const core::NumberRange size_m{0.001, 100.0};
   switch (table.choice("shape", {"constant", "trihedral", "dihedral", "plate", "cylinder"}, 0)) {
-    case 1: return materials::TriangularTrihedral{table.number("edge_m", size_m, 0.1)};
-    case 2: return materials::Dihedral{table.number("width_m", size_m, 0.1), table.number("height_m", size_m, 0.1)};
+    case 1:
+      return materials::TriangularTrihedral{table.number("edge_m", size_m, 0.1)};
+    case 2:
+      return materials::Dihedral{table.number("width_m", size_m, 0.1),
+                                 table.number("height_m", size_m, 0.1)};
     case 3:
-      return materials::RectangularPlate{table.number("width_m", size_m, 0.1), table.number("height_m", size_m, 0.1)};
-    case 4: return materials::Cylinder{table.number("radius_m", size_m, 0.1), table.number("length_m", size_m, 1.0)};
-    default: return materials::ConstantRcs{rcs_m2_from(table, "rcs_dBsm", 0.0)};
+      return materials::RectangularPlate{table.number("width_m", size_m, 0.1),
+                                         table.number("height_m", size_m, 0.1)};
+    case 4:
+      return materials::Cylinder{table.number("radius_m", size_m, 0.1),
+                                 table.number("length_m", size_m, 1.0)};
+    default:
+      return materials::ConstantRcs{rcs_m2_from(table, "rcs_dBsm", 0.0)};
   }
 }
 
@@ -144,11 +156,14 @@ TargetDescription read_target(ConfigTable& table) {
   for (ConfigTable& waypoint : waypoints) {
     const double time_s = waypoint.required_number("time_s", {-1e6, 1e6});
     if (!target.path.empty() && time_s <= target.path.back().time_s)
-      waypoint.error(core::ErrorClass::time, "time_s", core::number_text(time_s), "later than the waypoint before");
-    target.path.push_back({time_s, read_spot(waypoint, "at"), waypoint.number("above_ground_m", {-100, 20000}, 0.0)});
+      waypoint.error(core::ErrorClass::time, "time_s", core::number_text(time_s),
+                     "later than the waypoint before");
+    target.path.push_back(
+        {time_s, read_spot(waypoint, "at"), waypoint.number("above_ground_m", {-100, 20000}, 0.0)});
   }
   if (waypoints.empty()) {
-    target.path.push_back({0.0, read_spot(table, "at"), table.number("above_ground_m", {-100, 20000}, 0.0)});
+    target.path.push_back(
+        {0.0, read_spot(table, "at"), table.number("above_ground_m", {-100, 20000}, 0.0)});
   }
   return target;
 }
@@ -203,7 +218,8 @@ void read_objects(ConfigTable& root, const DataSearch& search, SceneDescription&
   for (ConfigTable& table : root.tables("surface")) scene.surfaces.push_back(read_surface(table));
   for (ConfigTable& table : root.tables("model")) scene.models.push_back(read_model(table, search));
   for (ConfigTable& table : root.tables("box")) scene.boxes.push_back(read_box(table));
-  for (ConfigTable& table : root.tables("buildings")) scene.buildings.push_back(read_buildings(table, search));
+  for (ConfigTable& table : root.tables("buildings"))
+    scene.buildings.push_back(read_buildings(table, search));
   for (ConfigTable& table : root.tables("target")) scene.targets.push_back(read_target(table));
   for (ConfigTable& table : root.tables("line")) scene.lines.push_back(read_line(table));
 }

@@ -11,14 +11,15 @@
 namespace fanbeam::scenes {
 
 // The rectangles of [[surface]] in file order, the runways on top of them.
-std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene, const Ground& ground,
-                                                 const MaterialNames& names);
+std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
+                                                 const Ground& ground, const MaterialNames& names);
 
 std::vector<terrain::PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
-                                              const MaterialNames& names, core::ProblemList& problems);
+                                              const MaterialNames& names,
+                                              core::ProblemList& problems);
 
 // E-LIMIT for a line of more than 100000 points.
-std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
-                                                 core::ProblemList& problems);
+std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene,
+                                                 const Ground& ground, core::ProblemList& problems);
 
 }  // namespace fanbeam::scenes

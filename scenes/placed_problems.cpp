@@ -4,8 +4,8 @@
 
 namespace fanbeam::scenes {
 
-void append_placed(core::ProblemList& problems, const core::InputError& error, const core::Place& place,
-                   const std::string& field) {
+void append_placed(core::ProblemList& problems, const core::InputError& error,
+                   const core::Place& place, const std::string& field) {
   for (core::Problem problem : error.problems()) {
     const bool has_place = problem.place.line > 0 || problem.place.byte_offset >= 0;
     if (!has_place && problem.is_error()) {

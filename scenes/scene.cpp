@@ -15,8 +15,8 @@ namespace fanbeam::scenes {
 namespace {
 
 // Every frame's aircraft must be over the terrain and above it.
-void check_flight(const SceneDescription& scene, const terrain::LocalFrame& frame, const Trajectory& trajectory,
-                  const Ground& ground, core::ProblemList& problems) {
+void check_flight(const SceneDescription& scene, const terrain::LocalFrame& frame,
+                  const Trajectory& trajectory, const Ground& ground, core::ProblemList& problems) {
   const double rate_Hz = scene.sensor.scan.frame_rate_Hz;
   const int frames = trajectory.frame_count(rate_Hz);
   int outside = 0;
@@ -25,17 +25,19 @@ void check_flight(const SceneDescription& scene, const terrain::LocalFrame& fram
     const double time_s = trajectory.frame_time_s(k, rate_Hz);
     const glm::dvec3 at_m = frame.to_local_m(trajectory.at(time_s).position);
     const auto ground_m = ground.field().height_at(at_m.x, at_m.y);
-    const std::string when = "frame " + std::to_string(k) + " at " + core::number_text(time_s) + " s";
+    const std::string when =
+        "frame " + std::to_string(k) + " at " + core::number_text(time_s) + " s";
     if (!ground_m && outside++ == 0)
       problems.error(core::ErrorClass::range, scene.trajectory.place, "trajectory",
                      when + ": " + core::number_text(std::round(at_m.x) + 0.0) + " m east, " +
                          core::number_text(std::round(at_m.y) + 0.0) + " m north of the origin",
                      "positions over the scene's terrain (this is the first frame outside it)");
     if (ground_m && at_m.z <= *ground_m && below++ == 0)
-      problems.error(core::ErrorClass::range, scene.trajectory.place, "trajectory",
-                     when + ": " + core::number_text(std::round((*ground_m - at_m.z) * 10.0) / 10.0) +
-                         " m inside the ground",
-                     "a sensor above the ground; check vertical_datum (this is the first such frame)");
+      problems.error(
+          core::ErrorClass::range, scene.trajectory.place, "trajectory",
+          when + ": " + core::number_text(std::round((*ground_m - at_m.z) * 10.0) / 10.0) +
+              " m inside the ground",
+          "a sensor above the ground; check vertical_datum (this is the first such frame)");
   }
 }
 
@@ -69,18 +71,21 @@ core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
 }  // namespace
 
 renderer::FramePose Scene::pose_at(const core::Pose& pose) const {
-  return {pose.time_s, frame.to_local_m(pose.position), frame.north_east_down_at(pose.position), pose.q_NB};
+  return {pose.time_s, frame.to_local_m(pose.position), frame.north_east_down_at(pose.position),
+          pose.q_NB};
 }
 
 renderer::FramePose Scene::frame_pose(int frame_index) const {
-  return pose_at(trajectory.at(trajectory.frame_time_s(frame_index, description.sensor.scan.frame_rate_Hz)));
+  return pose_at(
+      trajectory.at(trajectory.frame_time_s(frame_index, description.sensor.scan.frame_rate_Hz)));
 }
 
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
                                    core::ProblemList& problems) {
   const auto begin = std::chrono::steady_clock::now();
   problems.throw_if_errors();
-  const materials::MaterialLibrary library = materials::MaterialLibrary::from_file(description.material_library, problems);
+  const materials::MaterialLibrary library =
+      materials::MaterialLibrary::from_file(description.material_library, problems);
   const MaterialNames names(library, problems);
   const terrain::LocalFrame frame(ellipsoidal_origin(description), description.earth);
   const Ground ground(description, frame, names, problems);
@@ -93,12 +98,14 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   if (trajectory) check_flight(description, frame, *trajectory, ground, problems);
   problems.throw_if_errors();
 
-  core::EffectPlan plan = renderer::plan(facts_of(description, frame, *trajectory, ground.field()), options.accuracy_grey, options.wishes);
+  core::EffectPlan plan = renderer::plan(facts_of(description, frame, *trajectory, ground.field()),
+                                         options.accuracy_grey, options.wishes);
   const double frequency_Hz = description.sensor.waveform.frequency_Hz;
   std::vector<std::string> material_names;
   for (const materials::Material& material : library.all()) material_names.push_back(material.name);
   renderer::World world{
-      std::make_unique<terrain::RayScene>(ground.field(), std::move(patches), std::move(meshes), options.instruction_set),
+      std::make_unique<terrain::RayScene>(ground.field(), std::move(patches), std::move(meshes),
+                                          options.instruction_set),
       library.at_frequency(frequency_Hz),
       std::move(material_names),
       std::move(targets),

@@ -21,20 +21,24 @@ constexpr core::NumberRange kExtent_m{10.0, 200000.0};
 
 void read_scene_table(ConfigTable& root, SceneDescription& scene) {
   ConfigTable table = root.table("scene");
-  if (!table.present()) root.error(core::ErrorClass::ref, "scene", "missing", "a table [scene] with name and origin");
+  if (!table.present())
+    root.error(core::ErrorClass::ref, "scene", "missing", "a table [scene] with name and origin");
   scene.name = table.text("name", scene.folder.filename().string());
   scene.title = table.text("title", scene.name);
   ConfigTable origin = table.table("origin");
   if (table.present() && !origin.present())
-    table.error(core::ErrorClass::ref, "origin", "missing", "{ latitude_deg, longitude_deg, height_m }");
+    table.error(core::ErrorClass::ref, "origin", "missing",
+                "{ latitude_deg, longitude_deg, height_m }");
   scene.origin.latitude_rad = radians(origin.number("latitude_deg", {-90, 90}, 0.0));
   scene.origin.longitude_rad = radians(origin.number("longitude_deg", {-180, 180}, 0.0));
   scene.origin.height_m = origin.number("height_m", {-1000, 9000}, 0.0);
-  scene.datum = static_cast<core::VerticalDatum>(table.choice("vertical_datum", {"ellipsoid", "egm96", "scene"}, 0));
+  scene.datum = static_cast<core::VerticalDatum>(
+      table.choice("vertical_datum", {"ellipsoid", "egm96", "scene"}, 0));
   if (table.present() && !table.has("vertical_datum"))
     table.error(core::ErrorClass::ref, "vertical_datum", "missing",
                 "what heights count from: \"ellipsoid\", \"egm96\" or \"scene\"");
-  scene.earth = table.choice("earth", {"wgs84", "plane"}, 0) == 0 ? terrain::EarthModel::wgs84 : terrain::EarthModel::plane;
+  scene.earth = table.choice("earth", {"wgs84", "plane"}, 0) == 0 ? terrain::EarthModel::wgs84
+                                                                  : terrain::EarthModel::plane;
 }
 
 void read_land_cover(ConfigTable& table, const DataSearch& search, TerrainDescription& terrain) {
@@ -44,8 +48,9 @@ void read_land_cover(ConfigTable& table, const DataSearch& search, TerrainDescri
   terrain.land_cover_place = cover.place("file");
   ConfigTable classes = cover.table("classes");
   for (const std::string& key : classes.keys()) {
-    const bool whole = !key.empty() && key.size() <= 5 &&
-                       std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
+    const bool whole =
+        !key.empty() && key.size() <= 5 &&
+        std::all_of(key.begin(), key.end(), [](char c) { return c >= '0' && c <= '9'; });
     const std::string material = classes.text(key, "");
     if (!whole)
       classes.error(core::ErrorClass::parse, key, "\"" + key + "\"", "a class number as the key");
@@ -75,7 +80,8 @@ void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescriptio
     terrain.fill_voids = table.choice("voids", {"refuse", "fill"}, 0) == 1;
     terrain.quantisation_step_m = table.number("quantisation_step_m", {0.0, 100.0}, 0.0);
     if (table.optional_text("generator"))
-      table.error(core::ErrorClass::range, "generator", "given beside elevation", "either elevation or generator");
+      table.error(core::ErrorClass::range, "generator", "given beside elevation",
+                  "either elevation or generator");
     return;
   }
   const bool rolling = table.choice("generator", {"plane", "rolling"}, 0) == 1;
@@ -90,7 +96,8 @@ void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescriptio
   if (terrain.fields.empty()) terrain.fields = {"crops", "tall_grass", "bare_soil"};
   terrain.wood_material = table.text("wood_material", terrain.wood_material);
   terrain.airfield_material = table.text("airfield_material", terrain.airfield_material);
-  terrain.airfield_beyond_m = table.number("airfield_beyond_m", {0.0, 5000.0}, terrain.airfield_beyond_m);
+  terrain.airfield_beyond_m =
+      table.number("airfield_beyond_m", {0.0, 5000.0}, terrain.airfield_beyond_m);
 }
 
 // Numbers of [weather] keep the ranges that atmosphere documents; it checks them once more with the frequency.
@@ -113,12 +120,14 @@ void read_weather(ConfigTable& root, const SceneDescription& scene, atmosphere::
   weather.rain_rate_mm_per_h = table.number("rain_rate_mm_per_h", {0, 300}, 0.0);
   weather.rain_top_m = table.number("rain_top_m", {-2000, 12000}, weather.rain_top_m);
   weather.polarisation_tilt_rad = radians(table.number("polarisation_tilt_deg", {-180, 180}, 0.0));
-  weather.origin_height_m = table.number("origin_height_m", {-500, 6000}, std::clamp(scene.origin.height_m, -500.0, 6000.0));
+  weather.origin_height_m = table.number("origin_height_m", {-500, 6000},
+                                         std::clamp(scene.origin.height_m, -500.0, 6000.0));
   weather.temperature_C = table.optional_number("temperature_C", {-60, 50});
   weather.pressure_hPa = table.optional_number("pressure_hPa", {300, 1100});
   weather.humidity = table.optional_number("humidity", {0, 1});
   if (!(scene.sensor.waveform.frequency_Hz > 0.0)) return;  // no usable sensor: already reported
-  const core::ProblemList found = atmosphere::problems_in(weather, scene.sensor.waveform.frequency_Hz);
+  const core::ProblemList found =
+      atmosphere::problems_in(weather, scene.sensor.waveform.frequency_Hz);
   // A value outside the range was reported with its line already and replaced by its default.
   for (const core::Problem& problem : found.all()) {
     core::Problem placed = problem;
@@ -133,7 +142,8 @@ fs::path find_sensor(ConfigTable& table, const SceneOptions& options, const fs::
   const std::string name = table.text("file", "hivision.toml");
   if (!options.sensor.empty()) {
     if (fs::is_regular_file(options.sensor)) return options.sensor;
-    table.problems().error(core::ErrorClass::io, {}, "--sensor", options.sensor.string() + " not found", "a sensor file");
+    table.problems().error(core::ErrorClass::io, {}, "--sensor",
+                           options.sensor.string() + " not found", "a sensor file");
     return {};
   }
   try {
@@ -143,13 +153,15 @@ fs::path find_sensor(ConfigTable& table, const SceneOptions& options, const fs::
     table.problems().append(error.problems());
     return {};
   }
-  if (fs::is_regular_file(options.shipped / "sensors" / name)) return options.shipped / "sensors" / name;
+  if (fs::is_regular_file(options.shipped / "sensors" / name))
+    return options.shipped / "sensors" / name;
   table.error(core::ErrorClass::io, "file", "\"" + name + "\" not found",
               "a sensor file in the scene's folder or " + (options.shipped / "sensors").string());
   return {};
 }
 
-void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs::path& folder, SceneDescription& scene) {
+void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs::path& folder,
+                       SceneDescription& scene) {
   ConfigTable table = root.table("sensor");
   const fs::path file = find_sensor(table, options, folder);
   if (!file.empty()) {
@@ -161,8 +173,10 @@ void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs:
   mounting.right_m = table.number("right_m", {-100, 100}, mounting.right_m);
   mounting.down_m = table.number("down_m", {-100, 100}, mounting.down_m);
   mounting.yaw_rad = radians(table.number("yaw_deg", {-180, 180}, core::degrees(mounting.yaw_rad)));
-  mounting.pitch_rad = radians(table.number("pitch_deg", {-90, 90}, core::degrees(mounting.pitch_rad)));
-  mounting.roll_rad = radians(table.number("roll_deg", {-180, 180}, core::degrees(mounting.roll_rad)));
+  mounting.pitch_rad =
+      radians(table.number("pitch_deg", {-90, 90}, core::degrees(mounting.pitch_rad)));
+  mounting.roll_rad =
+      radians(table.number("roll_deg", {-180, 180}, core::degrees(mounting.roll_rad)));
   scene.sensor.scan.stabilised = table.boolean("stabilised", scene.sensor.scan.stabilised);
 }
 
@@ -176,21 +190,25 @@ void read_display(ConfigTable& root, sensors::Display& display) {
   if (display.high_dB <= display.low_dB)
     table.error(core::ErrorClass::range, "high_dB", core::number_text(display.high_dB),
                 "above low_dB = " + core::number_text(display.low_dB));
-  display.cscope_mode = static_cast<Display::CScopeMode>(
-      table.choice("cscope_mode", {"true_elevation", "flat_earth"}, static_cast<std::size_t>(display.cscope_mode)));
+  display.cscope_mode =
+      static_cast<Display::CScopeMode>(table.choice("cscope_mode", {"true_elevation", "flat_earth"},
+                                                    static_cast<std::size_t>(display.cscope_mode)));
 }
 
 void list_files(SceneDescription& scene) {
   scene.files.push_back(scene.material_library);
-  for (const fs::path& file : {scene.terrain.elevation, scene.terrain.land_cover, scene.trajectory.file})
+  for (const fs::path& file :
+       {scene.terrain.elevation, scene.terrain.land_cover, scene.trajectory.file})
     if (!file.empty()) scene.files.push_back(file);
   for (const ModelDescription& model : scene.models) scene.files.push_back(model.file);
-  for (const BuildingsDescription& buildings : scene.buildings) scene.files.push_back(buildings.file);
+  for (const BuildingsDescription& buildings : scene.buildings)
+    scene.files.push_back(buildings.file);
 }
 
 }  // namespace
 
-SceneDescription read_scene(const fs::path& path, const SceneOptions& options, core::ProblemList& problems) {
+SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
+                            core::ProblemList& problems) {
   const fs::path file = fs::is_directory(path) ? path / "scene.toml" : path;
   SceneDescription scene;
   scene.folder = fs::weakly_canonical(file).parent_path();
@@ -198,7 +216,8 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options, c
   if (!root.present()) return scene;
   std::vector<fs::path> data = options.data_folders;
   const std::vector<std::string> own = root.texts("data_folders");
-  for (auto folder = own.rbegin(); folder != own.rend(); ++folder) data.insert(data.begin(), scene.folder / *folder);
+  for (auto folder = own.rbegin(); folder != own.rend(); ++folder)
+    data.insert(data.begin(), scene.folder / *folder);
   const DataSearch search(scene.folder, data);
   read_scene_table(root, scene);
   read_sensor_table(root, options, scene.folder, scene);
@@ -209,8 +228,9 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options, c
   read_display(root, scene.sensor.display);
   ConfigTable accuracy = root.table("accuracy");
   scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
-  scene.material_library = root.has("material_library") ? search.find(root, "material_library")
-                                                        : options.shipped / "materials" / "library.toml";
+  scene.material_library = root.has("material_library")
+                               ? search.find(root, "material_library")
+                               : options.shipped / "materials" / "library.toml";
   root.report_unknown_keys();
   scene.resolved = root.resolved();
   list_files(scene);

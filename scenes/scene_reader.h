@@ -11,9 +11,9 @@ namespace fanbeam::scenes {
 
 // Where shipped files lie and what the command line overrides.
 struct SceneOptions {
-  std::filesystem::path shipped;                  // holds scenes/, sensors/ and materials/
+  std::filesystem::path shipped;  // holds scenes/, sensors/ and materials/
   std::vector<std::filesystem::path> data_folders;
-  std::filesystem::path sensor;                   // replaces the scene's sensor file; empty to keep it
+  std::filesystem::path sensor;  // replaces the scene's sensor file; empty to keep it
 };
 
 // `scene` is a folder with scene.toml, or that file. All problems of the scene and its sensor file go to `problems`;

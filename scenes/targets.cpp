@@ -25,18 +25,22 @@ void add_constant(const std::string& name, const glm::dvec3& position_m, double 
   targets.push_back({name, materials::ConstantRcs{rcs_m2}, {{0.0, position_m}}, glm::dmat3(1.0)});
 }
 
-void add_runway_reflectors(const RunwayDescription& description, const terrain::Runway& runway, const Ground& ground,
-                           std::vector<PointTarget>& targets) {
-  const auto add_sites = [&](const std::vector<terrain::ReflectorSite>& sites, const char* name, double rcs_m2) {
+void add_runway_reflectors(const RunwayDescription& description, const terrain::Runway& runway,
+                           const Ground& ground, std::vector<PointTarget>& targets) {
+  const auto add_sites = [&](const std::vector<terrain::ReflectorSite>& sites, const char* name,
+                             double rcs_m2) {
     for (const terrain::ReflectorSite& site : sites)
       if (ground.field().height_at(site.position_m.x, site.position_m.y))
-        add_constant(name, ground.on_ground_m(site.position_m, site.above_ground_m), rcs_m2, targets);
+        add_constant(name, ground.on_ground_m(site.position_m, site.above_ground_m), rcs_m2,
+                     targets);
   };
-  if (description.edge_lights) add_sites(terrain::edge_light_sites(runway), "runway light", description.light_rcs_m2);
+  if (description.edge_lights)
+    add_sites(terrain::edge_light_sites(runway), "runway light", description.light_rcs_m2);
   if (!description.approach_lights.empty()) {
     if (const auto end = ground.landing_end(description.approach_lights, description.place))
-      add_sites(terrain::approach_light_sites(*end->runway, end->end, description.approach_light_slope),
-                "approach light", description.light_rcs_m2);
+      add_sites(
+          terrain::approach_light_sites(*end->runway, end->end, description.approach_light_slope),
+          "approach light", description.light_rcs_m2);
   }
   if (description.fence_beyond_m > 0.0)
     add_sites(terrain::post_sites(terrain::perimeter(runway, description.fence_beyond_m), true,
@@ -60,8 +64,8 @@ void add_line(const LineDescription& line, const Ground& ground, core::ProblemLi
     return;
   }
   for (int i = 0; i < count; ++i)
-    add_constant(line.name, begin_m + (end_m - begin_m) * ((i + 0.5) / count), line.rcs_m2_per_m * length_m / count,
-                 targets);
+    add_constant(line.name, begin_m + (end_m - begin_m) * ((i + 0.5) / count),
+                 line.rcs_m2_per_m * length_m / count, targets);
 }
 
 }  // namespace
@@ -73,10 +77,14 @@ std::vector<PointTarget> build_targets(const SceneDescription& scene, const Grou
     add_runway_reflectors(scene.runways[i], ground.runways()[i], ground, targets);
   for (const LineDescription& line : scene.lines) add_line(line, ground, problems, targets);
   for (const TargetDescription& description : scene.targets) {
-    PointTarget target{description.name, description.rcs, {}, target_axes(description.heading_rad, description.tilt_rad)};
+    PointTarget target{description.name,
+                       description.rcs,
+                       {},
+                       target_axes(description.heading_rad, description.tilt_rad)};
     for (const TargetDescription::Waypoint& waypoint : description.path) {
       if (const auto at_m = ground.local_m(waypoint.at))
-        target.path.push_back({waypoint.time_s, ground.on_ground_m(*at_m, waypoint.above_ground_m)});
+        target.path.push_back(
+            {waypoint.time_s, ground.on_ground_m(*at_m, waypoint.above_ground_m)});
     }
     if (!target.path.empty()) targets.push_back(std::move(target));
   }

@@ -41,7 +41,8 @@ void read_file_trajectory(ConfigTable& table, const DataSearch& search,
                 "what the file's heights count from: \"ellipsoid\", \"egm96\" or \"scene\"");
   trajectory.datum = static_cast<core::VerticalDatum>(
       table.choice("vertical_datum", {"ellipsoid", "egm96", "scene"}, 2));
-  if (scene_datum == core::VerticalDatum::scene && trajectory.datum != scene_datum && !table.has("transplant"))
+  if (scene_datum == core::VerticalDatum::scene && trajectory.datum != scene_datum &&
+      !table.has("transplant"))
     table.error(core::ErrorClass::range, "vertical_datum", "a datum of its own",
                 "\"scene\": the scene's heights count from an unknown level");
   trajectory.assumptions.angle_of_attack_rad = radians(table.number(

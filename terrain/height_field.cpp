@@ -25,10 +25,12 @@ std::optional<double> HeightField::height_at(double x_m, double y_m) const {
   return sw + fv * (nw - sw) + fu * (ne - nw);
 }
 
-HeightField make_height_field(double west_m, double south_m, double east_m, double north_m, double spacing_m) {
+HeightField make_height_field(double west_m, double south_m, double east_m, double north_m,
+                              double spacing_m) {
   constexpr double kMostPosts = 64.0e6;
   if (!(spacing_m > 0.0) || !(east_m > west_m) || !(north_m > south_m))
-    core::throw_input_error(core::ErrorClass::range, "terrain spacing_m", spacing_m, "a positive spacing and extent");
+    core::throw_input_error(core::ErrorClass::range, "terrain spacing_m", spacing_m,
+                            "a positive spacing and extent");
   const double columns = std::ceil((east_m - west_m) / spacing_m - 1e-9) + 1.0;
   const double rows = std::ceil((north_m - south_m) / spacing_m - 1e-9) + 1.0;
   if (columns * rows > kMostPosts)
@@ -40,7 +42,8 @@ HeightField make_height_field(double west_m, double south_m, double east_m, doub
   field.spacing_m = spacing_m;
   field.columns = std::max(2, static_cast<int>(columns));
   field.rows = std::max(2, static_cast<int>(rows));
-  field.height_m.assign(static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows), 0.0);
+  field.height_m.assign(
+      static_cast<std::size_t>(field.columns) * static_cast<std::size_t>(field.rows), 0.0);
   field.cell_material.assign(
       static_cast<std::size_t>(field.columns - 1) * static_cast<std::size_t>(field.rows - 1), 0);
   return field;

@@ -10,7 +10,8 @@ namespace fanbeam::terrain {
 namespace {
 
 std::uint64_t lattice_cell(std::int64_t i, std::int64_t j) {
-  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(static_cast<std::int32_t>(i))) << 32U) |
+  return (static_cast<std::uint64_t>(static_cast<std::uint32_t>(static_cast<std::int32_t>(i)))
+          << 32U) |
          static_cast<std::uint32_t>(static_cast<std::int32_t>(j));
 }
 
@@ -22,7 +23,8 @@ Landscape::Landscape(const LandscapeSettings& settings, LandscapeMaterials mater
     : settings_(settings), materials_(std::move(materials)) {
   // The noise of is_wood has a nearly normal distribution of deviation 0.31; the quantile is the logistic one.
   const double share = std::clamp(settings.wood_share, 1e-6, 1.0 - 1e-6);
-  wood_threshold_ = settings.wood_share > 0.0 ? 0.31 / 1.702 * std::log((1.0 - share) / share) : 2.0;
+  wood_threshold_ =
+      settings.wood_share > 0.0 ? 0.31 / 1.702 * std::log((1.0 - share) / share) : 2.0;
 }
 
 double Landscape::noise(glm::dvec2 position_m, double lattice_m, std::uint32_t octave) const {
@@ -34,14 +36,17 @@ double Landscape::noise(glm::dvec2 position_m, double lattice_m, std::uint32_t o
   const double fu = smooth(u - static_cast<double>(i));
   const double fv = smooth(v - static_cast<double>(j));
   const auto at = [&](std::int64_t di, std::int64_t dj) {
-    return 2.0 * core::uniform_from(core::random_words(key, lattice_cell(i + di, j + dj), 0)[0]) - 1.0;
+    return 2.0 * core::uniform_from(core::random_words(key, lattice_cell(i + di, j + dj), 0)[0]) -
+           1.0;
   };
-  return (at(0, 0) * (1 - fu) + at(1, 0) * fu) * (1 - fv) + (at(0, 1) * (1 - fu) + at(1, 1) * fu) * fv;
+  return (at(0, 0) * (1 - fu) + at(1, 0) * fu) * (1 - fv) +
+         (at(0, 1) * (1 - fu) + at(1, 1) * fu) * fv;
 }
 
 double Landscape::ground_m(glm::dvec2 position_m) const {
   return settings_.relief_m / 2 *
-         (0.6 * noise(position_m, 2000.0, 0) + 0.28 * noise(position_m, 800.0, 1) + 0.12 * noise(position_m, 320.0, 2));
+         (0.6 * noise(position_m, 2000.0, 0) + 0.28 * noise(position_m, 800.0, 1) +
+          0.12 * noise(position_m, 320.0, 2));
 }
 
 bool Landscape::is_wood(glm::dvec2 position_m) const {

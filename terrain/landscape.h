@@ -20,10 +20,10 @@ struct LandscapeMaterials {
 };
 
 struct LandscapeSettings {
-  double relief_m = 8.0;       // peak to peak of the ground, roughly
+  double relief_m = 8.0;  // peak to peak of the ground, roughly
   double field_size_m = 260.0;
-  double wood_share = 0.15;    // of the area outside the airfield, roughly
-  double canopy_m = 14.0;      // mean height of the woods
+  double wood_share = 0.15;  // of the area outside the airfield, roughly
+  double canopy_m = 14.0;    // mean height of the woods
   std::uint64_t seed = 1;
 };
 

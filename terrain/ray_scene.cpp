@@ -11,7 +11,8 @@
 
 namespace fanbeam::terrain {
 
-static_assert(sizeof(RayPacket<8>) == sizeof(RTCRayHit8) && sizeof(RayPacket<16>) == sizeof(RTCRayHit16));
+static_assert(sizeof(RayPacket<8>) == sizeof(RTCRayHit8) &&
+              sizeof(RayPacket<16>) == sizeof(RTCRayHit16));
 static_assert(offsetof(RayPacket<16>, direction_x) == offsetof(RTCRayHit16, ray.dir_x));
 static_assert(offsetof(RayPacket<16>, normal_x) == offsetof(RTCRayHit16, hit.Ng_x));
 static_assert(offsetof(RayPacket<16>, instance) == offsetof(RTCRayHit16, hit.instID));
@@ -35,11 +36,13 @@ namespace {
 void remember_error(void* user, RTCError error, const char* message) {
   auto* text = static_cast<std::string*>(user);
   if (text->empty())
-    *text = "error " + std::to_string(static_cast<int>(error)) + ": " + (message != nullptr ? message : "");
+    *text = "error " + std::to_string(static_cast<int>(error)) + ": " +
+            (message != nullptr ? message : "");
 }
 
 template <class T>
-T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride, std::size_t count) {
+T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t stride,
+              std::size_t count) {
   return static_cast<T*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count));
 }
 
@@ -58,7 +61,8 @@ RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch>
   // The number of threads of the build does not change the tree.
   const std::string configuration = instruction_set.empty() ? "" : "isa=" + instruction_set;
   library_->device = rtcNewDevice(configuration.c_str());
-  if (library_->device == nullptr) throw core::InternalError("Embree: no device for \"" + configuration + "\"");
+  if (library_->device == nullptr)
+    throw core::InternalError("Embree: no device for \"" + configuration + "\"");
   rtcSetDeviceErrorFunction(library_->device, remember_error, &library_->error);
   library_->scene = rtcNewScene(library_->device);
   rtcSetSceneFlags(library_->scene, RTC_SCENE_FLAG_ROBUST);
@@ -72,7 +76,9 @@ RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch>
     if (!mesh.mesh.triangles.empty()) add_mesh(mesh);
   rtcCommitScene(library_->scene);
   library_->throw_on_error();
-  native_packet_ = rtcGetDeviceProperty(library_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0 ? 16 : 8;
+  native_packet_ =
+      rtcGetDeviceProperty(library_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0 ? 16
+                                                                                              : 8;
   index_tops(meshes);
 }
 
@@ -80,7 +86,8 @@ RayScene::~RayScene() = default;
 
 void RayScene::add_terrain() {
   RTCGeometry geometry = rtcNewGeometry(library_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  const auto posts = static_cast<std::size_t>(terrain_.columns) * static_cast<std::size_t>(terrain_.rows);
+  const auto posts =
+      static_cast<std::size_t>(terrain_.columns) * static_cast<std::size_t>(terrain_.rows);
   auto* vertex = new_buffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 12, posts);
   auto* index = new_buffer<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12,
                                           2 * terrain_.cell_material.size());
@@ -109,8 +116,10 @@ void RayScene::add_terrain() {
 void RayScene::add_mesh(const PlacedMesh& placed) {
   const TriangleMesh& mesh = placed.mesh;
   RTCGeometry geometry = rtcNewGeometry(library_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* vertex = new_buffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 12, mesh.vertices_m.size());
-  auto* index = new_buffer<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12, mesh.triangles.size());
+  auto* vertex = new_buffer<float>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, 12,
+                                   mesh.vertices_m.size());
+  auto* index = new_buffer<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12,
+                                          mesh.triangles.size());
   library_->throw_on_error();
   for (const glm::dvec3& position : mesh.vertices_m)
     for (int axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(position[axis]);
@@ -142,7 +151,8 @@ void RayScene::index_tops(const std::vector<PlacedMesh>& meshes) {
   tops_south_m_ = low.y;
   tops_columns_ = static_cast<int>((high.x - low.x) / kTopsSpacing_m) + 1;
   tops_rows_ = static_cast<int>((high.y - low.y) / kTopsSpacing_m) + 1;
-  tops_m_.assign(static_cast<std::size_t>(tops_columns_) * static_cast<std::size_t>(tops_rows_), -1e30F);
+  tops_m_.assign(static_cast<std::size_t>(tops_columns_) * static_cast<std::size_t>(tops_rows_),
+                 -1e30F);
   for (const PlacedMesh& placed : meshes) {
     for (const glm::uvec3& triangle : placed.mesh.triangles) {
       const glm::dvec3& a = placed.mesh.vertices_m[triangle.x];
@@ -150,9 +160,13 @@ void RayScene::index_tops(const std::vector<PlacedMesh>& meshes) {
       const glm::dvec3& c = placed.mesh.vertices_m[triangle.z];
       const glm::dvec3 from = glm::min(a, glm::min(b, c));
       const glm::dvec3 to = glm::max(a, glm::max(b, c));
-      for (int j = static_cast<int>((from.y - low.y) / kTopsSpacing_m); j <= static_cast<int>((to.y - low.y) / kTopsSpacing_m); ++j)
-        for (int i = static_cast<int>((from.x - low.x) / kTopsSpacing_m); i <= static_cast<int>((to.x - low.x) / kTopsSpacing_m); ++i) {
-          float& top = tops_m_[static_cast<std::size_t>(j) * static_cast<std::size_t>(tops_columns_) + static_cast<std::size_t>(i)];
+      for (int j = static_cast<int>((from.y - low.y) / kTopsSpacing_m);
+           j <= static_cast<int>((to.y - low.y) / kTopsSpacing_m); ++j)
+        for (int i = static_cast<int>((from.x - low.x) / kTopsSpacing_m);
+             i <= static_cast<int>((to.x - low.x) / kTopsSpacing_m); ++i) {
+          float& top =
+              tops_m_[static_cast<std::size_t>(j) * static_cast<std::size_t>(tops_columns_) +
+                      static_cast<std::size_t>(i)];
           top = std::max(top, static_cast<float>(to.z));
         }
     }
@@ -163,7 +177,9 @@ double RayScene::mesh_top_m(double x_m, double y_m) const noexcept {
   const double u = (x_m - tops_west_m_) / kTopsSpacing_m;
   const double v = (y_m - tops_south_m_) / kTopsSpacing_m;
   if (!(u >= 0.0 && v >= 0.0 && u < tops_columns_ && v < tops_rows_)) return -1e30;
-  return static_cast<double>(tops_m_[static_cast<std::size_t>(v) * static_cast<std::size_t>(tops_columns_) + static_cast<std::size_t>(u)]);
+  return static_cast<double>(
+      tops_m_[static_cast<std::size_t>(v) * static_cast<std::size_t>(tops_columns_) +
+              static_cast<std::size_t>(u)]);
 }
 
 void RayScene::intersect(const int* active, RayPacket<8>& packet) const noexcept {
@@ -205,7 +221,8 @@ std::optional<SceneHit> RayScene::intersect(const glm::dvec3& origin_m, const gl
   return hit;
 }
 
-bool RayScene::occluded(const glm::dvec3& from_m, const glm::dvec3& to_m, double clearance_m) const {
+bool RayScene::occluded(const glm::dvec3& from_m, const glm::dvec3& to_m,
+                        double clearance_m) const {
   const glm::dvec3 path = to_m - from_m;
   const double length = glm::length(path);
   if (length <= clearance_m) return false;
@@ -226,10 +243,12 @@ bool RayScene::occluded(const glm::dvec3& from_m, const glm::dvec3& to_m, double
   return ray.tfar < 0.0F;
 }
 
-void check_ray(const glm::dvec3& origin_m, const glm::dvec3& direction, double near_m, double far_m) {
+void check_ray(const glm::dvec3& origin_m, const glm::dvec3& direction, double near_m,
+               double far_m) {
   constexpr double kLargest = 1.0e18;
   const auto check = [](const char* field, double value, double low, double high) {
-    if (!std::isfinite(value)) core::throw_input_error(core::ErrorClass::nonfinite, field, value, "a finite number");
+    if (!std::isfinite(value))
+      core::throw_input_error(core::ErrorClass::nonfinite, field, value, "a finite number");
     if (value < low || value > high)
       core::throw_input_error(core::ErrorClass::range, field, value,
                               core::number_text(low) + " to " + core::number_text(high));

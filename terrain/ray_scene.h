@@ -20,7 +20,8 @@
 namespace fanbeam::terrain {
 
 inline constexpr std::uint32_t kNoHit = 0xFFFFFFFFU;
-inline constexpr std::uint32_t kTerrainGeometry = 0;  // the terrain's geometry number when there is one
+inline constexpr std::uint32_t kTerrainGeometry =
+    0;  // the terrain's geometry number when there is one
 
 // N rays and their hits side by side. The layout is Embree's own ray packet, so nothing is copied around a cast.
 // Directions need not be unit vectors; `distance` is in units of their length (`far` before the cast, hit distance
@@ -55,8 +56,8 @@ struct SceneHit {
 class RayScene {
  public:
   // `terrain` may be absent. `instruction_set` limits Embree: "", "sse4.2", "avx", "avx2", "avx512".
-  RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch> patches, std::vector<PlacedMesh> meshes,
-           const std::string& instruction_set = "");
+  RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch> patches,
+           std::vector<PlacedMesh> meshes, const std::string& instruction_set = "");
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -68,12 +69,14 @@ class RayScene {
   void intersect(const int* active, RayPacket<16>& packet) const noexcept;
 
   // One ray in double precision, checked: R12's inputs are InputError E-NONFINITE or E-RANGE.
-  std::optional<SceneHit> intersect(const glm::dvec3& origin_m, const glm::dvec3& direction, double far_m) const;
+  std::optional<SceneHit> intersect(const glm::dvec3& origin_m, const glm::dvec3& direction,
+                                    double far_m) const;
   // True when something lies between the two points, `clearance_m` before the second one.
   bool occluded(const glm::dvec3& from_m, const glm::dvec3& to_m, double clearance_m) const;
 
   // Material of a hit: land cover and patches for the terrain, the triangle's own otherwise.
-  MaterialId material(std::uint32_t geometry, std::uint32_t primitive, double x_m, double y_m) const noexcept {
+  MaterialId material(std::uint32_t geometry, std::uint32_t primitive, double x_m,
+                      double y_m) const noexcept {
     if (has_terrain_ && geometry == kTerrainGeometry) return surface_map_->material_at(x_m, y_m);
     return mesh_material_[geometry][primitive];
   }
@@ -103,7 +106,8 @@ class RayScene {
   bool has_meshes_ = false;
   HeightField terrain_;
   std::unique_ptr<SurfaceMap> surface_map_;
-  std::vector<std::vector<MaterialId>> mesh_material_;  // [geometry][triangle]; empty for the terrain
+  std::vector<std::vector<MaterialId>>
+      mesh_material_;  // [geometry][triangle]; empty for the terrain
   std::size_t triangle_count_ = 0;
   int native_packet_ = 8;
   double tops_west_m_ = 0.0, tops_south_m_ = 0.0;
@@ -112,6 +116,7 @@ class RayScene {
 };
 
 // Throws InputError E-NONFINITE or E-RANGE for a ray that the library must not see.
-void check_ray(const glm::dvec3& origin_m, const glm::dvec3& direction, double near_m, double far_m);
+void check_ray(const glm::dvec3& origin_m, const glm::dvec3& direction, double near_m,
+               double far_m);
 
 }  // namespace fanbeam::terrain

@@ -19,8 +19,9 @@ class MarkingPainter {
         patches_(patches) {}
 
   void rectangle(double s_m, double t_m, double length_m, double width_m) {
-    patches_.push_back(rectangle_patch(origin_ + along_ * (s_m + length_m / 2) + across(along_) * t_m, along_,
-                                       length_m, width_m, material_));
+    patches_.push_back(
+        rectangle_patch(origin_ + along_ * (s_m + length_m / 2) + across(along_) * t_m, along_,
+                        length_m, width_m, material_));
   }
   void pair(double s_m, double t_m, double length_m, double width_m) {
     rectangle(s_m, t_m, length_m, width_m);
@@ -41,10 +42,12 @@ int stripes_per_side(double width_m) {
   return width_m < 60.0 ? 6 : 8;
 }
 
-void paint_end(const Runway& runway, int end, double landing_length_m, std::vector<SurfacePatch>& patches) {
+void paint_end(const Runway& runway, int end, double landing_length_m,
+               std::vector<SurfacePatch>& patches) {
   MarkingPainter paint(runway, end, patches);
   const double reach_m = landing_length_m / 2 - 30.0;
-  for (int i = 0; i < stripes_per_side(runway.width_m); ++i) paint.pair(6.0, 1.8 + 3.6 * i, 30.0, 1.8);
+  for (int i = 0; i < stripes_per_side(runway.width_m); ++i)
+    paint.pair(6.0, 1.8 + 3.6 * i, 30.0, 1.8);
   const double aiming_m = landing_length_m < 2400.0 ? 300.0 : 400.0;
   if (aiming_m + 45.0 < reach_m) paint.pair(aiming_m, 11.5, 45.0, 6.0);
   for (double s_m = 150.0; s_m + 22.5 < std::min(reach_m, 901.0); s_m += 150.0)
@@ -53,9 +56,13 @@ void paint_end(const Runway& runway, int end, double landing_length_m, std::vect
 
 }  // namespace
 
-double Runway::length_m() const { return glm::length(ends[1].pavement_end_m - ends[0].pavement_end_m); }
+double Runway::length_m() const {
+  return glm::length(ends[1].pavement_end_m - ends[0].pavement_end_m);
+}
 
-glm::dvec2 Runway::along() const { return (ends[1].pavement_end_m - ends[0].pavement_end_m) / length_m(); }
+glm::dvec2 Runway::along() const {
+  return (ends[1].pavement_end_m - ends[0].pavement_end_m) / length_m();
+}
 
 glm::dvec2 Runway::threshold_m(int end) const {
   const glm::dvec2 inwards = end == 0 ? along() : -along();
@@ -68,15 +75,18 @@ std::vector<SurfacePatch> runway_patches(const Runway& runway) {
   const glm::dvec2 along = runway.along();
   const double length_m = runway.length_m();
   if (runway.shoulder_m > 0.0)
-    patches.push_back(rectangle_patch(centre, along, length_m, runway.width_m + 2.0 * runway.shoulder_m,
+    patches.push_back(rectangle_patch(centre, along, length_m,
+                                      runway.width_m + 2.0 * runway.shoulder_m,
                                       runway.materials.shoulder));
-  patches.push_back(rectangle_patch(centre, along, length_m, runway.width_m, runway.materials.surface));
+  patches.push_back(
+      rectangle_patch(centre, along, length_m, runway.width_m, runway.materials.surface));
   if (!runway.markings) return patches;
   const double landing_m = length_m - runway.ends[0].displaced_m - runway.ends[1].displaced_m;
   paint_end(runway, 0, landing_m, patches);
   paint_end(runway, 1, landing_m, patches);
   MarkingPainter paint(runway, 0, patches);
-  for (double s_m = 60.0; s_m + 30.0 < landing_m - 50.0; s_m += 50.0) paint.rectangle(s_m, 0.0, 30.0, 0.9);
+  for (double s_m = 60.0; s_m + 30.0 < landing_m - 50.0; s_m += 50.0)
+    paint.rectangle(s_m, 0.0, 30.0, 0.9);
   paint.pair(0.0, runway.width_m / 2 - 0.45, landing_m, 0.9);
   return patches;
 }
@@ -92,7 +102,8 @@ double flattened_height_m(const Runway& runway, glm::dvec2 position_m, double na
   const double outside_m = std::hypot(beyond_m, beside_m);
   if (outside_m >= runway.blend_m) return natural_height_m;
   const double share = std::clamp(s_m / length_m, 0.0, 1.0);
-  const double strip_m = runway.ends[0].elevation_m * (1.0 - share) + runway.ends[1].elevation_m * share;
+  const double strip_m =
+      runway.ends[0].elevation_m * (1.0 - share) + runway.ends[1].elevation_m * share;
   const double u = outside_m / runway.blend_m;
   const double natural_share = u * u * (3.0 - 2.0 * u);
   return strip_m * (1.0 - natural_share) + natural_height_m * natural_share;
@@ -106,12 +117,15 @@ std::vector<ReflectorSite> edge_light_sites(const Runway& runway) {
   const int intervals = std::max(1, static_cast<int>(std::lround(length_m / 60.0)));
   for (int i = 0; i <= intervals; ++i) {
     const glm::dvec2 at = runway.ends[0].pavement_end_m + along * (length_m * i / intervals);
-    for (const double sign : {-1.0, 1.0}) sites.push_back({at + side * (sign * (runway.width_m / 2 + 2.0)), 0.35});
+    for (const double sign : {-1.0, 1.0})
+      sites.push_back({at + side * (sign * (runway.width_m / 2 + 2.0)), 0.35});
   }
   for (const int end : {0, 1}) {
     const int lights = static_cast<int>(runway.width_m / 3.0);
     for (int i = 0; i <= lights; ++i)
-      sites.push_back({runway.threshold_m(end) + side * (runway.width_m * (static_cast<double>(i) / lights - 0.5)), 0.35});
+      sites.push_back({runway.threshold_m(end) +
+                           side * (runway.width_m * (static_cast<double>(i) / lights - 0.5)),
+                       0.35});
   }
   return sites;
 }
@@ -124,22 +138,25 @@ std::vector<ReflectorSite> approach_light_sites(const Runway& runway, int end, d
     const double distance_m = 30.0 * bar;
     const glm::dvec2 centre = runway.threshold_m(end) + outwards * distance_m;
     const double above_m = 0.5 + slope * distance_m;
-    for (int light = -2; light <= 2; ++light) sites.push_back({centre + side * static_cast<double>(light), above_m});
+    for (int light = -2; light <= 2; ++light)
+      sites.push_back({centre + side * static_cast<double>(light), above_m});
     if (bar != 10) continue;
     for (int light = 0; light < 8; ++light)
-      for (const double sign : {-1.0, 1.0}) sites.push_back({centre + side * (sign * (4.5 + 1.5 * light)), above_m});
+      for (const double sign : {-1.0, 1.0})
+        sites.push_back({centre + side * (sign * (4.5 + 1.5 * light)), above_m});
   }
   return sites;
 }
 
-std::vector<ReflectorSite> post_sites(const std::vector<glm::dvec2>& line_m, bool closed, double spacing_m,
-                                      double height_m) {
+std::vector<ReflectorSite> post_sites(const std::vector<glm::dvec2>& line_m, bool closed,
+                                      double spacing_m, double height_m) {
   std::vector<ReflectorSite> sites;
   const std::size_t legs = line_m.size() < 2 ? 0 : line_m.size() - (closed ? 0 : 1);
   for (std::size_t i = 0; i < legs; ++i) {
     const glm::dvec2 from = line_m[i];
     const glm::dvec2 to = line_m[(i + 1) % line_m.size()];
-    const int posts = std::max(1, static_cast<int>(std::lround(glm::length(to - from) / spacing_m)));
+    const int posts =
+        std::max(1, static_cast<int>(std::lround(glm::length(to - from) / spacing_m)));
     for (int post = 0; post < posts; ++post)
       sites.push_back({from + (to - from) * (static_cast<double>(post) / posts), height_m / 2});
   }

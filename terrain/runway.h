@@ -63,8 +63,8 @@ std::vector<ReflectorSite> edge_light_sites(const Runway& runway);
 // `slope` (rise per metre).
 std::vector<ReflectorSite> approach_light_sites(const Runway& runway, int end, double slope);
 // Posts along a closed or open line, `spacing_m` apart, at half of `height_m`.
-std::vector<ReflectorSite> post_sites(const std::vector<glm::dvec2>& line_m, bool closed, double spacing_m,
-                                      double height_m);
+std::vector<ReflectorSite> post_sites(const std::vector<glm::dvec2>& line_m, bool closed,
+                                      double spacing_m, double height_m);
 // A rectangle around the strip, `beyond_m` outside it on all sides.
 std::vector<glm::dvec2> perimeter(const Runway& runway, double beyond_m);
 

@@ -34,7 +34,8 @@ SurfaceMap::SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patch
       return std::clamp(static_cast<int>(std::floor((value - from) * per_spacing_)), 0, count - 1);
     };
     for (int j = index(box.south_m, south_m_, rows_); j <= index(box.north_m, south_m_, rows_); ++j)
-      for (int i = index(box.west_m, west_m_, columns_); i <= index(box.east_m, west_m_, columns_); ++i)
+      for (int i = index(box.west_m, west_m_, columns_); i <= index(box.east_m, west_m_, columns_);
+           ++i)
         touching[field.cell(i, j)].push_back(static_cast<std::uint32_t>(p));
   }
   patch_begin_.push_back(0);
@@ -46,14 +47,16 @@ SurfaceMap::SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patch
   }
 }
 
-bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m, double y_m) const noexcept {
+bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m,
+                        double y_m) const noexcept {
   if (x_m < box.west_m || x_m > box.east_m || y_m < box.south_m || y_m > box.north_m) return false;
   bool odd = false;
   const auto& outline = patch.outline_m;
   for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
     const glm::dvec2& a = outline[i];
     const glm::dvec2& b = outline[j];
-    if ((a.y > y_m) != (b.y > y_m) && x_m < (b.x - a.x) * (y_m - a.y) / (b.y - a.y) + a.x) odd = !odd;
+    if ((a.y > y_m) != (b.y > y_m) && x_m < (b.x - a.x) * (y_m - a.y) / (b.y - a.y) + a.x)
+      odd = !odd;
   }
   return odd;
 }
@@ -61,7 +64,8 @@ bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m, d
 MaterialId SurfaceMap::material_at(double x_m, double y_m) const noexcept {
   const int i = std::clamp(static_cast<int>((x_m - west_m_) * per_spacing_), 0, columns_ - 1);
   const int j = std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
-  const std::size_t cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(i);
+  const std::size_t cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+                           static_cast<std::size_t>(i);
   const MaterialId base = cells_[cell];
   if ((base & kPatched) == 0) return base;
   for (std::uint32_t k = patch_begin_[cell]; k < patch_begin_[cell + 1]; ++k) {

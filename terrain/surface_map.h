@@ -40,7 +40,7 @@ class SurfaceMap {
   bool inside(const SurfacePatch& patch, const Box& box, double x_m, double y_m) const noexcept;
 
   double west_m_, south_m_, per_spacing_;
-  int columns_, rows_;  // cells
+  int columns_, rows_;                            // cells
   static constexpr MaterialId kPatched = 0x8000;  // set in a cell that patches touch
   std::vector<MaterialId> cells_;
   std::vector<SurfacePatch> patches_;

@@ -21,8 +21,10 @@ TEST_CASE("Help and version are told with exit code 0", "[cli]") {
     CHECK(result.exit_code == 0);
     CHECK(result.output.find("Usage") != std::string::npos);
   }
-  CHECK(run_fanbeam("--help").output.find("Exit codes: 0 done, 1 comparison failed, 2 usage") != std::string::npos);
-  for (const char* words : {"--version", "render --version", "validate --version", "compare --version"}) {
+  CHECK(run_fanbeam("--help").output.find("Exit codes: 0 done, 1 comparison failed, 2 usage") !=
+        std::string::npos);
+  for (const char* words :
+       {"--version", "render --version", "validate --version", "compare --version"}) {
     const Result result = run_fanbeam(words);
     CHECK(result.exit_code == 0);
     CHECK(result.output.rfind("fanbeam ", 0) == 0);
@@ -31,10 +33,11 @@ TEST_CASE("Help and version are told with exit code 0", "[cli]") {
 
 TEST_CASE("Exit code 2: a command line that cannot be understood", "[cli]") {
   for (const char* words :
-       {"", "rendr", "render --nope", "render --threads many", "render --threads -1", "render --rays-per-cell 0",
-        "render --reference --rays-per-cell 4", "compare one.png", "render --log-level loud",
-        "render flat-grass --frames 1:x", "render flat-grass --frames 5", "render flat-grass --products bscope,dscope",
-        "render flat-grass --effects +magic", "render flat-grass --preview-format avi"}) {
+       {"", "rendr", "render --nope", "render --threads many", "render --threads -1",
+        "render --rays-per-cell 0", "render --reference --rays-per-cell 4", "compare one.png",
+        "render --log-level loud", "render flat-grass --frames 1:x", "render flat-grass --frames 5",
+        "render flat-grass --products bscope,dscope", "render flat-grass --effects +magic",
+        "render flat-grass --preview-format avi"}) {
     INFO("fanbeam " << words);
     const Result result = run_fanbeam(words);
     INFO(result.output);
@@ -43,7 +46,8 @@ TEST_CASE("Exit code 2: a command line that cannot be understood", "[cli]") {
   }
 }
 
-TEST_CASE("Exit code 3: every problem of a scene in one run, and the output folder stays as it was", "[cli]") {
+TEST_CASE("Exit code 3: every problem of a scene in one run, and the output folder stays as it was",
+          "[cli]") {
   const TemporaryFolder folder;
   folder.write("scene.toml", kBadScene);
   fs::create_directories(folder.path() / "out/bscope");
@@ -51,38 +55,52 @@ TEST_CASE("Exit code 3: every problem of a scene in one run, and the output fold
   folder.write("out/run.json", "{}");
   const auto before = contents(folder.path());
   const auto time_before = fs::last_write_time(folder.path() / "out");
-  for (const std::string& words : {"validate " + quoted(folder.path()),
-                                   "render " + quoted(folder.path()) + " -o " + quoted(folder.path() / "out"),
-                                   "render " + quoted(folder.path() / "scene.toml") + " -q --resume -o " +
-                                       quoted(folder.path() / "out")}) {
+  for (const std::string& words :
+       {"validate " + quoted(folder.path()),
+        "render " + quoted(folder.path()) + " -o " + quoted(folder.path() / "out"),
+        "render " + quoted(folder.path() / "scene.toml") + " -q --resume -o " +
+            quoted(folder.path() / "out")}) {
     const Result result = run_fanbeam(words);
     INFO(result.output);
     CHECK(result.exit_code == 3);
     const std::string file = (folder.path() / "scene.toml").string();
-    CHECK(result.output.find(file + ":3:12: E-RANGE scene.origin.latitude_deg = 95: expected -90 to 90\n") !=
+    CHECK(result.output.find(
+              file + ":3:12: E-RANGE scene.origin.latitude_deg = 95: expected -90 to 90\n") !=
           std::string::npos);
-    CHECK(result.output.find(file + ":1:1: E-REF scene.vertical_datum = missing: expected what heights count from") !=
+    CHECK(result.output.find(
+              file +
+              ":1:1: E-REF scene.vertical_datum = missing: expected what heights count from") !=
           std::string::npos);
-    CHECK(result.output.find(file + ":4:1: E-REF trajectory.fixed.above_ground_m = missing: expected -1000 to 20000\n") !=
+    CHECK(result.output.find(
+              file +
+              ":4:1: E-REF trajectory.fixed.above_ground_m = missing: expected -1000 to 20000\n") !=
           std::string::npos);
-    CHECK(result.output.find(file + ":6:1: E-REF trajectory.fixed.above_ground = unknown key") != std::string::npos);
+    CHECK(result.output.find(file + ":6:1: E-REF trajectory.fixed.above_ground = unknown key") !=
+          std::string::npos);
     CHECK(result.output.find("4 errors\n") != std::string::npos);
     CHECK((contents(folder.path()) == before));
     CHECK(fs::last_write_time(folder.path() / "out") == time_before);
   }
 }
 
-TEST_CASE("Exit code 3 for a scene without its data, which it names; a new output folder is not made", "[cli]") {
+TEST_CASE(
+    "Exit code 3 for a scene without its data, which it names; a new output folder is not made",
+    "[cli]") {
   const TemporaryFolder folder;
   folder.write("scene.toml",
-               "[scene]\nname = \"t\"\norigin = { latitude_deg = 52.0, longitude_deg = 10.0 }\nvertical_datum = \"scene\"\n"
+               "[scene]\nname = \"t\"\norigin = { latitude_deg = 52.0, longitude_deg = 10.0 "
+               "}\nvertical_datum = \"scene\"\n"
                "[terrain]\nelevation = \"no-such-data/dem.tif\"\n[trajectory.fixed]\n"
                "at = { latitude_deg = 52.0, longitude_deg = 10.0 }\nabove_ground_m = 60.0\n");
-  const Result result = run_fanbeam("render " + quoted(folder.path()) + " --data /from/option -o " + quoted(folder.path() / "out"),
+  const Result result = run_fanbeam("render " + quoted(folder.path()) + " --data /from/option -o " +
+                                        quoted(folder.path() / "out"),
                                     "FANBEAM_DATA=/from/environment");
   CHECK(result.exit_code == 3);
-  CHECK(result.output.find("/scene.toml:6:1: E-IO terrain.elevation = \"no-such-data/dem.tif\" not found") != std::string::npos);
-  CHECK(result.output.find(folder.path().string() + ", /from/option, /from/environment") != std::string::npos);
+  CHECK(result.output.find(
+            "/scene.toml:6:1: E-IO terrain.elevation = \"no-such-data/dem.tif\" not found") !=
+        std::string::npos);
+  CHECK(result.output.find(folder.path().string() + ", /from/option, /from/environment") !=
+        std::string::npos);
   CHECK(result.output.find("--data DIR or FANBEAM_DATA") != std::string::npos);
   CHECK_FALSE(fs::exists(folder.path() / "out"));
 }
@@ -92,8 +110,8 @@ TEST_CASE("Exit code 4: what the system refuses", "[cli]") {
   folder.write("file", "");
   const std::string long_name(5000, 'a');
   for (const std::string& words :
-       {std::string("validate no-such-scene"), "validate " + long_name, "validate " + quoted(folder.path()),
-        std::string("render flat-grass --sensor missing.toml"),
+       {std::string("validate no-such-scene"), "validate " + long_name,
+        "validate " + quoted(folder.path()), std::string("render flat-grass --sensor missing.toml"),
         "render flat-grass -q -o " + quoted(folder.path() / "file"),
         "render flat-grass -q -o " + quoted(folder.path() / "file/deeper"),
         std::string("compare missing.png missing.png")}) {
@@ -103,7 +121,8 @@ TEST_CASE("Exit code 4: what the system refuses", "[cli]") {
     CHECK(result.exit_code == 4);
     CHECK(result.output.find("E-IO") != std::string::npos);
   }
-  CHECK(run_fanbeam("validate no-such-scene").output.find("braunschweig-26 flat-grass") != std::string::npos);
+  CHECK(run_fanbeam("validate no-such-scene").output.find("braunschweig-26 flat-grass") !=
+        std::string::npos);
   CHECK(fs::file_size(folder.path() / "file") == 0);
 }
 
@@ -115,30 +134,35 @@ TEST_CASE("validate describes a good scene, and is quiet when asked", "[cli]") {
   CHECK(run_fanbeam("validate flat-grass -q").output.empty());
   // By folder, by file, by name, from elsewhere.
   const fs::path folder = FANBEAM_SOURCE_DIR "/scenes/flat-grass";
-  for (const std::string& scene : {quoted(folder), quoted(folder / "scene.toml"), std::string("scenes/flat-grass"),
-                                   std::string("flat-grass")})
+  for (const std::string& scene : {quoted(folder), quoted(folder / "scene.toml"),
+                                   std::string("scenes/flat-grass"), std::string("flat-grass")})
     CHECK(run_fanbeam("validate -q " + scene, "cd / &&").exit_code == 0);
 }
 
 TEST_CASE("A folder that only bears a shipped scene's name does not hide it", "[cli]") {
   const TemporaryFolder folder;
   fs::create_directories(folder.path() / "flat-grass/bscope");
-  CHECK(run_fanbeam("validate flat-grass -q", "cd " + quoted(folder.path()) + " &&").exit_code == 0);
+  CHECK(run_fanbeam("validate flat-grass -q", "cd " + quoted(folder.path()) + " &&").exit_code ==
+        0);
 }
 
 TEST_CASE("compare: exit code 0 when equal, 1 when not, 3 for what is no picture", "[cli]") {
   const TemporaryFolder folder;
   const std::string a = quoted(folder.path() / "a");
   const std::string b = quoted(folder.path() / "b");
-  REQUIRE(run_fanbeam("render flat-grass -q --products bscope,cscope,power -o " + a).exit_code == 0);
+  REQUIRE(run_fanbeam("render flat-grass -q --products bscope,cscope,power -o " + a).exit_code ==
+          0);
   fs::copy(folder.path() / "a", folder.path() / "b", fs::copy_options::recursive);
   CHECK(run_fanbeam("compare --exact " + a + " " + b).exit_code == 0);
-  CHECK(run_fanbeam("compare " + a + "/bscope/00000.png " + b + "/bscope/00000.png").exit_code == 0);
+  CHECK(run_fanbeam("compare " + a + "/bscope/00000.png " + b + "/bscope/00000.png").exit_code ==
+        0);
 
-  const Result different = run_fanbeam("compare " + a + "/bscope/00000.png " + a + "/cscope/00000.png");
+  const Result different =
+      run_fanbeam("compare " + a + "/bscope/00000.png " + a + "/cscope/00000.png");
   CHECK(different.exit_code == 1);
   CHECK(different.output.rfind("DIFFER", 0) == 0);
-  CHECK(run_fanbeam("compare --rms 255 " + a + "/bscope/00000.png " + a + "/cscope/00000.png").exit_code == 0);
+  CHECK(run_fanbeam("compare --rms 255 " + a + "/bscope/00000.png " + a + "/cscope/00000.png")
+            .exit_code == 0);
 
   fs::remove(folder.path() / "b/cscope/00000.png");
   const Result missing = run_fanbeam("compare " + a + " " + b);

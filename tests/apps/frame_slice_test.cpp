@@ -53,7 +53,8 @@ TEST_CASE("Slices that select nothing, or are none, are refused", "[frames]") {
   CHECK(code_of("10:", 10) == "E-RANGE");
   CHECK(code_of("::0", 10) == "E-RANGE");
   CHECK(code_of("::-1", 10) == "E-RANGE");
-  for (const char* text : {"a", "1:b", "1,2", "1.5", "1:2:3:4", " 1", "1 ", "0x1", "99999999999999999999"})
+  for (const char* text :
+       {"a", "1:b", "1,2", "1.5", "1:2:3:4", " 1", "1 ", "0x1", "99999999999999999999"})
     CHECK(code_of(text, 10) == "E-PARSE");
 }
 

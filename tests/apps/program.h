@@ -24,7 +24,8 @@ struct Result {
 
 // `words` go to the shell as they are.
 inline Result run_fanbeam(const std::string& words, const std::string& before = "") {
-  const std::string command = before + " '" FANBEAM_BINARY_DIR "/bin/fanbeam' " + words + " 2>&1 </dev/null";
+  const std::string command =
+      before + " '" FANBEAM_BINARY_DIR "/bin/fanbeam' " + words + " 2>&1 </dev/null";
   Result result;
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);
@@ -47,13 +48,16 @@ inline std::string bytes_of(const std::filesystem::path& path) {
   return bytes.str();
 }
 
-inline nlohmann::json json_of(const std::filesystem::path& path) { return nlohmann::json::parse(bytes_of(path)); }
+inline nlohmann::json json_of(const std::filesystem::path& path) {
+  return nlohmann::json::parse(bytes_of(path));
+}
 
 // Every file below a folder with its bytes; folders with none.
 inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    files[entry.path().lexically_relative(folder).string()] = entry.is_regular_file() ? bytes_of(entry.path()) : "";
+    files[entry.path().lexically_relative(folder).string()] =
+        entry.is_regular_file() ? bytes_of(entry.path()) : "";
   return files;
 }
 

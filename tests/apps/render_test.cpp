@@ -1,4 +1,5 @@
-// What render leaves on disk: documented records, the same bytes however it is run, and frames taken up again.
+// What render leaves on disk: documented records, the same bytes however it is run, and frames
+// taken up again.
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -37,16 +38,18 @@ void check_has(const nlohmann::json& json, const std::vector<std::string>& keys)
 
 }  // namespace
 
-TEST_CASE("The output folder holds the pictures by frame number, run.json and timing.json", "[render]") {
+TEST_CASE("The output folder holds the pictures by frame number, run.json and timing.json",
+          "[render]") {
   const TemporaryFolder folder;
   render("obstacle-field", folder.path() / "out", kFrames + "--products bscope,cscope,power,ppi");
   std::vector<std::string> files;
   for (const auto& [name, bytes] : contents(folder.path() / "out"))
     if (!bytes.empty()) files.push_back(name);
-  CHECK(files == std::vector<std::string>{"bscope/00100.png", "bscope/00120.png", "bscope/00140.png", "cscope/00100.png",
-                                          "cscope/00120.png", "cscope/00140.png", "power/00100.exr", "power/00120.exr",
-                                          "power/00140.exr", "ppi/00100.png", "ppi/00120.png", "ppi/00140.png",
-                                          "run.json", "timing.json"});
+  CHECK(files == std::vector<std::string>{
+                     "bscope/00100.png", "bscope/00120.png", "bscope/00140.png", "cscope/00100.png",
+                     "cscope/00120.png", "cscope/00140.png", "power/00100.exr", "power/00120.exr",
+                     "power/00140.exr", "ppi/00100.png", "ppi/00120.png", "ppi/00140.png",
+                     "run.json", "timing.json"});
   for (const char* product : {"bscope", "cscope"}) {
     const core::Image picture = core::read_image(folder.path() / "out" / product / "00120.png");
     CHECK(picture.columns == 164);
@@ -58,14 +61,17 @@ TEST_CASE("The output folder holds the pictures by frame number, run.json and ti
   CHECK(power.layers[0].name == "power_W");
   // The farthest range is on top: the bottom rows lie below the beam.
   CHECK(power.layers[0].values[82] > 0.0);
-  CHECK(std::all_of(power.layers[0].values.begin(), power.layers[0].values.end(), [](double w) { return w >= 0.0 && w < 1.0; }));
+  CHECK(std::all_of(power.layers[0].values.begin(), power.layers[0].values.end(),
+                    [](double w) { return w >= 0.0 && w < 1.0; }));
 }
 
-TEST_CASE("run.json and timing.json have their documented keys, pictures the essentials", "[render]") {
+TEST_CASE("run.json and timing.json have their documented keys, pictures the essentials",
+          "[render]") {
   const TemporaryFolder folder;
   render("obstacle-field", folder.path(), kFrames + "--seed 7 --threads 2");
   const nlohmann::json run = json_of(folder.path() / "run.json");
-  check_has(run, {"version", "commit", "scene", "sensor", "seed", "caster", "input", "plan", "frames"});
+  check_has(run,
+            {"version", "commit", "scene", "sensor", "seed", "caster", "input", "plan", "frames"});
   CHECK(run["scene"] == "obstacle-field");
   CHECK(run["sensor"] == "HiVision");
   CHECK(run["seed"] == 7);
@@ -83,28 +89,33 @@ TEST_CASE("run.json and timing.json have their documented keys, pictures the ess
     const nlohmann::json& frame = run["frames"][i];
     check_has(frame, {"index", "time_s", "pose", "rays", "events"});
     CHECK(frame["index"] == 100 + 20 * i);
-    CHECK(frame["time_s"].get<double>() == (100.5 + 20.0 * static_cast<double>(i)) / 16.0);  // the middle of the frame
-    check_has(frame["pose"], {"latitude_deg", "longitude_deg", "height_m", "roll_deg", "pitch_deg", "heading_deg"});
+    CHECK(frame["time_s"].get<double>() ==
+          (100.5 + 20.0 * static_cast<double>(i)) / 16.0);  // the middle of the frame
+    check_has(frame["pose"], {"latitude_deg", "longitude_deg", "height_m", "roll_deg", "pitch_deg",
+                              "heading_deg"});
     CHECK(frame["rays"] > 10000);
   }
 
   const nlohmann::json timing = json_of(folder.path() / "timing.json");
   check_has(timing, {"threads", "isa", "machine", "frames", "summary"});
   CHECK(timing["threads"] == 2);
-  check_has(timing["summary"], {"frame_ms_median", "frames_per_s", "rays_per_s", "scene_build_s", "peak_memory_bytes"});
+  check_has(timing["summary"], {"frame_ms_median", "frames_per_s", "rays_per_s", "scene_build_s",
+                                "peak_memory_bytes"});
   CHECK(timing["frames"].size() == 3);
   CHECK(timing["frames"][0]["index"] == 100);
   CHECK(timing["frames"][0]["frame_ms"] > 0.0);
 
   const core::Metadata notes = core::read_metadata(folder.path() / "cscope/00140.png");
-  for (const auto& [name, value] : std::vector<std::pair<std::string, std::string>>{{"fanbeam:scene", "obstacle-field"},
-                                                                                   {"fanbeam:sensor", "HiVision"},
-                                                                                   {"fanbeam:frame", "140"},
-                                                                                   {"fanbeam:time_s", "8.78125"}})
+  for (const auto& [name, value] :
+       std::vector<std::pair<std::string, std::string>>{{"fanbeam:scene", "obstacle-field"},
+                                                        {"fanbeam:sensor", "HiVision"},
+                                                        {"fanbeam:frame", "140"},
+                                                        {"fanbeam:time_s", "8.78125"}})
     CHECK(std::count(notes.begin(), notes.end(), std::pair{name, value}) == 1);
 }
 
-TEST_CASE("Two runs and any number of threads give the same bytes in everything but timing.json", "[render]") {
+TEST_CASE("Two runs and any number of threads give the same bytes in everything but timing.json",
+          "[render]") {
   const TemporaryFolder folder;
   for (const auto& [scene, words] : std::vector<std::pair<std::string, std::string>>{
            {"flat-grass", " -q --products bscope,cscope,power "},
@@ -126,16 +137,19 @@ TEST_CASE("A frame does not depend on which frames were rendered before it", "[r
   const TemporaryFolder folder;
   render("obstacle-field", folder.path() / "together", kFrames);
   for (const char* frame : {"140", "100", "120"}) {
-    render("obstacle-field", folder.path() / frame, std::string("--rays-per-cell 1 -q --frames ") + frame);
+    render("obstacle-field", folder.path() / frame,
+           std::string("--rays-per-cell 1 -q --frames ") + frame);
     for (const std::string product : {"bscope", "cscope"}) {
       const std::string name = product + "/00" + frame + ".png";
       INFO(name);
-      CHECK((bytes_of(folder.path() / frame / name) == bytes_of(folder.path() / "together" / name)));
+      CHECK(
+          (bytes_of(folder.path() / frame / name) == bytes_of(folder.path() / "together" / name)));
     }
   }
 }
 
-TEST_CASE("F18 the same bytes from another working directory, time zone, locale and folder name", "[render]") {
+TEST_CASE("F18 the same bytes from another working directory, time zone, locale and folder name",
+          "[render]") {
   const TemporaryFolder folder;
   render("flat-grass", folder.path() / "plain", "-q");
   const fs::path odd = folder.path() / "Bilder für Zoë – 東";
@@ -145,7 +159,10 @@ TEST_CASE("F18 the same bytes from another working directory, time zone, locale 
   CHECK((results(odd) == results(folder.path() / "plain")));
 }
 
-TEST_CASE("--resume keeps finished frames and renders those that are missing, damaged or of another input", "[render]") {
+TEST_CASE(
+    "--resume keeps finished frames and renders those that are missing, damaged or of another "
+    "input",
+    "[render]") {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
   render("obstacle-field", out, kFrames);
@@ -176,12 +193,17 @@ TEST_CASE("--resume keeps finished frames and renders those that are missing, da
 TEST_CASE("--resume notices that a file which the scene names has changed", "[render]") {
   const TemporaryFolder folder;
   const std::string head =
-      "[scene]\nname = \"t\"\norigin = { latitude_deg = 52.0, longitude_deg = 10.0 }\nvertical_datum = \"scene\"\n"
+      "[scene]\nname = \"t\"\norigin = { latitude_deg = 52.0, longitude_deg = 10.0 "
+      "}\nvertical_datum = \"scene\"\n"
       "[terrain]\nhalf_extent_m = 1000.0\nspacing_m = 100.0\n";
-  folder.write("scene.toml", head + "[trajectory]\nfile = \"flight.csv\"\nvertical_datum = \"scene\"\n");
-  const std::string rows = "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg\n0,52,10,60,0,0,0\n";
+  folder.write("scene.toml",
+               head + "[trajectory]\nfile = \"flight.csv\"\nvertical_datum = \"scene\"\n");
+  const std::string rows =
+      "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg\n0,52,10,60,0,0,"
+      "0\n";
   folder.write("flight.csv", rows);
-  const std::string words = "render " + quoted(folder.path()) + " --rays-per-cell 1 --resume -o " + quoted(folder.path() / "out");
+  const std::string words = "render " + quoted(folder.path()) + " --rays-per-cell 1 --resume -o " +
+                            quoted(folder.path() / "out");
   REQUIRE(run_fanbeam(words).exit_code == 0);
   CHECK(run_fanbeam(words).output.find("(1 already there)") != std::string::npos);
   folder.write("flight.csv", rows + "# checked\n");
@@ -195,15 +217,20 @@ TEST_CASE("A preview is a video of all frames", "[render]") {
   }
   const TemporaryFolder folder;
   for (const std::string format : {"mp4", "gif"}) {
-    render("obstacle-field", folder.path() / format, kFrames + "--products preview --preview-format " + format);
+    render("obstacle-field", folder.path() / format,
+           kFrames + "--products preview --preview-format " + format);
     CHECK(fs::file_size(folder.path() / format / ("preview." + format)) > 1000);
-    CHECK(contents(folder.path() / format).size() == 3);  // with run.json and timing.json: no leftovers
+    CHECK(contents(folder.path() / format).size() ==
+          3);  // with run.json and timing.json: no leftovers
   }
 }
 
-TEST_CASE("Without ffmpeg a preview is refused with exit code 4 and the package's name", "[render]") {
+TEST_CASE("Without ffmpeg a preview is refused with exit code 4 and the package's name",
+          "[render]") {
   const TemporaryFolder folder;
-  const Result result = run_fanbeam("render flat-grass -q --products preview -o " + quoted(folder.path() / "out"), "PATH=/nowhere");
+  const Result result =
+      run_fanbeam("render flat-grass -q --products preview -o " + quoted(folder.path() / "out"),
+                  "PATH=/nowhere");
   CHECK(result.exit_code == 4);
   CHECK(result.output.find("Debian package ffmpeg") != std::string::npos);
   CHECK_FALSE(fs::exists(folder.path() / "out/run.json"));

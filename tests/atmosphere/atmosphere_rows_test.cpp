@@ -25,15 +25,14 @@ GasAttenuation gas(const OracleRow& row) {
 }
 
 double rain(const OracleRow& row, RainLaw law) {
-  return rain_attenuation_dB_per_km(law, row.number("rain_mm_h"),
-                                    row.number("frequency_GHz") * 1e9, 0.0,
-                                    tilt_rad(row.text("polarisation")));
+  return rain_attenuation_dB_per_km(law, row.number("rain_mm_h"), row.number("frequency_GHz") * 1e9,
+                                    0.0, tilt_rad(row.text("polarisation")));
 }
 
 double fog(const OracleRow& row, FogLaw law) {
   const double temperature_C = row.has("temperature_C") ? row.number("temperature_C") : 10.0;
-  return fog_attenuation_dB_per_km(law, row.number("liquid_gm3"),
-                                   row.number("frequency_GHz") * 1e9, temperature_C);
+  return fog_attenuation_dB_per_km(law, row.number("liquid_gm3"), row.number("frequency_GHz") * 1e9,
+                                   temperature_C);
 }
 
 double computed(const OracleRow& row) {

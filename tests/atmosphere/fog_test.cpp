@@ -37,8 +37,8 @@ TEST_CASE("Altshuler's law is positive wherever it is accepted", "[fog]") {
       const double altshuler = fog_coefficient(FogLaw::altshuler, f_Hz, temperature_C);
       REQUIRE(altshuler > 0.27);
       if (wavelength_m < 0.0086)
-        REQUIRE(altshuler == Approx(fog_coefficient(FogLaw::itu_p840, f_Hz, temperature_C))
-                                 .epsilon(0.19));
+        REQUIRE(altshuler ==
+                Approx(fog_coefficient(FogLaw::itu_p840, f_Hz, temperature_C)).epsilon(0.19));
     }
   }
 }
@@ -83,9 +83,7 @@ TEST_CASE("Water content from visibility follows each named model", "[fog][fog_w
   };
   const std::array<Published, 4> published = {{
       {FogWaterModel::kunkel, {0.497, 0.226, 0.065, 0.0165}, {5e-4, 5e-4, 5e-4, 5e-5}},
-      {FogWaterModel::eldridge_altshuler,
-       {0.323, 0.111, 0.0205, 0.0032},
-       {5e-4, 5e-4, 5e-5, 5e-5}},
+      {FogWaterModel::eldridge_altshuler, {0.323, 0.111, 0.0205, 0.0032}, {5e-4, 5e-4, 5e-5, 5e-5}},
       {FogWaterModel::zhao_radiation, {0.319, 0.110, 0.0202, 0.0032}, {5e-4, 5e-4, 5e-5, 5e-5}},
       {FogWaterModel::zhao_advection, {1.131, 0.420, 0.087, 0.0156}, {5e-4, 5e-4, 5e-4, 5e-5}},
   }};

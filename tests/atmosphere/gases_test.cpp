@@ -14,9 +14,8 @@ TEST_CASE("Gas attenuation meets the ITU's P.676-13 examples to all digits", "[g
   REQUIRE(rows.size() == 120);
   for (const auto& row : rows) {
     INFO(row.text("f_GHz") << " GHz");
-    const GasAttenuation gas =
-        gas_attenuation(row.number("f_GHz") * 1e9, row.number("p_dry_hPa"), row.number("T_K"),
-                        row.number("rho_gm3"));
+    const GasAttenuation gas = gas_attenuation(row.number("f_GHz") * 1e9, row.number("p_dry_hPa"),
+                                               row.number("T_K"), row.number("rho_gm3"));
     // Printed to 15 digits; 79 lines of mixed sign leave about 1e-14.
     CHECK(gas.oxygen_dB_per_km == tests::within(row.number("gamma_oxygen"), 1e-12));
     CHECK(gas.water_dB_per_km == tests::within(row.number("gamma_water"), 1e-12));

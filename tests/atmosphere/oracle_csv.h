@@ -1,13 +1,12 @@
 // Reads the committed reference tables of tests/data: '#' comments, one header line, no quoting.
 #pragma once
 
+#include <catch2/catch.hpp>
 #include <filesystem>
 #include <map>
 #include <sstream>
 #include <string>
 #include <vector>
-
-#include <catch2/catch.hpp>
 
 #include "core/files.h"
 #include "core/text.h"

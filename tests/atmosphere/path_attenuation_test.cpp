@@ -46,8 +46,7 @@ TEST_CASE("Gas loss on slant paths agrees with a 4000-step integration", "[path_
     const double to_m = 1e3 * row.number("h2_km");
     const double length_m = 1e3 * row.number("range_km");
     // 1e-3 is asked for; linear cells of 25 m give 2e-5 (largest at 94 GHz).
-    CHECK(path.one_way_dB(from_m, to_m, length_m) ==
-          tests::within(row.number("one_way_dB"), 2e-5));
+    CHECK(path.one_way_dB(from_m, to_m, length_m) == tests::within(row.number("one_way_dB"), 2e-5));
     CHECK(path.two_way_power_factor(from_m, to_m, length_m) ==
           tests::within(std::pow(10.0, -0.1 * row.number("two_way_dB")), 2e-5));
   }
@@ -99,15 +98,13 @@ TEST_CASE("Level paths lose no digits, and nearly level ones do neither", "[path
 TEST_CASE("Air in fog is saturated, whether or not the fog's own loss is simulated",
           "[path_attenuation]") {
   Weather weather = murky();
-  const AirState air =
-      StandardAtmosphere({88.0, 10.0, std::nullopt, std::nullopt}).at(88.0);
+  const AirState air = StandardAtmosphere({88.0, 10.0, std::nullopt, std::nullopt}).at(88.0);
   AirState saturated = air;
   saturated.vapour_density_g_per_m3 =
       saturation_vapour_density_g_per_m3(air.temperature_K, air.pressure_hPa);
-  const double expected =
-      gas_attenuation(35e9, saturated.dry_pressure_hPa(), air.temperature_K,
-                      saturated.vapour_density_g_per_m3)
-          .total_dB_per_km();
+  const double expected = gas_attenuation(35e9, saturated.dry_pressure_hPa(), air.temperature_K,
+                                          saturated.vapour_density_g_per_m3)
+                              .total_dB_per_km();
   for (const bool simulate_fog : {true, false}) {
     weather.simulate_fog = simulate_fog;
     const auto parts = PathAttenuation(weather, 35e9).one_way_attenuation_dB_per_km(0.0);
@@ -144,8 +141,8 @@ TEST_CASE("A03 rain that swallows everything", "[path_attenuation][A03]") {
   CHECK(10.0 * std::log10(factor) == Approx(-435.095).margin(0.01));
   // Far past the end of double: zero, never NaN; the decibels stay usable.
   CHECK(path.two_way_power_factor(60.0, 0.0, 1e6) == 0.0);
-  CHECK(path.one_way_dB(60.0, 0.0, 1e6) == tests::within(100.0 * path.one_way_dB(60.0, 0.0, 1e4),
-                                                         1e-14));
+  CHECK(path.one_way_dB(60.0, 0.0, 1e6) ==
+        tests::within(100.0 * path.one_way_dB(60.0, 0.0, 1e4), 1e-14));
 }
 
 TEST_CASE("A05 cutting the path into pieces changes nothing", "[path_attenuation][A05]") {
@@ -244,6 +241,5 @@ TEST_CASE("Wrong weather is refused, all problems together", "[path_attenuation]
   wrong_law.rain_rate_mm_per_h = 4.0;
   tests::check_rejected([&] { PathAttenuation(wrong_law, 35e9); }, ErrorClass::range,
                         "for the rain law georgia-tech-95");
-  tests::check_rejected([] { PathAttenuation(Weather{}, 0.0); }, ErrorClass::range,
-                        "frequency_Hz");
+  tests::check_rejected([] { PathAttenuation(Weather{}, 0.0); }, ErrorClass::range, "frequency_Hz");
 }

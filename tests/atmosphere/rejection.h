@@ -1,9 +1,8 @@
 // What a refused input must look like.
 #pragma once
 
-#include <string>
-
 #include <catch2/catch.hpp>
+#include <string>
 
 #include "core/errors.h"
 

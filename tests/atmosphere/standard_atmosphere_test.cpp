@@ -39,9 +39,8 @@ TEST_CASE("Total gas loss over height has the published values", "[standard_atmo
                                Column{94e9, {0.404, 0.234, 0.139, 0.085}, 5.1e-4}})
     for (int h_km = 0; h_km <= 3; ++h_km) {
       const AirState air = StandardAtmosphere().at(1000.0 * h_km);
-      const GasAttenuation gas =
-          gas_attenuation(column.frequency_Hz, air.dry_pressure_hPa(), air.temperature_K,
-                          air.vapour_density_g_per_m3);
+      const GasAttenuation gas = gas_attenuation(column.frequency_Hz, air.dry_pressure_hPa(),
+                                                 air.temperature_K, air.vapour_density_g_per_m3);
       CHECK(gas.total_dB_per_km() == Approx(column.at_km[h_km]).margin(column.margin));
     }
 }

@@ -31,15 +31,17 @@ TEST_CASE("Equal images differ by nothing, in any figure", "[image_compare]") {
   CHECK(same.layer == "Y");
   CHECK(same.cells == 6);
   CHECK(same.different == 0);
-  for (const double figure : {same.mean, same.rms, same.percentile_99, same.largest, same.mean_dB, same.rms_dB, same.largest_dB})
+  for (const double figure : {same.mean, same.rms, same.percentile_99, same.largest, same.mean_dB,
+                              same.rms_dB, same.largest_dB})
     CHECK(figure == 0.0);
   CHECK(same.only_one_positive == 0);
 }
 
 TEST_CASE("Mean, RMS, largest difference and its cell", "[image_compare]") {
   // B - A = 0, 3, -1, 0, 0, -4: sum -2, squares 26.
-  const LayerDifference d =
-      compare_images(layer("Y", 3, 2, {10, 10, 10, 10, 10, 10}), layer("Y", 3, 2, {10, 13, 9, 10, 10, 6}), "a", "b").at(0);
+  const LayerDifference d = compare_images(layer("Y", 3, 2, {10, 10, 10, 10, 10, 10}),
+                                           layer("Y", 3, 2, {10, 13, 9, 10, 10, 6}), "a", "b")
+                                .at(0);
   CHECK(d.different == 3);
   CHECK(d.mean == Approx(-2.0 / 6.0));
   CHECK(d.rms == Approx(std::sqrt(26.0 / 6.0)));
@@ -52,16 +54,19 @@ TEST_CASE("The 99th percentile leaves out the largest hundredth", "[image_compar
   std::vector<double> a(1000, 0.0);
   std::vector<double> b(1000);
   for (std::size_t i = 0; i < 1000; ++i) b[i] = static_cast<double>(999 - i);
-  const LayerDifference d = compare_images(layer("Y", 1000, 1, a), layer("Y", 1000, 1, b), "a", "b").at(0);
+  const LayerDifference d =
+      compare_images(layer("Y", 1000, 1, a), layer("Y", 1000, 1, b), "a", "b").at(0);
   CHECK(d.percentile_99 == 989.0);
   CHECK(d.largest == 999.0);
 }
 
-TEST_CASE("Power is compared in dB where both are lit, and counted where only one is", "[image_compare]") {
+TEST_CASE("Power is compared in dB where both are lit, and counted where only one is",
+          "[image_compare]") {
   // +10 dB, -10 dB, +20 dB; one lit in A only, one in B only; both dark.
-  const LayerDifference d = compare_images(layer("power_W", 6, 1, {1e-12, 1e-12, 1e-14, 1e-12, 0, 0}),
-                                           layer("power_W", 6, 1, {1e-11, 1e-13, 1e-12, 0, 1e-12, 0}), "a", "b")
-                                .at(0);
+  const LayerDifference d =
+      compare_images(layer("power_W", 6, 1, {1e-12, 1e-12, 1e-14, 1e-12, 0, 0}),
+                     layer("power_W", 6, 1, {1e-11, 1e-13, 1e-12, 0, 1e-12, 0}), "a", "b")
+          .at(0);
   CHECK(d.both_positive == 3);
   CHECK(d.only_one_positive == 2);
   CHECK(d.mean_dB == Approx(20.0 / 3.0));
@@ -84,6 +89,8 @@ TEST_CASE("Sizes or layers that do not match are E-REF and name both files", "[i
   const Image a = layer("Y", 2, 2, {1, 2, 3, 4});
   CHECK(message_of(a, layer("Y", 4, 1, {1, 2, 3, 4})) ==
         "b.png: E-REF size = 4 x 1, 1 layers: expected 2 x 2, 1 layers as in a.png");
-  CHECK(message_of(a, layer("R", 2, 2, {1, 2, 3, 4})) == "b.png: E-REF layer = missing: expected \"Y\" as in a.png");
-  CHECK(message_of(a, Image{2, 2, {}}) == "b.png: E-REF size = 2 x 2, 0 layers: expected 2 x 2, 1 layers as in a.png");
+  CHECK(message_of(a, layer("R", 2, 2, {1, 2, 3, 4})) ==
+        "b.png: E-REF layer = missing: expected \"Y\" as in a.png");
+  CHECK(message_of(a, Image{2, 2, {}}) ==
+        "b.png: E-REF size = 2 x 2, 0 layers: expected 2 x 2, 1 layers as in a.png");
 }

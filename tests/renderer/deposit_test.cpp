@@ -1,11 +1,11 @@
-#include <catch2/catch.hpp>
+#include "renderer/deposit.h"
 
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <numeric>
 #include <vector>
 
 #include "core/random.h"
-#include "renderer/deposit.h"
 
 using namespace fanbeam;
 
@@ -17,13 +17,16 @@ TEST_CASE("R07 deposited and lost energy add up to the input; no share is negati
   double inside = 0.0;
   for (std::uint64_t i = 0; i < 1'000'000; ++i) {
     const auto words = core::random_words(key, i, 0);
-    const double from = core::uniform_from(words[0]) * 60.0 - 10.0;  // some patches lie outside entirely
+    const double from =
+        core::uniform_from(words[0]) * 60.0 - 10.0;  // some patches lie outside entirely
     const double width = i % 10 == 0 ? 0.0 : core::uniform_from(words[1]) * 10.0;
     const double amount = core::uniform_from(words[2]);
     renderer::deposit(from, from + width, amount, &bins[16], kBins);
     total += amount;
-    const double covered = width > 0.0 ? std::max(0.0, std::min(from + width, double{kBins}) - std::max(from, 0.0)) / width
-                                       : (from >= 0.0 && from < kBins ? 1.0 : 0.0);
+    const double covered =
+        width > 0.0
+            ? std::max(0.0, std::min(from + width, double{kBins}) - std::max(from, 0.0)) / width
+            : (from >= 0.0 && from < kBins ? 1.0 : 0.0);
     inside += amount * covered;
   }
   double deposited = 0.0;

@@ -15,18 +15,22 @@ constexpr double kHeight_m = 60.0;
 
 // Simpson over the cell, 20 intervals: the integrand is smooth on the scale of a cell.
 double closed_form_W(const sensors::Sensor& sensor, const materials::PhongNrcs& nrcs, int cell,
-                     const std::function<double(double)>& sin_grazing, const std::function<double(double)>& depression_rad) {
+                     const std::function<double(double)>& sin_grazing,
+                     const std::function<double(double)>& depression_rad) {
   const auto integrand = [&](double range_m) {
     const double sine = sin_grazing(range_m);
-    const double gain = sensors::two_way_gain(sensor.antenna.elevation,
-                                              -depression_rad(range_m) - sensor.antenna.boresight_elevation_rad);
+    const double gain =
+        sensors::two_way_gain(sensor.antenna.elevation,
+                              -depression_rad(range_m) - sensor.antenna.boresight_elevation_rad);
     return gain * nrcs.sigma0(sine) / (range_m * range_m * range_m * std::sqrt(1.0 - sine * sine));
   };
   const double from_m = sensor.range.minimum_m + sensor.range.cell_m * cell;
   const double step_m = sensor.range.cell_m / 20.0;
   double sum = 0.0;
-  for (int i = 0; i <= 20; ++i) sum += (i == 0 || i == 20 ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * integrand(from_m + step_m * i);
-  return sensor.radar_constant_W_m2() * sensors::two_way_width(sensor.antenna.azimuth) * sum * step_m / 3.0;
+  for (int i = 0; i <= 20; ++i)
+    sum += (i == 0 || i == 20 ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * integrand(from_m + step_m * i);
+  return sensor.radar_constant_W_m2() * sensors::two_way_width(sensor.antenna.azimuth) * sum *
+         step_m / 3.0;
 }
 
 double plane_sine(double range_m) { return kHeight_m / range_m; }
@@ -38,18 +42,20 @@ struct Error {
 };
 
 // Over all cells of the middle columns: the margin of rays covers the beam there.
-Error compare(const renderer::World& world, const renderer::Sampling& sampling, const materials::PhongNrcs& nrcs,
+Error compare(const renderer::World& world, const renderer::Sampling& sampling,
+              const materials::PhongNrcs& nrcs,
               const std::function<double(double)>& sin_grazing = plane_sine,
               const std::function<double(double)>& depression = plane_depression) {
   const sensors::Sensor& sensor = world.sensor;
-  const renderer::Frame frame =
-      renderer::FrameRenderer(world, sampling, {true, false}, false).render(tests::level_pose(kHeight_m));
+  const renderer::Frame frame = renderer::FrameRenderer(world, sampling, {true, false}, false)
+                                    .render(tests::level_pose(kHeight_m));
   Error error;
   int count = 0;
   for (int cell = 0; cell < sensor.range.cells; ++cell) {
     const double expected_W = closed_form_W(sensor, nrcs, cell, sin_grazing, depression);
     for (int column = 0; column < sensor.scan.columns; ++column) {
-      const double power_W = frame.bscope_W[static_cast<std::size_t>(cell * sensor.scan.columns + column)];
+      const double power_W =
+          frame.bscope_W[static_cast<std::size_t>(cell * sensor.scan.columns + column)];
       if (!(power_W > 0.0)) {
         ++error.empty;
         continue;
@@ -85,10 +91,13 @@ terrain::HeightField plane() {
 }  // namespace
 
 TEST_CASE("The sensor's azimuth beam integrates to 0.60215 deg", "[flat]") {
-  CHECK(core::degrees(sensors::two_way_width(tests::hivision().antenna.azimuth)) == Approx(0.60215).epsilon(1e-4));
+  CHECK(core::degrees(sensors::two_way_width(tests::hivision().antenna.azimuth)) ==
+        Approx(0.60215).epsilon(1e-4));
 }
 
-TEST_CASE("R08 flat ground at one ray per cell follows the closed form within 0.5 dB, no cell empty", "[flat]") {
+TEST_CASE(
+    "R08 flat ground at one ray per cell follows the closed form within 0.5 dB, no cell empty",
+    "[flat]") {
   for (const materials::PhongNrcs& nrcs : {kGrass, kConstant, kConstantGamma}) {
     const renderer::World world = tests::world(tests::hivision(12), plane(), {nrcs});
     const Error error = compare(world, one_ray_per_cell(), nrcs);
@@ -119,7 +128,8 @@ TEST_CASE("Curved ground follows psi = h/R - R/2Re", "[flat]") {
   const Error error = compare(
       world, one_ray_per_cell(), kGrass,
       [](double range_m) {
-        return (2.0 * kRadius_m * kHeight_m + kHeight_m * kHeight_m - range_m * range_m) / (2.0 * range_m * kRadius_m);
+        return (2.0 * kRadius_m * kHeight_m + kHeight_m * kHeight_m - range_m * range_m) /
+               (2.0 * range_m * kRadius_m);
       },
       [](double range_m) {
         return std::asin((range_m * range_m + 2.0 * kRadius_m * kHeight_m + kHeight_m * kHeight_m) /
@@ -138,15 +148,19 @@ TEST_CASE("R01 constant sigma0 falls with R^-3 between cells: -9.0309 dB per dou
   sensor.antenna.elevation.cut_rad = core::radians(80.0);
   const renderer::World world = tests::world(sensor, plane(), {kConstant});
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, renderer::sampling_for(16.0), {true, false}, false).render(tests::level_pose(kHeight_m));
-  const auto power_W = [&](int cell) { return frame.bscope_W[static_cast<std::size_t>(cell * sensor.scan.columns + 1)]; };
+      renderer::FrameRenderer(world, renderer::sampling_for(16.0), {true, false}, false)
+          .render(tests::level_pose(kHeight_m));
+  const auto power_W = [&](int cell) {
+    return frame.bscope_W[static_cast<std::size_t>(cell * sensor.scan.columns + 1)];
+  };
   // Cells whose middles lie at R and 2R: k2 = 2 k1 + (minimum + cell / 2) / cell.
   const int near = 120;
   const double range_m = sensor.range.minimum_m + (near + 0.5) * sensor.range.cell_m;
   const double far = (2.0 * range_m - sensor.range.minimum_m) / sensor.range.cell_m - 0.5;
   const int low = static_cast<int>(std::floor(far));
   const double share = far - low;
-  const double far_W = std::exp((1.0 - share) * std::log(power_W(low)) + share * std::log(power_W(low + 1)));
+  const double far_W =
+      std::exp((1.0 - share) * std::log(power_W(low)) + share * std::log(power_W(low + 1)));
   // 1 / cos psi changes by 0.0015 dB between 1 km and 2 km at 60 m.
   CHECK(10.0 * std::log10(far_W / power_W(near)) == Approx(-9.0309).margin(0.05));
 }

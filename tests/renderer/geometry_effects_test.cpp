@@ -18,11 +18,13 @@ terrain::HeightField plane() {
 
 // Middle column's power per cell.
 std::vector<double> middle_column(const renderer::World& world, double rays_per_cell = 64.0) {
-  const renderer::Frame frame = renderer::FrameRenderer(world, renderer::sampling_for(rays_per_cell), {true, false}, false)
-                                    .render(tests::level_pose(kHeight_m));
+  const renderer::Frame frame =
+      renderer::FrameRenderer(world, renderer::sampling_for(rays_per_cell), {true, false}, false)
+          .render(tests::level_pose(kHeight_m));
   std::vector<double> power_W;
   for (int k = 0; k < world.sensor.range.cells; ++k)
-    power_W.push_back(frame.bscope_W[static_cast<std::size_t>(k * world.sensor.scan.columns + world.sensor.scan.columns / 2)]);
+    power_W.push_back(frame.bscope_W[static_cast<std::size_t>(k * world.sensor.scan.columns +
+                                                              world.sensor.scan.columns / 2)]);
   return power_W;
 }
 
@@ -32,10 +34,12 @@ int cell_of(const sensors::Sensor& sensor, double range_m) {
 
 }  // namespace
 
-TEST_CASE("The radar shadow of a wall ends where the line over its top meets the ground", "[geometry]") {
+TEST_CASE("The radar shadow of a wall ends where the line over its top meets the ground",
+          "[geometry]") {
   constexpr double kWall_m = 1000.0, kTop_m = 20.0;
-  const renderer::World world = tests::world(tests::hivision(12), plane(), {kGrass, kWall},
-                                             {tests::box({-300.0, kWall_m, -1.0}, {300.0, kWall_m + 1.0, kTop_m}, 1)});
+  const renderer::World world =
+      tests::world(tests::hivision(12), plane(), {kGrass, kWall},
+                   {tests::box({-300.0, kWall_m, -1.0}, {300.0, kWall_m + 1.0, kTop_m}, 1)});
   const renderer::World open = tests::world(tests::hivision(12), plane(), {kGrass});
   const std::vector<double> with = middle_column(world);
   const std::vector<double> without = middle_column(open);
@@ -45,9 +49,13 @@ TEST_CASE("The radar shadow of a wall ends where the line over its top meets the
   const int end = cell_of(world.sensor, end_m);
   for (int k = wall + 3; k < end - 1; ++k) REQUIRE(with[static_cast<std::size_t>(k)] == 0.0);
   for (int k = end + 2; k < world.sensor.range.cells; ++k)
-    REQUIRE(10.0 * std::log10(with[static_cast<std::size_t>(k)] / without[static_cast<std::size_t>(k)]) == Approx(0.0).margin(0.3));
+    REQUIRE(10.0 * std::log10(with[static_cast<std::size_t>(k)] /
+                              without[static_cast<std::size_t>(k)]) ==
+            Approx(0.0).margin(0.3));
   for (int k = 0; k < wall - 1; ++k)
-    REQUIRE(10.0 * std::log10(with[static_cast<std::size_t>(k)] / without[static_cast<std::size_t>(k)]) == Approx(0.0).margin(0.3));
+    REQUIRE(10.0 * std::log10(with[static_cast<std::size_t>(k)] /
+                              without[static_cast<std::size_t>(k)]) ==
+            Approx(0.0).margin(0.3));
   // The wall itself, a face across the beam, is far brighter than grass at 3.4 deg.
   CHECK(with[static_cast<std::size_t>(wall)] > 30.0 * without[static_cast<std::size_t>(wall)]);
 }
@@ -58,8 +66,8 @@ TEST_CASE("A tower lies over: its top is nearer than its foot", "[geometry]") {
   sensors::Sensor sensor = tests::hivision(12);
   sensor.range.cell_m = 1.0;
   sensor.range.cells = 400;
-  const renderer::World world = tests::world(sensor, plane(), {kGrass, kWall},
-                                             {tests::box({-30.0, 400.0, 0.0}, {30.0, 401.0, 40.0}, 1)});
+  const renderer::World world = tests::world(
+      sensor, plane(), {kGrass, kWall}, {tests::box({-30.0, 400.0, 0.0}, {30.0, 401.0, 40.0}, 1)});
   const renderer::World open = tests::world(sensor, plane(), {kGrass});
   const std::vector<double> with = middle_column(world, 200.0);
   const std::vector<double> without = middle_column(open, 200.0);
@@ -75,21 +83,26 @@ TEST_CASE("A rolled, pitched and unstabilised antenna sees the same ground", "[g
   // Total power from level ground in a wide window hardly depends on roll; range cells of the middle column do not move.
   sensors::Sensor sensor = tests::hivision(24);
   sensor.scan.stabilised = false;
-  for (const sensors::ScanSurface surface : {sensors::ScanSurface::plane, sensors::ScanSurface::cone}) {
+  for (const sensors::ScanSurface surface :
+       {sensors::ScanSurface::plane, sensors::ScanSurface::cone}) {
     sensor.scan.surface = surface;
     const renderer::World world = tests::world(sensor, plane(), {kGrass});
     renderer::FramePose pose = tests::level_pose(kHeight_m);
     pose.q_NB = core::quaternion_from({core::radians(10.0), core::radians(-5.0), 0.0});
-    const renderer::Frame coarse = renderer::FrameRenderer(world, renderer::sampling_for(16.0), {true, false}, false).render(pose);
+    const renderer::Frame coarse =
+        renderer::FrameRenderer(world, renderer::sampling_for(16.0), {true, false}, false)
+            .render(pose);
     renderer::Sampling fine = renderer::sampling_for(400.0);
     fine.largest_step_rad = 2e-4;
-    const renderer::Frame dense = renderer::FrameRenderer(world, fine, {true, false}, false).render(pose);
+    const renderer::Frame dense =
+        renderer::FrameRenderer(world, fine, {true, false}, false).render(pose);
     double worst_dB = 0.0;
     for (std::size_t i = 0; i < coarse.bscope_W.size(); ++i) {
       // Below the noise lie the cells that the pattern's cut runs through: nothing of them shows.
       if (dense.bscope_W[i] < sensor.noise_power_W()) continue;
       REQUIRE(coarse.bscope_W[i] > 0.0);
-      worst_dB = std::max(worst_dB, std::abs(10.0 * std::log10(coarse.bscope_W[i] / dense.bscope_W[i])));
+      worst_dB =
+          std::max(worst_dB, std::abs(10.0 * std::log10(coarse.bscope_W[i] / dense.bscope_W[i])));
     }
     CHECK(worst_dB < 0.5);
   }
@@ -98,14 +111,18 @@ TEST_CASE("A rolled, pitched and unstabilised antenna sees the same ground", "[g
 TEST_CASE("The C-scope leaves no empty row inside lit ground", "[geometry]") {
   const renderer::World world = tests::world(tests::hivision(8), plane(), {kGrass});
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, renderer::sampling_for(2.0), {}, false).render(tests::level_pose(kHeight_m));
+      renderer::FrameRenderer(world, renderer::sampling_for(2.0), {}, false)
+          .render(tests::level_pose(kHeight_m));
   const sensors::Display& display = world.sensor.display;
   // Ground between the last and the first range cell: depression asin(h / R).
   for (int row = 0; row < display.cscope_rows; ++row) {
-    const double elevation_rad = display.cscope_top_rad - (row + 0.5) * display.cscope_span_rad / display.cscope_rows;
-    const bool ground = elevation_rad < -std::asin(kHeight_m / world.sensor.range.maximum_m()) - 5e-4;
+    const double elevation_rad =
+        display.cscope_top_rad - (row + 0.5) * display.cscope_span_rad / display.cscope_rows;
+    const bool ground =
+        elevation_rad < -std::asin(kHeight_m / world.sensor.range.maximum_m()) - 5e-4;
     for (int column = 0; column < world.sensor.scan.columns; ++column) {
-      const double value = frame.cscope_W_m3[static_cast<std::size_t>(row * world.sensor.scan.columns + column)];
+      const double value =
+          frame.cscope_W_m3[static_cast<std::size_t>(row * world.sensor.scan.columns + column)];
       if (ground) REQUIRE(value > 0.0);
       if (elevation_rad > 0.0) REQUIRE(value == 0.0);
     }

@@ -1,6 +1,5 @@
 // A reflector surveyed in latitude, longitude and height appears where an independent calculation says it must.
 #include <catch2/catch.hpp>
-
 #include <cmath>
 
 #include "core/units.h"
@@ -33,45 +32,52 @@ Expected seen_from(const core::Geodetic& sensor, double heading_rad, const core:
   const double north = -sp * cl * d.x - sp * sl * d.y + cp * d.z;
   const double up = cp * cl * d.x + cp * sl * d.y + sp * d.z;
   const double range_m = std::sqrt(east * east + north * north + up * up);
-  return {range_m, std::remainder(std::atan2(east, north) - heading_rad, 2.0 * core::kPi), std::asin(up / range_m)};
+  return {range_m, std::remainder(std::atan2(east, north) - heading_rad, 2.0 * core::kPi),
+          std::asin(up / range_m)};
 }
 
 }  // namespace
 
-TEST_CASE("A trihedral at a known position has the right row, column and watts from ten poses", "[target]") {
+TEST_CASE("A trihedral at a known position has the right row, column and watts from ten poses",
+          "[target]") {
   const terrain::LocalFrame frame({core::radians(47.26), core::radians(11.35), 600.0});
   const core::Geodetic reflector{core::radians(47.2612), core::radians(11.3301), 583.0};
   constexpr double kEdge_m = 0.25;
   renderer::World world = tests::world(tests::hivision(), std::nullopt, {});
   const sensors::Sensor& sensor = world.sensor;
   // A trihedral turned to each pose in the loop has its peak RCS there: 4 pi a^4 / (3 lambda^2).
-  const double peak_m2 = 4.0 * core::kPi * std::pow(kEdge_m, 4) / (3.0 * std::pow(sensor.wavelength_m(), 2));
+  const double peak_m2 =
+      4.0 * core::kPi * std::pow(kEdge_m, 4) / (3.0 * std::pow(sensor.wavelength_m(), 2));
 
   for (int i = 0; i < 10; ++i) {
     const double heading_rad = core::radians(20.0 + 33.0 * i);
-    const core::Geodetic ground =
-        terrain::geodesic_point(reflector, heading_rad + core::kPi + core::radians(-16.0 + 3.7 * i), 350.0 + 320.0 * i);
+    const core::Geodetic ground = terrain::geodesic_point(
+        reflector, heading_rad + core::kPi + core::radians(-16.0 + 3.7 * i), 350.0 + 320.0 * i);
     const core::Geodetic aircraft{ground.latitude_rad, ground.longitude_rad, 640.0 + 25.0 * i};
     const Expected expected = seen_from(aircraft, heading_rad, reflector);
 
     const glm::dvec3 at_m = frame.to_local_m(reflector);
     const glm::dvec3 to_radar = glm::normalize(frame.to_local_m(aircraft) - at_m);
     const glm::dvec3 side = glm::normalize(glm::cross(glm::dvec3(0.0, 0.0, 1.0), to_radar));
-    world.targets = {{"trihedral", materials::TriangularTrihedral{kEdge_m}, {{0.0, at_m}},
+    world.targets = {{"trihedral",
+                      materials::TriangularTrihedral{kEdge_m},
+                      {{0.0, at_m}},
                       glm::dmat3(to_radar, side, glm::cross(to_radar, side))}};
 
     renderer::FramePose pose;
     pose.position_m = frame.to_local_m(aircraft);
     pose.north_east_down = frame.north_east_down_at(aircraft);
     // Roll and pitch must not matter: the scan is stabilised.
-    pose.q_NB = core::quaternion_from({core::radians(2.0 * i - 9.0), core::radians(3.0), heading_rad});
+    pose.q_NB =
+        core::quaternion_from({core::radians(2.0 * i - 9.0), core::radians(3.0), heading_rad});
     const renderer::Frame picture = renderer::FrameRenderer(world, {}, {}, false).render(pose);
 
     double total_W = 0.0, peak_W = 0.0;
     int row = -1, column = -1;
     for (int k = 0; k < sensor.range.cells; ++k) {
       for (int c = 0; c < sensor.scan.columns; ++c) {
-        const double power_W = picture.bscope_W[static_cast<std::size_t>(k * sensor.scan.columns + c)];
+        const double power_W =
+            picture.bscope_W[static_cast<std::size_t>(k * sensor.scan.columns + c)];
         total_W += power_W;
         if (power_W > peak_W) {
           peak_W = power_W;
@@ -82,18 +88,26 @@ TEST_CASE("A trihedral at a known position has the right row, column and watts f
     }
     INFO("pose " << i << " range " << expected.range_m);
     const double width_rad = sensor.scan.column_width_rad();
-    CHECK(row == static_cast<int>((expected.range_m - sensor.range.minimum_m) / sensor.range.cell_m));
-    CHECK(column == static_cast<int>((expected.azimuth_rad + sensor.scan.field_of_view_rad / 2) / width_rad));
-    const double offset_rad = (column + 0.5) * width_rad - sensor.scan.field_of_view_rad / 2 - expected.azimuth_rad;
+    CHECK(row ==
+          static_cast<int>((expected.range_m - sensor.range.minimum_m) / sensor.range.cell_m));
+    CHECK(column ==
+          static_cast<int>((expected.azimuth_rad + sensor.scan.field_of_view_rad / 2) / width_rad));
+    const double offset_rad =
+        (column + 0.5) * width_rad - sensor.scan.field_of_view_rad / 2 - expected.azimuth_rad;
     const double expected_W =
         sensor.radar_constant_W_m2() * peak_m2 *
-        sensors::two_way_gain(sensor.antenna.azimuth, offset_rad * std::cos(expected.elevation_rad)) *
-        sensors::two_way_gain(sensor.antenna.elevation, expected.elevation_rad - sensor.antenna.boresight_elevation_rad) /
+        sensors::two_way_gain(sensor.antenna.azimuth,
+                              offset_rad * std::cos(expected.elevation_rad)) *
+        sensors::two_way_gain(sensor.antenna.elevation,
+                              expected.elevation_rad - sensor.antenna.boresight_elevation_rad) /
         std::pow(expected.range_m, 4);
     CHECK(10.0 * std::log10(peak_W / expected_W) == Approx(0.0).margin(0.05));
     // Summed over columns: phi_eff in columns.
-    const double summed_W = expected_W / sensors::two_way_gain(sensor.antenna.azimuth, offset_rad * std::cos(expected.elevation_rad)) *
-                            sensors::two_way_width(sensor.antenna.azimuth) / width_rad / std::cos(expected.elevation_rad);
+    const double summed_W = expected_W /
+                            sensors::two_way_gain(sensor.antenna.azimuth,
+                                                  offset_rad * std::cos(expected.elevation_rad)) *
+                            sensors::two_way_width(sensor.antenna.azimuth) / width_rad /
+                            std::cos(expected.elevation_rad);
     CHECK(10.0 * std::log10(total_W / summed_W) == Approx(0.0).margin(0.05));
   }
 }
@@ -104,8 +118,12 @@ TEST_CASE("R01 a point target falls with R^-4: -12.0412 dB per doubling", "[targ
   const auto power_W = [&](double range_m) {
     // On the boresight elevation, so that the pattern is the same at both ranges.
     const double e = sensor.antenna.boresight_elevation_rad;
-    world.targets = {{"sphere", materials::ConstantRcs{1.0}, {{0.0, {0.0, range_m * std::cos(e), 100.0 + range_m * std::sin(e)}}}, glm::dmat3(1.0)}};
-    const renderer::Frame frame = renderer::FrameRenderer(world, {}, {true, false}, false).render(tests::level_pose(100.0));
+    world.targets = {{"sphere",
+                      materials::ConstantRcs{1.0},
+                      {{0.0, {0.0, range_m * std::cos(e), 100.0 + range_m * std::sin(e)}}},
+                      glm::dmat3(1.0)}};
+    const renderer::Frame frame =
+        renderer::FrameRenderer(world, {}, {true, false}, false).render(tests::level_pose(100.0));
     double sum = 0.0;
     for (const double value : frame.bscope_W) sum += value;
     return sum;
@@ -114,7 +132,10 @@ TEST_CASE("R01 a point target falls with R^-4: -12.0412 dB per doubling", "[targ
 }
 
 TEST_CASE("A moving target is where its waypoints say", "[target]") {
-  const renderer::PointTarget target{"car", materials::ConstantRcs{1.0}, {{10.0, {0.0, 0.0, 0.0}}, {20.0, {100.0, 50.0, 0.0}}}, glm::dmat3(1.0)};
+  const renderer::PointTarget target{"car",
+                                     materials::ConstantRcs{1.0},
+                                     {{10.0, {0.0, 0.0, 0.0}}, {20.0, {100.0, 50.0, 0.0}}},
+                                     glm::dmat3(1.0)};
   CHECK(target.position_at(0.0).x == 0.0);
   CHECK(target.position_at(15.0).x == Approx(50.0));
   CHECK(target.position_at(15.0).y == Approx(25.0));

@@ -1,8 +1,7 @@
 // The shipped scenes as pictures: what they must show, as numbers, and that they have not changed unnoticed.
-#include <catch2/catch.hpp>
-
 #include <algorithm>
 #include <array>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
 
@@ -20,9 +19,11 @@ using namespace fanbeam;
 
 const std::filesystem::path kSource = FANBEAM_SOURCE_DIR;
 
-std::unique_ptr<scenes::Scene> load(const std::string& name, const std::vector<std::filesystem::path>& data = {}) {
+std::unique_ptr<scenes::Scene> load(const std::string& name,
+                                    const std::vector<std::filesystem::path>& data = {}) {
   core::ProblemList problems;
-  const scenes::SceneDescription description = scenes::read_scene(kSource / "scenes" / name, {kSource, data, {}}, problems);
+  const scenes::SceneDescription description =
+      scenes::read_scene(kSource / "scenes" / name, {kSource, data, {}}, problems);
   return scenes::build_scene(description, {}, problems);
 }
 
@@ -34,11 +35,13 @@ renderer::Frame render(const scenes::Scene& scene, int frame, double rays_per_ce
 // B-scope grey at a place given in landing coordinates, over 3 x 1 cells: the mean for surfaces, the peak for things.
 class Probe {
  public:
-  Probe(const scenes::Scene& scene, int frame, const renderer::Frame& picture, const char* threshold_name)
+  Probe(const scenes::Scene& scene, int frame, const renderer::Frame& picture,
+        const char* threshold_name)
       : scene_(scene), picture_(picture) {
     const renderer::FramePose pose = scene.frame_pose(frame);
-    antenna_ = sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB, scene.world.sensor.mounting,
-                                      scene.world.sensor.scan.stabilised);
+    antenna_ =
+        sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB,
+                               scene.world.sensor.mounting, scene.world.sensor.scan.stabilised);
     for (const scenes::RunwayDescription& runway : scene.description.runways)
       for (const int end : {0, 1})
         if (runway.ends[end].name == threshold_name) {
@@ -60,7 +63,8 @@ class Probe {
 
  private:
   std::array<double, 3> cells_at(double behind_m, double left_m, double above_m) const {
-    const glm::dvec2 at = threshold_m_ + along_ * behind_m + glm::dvec2(-along_.y, along_.x) * left_m;
+    const glm::dvec2 at =
+        threshold_m_ + along_ * behind_m + glm::dvec2(-along_.y, along_.x) * left_m;
     const double ground_m = *scene_.world.surfaces->terrain()->height_at(at.x, at.y);
     const glm::dvec3 path = glm::dvec3(at, ground_m + above_m) - antenna_.position_m;
     const sensors::Sensor& sensor = scene_.world.sensor;
@@ -72,7 +76,8 @@ class Probe {
     std::array<double, 3> cells{};
     for (int k = 0; k < 3; ++k)
       cells[static_cast<std::size_t>(k)] =
-          picture_.bscope_grey[static_cast<std::size_t>((row - 1 + k) * sensor.scan.columns + column)];
+          picture_
+              .bscope_grey[static_cast<std::size_t>((row - 1 + k) * sensor.scan.columns + column)];
     return cells;
   }
 
@@ -83,21 +88,24 @@ class Probe {
 };
 
 // Compares with tests/golden/<name>.exr and .png; FANBEAM_APPROVE=1 writes them instead.
-void check_golden(const std::string& name, const scenes::Scene& scene, const renderer::Frame& frame) {
+void check_golden(const std::string& name, const scenes::Scene& scene,
+                  const renderer::Frame& frame) {
   const sensors::Sensor& sensor = scene.world.sensor;
   core::Image power{sensor.scan.columns, sensor.range.cells, {{"power_W", frame.bscope_W}}};
   const core::Picture8 picture = sensors::bscope_picture(sensor, frame.bscope_grey);
   const std::filesystem::path golden = kSource / "tests" / "golden";
   const std::filesystem::path made = std::filesystem::path(FANBEAM_BINARY_DIR) / "golden";
   const char* approve = std::getenv("FANBEAM_APPROVE");
-  const std::filesystem::path folder = approve != nullptr && std::string(approve) == "1" ? golden : made;
+  const std::filesystem::path folder =
+      approve != nullptr && std::string(approve) == "1" ? golden : made;
   core::write_exr(folder / (name + ".exr"), power, {});
   core::write_png(folder / (name + ".png"), picture, {});
   INFO("expected " << (golden / name).string() << ", got " << (made / name).string()
                    << "; look at both, then approve with FANBEAM_APPROVE=1");
   const auto compare = [&](const std::string& extension) {
-    return core::compare_images(core::read_image(golden / (name + extension)), core::read_image(folder / (name + extension)),
-                                name, name).front();
+    return core::compare_images(core::read_image(golden / (name + extension)),
+                                core::read_image(folder / (name + extension)), name, name)
+        .front();
   };
   // Across instruction sets rays along silhouettes may fall to the other side: the mean must not move, and a few cells
   // in a thousand may differ by more than a grey level's worth.
@@ -112,7 +120,8 @@ void check_golden(const std::string& name, const scenes::Scene& scene, const ren
 
 }  // namespace
 
-TEST_CASE("The Braunschweig approach shows runway, lights, fence, hangars and the truck", "[rendered]") {
+TEST_CASE("The Braunschweig approach shows runway, lights, fence, hangars and the truck",
+          "[rendered]") {
   const std::unique_ptr<scenes::Scene> scene = load("braunschweig-26");
   // About 1000 m before the threshold.
   int frame = 0;
@@ -133,17 +142,18 @@ TEST_CASE("The Braunschweig approach shows runway, lights, fence, hangars and th
   check_golden("braunschweig-26", *scene, render(*scene, frame, 16.0));
 }
 
-TEST_CASE("The obstacle field shows wires, poles, reflector and the shadow of the wall", "[rendered]") {
+TEST_CASE("The obstacle field shows wires, poles, reflector and the shadow of the wall",
+          "[rendered]") {
   const std::unique_ptr<scenes::Scene> scene = load("obstacle-field");
   const int frame = 200;
   const renderer::Frame picture = render(*scene, frame, 64.0);
   const Probe probe(*scene, frame, picture, "36");
   const double grass = probe.grey(100.0, 120.0);
-  CHECK(probe.peak(150.0, 60.0, 1.5) > grass + 60.0);     // trihedral, 27 dBsm
+  CHECK(probe.peak(150.0, 60.0, 1.5) > grass + 60.0);                      // trihedral, 27 dBsm
   CHECK(probe.peak(-900.0, 60.0, 24.0) > probe.grey(-840.0, 60.0) + 5.0);  // wires
-  CHECK(probe.peak(300.0, -90.0, 6.0) > grass + 10.0);    // lamp pole
-  CHECK(probe.grey(530.0, 200.0) < grass - 30.0);         // behind the wall of 8 m
-  CHECK(probe.peak(620.0, -180.0, 8.0) > grass + 60.0);   // hangar front
+  CHECK(probe.peak(300.0, -90.0, 6.0) > grass + 10.0);                     // lamp pole
+  CHECK(probe.grey(530.0, 200.0) < grass - 30.0);                          // behind the wall of 8 m
+  CHECK(probe.peak(620.0, -180.0, 8.0) > grass + 60.0);                    // hangar front
   check_golden("obstacle-field", *scene, render(*scene, frame, 16.0));
 }
 
@@ -152,11 +162,14 @@ TEST_CASE("Flat grass has not changed", "[rendered]") {
   check_golden("flat-grass", *scene, render(*scene, 0, 16.0));
 }
 
-TEST_CASE("Innsbruck: runway darker than the grass beside it, mountains above the horizon", "[rendered]") {
+TEST_CASE("Innsbruck: runway darker than the grass beside it, mountains above the horizon",
+          "[rendered]") {
   const auto data = tests::shared_data("lowi-innsbruck/dem_lowi_wgs84_1arcsec.tif");
   if (!data) return;
-  const std::unique_ptr<scenes::Scene> scene = load("innsbruck-26", {data->parent_path().parent_path()});
-  CHECK(scene->build_s < 60.0);  // 15 s on a free machine; a hanging build is what this guards against
+  const std::unique_ptr<scenes::Scene> scene =
+      load("innsbruck-26", {data->parent_path().parent_path()});
+  CHECK(scene->build_s <
+        60.0);  // 15 s on a free machine; a hanging build is what this guards against
   int frame = 0;
   while (glm::length(glm::dvec2(scene->frame_pose(frame).position_m)) > 1000.0) ++frame;
   const renderer::Frame picture = render(*scene, frame, 32.0);
@@ -164,9 +177,11 @@ TEST_CASE("Innsbruck: runway darker than the grass beside it, mountains above th
   CHECK(probe.grey(500.0, 0.0) < probe.grey(500.0, 60.0) - 15.0);
   const sensors::Sensor& sensor = scene->world.sensor;
   int above_horizon = 0;
-  const int horizon_row = static_cast<int>(sensor.display.cscope_top_rad / sensor.display.cscope_span_rad * sensor.display.cscope_rows);
+  const int horizon_row = static_cast<int>(
+      sensor.display.cscope_top_rad / sensor.display.cscope_span_rad * sensor.display.cscope_rows);
   for (int row = 0; row < horizon_row; ++row)
     for (int column = 0; column < sensor.scan.columns; ++column)
-      if (picture.cscope_W_m3[static_cast<std::size_t>(row * sensor.scan.columns + column)] > 0.0) ++above_horizon;
+      if (picture.cscope_W_m3[static_cast<std::size_t>(row * sensor.scan.columns + column)] > 0.0)
+        ++above_horizon;
   CHECK(above_horizon > 500);
 }

@@ -1,4 +1,5 @@
-// Small scenes of a test's own: written to a folder, read, built, and everything reported about them.
+// Small scenes of a test's own: written to a folder, read, built, and everything reported about
+// them.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +58,8 @@ struct Outcome {
   std::vector<core::Problem> problems;
 };
 
-inline Outcome build(const std::filesystem::path& scene, std::vector<std::filesystem::path> data_folders = {}) {
+inline Outcome build(const std::filesystem::path& scene,
+                     std::vector<std::filesystem::path> data_folders = {}) {
   Outcome outcome;
   core::ProblemList problems;
   const scenes::SceneOptions options{FANBEAM_SOURCE_DIR, std::move(data_folders), {}};
@@ -78,23 +80,29 @@ inline Outcome build_text(const TemporaryFolder& folder, const std::string& text
 }
 
 // The scene of a text that must be free of errors.
-inline std::unique_ptr<scenes::Scene> good_scene(const TemporaryFolder& folder, const std::string& text) {
+inline std::unique_ptr<scenes::Scene> good_scene(const TemporaryFolder& folder,
+                                                 const std::string& text) {
   Outcome outcome = build_text(folder, text);
   for (const core::Problem& problem : outcome.problems) UNSCOPED_INFO(core::to_string(problem));
   REQUIRE(outcome.scene != nullptr);
   return std::move(outcome.scene);
 }
 
-// The printed problems by line, with "@" for the scene's folder and "#" for that of the shipped files.
-inline std::vector<std::string> messages(const TemporaryFolder& folder, std::vector<core::Problem> problems) {
-  std::stable_sort(problems.begin(), problems.end(),
-                   [](const core::Problem& a, const core::Problem& b) { return a.place.line < b.place.line; });
+// The printed problems by line, with "@" for the scene's folder and "#" for that of the shipped
+// files.
+inline std::vector<std::string> messages(const TemporaryFolder& folder,
+                                         std::vector<core::Problem> problems) {
+  std::stable_sort(
+      problems.begin(), problems.end(),
+      [](const core::Problem& a, const core::Problem& b) { return a.place.line < b.place.line; });
   std::vector<std::string> texts;
   for (const core::Problem& problem : problems) {
     std::string text = core::to_string(problem);
-    for (const auto& [path, sign] : {std::pair<std::string, std::string>{folder.path().string(), "@"},
-                                     {std::string(FANBEAM_SOURCE_DIR), "#"}})
-      for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path)) text.replace(at, path.size(), sign);
+    for (const auto& [path, sign] :
+         {std::pair<std::string, std::string>{folder.path().string(), "@"},
+          {std::string(FANBEAM_SOURCE_DIR), "#"}})
+      for (std::size_t at = text.find(path); at != std::string::npos; at = text.find(path))
+        text.replace(at, path.size(), sign);
     texts.push_back(text);
   }
   return texts;

@@ -12,7 +12,8 @@ namespace {
 
 const fs::path kScenes = fs::path(FANBEAM_SOURCE_DIR) / "scenes";
 
-std::unique_ptr<scenes::Scene> built(const std::string& name, const std::vector<fs::path>& data = {}) {
+std::unique_ptr<scenes::Scene> built(const std::string& name,
+                                     const std::vector<fs::path>& data = {}) {
   tests::Outcome outcome = tests::build(kScenes / name, data);
   for (const core::Problem& problem : outcome.problems) UNSCOPED_INFO(core::to_string(problem));
   REQUIRE(outcome.scene != nullptr);
@@ -30,10 +31,12 @@ TEST_CASE("Scenes that bring all they need build without any data", "[shipped_sc
   CHECK(braunschweig->world.targets.size() > 2000);
 }
 
-TEST_CASE("Scenes on real terrain say exactly what is missing without their data", "[shipped_scenes]") {
+TEST_CASE("Scenes on real terrain say exactly what is missing without their data",
+          "[shipped_scenes]") {
   const std::vector<std::pair<std::string, std::vector<std::string>>> scenes = {
       {"innsbruck-26", {"terrain.land_cover.file", "terrain.elevation", "buildings[0].file"}},
-      {"innsbruck-26-airliner", {"terrain.land_cover.file", "terrain.elevation", "buildings[0].file", "trajectory.file"}},
+      {"innsbruck-26-airliner",
+       {"terrain.land_cover.file", "terrain.elevation", "buildings[0].file", "trajectory.file"}},
       {"keflavik-10", {"terrain.elevation", "trajectory.file"}}};
   for (const auto& [name, fields] : scenes) {
     const tests::Outcome outcome = tests::build(kScenes / name);
@@ -55,7 +58,8 @@ TEST_CASE("Innsbruck builds on the shared terrain, both flights over it", "[ship
   CHECK(built("innsbruck-26", {data->parent_path()})->frame_count() > 1000);
   const auto flights = tests::shared_data("trajectories");
   if (!flights) return;
-  const std::unique_ptr<scenes::Scene> airliner = built("innsbruck-26-airliner", {data->parent_path()});
+  const std::unique_ptr<scenes::Scene> airliner =
+      built("innsbruck-26-airliner", {data->parent_path()});
   CHECK(airliner->frame_count() > 800);
   CHECK(airliner->trajectory.attitude_derived);
 }

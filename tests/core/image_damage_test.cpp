@@ -1,0 +1,164 @@
+// Image bombs and damaged pictures (F08).
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/core/image_files.h"
+
+using namespace fanbeam::core;
+using fanbeam::tests::bytes_of;
+using fanbeam::tests::code_of;
+using fanbeam::tests::gradient;
+using fanbeam::tests::kNotes;
+using fanbeam::tests::TemporaryFolder;
+using fanbeam::tests::two_layers;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string big_endian(std::uint32_t value) {
+  std::string bytes;
+  for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift & 0xFFU);
+  return bytes;
+}
+
+// CRC-32 of ISO/IEC 15948:2004, annex D.
+std::uint32_t crc(const std::string& bytes) {
+  std::uint32_t value = 0xFFFFFFFFU;
+  for (const char byte : bytes) {
+    value ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit)
+      value = (value & 1U) != 0 ? value >> 1U ^ 0xEDB88320U : value >> 1U;
+  }
+  return ~value;
+}
+
+std::string chunk(const std::string& type, const std::string& data) {
+  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data +
+         big_endian(crc(type + data));
+}
+
+// RFC 1950 around one stored block of RFC 1951.
+std::string stored(const std::string& data) {
+  std::uint32_t a = 1;
+  std::uint32_t b = 0;
+  for (const char byte : data) {
+    a = (a + static_cast<unsigned char>(byte)) % 65521;
+    b = (b + a) % 65521;
+  }
+  const auto size = static_cast<std::uint16_t>(data.size());
+  std::string bytes = "\x78\x01\x01";
+  for (const unsigned half : {unsigned{size}, ~unsigned{size} & 0xFFFFU})
+    bytes += {static_cast<char>(half & 0xFFU), static_cast<char>(half >> 8U)};
+  return bytes + data + big_endian(b << 16U | a);
+}
+
+// A PNG of our own making; `scanlines` with their filter bytes.
+std::string png(std::uint32_t columns, std::uint32_t rows, int bits, int colour_type, int interlace,
+                const std::string& scanlines, const std::string& palette = "") {
+  std::string bytes = "\x89PNG\r\n\x1a\n";
+  bytes += chunk("IHDR", big_endian(columns) + big_endian(rows) + static_cast<char>(bits) +
+                             static_cast<char>(colour_type) + std::string(2, '\0') +
+                             static_cast<char>(interlace));
+  if (!palette.empty()) bytes += chunk("PLTE", palette);
+  return bytes + chunk("IDAT", stored(scanlines)) + chunk("IEND", "");
+}
+
+}  // namespace
+
+TEST_CASE("F08 image bombs are E-LIMIT or E-PARSE before anything is allocated", "[image_damage]") {
+  const TemporaryFolder scratch;
+  struct Bomb {
+    std::uint32_t columns, rows;
+    const char* code;
+  };
+  rusage before{};
+  getrusage(RUSAGE_SELF, &before);
+  for (const Bomb& bomb :
+       {Bomb{65535, 65535, "E-LIMIT"}, Bomb{0, 0, "E-PARSE"}, Bomb{0, 5, "E-PARSE"},
+        Bomb{1, 2147483647, "E-LIMIT"}, Bomb{2147483647, 2147483647, "E-LIMIT"},
+        Bomb{4294967295U, 1, "E-LIMIT"}}) {
+    INFO(bomb.columns << " x " << bomb.rows);
+    write_file_atomically(scratch.path() / "bomb.png",
+                          png(bomb.columns, bomb.rows, 8, 0, 0, std::string(2000, '\0')));
+    CHECK(code_of([&] { read_image(scratch.path() / "bomb.png"); }) == bomb.code);
+    CHECK(code_of([&] { read_metadata(scratch.path() / "bomb.png"); }) == bomb.code);
+  }
+  write_exr(scratch.path() / "a.exr", two_layers(), {});
+  std::string exr = bytes_of(scratch.path() / "a.exr");
+  const std::size_t window = exr.find("dataWindow");
+  REQUIRE(window != std::string::npos);
+  // Name and type "box2i", each with a zero byte, and the size of the value; then xMin, yMin, xMax,
+  // yMax.
+  const std::size_t x_max = window + 11 + 6 + 4 + 8;
+  exr.replace(x_max, 8, std::string("\xff\xff\0\0\xff\xff\0\0", 8));
+  write_file_atomically(scratch.path() / "bomb.exr", exr);
+  const std::string exr_code = code_of([&] { read_image(scratch.path() / "bomb.exr"); });
+  CHECK((exr_code == "E-LIMIT" || exr_code == "E-PARSE"));
+  rusage after{};
+  getrusage(RUSAGE_SELF, &after);
+  CHECK((after.ru_maxrss - before.ru_maxrss) / 1024 < 64);  // MiB
+}
+
+TEST_CASE("F08 16-bit, palette and interlaced pictures are read right", "[image_damage]") {
+  const TemporaryFolder scratch;
+  write_file_atomically(scratch.path() / "16.png",
+                        png(2, 1, 16, 0, 0, std::string("\0\x12\x34\xff\xff", 5)));
+  CHECK(read_image(scratch.path() / "16.png").layers[0].values ==
+        std::vector<double>{0x1234, 65535});
+
+  write_file_atomically(
+      scratch.path() / "palette.png",
+      png(2, 1, 8, 3, 0, std::string("\0\1\0", 3), std::string("\x0a\x14\x1e\xff\x80\x40", 6)));
+  const Image colours = read_image(scratch.path() / "palette.png");
+  REQUIRE(colours.layers.size() >= 3);
+  CHECK(colours.layers[0].values == std::vector<double>{255, 10});
+  CHECK(colours.layers[1].values == std::vector<double>{128, 20});
+  CHECK(colours.layers[2].values == std::vector<double>{64, 30});
+
+  // Adam7 of 2 x 2: pass 1 holds (0, 0), pass 6 (1, 0), pass 7 the lower row.
+  write_file_atomically(scratch.path() / "interlaced.png",
+                        png(2, 2, 8, 0, 1, std::string("\0\1\0\2\0\3\4", 7)));
+  CHECK(read_image(scratch.path() / "interlaced.png").layers[0].values ==
+        std::vector<double>{1, 2, 3, 4});
+}
+
+TEST_CASE("F08 a file cut short anywhere is E-PARSE, never half a picture", "[image_damage]") {
+  const TemporaryFolder scratch;
+  write_png(scratch.path() / "a.png", gradient(30, 20), kNotes);
+  write_exr(scratch.path() / "a.exr", two_layers(), kNotes);
+  for (const char* name : {"a.png", "a.exr"}) {
+    const std::string bytes = bytes_of(scratch.path() / name);
+    const std::size_t step = std::max<std::size_t>(1, bytes.size() / 40);
+    for (std::size_t size = 0; size < bytes.size(); size += step) {
+      INFO(name << " cut to " << size << " of " << bytes.size());
+      write_file_atomically(scratch.path() / ("cut" + fs::path(name).extension().string()),
+                            bytes.substr(0, size));
+      CHECK(code_of([&] {
+              read_image(scratch.path() / ("cut" + fs::path(name).extension().string()));
+            }) == "E-PARSE");
+    }
+  }
+}
+
+TEST_CASE("F08 a PNG with one byte changed is E-PARSE and tells the byte where it shows",
+          "[image_damage]") {
+  const TemporaryFolder scratch;
+  write_png(scratch.path() / "a.png", gradient(30, 20), kNotes);
+  const std::string bytes = bytes_of(scratch.path() / "a.png");
+  for (std::size_t at = 8; at < bytes.size(); at += 7) {
+    INFO("byte " << at);
+    std::string changed = bytes;
+    changed[at] = static_cast<char>(changed[at] ^ 0x10);
+    write_file_atomically(scratch.path() / "b.png", changed);
+    try {
+      read_image(scratch.path() / "b.png");
+      FAIL("accepted");
+    } catch (const InputError& error) {
+      CHECK(error.problems()[0].code == "E-PARSE");
+      CHECK(error.problems()[0].place.byte_offset >= 8);
+    }
+  }
+}

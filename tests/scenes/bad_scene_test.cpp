@@ -1,0 +1,205 @@
+// What shows only when a scene is put together: rasters, runways, objects and flights that do not
+// fit.
+#include <catch2/catch.hpp>
+#include <chrono>
+
+#include "tests/scenes/problem_checks.h"
+
+using namespace fanbeam;
+using tests::AsciiGrid;
+using tests::check_problems;
+using tests::file_trajectory;
+using tests::TemporaryFolder;
+
+namespace {
+
+// Posts every 0.002 deg around the scene, all 40 m high.
+AsciiGrid grid_around() { return {60, 40, 9.94, 51.96, 0.002}; }
+
+}  // namespace
+
+TEST_CASE("A raster without georeference, a damaged one, one with voids, one that ends too early",
+          "[bad_scene]") {
+  const std::string text =
+      tests::replaced(tests::kSmallScene, "material = \"short_grass\"", "elevation = \"dem.asc\"");
+  const auto flat = [](int, int) { return "40"; };
+  {
+    const TemporaryFolder folder;
+    AsciiGrid grid = grid_around();
+    grid.wkt = "";
+    grid.write(folder, "dem", flat);
+    check_problems(folder, text,
+                   {"@/scene.toml:9:1: E-REF terrain.elevation = dem.asc, georeference: no "
+                    "coordinate reference system: expected "
+                    "a geotransform and a coordinate reference system"});
+  }
+  {
+    const TemporaryFolder folder;
+    folder.write("dem.asc", "ncols 3\nnrows\n");
+    const tests::Outcome outcome = tests::build_text(folder, text);
+    REQUIRE(outcome.problems.size() == 1);
+    CHECK(outcome.problems[0].code == "E-PARSE");
+    CHECK(outcome.problems[0].field == "terrain.elevation");
+    CHECK(outcome.problems[0].place.line == 9);
+  }
+  {
+    const TemporaryFolder folder;
+    grid_around().write(folder, "dem",
+                        [](int column, int) { return column == 3 ? "-9999" : "40"; });
+    const tests::Outcome outcome = tests::build_text(folder, text);
+    REQUIRE(outcome.problems.size() == 1);
+    CHECK(outcome.problems[0].code == "E-RANGE");
+    CHECK(outcome.problems[0].place.line == 9);
+    const tests::Outcome filled =
+        tests::build_text(folder, tests::replaced(text, "elevation = \"dem.asc\"",
+                                                  "elevation = \"dem.asc\"\nvoids = \"fill\""));
+    CHECK(filled.scene != nullptr);
+    REQUIRE(filled.problems.size() == 1);
+    CHECK(filled.problems[0].code == "W-VOID");
+  }
+  {
+    const TemporaryFolder folder;
+    AsciiGrid grid = grid_around();
+    grid.south = 51.99;  // the terrain begins 2.5 km south of the origin
+    grid.write(folder, "dem", flat);
+    const tests::Outcome outcome = tests::build_text(folder, text);
+    REQUIRE(outcome.problems.size() == 1);
+    CHECK(outcome.problems[0].field == "terrain extent");
+    CHECK(outcome.problems[0].value.find("posts without elevation, the first at 51.9775") !=
+          std::string::npos);
+    CHECK(outcome.problems[0].place.line == 6);
+  }
+}
+
+TEST_CASE("Land cover: classes without material, materials that do not exist, no class at all",
+          "[bad_scene]") {
+  const TemporaryFolder folder;
+  grid_around().write(folder, "cover", [](int column, int) { return column < 30 ? "1" : "7"; });
+  const auto with_classes = [](const std::string& classes) {
+    return tests::replaced(tests::kSmallScene, "material = \"short_grass\"",
+                           "land_cover = { file = \"cover.asc\", classes = { " + classes + " } }");
+  };
+  check_problems(folder, with_classes("1 = \"forest\""),
+                 {"@/scene.toml:6:1: E-REF terrain.land_cover.classes = class 7 of the raster has "
+                  "no material: expected 7 = "
+                  "\"...\""});
+  check_problems(folder, with_classes("1 = \"forest\", 7 = \"gras\""),
+                 {"@/scene.toml:6:1: E-REF terrain.land_cover.classes.7 = \"gras\": expected a "
+                  "material of the library; nearest "
+                  "are crops, gravel, urban"});
+  check_problems(folder, with_classes("1 = \"forest\", seven = \"crops\""),
+                 {"@/scene.toml:9:62: E-PARSE terrain.land_cover.classes.seven = \"seven\": "
+                  "expected a class number as the key"});
+  check_problems(folder, with_classes("1 = \"forest\", 65536 = \"crops\""),
+                 {"@/scene.toml:9:62: E-RANGE terrain.land_cover.classes.65536 = 65536: expected a "
+                  "class from 0 to 65535"});
+}
+
+TEST_CASE("Runways off the map, too short, named twice, and ends that do not exist",
+          "[bad_scene]") {
+  const TemporaryFolder folder;
+  check_problems(
+      folder, tests::replaced(tests::kSmallScene, "latitude_deg = 52.009", "latitude_deg = 52.03"),
+      {"@/scene.toml:11:1: E-RANGE runway end = 0 m east, 3338 m north of the origin: expected a "
+       "place on the scene's "
+       "terrain"});
+  check_problems(
+      "latitude_deg = 52.009", "latitude_deg = 52.0001",
+      "11:1: E-RANGE runway length = 11.126840145255784 m: expected ends at least 100 m apart");
+  check_problems("name = \"18\"", "name = \"36\"",
+                 "11:1: E-REF runway[0] = name \"36\" given twice: expected a name of its own for "
+                 "every runway end");
+  check_problems("runway = \"36\"\nstart", "runway = \"35\"\nstart",
+                 "25:2: E-REF runway = \"35\": expected one of the runway ends \"36\", \"18\"");
+  check_problems("at = { runway = \"36\"", "at = { runway = \"09\"",
+                 "17:1: E-REF runway = \"09\": expected one of the runway ends \"36\", \"18\"");
+}
+
+TEST_CASE("Objects outside the terrain and unknown materials", "[bad_scene]") {
+  check_problems("left_m = 200.0", "left_m = 2600.0",
+                 "17:1: E-RANGE box[0].at = -2600 m east, 300 m north of the origin: expected a "
+                 "place on the scene's terrain");
+  check_problems("left_m = 200.0", "left_m = 2495.0",
+                 "15:1: E-RANGE box = \"hangar\" reaches beyond the terrain: expected corners on "
+                 "the scene's terrain");
+  check_problems("height_m = 12.0", "height_m = 12.0\nwall = \"steel\"",
+                 "15:1: E-REF box material = \"steel\": expected a material of the library; "
+                 "nearest are gravel, metal, wall");
+  check_problems("material = \"short_grass\"", "material = \"shortgrass\"",
+                 "6:1: E-REF terrain.material = \"shortgrass\": expected a material of the "
+                 "library; nearest are short_grass, "
+                 "tall_grass, forest");
+}
+
+TEST_CASE("A trajectory outside the terrain, and a sensor inside the ground", "[bad_scene]") {
+  const TemporaryFolder folder;
+  check_problems("start_distance_m = 1500.0", "start_distance_m = 3000.0",
+                 "25:2: E-RANGE trajectory = frame 0 at 0.03125 s: 0 m east, -2998 m north of the "
+                 "origin: expected positions over "
+                 "the scene's terrain (this is the first frame outside it)");
+  const std::string header =
+      "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg\n";
+  folder.write("flight.csv",
+               header + "0,52,10,200,0,0,0\n1,52.001,10,40,0,0,0\n2,52.002,10,200,0,0,0\n");
+  const tests::Outcome inside =
+      tests::build_text(folder, file_trajectory("vertical_datum = \"scene\"\n"));
+  REQUIRE(inside.problems.size() == 1);
+  CHECK(inside.problems[0].code == "E-RANGE");
+  CHECK(inside.problems[0].place.line == 25);
+  CHECK(inside.problems[0].value.find("m inside the ground") != std::string::npos);
+  CHECK(inside.problems[0].expected.find("vertical_datum") != std::string::npos);
+}
+
+TEST_CASE("Trajectory files: problems have the file's own line", "[bad_scene]") {
+  const TemporaryFolder folder;
+  folder.write(
+      "flight.csv",
+      "time_s,latitude_deg,longitude_deg,height_m\n0,52,10,200\n0,52.001,10,nan\n1,x,10,200\n");
+  check_problems(
+      folder, file_trajectory("vertical_datum = \"scene\"\n"),
+      {"@/flight.csv:3: E-TIME time_s = 0 s: expected later than 0 s in line 2",
+       "@/flight.csv:3: E-NONFINITE height_m = \"nan\": expected a finite number",
+       "@/flight.csv:4: E-PARSE latitude_deg = \"x\": expected a number with a decimal point"});
+  check_problems(
+      folder, file_trajectory("vertical_datum = \"scene\"\ncolumns = { height = \"alt_ft\" }\n"),
+      {"@/flight.csv:1: E-PARSE column \"alt_ft\" = missing: expected a column of this name"});
+}
+
+TEST_CASE("R17 absurd sizes are E-LIMIT or E-RANGE at once, without allocating", "[bad_scene]") {
+  const auto begin = std::chrono::steady_clock::now();
+  check_problems("half_extent_m = 2500.0\nspacing_m = 50.0",
+                 "half_extent_m = 200000.0\nspacing_m = 0.5",
+                 "6:1: E-LIMIT terrain = terrain posts: 640001600001: expected at most 64 million "
+                 "posts: a larger spacing_m or a "
+                 "smaller extent");
+  check_problems("spacing_m = 50.0", "spacing_m = 0",
+                 "8:1: E-RANGE terrain.spacing_m = 0: expected 0.5 to 1000");
+  check_problems("half_extent_m = 2500.0", "half_extent_m = 1e12",
+                 "7:1: E-RANGE terrain.half_extent_m = 1e+12: expected 10 to 200000");
+  check_problems(
+      "[weather]",
+      "[[line]]\nfrom = { runway = \"36\", behind_threshold_m = 0.0 }\nto = { runway = \"36\", "
+      "behind_threshold_m = "
+      "1999.0 }\nspacing_m = 0.01\n[weather]",
+      "22:1: E-LIMIT line = \"line\" of 199901 points: expected at most 100000: a wider spacing_m");
+  check_problems("[weather]", "[accuracy]\nrays_per_cell = 1e12\n[weather]",
+                 "23:1: E-RANGE accuracy.rays_per_cell = 1e+12: expected 0 to 10000");
+  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 5.0);
+}
+
+TEST_CASE("Errors that show only when the scene is built come together too", "[bad_scene]") {
+  const TemporaryFolder folder;
+  std::string text = tests::replaced(tests::kSmallScene, "left_m = 200.0", "left_m = 2600.0");
+  text = tests::replaced(text, "material = \"short_grass\"", "material = \"grass\"");
+  text = tests::replaced(
+      text, "[weather]",
+      "[[target]]\nat = { runway = \"27\", behind_threshold_m = 0.0 }\nrcs = { shape = "
+      "\"constant\" }\n"
+      "[[surface]]\nrunway = \"36\"\nmaterial = \"tarmac\"\nbehind_threshold_m = [0.0, 100.0]\n"
+      "left_m = [50.0, 80.0]\n[weather]");
+  const tests::Outcome outcome = tests::build_text(folder, text);
+  std::vector<std::string> places;
+  for (const core::Problem& problem : outcome.problems)
+    places.push_back(std::to_string(problem.place.line) + " " + problem.code);
+  CHECK(places == std::vector<std::string>{"6 E-REF", "25 E-REF", "17 E-RANGE", "23 E-REF"});
+}
