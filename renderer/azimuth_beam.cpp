@@ -38,9 +38,11 @@ std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins
                    weights[static_cast<std::size_t>(s)], bins, &by_column[column * bin_count]);
   });
   std::vector<double> image(by_column.size());
-  for (std::size_t column = 0; column < static_cast<std::size_t>(columns); ++column)
-    for (std::size_t bin = 0; bin < bin_count; ++bin)
-      image[bin * static_cast<std::size_t>(columns) + column] = by_column[column * bin_count + bin];
+  const auto width = static_cast<std::size_t>(columns);
+  core::parallel_for(bin_count, [&](std::size_t bin) {
+    for (std::size_t column = 0; column < width; ++column)
+      image[bin * width + column] = by_column[column * bin_count + bin];
+  });
   return image;
 }
 

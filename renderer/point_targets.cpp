@@ -4,7 +4,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 
+#include "core/parallel.h"
 #include "sensors/beam_pattern.h"
 #include "sensors/cells.h"
 
@@ -28,39 +30,54 @@ glm::dvec3 PointTarget::position_at(double time_s) const {
          (b.position_m - a.position_m) * ((time_s - a.time_s) / (b.time_s - a.time_s));
 }
 
-std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
-                                     double time_s) {
+namespace {
+
+std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFrame& antenna,
+                                  double time_s, std::size_t index) {
   const sensors::Sensor& sensor = world.sensor;
   const sensors::Antenna& beams = sensor.antenna;
+  const PointTarget& target = world.targets[index];
+  const glm::dvec3 position_m = target.position_at(time_s);
+  const glm::dvec3 path_m = position_m - antenna.position_m;
+  const double range_m = glm::length(path_m);
+  if (range_m < sensor.range.minimum_m || range_m >= sensor.range.maximum_m()) return std::nullopt;
+  const glm::dvec3 direction = path_m / range_m;
+  const auto angles = sensors::angles(antenna, direction, sensor.scan.surface);
+  if (!angles) return std::nullopt;
+  const double reach_rad = sensor.scan.field_of_view_rad / 2 + beams.azimuth.cut_rad;
+  if (std::abs(angles->azimuth_rad) > reach_rad) return std::nullopt;
+  const double elevation_gain =
+      sensors::two_way_gain(beams.elevation, angles->elevation_rad - beams.boresight_elevation_rad);
+  const double rcs_m2 = materials::rcs_m2(target.rcs, glm::transpose(target.axes) * -direction,
+                                          sensor.wavelength_m());
+  if (!(elevation_gain * rcs_m2 > 0.0)) return std::nullopt;
+  if (world.surfaces->occluded(antenna.position_m, position_m, kClearance_m)) return std::nullopt;
+  core::Echo echo;
+  echo.range_m = range_m;
+  echo.azimuth_rad = angles->azimuth_rad;
+  echo.elevation_rad = angles->elevation_rad;
+  echo.object_id = static_cast<std::uint32_t>(index);
+  echo.power_W =
+      sensor.radar_constant_W_m2() * rcs_m2 * elevation_gain *
+      world.attenuation.two_way_power_factor(antenna.position_m.z, position_m.z, range_m) /
+      (range_m * range_m * range_m * range_m);
+  return echo;
+}
+
+}  // namespace
+
+std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
+                                     double time_s) {
+  constexpr std::size_t kAtOnce = 64;
+  const std::size_t count = world.targets.size();
+  std::vector<std::optional<core::Echo>> found(count);
+  core::parallel_for((count + kAtOnce - 1) / kAtOnce, [&](std::size_t block) {
+    for (std::size_t i = block * kAtOnce; i < std::min((block + 1) * kAtOnce, count); ++i)
+      found[i] = echo_of(world, antenna, time_s, i);
+  });
   std::vector<core::Echo> echoes;
-  for (std::size_t i = 0; i < world.targets.size(); ++i) {
-    const PointTarget& target = world.targets[i];
-    const glm::dvec3 position_m = target.position_at(time_s);
-    const glm::dvec3 path_m = position_m - antenna.position_m;
-    const double range_m = glm::length(path_m);
-    if (range_m < sensor.range.minimum_m || range_m >= sensor.range.maximum_m()) continue;
-    const glm::dvec3 direction = path_m / range_m;
-    const auto angles = sensors::angles(antenna, direction, sensor.scan.surface);
-    if (!angles) continue;
-    const double reach_rad = sensor.scan.field_of_view_rad / 2 + beams.azimuth.cut_rad;
-    if (std::abs(angles->azimuth_rad) > reach_rad) continue;
-    const double elevation_gain = sensors::two_way_gain(
-        beams.elevation, angles->elevation_rad - beams.boresight_elevation_rad);
-    const double rcs_m2 = materials::rcs_m2(target.rcs, glm::transpose(target.axes) * -direction,
-                                            sensor.wavelength_m());
-    if (!(elevation_gain * rcs_m2 > 0.0)) continue;
-    if (world.surfaces->occluded(antenna.position_m, position_m, kClearance_m)) continue;
-    core::Echo echo;
-    echo.range_m = range_m;
-    echo.azimuth_rad = angles->azimuth_rad;
-    echo.elevation_rad = angles->elevation_rad;
-    echo.object_id = static_cast<std::uint32_t>(i);
-    echo.power_W =
-        sensor.radar_constant_W_m2() * rcs_m2 * elevation_gain *
-        world.attenuation.two_way_power_factor(antenna.position_m.z, position_m.z, range_m) /
-        (range_m * range_m * range_m * range_m);
-    echoes.push_back(echo);
-  }
+  for (const std::optional<core::Echo>& echo : found)
+    if (echo) echoes.push_back(*echo);
   return echoes;
 }
 

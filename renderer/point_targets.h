@@ -15,7 +15,7 @@
 namespace fanbeam::renderer {
 
 // Echoes of all visible targets at `time_s` in front of the antenna and inside the range gate, with power at azimuth
-// gain 1; `object_id` is the target's index. Sorted as the targets are.
+// gain 1; `object_id` is the target's index; the radial speed is left at 0. Sorted as the targets are.
 std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
                                      double time_s);
 

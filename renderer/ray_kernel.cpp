@@ -14,6 +14,10 @@ namespace {
 
 using terrain::RayPacket;
 
+// Silhouettes against the sky are halved this often beyond the refinement depth: a C-scope row above the horizon that
+// is lit by half a ray interval shows at once, and there are few of them.
+constexpr int kHorizonLevels = 3;
+
 // Rays one packet sends, in the antenna's angles.
 template <int N>
 struct Lanes {
@@ -94,8 +98,8 @@ class GroupCaster {
       return;
     }
     cast_fan(0);
-    for (int level = 0; level < frame_.sampling.refinement_depth; ++level)
-      if (!refine()) break;
+    for (int level = 0; level < frame_.sampling.refinement_depth + kHorizonLevels; ++level)
+      if (!refine(level >= frame_.sampling.refinement_depth)) break;
     for (int a = 0; a < kGroupAzimuths; ++a) {
       if (frame_.sampling.deposit_intervals)
         deposit_intervals(a);
@@ -108,8 +112,8 @@ class GroupCaster {
   static constexpr int kRows = N / kGroupAzimuths;
 
   void cast_fan(int pass);
-  bool refine();
-  bool wants_ray_between(const CastRay& below, const CastRay& above) const;
+  bool refine(bool horizon_only);
+  bool wants_ray_between(const CastRay& below, const CastRay& above, bool horizon_only) const;
   void cast_requests();
   void aim(Lanes<N>& lanes, int lane, int azimuth, double place, double cos_elevation,
            double sin_elevation) const;
@@ -308,24 +312,25 @@ void GroupCaster<N>::cast_fan(int pass) {
 }
 
 template <int N>
-bool GroupCaster<N>::wants_ray_between(const CastRay& below, const CastRay& above) const {
+bool GroupCaster<N>::wants_ray_between(const CastRay& below, const CastRay& above,
+                                       bool horizon_only) const {
   constexpr double kSmallestStep_rad = 1e-5;  // 4 cm at 3.7 km: finer than any surface we model
   if (above.elevation_rad - below.elevation_rad < kSmallestStep_rad) return false;
   const bool sky_below = below.surface == terrain::kNoHit;
   const bool sky_above = above.surface == terrain::kNoHit;
-  if (sky_below || sky_above) return sky_below != sky_above;
+  if (horizon_only || sky_below || sky_above) return sky_below != sky_above;
   return below.surface != above.surface ||
          static_cast<double>(std::abs(above.range_m - below.range_m)) > gap_limit_m_;
 }
 
 template <int N>
-bool GroupCaster<N>::refine() {
+bool GroupCaster<N>::refine(bool horizon_only) {
   for (int a = 0; a < kGroupAzimuths; ++a) {
     auto& wanted = scratch_.wanted[a];
     wanted.clear();
     const auto& rays = scratch_.rays[a];
     for (std::size_t i = 1; i < rays.size(); ++i)
-      if (wants_ray_between(rays[i - 1], rays[i]))
+      if (wants_ray_between(rays[i - 1], rays[i], horizon_only))
         wanted.push_back((rays[i - 1].elevation_rad + rays[i].elevation_rad) / 2);
   }
   // By elevation, so that a packet's rays stay close together.
