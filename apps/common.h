@@ -25,21 +25,24 @@ struct CommonOptions {
 };
 void set_up_log(const CommonOptions& options);
 
-// The folder with scenes/, sensors/ and materials/: share/fanbeam beside an installed program, the source tree around
-// a build. Throws InputError E-IO when neither is there.
+// The folder with scenes/, sensors/ and materials/: share/fanbeam beside an installed program, the
+// source tree around a build. Throws InputError E-IO when neither is there.
 std::filesystem::path shipped_folder();
 
 // `--data DIR` first, then FANBEAM_DATA, then ../shared/data beside a source tree.
 std::vector<std::filesystem::path> data_folders(const std::string& from_command_line);
 
-// A folder, a scene.toml, or the name of a shipped scene ("braunschweig-26", "scenes/braunschweig-26").
+// A folder, a scene.toml, or the name of a shipped scene ("braunschweig-26",
+// "scenes/braunschweig-26").
 std::filesystem::path find_scene(const std::string& name);
 
-// Prints each problem on a line of its own, errors before warnings, each by file and line, with a count at the end.
+// Prints each problem on a line of its own, errors before warnings, each by file and line, with a
+// count at the end.
 void print_problems(std::vector<core::Problem> problems);
 
-// What a program that met these errors exits with: kExitUsage when all concern options of the command line, kExitIo
-// when the system refused all (E-IO without a line that asked for it), else kExitInvalidInput.
+// What a program that met these errors exits with: kExitUsage when all concern options of the
+// command line, kExitIo when the system refused all (E-IO without a line that asked for it), else
+// kExitInvalidInput.
 int exit_code_of(const std::vector<core::Problem>& problems);
 
 // Runs a command and turns its exceptions into messages and exit codes.

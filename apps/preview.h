@@ -9,7 +9,8 @@
 
 namespace fanbeam::apps {
 
-// Feeds pictures of one size to ffmpeg and leaves an MP4 (H.264) or, by extension, an animated GIF or PNG.
+// Feeds pictures of one size to ffmpeg and leaves an MP4 (H.264) or, by extension, an animated GIF
+// or PNG.
 class Preview {
  public:
   // Throws InputError E-IO when ffmpeg cannot be started; the message names the package.

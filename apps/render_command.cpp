@@ -83,7 +83,8 @@ std::string value_of(const core::Metadata& metadata, const std::string& name) {
   return "";
 }
 
-// What an earlier run with the same input left of this frame; nothing when any product is missing or differs.
+// What an earlier run with the same input left of this frame; nothing when any product is missing
+// or differs.
 bool take_over(const fs::path& folder, const ProductSet& products, const std::string& fingerprint,
                FrameRecord& record) {
   for (const std::string& product : products) {

@@ -27,8 +27,8 @@ struct RenderOptions {
 // Returns an exit code; throws InputError for bad input.
 int render(const RenderOptions& options, const CommonOptions& common);
 
-// The frames that "A:B[:STEP]" selects of `count`, as Python's range(count)[A:B:STEP] with STEP above 0; a single
-// number is that frame. Throws InputError E-PARSE or E-RANGE.
+// The frames that "A:B[:STEP]" selects of `count`, as Python's range(count)[A:B:STEP] with STEP
+// above 0; a single number is that frame. Throws InputError E-PARSE or E-RANGE.
 std::vector<int> parse_frames(const std::string& text, int count);
 
 }  // namespace fanbeam::apps

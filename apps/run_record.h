@@ -1,4 +1,5 @@
-// run.json (what was computed: the same bytes for the same input) and timing.json (how long it took).
+// run.json (what was computed: the same bytes for the same input) and timing.json (how long it
+// took).
 #pragma once
 
 #include <cstdint>
@@ -36,8 +37,9 @@ struct RunRecord {
 std::string run_json(const scenes::Scene& scene, const RunRecord& record);
 std::string timing_json(const RunRecord& record);
 
-// A short text that changes when anything that shapes the pictures does: a setting, the program, or a byte of a file
-// that the scene names (buffers beside a glTF model excepted). Stands in every picture.
+// A short text that changes when anything that shapes the pictures does: a setting, the program, or
+// a byte of a file that the scene names (buffers beside a glTF model excepted). Stands in every
+// picture.
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record);
 
 }  // namespace fanbeam::apps

@@ -1,8 +1,10 @@
-// Reading TOML with every problem reported: each question names the key, its unit (in the key) and its allowed range;
-// a wrong type or value becomes a Problem with line and column, and the fallback is returned so that reading goes on.
-// Keys that nobody asked for are errors too. Used by scenes, sensors and material libraries alike.
+// Reading TOML with every problem reported: each question names the key, its unit (in the key) and
+// its allowed range; a wrong type or value becomes a Problem with line and column, and the fallback
+// is returned so that reading goes on. Keys that nobody asked for are errors too. Used by scenes,
+// sensors and material libraries alike.
 //
-// Limits: files up to 4 MiB, 64 levels of nesting (E-LIMIT). A syntax error is one E-PARSE: the parser stops there.
+// Limits: files up to 4 MiB, 64 levels of nesting (E-LIMIT). A syntax error is one E-PARSE: the
+// parser stops there.
 #pragma once
 
 #include <cstdint>
@@ -60,7 +62,8 @@ class ConfigTable {
                               std::size_t most);
   std::vector<std::string> texts(std::string_view key);
 
-  // A sub-table; when the key is missing, an empty one that answers with fallbacks (its `present()` is false).
+  // A sub-table; when the key is missing, an empty one that answers with fallbacks (its `present()`
+  // is false).
   ConfigTable table(std::string_view key);
   // An array of tables ([[runway]]); empty when the key is missing.
   std::vector<ConfigTable> tables(std::string_view key);
@@ -68,7 +71,8 @@ class ConfigTable {
   std::vector<std::string> keys() const;
 
   bool present() const { return present_; }
-  // Of the key, or of the nearest table around it that is there. An empty key stands for this table.
+  // Of the key, or of the nearest table around it that is there. An empty key stands for this
+  // table.
   Place place(std::string_view key) const;
   std::string path(std::string_view key) const;  // "weather.visibility_m"
   // Reports a problem that only the caller can see, at the place of `key`.
@@ -76,7 +80,8 @@ class ConfigTable {
   void warning(std::string_view name, std::string_view key, std::string value, std::string done);
   ProblemList& problems();
 
-  // Call once everything was asked, on the root: each key never asked for is E-REF, with the nearest known name.
+  // Call once everything was asked, on the root: each key never asked for is E-REF, with the
+  // nearest known name.
   void report_unknown_keys();
   // Every answer given so far in the whole file, defaults included, in the order asked.
   const ResolvedConfig& resolved() const;

@@ -1,4 +1,5 @@
-// Physical constants, SI. Exact values of the SI (BIPM SI brochure, 9th edition, 2019) where the SI fixes them.
+// Physical constants, SI. Exact values of the SI (BIPM SI brochure, 9th edition, 2019) where the SI
+// fixes them.
 #pragma once
 
 namespace fanbeam::core {

@@ -1,4 +1,5 @@
-// Which effects run and why, as plain data that travels from the plan to every stage and into run.json.
+// Which effects run and why, as plain data that travels from the plan to every stage and into
+// run.json.
 #pragma once
 
 #include <string>

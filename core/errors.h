@@ -1,5 +1,5 @@
-// What can be wrong with input, and how it is told: all problems together, each with its place, the value found and
-// what was expected. Libraries collect Problems and throw; only programs print.
+// What can be wrong with input, and how it is told: all problems together, each with its place, the
+// value found and what was expected. Libraries collect Problems and throw; only programs print.
 #pragma once
 
 #include <cstdint>
@@ -37,8 +37,8 @@ struct Problem {
 // "scene.toml:12:5: E-RANGE weather.visibility_m = -3: expected 1 to 100000 m"
 std::string to_string(const Problem& problem);
 
-// Numbers in messages: shortest form that reads back to the same value, independent of the locale; without an exponent
-// from 1e-4 to 1e7.
+// Numbers in messages: shortest form that reads back to the same value, independent of the locale;
+// without an exponent from 1e-4 to 1e7.
 std::string number_text(double value);
 
 // Thrown when an input has at least one error; carries the warnings found beside it too.
@@ -66,7 +66,8 @@ class InternalError : public std::logic_error {
 [[noreturn]] void throw_input_error(ErrorClass error_class, Place place, std::string field,
                                     std::string value, std::string expected);
 
-// Collects what is wrong while reading goes on. Caps the list so that a hostile file cannot fill memory.
+// Collects what is wrong while reading goes on. Caps the list so that a hostile file cannot fill
+// memory.
 class ProblemList {
  public:
   static constexpr std::size_t kMost = 200;

@@ -9,20 +9,22 @@
 
 namespace fanbeam::core {
 
-// The file's bytes. Throws InputError: E-IO when it cannot be read, E-LIMIT when larger than `largest_bytes`
-// (checked before anything is allocated).
+// The file's bytes. Throws InputError: E-IO when it cannot be read, E-LIMIT when larger than
+// `largest_bytes` (checked before anything is allocated).
 std::string read_file(const std::filesystem::path& path, std::uint64_t largest_bytes);
 
 // Writes beside the target under a temporary name and renames. Missing parent folders are made.
-// Throws InputError E-IO with the path and the system's reason; the old file, if any, is then untouched.
+// Throws InputError E-IO with the path and the system's reason; the old file, if any, is then
+// untouched.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-// The same for writers that want a path: `write` gets the temporary path (same extension as the target).
+// The same for writers that want a path: `write` gets the temporary path (same extension as the
+// target).
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
 
-// `relative` resolved inside `folder`. Throws InputError E-PATH when it is absolute, holds a URI scheme, or leaves the
-// folder (".." or a symbolic link). `place` and `field` go into the message.
+// `relative` resolved inside `folder`. Throws InputError E-PATH when it is absolute, holds a URI
+// scheme, or leaves the folder (".." or a symbolic link). `place` and `field` go into the message.
 std::filesystem::path path_inside(const std::filesystem::path& folder, const std::string& relative,
                                   const struct Place& place, const std::string& field);
 

@@ -3,7 +3,8 @@
 
 namespace fanbeam::core {
 
-// latitude in [-pi/2, pi/2], longitude any finite angle, height above the ellipsoid unless a datum says otherwise.
+// latitude in [-pi/2, pi/2], longitude any finite angle, height above the ellipsoid unless a datum
+// says otherwise.
 struct Geodetic {
   double latitude_rad = 0.0;
   double longitude_rad = 0.0;

@@ -67,7 +67,7 @@ void write_png(const std::filesystem::path& path, const Picture8& picture,
   if (picture.pixels.size() != cells(picture.columns, picture.rows))
     throw InternalError("picture size");
   OIIO::ImageSpec spec(picture.columns, picture.rows, 1, OIIO::TypeDesc::UINT8);
-  spec.attribute("png:compressionLevel", 6);
+  spec.attribute("png:compressionLevel", 2);  // writing must not hold up rendering
   write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
 }
 

@@ -1,7 +1,7 @@
 // Pictures and layered images, and their files (PNG, OpenEXR through OpenImageIO).
 //
-// Written files hold no time and no host name: the same image gives the same bytes. Files are written under a
-// temporary name and renamed.
+// Written files hold no time and no host name: the same image gives the same bytes. Files are
+// written under a temporary name and renamed.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ struct Image {
   std::vector<Layer> layers;
 };
 
-// Throws InputError E-IO when the file cannot be written; an old file is then untouched. Sizes that do not match the
-// values are a broken invariant (InternalError).
+// Throws InputError E-IO when the file cannot be written; an old file is then untouched. Sizes that
+// do not match the values are a broken invariant (InternalError).
 void write_png(const std::filesystem::path& path, const Picture8& picture,
                const Metadata& metadata);
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
@@ -41,9 +41,9 @@ void write_exr(const std::filesystem::path& path, const Image& image, const Meta
 // The texts stored with an image. Throws InputError E-IO or E-PARSE.
 Metadata read_metadata(const std::filesystem::path& path);
 
-// Any format OpenImageIO reads. Floats come back as they are, whole numbers as stored: 0 to 255 for 8 bits, 0 to
-// 65535 for 16; palettes as colours.
-// Throws InputError: E-IO (missing), E-PARSE (damaged), E-LIMIT before allocation above 32 million values.
+// Any format OpenImageIO reads. Floats come back as they are, whole numbers as stored: 0 to 255 for
+// 8 bits, 0 to 65535 for 16; palettes as colours. Throws InputError: E-IO (missing), E-PARSE
+// (damaged), E-LIMIT before allocation above 32 million values.
 Image read_image(const std::filesystem::path& path);
 
 }  // namespace fanbeam::core

@@ -13,9 +13,10 @@
 namespace fanbeam::core {
 namespace {
 
-// The packaged oneTBB is not instrumented: the thread sanitizer has to be told that what the caller did comes before
-// every body, and every body before what the caller does next. Nothing is said about bodies among each other. The marks
-// are static because a body must not read the caller's stack before it has passed the first one.
+// The packaged oneTBB is not instrumented: the thread sanitizer has to be told that what the caller
+// did comes before every body, and every body before what the caller does next. Nothing is said
+// about bodies among each other. The marks are static because a body must not read the caller's
+// stack before it has passed the first one.
 #ifdef __SANITIZE_THREAD__
 char begun, done;
 struct LoopOrder {

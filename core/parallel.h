@@ -1,5 +1,5 @@
-// A parallel loop over indices whose results cannot depend on the number of threads: each index is handled once, by
-// one thread, and must write only what belongs to it.
+// A parallel loop over indices whose results cannot depend on the number of threads: each index is
+// handled once, by one thread, and must write only what belongs to it.
 #pragma once
 
 #include <cstddef>
@@ -7,10 +7,12 @@
 
 namespace fanbeam::core {
 
-// Runs body(i) for every i in [0, count), on oneTBB's workers. Exceptions of the body reach the caller.
+// Runs body(i) for every i in [0, count), on oneTBB's workers. Exceptions of the body reach the
+// caller.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
-// Limits every parallel loop of the process while it lives. 0 means as many threads as the machine has.
+// Limits every parallel loop of the process while it lives. 0 means as many threads as the machine
+// has.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

@@ -1,7 +1,8 @@
-// Counter-based random numbers: a draw is a pure function of (seed, stream, frame, cell, draw), so pictures do not
-// depend on threads or on the order of frames.
+// Counter-based random numbers: a draw is a pure function of (seed, stream, frame, cell, draw), so
+// pictures do not depend on threads or on the order of frames.
 //
-// Philox 4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC'11) from the Random123 package.
+// Philox 4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC'11) from the
+// Random123 package.
 #pragma once
 
 #include <array>

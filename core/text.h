@@ -13,8 +13,8 @@ struct ParsedNumber {
   NumberError error = NumberError::none;
 };
 
-// The whole of `text` (blanks around it allowed) as a decimal number with a point. "nan" and "inf" are `nonfinite`,
-// "1e400" is `out_of_range`, "1,5" and "" are `not_a_number`.
+// The whole of `text` (blanks around it allowed) as a decimal number with a point. "nan" and "inf"
+// are `nonfinite`, "1e400" is `out_of_range`, "1,5" and "" are `not_a_number`.
 ParsedNumber parse_number(std::string_view text);
 
 std::string_view trimmed(std::string_view text);

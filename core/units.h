@@ -1,4 +1,5 @@
-// Conversions at the borders of the program. Inside everything is SI and radians; names carry the unit.
+// Conversions at the borders of the program. Inside everything is SI and radians; names carry the
+// unit.
 #pragma once
 
 #include "core/constants.h"

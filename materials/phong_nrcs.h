@@ -8,8 +8,8 @@
 // lobe around the normal. The coefficients are our own fits (see phong_fit.h and
 // docs/materials.md), not those of the papers.
 //
-// With c below 1 the form falls more slowly than sin(psi) towards grazing, as urban blocks do, and c = 0 is a constant;
-// the shipped library keeps to c >= 1.
+// With c below 1 the form falls more slowly than sin(psi) towards grazing, as urban blocks do, and
+// c = 0 is a constant; the shipped library keeps to c >= 1.
 //
 // Neglected: azimuth dependence and the coherent echo near vertical incidence.
 #pragma once

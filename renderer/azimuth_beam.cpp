@@ -21,7 +21,8 @@ std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins
                                        int sub_columns_per_column) {
   const int margin = margin_sub_columns(sensor, sub_columns_per_column);
   const int reach = 2 * margin + sub_columns_per_column;
-  // The same for every column: sub-column s of a column's reach begins this far from the column's centre.
+  // The same for every column: sub-column s of a column's reach begins this far from the column's
+  // centre.
   std::vector<double> weights;
   for (int s = 0; s < reach; ++s) {
     const double from_rad = (s - margin - sub_columns_per_column / 2.0) * fan.step_rad;

@@ -1,5 +1,5 @@
-// The two ways to see a scene share this interface: power as a function of direction and range, before the azimuth
-// beam, the receiver and the display.
+// The two ways to see a scene share this interface: power as a function of direction and range,
+// before the azimuth beam, the receiver and the display.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace fanbeam::renderer {
 
-// Received power per radian of azimuth for an antenna that points its azimuth beam everywhere at once (g_az = 1);
-// elevation pattern, radar equation, NRCS and losses are in it.
+// Received power per radian of azimuth for an antenna that points its azimuth beam everywhere at
+// once (g_az = 1); elevation pattern, radar equation, NRCS and losses are in it.
 struct FanSums {
   int sub_columns = 0;             // of the whole fan, the beam's margin on both sides included
   double first_azimuth_rad = 0.0;  // left edge of sub-column 0
@@ -31,7 +31,8 @@ struct FanSums {
 class Caster {
  public:
   virtual ~Caster() = default;
-  // Power for a sensor at `frame`. Thread-safe; the result does not depend on the number of threads.
+  // Power for a sensor at `frame`. Thread-safe; the result does not depend on the number of
+  // threads.
   virtual void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const = 0;
 };
 

@@ -6,9 +6,9 @@
 
 namespace fanbeam::renderer {
 
-// Adds `amount`, spread evenly over [from, to] in units of bins, to bins [0, count). What lies outside is not
-// deposited; a zero width goes to one bin; borders are half open. The shares inside add up to `amount` within
-// rounding because each is cut from the same running remainder.
+// Adds `amount`, spread evenly over [from, to] in units of bins, to bins [0, count). What lies
+// outside is not deposited; a zero width goes to one bin; borders are half open. The shares inside
+// add up to `amount` within rounding because each is cut from the same running remainder.
 inline void deposit(double from, double to, double amount, double* bins, int count) noexcept {
   if (from >= count || to < 0.0 || (to == 0.0 && from < 0.0)) return;
   const int first = static_cast<int>(std::floor(from));

@@ -11,8 +11,9 @@ namespace {
 
 using atmosphere::Weather;
 
-// A path at one height bounds every path of the same length once the height with the largest attenuation is taken. The
-// layers' attenuation falls with height inside a layer, so the lowest height and the layer tops are enough.
+// A path at one height bounds every path of the same length once the height with the largest
+// attenuation is taken. The layers' attenuation falls with height inside a layer, so the lowest
+// height and the layer tops are enough.
 double longest_level_path_dB(const SceneFacts& facts, bool gas, bool fog, bool rain) {
   Weather weather = facts.weather;
   weather.simulate_gas = gas;

@@ -1,4 +1,5 @@
-// The effects that exist, each with what must be in the scene for it, an upper bound of its influence, and its source.
+// The effects that exist, each with what must be in the scene for it, an upper bound of its
+// influence, and its source.
 //
 // Bounds are the largest change of displayed grey that leaving the effect out can cause anywhere:
 //   a multiplicative effect of x dB changes x / (dB per grey level);
@@ -14,7 +15,8 @@
 
 namespace fanbeam::renderer {
 
-// What a bound may use: the sensor, the weather and the heights that rays pass through (above the scene's origin).
+// What a bound may use: the sensor, the weather and the heights that rays pass through (above the
+// scene's origin).
 struct SceneFacts {
   atmosphere::Weather weather;
   sensors::Sensor sensor;

@@ -7,7 +7,8 @@
 namespace fanbeam::renderer {
 namespace {
 
-// Ranges before the first and behind the last cell that still get rays, so that border cells are full.
+// Ranges before the first and behind the last cell that still get rays, so that border cells are
+// full.
 constexpr int kMarginCells = 2;
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
 
@@ -74,7 +75,8 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   int step = 0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = gate.minimum_m + gate.cell_m * k;
-    // The ground distance of a slant range needs the height there: the one of the step before is close enough.
+    // The ground distance of a slant range needs the height there: the one of the step before is
+    // close enough.
     const double distance_m = std::sqrt(std::max(range_m * range_m - drop_m * drop_m, 1.0));
     const double x_m = sensor.x + heading.x * distance_m;
     const double y_m = sensor.y + heading.y * distance_m;
@@ -109,7 +111,8 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
     const double y_m = heading.y * distance_m;
     const double z_m = surfaces.mesh_top_m(sensor.x + x_m, sensor.y + y_m) - sensor.z;
     if (z_m < -1e29) continue;
-    // The top may stand anywhere in the square: take its near side when above the sensor, its far side when below.
+    // The top may stand anywhere in the square: take its near side when above the sensor, its far
+    // side when below.
     const double shift_m = z_m > 0.0 ? -1.5 * square_m : 1.5 * square_m;
     const double at_m = std::max(distance_m + shift_m, 1.0);
     top_slope = std::max(top_slope, slope_of(frame, {heading.x * at_m, heading.y * at_m, z_m}));

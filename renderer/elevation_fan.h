@@ -1,9 +1,10 @@
 // Where to put rays in elevation so that every visible range cell of the ground gets its share.
 //
-// Equal angles give far cells almost nothing (rays per cell fall with R^2 at fixed height). The fan follows the terrain
-// profile under one azimuth instead: wherever a range cell of ground is visible, its angular interval gets the rays
-// asked for; hidden ground gets none. Above the highest ground the fan goes on to the top of the highest object.
-// The fan only places samples: what they hit is decided by the caster.
+// Equal angles give far cells almost nothing (rays per cell fall with R^2 at fixed height). The fan
+// follows the terrain profile under one azimuth instead: wherever a range cell of ground is
+// visible, its angular interval gets the rays asked for; hidden ground gets none. Above the highest
+// ground the fan goes on to the top of the highest object. The fan only places samples: what they
+// hit is decided by the caster.
 #pragma once
 
 #include <vector>
@@ -22,8 +23,8 @@ class ElevationFan {
  public:
   ElevationFan(const World& world, const Sampling& sampling);
 
-  // Increasing elevations: `edges` bound the intervals that rays stand for. Azimuths from `left_rad` to `right_rad`.
-  // Empty when nothing can be seen there.
+  // Increasing elevations: `edges` bound the intervals that rays stand for. Azimuths from
+  // `left_rad` to `right_rad`. Empty when nothing can be seen there.
   void place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
              std::vector<double>& edges) const;
 

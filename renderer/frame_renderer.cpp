@@ -12,7 +12,8 @@ namespace fanbeam::renderer {
 namespace {
 
 void check_pose(const FramePose& pose) {
-  // Beyond 1000 km from the scene's origin a float inside the ray caster no longer resolves a range cell.
+  // Beyond 1000 km from the scene's origin a float inside the ray caster no longer resolves a range
+  // cell.
   constexpr double kFarthest_m = 1.0e6;
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(pose.position_m[axis]))

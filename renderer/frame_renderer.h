@@ -27,7 +27,8 @@ struct FramePose {
   glm::dquat q_NB{1.0, 0.0, 0.0, 0.0};
 };
 
-// Arrays are row-major [row][column]; B-scope row 0 is the nearest range cell, C-scope row 0 the highest elevation.
+// Arrays are row-major [row][column]; B-scope row 0 is the nearest range cell, C-scope row 0 the
+// highest elevation.
 struct Frame {
   std::vector<double> bscope_W;     // received power without noise
   std::vector<double> cscope_W_m3;  // power times R^3 summed over range, without noise

@@ -1,8 +1,8 @@
 // NRCS over the sine of the grazing angle, made quick for the ray loop.
 //
-// Holds sigma0(psi) / sin(psi) of a Phong-like material, the factor that the radar equation needs per unit of solid
-// angle. Linear interpolation between 4096 steps; below sin(psi) = 1/64, where a steep power would make the linear
-// error visible, the exact form. Accuracy: 1e-4 relative.
+// Holds sigma0(psi) / sin(psi) of a Phong-like material, the factor that the radar equation needs
+// per unit of solid angle. Linear interpolation between 4096 steps; below sin(psi) = 1/64, where a
+// steep power would make the linear error visible, the exact form. Accuracy: 1e-4 relative.
 #pragma once
 
 #include <cmath>

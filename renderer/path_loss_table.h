@@ -1,9 +1,10 @@
 // Two-way loss between the sensor and points of any height, tabulated for one frame.
 //
-// The loss in dB along a straight path is its length times the mean specific attenuation between the two heights, which
-// does not depend on the length; that mean is tabulated over the height of the far end. Heights between steps are
-// interpolated linearly; with 1024 steps the layer tops are rounded over a thousandth of the scene's relief.
-// Neglected: the curvature of the Earth within the height (1 m at 3.7 km).
+// The loss in dB along a straight path is its length times the mean specific attenuation between
+// the two heights, which does not depend on the length; that mean is tabulated over the height of
+// the far end. Heights between steps are interpolated linearly; with 1024 steps the layer tops are
+// rounded over a thousandth of the scene's relief. Neglected: the curvature of the Earth within the
+// height (1 m at 3.7 km).
 #pragma once
 
 #include <cmath>
@@ -30,7 +31,8 @@ class PathLossTable {
   }
 
  private:
-  // exp(-x); in the common case of little loss by its series, whose first omitted term is below 2e-8 there.
+  // exp(-x); in the common case of little loss by its series, whose first omitted term is below
+  // 2e-8 there.
   static double decay(double x) noexcept {
     if (x > 0.25) return std::exp(-x);
     constexpr double k2 = 1.0 / 2, k3 = 1.0 / 6, k4 = 1.0 / 24, k5 = 1.0 / 120, k6 = 1.0 / 720;

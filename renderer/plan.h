@@ -1,4 +1,5 @@
-// Decides which effects run: a pure function of the scene's facts, the accuracy asked for and the user's wishes.
+// Decides which effects run: a pure function of the scene's facts, the accuracy asked for and the
+// user's wishes.
 #pragma once
 
 #include <string>
@@ -16,11 +17,13 @@ struct EffectWishes {
   std::vector<std::string> forced_on, forced_off;
 };
 
-// "all", "none", "+rain,-gas", "all,-fog". Throws InputError E-REF for an unknown effect, naming the known ones.
+// "all", "none", "+rain,-gas", "all,-fog". Throws InputError E-REF for an unknown effect, naming
+// the known ones.
 EffectWishes parse_effect_wishes(const std::string& text);
 
-// Half of `accuracy_grey` is for effects left out: an effect that is possible and not forced runs unless its bound,
-// added to the bounds of those already left out (smallest first), stays within that half.
+// Half of `accuracy_grey` is for effects left out: an effect that is possible and not forced runs
+// unless its bound, added to the bounds of those already left out (smallest first), stays within
+// that half.
 core::EffectPlan plan(const SceneFacts& facts, double accuracy_grey, const EffectWishes& wishes);
 
 }  // namespace fanbeam::renderer

@@ -13,7 +13,8 @@
 namespace fanbeam::renderer {
 namespace {
 
-// A light stands 0.3 m above ground that is known to 0.1 m: nearer than this the ground does not hide it.
+// A light stands 0.3 m above ground that is known to 0.1 m: nearer than this the ground does not
+// hide it.
 constexpr double kClearance_m = 1.0;
 
 }  // namespace
@@ -87,7 +88,8 @@ void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& se
   const double width_rad = scan.column_width_rad();
   const double cut_rad = sensor.antenna.azimuth.cut_rad;
   for (const core::Echo& echo : echoes) {
-    // The beam is an angle on the sky; columns of a plane scan count azimuth in the horizontal plane.
+    // The beam is an angle on the sky; columns of a plane scan count azimuth in the horizontal
+    // plane.
     const double sky =
         scan.surface == sensors::ScanSurface::plane ? std::cos(echo.elevation_rad) : 1.0;
     const int cell = sensors::range_row(sensor.range, echo.range_m);

@@ -14,8 +14,8 @@ namespace {
 
 using terrain::RayPacket;
 
-// Silhouettes against the sky are halved this often beyond the refinement depth: a C-scope row above the horizon that
-// is lit by half a ray interval shows at once, and there are few of them.
+// Silhouettes against the sky are halved this often beyond the refinement depth: a C-scope row
+// above the horizon that is lit by half a ray interval shows at once, and there are few of them.
 constexpr int kHorizonLevels = 3;
 
 // Rays one packet sends, in the antenna's angles.
@@ -43,10 +43,12 @@ inline Axes azimuth_derivative(bool cone, double ce, double se, double ca, doubl
   return cone ? Axes{-sa * ce, ca, -sa * se} : Axes{-ce * sa, ce * ca, 0.0};
 }
 
-// A low-discrepancy place inside the sub-column for ray `index`: multiples of the golden ratio, shifted from
-// sub-column to sub-column by another irrational so that neighbours do not repeat each other.
+// A low-discrepancy place inside the sub-column for ray `index`: multiples of the golden ratio,
+// shifted from sub-column to sub-column by another irrational so that neighbours do not repeat each
+// other.
 inline double dither(std::uint32_t index, int sub_column) {
-  // Fractions as 32-bit integers wrap round by themselves: 0.6180339887 and 0.7548776662 times 2^32.
+  // Fractions as 32-bit integers wrap round by themselves: 0.6180339887 and 0.7548776662 times
+  // 2^32.
   const std::uint32_t value =
       index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U;
   return static_cast<double>(value) * 0x1p-32;
@@ -57,7 +59,8 @@ struct SubColumn {
 
   double offset_rad(double place) const { return step_rad * (place - 0.5); }
 
-  // Cosine and sine at `place` in [0, 1) of the sub-column; third order in a width below 5 mrad leaves 2e-8.
+  // Cosine and sine at `place` in [0, 1) of the sub-column; third order in a width below 5 mrad
+  // leaves 2e-8.
   void at(double place, double& cos_azimuth, double& sin_azimuth) const {
     const double d = offset_rad(place);
     cos_azimuth = cosine - sine * d - cosine * d * d / 2;
@@ -196,8 +199,9 @@ inline void measure_facets(const sensors::AntennaFrame& antenna, bool cone, cons
     facets.z_m[i] = packet.origin_z[i] + packet.direction_z[i] * packet.distance[i];
   }
 }
-// Points a lane. Where the antenna is tilted, or the scan a cone, a step in azimuth alone would change the range of
-// level ground: the elevation then goes along with it, so that rays of one interval stay in its cells.
+// Points a lane. Where the antenna is tilted, or the scan a cone, a step in azimuth alone would
+// change the range of level ground: the elevation then goes along with it, so that rays of one
+// interval stay in its cells.
 template <int N>
 void GroupCaster<N>::aim(Lanes<N>& lanes, int lane, int azimuth, double place, double ce,
                          double se) const {
@@ -373,7 +377,8 @@ void GroupCaster<N>::cast_requests() {
       const auto& request = scratch_.requests[std::min(first + i, count - 1)];
       lanes.active[i] = first + i < count ? -1 : 0;
       elevation_rad[i] = request.elevation_rad;
-      // Keyed by the elevation itself: the same ray gets the same azimuth whatever was refined before it.
+      // Keyed by the elevation itself: the same ray gets the same azimuth whatever was refined
+      // before it.
       const auto index = static_cast<std::uint32_t>((request.elevation_rad + core::kPi) * 1e7);
       aim(lanes, static_cast<int>(i), request.azimuth,
           dither(index, kGroupAzimuths * group_ + request.azimuth), std::cos(request.elevation_rad),
@@ -456,7 +461,8 @@ void GroupCaster<N>::deposit_points(int azimuth) {
 
 }  // namespace
 
-// Everything is inlined into these two, so that the whole loop is compiled for the processor it runs on.
+// Everything is inlined into these two, so that the whole loop is compiled for the processor it
+// runs on.
 FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group,
                                                RayScratch& scratch, FanSums& sums,
                                                std::vector<RayPacket<8>>* record) {

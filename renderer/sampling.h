@@ -6,30 +6,36 @@
 namespace fanbeam::renderer {
 
 struct Sampling {
-  // Azimuth sub-columns per picture column. Azimuth is what limits the error over cities: spend here first.
+  // Azimuth sub-columns per picture column. Azimuth is what limits the error over cities: spend
+  // here first.
   int sub_columns = 4;
   // Rays per range cell of visible ground and per sub-column; below 1, cells share rays.
   double rays_per_cell = 1.0;
-  // Between neighbouring rays that are more than `gap_cells` apart or hit different surfaces, halve this many times.
+  // Between neighbouring rays that are more than `gap_cells` apart or hit different surfaces, halve
+  // this many times.
   int refinement_depth = 2;
   double gap_cells = 1.2;
-  // Largest angle between neighbouring rays, on the ground close by and on what stands above the horizon.
+  // Largest angle between neighbouring rays, on the ground close by and on what stands above the
+  // horizon.
   double largest_step_rad = 3.0e-3;
-  // One ray stands for its whole range interval (false: for the cell it falls in, unbiased, wants many rays).
+  // One ray stands for its whole range interval (false: for the cell it falls in, unbiased, wants
+  // many rays).
   bool deposit_intervals = true;
-  // Reference: this many passes over each sub-column, rays jittered in azimuth and elevation, keyed by `seed`.
+  // Reference: this many passes over each sub-column, rays jittered in azimuth and elevation, keyed
+  // by `seed`.
   int jittered_passes = 0;
   std::uint64_t seed = 0;
 };
 
-// Converged rendering as all errors are stated against: 256 jittered azimuths per column, 8 rays per range cell,
-// no interval, no refinement. `seed` offsets the jitter, for the reference's own error.
+// Converged rendering as all errors are stated against: 256 jittered azimuths per column, 8 rays
+// per range cell, no interval, no refinement. `seed` offsets the jitter, for the reference's own
+// error.
 Sampling reference_sampling(std::uint64_t seed);
 
 inline constexpr double kDefaultRaysPerCell = 4.0;
 
-// `rays_per_cell` rays per range cell and column, split between azimuth and range in the proportion that measured best
-// (docs/performance.md): azimuth first.
+// `rays_per_cell` rays per range cell and column, split between azimuth and range in the proportion
+// that measured best (docs/performance.md): azimuth first.
 Sampling sampling_for(double rays_per_cell);
 
 }  // namespace fanbeam::renderer

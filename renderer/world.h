@@ -15,8 +15,8 @@
 
 namespace fanbeam::renderer {
 
-// A point scatterer, standing (one waypoint) or moving along straight legs between waypoints; before the first and
-// after the last one it stands there. Positions in local metres.
+// A point scatterer, standing (one waypoint) or moving along straight legs between waypoints;
+// before the first and after the last one it stands there. Positions in local metres.
 struct PointTarget {
   struct Waypoint {
     double time_s = 0.0;

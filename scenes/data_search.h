@@ -15,8 +15,9 @@ class DataSearch {
   // `data_folders` in the order of preference.
   DataSearch(std::filesystem::path scene_folder, std::vector<std::filesystem::path> data_folders);
 
-  // The file that `key` of `table` names, or an empty path after reporting: E-PATH when the name leaves every folder
-  // it is looked up in, E-IO with all places searched and what to set when it is nowhere.
+  // The file that `key` of `table` names, or an empty path after reporting: E-PATH when the name
+  // leaves every folder it is looked up in, E-IO with all places searched and what to set when it
+  // is nowhere.
   std::filesystem::path find(core::ConfigTable& table, std::string_view key) const;
 
   // The folder that `file` was found in: models may only read files inside it.

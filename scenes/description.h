@@ -1,5 +1,5 @@
-// A scene as its file says it: checked values in SI, nothing loaded or built yet. One struct per table of scene.toml.
-// docs/scene-format.md documents every key.
+// A scene as its file says it: checked values in SI, nothing loaded or built yet. One struct per
+// table of scene.toml. docs/scene-format.md documents every key.
 #pragma once
 
 #include <cstdint>

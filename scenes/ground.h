@@ -1,5 +1,5 @@
-// The ground of a scene while it is being built: frame, runways in local metres, posts, and how places and heights in
-// the scene's datum become local coordinates.
+// The ground of a scene while it is being built: frame, runways in local metres, posts, and how
+// places and heights in the scene's datum become local coordinates.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -48,7 +48,8 @@ class Ground {
   const terrain::HeightField& field() const { return field_; }
   const std::vector<terrain::Runway>& runways() const { return runways_; }
 
-  // Height above the ellipsoid (or the scene's unknown datum) of a height in the datum at a position.
+  // Height above the ellipsoid (or the scene's unknown datum) of a height in the datum at a
+  // position.
   double ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad,
                        core::VerticalDatum datum) const;
 

@@ -15,16 +15,16 @@ namespace fanbeam::scenes {
 
 class NaturalGround {
  public:
-  // Loads what the description names; problems are told with the key that named the file. `level_m` is the height of a
-  // plain and the mean of generated country, in the scene's datum.
+  // Loads what the description names; problems are told with the key that named the file. `level_m`
+  // is the height of a plain and the mean of generated country, in the scene's datum.
   NaturalGround(const TerrainDescription& terrain, double level_m, const MaterialNames& names,
                 core::ProblemList& problems);
 
   // False when a raster could not be read: then there is nothing to ask for.
   bool usable() const { return usable_; }
 
-  // In the scene's datum, without trees; nothing where the elevation data end. All three are safe to call from many
-  // threads.
+  // In the scene's datum, without trees; nothing where the elevation data end. All three are safe
+  // to call from many threads.
   std::optional<double> height_m(const core::Geodetic& position, glm::dvec2 position_m) const;
   double canopy_m(glm::dvec2 position_m, Zone zone) const;
   terrain::MaterialId material(const core::Geodetic& position, glm::dvec2 position_m,

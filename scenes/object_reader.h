@@ -1,4 +1,5 @@
-// The tables of scene.toml that put things on the ground: runways, surfaces, models, boxes, buildings, targets, lines.
+// The tables of scene.toml that put things on the ground: runways, surfaces, models, boxes,
+// buildings, targets, lines.
 #pragma once
 
 #include "core/config_table.h"

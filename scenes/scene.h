@@ -33,9 +33,10 @@ struct BuildOptions {
   std::string instruction_set;  // see RayScene
 };
 
-// Loads what the description names and puts the world together. Everything wrong is collected in `problems` and then
-// thrown as one InputError; warnings stay in `problems`. Errors beside those of the files: E-REF for unknown materials
-// and runway names, E-RANGE for a runway, object or trajectory outside the terrain and a sensor inside the ground.
+// Loads what the description names and puts the world together. Everything wrong is collected in
+// `problems` and then thrown as one InputError; warnings stay in `problems`. Errors beside those of
+// the files: E-REF for unknown materials and runway names, E-RANGE for a runway, object or
+// trajectory outside the terrain and a sensor inside the ground.
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
                                    core::ProblemList& problems);
 

@@ -100,7 +100,8 @@ void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescriptio
       table.number("airfield_beyond_m", {0.0, 5000.0}, terrain.airfield_beyond_m);
 }
 
-// Numbers of [weather] keep the ranges that atmosphere documents; it checks them once more with the frequency.
+// Numbers of [weather] keep the ranges that atmosphere documents; it checks them once more with the
+// frequency.
 void read_weather(ConfigTable& root, const SceneDescription& scene, atmosphere::Weather& weather) {
   ConfigTable table = root.table("weather");
   weather.visibility_m = table.optional_number("visibility_m", {10, 100000});

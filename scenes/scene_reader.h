@@ -16,8 +16,8 @@ struct SceneOptions {
   std::filesystem::path sensor;  // replaces the scene's sensor file; empty to keep it
 };
 
-// `scene` is a folder with scene.toml, or that file. All problems of the scene and its sensor file go to `problems`;
-// when it holds errors the description must not be built.
+// `scene` is a folder with scene.toml, or that file. All problems of the scene and its sensor file
+// go to `problems`; when it holds errors the description must not be built.
 SceneDescription read_scene(const std::filesystem::path& scene, const SceneOptions& options,
                             core::ProblemList& problems);
 

@@ -1,8 +1,9 @@
-// The ground as a regular grid of posts in the local east-north plane, split into two triangles per cell.
+// The ground as a regular grid of posts in the local east-north plane, split into two triangles per
+// cell.
 //
-// Posts carry the local "up" coordinate, so Earth curvature is already in them. Cells carry a material id that terrain
-// does not interpret. Triangles: each cell is split from its south-west to its north-east post; height_at follows the
-// same two planes that the ray caster sees.
+// Posts carry the local "up" coordinate, so Earth curvature is already in them. Cells carry a
+// material id that terrain does not interpret. Triangles: each cell is split from its south-west to
+// its north-east post; height_at follows the same two planes that the ray caster sees.
 #pragma once
 
 #include <cstdint>
@@ -33,12 +34,13 @@ struct HeightField {
   double east_m() const { return west_m + spacing_m * (columns - 1); }
   double north_m() const { return south_m + spacing_m * (rows - 1); }
 
-  // Height of the triangulated surface; nothing outside the grid. Exact on the planes of the triangles.
+  // Height of the triangulated surface; nothing outside the grid. Exact on the planes of the
+  // triangles.
   std::optional<double> height_at(double x_m, double y_m) const;
 };
 
-// A grid of posts around the origin, all at height 0 and material 0: half extents and spacing in metres.
-// Throws InputError E-RANGE or E-LIMIT (more than 64 million posts).
+// A grid of posts around the origin, all at height 0 and material 0: half extents and spacing in
+// metres. Throws InputError E-RANGE or E-LIMIT (more than 64 million posts).
 HeightField make_height_field(double west_m, double south_m, double east_m, double north_m,
                               double spacing_m);
 

@@ -21,7 +21,8 @@ double smooth(double t) { return t * t * (3.0 - 2.0 * t); }
 
 Landscape::Landscape(const LandscapeSettings& settings, LandscapeMaterials materials)
     : settings_(settings), materials_(std::move(materials)) {
-  // The noise of is_wood has a nearly normal distribution of deviation 0.31; the quantile is the logistic one.
+  // The noise of is_wood has a nearly normal distribution of deviation 0.31; the quantile is the
+  // logistic one.
   const double share = std::clamp(settings.wood_share, 1e-6, 1.0 - 1e-6);
   wood_threshold_ =
       settings.wood_share > 0.0 ? 0.31 / 1.702 * std::log((1.0 - share) / share) : 2.0;

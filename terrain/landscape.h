@@ -1,8 +1,10 @@
-// Gentle generated country for scenes without terrain data: rolling ground, a patchwork of fields, woods.
+// Gentle generated country for scenes without terrain data: rolling ground, a patchwork of fields,
+// woods.
 //
-// Ground: three octaves of smooth value noise (lattice 2000, 800 and 320 m). Fields: a Voronoi patchwork of jittered
-// seeds. Woods: where a slow noise is high; the canopy is part of the surface, so woods shadow what is behind them.
-// Everything follows from `seed` by counter-based random numbers.
+// Ground: three octaves of smooth value noise (lattice 2000, 800 and 320 m). Fields: a Voronoi
+// patchwork of jittered seeds. Woods: where a slow noise is high; the canopy is part of the
+// surface, so woods shadow what is behind them. Everything follows from `seed` by counter-based
+// random numbers.
 #pragma once
 
 #include <cstdint>

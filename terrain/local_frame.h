@@ -1,7 +1,9 @@
-// The scene's own frame: east-north-up axes at an origin near the airport, metres, double precision.
+// The scene's own frame: east-north-up axes at an origin near the airport, metres, double
+// precision.
 //
-// Positions go through the WGS 84 ellipsoid (GeographicLib, Karney 2011: round trip below 1e-8 m), so the curvature of
-// the Earth is in every vertex. A plane Earth is a separate kind of frame for scenes with closed-form answers.
+// Positions go through the WGS 84 ellipsoid (GeographicLib, Karney 2011: round trip below 1e-8 m),
+// so the curvature of the Earth is in every vertex. A plane Earth is a separate kind of frame for
+// scenes with closed-form answers.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -43,8 +45,8 @@ class LocalFrame {
 glm::dvec3 ecef_from_geodetic(const core::Geodetic& position);
 core::Geodetic geodetic_from_ecef(const glm::dvec3& ecef_m);
 
-// Throws InputError: E-NONFINITE, or E-RANGE outside latitude +-90 deg, longitude +-540 deg, height -20 km to
-// 1000 km. `field` begins the name in the message.
+// Throws InputError: E-NONFINITE, or E-RANGE outside latitude +-90 deg, longitude +-540 deg, height
+// -20 km to 1000 km. `field` begins the name in the message.
 void check_geodetic(const core::Geodetic& position, const char* field);
 
 // Length of the geodesic and azimuth (clockwise from north) at its start, on WGS 84 at height 0.

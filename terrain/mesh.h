@@ -10,8 +10,8 @@
 
 namespace fanbeam::terrain {
 
-// Counter-clockwise seen from outside. `triangle_material[i]` is an index into `material_names` (one entry per
-// triangle).
+// Counter-clockwise seen from outside. `triangle_material[i]` is an index into `material_names`
+// (one entry per triangle).
 struct TriangleMesh {
   std::string name;
   std::vector<glm::dvec3> vertices_m;
@@ -20,12 +20,14 @@ struct TriangleMesh {
   std::vector<std::string> material_names;
 };
 
-// Largest coordinate a vertex may have: beyond it a float in the ray caster no longer resolves a metre.
+// Largest coordinate a vertex may have: beyond it a float in the ray caster no longer resolves a
+// metre.
 inline constexpr double kLargestCoordinate_m = 1.0e6;
 
 // Checks every vertex and index, then removes triangles without area and exact duplicates.
-// Errors: E-NONFINITE, E-RANGE (a coordinate beyond kLargestCoordinate_m), E-REF (an index past the end), with mesh,
-// element and value. Warnings: W-DEGENERATE with the count removed. `file` goes into the messages.
+// Errors: E-NONFINITE, E-RANGE (a coordinate beyond kLargestCoordinate_m), E-REF (an index past the
+// end), with mesh, element and value. Warnings: W-DEGENERATE with the count removed. `file` goes
+// into the messages.
 void check_and_clean(TriangleMesh& mesh, const std::string& file, core::ProblemList& problems);
 
 }  // namespace fanbeam::terrain

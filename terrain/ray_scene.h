@@ -1,9 +1,11 @@
-// All surfaces of a scene in one Embree scene: the only place that talks to the ray-casting library.
+// All surfaces of a scene in one Embree scene: the only place that talks to the ray-casting
+// library.
 //
-// Coordinates inside the caster are floats relative to `origin_m`, which is placed near the airport; with vertices and
-// sensor within 10 km of it a range is good to 25 mm worst case and 0.15 mm median. The robust flag is on: rays aimed
-// at shared edges are not lost. Instances of this class are read-only after construction and safe to use from many
-// threads. Embree's error callback turns its errors into exceptions of ours.
+// Coordinates inside the caster are floats relative to `origin_m`, which is placed near the
+// airport; with vertices and sensor within 10 km of it a range is good to 25 mm worst case and 0.15
+// mm median. The robust flag is on: rays aimed at shared edges are not lost. Instances of this
+// class are read-only after construction and safe to use from many threads. Embree's error callback
+// turns its errors into exceptions of ours.
 #pragma once
 
 #include <cstdint>
@@ -23,9 +25,9 @@ inline constexpr std::uint32_t kNoHit = 0xFFFFFFFFU;
 inline constexpr std::uint32_t kTerrainGeometry =
     0;  // the terrain's geometry number when there is one
 
-// N rays and their hits side by side. The layout is Embree's own ray packet, so nothing is copied around a cast.
-// Directions need not be unit vectors; `distance` is in units of their length (`far` before the cast, hit distance
-// after it). The normal is not normalised.
+// N rays and their hits side by side. The layout is Embree's own ray packet, so nothing is copied
+// around a cast. Directions need not be unit vectors; `distance` is in units of their length (`far`
+// before the cast, hit distance after it). The normal is not normalised.
 template <int N>
 struct alignas(N * 4) RayPacket {
   float origin_x[N], origin_y[N], origin_z[N];
@@ -55,16 +57,17 @@ struct SceneHit {
 
 class RayScene {
  public:
-  // `terrain` may be absent. `instruction_set` limits Embree: "", "sse4.2", "avx", "avx2", "avx512".
+  // `terrain` may be absent. `instruction_set` limits Embree: "", "sse4.2", "avx", "avx2",
+  // "avx512".
   RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch> patches,
            std::vector<PlacedMesh> meshes, const std::string& instruction_set = "");
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  // Nearest hits; `active` has all bits set (-1) for lanes to cast and 0 elsewhere. Rays must be finite with
-  // near >= 0 and |coordinate| < 1e18: the packaged library ends the process otherwise. The casters build rays from
-  // checked poses; rays from elsewhere go through `is_valid_ray`.
+  // Nearest hits; `active` has all bits set (-1) for lanes to cast and 0 elsewhere. Rays must be
+  // finite with near >= 0 and |coordinate| < 1e18: the packaged library ends the process otherwise.
+  // The casters build rays from checked poses; rays from elsewhere go through `is_valid_ray`.
   void intersect(const int* active, RayPacket<8>& packet) const noexcept;
   void intersect(const int* active, RayPacket<16>& packet) const noexcept;
 
@@ -89,8 +92,8 @@ class RayScene {
   // Widest packet that the library runs natively here: 16 with AVX-512, 8 otherwise.
   int native_packet() const { return native_packet_; }
 
-  // Upper bound of the height of mesh geometry over the square of `tops_spacing_m` that holds the point; -infinity
-  // where there is none. Guides the elevation fan.
+  // Upper bound of the height of mesh geometry over the square of `tops_spacing_m` that holds the
+  // point; -infinity where there is none. Guides the elevation fan.
   double mesh_top_m(double x_m, double y_m) const noexcept;
   double tops_spacing_m() const { return kTopsSpacing_m; }
 

@@ -9,7 +9,8 @@ namespace {
 
 glm::dvec2 across(glm::dvec2 along) { return {-along.y, along.x}; }
 
-// Paints rectangles in runway coordinates: s metres behind the threshold, t metres left of the centre line.
+// Paints rectangles in runway coordinates: s metres behind the threshold, t metres left of the
+// centre line.
 class MarkingPainter {
  public:
   MarkingPainter(const Runway& runway, int end, std::vector<SurfacePatch>& patches)

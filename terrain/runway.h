@@ -1,11 +1,12 @@
-// The runway as the radar sees it: pavement, shoulders and markings painted on the ground, a flattened strip around
-// it, lights and fence posts as places for small reflectors.
+// The runway as the radar sees it: pavement, shoulders and markings painted on the ground, a
+// flattened strip around it, lights and fence posts as places for small reflectors.
 //
-// Marking sizes follow ICAO Annex 14 Vol. I (8th edition, 5.2): threshold stripes 30 m long, 1.8 m wide and 1.8 m
-// apart, 6 m behind the threshold; centre-line stripes 30 m with 20 m gaps; aiming point 300 m (below 2400 m length)
-// or 400 m behind the threshold; touchdown-zone pairs every 150 m; side stripes 0.9 m. Approach lights follow the
-// precision category I pattern (5.3.4): 900 m of centre line every 30 m, one cross bar at 300 m.
-// Neglected: runway numbers, displaced-threshold arrows, paint wear.
+// Marking sizes follow ICAO Annex 14 Vol. I (8th edition, 5.2): threshold stripes 30 m long, 1.8 m
+// wide and 1.8 m apart, 6 m behind the threshold; centre-line stripes 30 m with 20 m gaps; aiming
+// point 300 m (below 2400 m length) or 400 m behind the threshold; touchdown-zone pairs every 150
+// m; side stripes 0.9 m. Approach lights follow the precision category I pattern (5.3.4): 900 m of
+// centre line every 30 m, one cross bar at 300 m. Neglected: runway numbers, displaced-threshold
+// arrows, paint wear.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -21,7 +22,8 @@ struct RunwayMaterials {
   MaterialId marking = 0;
 };
 
-// One end in local east-north metres; the threshold may be displaced inwards from the end of the pavement.
+// One end in local east-north metres; the threshold may be displaced inwards from the end of the
+// pavement.
 struct RunwayEnd {
   glm::dvec2 pavement_end_m{0.0};
   double displaced_m = 0.0;
@@ -47,8 +49,8 @@ struct Runway {
 // Bottom to top: shoulders, pavement, markings.
 std::vector<SurfacePatch> runway_patches(const Runway& runway);
 
-// Ground height near a runway: inside the strip the straight line between the published end elevations, outside the
-// natural height, a smooth blend between.
+// Ground height near a runway: inside the strip the straight line between the published end
+// elevations, outside the natural height, a smooth blend between.
 double flattened_height_m(const Runway& runway, glm::dvec2 position_m, double natural_height_m);
 
 // A place for a small reflector.
@@ -59,8 +61,8 @@ struct ReflectorSite {
 
 // Edge lights every 60 m, 2 m outside the pavement, 0.35 m high; threshold lights every 3 m.
 std::vector<ReflectorSite> edge_light_sites(const Runway& runway);
-// For a landing on the threshold of `end`: barrettes of 5 lights, 1 m apart, rising from 0.5 m at the threshold with
-// `slope` (rise per metre).
+// For a landing on the threshold of `end`: barrettes of 5 lights, 1 m apart, rising from 0.5 m at
+// the threshold with `slope` (rise per metre).
 std::vector<ReflectorSite> approach_light_sites(const Runway& runway, int end, double slope);
 // Posts along a closed or open line, `spacing_m` apart, at half of `height_m`.
 std::vector<ReflectorSite> post_sites(const std::vector<glm::dvec2>& line_m, bool closed,

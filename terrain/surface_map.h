@@ -1,8 +1,8 @@
-// Which material lies at a ground point: land cover per terrain cell, and flat patches (runway, markings, aprons)
-// painted over it in order.
+// Which material lies at a ground point: land cover per terrain cell, and flat patches (runway,
+// markings, aprons) painted over it in order.
 //
-// Patches have no geometry of their own: they cannot fight with the terrain for depth, and the order in which they are
-// added alone decides which is on top (the last one).
+// Patches have no geometry of their own: they cannot fight with the terrain for depth, and the
+// order in which they are added alone decides which is on top (the last one).
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -45,7 +45,8 @@ class SurfaceMap {
   std::vector<MaterialId> cells_;
   std::vector<SurfacePatch> patches_;
   std::vector<Box> boxes_;
-  // Per cell, the patches that touch it, topmost first: patch_index_[patch_begin_[cell] .. patch_begin_[cell + 1]).
+  // Per cell, the patches that touch it, topmost first: patch_index_[patch_begin_[cell] ..
+  // patch_begin_[cell + 1]).
   std::vector<std::uint32_t> patch_begin_;
   std::vector<std::uint32_t> patch_index_;
 };

@@ -1,5 +1,5 @@
-// The shared real data (terrain, flights, models) is not part of the project. A test that needs it skips with a
-// message where it is absent; with FANBEAM_REQUIRE_DATA=1 that is a failure.
+// The shared real data (terrain, flights, models) is not part of the project. A test that needs it
+// skips with a message where it is absent; with FANBEAM_REQUIRE_DATA=1 that is a failure.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -11,7 +11,8 @@
 
 namespace fanbeam::tests {
 
-// FANBEAM_DATA, else ../shared/data beside the checkout; `relative` inside it, or nothing when absent.
+// FANBEAM_DATA, else ../shared/data beside the checkout; `relative` inside it, or nothing when
+// absent.
 inline std::optional<std::filesystem::path> shared_data(const std::string& relative) {
   const char* from_environment = std::getenv("FANBEAM_DATA");
   const std::filesystem::path root =

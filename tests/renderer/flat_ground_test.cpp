@@ -1,6 +1,7 @@
 // The ray caster against the closed form of flat ground:
 //   P(cell) = Pt G0^2 lambda^2 / (4 pi)^3 * phi_eff * integral over the cell of g_el(e)^2 sigma0(psi) / (R^3 cos psi) dR
-// with sin psi = h / R on a plane, e = -psi, and phi_eff the integral of the squared azimuth pattern (0.60215 deg).
+// with sin psi = h / R on a plane, e = -psi, and phi_eff the integral of the squared azimuth
+// pattern (0.60215 deg).
 #include <catch2/catch.hpp>
 
 #include "core/units.h"
@@ -123,8 +124,8 @@ TEST_CASE("Curved ground follows psi = h/R - R/2Re", "[flat]") {
   const auto sagitta = [](double x, double y) { return -(x * x + y * y) / (2.0 * kRadius_m); };
   const renderer::World world =
       tests::world(tests::hivision(4), tests::ground(4000.0, 20.0, sagitta), {kGrass});
-  // Exact on the sphere; to first order grazing is h/R - R/2Re and depression h/R + R/2Re. The triangles of 20 m follow
-  // the sphere to 8 um.
+  // Exact on the sphere; to first order grazing is h/R - R/2Re and depression h/R + R/2Re. The
+  // triangles of 20 m follow the sphere to 8 um.
   const Error error = compare(
       world, one_ray_per_cell(), kGrass,
       [](double range_m) {
@@ -137,7 +138,8 @@ TEST_CASE("Curved ground follows psi = h/R - R/2Re", "[flat]") {
       });
   CHECK(error.empty == 0);
   CHECK(error.largest_dB < 0.5);
-  // Without the curvature term the far cells would be 0.14 dB off for a constant gamma, more for the grass law here.
+  // Without the curvature term the far cells would be 0.14 dB off for a constant gamma, more for
+  // the grass law here.
   CHECK(std::abs(error.mean_dB) < 0.02);
 }
 

@@ -61,8 +61,8 @@ TEST_CASE("The radar shadow of a wall ends where the line over its top meets the
 }
 
 TEST_CASE("A tower lies over: its top is nearer than its foot", "[geometry]") {
-  // Sensor 60 m high, tower 40 m tall at 400 m: the foot's slant range is sqrt(400^2 + 60^2) = 404.5 m, the top's
-  // sqrt(400^2 + 20^2) = 400.5 m; with a 2 m cell the two are two cells apart.
+  // Sensor 60 m high, tower 40 m tall at 400 m: the foot's slant range is sqrt(400^2 + 60^2) =
+  // 404.5 m, the top's sqrt(400^2 + 20^2) = 400.5 m; with a 2 m cell the two are two cells apart.
   sensors::Sensor sensor = tests::hivision(12);
   sensor.range.cell_m = 1.0;
   sensor.range.cells = 400;
@@ -80,7 +80,8 @@ TEST_CASE("A tower lies over: its top is nearer than its foot", "[geometry]") {
 }
 
 TEST_CASE("A rolled, pitched and unstabilised antenna sees the same ground", "[geometry]") {
-  // Total power from level ground in a wide window hardly depends on roll; range cells of the middle column do not move.
+  // Total power from level ground in a wide window hardly depends on roll; range cells of the
+  // middle column do not move.
   sensors::Sensor sensor = tests::hivision(24);
   sensor.scan.stabilised = false;
   for (const sensors::ScanSurface surface :

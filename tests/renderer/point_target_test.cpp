@@ -1,4 +1,5 @@
-// A reflector surveyed in latitude, longitude and height appears where an independent calculation says it must.
+// A reflector surveyed in latitude, longitude and height appears where an independent calculation
+// says it must.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -15,7 +16,8 @@ struct Expected {
   double range_m, azimuth_rad, elevation_rad;
 };
 
-// By Earth-centred coordinates and textbook rotation at the sensor; shares nothing with the renderer's frames.
+// By Earth-centred coordinates and textbook rotation at the sensor; shares nothing with the
+// renderer's frames.
 Expected seen_from(const core::Geodetic& sensor, double heading_rad, const core::Geodetic& target) {
   const auto ecef = [](const core::Geodetic& g) {
     constexpr double kA = 6378137.0, kF = 1.0 / 298.257223563;

@@ -230,8 +230,9 @@ TEST_CASE("T07 a runway coplanar with sloping terrain wins every ray, whatever t
     if (hit->material != 7) ++wrong;
     worst_m = std::max(worst_m, std::abs(hit->distance_m - glm::length(target - sensor)));
   }
-  // The patch has no height of its own, so only the float range error of 0.1 m / sin(psi) order is left: at 1.3 deg
-  // grazing a height rounding of 3e-5 m (float at 580 m) moves the hit by a few millimetres.
+  // The patch has no height of its own, so only the float range error of 0.1 m / sin(psi) order is
+  // left: at 1.3 deg grazing a height rounding of 3e-5 m (float at 580 m) moves the hit by a few
+  // millimetres.
   CHECK(wrong == 0);
   CHECK(worst_m < 0.02);
 }
@@ -256,7 +257,8 @@ TEST_CASE("T12 ranges on a huge triangle beside tiny ones stay within 5 mm", "[r
                                std::sqrt(1.0 - sine * sine) * std::cos(azimuth), -sine);
     const auto hit = scene.intersect({0.0, 0.0, 60.0}, direction, 6000.0);
     REQUIRE(hit);
-    // The direction is rounded to floats inside: that alone moves a hit at 0.76 deg by R 6e-8 / tan psi.
+    // The direction is rounded to floats inside: that alone moves a hit at 0.76 deg by R 6e-8 / tan
+    // psi.
     worst_m = std::max(
         worst_m, std::abs(hit->distance_m - range_m) - range_m * 6e-8 / std::tan(std::asin(sine)));
   }

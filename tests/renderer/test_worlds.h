@@ -11,7 +11,8 @@
 
 namespace fanbeam::tests {
 
-// The shipped HiVision with its field of view cut to `columns` columns, so that references stay affordable.
+// The shipped HiVision with its field of view cut to `columns` columns, so that references stay
+// affordable.
 inline sensors::Sensor hivision(int columns = 164) {
   core::ProblemList problems;
   sensors::Sensor sensor =

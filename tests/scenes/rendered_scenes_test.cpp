@@ -1,4 +1,5 @@
-// The shipped scenes as pictures: what they must show, as numbers, and that they have not changed unnoticed.
+// The shipped scenes as pictures: what they must show, as numbers, and that they have not changed
+// unnoticed.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -32,7 +33,8 @@ renderer::Frame render(const scenes::Scene& scene, int frame, double rays_per_ce
       .render(scene.frame_pose(frame));
 }
 
-// B-scope grey at a place given in landing coordinates, over 3 x 1 cells: the mean for surfaces, the peak for things.
+// B-scope grey at a place given in landing coordinates, over 3 x 1 cells: the mean for surfaces,
+// the peak for things.
 class Probe {
  public:
   Probe(const scenes::Scene& scene, int frame, const renderer::Frame& picture,
@@ -107,8 +109,8 @@ void check_golden(const std::string& name, const scenes::Scene& scene,
                                 core::read_image(folder / (name + extension)), name, name)
         .front();
   };
-  // Across instruction sets rays along silhouettes may fall to the other side: the mean must not move, and a few cells
-  // in a thousand may differ by more than a grey level's worth.
+  // Across instruction sets rays along silhouettes may fall to the other side: the mean must not
+  // move, and a few cells in a thousand may differ by more than a grey level's worth.
   const core::LayerDifference watts = compare(".exr");
   CHECK(std::abs(watts.mean_dB) < 0.005);
   CHECK(watts.rms_dB < 0.1);
@@ -129,7 +131,8 @@ TEST_CASE("The Braunschweig approach shows runway, lights, fence, hangars and th
   const renderer::Frame picture = render(*scene, frame, 64.0);
   const Probe probe(*scene, frame, picture, "26");
   const double grass = probe.grey(450.0, 60.0);
-  // 15 dB between smooth asphalt and grass at 3 deg: 65 grey levels; beam and shoulders leave two thirds.
+  // 15 dB between smooth asphalt and grass at 3 deg: 65 grey levels; beam and shoulders leave two
+  // thirds.
   CHECK(probe.grey(450.0, 0.0) < grass - 30.0);
   // The truck's flank and cab are metal, 20 dB above asphalt even with the beam's average.
   CHECK(probe.peak(600.0, -6.0, 1.5) > probe.grey(520.0, -6.0) + 40.0);

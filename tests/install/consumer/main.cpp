@@ -1,4 +1,5 @@
-// Another project's program: uses what fanbeam installs and exits with 0 when the answers are right.
+// Another project's program: uses what fanbeam installs and exits with 0 when the answers are
+// right.
 #include <cmath>
 
 #include "core/decibel.h"
