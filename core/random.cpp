@@ -19,8 +19,7 @@ std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter,
 
 std::array<std::uint32_t, 4> random_words(const RandomKey& key, std::uint64_t cell,
                                           std::uint32_t draw) {
-  // Seed and frame make the key, cell and draw the counter; the stream is mixed into both so that
-  // streams never meet.
+  // Seed and stream make the key; cell, draw and frame the counter.
   const auto seed_low = static_cast<std::uint32_t>(key.seed);
   const auto seed_high = static_cast<std::uint32_t>(key.seed >> 32U);
   return philox_block(

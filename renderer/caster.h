@@ -24,8 +24,6 @@ struct FanSums {
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;
   std::uint64_t blanked = 0;  // hits nearer than the first range cell
-  double cast_s =
-      0.0;  // time inside the ray-casting library, summed over threads; 0 unless asked for
 };
 
 class Caster {

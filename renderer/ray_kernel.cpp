@@ -166,6 +166,7 @@ inline void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double 
     packet.instance[i] = terrain::kNoHit;
   }
 }
+
 // What the facets that were hit look like, lane by lane. Floats: the normal comes in floats.
 template <int N>
 struct Facets {

@@ -65,7 +65,7 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
       terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
   std::vector<terrain::MaterialId> ids = ids_of(solid.mesh, names, box.place, "box material");
   meshes.push_back(
-      {std::move(solid.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
+      {std::move(solid.mesh), std::move(ids)});
 }
 
 void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
@@ -106,7 +106,7 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
   std::vector<terrain::MaterialId> ids =
       ids_of(city.mesh, names, buildings.place, "buildings material");
   meshes.push_back(
-      {std::move(city.mesh), std::move(ids), static_cast<std::uint32_t>(meshes.size())});
+      {std::move(city.mesh), std::move(ids)});
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,
@@ -115,7 +115,6 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
   if (!at_m) return;
   PlacedMesh placed;
   placed.mesh = terrain::load_gltf(model.file, model.root, problems);
-  placed.object_id = static_cast<std::uint32_t>(meshes.size());
   const glm::dvec3 base_m = ground.on_ground_m(*at_m, model.above_ground_m);
   const glm::dvec3 forward(std::sin(model.heading_rad), std::cos(model.heading_rad), 0.0);
   const glm::dvec3 right(std::cos(model.heading_rad), -std::sin(model.heading_rad), 0.0);

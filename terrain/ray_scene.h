@@ -45,7 +45,6 @@ struct alignas(N * 4) RayPacket {
 struct PlacedMesh {
   TriangleMesh mesh;
   std::vector<MaterialId> material_of_name;  // parallel to mesh.material_names
-  std::uint32_t object_id = 0;
 };
 
 struct SceneHit {
