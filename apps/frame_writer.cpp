@@ -2,8 +2,8 @@
 
 #include <fmt/core.h>
 
-#include "sensors/display.h"
-#include "sensors/ppi.h"
+#include "sensors/display/display.h"
+#include "sensors/display/ppi.h"
 
 namespace fanbeam::apps {
 namespace {

@@ -17,7 +17,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "scenes/scene.h"
-#include "sensors/display.h"
+#include "sensors/display/display.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -166,7 +166,7 @@ void Run::render_frames() {
   const sensors::Sensor& sensor = scene_.description.sensor;
   const std::vector<int> frames = parse_frames(options_.frames, scene_.frame_count());
   const renderer::FrameRenderer frame_renderer(scene_.world, record_.sampling, wanted(),
-                                               scene_.plan.runs(renderer::kThermalNoise));
+                                               renderer::effects_of(scene_.plan, options_.seed));
   FrameWriter writer(folder_, products_, sensor);
   std::optional<Preview> preview;
   if (products_.contains("preview"))
@@ -184,7 +184,7 @@ void Run::render_frames() {
       const Clock::time_point frame_begin = Clock::now();
       FrameOutput output{index,
                          core::attitude_from(record.pose.q_NB).heading_rad,
-                         frame_renderer.render(scene_.pose_at(record.pose)),
+                         frame_renderer.render(scene_.frame_pose(index)),
                          {}};
       record.frame_ms = 1000.0 * seconds_since(frame_begin);
       record.rays = output.frame.rays;

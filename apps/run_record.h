@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "renderer/casting/sampling.h"
 #include "renderer/frame_renderer.h"
-#include "renderer/sampling.h"
 #include "scenes/scene.h"
 
 namespace fanbeam::apps {

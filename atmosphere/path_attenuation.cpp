@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "atmosphere/gases.h"
-#include "atmosphere/standard_atmosphere.h"
+#include "atmosphere/gas/gases.h"
+#include "atmosphere/gas/standard_atmosphere.h"
 
 namespace fanbeam::atmosphere {
 namespace {

@@ -1,8 +1,8 @@
 #include "atmosphere/weather.h"
 
+#include "atmosphere/gas/standard_atmosphere.h"
 #include "atmosphere/input_check.h"
 #include "atmosphere/path_attenuation.h"
-#include "atmosphere/standard_atmosphere.h"
 #include "core/constants.h"
 
 namespace fanbeam::atmosphere {

@@ -7,9 +7,9 @@
 
 #include <optional>
 
-#include "atmosphere/fog.h"
-#include "atmosphere/fog_water.h"
-#include "atmosphere/rain.h"
+#include "atmosphere/fog/fog.h"
+#include "atmosphere/fog/fog_water.h"
+#include "atmosphere/precipitation/rain.h"
 #include "core/errors.h"
 
 namespace fanbeam::atmosphere {

@@ -8,7 +8,7 @@
 #include "benchmarks/stopwatch.h"
 #include "core/errors.h"
 #include "core/parallel.h"
-#include "renderer/ray_caster.h"
+#include "renderer/casting/ray_caster.h"
 
 namespace fanbeam::benchmarks {
 namespace {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "benchmarks/bench_scene.h"
-#include "renderer/sampling.h"
+#include "renderer/casting/sampling.h"
 
 namespace fanbeam::benchmarks {
 

@@ -64,7 +64,7 @@ std::optional<BenchScene> load(const std::string& name) {
   }
   const renderer::FrameRenderer renderer(result.scene->world,
                                          renderer::sampling_for(renderer::kDefaultRaysPerCell), {},
-                                         result.noise());
+                                         {.thermal_noise = result.noise()});
   renderer.render(view_at(result, 2500.0).pose);
   result.peak_memory_bytes = process_memory_bytes("VmHWM") - before_bytes;
   return result;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "scenes/scene.h"
-#include "sensors/antenna_frame.h"
+#include "sensors/antenna/antenna_frame.h"
 
 namespace fanbeam::benchmarks {
 

@@ -4,10 +4,10 @@
 
 #include "benchmarks/frame_clock.h"
 #include "benchmarks/grey_error.h"
-#include "renderer/azimuth_beam.h"
-#include "renderer/nrcs_table.h"
-#include "renderer/path_loss_table.h"
-#include "renderer/ray_caster.h"
+#include "renderer/casting/nrcs_table.h"
+#include "renderer/casting/path_loss_table.h"
+#include "renderer/casting/ray_caster.h"
+#include "renderer/stages/azimuth_beam.h"
 
 namespace fanbeam::benchmarks {
 namespace {
@@ -46,7 +46,7 @@ void azimuth_beam(State& state, const BenchScene& scene) {
 
 void display(State& state, const BenchScene& scene) {
   const View view = view_at(scene, kDistance_m);
-  const renderer::FrameRenderer renderer(view.world(), default_sampling(), {}, false);
+  const renderer::FrameRenderer renderer(view.world(), default_sampling(), {}, {});
   renderer::Frame frame = renderer.render(view.pose);
   const FramePower power{frame.bscope_W, frame.cscope_W_m3};
   for ([[maybe_unused]] const auto& iteration : state)

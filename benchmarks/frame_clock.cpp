@@ -3,12 +3,12 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/stopwatch.h"
-#include "sensors/display.h"
+#include "sensors/display/display.h"
 
 namespace fanbeam::benchmarks {
 
 FrameClock::FrameClock(const View& view, const renderer::Sampling& sampling)
-    : view_(view), renderer_(view.world(), sampling, {}, view.scene->noise()) {}
+    : view_(view), renderer_(view.world(), sampling, {}, {.thermal_noise = view.scene->noise()}) {}
 
 double FrameClock::frame_ms(renderer::Frame* frame) const {
   const Clock::time_point begin = Clock::now();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensors/display.h"
+#include "sensors/display/display.h"
 
 namespace fanbeam::benchmarks {
 namespace {

@@ -10,7 +10,7 @@
 #include "benchmarks/bench_scene.h"
 #include "benchmarks/grey_error.h"
 #include "benchmarks/naive.h"
-#include "renderer/sampling.h"
+#include "renderer/casting/sampling.h"
 
 namespace fanbeam::benchmarks {
 

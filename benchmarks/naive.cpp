@@ -7,14 +7,14 @@
 #include <glm/geometric.hpp>
 
 #include "core/parallel.h"
-#include "renderer/azimuth_beam.h"
-#include "renderer/nrcs_table.h"
-#include "renderer/path_loss_table.h"
-#include "renderer/point_targets.h"
-#include "renderer/ray_caster.h"
-#include "sensors/beam_pattern.h"
+#include "renderer/casting/nrcs_table.h"
+#include "renderer/casting/path_loss_table.h"
+#include "renderer/casting/ray_caster.h"
+#include "renderer/stages/azimuth_beam.h"
+#include "renderer/stages/point_targets.h"
+#include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
-#include "sensors/display.h"
+#include "sensors/display/display.h"
 
 namespace fanbeam::benchmarks {
 namespace {

@@ -13,7 +13,7 @@
 #include "benchmarks/bare_pass.h"
 #include "benchmarks/bench_scene.h"
 #include "benchmarks/grey_error.h"
-#include "renderer/nrcs_table.h"
+#include "renderer/casting/nrcs_table.h"
 
 namespace fanbeam::benchmarks {
 

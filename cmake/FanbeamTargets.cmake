@@ -22,10 +22,10 @@ elseif(FANBEAM_SANITIZER STREQUAL "thread")
   target_link_options(fanbeam_options INTERFACE -fsanitize=thread)
 endif()
 
-# fanbeam_library(core PUBLIC a b PRIVATE c d): sources are all .cpp files of the folder.
+# fanbeam_library(core PUBLIC a b PRIVATE c d): sources are all .cpp files in and under the folder.
 function(fanbeam_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS "*.cpp")
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS "*.cpp")
   add_library(fanbeam_${name} STATIC ${sources})
   add_library(fanbeam::${name} ALIAS fanbeam_${name})
   set_target_properties(fanbeam_${name} PROPERTIES EXPORT_NAME ${name})

@@ -3,10 +3,10 @@
 #include <cmath>
 
 #include "core/errors.h"
-#include "renderer/azimuth_beam.h"
-#include "renderer/point_targets.h"
-#include "renderer/ray_caster.h"
-#include "sensors/display.h"
+#include "renderer/casting/ray_caster.h"
+#include "renderer/stages/azimuth_beam.h"
+#include "renderer/stages/point_targets.h"
+#include "sensors/display/display.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -34,11 +34,11 @@ std::vector<double> plus(const std::vector<double>& values, double constant) {
 }  // namespace
 
 FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
-                             bool with_noise)
+                             const Effects& effects)
     : world_(world),
       sampling_(sampling),
       products_(products),
-      with_noise_(with_noise),
+      effects_(effects),
       caster_(std::make_unique<RayCaster>(world, sampling)) {}
 
 Frame FrameRenderer::render(const FramePose& pose) const {
@@ -84,7 +84,7 @@ Frame FrameRenderer::render(const FramePose& pose) const {
 
 void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
   const sensors::Sensor& sensor = world_.sensor;
-  const double noise_W = with_noise_ ? sensor.noise_power_W() : 0.0;
+  const double noise_W = effects_.thermal_noise ? sensor.noise_power_W() : 0.0;
   const std::vector<double> received_W = plus(frame.bscope_W, noise_W);
   if (products_.bscope) frame.bscope_grey = sensors::bscope_grey(sensor, received_W);
   if (!products_.cscope) return;
@@ -98,7 +98,7 @@ void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
     frame.cscope_grey = sensors::cscope_grey(sensor, frame.cscope_W_m3);
     return;
   }
-  const double noise_W_m3 = with_noise_ ? sensors::cscope_noise_W_m3(sensor) : 0.0;
+  const double noise_W_m3 = effects_.thermal_noise ? sensors::cscope_noise_W_m3(sensor) : 0.0;
   frame.cscope_grey = sensors::cscope_grey(sensor, plus(frame.cscope_W_m3, noise_W_m3));
 }
 

@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "core/pose.h"
-#include "renderer/caster.h"
-#include "renderer/sampling.h"
+#include "renderer/casting/caster.h"
+#include "renderer/casting/sampling.h"
+#include "renderer/plan/effects.h"
 #include "renderer/world.h"
-#include "sensors/antenna_frame.h"
+#include "sensors/antenna/antenna_frame.h"
 
 namespace fanbeam::renderer {
 
@@ -22,6 +23,7 @@ struct Products {
 // The aircraft at one instant in scene axes.
 struct FramePose {
   double time_s = 0.0;
+  std::uint32_t frame_index = 0;  // keys what is random in the frame
   glm::dvec3 position_m{0.0};
   glm::dmat3 north_east_down{1.0};  // columns: unit vectors at the aircraft
   glm::dquat q_NB{1.0, 0.0, 0.0, 0.0};
@@ -44,9 +46,9 @@ struct Frame {
 
 class FrameRenderer {
  public:
-  // `world` must outlive the renderer. `with_noise`: the effect thermal noise is on.
+  // `world` must outlive the renderer.
   FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
-                bool with_noise);
+                const Effects& effects);
 
   // Thread-safe. Throws InputError E-NONFINITE or E-RANGE for an impossible pose.
   Frame render(const FramePose& pose) const;
@@ -57,7 +59,7 @@ class FrameRenderer {
   const World& world_;
   Sampling sampling_;
   Products products_;
-  bool with_noise_;
+  Effects effects_;
   std::unique_ptr<Caster> caster_;
 };
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "atmosphere/path_attenuation.h"
-#include "materials/phong_nrcs.h"
-#include "materials/rcs.h"
+#include "materials/nrcs/phong_nrcs.h"
+#include "materials/rcs/rcs.h"
 #include "sensors/sensor.h"
 #include "terrain/ray_scene.h"
 
@@ -32,9 +32,9 @@ struct PointTarget {
 
 struct World {
   std::unique_ptr<terrain::RayScene> surfaces;
-  std::vector<materials::PhongNrcs> nrcs;  // by material id, at the sensor's frequency
-  std::vector<std::string> material_names;
-  std::vector<PointTarget> targets;
+  std::vector<materials::PhongNrcs> nrcs{};  // by material id, at the sensor's frequency
+  std::vector<std::string> material_names{};
+  std::vector<PointTarget> targets{};
   atmosphere::PathAttenuation attenuation;
   sensors::Sensor sensor;
 };

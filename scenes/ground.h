@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "materials/material_library.h"
+#include "materials/library/material_library.h"
 #include "scenes/description.h"
 #include "terrain/height_field.h"
 #include "terrain/local_frame.h"

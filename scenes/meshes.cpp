@@ -4,9 +4,9 @@
 
 #include "scenes/objects.h"
 #include "scenes/placed_problems.h"
-#include "terrain/extrusion.h"
-#include "terrain/footprints.h"
-#include "terrain/gltf_loader.h"
+#include "terrain/buildings/extrusion.h"
+#include "terrain/buildings/footprints.h"
+#include "terrain/gltf/gltf_loader.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -64,8 +64,7 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
   terrain::Extrusion solid =
       terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
   std::vector<terrain::MaterialId> ids = ids_of(solid.mesh, names, box.place, "box material");
-  meshes.push_back(
-      {std::move(solid.mesh), std::move(ids)});
+  meshes.push_back({std::move(solid.mesh), std::move(ids)});
 }
 
 void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
@@ -105,8 +104,7 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
                        {buildings.wall_material, buildings.roof_material}, problems);
   std::vector<terrain::MaterialId> ids =
       ids_of(city.mesh, names, buildings.place, "buildings material");
-  meshes.push_back(
-      {std::move(city.mesh), std::move(ids)});
+  meshes.push_back({std::move(city.mesh), std::move(ids)});
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,

@@ -7,9 +7,9 @@
 
 #include "scenes/description.h"
 #include "scenes/ground.h"
-#include "terrain/elevation_raster.h"
-#include "terrain/land_cover_raster.h"
 #include "terrain/landscape.h"
+#include "terrain/raster/elevation_raster.h"
+#include "terrain/raster/land_cover_raster.h"
 
 namespace fanbeam::scenes {
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <glm/matrix.hpp>
 
-#include "materials/material_library.h"
+#include "materials/library/material_library.h"
 #include "scenes/ground.h"
 #include "scenes/objects.h"
-#include "scenes/trajectory_builder.h"
+#include "scenes/trajectory/trajectory_builder.h"
 #include "terrain/geoid.h"
 
 namespace fanbeam::scenes {
@@ -71,13 +71,17 @@ core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
 }  // namespace
 
 renderer::FramePose Scene::pose_at(const core::Pose& pose) const {
-  return {pose.time_s, frame.to_local_m(pose.position), frame.north_east_down_at(pose.position),
-          pose.q_NB};
+  return {.time_s = pose.time_s,
+          .position_m = frame.to_local_m(pose.position),
+          .north_east_down = frame.north_east_down_at(pose.position),
+          .q_NB = pose.q_NB};
 }
 
 renderer::FramePose Scene::frame_pose(int frame_index) const {
-  return pose_at(
+  renderer::FramePose pose = pose_at(
       trajectory.at(trajectory.frame_time_s(frame_index, description.sensor.scan.frame_rate_Hz)));
+  pose.frame_index = static_cast<std::uint32_t>(frame_index);
+  return pose;
 }
 
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
@@ -104,13 +108,14 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   std::vector<std::string> material_names;
   for (const materials::Material& material : library.all()) material_names.push_back(material.name);
   renderer::World world{
-      std::make_unique<terrain::RayScene>(ground.field(), std::move(patches), std::move(meshes),
-                                          options.instruction_set),
-      library.at_frequency(frequency_Hz),
-      std::move(material_names),
-      std::move(targets),
-      atmosphere::PathAttenuation(simulated_weather(description, plan), frequency_Hz),
-      description.sensor};
+      .surfaces = std::make_unique<terrain::RayScene>(ground.field(), std::move(patches),
+                                                      std::move(meshes), options.instruction_set),
+      .nrcs = library.at_frequency(frequency_Hz),
+      .material_names = std::move(material_names),
+      .targets = std::move(targets),
+      .attenuation =
+          atmosphere::PathAttenuation(simulated_weather(description, plan), frequency_Hz),
+      .sensor = description.sensor};
   auto scene = std::make_unique<Scene>(
       Scene{description, frame, std::move(*trajectory), std::move(plan), std::move(world), 0.0});
   scene->build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

@@ -6,10 +6,10 @@
 #include "core/effect_plan.h"
 #include "core/errors.h"
 #include "renderer/frame_renderer.h"
-#include "renderer/plan.h"
+#include "renderer/plan/plan.h"
 #include "renderer/world.h"
 #include "scenes/description.h"
-#include "scenes/trajectory.h"
+#include "scenes/trajectory/trajectory.h"
 #include "terrain/local_frame.h"
 
 namespace fanbeam::scenes {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/constants.h"
-#include "sensors/beam_pattern.h"
+#include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::sensors {
 

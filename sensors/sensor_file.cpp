@@ -7,8 +7,8 @@
 #include "core/constants.h"
 #include "core/decibel.h"
 #include "core/units.h"
-#include "sensors/beam_cut_file.h"
-#include "sensors/beam_pattern.h"
+#include "sensors/antenna/beam_cut_file.h"
+#include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::sensors {
 namespace {

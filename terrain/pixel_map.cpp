@@ -10,7 +10,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
-#include "terrain/gdal_messages.h"
+#include "terrain/raster/gdal_messages.h"
 
 namespace fanbeam::terrain {
 namespace {

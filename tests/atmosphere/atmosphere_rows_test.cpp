@@ -2,9 +2,9 @@
 // snow belong to the snow effect, not to these models; they are counted here, not computed.
 #include <map>
 
-#include "atmosphere/fog.h"
-#include "atmosphere/gases.h"
-#include "atmosphere/rain.h"
+#include "atmosphere/fog/fog.h"
+#include "atmosphere/gas/gases.h"
+#include "atmosphere/precipitation/rain.h"
 #include "core/constants.h"
 #include "tests/atmosphere/oracle_csv.h"
 

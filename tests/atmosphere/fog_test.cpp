@@ -1,9 +1,9 @@
-#include "atmosphere/fog.h"
+#include "atmosphere/fog/fog.h"
 
 #include <array>
 #include <cmath>
 
-#include "atmosphere/fog_water.h"
+#include "atmosphere/fog/fog_water.h"
 #include "core/constants.h"
 #include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"

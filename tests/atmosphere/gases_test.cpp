@@ -1,4 +1,4 @@
-#include "atmosphere/gases.h"
+#include "atmosphere/gas/gases.h"
 
 #include <cmath>
 #include <limits>

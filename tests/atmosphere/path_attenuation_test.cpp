@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "atmosphere/gases.h"
-#include "atmosphere/standard_atmosphere.h"
+#include "atmosphere/gas/gases.h"
+#include "atmosphere/gas/standard_atmosphere.h"
 #include "core/random.h"
 #include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"

@@ -1,4 +1,4 @@
-#include "atmosphere/rain.h"
+#include "atmosphere/precipitation/rain.h"
 
 #include <array>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "atmosphere/standard_atmosphere.h"
+#include "atmosphere/gas/standard_atmosphere.h"
 
 #include <cmath>
 
-#include "atmosphere/gases.h"
+#include "atmosphere/gas/gases.h"
 #include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
 

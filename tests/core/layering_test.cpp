@@ -228,7 +228,7 @@ TEST_CASE("The layering check notices each kind of offence", "[layering]") {
   };
   const Offence offence = GENERATE(values<Offence>({
       {"core/a.cpp", "#include \"terrain/mesh.h\"\n", "may not include terrain/"},
-      {"materials/a.h", "  #  include \"atmosphere/fog.h\"\n", "may not include atmosphere/"},
+      {"materials/a.h", "  #  include \"atmosphere/fog/fog.h\"\n", "may not include atmosphere/"},
       {"terrain/a.cpp", "#include \"materials/nrcs.h\"\n", "may not include materials/"},
       {"renderer/a.cpp", "#include \"scenes/scene.h\"\n", "may not include scenes/"},
       {"signal/a.cpp", "#include \"renderer/cast.h\"\n", "may not include renderer/"},

@@ -1,4 +1,4 @@
-#include "materials/fresnel.h"
+#include "materials/dielectric/fresnel.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -6,10 +6,10 @@
 #include <string>
 
 #include "core/units.h"
-#include "materials/constant_gamma.h"
-#include "materials/git_land.h"
-#include "materials/kulemin.h"
-#include "materials/nrl_sea.h"
+#include "materials/nrcs/constant_gamma.h"
+#include "materials/nrcs/git_land.h"
+#include "materials/nrcs/kulemin.h"
+#include "materials/nrcs/nrl_sea.h"
 #include "tests/materials/csv_rows.h"
 #include "tests/materials/error_class.h"
 

@@ -11,14 +11,14 @@
 
 #include "core/constants.h"
 #include "core/units.h"
-#include "materials/constant_gamma.h"
-#include "materials/git_land.h"
-#include "materials/kulemin.h"
-#include "materials/material_library.h"
-#include "materials/nrl_sea.h"
-#include "materials/oh1992.h"
-#include "materials/phong_fit.h"
-#include "materials/rough_metal.h"
+#include "materials/library/material_library.h"
+#include "materials/nrcs/constant_gamma.h"
+#include "materials/nrcs/git_land.h"
+#include "materials/nrcs/kulemin.h"
+#include "materials/nrcs/nrl_sea.h"
+#include "materials/nrcs/oh1992.h"
+#include "materials/nrcs/phong_fit.h"
+#include "materials/nrcs/rough_metal.h"
 
 namespace fanbeam::materials {
 namespace {

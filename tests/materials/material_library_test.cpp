@@ -1,4 +1,4 @@
-#include "materials/material_library.h"
+#include "materials/library/material_library.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "materials/permittivity.h"
+#include "materials/dielectric/permittivity.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 
-#include "materials/fresnel.h"
+#include "materials/dielectric/fresnel.h"
 #include "tests/materials/csv_rows.h"
 #include "tests/materials/error_class.h"
 

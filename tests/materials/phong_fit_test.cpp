@@ -1,4 +1,4 @@
-#include "materials/phong_fit.h"
+#include "materials/nrcs/phong_fit.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,10 +8,10 @@
 
 #include "core/constants.h"
 #include "core/units.h"
-#include "materials/git_land.h"
-#include "materials/kulemin.h"
-#include "materials/nrl_sea.h"
-#include "materials/oh1992.h"
+#include "materials/nrcs/git_land.h"
+#include "materials/nrcs/kulemin.h"
+#include "materials/nrcs/nrl_sea.h"
+#include "materials/nrcs/oh1992.h"
 #include "tests/materials/csv_rows.h"
 #include "tests/materials/error_class.h"
 

@@ -1,4 +1,4 @@
-#include "materials/phong_nrcs.h"
+#include "materials/nrcs/phong_nrcs.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "materials/rcs.h"
+#include "materials/rcs/rcs.h"
 
 #include <algorithm>
 #include <array>

@@ -4,9 +4,9 @@
 
 #include "core/constants.h"
 #include "core/units.h"
-#include "materials/oh1992.h"
-#include "materials/rough_metal.h"
-#include "materials/roughness.h"
+#include "materials/dielectric/roughness.h"
+#include "materials/nrcs/oh1992.h"
+#include "materials/nrcs/rough_metal.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {

@@ -1,4 +1,4 @@
-#include "renderer/deposit.h"
+#include "renderer/casting/deposit.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/units.h"
-#include "sensors/beam_pattern.h"
+#include "sensors/antenna/beam_pattern.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {
@@ -48,7 +48,7 @@ Error compare(const renderer::World& world, const renderer::Sampling& sampling,
               const std::function<double(double)>& sin_grazing = plane_sine,
               const std::function<double(double)>& depression = plane_depression) {
   const sensors::Sensor& sensor = world.sensor;
-  const renderer::Frame frame = renderer::FrameRenderer(world, sampling, {true, false}, false)
+  const renderer::Frame frame = renderer::FrameRenderer(world, sampling, {true, false}, {})
                                     .render(tests::level_pose(kHeight_m));
   Error error;
   int count = 0;
@@ -150,7 +150,7 @@ TEST_CASE("R01 constant sigma0 falls with R^-3 between cells: -9.0309 dB per dou
   sensor.antenna.elevation.cut_rad = core::radians(80.0);
   const renderer::World world = tests::world(sensor, plane(), {kConstant});
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, renderer::sampling_for(16.0), {true, false}, false)
+      renderer::FrameRenderer(world, renderer::sampling_for(16.0), {true, false}, {})
           .render(tests::level_pose(kHeight_m));
   const auto power_W = [&](int cell) {
     return frame.bscope_W[static_cast<std::size_t>(cell * sensor.scan.columns + 1)];

@@ -47,7 +47,8 @@ bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
 TEST_CASE("R10 the same bytes for any number of threads, any order of frames and again",
           "[robust]") {
   const renderer::World world = village(40);
-  const renderer::FrameRenderer frames(world, renderer::sampling_for(8.0), {}, true);
+  const renderer::FrameRenderer frames(world, renderer::sampling_for(8.0), {},
+                                       {.thermal_noise = true});
   const renderer::Frame expected = frames.render(tests::level_pose(90.0));
   const renderer::Frame other = frames.render(tests::level_pose(70.0));
   CHECK_FALSE(same_bytes(expected.bscope_W, other.bscope_W));
@@ -67,8 +68,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
   const sensors::Sensor sensor = tests::hivision(8);
   SECTION("no geometry at all") {
     const renderer::World world = tests::world(sensor, std::nullopt, {kGrass});
-    const renderer::Frame frame =
-        renderer::FrameRenderer(world, {}, {}, true).render(tests::level_pose(60.0));
+    const renderer::Frame frame = renderer::FrameRenderer(world, {}, {}, {.thermal_noise = true})
+                                      .render(tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events == std::vector<std::string>{"empty_view"});
     for (const double power_W : frame.bscope_W) CHECK(power_W == 0.0);
@@ -82,8 +83,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     one.mesh.material_names = {"wall"};
     one.material_of_name = {0};
     const renderer::World world = tests::world(sensor, std::nullopt, {kGrass}, {one});
-    const renderer::Frame frame =
-        renderer::FrameRenderer(world, {}, {}, true).render(tests::level_pose(60.0));
+    const renderer::Frame frame = renderer::FrameRenderer(world, {}, {}, {.thermal_noise = true})
+                                      .render(tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events.empty());
     // All of the triangle's power lies in the one or two cells of a wall at 1000 m.
@@ -104,8 +105,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     const renderer::World world =
         tests::world(sensor, std::nullopt, {kGrass},
                      {tests::box({-50.0, -900.0, 0.0}, {50.0, -800.0, 50.0}, 0)});
-    const renderer::Frame frame =
-        renderer::FrameRenderer(world, {}, {}, true).render(tests::level_pose(60.0));
+    const renderer::Frame frame = renderer::FrameRenderer(world, {}, {}, {.thermal_noise = true})
+                                      .render(tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events == std::vector<std::string>{"empty_view"});
   }
@@ -114,7 +115,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     tiny.range.cells = 1;
     tiny.display.cscope_rows = 1;
     const renderer::World world = tests::world(tiny, rolling_ground(), {kGrass});
-    check_finite(renderer::FrameRenderer(world, {}, {}, true).render(tests::level_pose(60.0)));
+    check_finite(renderer::FrameRenderer(world, {}, {}, {.thermal_noise = true})
+                     .render(tests::level_pose(60.0)));
   }
 }
 
@@ -122,7 +124,7 @@ TEST_CASE("T13 a sensor in or on the ground sees noise alone and is flagged", "[
   const renderer::World world =
       tests::world(tests::hivision(8),
                    tests::ground(4000.0, 100.0, [](double, double) { return 0.0; }), {kGrass});
-  const renderer::FrameRenderer frames(world, {}, {}, true);
+  const renderer::FrameRenderer frames(world, {}, {}, {.thermal_noise = true});
   for (const double height_m : {-1.0, 0.0}) {
     const renderer::Frame frame = frames.render(tests::level_pose(height_m));
     check_finite(frame);
@@ -136,10 +138,10 @@ TEST_CASE("M02 a perfectly dark surface equals the noise-only picture exactly", 
   const renderer::World dark = tests::world(sensor, rolling_ground(), {kDark});
   const renderer::World nothing = tests::world(sensor, std::nullopt, {kDark});
   for (const bool noise : {true, false}) {
-    const renderer::Frame a =
-        renderer::FrameRenderer(dark, {}, {}, noise).render(tests::level_pose(80.0));
-    const renderer::Frame b =
-        renderer::FrameRenderer(nothing, {}, {}, noise).render(tests::level_pose(80.0));
+    const renderer::Frame a = renderer::FrameRenderer(dark, {}, {}, {.thermal_noise = noise})
+                                  .render(tests::level_pose(80.0));
+    const renderer::Frame b = renderer::FrameRenderer(nothing, {}, {}, {.thermal_noise = noise})
+                                  .render(tests::level_pose(80.0));
     CHECK(same_bytes(a.bscope_grey, b.bscope_grey));
     CHECK(same_bytes(a.cscope_grey, b.cscope_grey));
     if (!noise)
@@ -198,7 +200,7 @@ TEST_CASE("R12 invalid rays are refused before the cast and the process lives", 
 
 TEST_CASE("R12 an impossible pose is refused by name", "[robust]") {
   const renderer::World world = tests::world(tests::hivision(2), rolling_ground(), {kGrass});
-  const renderer::FrameRenderer frames(world, {}, {}, true);
+  const renderer::FrameRenderer frames(world, {}, {}, {.thermal_noise = true});
   renderer::FramePose pose = tests::level_pose(60.0);
   pose.position_m.x = std::nan("");
   CHECK_THROWS_AS(frames.render(pose), core::InputError);
@@ -278,7 +280,7 @@ TEST_CASE("R14 what stands on the ground is visible, what stands behind a wall i
   add("light behind the wall", 0.0, 1050.0, 0.3);
   add("light beside the wall", 60.0, 1050.0, 0.3);
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, {}, {true, false}, false).render(tests::level_pose(60.0));
+      renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(60.0));
   const sensors::Sensor& sensor = world.sensor;
   const auto power_W = [&](double x, double y) {
     const double range_m = std::sqrt(x * x + y * y + 59.7 * 59.7);

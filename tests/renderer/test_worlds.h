@@ -46,14 +46,11 @@ inline renderer::World world(const sensors::Sensor& sensor,
                              std::vector<materials::PhongNrcs> nrcs,
                              std::vector<terrain::PlacedMesh> meshes = {},
                              std::vector<terrain::SurfacePatch> patches = {}) {
-  renderer::World world{
-      std::make_unique<terrain::RayScene>(std::move(field), std::move(patches), std::move(meshes)),
-      std::move(nrcs),
-      {},
-      {},
-      clear_air(),
-      sensor};
-  return world;
+  return {.surfaces = std::make_unique<terrain::RayScene>(std::move(field), std::move(patches),
+                                                          std::move(meshes)),
+          .nrcs = std::move(nrcs),
+          .attenuation = clear_air(),
+          .sensor = sensor};
 }
 
 // Level, heading north, `height_m` above the origin.

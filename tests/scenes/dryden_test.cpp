@@ -1,4 +1,4 @@
-#include "scenes/dryden.h"
+#include "scenes/trajectory/dryden.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "scenes/ils_approach.h"
+#include "scenes/trajectory/ils_approach.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -9,7 +9,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
-#include "scenes/trajectory_transplant.h"
+#include "scenes/trajectory/trajectory_transplant.h"
 
 namespace fanbeam::scenes {
 namespace {

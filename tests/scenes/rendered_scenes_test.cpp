@@ -11,7 +11,7 @@
 #include "scenes/scene.h"
 #include "scenes/scene_reader.h"
 #include "sensors/cells.h"
-#include "sensors/display.h"
+#include "sensors/display/display.h"
 #include "tests/shared_data.h"
 
 namespace {
@@ -29,7 +29,8 @@ std::unique_ptr<scenes::Scene> load(const std::string& name,
 }
 
 renderer::Frame render(const scenes::Scene& scene, int frame, double rays_per_cell = 16.0) {
-  return renderer::FrameRenderer(scene.world, renderer::sampling_for(rays_per_cell), {}, true)
+  return renderer::FrameRenderer(scene.world, renderer::sampling_for(rays_per_cell), {},
+                                 {.thermal_noise = true})
       .render(scene.frame_pose(frame));
 }
 

@@ -1,4 +1,4 @@
-#include "scenes/trajectory_attitude.h"
+#include "scenes/trajectory/trajectory_attitude.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -7,7 +7,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
-#include "scenes/trajectory_smoothing.h"
+#include "scenes/trajectory/trajectory_smoothing.h"
 #include "terrain/local_frame.h"
 #include "tests/shared_data.h"
 

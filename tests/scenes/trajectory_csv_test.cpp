@@ -1,4 +1,4 @@
-#include "scenes/trajectory_csv.h"
+#include "scenes/trajectory/trajectory_csv.h"
 
 #include <unistd.h>
 

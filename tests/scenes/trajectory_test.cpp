@@ -1,4 +1,4 @@
-#include "scenes/trajectory.h"
+#include "scenes/trajectory/trajectory.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "scenes/trajectory_transplant.h"
+#include "scenes/trajectory/trajectory_transplant.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

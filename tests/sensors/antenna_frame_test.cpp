@@ -1,4 +1,4 @@
-#include "sensors/antenna_frame.h"
+#include "sensors/antenna/antenna_frame.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

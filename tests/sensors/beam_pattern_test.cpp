@@ -1,4 +1,4 @@
-#include "sensors/beam_pattern.h"
+#include "sensors/antenna/beam_pattern.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include "core/constants.h"
 #include "core/units.h"
-#include "sensors/antenna_frame.h"
+#include "sensors/antenna/antenna_frame.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;

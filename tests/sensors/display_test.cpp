@@ -1,4 +1,4 @@
-#include "sensors/display.h"
+#include "sensors/display/display.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

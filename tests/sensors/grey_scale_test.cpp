@@ -1,4 +1,4 @@
-#include "sensors/grey_scale.h"
+#include "sensors/display/grey_scale.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "core/errors.h"
-#include "sensors/seed_signal.h"
+#include "sensors/display/seed_signal.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;

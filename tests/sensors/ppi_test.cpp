@@ -1,4 +1,4 @@
-#include "sensors/ppi.h"
+#include "sensors/display/ppi.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "sensors/beam_pattern.h"
+#include "sensors/antenna/beam_pattern.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "sensors/beam_pattern.h"
-#include "sensors/seed_signal.h"
+#include "sensors/antenna/beam_pattern.h"
+#include "sensors/display/seed_signal.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;

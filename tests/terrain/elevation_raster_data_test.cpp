@@ -11,7 +11,7 @@
 #include "core/errors.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "terrain/elevation_raster.h"
+#include "terrain/raster/elevation_raster.h"
 #include "tests/shared_data.h"
 #include "tests/terrain/ascii_grid.h"
 

@@ -1,4 +1,4 @@
-#include "terrain/elevation_raster.h"
+#include "terrain/raster/elevation_raster.h"
 
 #include <GeographicLib/UTMUPS.hpp>
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "terrain/extrusion.h"
+#include "terrain/buildings/extrusion.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
-#include "terrain/footprints.h"
+#include "terrain/buildings/footprints.h"
 #include "terrain/local_frame.h"
 #include "tests/shared_data.h"
 

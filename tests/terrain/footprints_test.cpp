@@ -1,4 +1,4 @@
-#include "terrain/footprints.h"
+#include "terrain/buildings/footprints.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

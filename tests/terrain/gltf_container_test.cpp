@@ -1,7 +1,7 @@
 // Files that lie about their own size and shape.
-#include "terrain/gltf_container.h"
+#include "terrain/gltf/gltf_container.h"
 
-#include "terrain/gltf_limits.h"
+#include "terrain/gltf/gltf_limits.h"
 #include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {

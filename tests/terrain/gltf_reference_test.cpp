@@ -1,5 +1,5 @@
 // References and sizes that lead out of the file.
-#include "terrain/gltf_limits.h"
+#include "terrain/gltf/gltf_limits.h"
 #include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/errors.h"
-#include "terrain/gltf_loader.h"
+#include "terrain/gltf/gltf_loader.h"
 
 namespace fanbeam::tests {
 

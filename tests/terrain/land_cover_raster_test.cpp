@@ -1,4 +1,4 @@
-#include "terrain/land_cover_raster.h"
+#include "terrain/raster/land_cover_raster.h"
 
 #include <catch2/catch.hpp>
 #include <string>

@@ -1,4 +1,4 @@
-#include "terrain/raster_file.h"
+#include "terrain/raster/raster_file.h"
 
 #include <array>
 #include <catch2/catch.hpp>

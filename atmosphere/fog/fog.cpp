@@ -1,0 +1,75 @@
+#include "atmosphere/fog/fog.h"
+
+#include "atmosphere/input_check.h"
+#include "core/constants.h"
+
+namespace fanbeam::atmosphere {
+namespace {
+
+constexpr NameTable<FogLaw, 3> kFogLawNames = {{{"itu-p840", FogLaw::itu_p840},
+                                                {"altshuler", FogLaw::altshuler},
+                                                {"centimetre", FogLaw::centimetre}}};
+
+// Equations 2 to 11 of P.840-8; symbols as there, frequencies in GHz.
+double itu_p840(double f, double temperature_C) {
+  const double warmth = 300.0 / (temperature_C + 273.15) - 1.0;
+  const double eps0 = 77.66 + 103.3 * warmth;
+  const double eps1 = 0.0671 * eps0;
+  const double eps2 = 3.52;
+  const double fp = 20.20 - 146.0 * warmth + 316.0 * warmth * warmth;
+  const double fs = 39.8 * fp;
+
+  const double principal = (eps0 - eps1) / (1.0 + (f / fp) * (f / fp));
+  const double secondary = (eps1 - eps2) / (1.0 + (f / fs) * (f / fs));
+  const double eps_real = principal + secondary + eps2;
+  const double eps_imaginary = f / fp * principal + f / fs * secondary;
+  const double eta = (2.0 + eps_real) / eps_imaginary;
+  return 0.819 * f / (eps_imaginary * (1.0 + eta * eta));
+}
+
+// The limits are wavelengths, but the input is a frequency: at the border both sides of the
+// comparison must round the same way.
+void require_wavelength(double frequency_Hz, double shortest_m, double longest_m,
+                        std::string_view law) {
+  const std::string unit = "Hz (wavelength " + core::number_text(shortest_m * 1e3) + " to " +
+                           core::number_text(longest_m * 1e3) + " mm) for the fog law " +
+                           std::string(law);
+  require_range("frequency_Hz", frequency_Hz,
+                {core::kSpeedOfLight_mps / longest_m, core::kSpeedOfLight_mps / shortest_m, unit});
+}
+
+}  // namespace
+
+FogLaw fog_law_named(std::string_view name) { return choice_named(kFogLawNames, "fog_law", name); }
+
+std::string_view name_of(FogLaw law) { return name_in(kFogLawNames, law); }
+
+double fog_coefficient(FogLaw law, double frequency_Hz, double temperature_C) {
+  require_range("temperature_C", temperature_C, {-40.0, 50.0, "C"});
+  switch (law) {
+    case FogLaw::itu_p840:
+      require_range("frequency_Hz", frequency_Hz, {1e9, 200e9, "Hz for the fog law itu-p840"});
+      return itu_p840(frequency_Hz * 1e-9, temperature_C);
+    case FogLaw::altshuler: {
+      require_wavelength(frequency_Hz, 0.003, 0.010, "altshuler");
+      require_range("temperature_C", temperature_C, {-8.0, 25.0, "C for the fog law altshuler"});
+      const double wavelength_mm = core::kSpeedOfLight_mps / frequency_Hz * 1e3;
+      return -1.347 + 0.0372 * wavelength_mm + 18.0 / wavelength_mm - 0.022 * temperature_C;
+    }
+    case FogLaw::centimetre: {
+      require_wavelength(frequency_Hz, 0.02, 0.10, "centimetre");
+      const double wavelength_cm = core::kSpeedOfLight_mps / frequency_Hz * 1e2;
+      return 0.438 / (wavelength_cm * wavelength_cm);
+    }
+  }
+  throw core::InternalError("unknown fog law");
+}
+
+double fog_attenuation_dB_per_km(FogLaw law, double liquid_water_g_per_m3, double frequency_Hz,
+                                 double temperature_C) {
+  require_range("liquid_water_g_per_m3", liquid_water_g_per_m3,
+                {0.0, kLargestLiquidWater_g_per_m3, "g/m3"});
+  return fog_coefficient(law, frequency_Hz, temperature_C) * liquid_water_g_per_m3;
+}
+
+}  // namespace fanbeam::atmosphere

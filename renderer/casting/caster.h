@@ -1,0 +1,37 @@
+// The two ways to see a scene share this interface: power as a function of direction and range,
+// before the azimuth beam, the receiver and the display.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sensors/antenna/antenna_frame.h"
+
+namespace fanbeam::renderer {
+
+// Received power per radian of azimuth for an antenna that points its azimuth beam everywhere at
+// once (g_az = 1); elevation pattern, radar equation, NRCS and losses are in it.
+struct FanSums {
+  int sub_columns = 0;             // of the whole fan, the beam's margin on both sides included
+  double first_azimuth_rad = 0.0;  // left edge of sub-column 0
+  double step_rad = 0.0;
+  int cells = 0;  // range cells, nearest first
+  int rows = 0;   // elevation rows, highest first; 0 when no C-scope is asked for
+  std::vector<double> range_W_per_rad;  // [sub-column][cell]
+  std::vector<double>
+      elevation_W_m3_per_rad;  // [sub-column][row]: power times R^3, summed over range
+
+  std::uint64_t rays = 0;
+  std::uint64_t hits = 0;
+  std::uint64_t blanked = 0;  // hits nearer than the first range cell
+};
+
+class Caster {
+ public:
+  virtual ~Caster() = default;
+  // Power for a sensor at `frame`. Thread-safe; the result does not depend on the number of
+  // threads.
+  virtual void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const = 0;
+};
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,132 @@
+#include "renderer/casting/elevation_fan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fanbeam::renderer {
+namespace {
+
+// Ranges before the first and behind the last cell that still get rays, so that border cells are
+// full.
+constexpr int kMarginCells = 2;
+constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
+
+glm::dvec3 horizontal(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
+                      sensors::ScanSurface surface) {
+  glm::dvec3 heading = sensors::direction(frame, azimuth_rad, elevation_rad, surface);
+  heading.z = 0.0;
+  const double length = glm::length(heading);
+  return length > 1e-9 ? heading / length : glm::dvec3(0.0, 1.0, 0.0);
+}
+
+// Tangent of the elevation; rises with it.
+double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m) {
+  const double forward = glm::dot(relative_m, frame.forward);
+  const double right = glm::dot(relative_m, frame.right);
+  return glm::dot(relative_m, frame.up) / std::sqrt(forward * forward + right * right);
+}
+
+}  // namespace
+
+ElevationFan::ElevationFan(const World& world, const Sampling& sampling)
+    : world_(world), sampling_(sampling) {
+  const sensors::Antenna& antenna = world.sensor.antenna;
+  lowest_rad_ =
+      std::max(antenna.boresight_elevation_rad - antenna.elevation.cut_rad, -core::kPi / 2);
+  highest_rad_ =
+      std::min(antenna.boresight_elevation_rad + antenna.elevation.cut_rad, core::kPi / 2);
+}
+
+void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
+                         std::vector<double>& edges) const {
+  edges.clear();
+  const auto heading = [&](double azimuth_rad) {
+    return horizontal(frame, azimuth_rad, 0.0, world_.sensor.scan.surface);
+  };
+  const double middle_rad = (left_rad + right_rad) / 2;
+  if (world_.surfaces->terrain() != nullptr) {
+    follow_ground(frame, middle_rad, edges);
+    // Beside the centre azimuth the horizon may stand a little higher.
+    for (const double margin_rad : kHorizonMargin_rad)
+      if (!edges.empty()) add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, edges);
+  }
+  if (!world_.surfaces->has_meshes()) return;
+  double top_rad = highest_object_rad(frame, heading(middle_rad));
+  top_rad = std::max(top_rad, highest_object_rad(frame, heading(left_rad)));
+  top_rad = std::max(top_rad, highest_object_rad(frame, heading(right_rad)));
+  if (edges.empty()) {
+    if (top_rad <= lowest_rad_) return;
+    edges.push_back(lowest_rad_);
+  }
+  add_until(std::min(top_rad, highest_rad_), 1, edges);
+}
+
+void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
+                                 std::vector<double>& edges) const {
+  const terrain::HeightField& ground = *world_.surfaces->terrain();
+  const sensors::RangeGate& gate = world_.sensor.range;
+  const double stride = std::max(1.0, 1.0 / sampling_.rays_per_cell);
+  const glm::dvec3& sensor = frame.position_m;
+  const sensors::ScanSurface surface = world_.sensor.scan.surface;
+  const bool level = frame.up.z > kLevelCosine && surface == sensors::ScanSurface::plane;
+  glm::dvec3 heading = horizontal(frame, azimuth_rad, level ? 0.0 : lowest_rad_, surface);
+  double drop_m = 0.0;
+  int step = 0;
+  for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
+    const double range_m = gate.minimum_m + gate.cell_m * k;
+    // The ground distance of a slant range needs the height there: the one of the step before is
+    // close enough.
+    const double distance_m = std::sqrt(std::max(range_m * range_m - drop_m * drop_m, 1.0));
+    const double x_m = sensor.x + heading.x * distance_m;
+    const double y_m = sensor.y + heading.y * distance_m;
+    const std::optional<double> height_m = ground.height_at(x_m, y_m);
+    if (!height_m) break;
+    drop_m = std::min(std::abs(sensor.z - *height_m), range_m);
+    const double elevation_rad =
+        std::atan(slope_of(frame, {x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z}));
+    // Rays per step need not be whole: steps take turns.
+    ++step;
+    const double rays = sampling_.rays_per_cell * stride;
+    const int parts = static_cast<int>(std::floor(step * rays) - std::floor((step - 1) * rays));
+    // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
+    if (!level) heading = horizontal(frame, azimuth_rad, elevation_rad, surface);
+    if (edges.empty()) {
+      edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
+    } else {
+      add_until(std::min(elevation_rad, highest_rad_), parts, edges);
+    }
+  }
+}
+
+double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
+                                        const glm::dvec3& heading) const {
+  const terrain::RayScene& surfaces = *world_.surfaces;
+  const double square_m = surfaces.tops_spacing_m();
+  const glm::dvec3& sensor = frame.position_m;
+  double top_slope = -1e30;
+  for (double distance_m = 0.0; distance_m <= world_.sensor.range.maximum_m();
+       distance_m += square_m / 2) {
+    const double x_m = heading.x * distance_m;
+    const double y_m = heading.y * distance_m;
+    const double z_m = surfaces.mesh_top_m(sensor.x + x_m, sensor.y + y_m) - sensor.z;
+    if (z_m < -1e29) continue;
+    // The top may stand anywhere in the square: take its near side when above the sensor, its far
+    // side when below.
+    const double shift_m = z_m > 0.0 ? -1.5 * square_m : 1.5 * square_m;
+    const double at_m = std::max(distance_m + shift_m, 1.0);
+    top_slope = std::max(top_slope, slope_of(frame, {heading.x * at_m, heading.y * at_m, z_m}));
+  }
+  return std::atan(top_slope);
+}
+
+void ElevationFan::add_until(double elevation_rad, int parts, std::vector<double>& edges) const {
+  const double from_rad = edges.back();
+  const double span_rad = elevation_rad - from_rad;
+  if (span_rad <= 0.0) return;
+  const int count =
+      std::max({1, parts, static_cast<int>(std::ceil(span_rad / sampling_.largest_step_rad))});
+  for (int i = 1; i <= count; ++i) edges.push_back(from_rad + span_rad * i / count);
+}
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,43 @@
+// Where to put rays in elevation so that every visible range cell of the ground gets its share.
+//
+// Equal angles give far cells almost nothing (rays per cell fall with R^2 at fixed height). The fan
+// follows the terrain profile under one azimuth instead: wherever a range cell of ground is
+// visible, its angular interval gets the rays asked for; hidden ground gets none. Above the highest
+// ground the fan goes on to the top of the highest object. The fan only places samples: what they
+// hit is decided by the caster.
+#pragma once
+
+#include <vector>
+
+#include "core/constants.h"
+#include "renderer/casting/sampling.h"
+#include "renderer/world.h"
+#include "sensors/antenna/antenna_frame.h"
+
+namespace fanbeam::renderer {
+
+// An antenna tilted less than this (0.06 deg) sees a column as one vertical plane.
+inline constexpr double kLevelCosine = 1.0 - 5e-7;
+
+class ElevationFan {
+ public:
+  ElevationFan(const World& world, const Sampling& sampling);
+
+  // Increasing elevations: `edges` bound the intervals that rays stand for. Azimuths from
+  // `left_rad` to `right_rad`. Empty when nothing can be seen there.
+  void place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
+             std::vector<double>& edges) const;
+
+ private:
+  void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
+                     std::vector<double>& edges) const;
+  double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec3& heading) const;
+  void add_until(double elevation_rad, int parts, std::vector<double>& edges) const;
+
+  const World& world_;
+  Sampling sampling_;
+  double lowest_rad_ = 0.0;   // the elevation pattern is zero below
+  double highest_rad_ = 0.0;  // and above
+};
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,101 @@
+#include "renderer/casting/ray_caster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+
+#include "core/parallel.h"
+#include "renderer/casting/path_loss_table.h"
+#include "renderer/casting/ray_kernel.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+void prepare(const World& world, const Sampling& sampling, bool with_cscope, FanSums& sums) {
+  const sensors::Scan& scan = world.sensor.scan;
+  const int margin = margin_sub_columns(world.sensor, sampling.sub_columns);
+  sums.step_rad = scan.column_width_rad() / sampling.sub_columns;
+  sums.first_azimuth_rad = -scan.field_of_view_rad / 2 - margin * sums.step_rad;
+  const int needed = scan.columns * sampling.sub_columns + 2 * margin;
+  sums.sub_columns = (needed + kGroupAzimuths - 1) / kGroupAzimuths * kGroupAzimuths;
+  sums.cells = world.sensor.range.cells;
+  sums.rows = with_cscope ? world.sensor.display.cscope_rows : 0;
+  const auto subs = static_cast<std::size_t>(sums.sub_columns);
+  sums.range_W_per_rad.assign(subs * static_cast<std::size_t>(sums.cells), 0.0);
+  sums.elevation_W_m3_per_rad.assign(subs * static_cast<std::size_t>(sums.rows), 0.0);
+  sums.rays = sums.hits = sums.blanked = 0;
+}
+
+// Runs all groups; `record` keeps the packets of each group in group order.
+template <int N>
+void cast_all(const RayFrame& frame, FanSums& sums,
+              std::vector<std::vector<terrain::RayPacket<N>>>* record) {
+  const auto groups = static_cast<std::size_t>(sums.sub_columns / kGroupAzimuths);
+  std::mutex totals;
+  if (record != nullptr) record->resize(groups);
+  core::parallel_for(groups, [&](std::size_t group) {
+    thread_local RayScratch scratch;
+    scratch.ray_count = scratch.hit_count = scratch.blanked_count = 0;
+    std::vector<terrain::RayPacket<N>>* packets = record != nullptr ? &(*record)[group] : nullptr;
+    cast_group(frame, static_cast<int>(group), scratch, sums, packets);
+    const std::lock_guard<std::mutex> lock(totals);  // whole numbers: their sum has no order
+    sums.rays += scratch.ray_count;
+    sums.hits += scratch.hit_count;
+    sums.blanked += scratch.blanked_count;
+  });
+}
+
+}  // namespace
+
+int margin_sub_columns(const sensors::Sensor& sensor, int sub_columns_per_column) {
+  const double step_rad = sensor.scan.column_width_rad() / sub_columns_per_column;
+  return static_cast<int>(std::ceil(sensor.antenna.azimuth.cut_rad / step_rad));
+}
+
+RayCaster::RayCaster(const World& world, const Sampling& sampling)
+    : world_(world),
+      sampling_(sampling),
+      fan_(world, sampling_),
+      elevation_gain_(world.sensor.antenna.elevation) {
+  for (const materials::PhongNrcs& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
+  if (const terrain::HeightField* ground = world.surfaces->terrain(); ground != nullptr) {
+    const auto [low, high] = std::minmax_element(ground->height_m.begin(), ground->height_m.end());
+    lowest_m_ = *low;
+    highest_m_ = *high;
+  }
+}
+
+PathLossTable RayCaster::path_loss_from(double sensor_height_m) const {
+  // Buildings and models rise above the ground; higher tops would be clamped to this.
+  return {world_.attenuation, sensor_height_m, std::min(sensor_height_m, lowest_m_) - 10.0,
+          std::max(sensor_height_m, highest_m_) + 300.0};
+}
+
+void RayCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums) const {
+  prepare(world_, sampling_, with_cscope, sums);
+  const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
+  const RayFrame frame{world_,     sampling_,       fan_,      nrcs_,
+                       antenna,    elevation_gain_, path_loss, world_.sensor.radar_constant_W_m2(),
+                       with_cscope};
+  if (world_.surfaces->native_packet() == 16) {
+    cast_all<16>(frame, sums, nullptr);
+  } else {
+    cast_all<8>(frame, sums, nullptr);
+  }
+}
+
+std::vector<terrain::RayPacket<16>> RayCaster::packets(const sensors::AntennaFrame& antenna) const {
+  FanSums sums;
+  prepare(world_, sampling_, true, sums);
+  const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
+  const RayFrame frame{world_,  sampling_,       fan_,      nrcs_,
+                       antenna, elevation_gain_, path_loss, world_.sensor.radar_constant_W_m2(),
+                       true};
+  std::vector<std::vector<terrain::RayPacket<16>>> groups;
+  cast_all<16>(frame, sums, &groups);
+  std::vector<terrain::RayPacket<16>> packets;
+  for (const auto& group : groups) packets.insert(packets.end(), group.begin(), group.end());
+  return packets;
+}
+
+}  // namespace fanbeam::renderer

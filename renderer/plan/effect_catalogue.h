@@ -1,0 +1,33 @@
+// The effects that exist, each with what must be in the scene for it, an upper bound of its
+// influence, and its source.
+//
+// Bounds are the largest change of displayed grey that leaving the effect out can cause anywhere:
+//   a multiplicative effect of x dB changes x / (dB per grey level);
+//   an additive power p over a local floor f changes 10 log10(1 + p / f) dB.
+// New effects are new rows: nothing else lists them.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "renderer/plan/scene_facts.h"
+
+namespace fanbeam::renderer {
+
+struct Effect {
+  std::string_view name;
+  std::string_view what;    // "two-way loss in fog"
+  std::string_view source;  // "ITU-R P.840-8"
+  bool (*possible)(const SceneFacts&);
+  double (*bound_dB)(const SceneFacts&);
+  std::string_view why_impossible;
+};
+
+inline constexpr std::string_view kGas = "gas";
+inline constexpr std::string_view kFog = "fog";
+inline constexpr std::string_view kRain = "rain";
+inline constexpr std::string_view kThermalNoise = "thermal-noise";
+
+const std::vector<Effect>& effect_catalogue();
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,29 @@
+// Point scatterers: reflectors, posts, lights and whatever is smaller than a ray.
+//
+//     P(column) = K sigma g_el(el)^2 g_az((az - az_column) cos el)^2 L / R^4   (a cone scan: without cos el)
+// in the one range cell that holds R (rectangular range response). Visibility is one ray to the
+// scatterer; a scatterer on a surface is not hidden by that surface (1 m clearance). Neglected:
+// multipath, shadow of the scatterer itself.
+#pragma once
+
+#include <vector>
+
+#include "core/echo.h"
+#include "renderer/casting/path_loss_table.h"
+#include "renderer/world.h"
+#include "sensors/antenna/antenna_frame.h"
+
+namespace fanbeam::renderer {
+
+// Echoes of all visible targets at `time_s` in front of the antenna and inside the range gate, with
+// power at azimuth gain 1; `object_id` is the target's index; the radial speed is left at 0. Sorted
+// as the targets are.
+std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
+                                     double time_s);
+
+// Adds the echoes to a B-scope [cell][column] in watts and, when not empty, a C-scope [row][column]
+// in W m^3.
+void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& sensor,
+                std::vector<double>& bscope_W, std::vector<double>& cscope_W_m3);
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,77 @@
+#include "sensors/antenna/antenna_frame.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/errors.h"
+#include "core/pose.h"
+
+namespace fanbeam::sensors {
+namespace {
+
+// Components along forward, right and up.
+glm::dvec3 components(const AntennaFrame& frame, const glm::dvec3& v) {
+  return {glm::dot(v, frame.forward), glm::dot(v, frame.right), glm::dot(v, frame.up)};
+}
+
+bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+AntennaAngles plane_angles(const glm::dvec3& fru) {
+  return {std::atan2(fru.y, fru.x), std::atan2(fru.z, std::hypot(fru.x, fru.y))};
+}
+
+}  // namespace
+
+AntennaFrame antenna_frame(const glm::dvec3& aircraft_position_m, const glm::dmat3& R_SN,
+                           const glm::dquat& q_NB, const Mounting& mounting, bool stabilised) {
+  if (!finite(aircraft_position_m))
+    core::throw_input_error(core::ErrorClass::nonfinite, "aircraft position", "not finite",
+                            "three finite numbers, m");
+  const core::Attitude attitude = core::attitude_from(q_NB);
+  const glm::dmat3 R_NB = glm::mat3_cast(core::quaternion_from(attitude));
+
+  AntennaFrame frame;
+  const glm::dvec3 lever_m(mounting.forward_m, mounting.right_m, mounting.down_m);
+  frame.position_m = aircraft_position_m + R_SN * (R_NB * lever_m);
+
+  glm::dmat3 R_NA;
+  if (stabilised) {
+    const double heading_rad = attitude.heading_rad + mounting.yaw_rad;
+    R_NA = glm::mat3_cast(core::quaternion_from({0.0, 0.0, heading_rad}));
+  } else {
+    const core::Attitude mounted{mounting.roll_rad, mounting.pitch_rad, mounting.yaw_rad};
+    R_NA = R_NB * glm::mat3_cast(core::quaternion_from(mounted));
+  }
+  frame.forward = R_SN * R_NA[0];
+  frame.right = R_SN * R_NA[1];
+  frame.up = -(R_SN * R_NA[2]);
+  return frame;
+}
+
+glm::dvec3 direction(const AntennaFrame& frame, double azimuth_rad, double elevation_rad,
+                     ScanSurface surface) {
+  const double ca = std::cos(azimuth_rad), sa = std::sin(azimuth_rad);
+  const double ce = std::cos(elevation_rad), se = std::sin(elevation_rad);
+  if (surface == ScanSurface::cone)
+    return ca * ce * frame.forward + sa * frame.right + ca * se * frame.up;
+  return ce * ca * frame.forward + ce * sa * frame.right + se * frame.up;
+}
+
+std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,
+                                    ScanSurface surface) {
+  const glm::dvec3 fru = components(frame, from_antenna_m);
+  if (!finite(fru) || !(fru.x > 0.0)) return std::nullopt;
+  if (surface == ScanSurface::plane) return plane_angles(fru);
+  return AntennaAngles{std::atan2(fru.y, std::hypot(fru.x, fru.z)), std::atan2(fru.z, fru.x)};
+}
+
+std::optional<AntennaAngles> all_round_angles(const AntennaFrame& frame,
+                                              const glm::dvec3& from_antenna_m) {
+  const glm::dvec3 fru = components(frame, from_antenna_m);
+  if (!finite(fru) || fru == glm::dvec3(0.0)) return std::nullopt;
+  return plane_angles(fru);
+}
+
+}  // namespace fanbeam::sensors

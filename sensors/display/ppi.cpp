@@ -1,0 +1,128 @@
+#include "sensors/display/ppi.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constants.h"
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "sensors/cells.h"
+#include "sensors/display/grey_scale.h"
+
+namespace fanbeam::sensors {
+namespace {
+
+constexpr int kMostPixels = 8192;  // along one side
+
+void check_side(const char* field, int size_px) {
+  if (size_px < 1 || size_px > kMostPixels)
+    core::throw_input_error(core::ErrorClass::range, field, size_px, "1 to 8192 pixels");
+}
+
+void check_finite(const char* field, double value) {
+  if (!std::isfinite(value))
+    core::throw_input_error(core::ErrorClass::nonfinite, field, value, "a finite number");
+}
+
+void check(const PpiView& view, double heading_rad) {
+  check_side("ppi.columns", view.columns);
+  check_side("ppi.rows", view.rows);
+  check_finite("ppi.metres_per_pixel", view.metres_per_pixel);
+  check_finite("ppi.antenna_column", view.antenna_column);
+  check_finite("ppi.antenna_row", view.antenna_row);
+  check_finite("heading", heading_rad);
+  if (!(view.metres_per_pixel > 0.0))
+    core::throw_input_error(core::ErrorClass::range, "ppi.metres_per_pixel", view.metres_per_pixel,
+                            "above 0");
+}
+
+// A B-scope that answers for any range and azimuth.
+class CellReader {
+ public:
+  CellReader(const Sensor& sensor, std::span<const double> grey) : sensor_(sensor), grey_(grey) {}
+
+  double nearest(double range_m, double azimuth_rad) const {
+    const int row = range_row(sensor_.range, range_m);
+    const int column = azimuth_column(sensor_.scan, azimuth_rad);
+    return row == kOutside || column == kOutside ? 0.0 : at(row, column);
+  }
+
+  double bilinear(double range_m, double azimuth_rad) const {
+    const int row = range_row(sensor_.range, range_m);
+    const int column = azimuth_column(sensor_.scan, azimuth_rad);
+    if (row == kOutside || column == kOutside) return 0.0;
+    const double rows_off = (range_m - range_middle_m(sensor_.range, row)) / sensor_.range.cell_m;
+    const double columns_off =
+        (azimuth_rad - column_middle_rad(sensor_.scan, column)) / sensor_.scan.column_width_rad();
+    const int other_row = std::clamp(row + (rows_off < 0.0 ? -1 : 1), 0, sensor_.range.cells - 1);
+    const int other_column =
+        std::clamp(column + (columns_off < 0.0 ? -1 : 1), 0, sensor_.scan.columns - 1);
+    const double t = std::abs(rows_off);
+    const double s = std::min(1.0, std::abs(columns_off));
+    return (1.0 - t) * ((1.0 - s) * at(row, column) + s * at(row, other_column)) +
+           t * ((1.0 - s) * at(other_row, column) + s * at(other_row, other_column));
+  }
+
+ private:
+  double at(int row, int column) const {
+    return grey_[static_cast<std::size_t>(row) * static_cast<std::size_t>(sensor_.scan.columns) +
+                 static_cast<std::size_t>(column)];
+  }
+
+  const Sensor& sensor_;
+  std::span<const double> grey_;
+};
+
+}  // namespace
+
+PpiView ppi_view(const Sensor& sensor, PpiView::Up up, int size_px) {
+  check_side("ppi size", size_px);
+  const double size = size_px;
+  PpiView view;
+  view.up = up;
+  view.columns = size_px;
+  view.rows = size_px;
+  const double half_sector_rad = 0.5 * sensor.scan.field_of_view_rad;
+  const bool ahead_only = up == PpiView::Up::track && half_sector_rad <= core::kPi / 2;
+  const double half_width = ahead_only ? std::max(0.5, std::sin(half_sector_rad)) : 1.0;
+  view.metres_per_pixel = 2.0 * half_width * sensor.range.maximum_m() / size;
+  view.antenna_column = 0.5 * size;
+  view.antenna_row = ahead_only ? size : 0.5 * size;
+  return view;
+}
+
+std::vector<double> ppi_grey(const Sensor& sensor, std::span<const double> bscope_grey,
+                             double heading_rad, const PpiView& view) {
+  check(view, heading_rad);
+  const auto cells =
+      static_cast<std::size_t>(sensor.range.cells) * static_cast<std::size_t>(sensor.scan.columns);
+  if (bscope_grey.size() != cells)
+    throw core::InternalError("the B-scope grey does not have the size of the sensor's B-scope");
+  const CellReader reader(sensor, bscope_grey);
+  const bool bilinear = view.resampling == PpiView::Resampling::bilinear;
+  const double turn_rad = view.up == PpiView::Up::north ? heading_rad : 0.0;
+  const auto width = static_cast<std::size_t>(view.columns);
+  std::vector<double> grey(static_cast<std::size_t>(view.rows) * width);
+  core::parallel_for(static_cast<std::size_t>(view.rows), [&](std::size_t row) {
+    const double up_m =
+        (view.antenna_row - (static_cast<double>(row) + 0.5)) * view.metres_per_pixel;
+    for (std::size_t column = 0; column < width; ++column) {
+      const double right_m =
+          (static_cast<double>(column) + 0.5 - view.antenna_column) * view.metres_per_pixel;
+      const double range_m = std::hypot(right_m, up_m);
+      const double azimuth_rad = core::wrap_pi_rad(std::atan2(right_m, up_m) - turn_rad);
+      grey[row * width + column] =
+          bilinear ? reader.bilinear(range_m, azimuth_rad) : reader.nearest(range_m, azimuth_rad);
+    }
+  });
+  return grey;
+}
+
+Picture8 ppi_picture(const PpiView& view, std::span<const double> grey) {
+  Picture8 picture{view.columns, view.rows, std::vector<std::uint8_t>(grey.size())};
+  std::transform(grey.begin(), grey.end(), picture.pixels.begin(), grey8);
+  return picture;
+}
+
+}  // namespace fanbeam::sensors

@@ -1,0 +1,49 @@
+// Metric plan view (PPI) of a B-scope: each pixel asks which cell of the B-scope lies there, so
+// there are no gaps.
+//
+// Slant range is drawn as distance: at height h a point at distance d appears h^2 / (2 d) too far,
+// 18 m for 120 m at 400 m. Azimuth is drawn as the angle in the ground plane (exact for a
+// stabilised plane scan).
+// Outside the scanned sector and range the picture is grey 0.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "sensors/display/display.h"
+#include "sensors/sensor.h"
+
+namespace fanbeam::sensors {
+
+struct PpiView {
+  enum class Up { north, track };  // track: the antenna's forward axis points up
+  // nearest: the value of the cell that holds the pixel's middle. bilinear: between the middles of
+  // the four nearest cells in range and azimuth; edge cells hold their value out to the sector's
+  // border.
+  enum class Resampling { nearest, bilinear };
+  Up up = Up::track;
+  Resampling resampling = Resampling::nearest;
+  int columns = 0;  // 1 to 8192
+  int rows = 0;
+  double metres_per_pixel = 0.0;  // above 0
+  // Place of the antenna, in pixels from the picture's left and upper edge; may lie outside.
+  double antenna_column = 0.0;
+  double antenna_row = 0.0;
+};
+
+// A square picture that just holds all that the sensor sees: north up about the antenna in its
+// middle, track up with the antenna in the middle of the lower edge (of the picture's middle, when
+// the scan reaches behind).
+// Throws InputError E-RANGE for a size outside 1 to 8192.
+PpiView ppi_view(const Sensor& sensor, PpiView::Up up, int size_px);
+
+// Unrounded grey, row-major, top row first, of unrounded B-scope grey as bscope_grey gives it.
+// `heading_rad` is the true heading of the antenna's forward axis; it matters for north up only.
+// Throws InputError E-RANGE or E-NONFINITE for a view outside the ranges above or a heading that
+// is not finite.
+std::vector<double> ppi_grey(const Sensor& sensor, std::span<const double> bscope_grey,
+                             double heading_rad, const PpiView& view);
+
+Picture8 ppi_picture(const PpiView& view, std::span<const double> grey);
+
+}  // namespace fanbeam::sensors

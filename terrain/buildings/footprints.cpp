@@ -1,0 +1,240 @@
+#include "terrain/buildings/footprints.h"
+
+#include <ogrsf_frmts.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <system_error>
+
+#include "core/text.h"
+#include "core/units.h"
+#include "terrain/raster/gdal_messages.h"
+
+namespace fanbeam::terrain {
+namespace {
+
+constexpr double kHighestBuilding_m = 1000.0;
+constexpr double kLargestLongitude_deg = 540.0;
+
+// Rings come closed from OGR and leave open, in the direction asked for.
+GeodeticRing ring_from(const OGRLinearRing& source, bool counter_clockwise) {
+  GeodeticRing ring;
+  for (int i = 0; i + 1 < source.getNumPoints(); ++i)
+    ring.push_back({core::radians(source.getY(i)), core::radians(source.getX(i))});
+  if ((source.isClockwise() == 0) != counter_clockwise) std::reverse(ring.begin(), ring.end());
+  return ring;
+}
+
+bool is_on_earth(const OGREnvelope& box) {
+  return std::abs(box.MinX) <= kLargestLongitude_deg &&
+         std::abs(box.MaxX) <= kLargestLongitude_deg && std::abs(box.MinY) <= 90.0 &&
+         std::abs(box.MaxY) <= 90.0;
+}
+
+bool has_only_finite_points(const OGRPolygon& polygon) {
+  for (const OGRLinearRing* ring : polygon)
+    for (int i = 0; i < ring->getNumPoints(); ++i)
+      if (!std::isfinite(ring->getX(i)) || !std::isfinite(ring->getY(i))) return false;
+  return true;
+}
+
+void collect_polygons(const OGRGeometry& geometry, std::vector<const OGRPolygon*>& polygons) {
+  const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
+  if (type == wkbPolygon) {
+    polygons.push_back(geometry.toPolygon());
+  } else if (type == wkbMultiPolygon || type == wkbGeometryCollection) {
+    for (const OGRGeometry* part : *geometry.toGeometryCollection())
+      collect_polygons(*part, polygons);
+  }
+}
+
+class FootprintReader {
+ public:
+  FootprintReader(const std::filesystem::path& path, const FootprintOptions& options,
+                  core::ProblemList& problems)
+      : file_(path.string()), options_(options), problems_(problems) {}
+
+  std::vector<Footprint> read();
+
+ private:
+  void check_size() const;
+  GDALDatasetUniquePtr open() const;
+  void read_layer(OGRLayer& layer);
+  void read_feature(OGRFeature& feature);
+  void add_polygon(const OGRPolygon& polygon, double min_height_m, double height_m);
+  void add_valid_polygon(const OGRPolygon& polygon, double min_height_m, double height_m);
+  // Nothing, and an error, when the property is there but no height.
+  std::optional<double> height_of(const OGRFeature& feature, const std::string& property,
+                                  double otherwise_m, std::size_t& defaults);
+  void report_counts();
+  void refuse_feature(const std::string& what, const std::string& value,
+                      const std::string& expected);
+
+  std::string file_;
+  const FootprintOptions& options_;
+  core::ProblemList& problems_;
+  core::ProblemList errors_;
+  GdalMessages messages_;
+  std::vector<Footprint> footprints_;
+  std::unique_ptr<OGRCoordinateTransformation> to_wgs84_;
+  std::size_t feature_ = 0;
+  std::size_t repaired_ = 0;
+  std::size_t without_height_ = 0;
+  std::size_t no_polygons_ = 0;
+  std::size_t degenerate_ = 0;
+};
+
+std::vector<Footprint> FootprintReader::read() {
+  check_size();
+  const GDALDatasetUniquePtr dataset = open();
+  for (OGRLayer* layer : dataset->GetLayers()) read_layer(*layer);
+  if (messages_.has_errors())
+    errors_.error(core::ErrorClass::parse, core::Place{file_}, "GeoJSON",
+                  messages_.first_error_or(""), "a whole, well-formed file");
+  errors_.throw_if_errors();
+  report_counts();
+  return std::move(footprints_);
+}
+
+void FootprintReader::check_size() const {
+  std::error_code error;
+  const bool regular = std::filesystem::is_regular_file(file_, error);
+  const std::uintmax_t size_bytes = regular ? std::filesystem::file_size(file_, error) : 0;
+  if (!regular || error)
+    core::throw_input_error(core::ErrorClass::io, core::Place{file_}, "footprints",
+                            "no such file, or not readable", "a readable file");
+  if (size_bytes > kLargestFootprintFile_bytes)
+    core::throw_input_error(core::ErrorClass::limit, core::Place{file_}, "footprints",
+                            std::to_string(size_bytes) + " bytes", "at most 200 MB");
+}
+
+GDALDatasetUniquePtr FootprintReader::open() const {
+  constexpr std::array<const char*, 2> kDrivers = {"GeoJSON", nullptr};
+  GDALDatasetUniquePtr dataset(GDALDataset::Open(file_.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY,
+                                                 kDrivers.data(), nullptr, nullptr));
+  if (!dataset)
+    core::throw_input_error(core::ErrorClass::parse, core::Place{file_}, "GeoJSON",
+                            messages_.first_error_or("a file of another format"),
+                            "a whole, well-formed GeoJSON file");
+  return dataset;
+}
+
+void FootprintReader::read_layer(OGRLayer& layer) {
+  OGRSpatialReference wgs84;
+  wgs84.importFromEPSG(4326);
+  wgs84.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+  const OGRSpatialReference* crs = layer.GetSpatialRef();
+  if (crs != nullptr) {
+    to_wgs84_.reset(OGRCreateCoordinateTransformation(crs, &wgs84));
+    if (!to_wgs84_)
+      core::throw_input_error(core::ErrorClass::ref, core::Place{file_}, "crs", crs->GetName(),
+                              "a system with a known way to WGS 84");
+  }
+  for (const OGRFeatureUniquePtr& feature : layer) {
+    read_feature(*feature);
+    ++feature_;
+  }
+}
+
+void FootprintReader::read_feature(OGRFeature& feature) {
+  OGRGeometry* geometry = feature.GetGeometryRef();
+  std::vector<const OGRPolygon*> polygons;
+  if (geometry != nullptr) collect_polygons(*geometry, polygons);
+  if (polygons.empty()) {
+    ++no_polygons_;
+    return;
+  }
+  if (to_wgs84_ && geometry->transform(to_wgs84_.get()) != OGRERR_NONE)
+    return refuse_feature("coordinates", "outside their reference system",
+                          "positions on the Earth");
+  std::size_t unused = 0;
+  const auto height_m =
+      height_of(feature, options_.height_property, options_.default_height_m, without_height_);
+  const auto min_height_m = height_of(feature, options_.min_height_property, 0.0, unused);
+  if (!height_m || !min_height_m) return;
+  for (const OGRPolygon* polygon : polygons) add_polygon(*polygon, *min_height_m, *height_m);
+}
+
+void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m, double height_m) {
+  OGREnvelope box;
+  polygon.getEnvelope(&box);
+  if (!has_only_finite_points(polygon) || !is_on_earth(box))
+    return refuse_feature("coordinates", "beyond the Earth",
+                          "longitude -540 to 540, latitude -90 to 90 deg");
+  if (polygon.IsValid()) return add_valid_polygon(polygon, min_height_m, height_m);
+  const std::unique_ptr<OGRGeometry> repaired(polygon.MakeValid());
+  std::vector<const OGRPolygon*> parts;
+  if (repaired) collect_polygons(*repaired, parts);
+  if (parts.empty()) {
+    ++degenerate_;
+    return;
+  }
+  ++repaired_;
+  for (const OGRPolygon* part : parts) add_valid_polygon(*part, min_height_m, height_m);
+}
+
+void FootprintReader::add_valid_polygon(const OGRPolygon& polygon, double min_height_m,
+                                        double height_m) {
+  if (polygon.IsEmpty() || !(polygon.get_Area() > 0.0) || height_m <= min_height_m) {
+    ++degenerate_;
+    return;
+  }
+  Footprint footprint;
+  footprint.outer = ring_from(*polygon.getExteriorRing(), true);
+  for (int i = 0; i < polygon.getNumInteriorRings(); ++i)
+    footprint.holes.push_back(ring_from(*polygon.getInteriorRing(i), false));
+  footprint.min_height_m = min_height_m;
+  footprint.height_m = height_m;
+  footprint.feature = feature_;
+  footprints_.push_back(std::move(footprint));
+}
+
+std::optional<double> FootprintReader::height_of(const OGRFeature& feature,
+                                                 const std::string& property, double otherwise_m,
+                                                 std::size_t& defaults) {
+  const int index = feature.GetFieldIndex(property.c_str());
+  if (index < 0 || !feature.IsFieldSetAndNotNull(index)) {
+    ++defaults;
+    return otherwise_m;
+  }
+  // Through text, so that "12 m" is no number instead of 12.
+  const std::string text = feature.GetFieldAsString(index);
+  const core::ParsedNumber number = core::parse_number(text);
+  if (number.error != core::NumberError::none || number.value < 0.0 ||
+      number.value > kHighestBuilding_m) {
+    refuse_feature(property, text, "a height of 0 to 1000 m");
+    return std::nullopt;
+  }
+  return number.value;
+}
+
+void FootprintReader::refuse_feature(const std::string& what, const std::string& value,
+                                     const std::string& expected) {
+  errors_.error(core::ErrorClass::range, core::Place{file_},
+                "feature " + std::to_string(feature_) + " " + what, value, expected);
+}
+
+void FootprintReader::report_counts() {
+  const auto report = [this](const char* name, std::size_t count, const std::string& what,
+                             const std::string& done) {
+    if (count > 0) problems_.warning(name, core::Place{file_}, what, std::to_string(count), done);
+  };
+  report("REPAIRED", repaired_, "polygons that cross or touch themselves", "their area is kept");
+  report("DEFAULT", without_height_, "features without " + options_.height_property,
+         core::number_text(options_.default_height_m) + " m is used");
+  report("SKIPPED", no_polygons_, "features that are no polygons", "left out");
+  report("DEGENERATE", degenerate_, "footprints without area or height", "left out");
+}
+
+}  // namespace
+
+std::vector<Footprint> read_footprints(const std::filesystem::path& file,
+                                       const FootprintOptions& options,
+                                       core::ProblemList& problems) {
+  return FootprintReader(file, options, problems).read();
+}
+
+}  // namespace fanbeam::terrain

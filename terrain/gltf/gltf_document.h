@@ -1,0 +1,37 @@
+// The JSON text of a glTF file, brought down to what geometry needs and with every type and every
+// reference checked.
+//
+// The glTF parser behind it takes wrong types for missing ones, cuts 64-bit numbers to 32 bits and
+// opens files by itself. It therefore gets a text that holds only known members of known types
+// whose references exist, and neither buffers nor images.
+// Source of members, types and defaults: Khronos Group, glTF 2.0 Specification, version 2.0.1
+// (2021), section 5, "Properties Reference".
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "terrain/gltf/gltf_container.h"
+
+namespace fanbeam::terrain {
+
+struct GltfBufferSource {
+  std::string uri;  // empty: the BIN chunk, or no data at all
+  std::uint64_t byte_length = 0;
+};
+
+struct GltfDocument {
+  std::string json;  // asset, scenes, nodes, meshes, materials, accessors and buffer views
+  std::vector<GltfBufferSource> buffers;
+  std::vector<std::string> image_uris;  // by image, empty for an image in a buffer
+};
+
+// Errors, all together: E-PARSE (not JSON, with line, column and byte offset; a member missing or
+// of another type), E-NONFINITE (a number beyond double), E-RANGE (a negative size, an empty
+// buffer), E-REF (an index of something that is not there), E-LIMIT (kMostGltfNodes).
+GltfDocument read_gltf_document(const GltfContainer& container, const std::filesystem::path& file);
+
+}  // namespace fanbeam::terrain

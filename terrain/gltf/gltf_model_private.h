@@ -1,0 +1,45 @@
+// The parsed structure of a glTF file beside its bytes. Private: carries tinygltf's types.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <glm/vec3.hpp>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "terrain/gltf/gltf_document.h"
+
+namespace fanbeam::terrain {
+
+struct GltfModel {
+  std::string file;
+  tinygltf::Model parts;  // all but the buffers; references were checked with the document
+  std::vector<std::string> buffers;
+};
+
+// Errors: E-PARSE with the parser's own words.
+GltfModel parse_gltf_model(const GltfDocument& document, std::vector<std::string> buffers,
+                           const std::filesystem::path& file);
+
+// Every buffer view against its buffer, every accessor against its views, every primitive against
+// what this reader draws. Errors: E-REF (outside the buffer or view), E-RANGE (stride, count,
+// mode), E-PARSE (component types and element types that glTF does not have, or not there),
+// E-UNSUPPORTED (positions that are not 32-bit floats).
+void check_gltf_accessors(const GltfModel& model, core::ProblemList& problems);
+
+// The elements of a checked accessor of 32-bit float VEC3. E-NONFINITE with the element,
+// E-REF (a sparse index past the end); W-BOUNDS when the file's min and max are not those of the
+// elements. `path` goes into the messages.
+std::vector<glm::dvec3> read_positions(const GltfModel& model, int accessor,
+                                       const std::string& path, core::ProblemList& problems);
+
+// The elements of a checked accessor of unsigned integers, each below `vertex_count`; else E-REF
+// with the element.
+std::vector<std::uint32_t> read_indices(const GltfModel& model, int accessor,
+                                        std::size_t vertex_count, const std::string& path,
+                                        core::ProblemList& problems);
+
+}  // namespace fanbeam::terrain

@@ -1,0 +1,144 @@
+#include "terrain/raster/raster_file.h"
+
+#include <gdal_priv.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <string>
+#include <string_view>
+
+#include "core/errors.h"
+#include "terrain/raster/gdal_messages.h"
+
+namespace fanbeam::terrain {
+namespace {
+
+constexpr std::array<const char*, 5> kDrivers = {"GTiff", "DTED", "SRTMHGT", "AAIGrid", nullptr};
+
+class BandReader {
+ public:
+  explicit BandReader(const std::filesystem::path& path) : file_(path.string()) {
+    check_readable();
+    dataset_.reset(GDALDataset::Open(file_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
+                                     kDrivers.data(), nullptr, nullptr));
+    if (!dataset_)
+      refuse(core::ErrorClass::parse, "raster",
+             messages_.first_error_or("a file of another format"),
+             "GeoTIFF, DTED, SRTM .hgt or ESRI ASCII grid");
+  }
+
+  RasterBand read() {
+    check_shape();
+    GDALRasterBand& band = *dataset_->GetRasterBand(1);
+    check_kind(band);
+    RasterBand result{dataset_->GetRasterXSize(), dataset_->GetRasterYSize(), {}, make_map()};
+    result.samples = read_samples(band);
+    return result;
+  }
+
+ private:
+  [[noreturn]] void refuse(core::ErrorClass error_class, const char* field,
+                           const std::string& value, const char* expected) const {
+    core::throw_input_error(error_class, core::Place{file_}, field, value, expected);
+  }
+
+  void check_readable() const;
+  void check_shape() const;
+  void check_kind(GDALRasterBand& band) const;
+  PixelMap make_map() const;
+  std::vector<float> read_samples(GDALRasterBand& band) const;
+
+  std::string file_;
+  GdalMessages messages_;
+  GDALDatasetUniquePtr dataset_;
+};
+
+// Also keeps names that GDAL alone would understand ("/vsicurl/...") away from it.
+void BandReader::check_readable() const {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file_, error) || !std::ifstream(file_).good())
+    refuse(core::ErrorClass::io, "raster", "no such file, or not readable", "a readable file");
+}
+
+void BandReader::check_shape() const {
+  if (dataset_->GetRasterCount() != 1)
+    refuse(core::ErrorClass::unsupported, "bands", std::to_string(dataset_->GetRasterCount()),
+           "one band");
+  const std::int64_t width = dataset_->GetRasterXSize();
+  const std::int64_t height = dataset_->GetRasterYSize();
+  int block_width = 0;
+  int block_height = 0;
+  dataset_->GetRasterBand(1)->GetBlockSize(&block_width, &block_height);
+  const std::int64_t block = static_cast<std::int64_t>(block_width) * block_height;
+  if (width * height > kMostSamples || block > kMostSamples)
+    refuse(core::ErrorClass::limit, "size",
+           std::to_string(width) + " x " + std::to_string(height) + " in blocks of " +
+               std::to_string(block_width) + " x " + std::to_string(block_height),
+           "at most 100 million samples");
+}
+
+void BandReader::check_kind(GDALRasterBand& band) const {
+  if (GDALDataTypeIsComplex(band.GetRasterDataType()))
+    refuse(core::ErrorClass::unsupported, "sample type",
+           GDALGetDataTypeName(band.GetRasterDataType()), "real numbers");
+  constexpr std::array<std::string_view, 6> kMetres = {"",       "m",     "metre",
+                                                       "metres", "meter", "meters"};
+  const std::string unit = band.GetUnitType();
+  if (std::find(kMetres.begin(), kMetres.end(), unit) == kMetres.end())
+    refuse(core::ErrorClass::unsupported, "unit", unit, "metres");
+  // Blocks that a writer never wrote read as zeros unless the file says what stands for "no value".
+  int has_nodata = 0;
+  band.GetNoDataValue(&has_nodata);
+  const int coverage =
+      band.GetDataCoverageStatus(0, 0, band.GetXSize(), band.GetYSize(), 0, nullptr);
+  if (has_nodata == 0 && (coverage & GDAL_DATA_COVERAGE_STATUS_EMPTY) != 0)
+    refuse(core::ErrorClass::parse, "samples", "blocks that were never written", "a complete file");
+}
+
+PixelMap BandReader::make_map() const {
+  std::array<double, 6> geotransform{};
+  const OGRSpatialReference* crs = dataset_->GetSpatialRef();
+  const bool has_geotransform = dataset_->GetGeoTransform(geotransform.data()) == CE_None;
+  if (!has_geotransform || crs == nullptr || crs->IsEmpty())
+    refuse(core::ErrorClass::ref, "georeference",
+           has_geotransform ? "no coordinate reference system" : "no geotransform",
+           "a geotransform and a coordinate reference system");
+  char* text = nullptr;
+  crs->exportToWkt(&text);
+  const std::string wkt = text != nullptr ? text : "";
+  CPLFree(text);
+  return {geotransform, wkt, dataset_->GetRasterXSize(), dataset_->GetRasterYSize(), file_};
+}
+
+std::vector<float> BandReader::read_samples(GDALRasterBand& band) const {
+  const int width = band.GetXSize();
+  const int height = band.GetYSize();
+  std::vector<float> samples(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  const CPLErr status = band.RasterIO(GF_Read, 0, 0, width, height, samples.data(), width, height,
+                                      GDT_Float32, 0, 0, nullptr);
+  if (status != CE_None || messages_.has_errors())
+    refuse(core::ErrorClass::parse, "samples", messages_.first_error_or("unreadable"),
+           "a complete file");
+
+  int has_nodata = 0;
+  const auto nodata = static_cast<float>(band.GetNoDataValue(&has_nodata));
+  const double scale = band.GetScale();
+  const double offset = band.GetOffset();
+  for (float& sample : samples) {
+    if ((has_nodata != 0 && sample == nodata) || !std::isfinite(sample)) {
+      sample = std::numeric_limits<float>::quiet_NaN();
+    } else {
+      sample = static_cast<float>(offset + scale * static_cast<double>(sample));
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+RasterBand read_raster_band(const std::filesystem::path& path) { return BandReader(path).read(); }
+
+}  // namespace fanbeam::terrain
