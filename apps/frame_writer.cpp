@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#include "apps/detection_product.h"
+#include "core/files.h"
 #include "sensors/display/display.h"
 #include "sensors/display/ppi.h"
 
@@ -123,6 +125,12 @@ void FrameWriter::write(const FrameOutput& output) const {
         sensors::ppi_grey(sensor_, frame.bscope_grey, output.heading_rad, view);
     core::write_png(frame_path(folder_, product, output.index), sensors::ppi_picture(view, grey),
                     output.metadata);
+  }
+  if (products_.contains("detections")) {
+    core::write_file_atomically(detection_table_path(folder_, output.index),
+                                output.detection_table);
+    core::write_png(frame_path(folder_, "detections", output.index),
+                    detection_mask(sensor_, frame.detections), output.metadata);
   }
   if (products_.contains("power")) {
     core::Image image{sensor_.scan.columns, sensor_.range.cells, {}};

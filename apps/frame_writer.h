@@ -23,10 +23,11 @@ struct FrameOutput {
   double heading_rad = 0.0;
   renderer::Frame frame;
   core::Metadata metadata;
+  std::string detection_table{};  // of the product "detections"
 };
 
 // Names of products: "bscope", "cscope", "pair" (both side by side), "power",
-// "ppi" (track up), "ppi_north" (north up), "preview".
+// "ppi" (track up), "ppi_north" (north up), "preview", "detections" (mask and table).
 using ProductSet = std::set<std::string>;
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,

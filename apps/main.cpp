@@ -29,7 +29,7 @@ void add_render(CLI::App& app, RenderOptions& options, CommonOptions& common) {
   command
       ->add_option("--products", options.products,
                    "Any of bscope, cscope, pair (both side by side), ppi (plan view, track up), "
-                   "ppi_north, power (EXR, watts), preview (video)")
+                   "ppi_north, power (EXR, watts), detections (mask and CSV), preview (video)")
       ->capture_default_str();
   command->add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
   command->add_option("--threads", options.threads, "Threads to use (default: all cores)")
@@ -47,6 +47,11 @@ void add_render(CLI::App& app, RenderOptions& options, CommonOptions& common) {
   command->add_option(
       "--effects", options.effects,
       "all, none, or a list such as +rain,-gas (default: what the scene calls for)");
+  command
+      ->add_option("--realisation", options.realisation,
+                   "mean: expected power; sample: one realisation with speckle and noise "
+                   "(default: the scene's)")
+      ->check(CLI::IsMember({"mean", "sample"}));
   command->add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
   command->add_flag("--resume", options.resume,
                     "Keep frames that an earlier run with the same input has finished");

@@ -1,6 +1,6 @@
 #include "apps/render_command.h"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <iostream>
 #include <optional>
 
+#include "apps/detection_product.h"
 #include "apps/frame_writer.h"
 #include "apps/preview.h"
 #include "apps/progress.h"
@@ -30,7 +31,8 @@ double seconds_since(Clock::time_point begin) {
 }
 
 ProductSet parse_products(const std::string& text) {
-  const ProductSet known = {"bscope", "cscope", "pair", "power", "ppi", "ppi_north", "preview"};
+  const ProductSet known = {"bscope", "cscope", "pair",      "power",
+                            "ppi",    "ppi_north", "preview", "detections"};
   ProductSet products;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
@@ -38,7 +40,7 @@ ProductSet parse_products(const std::string& text) {
     from = comma + 1;
     if (!known.contains(name))
       core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
-                              "a list of bscope, cscope, pair, power, ppi, ppi_north, preview");
+                              fmt::format("a list of {}", fmt::join(known, ", ")));
     products.insert(name);
   }
   return products;
@@ -72,6 +74,7 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& rec
       {"fanbeam:cscope", sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation
                              ? "true_elevation: ground truth, a fan beam cannot measure elevation"
                              : "flat_earth: elevation from range and height above ground"},
+      {"fanbeam:realisation", realisation_of(scene.plan)},
       {"fanbeam:rays", std::to_string(record.rays)},
       {"fanbeam:blanked", std::to_string(record.blanked)},
       {"fanbeam:events", events}};
@@ -89,6 +92,8 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
                FrameRecord& record) {
   for (const std::string& product : products) {
     if (product == "preview") return false;
+    if (product == "detections" && !has_detection_table(folder, record.index, fingerprint))
+      return false;
     const fs::path file = frame_path(folder, product, record.index);
     if (!fs::is_regular_file(file)) return false;
     core::Metadata metadata;
@@ -150,7 +155,7 @@ class Run {
     const bool both = products_.contains("pair") || products_.contains("preview");
     const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north");
     return {both || plan_view || products_.contains("bscope"),
-            both || products_.contains("cscope")};
+            both || products_.contains("cscope"), products_.contains("detections")};
   }
 
   const RenderOptions& options_;
@@ -191,6 +196,9 @@ void Run::render_frames() {
       record.blanked = output.frame.blanked;
       record.events = output.frame.events;
       output.metadata = frame_metadata(scene_, record, fingerprint_);
+      if (products_.contains("detections"))
+        output.detection_table =
+            detection_table(sensor, index, record.time_s, fingerprint_, output.frame.detections);
       if (preview)
         preview->add(side_by_side(sensors::bscope_picture(sensor, output.frame.bscope_grey),
                                   sensors::cscope_picture(sensor, output.frame.cscope_grey)));
@@ -272,8 +280,9 @@ int render(const RenderOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
   const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data),
                                            options.sensor};
-  const scenes::SceneDescription description =
+  scenes::SceneDescription description =
       scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  if (!options.realisation.empty()) description.sample = options.realisation == "sample";
   scenes::BuildOptions build;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);

@@ -16,6 +16,7 @@ struct RenderOptions {
   std::string sensor;
   std::string data;
   std::string effects;
+  std::string realisation;  // "mean" or "sample"; empty: the scene's
   std::string preview_format = "mp4";
   int threads = 0;
   double rays_per_cell = 0.0;  // 0: the scene's, else the default

@@ -10,6 +10,7 @@
 #include "apps/common.h"
 #include "core/machine.h"
 #include "core/units.h"
+#include "sensors/receiver/receiver_figures.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -48,6 +49,7 @@ Json sensor_json(const sensors::Sensor& sensor) {
           {"frame_rate_Hz", sensor.scan.frame_rate_Hz},
           {"scan_surface", sensor.scan.surface == sensors::ScanSurface::cone ? "cone" : "plane"},
           {"stabilised", sensor.scan.stabilised},
+          {"polarisation", core::name_of(sensor.waveform.polarisation)},
           {"range_minimum_m", sensor.range.minimum_m},
           {"range_cell_m", sensor.range.cell_m},
           {"range_cells", sensor.range.cells},
@@ -57,6 +59,22 @@ Json sensor_json(const sensors::Sensor& sensor) {
           {"cscope_top_deg", core::degrees(sensor.display.cscope_top_rad)},
           {"cscope_span_deg", core::degrees(sensor.display.cscope_span_rad)},
           {"assumed", sensor.assumed}};
+}
+
+Json receiver_json(const scenes::Scene& scene) {
+  const sensors::Sensor& sensor = scene.description.sensor;
+  const sensors::ReceiverFigures figures = sensors::receiver_figures(sensor);
+  const bool noisy = scene.plan.runs(renderer::kSpeckle) && scene.plan.runs(renderer::kThermalNoise);
+  return {{"noise_W", figures.noise_W},
+          {"threshold_W", figures.threshold_W},
+          {"false_alarm_probability", sensor.receiver.false_alarm_probability},
+          {"false_alarms_per_frame", noisy ? figures.false_alarms_per_frame : 0.0},
+          {"looks", sensor.receiver.looks},
+          {"detection_probability", sensors::kDetectionProbability},
+          {"minimum_detectable_signal_W", figures.detectable_steady_W},
+          {"minimum_detectable_signal_swerling1_W", figures.detectable_swerling1_W},
+          {"minimum_detectable_signal_assumes",
+           "mean signal of one cell and look, square-law detector, known noise, no clutter"}};
 }
 
 Json pose_json(const core::Pose& pose) {
@@ -79,6 +97,8 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["caster"] = record.caster;
   json["input"] = resolved_json(scene.description.resolved);
   json["sensor_values"] = sensor_json(scene.description.sensor);
+  json["receiver"] = receiver_json(scene);
+  json["realisation"] = realisation_of(scene.plan);
   json["sampling"] = sampling_json(record.sampling);
   json["plan"] = Json::array();
   for (const core::EffectDecision& decision : scene.plan.decisions)
@@ -86,6 +106,24 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
                             {"on", decision.on},
                             {"reason", decision.reason},
                             {"bound_grey", decision.bound_grey}});
+  json["surface_state"] = materials::kSurfaceStateNames[static_cast<std::size_t>(
+      scene.description.surface_state)];
+  json["materials"] = Json::array();
+  json["extrapolations"] = Json::array();
+  for (const scenes::SurfaceRecord& surface : scene.surfaces) {
+    json["materials"].push_back(
+        {{"material", surface.material},
+         {"shown_as", surface.shown_as},
+         {"model", surface.model},
+         {"confidence", surface.confidence},
+         {"source_covers_grazing_deg",
+          {core::degrees(surface.grazing_rad.low), core::degrees(surface.grazing_rad.high)}}});
+    for (const materials::Extrapolation& outside : surface.extrapolations)
+      json["extrapolations"].push_back({{"material", surface.shown_as},
+                                        {"quantity", outside.quantity},
+                                        {"asked", outside.asked},
+                                        {"known", outside.known}});
+  }
   json["attitude_derived"] = scene.trajectory.attitude_derived;
   return json;
 }
@@ -97,6 +135,10 @@ double median(std::vector<double> values) {
 }
 
 }  // namespace
+
+std::string realisation_of(const core::EffectPlan& plan) {
+  return plan.runs(renderer::kSpeckle) || plan.runs(renderer::kSwerling) ? "sample" : "mean";
+}
 
 std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
   Json json = header_json(scene, record);

@@ -34,6 +34,9 @@ struct RunRecord {
   double wall_s = 0.0;  // frames, writing included
 };
 
+// "sample" when frames show one realisation, "mean" when they show the expected power.
+std::string realisation_of(const core::EffectPlan& plan);
+
 std::string run_json(const scenes::Scene& scene, const RunRecord& record);
 std::string timing_json(const RunRecord& record);
 

@@ -64,7 +64,7 @@ NaiveRenderer::NaiveRenderer(const View& view, NaiveKind kind, double rays,
     elevations_rad_.push_back(elevation_rad);
     elevation_turns_.push_back({std::cos(elevation_rad), std::sin(elevation_rad)});
   }
-  for (const materials::PhongNrcs& model : view.world().nrcs) nrcs_.emplace_back(model);
+  for (const materials::NrcsCurve& model : view.world().nrcs) nrcs_.emplace_back(model);
 }
 
 // Power per radian of azimuth, into the one cell and row that hold the hit.

@@ -131,6 +131,10 @@ bool ConfigTable::has(std::string_view key) const {
   return table_ != nullptr && static_cast<const toml::table*>(table_)->contains(key);
 }
 
+bool ConfigTable::is_text(std::string_view key) const {
+  return has(key) && static_cast<const toml::table*>(table_)->get(key)->is_string();
+}
+
 std::optional<double> ConfigTable::checked_number(std::string_view key, NumberRange range) {
   const auto* node = static_cast<const toml::node*>(find(key));
   if (node == nullptr) return std::nullopt;

@@ -20,6 +20,9 @@ struct RandomKey {
 inline constexpr std::uint32_t kStreamTurbulence = 1;
 inline constexpr std::uint32_t kStreamTerrain = 2;
 inline constexpr std::uint32_t kStreamReferenceJitter = 3;
+inline constexpr std::uint32_t kStreamSpeckle = 4;
+inline constexpr std::uint32_t kStreamCscopeSpeckle = 5;
+inline constexpr std::uint32_t kStreamTarget = 6;  // phases and fluctuation
 
 std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter,
                                           std::array<std::uint32_t, 2> key);

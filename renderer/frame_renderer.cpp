@@ -3,10 +3,16 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/random.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/stages/azimuth_beam.h"
+#include "renderer/stages/fluctuation.h"
 #include "renderer/stages/point_targets.h"
+#include "renderer/stages/rain_echo.h"
+#include "renderer/stages/side_lobes.h"
 #include "sensors/display/display.h"
+#include "sensors/receiver/point_response.h"
+#include "sensors/receiver/receiver_figures.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -39,7 +45,13 @@ FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const
       sampling_(sampling),
       products_(products),
       effects_(effects),
-      caster_(std::make_unique<RayCaster>(world, sampling)) {}
+      caster_(std::make_unique<RayCaster>(world, sampling)),
+      double_bounce_(effects.double_bounce ? std::make_unique<DoubleBounce>(world, sampling)
+                                           : nullptr),
+      range_response_(effects.range_response && sensors::has_point_response(world.sensor)
+                          ? std::make_unique<RangeResponse>(world.sensor)
+                          : nullptr),
+      threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {}
 
 Frame FrameRenderer::render(const FramePose& pose) const {
   check_pose(pose);
@@ -61,6 +73,7 @@ Frame FrameRenderer::render(const FramePose& pose) const {
     if (ground_m) height_above_ground_m = antenna.position_m.z - *ground_m;
     if (ground_m && height_above_ground_m <= 0.0) {
       frame.events.emplace_back("below_terrain");
+      receive({}, pose.frame_index, frame);
       display(height_above_ground_m, frame);
       return frame;
     }
@@ -68,25 +81,65 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   // Kept by the calling thread: fresh pages for megabytes of sums would cost a tenth of a frame.
   thread_local FanSums sums;
   caster_->cast(antenna, elevation_resolved, sums);
+  if (effects_.rain_echo && world_.volume_echo)
+    add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
+  if (double_bounce_) double_bounce_->add(antenna, sums);
   frame.rays = sums.rays;
   frame.blanked = sums.blanked;
   frame.bscope_W =
       apply_azimuth_beam(sums.range_W_per_rad, sums.cells, sums, sensor, sampling_.sub_columns);
-  if (elevation_resolved)
+  add_azimuth_side_lobes(sums.range_W_per_rad, sums.cells, sums, sensor, frame.bscope_W);
+  if (elevation_resolved) {
     frame.cscope_W_m3 = apply_azimuth_beam(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor,
                                            sampling_.sub_columns);
-  const std::vector<core::Echo> echoes = point_echoes(world_, antenna, pose.time_s);
-  add_echoes(echoes, sensor, frame.bscope_W, frame.cscope_W_m3);
+    add_azimuth_side_lobes(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor, frame.cscope_W_m3);
+  }
+  // Phases mean something in a realisation only: ground_multipath.h.
+  const Multipath multipath = !effects_.multipath ? Multipath::none
+                              : effects_.speckle  ? Multipath::coherent
+                                                  : Multipath::mean;
+  const std::vector<core::Echo> echoes = point_echoes(world_, antenna, pose.time_s, multipath);
+  receive(echoes, pose.frame_index, frame);
   if (sums.hits == 0 && echoes.empty()) frame.events.emplace_back("empty_view");
   display(height_above_ground_m, frame);
   return frame;
 }
 
+// The last stage before display: targets join the diffuse power, expected or as one realisation.
+void FrameRenderer::receive(const std::vector<core::Echo>& echoes, std::uint32_t frame_index,
+                            Frame& frame) const {
+  const sensors::Sensor& sensor = world_.sensor;
+  if (!effects_.speckle && !effects_.swerling) {
+    add_echoes(echoes, sensor, frame.bscope_W, frame.cscope_W_m3);
+    if (range_response_) range_response_->apply(frame.bscope_W);
+    return;
+  }
+  const Fluctuation fluctuation{effects_.speckle, effects_.swerling, sensor.receiver.looks,
+                                effects_.seed, frame_index};
+  std::vector<core::Swerling> cases;
+  for (const PointTarget& target : world_.targets) cases.push_back(target.swerling);
+  const bool noisy = effects_.thermal_noise;
+  std::vector<TargetShare> targets = bscope_shares(echoes, sensor);
+  if (range_response_) {
+    range_response_->apply(frame.bscope_W);
+    targets = range_response_->spread(targets, frame.bscope_W);
+  }
+  realise(std::move(targets), cases, fluctuation, core::kStreamSpeckle,
+          noisy ? sensor.noise_power_W() : 0.0, sensor.scan.columns, frame.bscope_W);
+  if (!frame.cscope_W_m3.empty())
+    realise(cscope_shares(echoes, sensor), cases, fluctuation, core::kStreamCscopeSpeckle,
+            noisy ? sensors::cscope_noise_W_m3(sensor) : 0.0, sensor.scan.columns,
+            frame.cscope_W_m3);
+}
+
 void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
   const sensors::Sensor& sensor = world_.sensor;
-  const double noise_W = effects_.thermal_noise ? sensor.noise_power_W() : 0.0;
+  const bool mean_noise = effects_.thermal_noise && !effects_.speckle;
+  const double noise_W = mean_noise ? sensor.noise_power_W() : 0.0;
   const std::vector<double> received_W = plus(frame.bscope_W, noise_W);
   if (products_.bscope) frame.bscope_grey = sensors::bscope_grey(sensor, received_W);
+  if (products_.detections)
+    frame.detections = above_threshold(sensor, threshold_W_, received_W);
   if (!products_.cscope) return;
   if (sensor.display.cscope_mode == sensors::Display::CScopeMode::flat_earth) {
     const bool above = height_above_ground_m > 0.0;
@@ -98,7 +151,7 @@ void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
     frame.cscope_grey = sensors::cscope_grey(sensor, frame.cscope_W_m3);
     return;
   }
-  const double noise_W_m3 = effects_.thermal_noise ? sensors::cscope_noise_W_m3(sensor) : 0.0;
+  const double noise_W_m3 = mean_noise ? sensors::cscope_noise_W_m3(sensor) : 0.0;
   frame.cscope_grey = sensors::cscope_grey(sensor, plus(frame.cscope_W_m3, noise_W_m3));
 }
 

@@ -5,10 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "core/echo.h"
 #include "core/pose.h"
 #include "renderer/casting/caster.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/effects.h"
+#include "renderer/stages/double_bounce.h"
+#include "renderer/stages/range_response.h"
+#include "renderer/stages/threshold.h"
 #include "renderer/world.h"
 #include "sensors/antenna/antenna_frame.h"
 
@@ -18,6 +22,7 @@ namespace fanbeam::renderer {
 struct Products {
   bool bscope = true;
   bool cscope = true;
+  bool detections = false;
 };
 
 // The aircraft at one instant in scene axes.
@@ -32,11 +37,13 @@ struct FramePose {
 // Arrays are row-major [row][column]; B-scope row 0 is the nearest range cell, C-scope row 0 the
 // highest elevation.
 struct Frame {
-  std::vector<double> bscope_W;     // received power without noise
-  std::vector<double> cscope_W_m3;  // power times R^3 summed over range, without noise
+  // Expected received power without noise; with speckle on, a realisation with its noise.
+  std::vector<double> bscope_W;
+  std::vector<double> cscope_W_m3;  // the same times R^3, summed over range
   std::vector<double>
       bscope_grey;  // unrounded, 0 to 255, with the mean noise power when noise is on
   std::vector<double> cscope_grey;
+  std::vector<ThresholdDetection> detections;
   std::uint64_t rays = 0;
   std::uint64_t blanked = 0;  // hits nearer than the first range cell
   // "below_terrain": the sensor is not above the ground, the picture holds noise alone.
@@ -54,6 +61,8 @@ class FrameRenderer {
   Frame render(const FramePose& pose) const;
 
  private:
+  void receive(const std::vector<core::Echo>& echoes, std::uint32_t frame_index,
+               Frame& frame) const;
   void display(double height_above_ground_m, Frame& frame) const;
 
   const World& world_;
@@ -61,6 +70,9 @@ class FrameRenderer {
   Products products_;
   Effects effects_;
   std::unique_ptr<Caster> caster_;
+  std::unique_ptr<DoubleBounce> double_bounce_;  // when that effect is on
+  std::unique_ptr<RangeResponse> range_response_;
+  double threshold_W_ = 0.0;  // of detections
 };
 
 }  // namespace fanbeam::renderer

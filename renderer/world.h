@@ -4,11 +4,16 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "atmosphere/path_attenuation.h"
-#include "materials/nrcs/phong_nrcs.h"
+#include "atmosphere/precipitation/rain_cells.h"
+#include "atmosphere/volume_echo.h"
+#include "core/swerling.h"
+#include "materials/dielectric/specular_surface.h"
+#include "materials/nrcs/nrcs_curve.h"
 #include "materials/rcs/rcs.h"
 #include "sensors/sensor.h"
 #include "terrain/ray_scene.h"
@@ -26,17 +31,22 @@ struct PointTarget {
   materials::RcsModel rcs;
   std::vector<Waypoint> path;
   glm::dmat3 axes{1.0};  // columns: the target's x (boresight), y and z axes in scene axes
+  core::Swerling swerling = core::Swerling::steady;
 
   glm::dvec3 position_at(double time_s) const;
 };
 
 struct World {
   std::unique_ptr<terrain::RayScene> surfaces;
-  std::vector<materials::PhongNrcs> nrcs{};  // by material id, at the sensor's frequency
+  std::vector<materials::NrcsCurve> nrcs{};  // by material id, as the sensor sees them
   std::vector<std::string> material_names{};
   std::vector<PointTarget> targets{};
   atmosphere::PathAttenuation attenuation;
   sensors::Sensor sensor;
+  // By material id; materials beyond the end, and empty ones, do not reflect like a mirror.
+  std::vector<std::optional<materials::SpecularSurface>> specular{};
+  std::optional<atmosphere::VolumeEcho> volume_echo{};  // where the effect rain echo runs
+  std::optional<atmosphere::RainCells> rain_cells{};  // what they take beyond `attenuation`
 };
 
 }  // namespace fanbeam::renderer

@@ -12,6 +12,8 @@
 #include "atmosphere/weather.h"
 #include "core/config_table.h"
 #include "core/geodetic.h"
+#include "core/swerling.h"
+#include "materials/library/surface_state.h"
 #include "materials/rcs/rcs.h"
 #include "scenes/trajectory/ils_approach.h"
 #include "scenes/trajectory/trajectory_attitude.h"
@@ -117,17 +119,33 @@ struct TargetDescription {
   std::string name;
   materials::RcsModel rcs;
   double heading_rad = 0.0, tilt_rad = 0.0;  // boresight: clockwise from north, up from horizontal
+  core::Swerling swerling = core::Swerling::steady;
   std::vector<Waypoint> path;
   core::Place place;
 };
 
-// A wire, pole or fence: point scatterers along a straight line.
+// A wire, pole or fence: point scatterers along a straight line. What stands at each of them is
+// one of three: the line's even cross-section, a piece of wire, one typical object.
 struct LineDescription {
+  struct Wire {
+    double radius_m = 0.01;
+    double coherence_length_m = 0.0;         // 0 for the distance of two points
+    std::optional<double> polarisation_rad;  // else from the sensor's and the line's slope
+  };
   std::string name;
   Spot from, to;
   double from_above_m = 0.0, to_above_m = 0.0;
   double rcs_m2_per_m = 0.0, spacing_m = 1.0;
+  std::optional<Wire> wire;
+  std::optional<materials::RcsModel> object;
+  core::Swerling swerling = core::Swerling::steady;  // of the object
   core::Place place;
+};
+
+// A rain cell whose place on the ground is still to be found.
+struct RainCellDescription {
+  Spot at;
+  atmosphere::RainCell cell;  // without its centre
 };
 
 struct TrajectoryDescription {
@@ -166,11 +184,15 @@ struct SceneDescription {
   std::vector<BuildingsDescription> buildings;
   std::vector<TargetDescription> targets;
   std::vector<LineDescription> lines;
-  atmosphere::Weather weather;
+  atmosphere::Weather weather;  // its rain cells are in `rain_cells`, not placed yet
+  std::vector<RainCellDescription> rain_cells;
   sensors::Sensor sensor;
   std::filesystem::path material_library;
+  bool allow_extrapolation = false;  // materials may be used outside what their models know
+  materials::SurfaceState surface_state = materials::SurfaceState::dry;
   TrajectoryDescription trajectory;
   double rays_per_cell = 0.0;                // of the scene's [accuracy]; 0 when it does not say
+  bool sample = false;                       // frames show one realisation, not the expected power
   core::ResolvedConfig resolved;             // every setting with its default, for run.json
   std::vector<std::filesystem::path> files;  // what the scene is made of beside scene.toml
 };

@@ -45,11 +45,6 @@ terrain::MaterialId MaterialNames::id(const std::string& name, const core::Place
   return static_cast<terrain::MaterialId>(index.value_or(0));
 }
 
-void MaterialNames::warn_if_extrapolated(double frequency_Hz) const {
-  for (const std::size_t index : used_)
-    library_.warn_if_extrapolated(index, frequency_Hz, problems_);
-}
-
 Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame,
                const MaterialNames& names, core::ProblemList& problems)
     : scene_(scene), frame_(frame), problems_(problems) {

@@ -25,8 +25,8 @@ class MaterialNames {
       : library_(library), problems_(problems) {}
   terrain::MaterialId id(const std::string& name, const core::Place& place,
                          const std::string& field) const;
-  // W-EXTRAPOLATED for each material asked for so far that is not known at this frequency.
-  void warn_if_extrapolated(double frequency_Hz) const;
+  // Indices in the library of the materials asked for so far.
+  const std::set<std::size_t>& used() const { return used_; }
 
  private:
   const materials::MaterialLibrary& library_;

@@ -4,6 +4,7 @@
 
 #include "core/decibel.h"
 #include "core/units.h"
+#include "scenes/target_reader.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -122,65 +123,6 @@ BuildingsDescription read_buildings(ConfigTable& table, const DataSearch& search
   return buildings;
 }
 
-materials::RcsModel read_rcs(ConfigTable& target) {
-  ConfigTable table = target.table("rcs");
-  if (!table.present())
-    target.error(core::ErrorClass::ref, "rcs", "missing",
-                 "{ shape, ... }, see docs/scene-format.md");
-  const core::NumberRange size_m{0.001, 100.0};
-  switch (table.choice("shape", {"constant", "trihedral", "dihedral", "plate", "cylinder"}, 0)) {
-    case 1:
-      return materials::TriangularTrihedral{table.number("edge_m", size_m, 0.1)};
-    case 2:
-      return materials::Dihedral{table.number("width_m", size_m, 0.1),
-                                 table.number("height_m", size_m, 0.1)};
-    case 3:
-      return materials::RectangularPlate{table.number("width_m", size_m, 0.1),
-                                         table.number("height_m", size_m, 0.1)};
-    case 4:
-      return materials::Cylinder{table.number("radius_m", size_m, 0.1),
-                                 table.number("length_m", size_m, 1.0)};
-    default:
-      return materials::ConstantRcs{rcs_m2_from(table, "rcs_dBsm", 0.0)};
-  }
-}
-
-TargetDescription read_target(ConfigTable& table) {
-  TargetDescription target;
-  target.place = table.place("");
-  target.name = table.text("name", "target");
-  target.rcs = read_rcs(table);
-  target.heading_rad = radians(table.number("heading_deg", kHeading_deg, 0.0));
-  target.tilt_rad = radians(table.number("tilt_deg", {-90, 90}, 0.0));
-  std::vector<ConfigTable> waypoints = table.tables("waypoint");
-  for (ConfigTable& waypoint : waypoints) {
-    const double time_s = waypoint.required_number("time_s", {-1e6, 1e6});
-    if (!target.path.empty() && time_s <= target.path.back().time_s)
-      waypoint.error(core::ErrorClass::time, "time_s", core::number_text(time_s),
-                     "later than the waypoint before");
-    target.path.push_back(
-        {time_s, read_spot(waypoint, "at"), waypoint.number("above_ground_m", {-100, 20000}, 0.0)});
-  }
-  if (waypoints.empty()) {
-    target.path.push_back(
-        {0.0, read_spot(table, "at"), table.number("above_ground_m", {-100, 20000}, 0.0)});
-  }
-  return target;
-}
-
-LineDescription read_line(ConfigTable& table) {
-  LineDescription line;
-  line.place = table.place("");
-  line.name = table.text("name", "line");
-  line.from = read_spot(table, "from");
-  line.to = read_spot(table, "to");
-  line.from_above_m = table.number("from_above_m", {-100, 2000}, 0.0);
-  line.to_above_m = table.number("to_above_m", {-100, 2000}, 0.0);
-  line.rcs_m2_per_m = rcs_m2_from(table, "rcs_dBsm_per_m", -10.0);
-  line.spacing_m = table.number("spacing_m", {0.01, 100}, 1.0);
-  return line;
-}
-
 }  // namespace
 
 Spot read_spot(ConfigTable& parent, std::string_view key) {
@@ -206,7 +148,8 @@ Spot read_spot(ConfigTable& parent, std::string_view key) {
   return spot;
 }
 
-void read_objects(ConfigTable& root, const DataSearch& search, SceneDescription& scene) {
+void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& objects,
+                  SceneDescription& scene) {
   std::set<std::string> ends;
   for (ConfigTable& table : root.tables("runway")) {
     scene.runways.push_back(read_runway(table));
@@ -220,8 +163,10 @@ void read_objects(ConfigTable& root, const DataSearch& search, SceneDescription&
   for (ConfigTable& table : root.tables("box")) scene.boxes.push_back(read_box(table));
   for (ConfigTable& table : root.tables("buildings"))
     scene.buildings.push_back(read_buildings(table, search));
-  for (ConfigTable& table : root.tables("target")) scene.targets.push_back(read_target(table));
-  for (ConfigTable& table : root.tables("line")) scene.lines.push_back(read_line(table));
+  for (ConfigTable& table : root.tables("target"))
+    scene.targets.push_back(read_target(table, objects));
+  for (ConfigTable& table : root.tables("line"))
+    scene.lines.push_back(read_line(table, objects));
 }
 
 }  // namespace fanbeam::scenes

@@ -18,7 +18,7 @@ std::vector<terrain::PlacedMesh> build_meshes(const SceneDescription& scene, con
                                               const MaterialNames& names,
                                               core::ProblemList& problems);
 
-// E-LIMIT for a line of more than 100000 points.
+// E-LIMIT for a line of more than 100000 points; W-NEAR-FIELD, see near_field.h.
 std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene,
                                                  const Ground& ground, core::ProblemList& problems);
 

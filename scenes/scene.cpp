@@ -6,9 +6,12 @@
 #include <glm/matrix.hpp>
 
 #include "materials/library/material_library.h"
+#include "renderer/stages/side_lobes.h"
 #include "scenes/ground.h"
 #include "scenes/objects.h"
+#include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory_builder.h"
+#include "scenes/weather_placement.h"
 #include "terrain/geoid.h"
 
 namespace fanbeam::scenes {
@@ -45,6 +48,13 @@ renderer::SceneFacts facts_of(const SceneDescription& scene, const terrain::Loca
                               const Trajectory& trajectory, const terrain::HeightField& field) {
   const auto [lowest, highest] = std::minmax_element(field.height_m.begin(), field.height_m.end());
   renderer::SceneFacts facts{scene.weather, scene.sensor, *lowest, *highest};
+  facts.sample = scene.sample;
+  const auto fluctuates = [](const auto& described) {
+    return described.swerling != core::Swerling::steady;
+  };
+  facts.fluctuating_targets =
+      std::any_of(scene.targets.begin(), scene.targets.end(), fluctuates) ||
+      std::any_of(scene.lines.begin(), scene.lines.end(), fluctuates);
   for (const core::Pose& pose : trajectory.poses()) {
     const double height_m = frame.to_local_m(pose.position).z;
     facts.lowest_m = std::min(facts.lowest_m, height_m);
@@ -53,11 +63,11 @@ renderer::SceneFacts facts_of(const SceneDescription& scene, const terrain::Loca
   return facts;
 }
 
-atmosphere::Weather simulated_weather(const SceneDescription& scene, const core::EffectPlan& plan) {
-  atmosphere::Weather weather = scene.weather;
+atmosphere::Weather simulated_weather(atmosphere::Weather weather, const core::EffectPlan& plan) {
   weather.simulate_gas = plan.runs(renderer::kGas);
   weather.simulate_fog = plan.runs(renderer::kFog);
   weather.simulate_rain = plan.runs(renderer::kRain);
+  weather.simulate_snow = plan.runs(renderer::kSnow);
   return weather;
 }
 
@@ -96,28 +106,42 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names);
   std::vector<terrain::PlacedMesh> meshes = build_meshes(description, ground, names, problems);
   std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems);
+  const atmosphere::Weather weather = placed_weather(description, ground);
   std::optional<Trajectory> trajectory;
   if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);
-  names.warn_if_extrapolated(description.sensor.waveform.frequency_Hz);
+  check_surfaces(description, library, names.used(), problems);
   if (trajectory) check_flight(description, frame, *trajectory, ground, problems);
   problems.throw_if_errors();
 
-  core::EffectPlan plan = renderer::plan(facts_of(description, frame, *trajectory, ground.field()),
-                                         options.accuracy_grey, options.wishes);
+  renderer::SceneFacts facts = facts_of(description, frame, *trajectory, ground.field());
+  facts.weather = weather;
+  const atmosphere::VolumeEcho volume_echo(weather, description.sensor.waveform.frequency_Hz);
+  facts.largest_eta_m2_per_m3 = volume_echo.largest_eta_m2_per_m3();
+  facts.surface_not_dry = description.surface_state != materials::SurfaceState::dry;
+  facts.surface_change_dB = state_change_dB(description, library, names.used());
+  core::EffectPlan plan = renderer::plan(facts, options.accuracy_grey, options.wishes);
+  const materials::SurfaceState state = plan.runs(renderer::kSurfaceState)
+                                            ? description.surface_state
+                                            : materials::SurfaceState::dry;
   const double frequency_Hz = description.sensor.waveform.frequency_Hz;
   std::vector<std::string> material_names;
   for (const materials::Material& material : library.all()) material_names.push_back(material.name);
   renderer::World world{
       .surfaces = std::make_unique<terrain::RayScene>(ground.field(), std::move(patches),
                                                       std::move(meshes), options.instruction_set),
-      .nrcs = library.at_frequency(frequency_Hz),
+      .nrcs = library.curves(state, description.sensor.waveform.polarisation, frequency_Hz),
       .material_names = std::move(material_names),
       .targets = std::move(targets),
-      .attenuation =
-          atmosphere::PathAttenuation(simulated_weather(description, plan), frequency_Hz),
-      .sensor = description.sensor};
+      .attenuation = atmosphere::PathAttenuation(simulated_weather(weather, plan), frequency_Hz),
+      .sensor = plan.runs(renderer::kSideLobes)
+                    ? description.sensor
+                    : renderer::without_side_lobes(description.sensor)};
+  const atmosphere::RainCells rain_cells(simulated_weather(weather, plan), frequency_Hz);
+  if (!rain_cells.empty()) world.rain_cells = rain_cells;
+  if (plan.runs(renderer::kRainEcho)) world.volume_echo = volume_echo;
   auto scene = std::make_unique<Scene>(
       Scene{description, frame, std::move(*trajectory), std::move(plan), std::move(world), 0.0});
+  scene->surfaces = record_surfaces(description, library, names.used(), state);
   scene->build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return scene;
 }

@@ -9,6 +9,7 @@
 #include "renderer/plan/plan.h"
 #include "renderer/world.h"
 #include "scenes/description.h"
+#include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory.h"
 #include "terrain/local_frame.h"
 
@@ -21,6 +22,7 @@ struct Scene {
   core::EffectPlan plan;
   renderer::World world;
   double build_s = 0.0;
+  std::vector<SurfaceRecord> surfaces{};  // materials in use, as shown
 
   int frame_count() const { return trajectory.frame_count(description.sensor.scan.frame_rate_Hz); }
   renderer::FramePose frame_pose(int frame_index) const;

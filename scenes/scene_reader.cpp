@@ -6,6 +6,7 @@
 #include "core/units.h"
 #include "scenes/data_search.h"
 #include "scenes/object_reader.h"
+#include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory_reader.h"
 #include "scenes/weather_reader.h"
 #include "sensors/sensor_file.h"
@@ -186,18 +187,24 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
   read_scene_table(root, scene);
   read_sensor_table(root, options, scene.folder, scene);
   read_terrain(root, search, scene.terrain);
-  read_objects(root, search, scene);
-  read_weather(root, scene, scene.weather);
+  ObjectNames objects(root.has("object_library") ? search.find(root, "object_library")
+                                                  : options.shipped / "materials" / "objects.toml",
+                      scene.sensor.waveform.frequency_Hz);
+  read_objects(root, search, objects, scene);
+  read_weather(root, scene);
+  read_surfaces(root, scene);
   read_trajectory(root, search, scene);
   read_display(root, scene.sensor.display);
   ConfigTable accuracy = root.table("accuracy");
   scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
+  scene.sample = accuracy.choice("realisation", {"mean", "sample"}, 0) == 1;
   scene.material_library = root.has("material_library")
                                ? search.find(root, "material_library")
                                : options.shipped / "materials" / "library.toml";
   root.report_unknown_keys();
   scene.resolved = root.resolved();
   list_files(scene);
+  if (objects.used()) scene.files.push_back(objects.file());
   return scene;
 }
 

@@ -1,7 +1,8 @@
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scenes/line_points.h"
+#include "scenes/near_field.h"
 #include "scenes/objects.h"
 
 namespace fanbeam::scenes {
@@ -48,24 +49,21 @@ void add_runway_reflectors(const RunwayDescription& description, const terrain::
               "fence post", description.fence_post_rcs_m2);
 }
 
-void add_line(const LineDescription& line, const Ground& ground, core::ProblemList& problems,
-              std::vector<PointTarget>& targets) {
+void add_line(const LineDescription& line, const Ground& ground, core::Polarisation polarisation,
+              core::ProblemList& problems, std::vector<PointTarget>& targets) {
   const auto from = ground.local_m(line.from);
   const auto to = ground.local_m(line.to);
   if (!from || !to) return;
   const glm::dvec3 begin_m = ground.on_ground_m(*from, line.from_above_m);
   const glm::dvec3 end_m = ground.on_ground_m(*to, line.to_above_m);
-  const double length_m = glm::length(end_m - begin_m);
-  const int count = std::max(1, static_cast<int>(std::ceil(length_m / line.spacing_m)));
+  const int count = line_point_count(line, glm::length(end_m - begin_m));
   if (count > kMostLinePoints) {
     problems.error(core::ErrorClass::limit, line.place, "line",
                    "\"" + line.name + "\" of " + std::to_string(count) + " points",
                    "at most " + std::to_string(kMostLinePoints) + ": a wider spacing_m");
     return;
   }
-  for (int i = 0; i < count; ++i)
-    add_constant(line.name, begin_m + (end_m - begin_m) * ((i + 0.5) / count),
-                 line.rcs_m2_per_m * length_m / count, targets);
+  add_line_points(line, begin_m, end_m, polarisation, targets);
 }
 
 }  // namespace
@@ -75,19 +73,27 @@ std::vector<PointTarget> build_targets(const SceneDescription& scene, const Grou
   std::vector<PointTarget> targets;
   for (std::size_t i = 0; i < scene.runways.size(); ++i)
     add_runway_reflectors(scene.runways[i], ground.runways()[i], ground, targets);
-  for (const LineDescription& line : scene.lines) add_line(line, ground, problems, targets);
+  NearField near_field(scene.sensor);
+  for (const LineDescription& line : scene.lines) {
+    const std::size_t before = targets.size();
+    add_line(line, ground, scene.sensor.waveform.polarisation, problems, targets);
+    if (targets.size() > before) near_field.look_at(targets.back().rcs, line.name, line.place);
+  }
   for (const TargetDescription& description : scene.targets) {
     PointTarget target{description.name,
                        description.rcs,
                        {},
-                       target_axes(description.heading_rad, description.tilt_rad)};
+                       target_axes(description.heading_rad, description.tilt_rad),
+                       description.swerling};
     for (const TargetDescription::Waypoint& waypoint : description.path) {
       if (const auto at_m = ground.local_m(waypoint.at))
         target.path.push_back(
             {waypoint.time_s, ground.on_ground_m(*at_m, waypoint.above_ground_m)});
     }
+    near_field.look_at(target.rcs, target.name, description.place);
     if (!target.path.empty()) targets.push_back(std::move(target));
   }
+  near_field.report(problems);
   return targets;
 }
 

@@ -6,15 +6,18 @@
 // Ranges of valid values: sensor_file.h.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "core/polarisation.h"
 
 namespace fanbeam::sensors {
 
 // One cut of an antenna pattern. Gains are one-way power relative to the peak; the two-way pattern
 // is the square.
 struct BeamCut {
-  enum class Shape { gaussian, sinc_squared, table };
+  enum class Shape { gaussian, sinc_squared, table, cosecant_squared, cosine_aperture };
   Shape shape = Shape::gaussian;
   double half_power_width_rad = 0.0;  // one-way, full width between the -3 dB points
   double cut_rad = 0.0;               // the pattern is zero beyond this angle from the peak
@@ -22,6 +25,14 @@ struct BeamCut {
   // peak there.
   std::vector<double> table_angle_rad;
   std::vector<double> table_gain;
+  // Shape::cosecant_squared only: where the cosecant begins and ends, below the peak, and how far
+  // the peak itself lies below the horizon.
+  double cosecant_from_rad = 0.0;
+  double cosecant_to_rad = 0.0;
+  double peak_depression_rad = 0.0;
+  // One-way gain relative to the peak from the cut on, up to this angle; 0: no side lobes there.
+  double side_lobe_gain = 0.0;
+  double side_lobe_extent_rad = 0.0;
 };
 
 struct Antenna {
@@ -38,12 +49,28 @@ enum class ScanSurface {
   cone,   // a frequency-scanned line array: azimuth counts from the plane across the array axis
 };
 
+// Azimuth as a function of frequency; see antenna/frequency_scan.h.
+struct FrequencyScan {
+  enum class Law { feed_line, table };
+  Law law = Law::feed_line;
+  double line_length_per_spacing = 0.0;  // L / d
+  double cutoff_Hz = 0.0;
+  double spacing_m = 0.0;
+  int mode = 0;
+  std::vector<double> table_frequency_Hz;  // both increasing
+  std::vector<double> table_azimuth_rad;
+};
+
 struct Scan {
+  // One frequency sweep for each column, or one over the whole field of view.
+  enum class Sweep { per_column, whole_scan };
   ScanSurface surface = ScanSurface::plane;
   double field_of_view_rad = 0.0;  // centred on the forward axis
   int columns = 0;
   double frame_rate_Hz = 0.0;
   bool stabilised = true;  // roll and pitch of the aircraft are removed
+  Sweep sweep = Sweep::per_column;
+  std::optional<FrequencyScan> frequency_scan;  // none: steered mechanically
 
   double column_width_rad() const { return field_of_view_rad / columns; }
 };
@@ -57,16 +84,24 @@ struct RangeGate {
 };
 
 struct Waveform {
+  // Amplitude weighting of the sweep before the range transform; none: an ideal range cell.
+  enum class Window { none, rectangular, hann, hamming, taylor };
   double frequency_Hz = 0.0;
-  double bandwidth_Hz = 0.0;  // per column
+  double bandwidth_Hz = 0.0;  // of one sweep
   double transmit_power_W = 0.0;
   bool doppler_compensated = true;
+  core::Polarisation polarisation = core::Polarisation::horizontal;  // sent and received
+  Window window = Window::none;
+  double taylor_side_lobe = 3.1622776601683795e-4;  // highest lobe over the peak, power: -35 dB
+  int taylor_equal_lobes = 4;                       // n-bar
 };
 
 struct Receiver {
   double noise_figure = 1.0;  // linear
   double loss = 1.0;          // linear, at least 1; divides the received power
-  double dwell_s = 0.0;       // per column
+  double dwell_s = 0.0;       // coherent time of one look
+  int looks = 1;              // per column, their powers averaged
+  double false_alarm_probability = 1e-6;  // per cell, of threshold detection
 };
 
 // Angles at which the antenna sits on the aircraft, applied only when the scan is not stabilised
@@ -118,7 +153,8 @@ struct Sensor {
   double radar_constant_W_m2() const;
   // Integral of the two-way azimuth pattern; with the seed's convention, its azimuth patch.
   double azimuth_patch_rad() const;
-  // k T0 F / dwell: mean noise power per range cell, the bandwidth being that of a range FFT bin.
+  // k T0 F / dwell: mean noise power per range cell, the bandwidth being that of a range FFT bin of
+  // one look. Averaging looks leaves it.
   double noise_power_W() const;
 };
 

@@ -7,8 +7,9 @@
 #include "core/constants.h"
 #include "core/decibel.h"
 #include "core/units.h"
-#include "sensors/antenna/beam_cut_file.h"
-#include "sensors/antenna/beam_pattern.h"
+#include "sensors/antenna/antenna_reader.h"
+#include "sensors/antenna/frequency_scan_file.h"
+#include "sensors/receiver/window_file.h"
 
 namespace fanbeam::sensors {
 namespace {
@@ -22,6 +23,7 @@ using core::radians;
 constexpr std::int64_t kMostColumns = 4096;
 constexpr std::int64_t kMostRows = 16384;
 constexpr std::int64_t kMostCells = 16777216;  // of one picture
+constexpr std::int64_t kMostLooks = 1000;
 
 NumberRange above_zero(double high) { return {0.0, high, true}; }
 
@@ -43,40 +45,6 @@ int required_whole(ConfigTable& table, std::string_view key, std::int64_t most) 
   return whole(table, key, most, 1);
 }
 
-double peak_gain(ConfigTable& table) {
-  const bool in_dB = table.has("peak_gain_dB");
-  const double from_dB =
-      core::power_from_dB(table.optional_number("peak_gain_dB", {-90.0, 90.0}).value_or(0.0));
-  if (!in_dB) return table.required_number("peak_gain", above_zero(1e9));
-  if (table.optional_number("peak_gain", above_zero(1e9)))
-    table.error(ErrorClass::range, "peak_gain", "given twice", "either peak_gain or peak_gain_dB");
-  return from_dB;
-}
-
-void read_antenna(ConfigTable table, Antenna& antenna) {
-  ConfigTable azimuth = table.table("azimuth");
-  ConfigTable elevation = table.table("elevation");
-  antenna.azimuth = read_beam_cut(azimuth);
-  antenna.elevation = read_beam_cut(elevation);
-  antenna.boresight_elevation_rad = angle_rad(table, "boresight_elevation_deg", {-90.0, 90.0});
-  antenna.peak_gain = peak_gain(table);
-  antenna.efficiency = table.optional_number("efficiency", {0.0, 1.0, true}).value_or(0.0);
-}
-
-// A gain above the directivity would create energy.
-void check_gain(ConfigTable table, Antenna& antenna) {
-  const char* const gain_key = table.has("peak_gain") ? "peak_gain" : "peak_gain_dB";
-  const double most = directivity(antenna, ScanSurface::cone);
-  const double efficiency = antenna.peak_gain / most;
-  if (efficiency > 1.0)
-    table.error(ErrorClass::range, gain_key, number_text(antenna.peak_gain) + " (linear)",
-                "at most the directivity of the pattern, " + number_text(most));
-  else if (antenna.efficiency != 0.0 && std::abs(antenna.efficiency / efficiency - 1.0) > 0.01)
-    table.error(ErrorClass::range, "efficiency", number_text(antenna.efficiency),
-                "peak gain over directivity, " + number_text(efficiency) + ", within 1 %");
-  antenna.efficiency = efficiency;
-}
-
 void read_scan(ConfigTable table, Scan& scan) {
   scan.surface = static_cast<ScanSurface>(table.choice("surface", {"plane", "cone"}, 0));
   const double widest_deg = scan.surface == ScanSurface::cone ? 180.0 : 360.0;
@@ -84,6 +52,7 @@ void read_scan(ConfigTable table, Scan& scan) {
   scan.columns = required_whole(table, "columns", kMostColumns);
   scan.frame_rate_Hz = table.required_number("frame_rate_Hz", above_zero(1000.0));
   scan.stabilised = table.boolean("stabilised", true);
+  read_sweep(table, scan);
 }
 
 // As many whole cells as fit between the minimum and `maximum_m`.
@@ -126,7 +95,10 @@ void read_waveform(ConfigTable table, Waveform& waveform) {
   waveform.frequency_Hz = 1e9 * table.required_number("frequency_GHz", above_zero(1000.0));
   waveform.bandwidth_Hz = 1e6 * table.required_number("bandwidth_MHz", above_zero(1e5));
   waveform.transmit_power_W = table.required_number("transmit_power_W", above_zero(1e9));
+  read_window(table, waveform);
   waveform.doppler_compensated = table.boolean("doppler_compensated", true);
+  waveform.polarisation =
+      static_cast<core::Polarisation>(table.choice("polarisation", {"HH", "VV"}, 0));
   if (!waveform.doppler_compensated)
     table.error(core::ErrorClass::unsupported, "doppler_compensated", "false",
                 "true: the range shift by own-ship Doppler is not simulated");
@@ -149,8 +121,12 @@ void check_bandwidth(ConfigTable table, const Waveform& waveform, const RangeGat
 void read_receiver(ConfigTable table, const Scan& scan, Receiver& receiver) {
   receiver.noise_figure = core::power_from_dB(table.number("noise_figure_dB", {0.0, 60.0}, 0.0));
   receiver.loss = core::power_from_dB(table.number("loss_dB", {0.0, 60.0}, 0.0));
-  const double longest_s =
-      scan.frame_rate_Hz > 0.0 ? 1.0 / (scan.frame_rate_Hz * scan.columns) : 1.0;
+  receiver.looks = whole(table, "looks", kMostLooks, 1);
+  receiver.false_alarm_probability =
+      table.number("false_alarm_probability", {1e-15, 0.1}, receiver.false_alarm_probability);
+  const double longest_s = scan.frame_rate_Hz > 0.0
+                               ? 1.0 / (scan.frame_rate_Hz * scan.columns * receiver.looks)
+                               : 1.0;
   // A dwell rounded to the digits of a sensor file may end a little after its column.
   const NumberRange range_us = above_zero(1e6 * longest_s * (1.0 + 1e-6));
   const auto dwell_us = table.optional_number("dwell_us", range_us);
@@ -243,6 +219,7 @@ Sensor read(ConfigTable root, const core::ProblemList& problems) {
   root.report_unknown_keys();
   if (problems.has_errors()) return sensor;  // what follows combines values that must each be valid
   check_gain(root.table("antenna"), sensor.antenna);
+  check_sweep(root.table("scan"), root.table("waveform"), sensor);
   check_bandwidth(root.table("waveform"), sensor.waveform, sensor.range);
   return sensor;
 }

@@ -1,6 +1,9 @@
 #include "atmosphere/fog/fog.h"
 
+#include <complex>
+
 #include "atmosphere/input_check.h"
+#include "atmosphere/water_permittivity.h"
 #include "core/constants.h"
 
 namespace fanbeam::atmosphere {
@@ -10,21 +13,11 @@ constexpr NameTable<FogLaw, 3> kFogLawNames = {{{"itu-p840", FogLaw::itu_p840},
                                                 {"altshuler", FogLaw::altshuler},
                                                 {"centimetre", FogLaw::centimetre}}};
 
-// Equations 2 to 11 of P.840-8; symbols as there, frequencies in GHz.
+// Equations 2 and 11 of P.840-8; symbols as there, f in GHz.
 double itu_p840(double f, double temperature_C) {
-  const double warmth = 300.0 / (temperature_C + 273.15) - 1.0;
-  const double eps0 = 77.66 + 103.3 * warmth;
-  const double eps1 = 0.0671 * eps0;
-  const double eps2 = 3.52;
-  const double fp = 20.20 - 146.0 * warmth + 316.0 * warmth * warmth;
-  const double fs = 39.8 * fp;
-
-  const double principal = (eps0 - eps1) / (1.0 + (f / fp) * (f / fp));
-  const double secondary = (eps1 - eps2) / (1.0 + (f / fs) * (f / fs));
-  const double eps_real = principal + secondary + eps2;
-  const double eps_imaginary = f / fp * principal + f / fs * secondary;
-  const double eta = (2.0 + eps_real) / eps_imaginary;
-  return 0.819 * f / (eps_imaginary * (1.0 + eta * eta));
+  const std::complex<double> eps = water_permittivity(f * 1e9, temperature_C);
+  const double eta = (2.0 + eps.real()) / eps.imag();
+  return 0.819 * f / (eps.imag() * (1.0 + eta * eta));
 }
 
 // The limits are wavelengths, but the input is a frequency: at the border both sides of the

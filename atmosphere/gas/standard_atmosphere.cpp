@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atmosphere/gas/gases.h"
+#include "atmosphere/gas/geopotential.h"
 #include "atmosphere/input_check.h"
 
 namespace fanbeam::atmosphere {
@@ -12,16 +13,6 @@ namespace {
 constexpr double kSeaLevelTemperature_K = 288.15;
 constexpr double kSeaLevelPressure_hPa = 1013.25;
 constexpr double kSeaLevelVapour_g_per_m3 = 7.5;
-constexpr double kVapourScaleHeight_m = 2000.0;
-constexpr double kLapse_K_per_km = 6.5;
-constexpr double kTropopause_km = 11.0;
-constexpr double kHydrostatic_K_per_km = 34.1632;  // g M / R
-constexpr double kZeroCelsius_K = 273.15;
-
-double geopotential_km(double height_m) {
-  const double h = height_m * 1e-3;
-  return 6356.766 * h / (6356.766 + h);
-}
 
 double temperature_K(double h_km, double shift_K) {
   return kSeaLevelTemperature_K + shift_K - kLapse_K_per_km * std::min(h_km, kTropopause_km);

@@ -5,13 +5,15 @@
 #include <span>
 
 #include "atmosphere/input_check.h"
+#include "atmosphere/precipitation/drop_scattering.h"
 #include "core/constants.h"
 
 namespace fanbeam::atmosphere {
 namespace {
 
-constexpr NameTable<RainLaw, 2> kRainLawNames = {
-    {{"itu-p838", RainLaw::itu_p838}, {"georgia-tech-95", RainLaw::georgia_tech_95}}};
+constexpr NameTable<RainLaw, 3> kRainLawNames = {{{"itu-p838", RainLaw::itu_p838},
+                                                  {"georgia-tech-95", RainLaw::georgia_tech_95},
+                                                  {"mie", RainLaw::mie}}};
 
 // One Gaussian of the regressions: a exp(-((x - b)/c)^2) with x = log10 of the frequency in GHz.
 struct Term {
@@ -80,7 +82,8 @@ RainCoefficients rain_coefficients(double frequency_Hz, double path_elevation_ra
 }
 
 double rain_attenuation_dB_per_km(RainLaw law, double rain_rate_mm_per_h, double frequency_Hz,
-                                  double path_elevation_rad, double polarisation_tilt_rad) {
+                                  double path_elevation_rad, double polarisation_tilt_rad,
+                                  const RainDrops& drops) {
   require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.0, kLargestRainRate_mm_per_h, "mm/h"});
   RainCoefficients coefficients =
       rain_coefficients(frequency_Hz, path_elevation_rad, polarisation_tilt_rad);
@@ -90,6 +93,9 @@ double rain_attenuation_dB_per_km(RainLaw law, double rain_rate_mm_per_h, double
     coefficients = {1.6, 0.64};
   }
   if (rain_rate_mm_per_h == 0.0) return 0.0;
+  if (law == RainLaw::mie)
+    return DropScattering(frequency_Hz, drops.temperature_C)
+        .attenuation_dB_per_km(drops.sizes, rain_rate_mm_per_h);
   return coefficients.k * std::pow(rain_rate_mm_per_h, coefficients.alpha);
 }
 

@@ -1,8 +1,6 @@
 #include "materials/library/material.h"
 
-#include <cmath>
-
-#include "materials/checks.h"
+#include "core/errors.h"
 
 namespace fanbeam::materials {
 
@@ -18,12 +16,6 @@ const char* name_of(Confidence confidence) {
       return "assumed";
   }
   throw core::InternalError("confidence out of its enumeration");
-}
-
-PhongNrcs Material::nrcs_at(double frequency_Hz) const {
-  require_range("frequency_Hz", frequency_Hz, 1e9, 300e9);
-  const double factor = std::pow(frequency_Hz / reference_frequency_Hz, frequency_exponent);
-  return {nrcs.a() * factor, nrcs.b() * factor, nrcs.c()};
 }
 
 }  // namespace fanbeam::materials

@@ -1,17 +1,17 @@
-// A surface material: its reflectivity at a reference frequency, how that changes with frequency,
-// and where the figures come from.
-//
-//   a(f) = a (f / f_ref)^n,  b(f) = b (f / f_ref)^n,  c unchanged
-//
-// which is exact for a reference model that separates into angle and frequency (Kulemin, constant
-// gamma) and a linearisation in decibels for the others; docs/materials.md gives the deviation. The
-// exponents between 35 and 94 GHz are the least certain figures of the library.
+// A surface material: its reflectivity model, what it mirrors, what it turns into when it is wet
+// or under snow, and where the figures come from.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "core/errors.h"
-#include "materials/nrcs/phong_nrcs.h"
+#include "materials/interval.h"
+#include "materials/library/phong_reference.h"
+#include "materials/library/surface_state.h"
+#include "materials/nrcs/nrcs_curve.h"
+#include "materials/nrcs/surface_model.h"
 
 namespace fanbeam::materials {
 
@@ -25,28 +25,21 @@ enum class Confidence {
 
 const char* name_of(Confidence confidence);
 
-struct Interval {
-  double low = 0.0;
-  double high = 0.0;
-
-  bool contains(double value) const { return value >= low && value <= high; }
-};
-
 struct Material {
   std::string name;
-  PhongNrcs nrcs;  // at the reference frequency
-  double reference_frequency_Hz = 35e9;
-  double frequency_exponent = 0.0;
-  Interval frequency_range_Hz;
-  Interval grazing_range_rad;
-  std::string polarisation;  // "HH", "VV", or "any" where the reference does not tell them apart
+  SurfaceModel model;
+  std::optional<PhongReference> reference;  // what a Phong-like row was fitted to
   Confidence confidence = Confidence::assumed;
   std::string source;
   std::string note;
+  // For mirror reflection (specular_surface.h): a name of dielectric_medium.h and the height of the
+  // texture. Without both the surface mirrors nothing.
+  std::string dielectric;
+  std::optional<double> rms_height_m;
+  // Names of the materials that this one turns into, by SurfaceState; empty for itself. Dry is
+  // always itself.
+  std::array<std::string, kSurfaceStateNames.size()> turns_into;
   core::Place place;  // where the library file defines it
-
-  // Frequency 1 to 300 GHz, else InputError E-RANGE or E-NONFINITE.
-  PhongNrcs nrcs_at(double frequency_Hz) const;
 };
 
 }  // namespace fanbeam::materials

@@ -1,30 +1,23 @@
 #include "materials/library/material_library.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "core/spelling.h"
-#include "core/units.h"
+#include "materials/dielectric/dielectric_medium.h"
+#include "materials/library/model_reader.h"
 
 namespace fanbeam::materials {
 namespace {
 
 using core::ConfigTable;
 using core::ErrorClass;
-using core::NumberRange;
 
 constexpr std::size_t kMostMaterials = 65535;
 
-// Two increasing numbers; a missing key is an error too.
-Interval read_interval(ConfigTable& table, const char* key, NumberRange range, double unit) {
-  if (!table.has(key)) table.error(ErrorClass::ref, key, "missing", "[low, high]");
-  const std::vector<double> ends = table.numbers(key, range, 2, 2);
-  if (ends.size() != 2) return {};
-  if (ends[0] > ends[1])
-    table.error(ErrorClass::range, key,
-                core::number_text(ends[0]) + " to " + core::number_text(ends[1]),
-                "the low end first");
-  return {ends[0] * unit, ends[1] * unit};
-}
+constexpr std::array<const char*, kSurfaceStateNames.size()> kStateKeys = {
+    "", "when_wet", "when_dry_snow", "when_wet_snow"};
 
 std::size_t read_choice(ConfigTable& table, const char* key,
                         std::initializer_list<std::string_view> names) {
@@ -32,26 +25,52 @@ std::size_t read_choice(ConfigTable& table, const char* key,
   return table.choice(key, names, 0);
 }
 
-Material read_material(ConfigTable& table, const std::string& name) {
+std::string nearest_text(std::string_view name, const std::vector<std::string>& names) {
+  std::string text;
+  const char* separator = "; nearest are ";
+  for (const std::string& nearest : core::nearest_names(name, names, 3)) {
+    text += separator + nearest;
+    separator = ", ";
+  }
+  return text;
+}
+
+void read_mirror(ConfigTable& table, Material& material) {
+  material.dielectric = table.text("dielectric", "");
+  if (!material.dielectric.empty() && !dielectric_medium_named(material.dielectric))
+    table.error(ErrorClass::ref, "dielectric", '"' + material.dielectric.substr(0, 200) + '"',
+                "a medium" + nearest_text(material.dielectric, dielectric_medium_names()));
+  if (const auto height_mm = table.optional_number("rms_height_mm", {0.0, 1000.0}))
+    material.rms_height_m = *height_mm / 1000.0;
+}
+
+// What the row turns into; `names` are all of the file, also those with problems of their own.
+void read_states(ConfigTable& table, const std::vector<std::string>& names, Material& material) {
+  for (std::size_t state = 1; state < kStateKeys.size(); ++state) {
+    const std::string other = table.text(kStateKeys[state], "same");
+    if (other == "same") continue;
+    material.turns_into[state] = other;
+    if (std::find(names.begin(), names.end(), other) == names.end())
+      table.error(ErrorClass::ref, kStateKeys[state], '"' + other.substr(0, 200) + '"',
+                  "\"same\" or a material of the library" + nearest_text(other, names));
+  }
+}
+
+Material read_material(ConfigTable& table, const std::string& name,
+                       const std::vector<std::string>& names) {
   Material material;
   material.name = name;
-  const double a = table.required_number("a", {0.0, kLargestPhongCoefficient});
-  const double b = table.required_number("b", {0.0, kLargestPhongCoefficient});
-  const double c = table.required_number("c", {1.0, kLargestPhongExponent});
-  // A refused value came back as the fallback, which is always a valid coefficient.
-  material.nrcs = PhongNrcs(a, b, c);
-  material.reference_frequency_Hz =
-      table.required_number("reference_frequency_GHz", {1.0, 300.0}) * 1e9;
-  material.frequency_exponent = table.required_number("frequency_exponent", {-4.0, 4.0});
-  material.frequency_range_Hz = read_interval(table, "frequency_range_GHz", {0.1, 1000.0}, 1e9);
-  material.grazing_range_rad =
-      read_interval(table, "grazing_range_deg", {0.0, 90.0}, core::radians(1.0));
-  const std::initializer_list<std::string_view> polarisations = {"HH", "VV", "any"};
-  material.polarisation = polarisations.begin()[read_choice(table, "polarisation", polarisations)];
+  material.model = read_surface_model(table);
+  material.reference = read_reference(table);
+  if (material.reference && !std::holds_alternative<PhongSurface>(material.model))
+    table.error(ErrorClass::range, "reference", "given for another model",
+                "a reference of a, b and c only");
   material.confidence = static_cast<Confidence>(
       read_choice(table, "confidence", {"seen", "fitted", "recalled", "assumed"}));
   material.source = table.required_text("source");
   material.note = table.text("note", "");
+  read_mirror(table, material);
+  read_states(table, names, material);
   return material;
 }
 
@@ -89,7 +108,7 @@ MaterialLibrary MaterialLibrary::from_table(ConfigTable root, core::ProblemList&
     const std::size_t errors_before = error_count(problems);
     ConfigTable table = root.table(name);
     if (!table.present()) continue;
-    Material material = read_material(table, name);
+    Material material = read_material(table, name, names);
     material.place = root.place(name);
     if (error_count(problems) == errors_before) library.materials_.push_back(std::move(material));
   }
@@ -110,35 +129,41 @@ std::optional<std::size_t> MaterialLibrary::find(std::string_view name, const co
   if (index) return index;
   std::vector<std::string> names;
   for (const Material& material : materials_) names.push_back(material.name);
-  std::string expected = "a material of the library";
-  const char* separator = "; nearest are ";
-  for (const std::string& nearest : core::nearest_names(name, names, 3)) {
-    expected += separator + nearest;
-    separator = ", ";
-  }
   problems.error(ErrorClass::ref, place, field, '"' + std::string(name.substr(0, 200)) + '"',
-                 expected);
+                 "a material of the library" + nearest_text(name, names));
   return std::nullopt;
 }
 
-std::vector<PhongNrcs> MaterialLibrary::at_frequency(double frequency_Hz) const {
-  std::vector<PhongNrcs> result;
+std::size_t MaterialLibrary::in_state(std::size_t index, SurfaceState state) const {
+  const std::string& other = materials_[index].turns_into[static_cast<std::size_t>(state)];
+  return other.empty() ? index : index_of(other).value_or(index);
+}
+
+std::vector<NrcsCurve> MaterialLibrary::curves(SurfaceState state, Polarisation polarisation,
+                                               double frequency_Hz) const {
+  std::vector<NrcsCurve> result;
   result.reserve(materials_.size());
-  for (const Material& material : materials_) result.push_back(material.nrcs_at(frequency_Hz));
+  for (std::size_t i = 0; i < materials_.size(); ++i)
+    result.emplace_back(materials_[in_state(i, state)].model, polarisation, frequency_Hz);
   return result;
 }
 
-void MaterialLibrary::warn_if_extrapolated(std::size_t index, double frequency_Hz,
-                                           core::ProblemList& problems) const {
+void MaterialLibrary::report_extrapolations(std::size_t index, Polarisation polarisation,
+                                            double frequency_Hz, bool allowed,
+                                            core::ProblemList& problems) const {
   const Material& material = materials_[index];
-  const Interval& range = material.frequency_range_Hz;
-  if (range.contains(frequency_Hz)) return;
-  problems.warning("EXTRAPOLATED", material.place,
-                   "material '" + material.name + "' at frequency_GHz",
-                   core::number_text(frequency_Hz / 1e9),
-                   "known for " + core::number_text(range.low / 1e9) + " to " +
-                       core::number_text(range.high / 1e9) + " GHz; scaled beyond with exponent " +
-                       core::number_text(material.frequency_exponent));
+  const std::string model(materials::name_of(material.model));
+  for (const Extrapolation& outside :
+       extrapolations_of(material.model, polarisation, frequency_Hz)) {
+    const std::string field = "material '" + material.name + "' at " + outside.quantity;
+    const std::string known = outside.known + " (model " + model + ")";
+    if (allowed)
+      problems.warning("EXTRAPOLATED", material.place, field, outside.asked,
+                       "known for " + known + "; continued as docs/physics/phong.md says");
+    else
+      problems.error(ErrorClass::range, material.place, field, outside.asked,
+                     known + ", or allow_extrapolation = true under [materials] of the scene");
+  }
 }
 
 }  // namespace fanbeam::materials

@@ -3,17 +3,23 @@
 //
 // One table per material:
 //   [short_grass]
-//   a = 0.0325
-//   b = 0.136
+//   a = 0.0325                          the Phong-like form, the default; or another `model` with
+//   b = 0.136                           its keys instead, see model_reader.h
 //   c = 1.99
 //   reference_frequency_GHz = 35
 //   frequency_exponent = 0.6
-//   frequency_range_GHz = [30, 100]
+//   frequency_range_GHz = [30, 100]     outside: see surface_model.h
 //   grazing_range_deg = [1, 60]
 //   polarisation = "HH" | "VV" | "any"
+//   reference = { model = "git-land", terrain = "grass" }     optional; what a, b, c were fitted to
 //   confidence = "seen" | "fitted" | "recalled" | "assumed"
 //   source = "..."
-//   note = "..."          optional
+//   note = "..."                        optional
+//   dielectric = "concrete"             optional; a name of dielectric_medium.h
+//   rms_height_mm = 0.2                 optional, 0 to 1000; a model with this key shares it
+//   when_wet = "concrete_wet"           optional; what the row turns into, default "same"
+//   when_dry_snow = "snow_dry"
+//   when_wet_snow = "snow_wet"
 //
 // Materials keep the order of the file; their index is the material id of terrain and echoes.
 #pragma once
@@ -34,8 +40,9 @@ namespace fanbeam::materials {
 class MaterialLibrary {
  public:
   // Reports every problem with file and line: E-RANGE and E-NONFINITE for coefficients, E-REF for
-  // missing and unknown keys, E-PARSE for broken TOML and for a file without any material, E-LIMIT
-  // above 65535 materials, E-IO. A material with a problem is left out of the result.
+  // missing and unknown keys and for names of media, terrains and materials that do not exist,
+  // E-PARSE for broken TOML, an empty table and a file without any material, E-LIMIT above 65535
+  // materials, E-IO. A material with a problem is left out of the result.
   static MaterialLibrary from_file(const std::filesystem::path& file, core::ProblemList& problems);
   static MaterialLibrary from_text(std::string_view text, const std::string& file_name,
                                    core::ProblemList& problems);
@@ -51,14 +58,19 @@ class MaterialLibrary {
   std::size_t size() const { return materials_.size(); }
   const std::vector<Material>& all() const { return materials_; }
 
-  // The reflectivity of every material, by index. Frequency 1 to 300 GHz, else InputError E-RANGE
-  // or E-NONFINITE.
-  std::vector<PhongNrcs> at_frequency(double frequency_Hz) const;
+  // The index of what the material turns into; itself when dry or when its row says so.
+  std::size_t in_state(std::size_t index, SurfaceState state) const;
 
-  // Records W-EXTRAPOLATED when the frequency lies outside the material's range; the caller knows
-  // which are in use.
-  void warn_if_extrapolated(std::size_t index, double frequency_Hz,
-                            core::ProblemList& problems) const;
+  // The reflectivity of every material in a state, by index of the dry material. Frequency 0.1 to
+  // 300 GHz, else InputError E-RANGE or E-NONFINITE. Outside what a model knows surface_model.h
+  // says what is taken; report_extrapolations tells of it.
+  std::vector<NrcsCurve> curves(SurfaceState state, Polarisation polarisation,
+                                double frequency_Hz) const;
+
+  // E-RANGE for a frequency or polarisation that the material is not known at, with what it is
+  // known for; W-EXTRAPOLATED instead when `allowed`.
+  void report_extrapolations(std::size_t index, Polarisation polarisation, double frequency_Hz,
+                             bool allowed, core::ProblemList& problems) const;
 
  private:
   static MaterialLibrary from_table(core::ConfigTable root, core::ProblemList& problems);

@@ -7,6 +7,9 @@
 // by +-5 dB.
 #pragma once
 
+#include <array>
+#include <string_view>
+
 namespace fanbeam::materials {
 
 enum class GammaTerrain {
@@ -19,6 +22,14 @@ enum class GammaTerrain {
   sea_state_3,
   sea_state_5,
 };
+
+// As files name them, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 8> kGammaTerrainNames = {
+    "flatland",     "farmland",        "woods",       "wooded-hill",
+    "metropolitan", "rugged-mountain", "sea-state-3", "sea-state-5"};
+
+inline constexpr double kGammaLowest_Hz = 1e9;
+inline constexpr double kGammaHighest_Hz = 100e9;
 
 // Linear gamma. Frequency 1 to 100 GHz, else InputError E-RANGE.
 double gamma_at(GammaTerrain terrain, double frequency_Hz);

@@ -10,6 +10,9 @@
 // of HH and VV) under fits to Oh's surface model at 3 deg, see docs/materials.md.
 #pragma once
 
+#include <array>
+#include <string_view>
+
 namespace fanbeam::materials {
 
 enum class KuleminTerrain {
@@ -22,6 +25,19 @@ enum class KuleminTerrain {
   grass_below_half_metre,  // middle of the published interval of A1, -30 to -25 dB
   urban,
 };
+
+// As files name them, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 8> kKuleminTerrainNames = {"concrete",
+                                                                         "arable-land",
+                                                                         "snow",
+                                                                         "forest-summer",
+                                                                         "forest-winter",
+                                                                         "grass-above-half-metre",
+                                                                         "grass-below-half-metre",
+                                                                         "urban"};
+
+inline constexpr double kKuleminLowest_Hz = 3e9;
+inline constexpr double kKuleminHighest_Hz = 100e9;
 
 // Zero at grazing angles of zero and below. Frequency 3 to 100 GHz, else InputError E-RANGE.
 double kulemin_sigma0(KuleminTerrain terrain, double frequency_Hz, double grazing_rad);

@@ -18,7 +18,7 @@ constexpr Coefficients kVertical = {-50.796, 25.93, 0.7093, 21.588, 0.00211};
 
 double nrl_sea_sigma0(Polarisation polarisation, double sea_state, double frequency_Hz,
                       double grazing_rad) {
-  require_range("frequency_Hz", frequency_Hz, 0.5e9, 35e9);
+  require_range("frequency_Hz", frequency_Hz, kNrlSeaLowest_Hz, kNrlSeaHighest_Hz);
   require_range("sea_state", sea_state, 0.0, 6.0);
   if (!(grazing_rad > 0.0)) return 0.0;
   const Coefficients& k = polarisation == Polarisation::horizontal ? kHorizontal : kVertical;

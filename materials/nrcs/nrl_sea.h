@@ -12,9 +12,14 @@
 // Nathanson's tables 2.6 dB; at 35 GHz 2.8 dB (HH), 3.3 dB (VV), at most 11 dB.
 #pragma once
 
-#include "materials/nrcs/polarisation.h"
+#include "core/polarisation.h"
 
 namespace fanbeam::materials {
+
+using core::Polarisation;
+
+inline constexpr double kNrlSeaLowest_Hz = 0.5e9;
+inline constexpr double kNrlSeaHighest_Hz = 35e9;
 
 // Zero at grazing angles of zero and below.
 double nrl_sea_sigma0(Polarisation polarisation, double sea_state, double frequency_Hz,

@@ -12,13 +12,9 @@
 #include <vector>
 
 #include "materials/nrcs/phong_nrcs.h"
+#include "materials/nrcs/tabulated.h"
 
 namespace fanbeam::materials {
-
-struct NrcsSample {
-  double grazing_rad = 0.0;
-  double sigma0 = 0.0;
-};
 
 struct PhongFit {
   PhongNrcs nrcs;

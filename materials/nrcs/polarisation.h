@@ -1,11 +1,10 @@
-// Linear polarisation of a co-polarised measurement, relative to the plane of the surface.
+// The polarisation of the core under the name this folder uses.
 #pragma once
+
+#include "core/polarisation.h"
 
 namespace fanbeam::materials {
 
-enum class Polarisation {
-  horizontal,  // HH: electric field perpendicular to the plane of incidence
-  vertical,    // VV: electric field in the plane of incidence
-};
+using core::Polarisation;
 
 }  // namespace fanbeam::materials

@@ -1,23 +1,20 @@
 #include "materials/rcs/rcs.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
 #include "materials/checks.h"
+#include "materials/rcs/lobe.h"
+#include "materials/rcs/round_wire.h"
+#include "materials/rcs/sphere.h"
+#include "materials/rcs/trihedral.h"
 
 namespace fanbeam::materials {
 namespace {
 
 using core::kPi;
-
-double sinc_squared(double x) {
-  if (std::abs(x) < 1e-8) return 1.0;
-  const double sinc = std::sin(x) / x;
-  return sinc * sinc;
-}
 
 // Cross-section of a flat aperture of the given area that sends everything back.
 double aperture_rcs_m2(double area_m2, double wavelength_m) {
@@ -26,21 +23,20 @@ double aperture_rcs_m2(double area_m2, double wavelength_m) {
 
 double evaluate(const ConstantRcs& constant, const glm::dvec3&, double) { return constant.rcs_m2; }
 
+double evaluate(const Sphere& sphere, const glm::dvec3&, double wavelength_m) {
+  return sphere_rcs_m2(sphere.radius_m, wavelength_m);
+}
+
 double evaluate(const TriangularTrihedral& trihedral, const glm::dvec3& direction,
                 double wavelength_m) {
-  const double along = direction.x / std::sqrt(3.0);
-  std::array<double, 3> cosines = {
-      along + direction.z * std::sqrt(2.0 / 3.0),
-      along + direction.y / std::sqrt(2.0) - direction.z / std::sqrt(6.0),
-      along - direction.y / std::sqrt(2.0) - direction.z / std::sqrt(6.0)};
-  std::sort(cosines.begin(), cosines.end());
-  const double l = cosines[0];
-  const double m = cosines[1];
-  const double n = cosines[2];
-  if (l <= 0.0) return 0.0;
-  const double sum = l + m + n;
-  const double relative_area = l + m <= n ? 4.0 * l * m / sum : sum - 2.0 / sum;
-  return aperture_rcs_m2(relative_area * trihedral.edge_m * trihedral.edge_m, wavelength_m);
+  const double edge2_m2 = trihedral.edge_m * trihedral.edge_m;
+  return aperture_rcs_m2(edge2_m2 * triangular_trihedral_area_m2(direction), wavelength_m);
+}
+
+double evaluate(const SquareTrihedral& trihedral, const glm::dvec3& direction,
+                double wavelength_m) {
+  const double edge2_m2 = trihedral.edge_m * trihedral.edge_m;
+  return aperture_rcs_m2(edge2_m2 * square_trihedral_area_m2(direction), wavelength_m);
 }
 
 double evaluate(const Dihedral& dihedral, const glm::dvec3& direction, double wavelength_m) {
@@ -68,10 +64,41 @@ double evaluate(const Cylinder& cylinder, const glm::dvec3& direction, double wa
          cos_elevation * sinc_squared(phase_rad);
 }
 
+double coherent_length_m(const RoundWire& wire) {
+  return wire.coherence_length_m > 0.0 ? wire.coherence_length_m : wire.length_m;
+}
+
+double evaluate(const RoundWire& wire, const glm::dvec3& direction, double wavelength_m) {
+  const double coherent_m = coherent_length_m(wire);
+  return wire.length_m / coherent_m *
+         round_wire_rcs_m2(wire.radius_m, coherent_m, wire.polarisation_rad, direction.z,
+                           wavelength_m);
+}
+
+double evaluate(const LobedRcs& object, const glm::dvec3& direction, double) {
+  return lobed_rcs_m2(object, direction);
+}
+
+double square(double value) { return value * value; }
+
+// D^2 of far_field_distance_m.
+double squared_size_m2(const ConstantRcs&) { return 0.0; }
+double squared_size_m2(const Sphere&) { return 0.0; }
+double squared_size_m2(const LobedRcs&) { return 0.0; }
+double squared_size_m2(const TriangularTrihedral& t) { return 2.0 * square(t.edge_m); }
+// From the tip of one plate to the end of the edge across.
+double squared_size_m2(const SquareTrihedral& t) { return 3.0 * square(t.edge_m); }
+double squared_size_m2(const Dihedral& d) { return 2.0 * square(d.width_m) + square(d.height_m); }
+double squared_size_m2(const RectangularPlate& p) { return square(p.width_m) + square(p.height_m); }
+double squared_size_m2(const Cylinder& c) { return square(c.length_m); }
+double squared_size_m2(const RoundWire& w) { return square(coherent_length_m(w)); }
+
 void check_size(const char* field, double size_m) { require_range(field, size_m, 1e-6, 1e3); }
 
 void check(const ConstantRcs& constant) { require_range("rcs_m2", constant.rcs_m2, 0.0, 1e9); }
+void check(const Sphere& sphere) { check_size("radius_m", sphere.radius_m); }
 void check(const TriangularTrihedral& trihedral) { check_size("edge_m", trihedral.edge_m); }
+void check(const SquareTrihedral& trihedral) { check_size("edge_m", trihedral.edge_m); }
 void check(const Dihedral& dihedral) {
   check_size("width_m", dihedral.width_m);
   check_size("height_m", dihedral.height_m);
@@ -83,6 +110,22 @@ void check(const RectangularPlate& plate) {
 void check(const Cylinder& cylinder) {
   check_size("radius_m", cylinder.radius_m);
   check_size("length_m", cylinder.length_m);
+}
+void check(const RoundWire& wire) {
+  check_size("radius_m", wire.radius_m);
+  check_size("length_m", wire.length_m);
+  require_range("polarisation_rad", wire.polarisation_rad, -2.0 * kPi, 2.0 * kPi);
+  if (wire.coherence_length_m != 0.0) check_size("coherence_length_m", wire.coherence_length_m);
+}
+void check(const LobedRcs& object) {
+  require_range("floor_m2", object.floor_m2, 0.0, 1e9);
+  for (const AspectLobe& lobe : object.lobes) {
+    require_range("azimuth_rad", lobe.azimuth_rad, -2.0 * kPi, 2.0 * kPi);
+    require_range("azimuth_width_rad", lobe.azimuth_width_rad, 0.0, 100.0);
+    require_range("elevation_rad", lobe.elevation_rad, -kPi / 2.0, kPi / 2.0);
+    require_range("elevation_width_rad", lobe.elevation_width_rad, 1e-6, 100.0);
+    require_range("peak_m2", lobe.peak_m2, 0.0, 1e9);
+  }
 }
 
 }  // namespace
@@ -99,6 +142,12 @@ double rcs_m2(const RcsModel& model, const glm::dvec3& direction_to_radar_in_tar
   const glm::dvec3 direction = direction_to_radar_in_target_axes / length;
   return std::visit([&](const auto& shape) { return evaluate(shape, direction, wavelength_m); },
                     model);
+}
+
+double far_field_distance_m(const RcsModel& model, double wavelength_m) {
+  require_range("wavelength_m", wavelength_m, 1e-6, 1e3);
+  return std::visit([](const auto& shape) { return 2.0 * squared_size_m2(shape); }, model) /
+         wavelength_m;
 }
 
 }  // namespace fanbeam::materials

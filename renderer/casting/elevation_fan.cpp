@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "sensors/antenna/beam_pattern.h"
+
 namespace fanbeam::renderer {
 namespace {
 
@@ -32,10 +34,9 @@ double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m
 ElevationFan::ElevationFan(const World& world, const Sampling& sampling)
     : world_(world), sampling_(sampling) {
   const sensors::Antenna& antenna = world.sensor.antenna;
-  lowest_rad_ =
-      std::max(antenna.boresight_elevation_rad - antenna.elevation.cut_rad, -core::kPi / 2);
-  highest_rad_ =
-      std::min(antenna.boresight_elevation_rad + antenna.elevation.cut_rad, core::kPi / 2);
+  const double reach_rad = sensors::reach_rad(antenna.elevation);
+  lowest_rad_ = std::max(antenna.boresight_elevation_rad - reach_rad, -core::kPi / 2);
+  highest_rad_ = std::min(antenna.boresight_elevation_rad + reach_rad, core::kPi / 2);
 }
 
 void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,

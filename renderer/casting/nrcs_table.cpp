@@ -1,15 +1,24 @@
 #include "renderer/casting/nrcs_table.h"
 
+#include <algorithm>
+
 namespace fanbeam::renderer {
 
-NrcsTable::NrcsTable(const materials::PhongNrcs& nrcs) : nrcs_(nrcs) {
-  for (int i = 0; i <= kSteps + 1; ++i) {
-    const double sine = std::fmin(static_cast<double>(i) / kSteps, 1.0);
-    values_.push_back(i == 0 ? 0.0 : nrcs.sigma0(sine) / sine);
+NrcsTable::NrcsTable(const materials::NrcsCurve& nrcs) {
+  const auto ratio = [&nrcs](double sine) { return nrcs.sigma0(sine) / sine; };
+  // At 0 the limit, unless it is infinite.
+  const auto lowest = [&ratio](double first_sine) {
+    return std::min(ratio(first_sine * 1e-9), ratio(first_sine));
+  };
+  values_.reserve(kCoarseEntries + kFineSteps + 1);
+  for (int i = 0; i < kCoarseEntries; ++i) {
+    const double sine = std::min(static_cast<double>(i) / kSteps, 1.0);
+    values_.push_back(i == 0 ? lowest(1.0 / kSteps) : ratio(sine));
   }
-  const double half = nrcs.sigma0(0.5) / 0.5;
-  flat_ = half == values_[kSteps] && half == nrcs.sigma0(0.1) / 0.1;
-  values_[0] = flat_ ? half : values_[1];
+  for (int i = 0; i <= kFineSteps; ++i) {
+    const double sine = kFineBelow * i / kFineSteps;
+    values_.push_back(i == 0 ? lowest(kFineBelow / kFineSteps) : ratio(sine));
+  }
 }
 
 }  // namespace fanbeam::renderer

@@ -57,7 +57,7 @@ RayCaster::RayCaster(const World& world, const Sampling& sampling)
       sampling_(sampling),
       fan_(world, sampling_),
       elevation_gain_(world.sensor.antenna.elevation) {
-  for (const materials::PhongNrcs& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
+  for (const materials::NrcsCurve& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
   if (const terrain::HeightField* ground = world.surfaces->terrain(); ground != nullptr) {
     const auto [low, high] = std::minmax_element(ground->height_m.begin(), ground->height_m.end());
     lowest_m_ = *low;

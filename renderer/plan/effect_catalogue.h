@@ -26,7 +26,16 @@ struct Effect {
 inline constexpr std::string_view kGas = "gas";
 inline constexpr std::string_view kFog = "fog";
 inline constexpr std::string_view kRain = "rain";
+inline constexpr std::string_view kSnow = "snow";
+inline constexpr std::string_view kRainEcho = "rain-echo";
+inline constexpr std::string_view kDoubleBounce = "double-bounce";
+inline constexpr std::string_view kMultipath = "multipath";
+inline constexpr std::string_view kSurfaceState = "surface-state";
+inline constexpr std::string_view kSideLobes = "side-lobes";
+inline constexpr std::string_view kRangeResponse = "range-response";
 inline constexpr std::string_view kThermalNoise = "thermal-noise";
+inline constexpr std::string_view kSpeckle = "speckle";
+inline constexpr std::string_view kSwerling = "swerling";
 
 const std::vector<Effect>& effect_catalogue();
 

@@ -10,6 +10,12 @@ namespace fanbeam::renderer {
 
 struct Effects {
   bool thermal_noise = false;
+  bool speckle = false;   // one realisation instead of expected power, noise included
+  bool swerling = false;  // targets fluctuate
+  bool rain_echo = false;
+  bool double_bounce = false;
+  bool multipath = false;  // of point targets over reflecting ground
+  bool range_response = false;
   std::uint64_t seed = 0;  // of everything random in a frame
 };
 

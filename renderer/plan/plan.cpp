@@ -52,8 +52,11 @@ EffectWishes parse_effect_wishes(const std::string& text) {
   return wishes;
 }
 
-core::EffectPlan plan(const SceneFacts& facts, double accuracy_grey, const EffectWishes& wishes) {
+core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {
   const std::vector<Effect>& catalogue = effect_catalogue();
+  SceneFacts facts = scene;
+  facts.sample = scene.sample || contains(wishes.forced_on, kSpeckle) ||
+                 contains(wishes.forced_on, kSwerling);
   core::EffectPlan result;
   std::vector<bool> open(catalogue.size(), false);
   for (std::size_t i = 0; i < catalogue.size(); ++i) {

@@ -23,7 +23,7 @@ EffectWishes parse_effect_wishes(const std::string& text);
 
 // Half of `accuracy_grey` is for effects left out: an effect that is possible and not forced runs
 // unless its bound, added to the bounds of those already left out (smallest first), stays within
-// that half.
-core::EffectPlan plan(const SceneFacts& facts, double accuracy_grey, const EffectWishes& wishes);
+// that half. Speckle or fluctuating targets forced on ask for a realisation where the scene does not.
+core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes);
 
 }  // namespace fanbeam::renderer

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "core/parallel.h"
+#include "renderer/stages/echo_shares.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 
@@ -45,10 +46,10 @@ std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFram
   const glm::dvec3 direction = path_m / range_m;
   const auto angles = sensors::angles(antenna, direction, sensor.scan.surface);
   if (!angles) return std::nullopt;
-  const double reach_rad = sensor.scan.field_of_view_rad / 2 + beams.azimuth.cut_rad;
+  const double reach_rad = sensor.scan.field_of_view_rad / 2 + sensors::reach_rad(beams.azimuth);
   if (std::abs(angles->azimuth_rad) > reach_rad) return std::nullopt;
-  const double elevation_gain =
-      sensors::two_way_gain(beams.elevation, angles->elevation_rad - beams.boresight_elevation_rad);
+  const double elevation_gain = sensors::two_way_gain_with_side_lobes(
+      beams.elevation, angles->elevation_rad - beams.boresight_elevation_rad);
   const double rcs_m2 = materials::rcs_m2(target.rcs, glm::transpose(target.axes) * -direction,
                                           sensor.wavelength_m());
   if (!(elevation_gain * rcs_m2 > 0.0)) return std::nullopt;
@@ -62,54 +63,42 @@ std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFram
       sensor.radar_constant_W_m2() * rcs_m2 * elevation_gain *
       world.attenuation.two_way_power_factor(antenna.position_m.z, position_m.z, range_m) /
       (range_m * range_m * range_m * range_m);
+  if (world.rain_cells)
+    echo.power_W *= world.rain_cells->two_way_power_factor(antenna.position_m, position_m);
   return echo;
 }
 
 }  // namespace
 
 std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
-                                     double time_s) {
+                                     double time_s, Multipath multipath) {
   constexpr std::size_t kAtOnce = 64;
   const std::size_t count = world.targets.size();
-  std::vector<std::optional<core::Echo>> found(count);
-  core::parallel_for((count + kAtOnce - 1) / kAtOnce, [&](std::size_t block) {
+  std::vector<std::vector<core::Echo>> found((count + kAtOnce - 1) / kAtOnce);
+  core::parallel_for(found.size(), [&](std::size_t block) {
     for (std::size_t i = block * kAtOnce; i < std::min((block + 1) * kAtOnce, count); ++i)
-      found[i] = echo_of(world, antenna, time_s, i);
+      if (const auto echo = echo_of(world, antenna, time_s, i))
+        add_with_ground(world, antenna, world.targets[i].position_at(time_s), *echo, multipath,
+                        found[block]);
   });
   std::vector<core::Echo> echoes;
-  for (const std::optional<core::Echo>& echo : found)
-    if (echo) echoes.push_back(*echo);
+  for (const std::vector<core::Echo>& block : found)
+    echoes.insert(echoes.end(), block.begin(), block.end());
   return echoes;
 }
 
 void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& sensor,
                 std::vector<double>& bscope_W, std::vector<double>& cscope_W_m3) {
-  const sensors::Scan& scan = sensor.scan;
-  const double width_rad = scan.column_width_rad();
-  const double cut_rad = sensor.antenna.azimuth.cut_rad;
+  const int columns = sensor.scan.columns;
   for (const core::Echo& echo : echoes) {
-    // The beam is an angle on the sky; columns of a plane scan count azimuth in the horizontal
-    // plane.
-    const double sky =
-        scan.surface == sensors::ScanSurface::plane ? std::cos(echo.elevation_rad) : 1.0;
-    const int cell = sensors::range_row(sensor.range, echo.range_m);
-    if (cell == sensors::kOutside) continue;
-    const double position = (echo.azimuth_rad + scan.field_of_view_rad / 2) / width_rad - 0.5;
-    const double reach = cut_rad / (width_rad * std::max(sky, 0.01));
-    const int first = std::max(0, static_cast<int>(std::ceil(position - reach)));
-    const int last = std::min(scan.columns - 1, static_cast<int>(std::floor(position + reach)));
     const int row = cscope_W_m3.empty() ? sensors::kOutside
                                         : sensors::cscope_row(sensor.display, echo.elevation_rad);
-    for (int column = first; column <= last; ++column) {
-      const double gain =
-          sensors::two_way_gain(sensor.antenna.azimuth, (column - position) * width_rad * sky);
-      const auto columns = static_cast<std::size_t>(scan.columns);
-      bscope_W[static_cast<std::size_t>(cell) * columns + static_cast<std::size_t>(column)] +=
-          echo.power_W * gain;
+    share_echo(echo, sensor, [&](int cell, int column, double power_W) {
+      bscope_W[static_cast<std::size_t>(cell * columns + column)] += power_W;
       if (row != sensors::kOutside)
-        cscope_W_m3[static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column)] +=
-            echo.power_W * gain * echo.range_m * echo.range_m * echo.range_m;
-    }
+        cscope_W_m3[static_cast<std::size_t>(row * columns + column)] +=
+            power_W * echo.range_m * echo.range_m * echo.range_m;
+    });
   }
 }
 

@@ -2,14 +2,16 @@
 //
 //     P(column) = K sigma g_el(el)^2 g_az((az - az_column) cos el)^2 L / R^4   (a cone scan: without cos el)
 // in the one range cell that holds R (rectangular range response). Visibility is one ray to the
-// scatterer; a scatterer on a surface is not hidden by that surface (1 m clearance). Neglected:
-// multipath, shadow of the scatterer itself.
+// scatterer; a scatterer on a surface is not hidden by that surface (1 m clearance). With
+// `multipath` the ground's mirror joins (ground_multipath.h): a target then may have one echo for
+// each range cell that its paths end in. Neglected: shadow of the scatterer itself.
 #pragma once
 
 #include <vector>
 
 #include "core/echo.h"
 #include "renderer/casting/path_loss_table.h"
+#include "renderer/stages/ground_multipath.h"
 #include "renderer/world.h"
 #include "sensors/antenna/antenna_frame.h"
 
@@ -19,7 +21,7 @@ namespace fanbeam::renderer {
 // power at azimuth gain 1; `object_id` is the target's index; the radial speed is left at 0. Sorted
 // as the targets are.
 std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
-                                     double time_s);
+                                     double time_s, Multipath multipath = Multipath::none);
 
 // Adds the echoes to a B-scope [cell][column] in watts and, when not empty, a C-scope [row][column]
 // in W m^3.

@@ -2,12 +2,10 @@
 
 #include <tiny_gltf.h>
 
-#include <charconv>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
-#include "core/files.h"
+#include "core/relative_uri.h"
 #include "terrain/gltf/gltf_limits.h"
 
 namespace fanbeam::terrain {
@@ -19,23 +17,6 @@ using core::ErrorClass;
 constexpr std::string_view kDataScheme = "data:";
 constexpr std::string_view kBase64Mark = ";base64,";
 
-// RFC 3986, section 2.1: "%2e" is a point. Anything else stays as it is.
-std::string percent_decoded(const std::string& uri) {
-  std::string decoded;
-  for (std::size_t i = 0; i < uri.size(); ++i) {
-    unsigned char byte = 0;
-    const char* digits = uri.data() + i + 1;
-    if (uri[i] == '%' && i + 2 < uri.size() &&
-        std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
-      decoded += static_cast<char>(byte);
-      i += 2;
-    } else {
-      decoded += uri[i];
-    }
-  }
-  return decoded;
-}
-
 class BufferLoader {
  public:
   BufferLoader(const GltfContainer& container, const fs::path& file, const fs::path& allowed_folder,
@@ -43,21 +24,11 @@ class BufferLoader {
       : container_(container),
         place_{file.string()},
         allowed_folder_(allowed_folder),
-        read_file_(read_file) {
-    std::error_code status;
-    const fs::path folder = fs::weakly_canonical(fs::absolute(file, status).parent_path(), status);
-    from_allowed_folder_ = folder.lexically_relative(fs::weakly_canonical(allowed_folder, status));
-  }
+        read_file_(read_file) {}
 
   // Throws InputError E-PATH.
   fs::path resolved(const std::string& uri, const std::string& field) const {
-    const std::string decoded = percent_decoded(uri);
-    // Looked for here because behind a folder name a scheme would pass for a part of the path.
-    if (decoded.find(':') < decoded.find('/'))
-      core::throw_input_error(ErrorClass::path, place_, field, "\"" + uri + "\"",
-                              "a relative path, not a URI scheme");
-    const fs::path path = from_allowed_folder_ / decoded;
-    return core::path_inside(allowed_folder_, path.string(), place_, field);
+    return core::file_of_uri(allowed_folder_, place_.file, uri, place_, field);
   }
 
   std::string load(const GltfBufferSource& source, std::size_t i) {
@@ -98,7 +69,6 @@ class BufferLoader {
   core::Place place_;
   const fs::path& allowed_folder_;
   const FileReader& read_file_;
-  fs::path from_allowed_folder_;
   // A large file may stand behind many small buffers and is read for each.
   std::uint64_t readable_bytes_ = kLargestGltfBuffers_bytes;
 };

@@ -67,8 +67,8 @@ TEST_CASE("Fog and rain end exactly at their tops", "[path_attenuation]") {
   Weather weather = murky();
   weather.simulate_gas = false;
   const PathAttenuation path(weather, 35e9);
-  const double fog = fog_layer_dB_per_km(weather, 35e9);
-  const double rain = rain_layer_dB_per_km(weather, 35e9);
+  const double fog = fog_layer_dB_per_km(weather, fog_in(weather).front(), 35e9);
+  const double rain = rain_dB_per_km(weather, 10.0, 35e9);
   // Path from 1000 m to 20 m: 100 m of it (by height) lie in fog, 757.7 m in rain.
   const double expected = (fog * 100.0 + rain * 757.7) / 980.0 * 5.0;
   CHECK(path.one_way_dB(1000.0, 20.0, 5000.0) == tests::within(expected, 1e-13));

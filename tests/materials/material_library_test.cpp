@@ -112,30 +112,43 @@ TEST_CASE("Reflectivity scales with the stated power of frequency", "[materials]
   ProblemList problems;
   const MaterialLibrary library =
       MaterialLibrary::from_text(material_text("0.1", "0.2", "3"), "test.toml", problems);
-  const PhongNrcs scaled = library.at_frequency(140e9).at(0);
+  const PhongSurface& row = std::get<PhongSurface>(library[0].model);
+  const PhongNrcs scaled = row.at_frequency(140e9);
   // (140 / 35)^0.5 = 2.
   REQUIRE(scaled.a() == Approx(0.2).epsilon(1e-14));
   REQUIRE(scaled.b() == Approx(0.4).epsilon(1e-14));
   REQUIRE(scaled.c() == 3.0);
-  const PhongNrcs same = library.at_frequency(35e9).at(0);
-  REQUIRE(same.a() == 0.1);
-  REQUIRE(tests::refuses([&] { library.at_frequency(0.0); }, ErrorClass::range));
-  REQUIRE(tests::refuses([&] { library.at_frequency(std::nan("")); }, ErrorClass::nonfinite));
+  REQUIRE(row.at_frequency(35e9).a() == 0.1);
+  const auto curves_at = [&](double frequency_Hz) {
+    return library.curves(SurfaceState::dry, Polarisation::horizontal, frequency_Hz);
+  };
+  REQUIRE(curves_at(140e9).at(0).sigma0(0.3) == scaled.sigma0(0.3));
+  REQUIRE(tests::refuses([&] { curves_at(0.0); }, ErrorClass::range));
+  REQUIRE(tests::refuses([&] { curves_at(std::nan("")); }, ErrorClass::nonfinite));
 }
 
-TEST_CASE("A frequency outside the material's range is a warning, its ends are not",
-          "[materials][library]") {
+TEST_CASE(
+    "A frequency or polarisation outside the material's range is refused, or told when allowed",
+    "[materials][library]") {
   ProblemList problems;
   const MaterialLibrary library =
       MaterialLibrary::from_text(material_text("0.1", "0.2", "3"), "test.toml", problems);
   for (const double frequency_Hz : {30e9, 35e9, 40e9})
-    library.warn_if_extrapolated(0, frequency_Hz, problems);
+    library.report_extrapolations(0, Polarisation::horizontal, frequency_Hz, false, problems);
   REQUIRE(problems.all().empty());
-  library.warn_if_extrapolated(0, 76e9, problems);
-  REQUIRE(problems.all().size() == 1);
-  REQUIRE(problems.all().front().code == "W-EXTRAPOLATED");
-  REQUIRE(problems.all().front().place.line == 1);
-  REQUIRE_FALSE(problems.has_errors());
+  library.report_extrapolations(0, Polarisation::vertical, 76e9, false, problems);
+  REQUIRE(problems.all().size() == 2);
+  for (const Problem& problem : problems.all()) REQUIRE(problem.code == "E-RANGE");
+  REQUIRE(problems.all()[0].value == "76");
+  REQUIRE(problems.all()[0].expected.starts_with("30 to 40 (model phong), or allow_extrapolation"));
+  REQUIRE(problems.all()[1].value == "VV");
+  REQUIRE(problems.all()[1].expected.starts_with("HH (model phong)"));
+  ProblemList warnings;
+  library.report_extrapolations(0, Polarisation::horizontal, 76e9, true, warnings);
+  REQUIRE(warnings.all().size() == 1);
+  REQUIRE(warnings.all().front().code == "W-EXTRAPOLATED");
+  REQUIRE(warnings.all().front().place.line == 1);
+  REQUIRE_FALSE(warnings.has_errors());
 }
 
 TEST_CASE("The shipped library holds every material a scene names", "[materials][library]") {
@@ -152,7 +165,7 @@ TEST_CASE("The shipped library holds every material a scene names", "[materials]
     REQUIRE(material.name == name);
     REQUIRE(material.source.size() > 10);
     REQUIRE(material.note.size() > 10);
-    REQUIRE(material.frequency_range_Hz.contains(35e9));
+    REQUIRE(extrapolations_of(material.model, Polarisation::horizontal, 35e9).empty());
   }
 }
 
@@ -160,7 +173,8 @@ TEST_CASE(
     "At approach angles grass is brighter than asphalt, asphalt than concrete, concrete than water",
     "[materials][library]") {
   const MaterialLibrary library = shipped();
-  const std::vector<PhongNrcs> nrcs = library.at_frequency(35e9);
+  const std::vector<NrcsCurve> nrcs =
+      library.curves(SurfaceState::dry, Polarisation::horizontal, 35e9);
   for (const double grazing_deg : {2.0, 3.0, 5.0, 10.0}) {
     const double sine = std::sin(grazing_deg * 3.14159265358979 / 180.0);
     double previous = 1e9;

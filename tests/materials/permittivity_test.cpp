@@ -1,10 +1,11 @@
-#include "materials/dielectric/permittivity.h"
-
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <string>
 
+#include "materials/dielectric/building_materials.h"
 #include "materials/dielectric/fresnel.h"
+#include "materials/dielectric/snow.h"
+#include "materials/dielectric/water_ice.h"
 #include "tests/materials/csv_rows.h"
 #include "tests/materials/error_class.h"
 

@@ -8,6 +8,7 @@
 
 #include "core/constants.h"
 #include "core/units.h"
+#include "materials/dielectric/building_materials.h"
 #include "materials/nrcs/git_land.h"
 #include "materials/nrcs/kulemin.h"
 #include "materials/nrcs/nrl_sea.h"

@@ -4,6 +4,7 @@
 
 #include "core/constants.h"
 #include "core/units.h"
+#include "materials/dielectric/building_materials.h"
 #include "materials/dielectric/roughness.h"
 #include "materials/nrcs/oh1992.h"
 #include "materials/nrcs/rough_metal.h"

@@ -43,7 +43,7 @@ inline terrain::HeightField ground(double half_extent_m, double spacing_m,
 
 inline renderer::World world(const sensors::Sensor& sensor,
                              std::optional<terrain::HeightField> field,
-                             std::vector<materials::PhongNrcs> nrcs,
+                             std::vector<materials::NrcsCurve> nrcs,
                              std::vector<terrain::PlacedMesh> meshes = {},
                              std::vector<terrain::SurfacePatch> patches = {}) {
   return {.surfaces = std::make_unique<terrain::RayScene>(std::move(field), std::move(patches),

@@ -1,0 +1,31 @@
+// The product "detections": a mask picture and a table per frame.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "renderer/stages/threshold.h"
+#include "sensors/sensor.h"
+
+namespace fanbeam::apps {
+
+// 255 where something was detected, 0 elsewhere; laid out as the B-scope, farthest range on top.
+core::Picture8 detection_mask(const sensors::Sensor& sensor,
+                              const std::vector<renderer::ThresholdDetection>& detections);
+
+// One line per detection under a comment with the input's fingerprint and the column names:
+// frame, time_s, row (0 nearest), column (0 left), range_m and azimuth_deg of the cell's middle,
+// power_W with its noise, snr_dB: power over mean noise, less the noise.
+std::string detection_table(const sensors::Sensor& sensor, int frame, double time_s,
+                            const std::string& fingerprint,
+                            const std::vector<renderer::ThresholdDetection>& detections);
+
+std::filesystem::path detection_table_path(const std::filesystem::path& folder, int frame);
+
+// Whether the table of a frame is there and of this input.
+bool has_detection_table(const std::filesystem::path& folder, int frame,
+                         const std::string& fingerprint);
+
+}  // namespace fanbeam::apps

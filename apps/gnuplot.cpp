@@ -1,0 +1,141 @@
+#include "apps/gnuplot.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <csignal>
+#include <string_view>
+
+#include "core/errors.h"
+#include "core/files.h"
+
+extern char** environ;
+
+namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Colours that stay apart in print and for most colour-blind eyes (Okabe and Ito 2008).
+constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                                 "#56b4e9", "#e69f00", "#000000", "#8c6d1f"};
+
+// Single quotes keep gnuplot from reading escapes; a quote inside is doubled.
+std::string gnuplot_text(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') result += '\'';
+    result += c == '\n' ? ' ' : c;
+  }
+  return result + "'";
+}
+
+std::string axis_commands(char name, const PlotAxis& axis) {
+  const auto end = [](const std::optional<double>& value) {
+    return value ? core::number_text(*value) : std::string("*");
+  };
+  std::string text = fmt::format("set {}label {} noenhanced\n", name, gnuplot_text(axis.label));
+  if (axis.logarithmic) text += fmt::format("set logscale {}\n", name);
+  return text + fmt::format("set {}range [{}:{}]\n", name, end(axis.low), end(axis.high));
+}
+
+std::string style_of(const PlotSeries& series, std::size_t index) {
+  const char* colour = kColours[index % kColours.size()];
+  if (series.style == PlotSeries::Style::points)
+    return fmt::format("with points pt 7 ps 0.6 lc rgb '{}'", colour);
+  const bool dashed = series.style == PlotSeries::Style::dashed_line;
+  return fmt::format("with lines lw 2 dt {} lc rgb '{}'", dashed ? 2 : 1, colour);
+}
+
+std::string data_block(const PlotSeries& series, std::size_t index) {
+  std::string text = fmt::format("$series{} << END\n", index);
+  const std::size_t count = std::min(series.x.size(), series.y.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool finite = std::isfinite(series.x[i]) && std::isfinite(series.y[i]);
+    text += finite ? core::number_text(series.x[i]) + ' ' + core::number_text(series.y[i]) + '\n'
+                   : std::string("\n");
+  }
+  return text + "END\n";
+}
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
+  core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "plot", reason,
+                          "a working gnuplot program (Debian package gnuplot-nox)");
+}
+
+// Starts gnuplot without the user's own settings, reading commands from `input`.
+int start_gnuplot(int input, const fs::path& file) {
+  std::array<std::string, 3> words = {"gnuplot", "--default-settings", "-"};
+  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  int process = 0;
+  const int failed = posix_spawnp(&process, "gnuplot", &actions, nullptr, arguments, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (failed != 0) {
+    close(input);
+    refuse(file, "gnuplot cannot be started");
+  }
+  return process;
+}
+
+void run_gnuplot(std::string_view script, const fs::path& file) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) refuse(file, "no pipe");
+  std::signal(SIGPIPE, SIG_IGN);  // a dying gnuplot shows as a failed write
+  int process = 0;
+  try {
+    process = start_gnuplot(ends[0], file);
+  } catch (...) {
+    close(ends[1]);
+    throw;
+  }
+  close(ends[0]);
+  while (!script.empty()) {
+    const ssize_t count = write(ends[1], script.data(), script.size());
+    if (count <= 0) break;  // the exit status tells why
+    script.remove_prefix(static_cast<std::size_t>(count));
+  }
+  close(ends[1]);
+  int status = 0;
+  waitpid(process, &status, 0);
+  if (!script.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
+    refuse(file, "gnuplot failed");
+}
+
+}  // namespace
+
+std::string gnuplot_script(const Plot& plot, const fs::path& output) {
+  const char* terminal = output.extension() == ".svg" ? "svg" : "pngcairo";
+  std::string text = fmt::format(
+      "set terminal {} size {},{} font 'sans,13' background rgb 'white'\nset output {}\n", terminal,
+      plot.width_px, plot.height_px, gnuplot_text(output.string()));
+  text += fmt::format("set title {} noenhanced\n", gnuplot_text(plot.title));
+  text += axis_commands('x', plot.x) + axis_commands('y', plot.y);
+  text += "set grid lt 1 lc rgb '#d0d0d0'\nset key outside right top noenhanced\n";
+  for (std::size_t i = 0; i < plot.series.size(); ++i) text += data_block(plot.series[i], i);
+  for (std::size_t i = 0; i < plot.series.size(); ++i)
+    text +=
+        fmt::format("{}$series{} using 1:2 {} {}", i == 0 ? "plot " : ", \\\n     ", i,
+                    style_of(plot.series[i], i),
+                    plot.series[i].title.empty() ? std::string("notitle")
+                                                 : "title " + gnuplot_text(plot.series[i].title));
+  return text + "\nset output\n";
+}
+
+void write_plot(const Plot& plot, const fs::path& file) {
+  if (file.extension() != ".svg" && file.extension() != ".png")
+    core::throw_input_error(core::ErrorClass::unsupported, core::Place{file.string()}, "plot",
+                            "\"" + file.extension().string() + "\"", "a name with .svg or .png");
+  core::write_atomically(
+      file, [&](const fs::path& temporary) { run_gnuplot(gnuplot_script(plot, temporary), file); });
+}
+
+}  // namespace fanbeam::apps

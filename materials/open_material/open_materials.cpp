@@ -1,0 +1,130 @@
+#include "materials/open_material/open_materials.h"
+
+#include "core/relative_uri.h"
+#include "materials/open_material/brdf_table.h"
+#include "materials/open_material/permittivity_table.h"
+#include "materials/open_material/reflection_table.h"
+
+namespace fanbeam::materials {
+namespace {
+
+namespace fs = std::filesystem;
+using core::ErrorClass;
+
+std::string radar_text(const RadarQuery& query) {
+  return core::number_text(query.frequency_Hz / 1e9) + " GHz, " + core::name_of(query.polarisation);
+}
+
+Lookup<SurfaceModel> from_custom_properties(const OpenMaterialFile& material,
+                                            const RadarQuery& query) {
+  if (material.nrcs.empty()) return {{}, "missing"};
+  const CustomNrcs* best = best_of(material.nrcs, query);
+  if (best == nullptr) return {{}, "no entry for this frequency and polarisation"};
+  return {best->surface, {}};
+}
+
+// The three ways to a reflectivity, with what each of them lacks.
+struct Ways {
+  Lookup<SurfaceModel> custom, brdf, rough;
+
+  std::optional<SurfaceModel> first() const {
+    if (custom.value) return custom.value;
+    return brdf.value ? brdf.value : rough.value;
+  }
+  std::string why_not() const {
+    return "customProperties.fanbeam.nrcs (" + custom.why_not + "), brdfUris (" + brdf.why_not +
+           ") or surfaceRoughness with electromagneticPropertiesUri (" + rough.why_not + ")";
+  }
+};
+
+}  // namespace
+
+OpenMaterials::OpenMaterials(const fs::path& file, fs::path allowed_folder, const RadarQuery& query,
+                             core::ProblemList& problems)
+    : allowed_folder_(std::move(allowed_folder)),
+      query_(query),
+      mapping_(read_open_mapping(file, allowed_folder_, problems)) {}
+
+std::optional<fs::path> OpenMaterials::table_file(const fs::path& from, const NamedUri& uri,
+                                                  core::ProblemList& problems) {
+  try {
+    fs::path file = core::file_of_uri(allowed_folder_, from, uri.uri, {from.string()}, uri.pointer);
+    mapping_.files.push_back(file);
+    return file;
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+    return std::nullopt;
+  }
+}
+
+std::optional<SurfaceModel> OpenMaterials::surface_of(const std::string& name,
+                                                      core::ProblemList& problems) {
+  const NamedUri& uri = mapping_.material_of_name.at(name);
+  try {
+    const fs::path file = core::file_of_uri(allowed_folder_, mapping_.file, uri.uri,
+                                            {mapping_.file.string()}, uri.pointer);
+    const auto known = surfaces_.find(file);
+    if (known != surfaces_.end()) return known->second;  // its problems have been told
+    mapping_.files.push_back(file);
+    return surfaces_[file] = read_surface(file, problems);
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+    return std::nullopt;
+  }
+}
+
+Lookup<SurfaceModel> OpenMaterials::from_brdfs(const fs::path& file,
+                                               const OpenMaterialFile& material,
+                                               core::ProblemList& problems) {
+  Lookup<SurfaceModel> found{{}, "missing"};
+  for (const NamedUri& uri : material.brdfs) {
+    const auto table = table_file(file, uri, problems);
+    if (!table) continue;
+    // Also after a find: every table is checked.
+    const auto answer = BrdfTable::from_file(*table, problems).backscatter_at(query_);
+    if (answer.value && !found.value) found.value = *answer.value;
+    found.why_not = answer.why_not;
+  }
+  return found;
+}
+
+Lookup<SurfaceModel> OpenMaterials::from_roughness(const fs::path& file,
+                                                   const OpenMaterialFile& material,
+                                                   core::ProblemList& problems) {
+  Lookup<Permittivity> permittivity{{}, "no permittivity"};
+  if (material.permittivity)
+    if (const auto table = table_file(file, *material.permittivity, problems))
+      permittivity = PermittivityTable::from_file(*table, problems).at(query_);
+  if (!permittivity.value) return {{}, permittivity.why_not};
+  if (!material.rms_height_m) return {{}, "no surface height"};
+  return {OhSurface{*permittivity.value, *material.rms_height_m, query_.temperature_K}, {}};
+}
+
+std::optional<SurfaceModel> OpenMaterials::read_surface(const fs::path& file,
+                                                        core::ProblemList& outer_problems) {
+  core::ProblemList problems;
+  std::optional<SurfaceModel> surface;
+  if (const auto material = read_open_material_file(file, problems)) {
+    const Ways ways{from_custom_properties(*material, query_),
+                    from_brdfs(file, *material, problems),
+                    from_roughness(file, *material, problems)};
+    for (const NamedUri& uri : material->reflection_coefficients)
+      if (const auto table = table_file(file, uri, problems))
+        check_reflection_table(*table, problems);
+    surface = ways.first();
+    if (!surface && !problems.has_errors())
+      problems.error(ErrorClass::unsupported, {file.string()}, "/materialProperties",
+                     "no reflectivity at " + radar_text(query_), ways.why_not());
+  }
+  if (problems.has_errors()) surface.reset();
+  if (surface)
+    for (const Extrapolation& beyond :
+         extrapolations_of(*surface, query_.polarisation, query_.frequency_Hz))
+      problems.warning("EXTRAPOLATED", {file.string()},
+                       std::string(name_of(*surface)) + " at " + beyond.quantity, beyond.asked,
+                       "known for " + beyond.known);
+  outer_problems.append(problems.all());
+  return surface;
+}
+
+}  // namespace fanbeam::materials

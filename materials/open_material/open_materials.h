@@ -1,0 +1,66 @@
+// Materials for a model from ASAM OpenMATERIAL 3D 1.0 and 1.1 files, as a radar sees them.
+//
+// A name of the model leads through `.xoma` and `.xomm` to a `.xomp` file (mapping_file.h). Its
+// reflectivity is the first of
+//
+//   1. customProperties.fanbeam.nrcs                        custom_nrcs.h
+//   2. a BRDF in the backscatter direction                  brdf_table.h
+//   3. Oh 1992 from surfaceHeightRms and the permittivity   permittivity_table.h, oh1992.h
+//
+// that knows the radar's frequency and polarisation. When none does, the material is refused with
+// all three reasons: no reflectivity is made up. Files are read when the first name asks for them,
+// each once, and only from inside one folder. Source of the layout: ASAM OpenMATERIAL 3D 1.0.0 and
+// 1.1.0, schemas asset, mapping, material, material_emp, material_brdf and material_reflCoeff.
+// Neglected: humidity, layers and thickness (geometryProperties), assignment textures. Accuracy:
+// that of the material's data; the conversion of a BRDF is exact at its rows, Oh's model below 20
+// deg grazing is extrapolation.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "materials/nrcs/surface_model.h"
+#include "materials/open_material/mapping_file.h"
+#include "materials/open_material/radar_query.h"
+
+namespace fanbeam::materials {
+
+class OpenMaterials {
+ public:
+  // Reads asset and mapping; problems as read_open_mapping.
+  OpenMaterials(const std::filesystem::path& file, std::filesystem::path allowed_folder,
+                const RadarQuery& query, core::ProblemList& problems);
+
+  bool knows(const std::string& name) const { return mapping_.material_of_name.count(name) > 0; }
+
+  // The reflectivity of a known name. Reports the problems of the material and its tables, E-PATH
+  // for files outside the folder, E-UNSUPPORTED when nothing in it serves this radar;
+  // W-EXTRAPOLATED when Oh's model is used beyond its data. Nothing after an error.
+  std::optional<SurfaceModel> surface_of(const std::string& name, core::ProblemList& problems);
+
+  // All files read so far, in the order of reading.
+  const std::vector<std::filesystem::path>& files() const { return mapping_.files; }
+
+ private:
+  std::optional<SurfaceModel> read_surface(const std::filesystem::path& file,
+                                           core::ProblemList& problems);
+  Lookup<SurfaceModel> from_brdfs(const std::filesystem::path& file,
+                                  const OpenMaterialFile& material, core::ProblemList& problems);
+  Lookup<SurfaceModel> from_roughness(const std::filesystem::path& file,
+                                      const OpenMaterialFile& material,
+                                      core::ProblemList& problems);
+  // The table that `uri` of `from` names; nothing after reporting.
+  std::optional<std::filesystem::path> table_file(const std::filesystem::path& from,
+                                                  const NamedUri& uri, core::ProblemList& problems);
+
+  std::filesystem::path allowed_folder_;
+  RadarQuery query_;
+  OpenMapping mapping_;
+  std::map<std::filesystem::path, std::optional<SurfaceModel>> surfaces_;  // by material file
+};
+
+}  // namespace fanbeam::materials

@@ -1,0 +1,210 @@
+#include "renderer/stages/bounce_tracer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "terrain/secondary_origin.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+using Packet = terrain::RayPacket<BounceTracer::kAtOnce>;
+
+// A mirror that keeps less than this changes what it shows by less than 0.02 dB (10 log10(1 + 4
+// rho)), a tenth of a grey level: not followed.
+constexpr double kFaintest = 1e-3;
+
+void point(Packet& packet, int i, const glm::dvec3& origin_m, const glm::dvec3& direction,
+           double far_m) {
+  packet.origin_x[i] = static_cast<float>(origin_m.x);
+  packet.origin_y[i] = static_cast<float>(origin_m.y);
+  packet.origin_z[i] = static_cast<float>(origin_m.z);
+  packet.near[i] = 0.0F;
+  packet.direction_x[i] = static_cast<float>(direction.x);
+  packet.direction_y[i] = static_cast<float>(direction.y);
+  packet.direction_z[i] = static_cast<float>(direction.z);
+  packet.time[i] = 0.0F;
+  packet.distance[i] = static_cast<float>(far_m);
+  packet.mask[i] = 0xFFFFFFFFU;
+  packet.id[i] = 0;
+  packet.flags[i] = 0;
+  packet.geometry[i] = terrain::kNoHit;
+  packet.instance[i] = terrain::kNoHit;
+}
+
+// Where a lane's ray met a surface, from the caster's own floats: rounding of the ray is not an
+// error of the point.
+struct Hit {
+  glm::dvec3 direction{0.0};  // unit
+  glm::dvec3 point_m{0.0};
+  glm::dvec3 normal{0.0};  // unit
+  double distance_m = 0.0;
+  double sin_grazing = 0.0;
+
+  Hit(const Packet& packet, int i) {
+    const glm::dvec3 along(packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]);
+    const glm::dvec3 origin_m(packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]);
+    const double length = glm::length(along);
+    direction = along / length;
+    point_m = origin_m + along * static_cast<double>(packet.distance[i]);
+    distance_m = length * static_cast<double>(packet.distance[i]);
+    normal = glm::normalize(glm::dvec3(packet.normal_x[i], packet.normal_y[i], packet.normal_z[i]));
+    sin_grazing = std::min(-glm::dot(direction, normal), 1.0);
+  }
+};
+
+// Walls and roofs of one mesh do not share intervals.
+std::uint64_t surface_of(const Packet& packet, int i, const Hit& hit) {
+  return 2 * static_cast<std::uint64_t>(packet.geometry[i]) +
+         (hit.normal.z * hit.normal.z < 0.49 ? 1U : 0U);
+}
+
+// Share of the wave's power whose field is perpendicular to the plane of incidence.
+double perpendicular_share(const Hit& hit, const glm::dvec3& up, core::Polarisation polarisation) {
+  const glm::dvec3 field = glm::cross(hit.direction, up);
+  const glm::dvec3 across = glm::cross(hit.direction, hit.normal);
+  const double squares = glm::dot(field, field) * glm::dot(across, across);
+  if (!(squares > 1e-24)) return 1.0;  // head on, where both polarisations reflect alike
+  const double product = glm::dot(field, across);
+  const double share = std::min(product * product / squares, 1.0);
+  return polarisation == core::Polarisation::horizontal ? share : 1.0 - share;
+}
+
+}  // namespace
+
+// The mirrored ray on its way.
+struct BounceTracer::Lane {
+  glm::dvec3 mirror_m{0.0};
+  double first_m = 0.0;  // R1
+  double reflection = 0.0;
+  std::uint64_t surface = 0;
+  glm::dvec3 start_m{0.0};
+  glm::dvec3 direction{0.0};
+};
+
+double bistatic_sigma0_over_sine(const NrcsTable& nrcs, double sin_in, double sin_out,
+                                 double normal_on_half) noexcept {
+  if (!(sin_in > 0.0 && sin_out > 0.0)) return 0.0;
+  return nrcs.sigma0_over_sine(normal_on_half) * std::sqrt(sin_out / sin_in);
+}
+
+BounceTracer::BounceTracer(const World& world)
+    : world_(world),
+      mirrors_(world.specular, world.sensor.wavelength_m()),
+      elevation_gain_(world.sensor.antenna.elevation),
+      radar_constant_W_m2_(world.sensor.radar_constant_W_m2()) {
+  for (const materials::NrcsCurve& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
+}
+
+std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna, const AntennaRay* rays,
+                                  int count, Bounce* bounces) const {
+  const double far_m = world_.sensor.range.maximum_m();
+  alignas(32) int active[kAtOnce];
+  Packet packet;
+  for (int i = 0; i < kAtOnce; ++i) {
+    const AntennaRay& ray = rays[std::min(i, count - 1)];
+    active[i] = i < count ? -1 : 0;
+    point(
+        packet, i, antenna.position_m,
+        sensors::direction(antenna, ray.azimuth_rad, ray.elevation_rad, world_.sensor.scan.surface),
+        far_m);
+  }
+  world_.surfaces->intersect(active, packet);
+  auto cast = static_cast<std::uint64_t>(count);
+  Lane lanes[kAtOnce];
+  Packet mirrored;
+  bool any = false;
+  for (int i = 0; i < kAtOnce; ++i) {
+    if (i < count) bounces[i] = Bounce{};
+    const bool follow = active[i] != 0 && mirror(antenna, packet, i, lanes[i]);
+    active[i] = follow ? -1 : 0;
+    // B is nearer to p than the farthest range: R2 <= R1 + R3 and R1 + R2 + R3 <= 2 range.
+    point(mirrored, i, follow ? lanes[i].start_m : antenna.position_m,
+          follow ? lanes[i].direction : antenna.forward, far_m);
+    if (follow) ++cast;
+    any = any || follow;
+  }
+  if (!any) return cast;
+  world_.surfaces->intersect(active, mirrored);
+  for (int i = 0; i < count; ++i)
+    if (active[i] != 0 && mirrored.geometry[i] != terrain::kNoHit &&
+        weigh(antenna, rays[i], lanes[i], mirrored, i, bounces[i]))
+      ++cast;
+  return cast;
+}
+
+bool BounceTracer::mirror(const sensors::AntennaFrame& antenna, const Packet& packet, int i,
+                          Lane& lane) const {
+  if (packet.geometry[i] == terrain::kNoHit) return false;
+  const Hit hit(packet, i);
+  if (!(hit.sin_grazing > 0.0 && hit.distance_m > 0.0)) return false;
+  const terrain::MaterialId material = world_.surfaces->material(
+      packet.geometry[i], packet.primitive[i], hit.point_m.x, hit.point_m.y);
+  lane.reflection =
+      mirrors_.power(material, hit.sin_grazing,
+                     perpendicular_share(hit, antenna.up, world_.sensor.waveform.polarisation));
+  if (!(lane.reflection >= kFaintest)) return false;
+  lane.mirror_m = hit.point_m;
+  lane.first_m = hit.distance_m;
+  lane.surface = surface_of(packet, i, hit);
+  lane.start_m = terrain::secondary_origin_m(hit.point_m, hit.normal, hit.distance_m);
+  lane.direction = hit.direction + 2.0 * hit.sin_grazing * hit.normal;
+  return true;
+}
+
+double BounceTracer::loss_factor(const glm::dvec3& a_m, const glm::dvec3& b_m,
+                                 double length_m) const {
+  if (world_.attenuation.is_clear()) return 1.0;
+  return std::sqrt(world_.attenuation.two_way_power_factor(a_m.z, b_m.z, length_m));
+}
+
+bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay& ray,
+                         const Lane& lane, const Packet& packet, int i, Bounce& bounce) const {
+  const sensors::Sensor& sensor = world_.sensor;
+  const double boresight_rad = sensor.antenna.boresight_elevation_rad;
+  const Hit hit(packet, i);
+  bounce.met = true;
+  bounce.surfaces = (lane.surface << 32U) | surface_of(packet, i, hit);
+  if (!(hit.sin_grazing > 0.0)) return false;
+  const terrain::MaterialId material = world_.surfaces->material(
+      packet.geometry[i], packet.primitive[i], hit.point_m.x, hit.point_m.y);
+  const NrcsTable& nrcs = nrcs_[material];
+  const bool cone = sensor.scan.surface == sensors::ScanSurface::cone;
+  const double jacobian = cone ? std::cos(ray.azimuth_rad) : 1.0;  // as in ray_caster.h
+  const double first_gain = elevation_gain_(ray.elevation_rad - boresight_rad);
+  const double there_m = lane.first_m + hit.distance_m;
+  const double there = loss_factor(antenna.position_m, lane.mirror_m, lane.first_m) *
+                       loss_factor(lane.mirror_m, hit.point_m, hit.distance_m);
+  bounce.image = {there_m, ray.azimuth_rad, ray.elevation_rad,
+                  radar_constant_W_m2_ * first_gain * lane.reflection * lane.reflection *
+                      nrcs.sigma0_over_sine(hit.sin_grazing) * there * there * jacobian /
+                      (there_m * there_m)};
+
+  const glm::dvec3 back_m = antenna.position_m - hit.point_m;
+  const double back_length_m = glm::length(back_m);
+  if (!(back_length_m > 0.0)) return false;
+  const glm::dvec3 back = back_m / back_length_m;
+  const glm::dvec3 half = back - hit.direction;
+  const double half_length = glm::length(half);
+  const auto last = sensors::angles(antenna, -back_m, sensor.scan.surface);
+  if (!last || !(half_length > 0.0)) return false;
+  // Exact for a Gaussian beam: g(x + d) g(x - d) = g(x)^2 g(d)^2.
+  const double apart =
+      sensors::two_way_gain(sensor.antenna.azimuth, (ray.azimuth_rad - last->azimuth_rad) / 2);
+  const double gain =
+      std::sqrt(first_gain * elevation_gain_(last->elevation_rad - boresight_rad)) * apart;
+  const double scatter = bistatic_sigma0_over_sine(
+      nrcs, hit.sin_grazing, glm::dot(back, hit.normal), glm::dot(half, hit.normal) / half_length);
+  const double density = 4.0 * radar_constant_W_m2_ * gain * lane.reflection * scatter * there *
+                         loss_factor(hit.point_m, antenna.position_m, back_length_m) * jacobian /
+                         (back_length_m * back_length_m);
+  if (!(density > 0.0)) return false;
+  const glm::dvec3 start_m = terrain::secondary_origin_m(hit.point_m, hit.normal, hit.distance_m);
+  if (!world_.surfaces->occluded(start_m, antenna.position_m, 0.0))
+    bounce.pair = {(there_m + back_length_m) / 2, (ray.azimuth_rad + last->azimuth_rad) / 2,
+                   (ray.elevation_rad + last->elevation_rad) / 2, density};
+  return true;
+}
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,43 @@
+// Echoes that take two or three reflections: wall and ground, inner corners, mirrored ground.
+//
+// bounce_tracer.h says what one direction brings back; this stage chooses the directions and adds
+// the echoes to the fan before the azimuth beam.
+//
+// How it samples: first one ray per picture column and every second elevation of the fan, only to
+// see where mirrored rays meet anything at all; around these places one ray per sub-column and
+// elevation, as the casters do (the reference: all of them, jittered, in every pass). A corner seen
+// over fewer than two elevations of the fan and narrower than a column may be missed. An echo is
+// spread over the range interval between its neighbours of the same two surfaces; the mean of the
+// first and the last azimuth decides its sub-column.
+//
+// Deterministic: each strip of sub-columns is one thread's; echoes that lie in another strip are
+// added afterwards, in the order of the strips.
+// Cost: a quarter of the frame's rays at the default sampling, plus the places that matter;
+// docs/physics/double-bounce.md gives milliseconds.
+#pragma once
+
+#include "renderer/casting/caster.h"
+#include "renderer/casting/elevation_fan.h"
+#include "renderer/casting/sampling.h"
+#include "renderer/stages/bounce_tracer.h"
+#include "renderer/world.h"
+
+namespace fanbeam::renderer {
+
+class DoubleBounce {
+ public:
+  // `world` must outlive the stage.
+  DoubleBounce(const World& world, const Sampling& sampling);
+
+  // Adds to what the caster left in `sums`; thread-safe. Changes nothing in a world that does not
+  // reflect.
+  void add(const sensors::AntennaFrame& antenna, FanSums& sums) const;
+
+ private:
+  const World& world_;
+  Sampling sampling_;
+  ElevationFan fan_;
+  BounceTracer tracer_;
+};
+
+}  // namespace fanbeam::renderer

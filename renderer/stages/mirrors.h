@@ -1,0 +1,49 @@
+// How much of a wave each material of a world reflects like a mirror, made quick for the ray loop.
+//
+//     rho = |Gamma_s|^2 c + |Gamma_p|^2 (1 - c),  times the coherent factor of the roughness
+// with Gamma of materials/dielectric/specular_surface.h and c the share of the wave's power whose
+// field stands perpendicular to the plane of incidence. The two parts do not interfere here: the
+// turn of polarisation at oblique planes is neglected. Linear interpolation between 1024 steps of
+// the sine of the grazing angle; accuracy 1e-3 absolute for rms heights up to 5 mm at 35 GHz.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "materials/dielectric/specular_surface.h"
+#include "terrain/height_field.h"
+
+namespace fanbeam::renderer {
+
+class Mirrors {
+ public:
+  // By material id; materials beyond the end, and empty ones, do not reflect.
+  Mirrors(const std::vector<std::optional<materials::SpecularSurface>>& specular,
+          double wavelength_m);
+
+  // False when nothing reflects at any angle.
+  bool any() const { return any_; }
+
+  // Sine 0 to 1; `perpendicular_share` is c.
+  double power(terrain::MaterialId material, double sin_grazing,
+               double perpendicular_share) const noexcept {
+    if (material >= tables_.size() || tables_[material].empty()) return 0.0;
+    const double position = sin_grazing * kSteps;
+    const auto index = static_cast<std::size_t>(position);
+    const double share = position - static_cast<double>(index);
+    const Sample& a = tables_[material][index];
+    const Sample& b = tables_[material][index + 1];
+    const double perpendicular = a[0] + share * (b[0] - a[0]);
+    const double parallel = a[1] + share * (b[1] - a[1]);
+    return parallel + perpendicular_share * (perpendicular - parallel);
+  }
+
+ private:
+  static constexpr int kSteps = 1024;
+  using Sample = std::array<double, 2>;  // perpendicular, parallel
+  std::vector<std::vector<Sample>> tables_;
+  bool any_ = false;
+};
+
+}  // namespace fanbeam::renderer

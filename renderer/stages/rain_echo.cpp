@@ -1,0 +1,215 @@
+#include "renderer/stages/rain_echo.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "atmosphere/attenuated_length.h"
+#include "core/parallel.h"
+#include "renderer/casting/deposit.h"
+#include "renderer/casting/elevation_fan.h"
+#include "renderer/plan/display_floor.h"
+#include "sensors/antenna/beam_pattern.h"
+#include "sensors/cells.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+constexpr double kLargestStep_rad = 0.5 * core::kPi / 180.0;
+constexpr int kCellsPerStep = 8;
+constexpr double kUnlimited_m = std::numeric_limits<double>::infinity();
+
+// Borders of the elevation intervals, increasing, over the whole elevation pattern.
+std::vector<double> elevation_borders(const sensors::Sensor& sensor, double height_m) {
+  const sensors::Antenna& antenna = sensor.antenna;
+  const double low_rad =
+      std::max(antenna.boresight_elevation_rad - antenna.elevation.cut_rad, -core::kPi / 2);
+  const double high_rad =
+      std::min(antenna.boresight_elevation_rad + antenna.elevation.cut_rad, core::kPi / 2);
+  std::vector<double> wanted = {low_rad, high_rad};
+  if (height_m > 0.0)
+    for (int step = 0; step * kCellsPerStep < sensor.range.cells + kCellsPerStep; ++step) {
+      const double range_m = sensors::range_edge_m(
+          sensor.range, std::min(step * kCellsPerStep, sensor.range.cells));
+      if (range_m <= height_m) continue;
+      const double elevation_rad = -std::asin(height_m / range_m);
+      if (elevation_rad > low_rad && elevation_rad < high_rad) wanted.push_back(elevation_rad);
+    }
+  std::sort(wanted.begin(), wanted.end());
+  std::vector<double> borders = {low_rad};
+  for (const double end_rad : wanted) {
+    const double begin_rad = borders.back();
+    const int parts = static_cast<int>(std::ceil((end_rad - begin_rad) / kLargestStep_rad));
+    for (int part = 1; part <= parts; ++part)
+      borders.push_back(begin_rad + (end_rad - begin_rad) * part / parts);
+  }
+  return borders;
+}
+
+class Echo {
+ public:
+  Echo(const World& world, const sensors::AntennaFrame& antenna, int sub_columns_per_column,
+       FanSums& sums)
+      : world_(world),
+        sensor_(world.sensor),
+        antenna_(antenna),
+        subs_(sub_columns_per_column),
+        sums_(sums),
+        borders_(elevation_borders(sensor_, height_above_ground_m())),
+        same_in_all_azimuths_(sensor_.scan.surface == sensors::ScanSurface::plane &&
+                              antenna.up.z > kLevelCosine &&
+                              !world.volume_echo->varies_sideways()) {
+    const sensors::BeamCut& cut = sensor_.antenna.elevation;
+    const double boresight_rad = sensor_.antenna.boresight_elevation_rad;
+    for (std::size_t i = 0; i + 1 < borders_.size(); ++i)
+      gain_rad_.push_back(sensors::two_way_integral(cut, borders_[i] - boresight_rad,
+                                                    borders_[i + 1] - boresight_rad));
+    if (!same_in_all_azimuths_) return;
+    for (std::size_t i = 0; i < gain_rad_.size(); ++i) common_.push_back(profile(i, 0.0));
+  }
+
+  void run() {
+    const int blocks = (sums_.sub_columns + subs_ - 1) / subs_;
+    core::parallel_for(static_cast<std::size_t>(blocks),
+                       [&](std::size_t block) { add_block(static_cast<int>(block)); });
+  }
+
+ private:
+  double height_above_ground_m() const {
+    const terrain::HeightField* ground = world_.surfaces->terrain();
+    if (ground == nullptr) return 0.0;
+    const auto ground_m = ground->height_at(antenna_.position_m.x, antenna_.position_m.y);
+    return ground_m ? antenna_.position_m.z - *ground_m : 0.0;
+  }
+
+  double two_way_factor(const glm::dvec3& place_m, double range_m) const {
+    return world_.attenuation.two_way_power_factor(antenna_.position_m.z, place_m.z, range_m) *
+           (world_.rain_cells
+                ? world_.rain_cells->two_way_power_factor(antenna_.position_m, place_m)
+                : 1.0);
+  }
+
+  // Echo power per unit of two-way elevation gain and radian of azimuth in every range cell, as if
+  // the air were free: the middle of elevation interval `i`.
+  std::vector<double> profile(std::size_t i, double azimuth_rad) const {
+    const glm::dvec3 along = sensors::direction(
+        antenna_, azimuth_rad, (borders_[i] + borders_[i + 1]) / 2.0, sensor_.scan.surface);
+    // J of ray_caster.h.
+    const double jacobian =
+        sensor_.scan.surface == sensors::ScanSurface::cone ? std::cos(azimuth_rad) : 1.0;
+    const double constant = sensor_.radar_constant_W_m2() * jacobian;
+    std::vector<double> power_W(static_cast<std::size_t>(sensor_.range.cells));
+    double near_m = sensors::range_edge_m(sensor_.range, 0);
+    double near_factor = two_way_factor(antenna_.position_m + along * near_m, near_m);
+    for (int cell = 0; cell < sensor_.range.cells; ++cell) {
+      const double far_m = sensors::range_edge_m(sensor_.range, cell + 1);
+      const double far_factor = two_way_factor(antenna_.position_m + along * far_m, far_m);
+      const double eta =
+          world_.volume_echo->eta_m2_per_m3(antenna_.position_m + along * ((near_m + far_m) / 2.0));
+      if (eta > 0.0 && near_factor > 0.0 && near_m > 0.0) {
+        const double length_m = far_m - near_m;
+        const double extinction_per_m =
+            far_factor > 0.0 ? std::log(near_factor / far_factor) / (2.0 * length_m) : 1.0;
+        power_W[static_cast<std::size_t>(cell)] =
+            constant * eta * near_factor *
+            atmosphere::attenuated_length_m(extinction_per_m, length_m) / (near_m * far_m);
+      }
+      near_m = far_m;
+      near_factor = far_factor;
+    }
+    return power_W;
+  }
+
+  double free_m(double azimuth_rad, double elevation_rad) const {
+    const glm::dvec3 along =
+        sensors::direction(antenna_, azimuth_rad, elevation_rad, sensor_.scan.surface);
+    const auto hit =
+        world_.surfaces->intersect(antenna_.position_m, along, sensor_.range.maximum_m());
+    return hit ? hit->distance_m : kUnlimited_m;
+  }
+
+  void add_block(int block);
+  void add_interval(std::size_t i, const std::vector<double>& power_W, double free_low_m,
+                    double free_high_m, std::vector<double>& range_W,
+                    std::vector<double>& row_W_m3) const;
+
+  const World& world_;
+  const sensors::Sensor& sensor_;
+  const sensors::AntennaFrame& antenna_;
+  int subs_;
+  FanSums& sums_;
+  std::vector<double> borders_;
+  std::vector<double> gain_rad_;  // per interval
+  bool same_in_all_azimuths_;
+  std::vector<std::vector<double>> common_;
+};
+
+// Adds one interval: free up to the nearer of the two distances, half way between them by half.
+void Echo::add_interval(std::size_t i, const std::vector<double>& power_W, double free_low_m,
+                        double free_high_m, std::vector<double>& range_W,
+                        std::vector<double>& row_W_m3) const {
+  const double gain_rad = gain_rad_[i];
+  const double nearer_m = std::min(free_low_m, free_high_m);
+  const double farther_m = std::max(free_low_m, free_high_m);
+  double sum_W_m3 = 0.0;
+  for (int cell = 0; cell < sensor_.range.cells; ++cell) {
+    const double range_m = sensors::range_middle_m(sensor_.range, cell);
+    double share = 1.0;
+    if (range_m >= farther_m) break;
+    if (range_m > nearer_m)
+      share = farther_m == kUnlimited_m ? 0.5 : (farther_m - range_m) / (farther_m - nearer_m);
+    const double added_W = share * gain_rad * power_W[static_cast<std::size_t>(cell)];
+    range_W[static_cast<std::size_t>(cell)] += added_W;
+    sum_W_m3 += added_W * range_m * range_m * range_m;
+  }
+  if (row_W_m3.empty()) return;
+  const sensors::Display& display = sensor_.display;
+  const double rows_per_rad = display.cscope_rows / display.cscope_span_rad;
+  deposit((display.cscope_top_rad - borders_[i + 1]) * rows_per_rad,
+          (display.cscope_top_rad - borders_[i]) * rows_per_rad, sum_W_m3, row_W_m3.data(),
+          sums_.rows);
+}
+
+void Echo::add_block(int block) {
+  const int first = block * subs_;
+  const int last = std::min(first + subs_, sums_.sub_columns);
+  const double azimuth_rad = sums_.first_azimuth_rad + (first + last) / 2.0 * sums_.step_rad;
+  std::vector<double> range_W(static_cast<std::size_t>(sums_.cells), 0.0);
+  std::vector<double> row_W_m3(static_cast<std::size_t>(sums_.rows), 0.0);
+  double free_low_m = free_m(azimuth_rad, borders_.front());
+  for (std::size_t i = 0; i < gain_rad_.size(); ++i) {
+    const double free_high_m = free_m(azimuth_rad, borders_[i + 1]);
+    add_interval(i, same_in_all_azimuths_ ? common_[i] : profile(i, azimuth_rad), free_low_m,
+                 free_high_m, range_W, row_W_m3);
+    free_low_m = free_high_m;
+  }
+  const auto add = [](const std::vector<double>& from, double* to) {
+    for (std::size_t k = 0; k < from.size(); ++k) to[k] += from[k];
+  };
+  for (auto sub = static_cast<std::size_t>(first); sub < static_cast<std::size_t>(last); ++sub) {
+    add(range_W, &sums_.range_W_per_rad[sub * range_W.size()]);
+    if (!row_W_m3.empty()) add(row_W_m3, &sums_.elevation_W_m3_per_rad[sub * row_W_m3.size()]);
+  }
+}
+
+}  // namespace
+
+void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
+                   int sub_columns_per_column, FanSums& sums) {
+  Echo(world, antenna, sub_columns_per_column, sums).run();
+}
+
+double rain_echo_bound_dB(const SceneFacts& facts) {
+  const sensors::Sensor& sensor = facts.sensor;
+  const double beam_m2 = sensor.radar_constant_W_m2() * facts.largest_eta_m2_per_m3 *
+                         sensor.range.cell_m * sensors::two_way_width(sensor.antenna.elevation) *
+                         sensors::two_way_width(sensor.antenna.azimuth);
+  // Echo over floor goes with R or, without range compensation, with 1 / R^2: one end is the worst.
+  double most = 0.0;
+  for (const double range_m : {sensors::range_middle_m(sensor.range, 0), sensor.range.maximum_m()})
+    most = std::max(most, beam_m2 / (range_m * range_m * display_floor_W(sensor, range_m)));
+  return 10.0 * std::log10(1.0 + most);
+}
+
+}  // namespace fanbeam::renderer

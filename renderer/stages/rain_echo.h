@@ -1,0 +1,33 @@
+// The echo of rain and snow in the air between the antenna and what its rays hit.
+//
+//     dP = K g_el(e)^2 eta(place) L(place) dR dOmega / R^2 ,   K = Pt G0^2 lambda^2 / (4 pi)^3 / loss
+// with the volume R^2 dR dOmega of a range cell and a solid angle (Skolnik, Introduction to Radar
+// Systems, 3rd ed., section 7.6; Doviak and Zrnic, Doppler Radar and Weather Observations, 2nd ed.,
+// section 4.4). dOmega = J de daz as in ray_caster.h. The echo adds to the power of surfaces, before
+// the azimuth beam.
+//
+// One plane of azimuth per picture column is cut into elevation intervals, dense where range cells
+// of level ground border each other, at most half a degree elsewhere. A ray along each border says
+// how far the air is free; between two rays the free share of an interval falls linearly with range.
+// Inside a range cell eta is that of the middle and the loss decays exponentially.
+//
+// Neglected: depolarisation, multiple scattering, echo that reaches the antenna by way of the ground.
+// Accuracy: 0.02 dB over level ground against the closed form; 1 % of a cell's echo where a silhouette
+// cuts the beam. Cost: docs/physics/rain-echo.md.
+#pragma once
+
+#include "renderer/casting/caster.h"
+#include "renderer/plan/scene_facts.h"
+#include "renderer/world.h"
+
+namespace fanbeam::renderer {
+
+// Adds to `sums` what `world.volume_echo` returns. `sub_columns_per_column` as in the sampling.
+void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
+                   int sub_columns_per_column, FanSums& sums);
+
+// Upper bound of the change of a pixel by the echo, in dB: the largest eta filling the whole beam
+// without loss, over the display's floor, at the range where that is most.
+double rain_echo_bound_dB(const SceneFacts& facts);
+
+}  // namespace fanbeam::renderer

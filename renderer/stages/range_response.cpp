@@ -1,0 +1,125 @@
+#include "renderer/stages/range_response.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/dispatch.h"
+#include "core/parallel.h"
+#include "renderer/plan/display_floor.h"
+#include "sensors/receiver/point_response.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+constexpr double kNegligibleTail = 1e-13;
+constexpr double kLeastDrawnShare = 1e-4;
+
+// Gauss-Legendre, 8 points on [-1, 1] (Abramowitz and Stegun, table 25.4).
+constexpr std::array<double, 4> kNodes = {0.1834346424956498, 0.5255324099163290,
+                                          0.7966664774136267, 0.9602898564975363};
+constexpr std::array<double, 4> kWeights = {0.3626837833783620, 0.3137066458778873,
+                                            0.2223810344533745, 0.1012285362903763};
+
+// Integral of (1 - |u|) h((k + u) cell) cell over u from `from` to from + 1, in panels.
+double half_share(const sensors::PointResponse& response, double k, double cell_m, double from) {
+  const int panels = std::max(2, static_cast<int>(std::ceil(2.0 * cell_m / response.scale_m())));
+  const double half = 0.5 / panels;
+  double sum = 0.0;
+  for (int panel = 0; panel < panels; ++panel) {
+    const double middle = from + (2 * panel + 1) * half;
+    for (std::size_t i = 0; i < kNodes.size(); ++i)
+      for (const double u : {middle - half * kNodes[i], middle + half * kNodes[i]})
+        sum += kWeights[i] * (1.0 - std::abs(u)) * response.density_per_m((k + u) * cell_m);
+  }
+  return sum * half * cell_m;
+}
+
+std::vector<double> shares_of(const sensors::PointResponse& response, double cell_m, int cells) {
+  std::vector<double> shares;
+  double left = 1.0;
+  for (int k = 0; k < cells && left > kNegligibleTail; ++k) {
+    shares.push_back(half_share(response, k, cell_m, -1.0) + half_share(response, k, cell_m, 0.0));
+    left -= k == 0 ? shares.back() : 2.0 * shares.back();
+  }
+  return shares;
+}
+
+FANBEAM_HOT void add_weighted(const double* from, double weight, int count, double* to) {
+  for (int i = 0; i < count; ++i) to[i] += weight * from[i];
+}
+
+}  // namespace
+
+RangeResponse::RangeResponse(const sensors::Sensor& sensor)
+    : columns_(sensor.scan.columns), cells_(sensor.range.cells) {
+  shares_.resize(sensors::point_response_varies(sensor) ? static_cast<std::size_t>(columns_) : 1);
+  core::parallel_for(shares_.size(), [&](std::size_t column) {
+    shares_[column] = shares_of(sensors::PointResponse(sensor, static_cast<int>(column)),
+                                sensor.range.cell_m, cells_);
+  });
+}
+
+const std::vector<double>& RangeResponse::shares(int column) const {
+  return shares_.size() == 1 ? shares_.front() : shares_[static_cast<std::size_t>(column)];
+}
+
+void RangeResponse::apply(std::vector<double>& image) const {
+  const std::vector<double> before = image;
+  const auto columns = static_cast<std::size_t>(columns_);
+  core::parallel_for(static_cast<std::size_t>(cells_), [&](std::size_t row) {
+    double* const to = &image[row * columns];
+    std::fill(to, to + columns, 0.0);
+    const auto distance = [row](std::size_t from) { return from > row ? from - row : row - from; };
+    for (std::size_t from = 0; from < static_cast<std::size_t>(cells_); ++from) {
+      const double* const source = &before[from * columns];
+      const std::size_t k = distance(from);
+      if (shares_.size() == 1) {
+        if (k < shares_[0].size()) add_weighted(source, shares_[0][k], columns_, to);
+        continue;
+      }
+      for (std::size_t column = 0; column < columns; ++column)
+        if (k < shares_[column].size()) to[column] += shares_[column][k] * source[column];
+    }
+  });
+}
+
+std::vector<TargetShare> RangeResponse::spread(const std::vector<TargetShare>& targets,
+                                               std::vector<double>& image) const {
+  std::vector<TargetShare> drawn;
+  const auto columns = static_cast<std::size_t>(columns_);
+  for (const TargetShare& target : targets) {
+    const std::vector<double>& part = shares(static_cast<int>(target.column));
+    const auto row = static_cast<int>(target.cell / columns);
+    const int reach = static_cast<int>(part.size()) - 1;
+    for (int to = std::max(0, row - reach); to <= std::min(cells_ - 1, row + reach); ++to) {
+      const double share = part[static_cast<std::size_t>(std::abs(to - row))];
+      const std::size_t cell = static_cast<std::size_t>(to) * columns + target.column;
+      if (share >= kLeastDrawnShare) {
+        drawn.push_back({target.target, target.column, cell, target.power * share});
+      } else {
+        image[cell] += target.power * share;
+      }
+    }
+  }
+  return drawn;
+}
+
+bool has_range_response(const SceneFacts& facts) {
+  return sensors::has_point_response(facts.sensor);
+}
+
+double range_response_bound_dB(const SceneFacts& facts) {
+  const sensors::Display& display = facts.sensor.display;
+  const RangeResponse response(facts.sensor);
+  double bound_dB = 0.0;
+  for (const int column : {0, facts.sensor.scan.columns - 1}) {
+    const std::vector<double>& shares = response.shares(column);
+    const double beside = shares.size() > 1 ? shares[1] : 0.0;
+    bound_dB = std::max({bound_dB, -10.0 * std::log10(shares[0]),
+                         10.0 * std::log10(1.0 + beside * brightest_over_floor(facts.sensor))});
+  }
+  return std::min(bound_dB, display.high_dB - display.low_dB);
+}
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,133 @@
+#include "scenes/target_reader.h"
+
+#include "core/decibel.h"
+#include "core/units.h"
+#include "scenes/object_reader.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+using core::ConfigTable;
+using core::radians;
+
+constexpr core::NumberRange kRcs_dBsm{-80.0, 80.0};
+constexpr core::NumberRange kHeading_deg{-360.0, 360.0};
+constexpr core::NumberRange kSize_m{0.001, 100.0};
+// Power lines are some 10 to 30 mm thick, fence wire 2 mm.
+constexpr core::NumberRange kWireRadius_m{1e-4, 10.0};
+constexpr core::NumberRange kAcrossWire_deg{0.0, 90.0};
+constexpr core::NumberRange kSpacing_m{0.01, 100.0};
+
+double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBsm) {
+  return core::power_from_dB(table.number(key, kRcs_dBsm, fallback_dBsm));
+}
+
+materials::RoundWire read_wire(ConfigTable& table) {
+  materials::RoundWire wire;
+  wire.radius_m = table.number("radius_m", kWireRadius_m, 0.01);
+  wire.length_m = table.number("length_m", kSize_m, 1.0);
+  wire.polarisation_rad = radians(table.number("polarisation_deg", kAcrossWire_deg, 0.0));
+  wire.coherence_length_m = table.number("coherence_length_m", kSize_m, wire.length_m);
+  return wire;
+}
+
+materials::RcsModel read_shape(ConfigTable& table) {
+  switch (table.choice("shape",
+                       {"constant", "sphere", "trihedral", "square_trihedral", "dihedral", "plate",
+                        "cylinder", "wire"},
+                       0)) {
+    case 1:
+      return materials::Sphere{table.number("radius_m", kSize_m, 0.1)};
+    case 2:
+      return materials::TriangularTrihedral{table.number("edge_m", kSize_m, 0.1)};
+    case 3:
+      return materials::SquareTrihedral{table.number("edge_m", kSize_m, 0.1)};
+    case 4:
+      return materials::Dihedral{table.number("width_m", kSize_m, 0.1),
+                                 table.number("height_m", kSize_m, 0.1)};
+    case 5:
+      return materials::RectangularPlate{table.number("width_m", kSize_m, 0.1),
+                                         table.number("height_m", kSize_m, 0.1)};
+    case 6:
+      return materials::Cylinder{table.number("radius_m", kSize_m, 0.1),
+                                 table.number("length_m", kSize_m, 1.0)};
+    case 7:
+      return read_wire(table);
+    default:
+      return materials::ConstantRcs{rcs_m2_from(table, "rcs_dBsm", 0.0)};
+  }
+}
+
+// `rcs` is the name of a typical object or the table of a shape. Returns the Swerling case that
+// goes with it.
+core::Swerling read_rcs(ConfigTable& target, ObjectNames& objects, materials::RcsModel& rcs) {
+  if (target.is_text("rcs")) {
+    const materials::TypicalObject* object = objects.find(target, "rcs");
+    if (object == nullptr) return core::Swerling::steady;
+    rcs = object->rcs();
+    return object->fluctuation;
+  }
+  ConfigTable table = target.table("rcs");
+  if (!target.has("rcs"))
+    target.error(core::ErrorClass::ref, "rcs", "missing",
+                 "the name of an object or { shape, ... }, see docs/scene-format.md");
+  rcs = read_shape(table);
+  return core::Swerling::steady;
+}
+
+}  // namespace
+
+TargetDescription read_target(ConfigTable& table, ObjectNames& objects) {
+  TargetDescription target;
+  target.place = table.place("");
+  target.name = table.text("name", "target");
+  const core::Swerling usual = read_rcs(table, objects, target.rcs);
+  target.heading_rad = radians(table.number("heading_deg", kHeading_deg, 0.0));
+  target.tilt_rad = radians(table.number("tilt_deg", {-90, 90}, 0.0));
+  target.swerling =
+      static_cast<core::Swerling>(table.integer("swerling", 0, 4, static_cast<int>(usual)));
+  std::vector<ConfigTable> waypoints = table.tables("waypoint");
+  for (ConfigTable& waypoint : waypoints) {
+    const double time_s = waypoint.required_number("time_s", {-1e6, 1e6});
+    if (!target.path.empty() && time_s <= target.path.back().time_s)
+      waypoint.error(core::ErrorClass::time, "time_s", core::number_text(time_s),
+                     "later than the waypoint before");
+    target.path.push_back(
+        {time_s, read_spot(waypoint, "at"), waypoint.number("above_ground_m", {-100, 20000}, 0.0)});
+  }
+  if (waypoints.empty()) {
+    target.path.push_back(
+        {0.0, read_spot(table, "at"), table.number("above_ground_m", {-100, 20000}, 0.0)});
+  }
+  return target;
+}
+
+LineDescription read_line(ConfigTable& table, ObjectNames& objects) {
+  LineDescription line;
+  line.place = table.place("");
+  line.name = table.text("name", "line");
+  line.from = read_spot(table, "from");
+  line.to = read_spot(table, "to");
+  line.from_above_m = table.number("from_above_m", {-100, 2000}, 0.0);
+  line.to_above_m = table.number("to_above_m", {-100, 2000}, 0.0);
+  if (table.has("object")) {
+    if (const materials::TypicalObject* object = objects.find(table, "object")) {
+      line.object = object->rcs();
+      line.swerling = object->fluctuation;
+    }
+    line.spacing_m = table.number("spacing_m", kSpacing_m, 3.0);
+  } else if (table.choice("model", {"even", "wire"}, 0) == 1) {
+    line.spacing_m = table.number("spacing_m", kSpacing_m, 0.5);
+    line.wire.emplace();
+    line.wire->radius_m = table.number("radius_m", kWireRadius_m, line.wire->radius_m);
+    line.wire->coherence_length_m = table.number("coherence_length_m", {0.0, 100.0}, 0.0);
+    if (const auto across_deg = table.optional_number("polarisation_deg", kAcrossWire_deg))
+      line.wire->polarisation_rad = radians(*across_deg);
+  } else {
+    line.rcs_m2_per_m = rcs_m2_from(table, "rcs_dBsm_per_m", -10.0);
+    line.spacing_m = table.number("spacing_m", kSpacing_m, 1.0);
+  }
+  return line;
+}
+
+}  // namespace fanbeam::scenes

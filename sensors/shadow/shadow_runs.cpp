@@ -1,0 +1,179 @@
+#include "sensors/shadow/shadow_runs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+
+namespace fanbeam::sensors {
+namespace {
+
+constexpr int kShortest = 4;             // cells of a run
+constexpr int kDeepestObstacle = 16;     // cells between bright edge and shadow: a roof of 100 m
+constexpr int kLongestAfter = 16;        // cells of lit ground behind a run that are looked at
+constexpr double kLeastContrast = 0.25;  // 1 - dark / lit
+constexpr double kLeastScore = 3.0;
+constexpr double kLeastFluctuation = 0.05;
+constexpr double kBrightestGround = 1.5;
+
+double square(double x) { return x * x; }
+
+struct Dip {
+  int start = 0, end = 0;
+  double dark = 0.0, lit = 0.0, score = 0.0;
+};
+
+class Column {
+ public:
+  Column(const ShadowGround& ground, int column);
+
+  std::vector<ShadowRun> runs() const;
+
+ private:
+  double at(int row) const { return q_[static_cast<std::size_t>(row)]; }
+  // Of q clipped to the brightest ground.
+  double mean(int from, int to) const {
+    return (sum_[static_cast<std::size_t>(to)] - sum_[static_cast<std::size_t>(from)]) /
+           (to - from);
+  }
+  void weigh(int start, int end, Dip& best) const;
+  Dip best_from(int start) const;
+  std::vector<Dip> dips() const;
+  ShadowRun run_of(const Dip& dip) const;
+  double end_offset(const Dip& dip) const;
+  bool falls_on_object(int row) const;
+
+  const ShadowGround& ground_;
+  int column_;
+  int rows_end_;
+  double fluctuation_;
+  std::vector<double> q_, sum_;
+};
+
+Column::Column(const ShadowGround& ground, int column)
+    : ground_(ground),
+      column_(column),
+      rows_end_(ground.rows_end),
+      fluctuation_(std::max(ground.fluctuation, kLeastFluctuation)),
+      sum_(1, 0.0) {
+  for (int row = 0; row < rows_end_; ++row) {
+    q_.push_back(ground.at(row, column));
+    sum_.push_back(sum_.back() + std::min(q_.back(), kBrightestGround));
+  }
+}
+
+void Column::weigh(int start, int end, Dip& best) const {
+  const int n = end - start;
+  const int m = std::clamp(n / 2, 3, kLongestAfter);
+  const double dark = std::max(mean(start, end), 0.0);
+  double lit = std::min(mean(start - 2, start), 1.0);
+  if (end < rows_end_)
+    lit = std::min(lit, mean(end, std::min(end + m, rows_end_)));
+  else if (mean(end - m, end) > 0.5 * (dark + lit))
+    return;  // lit again before the end of the gate
+  if (!(lit > 0.0) || dark > (1.0 - kLeastContrast) * lit) return;
+  const double noise = ground_.noise[static_cast<std::size_t>(start)];
+  const double deviation =
+      fluctuation_ * std::sqrt(square(dark + noise) / n + square(lit + noise) / m);
+  const double score = (lit - dark) / deviation;
+  if (score > best.score) best = {start, end, dark, lit, score};
+}
+
+Dip Column::best_from(int start) const {
+  Dip best;
+  for (int n = kShortest; start + n <= rows_end_; n += std::max(1, n / 8)) {
+    weigh(start, start + n, best);
+    // Longer runs may score higher: on ground that is dark itself a later one is another thing.
+    if (best.score >= kLeastScore && 2 * n > 3 * (best.end - start) + 6) break;
+    if (n + n / 8 + 1 > rows_end_ - start) weigh(start, rows_end_, best);
+  }
+  if (best.score == 0.0) return best;
+  const int reach = (best.end - start) / 8;
+  const int from = std::max(best.end - reach, start + kShortest);
+  const int to = std::min(best.end + reach, rows_end_);
+  for (int end = from; end <= to; ++end) weigh(start, end, best);
+  return best;
+}
+
+std::vector<Dip> Column::dips() const {
+  std::vector<Dip> all;
+  for (int start = 2; start + kShortest <= rows_end_; ++start) {
+    const Dip dip = best_from(start);
+    if (dip.score >= kLeastScore) all.push_back(dip);
+  }
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Dip& a, const Dip& b) { return a.score > b.score; });
+  std::vector<Dip> taken;
+  for (const Dip& dip : all)
+    if (std::none_of(taken.begin(), taken.end(), [&](const Dip& other) {
+          return dip.start < other.end && other.start < dip.end;
+        }))
+      taken.push_back(dip);
+  std::sort(taken.begin(), taken.end(),
+            [](const Dip& a, const Dip& b) { return a.start < b.start; });
+  return taken;
+}
+
+// The cells about the end are part dark, part lit: their deficit is the length of the dark part.
+// Only where one cell tells more than it fluctuates.
+double Column::end_offset(const Dip& dip) const {
+  if (ground_.fluctuation > 0.2 || dip.end + 5 > rows_end_) return 0.0;
+  const double lit = mean(dip.end + 2, dip.end + 5);
+  if (!(lit > dip.dark)) return 0.0;
+  double dark_cells = -2.0;
+  for (int row = dip.end - 2; row < dip.end + 2; ++row)
+    dark_cells += std::clamp((lit - at(row)) / (lit - dip.dark), 0.0, 1.0);
+  return std::clamp(dark_cells, -1.0, 1.0);
+}
+
+// Bright at the end and darker behind: not the ground, but an object in the shadow.
+bool Column::falls_on_object(int row) const {
+  if (row + 4 >= rows_end_) return false;
+  const double brightest = std::max({at(row), at(row + 1), at(row + 2)});
+  const double behind = std::max(mean(row + 3, std::min(row + 9, rows_end_)), 0.25);
+  return brightest > kBrightestGround * (1.0 + 3.0 * ground_.fluctuation) * behind;
+}
+
+ShadowRun Column::run_of(const Dip& dip) const {
+  ShadowRun run;
+  run.column = column_;
+  run.start_row = dip.start;
+  run.end_row = dip.end;
+  run.end_offset = end_offset(dip);
+  run.dark = dip.dark;
+  run.lit = dip.lit;
+  run.score = dip.score;
+  const double bright = 0.5 * (dip.dark + dip.lit);
+  run.edge_row = dip.start - 1;
+  for (int row = dip.start - 1; row >= std::max(dip.start - kDeepestObstacle, 0); --row) {
+    if (at(row) < bright && row < dip.start - 2) break;
+    if (at(row) > at(run.edge_row)) run.edge_row = row;
+  }
+  run.edge = at(run.edge_row);
+  run.before = run.edge_row >= 8 ? mean(run.edge_row - 8, run.edge_row - 2) : run.edge;
+  run.truncated = dip.end + 2 >= rows_end_ || falls_on_object(dip.end);
+  const double thing = kBrightestGround * (1.0 + 3.0 * ground_.fluctuation) * dip.lit;
+  for (int row = dip.start + 1; row + 1 < dip.end; ++row) run.merged = run.merged || at(row) > thing;
+  return run;
+}
+
+std::vector<ShadowRun> Column::runs() const {
+  std::vector<ShadowRun> runs;
+  for (const Dip& dip : dips()) runs.push_back(run_of(dip));
+  return runs;
+}
+
+}  // namespace
+
+std::vector<ShadowRun> shadow_runs(const ShadowGround& ground) {
+  std::vector<std::vector<ShadowRun>> found(static_cast<std::size_t>(ground.columns));
+  core::parallel_for(found.size(), [&](std::size_t column) {
+    found[column] = Column(ground, static_cast<int>(column)).runs();
+  });
+  std::vector<ShadowRun> runs;
+  for (const std::vector<ShadowRun>& column : found)
+    runs.insert(runs.end(), column.begin(), column.end());
+  return runs;
+}
+
+}  // namespace fanbeam::sensors

@@ -1,0 +1,227 @@
+// Point targets over reflecting ground against the textbook's two-ray pattern.
+#include <catch2/catch.hpp>
+#include <cstring>
+
+#include "renderer/plan/plan.h"
+#include "renderer/stages/point_targets.h"
+#include "tests/renderer/test_worlds.h"
+
+namespace {
+
+using namespace fanbeam;
+using renderer::Multipath;
+
+const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
+// Gamma = -1 in horizontal polarisation to 1e-4.
+const materials::SpecularSurface kMetal{{1.0, 1e9}, 0.0};
+
+sensors::AntennaFrame antenna_at(double height_m) {
+  const renderer::FramePose pose = tests::level_pose(height_m);
+  return sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB, {}, true);
+}
+
+// A target of 1 m2 over flat ground, and an elevation beam so wide that both paths have its gain.
+renderer::World flat_world(double distance_m, double height_m,
+                           const std::optional<materials::SpecularSurface>& ground,
+                           std::vector<terrain::PlacedMesh> meshes = {}) {
+  sensors::Sensor sensor = tests::hivision(8);
+  sensor.antenna.elevation.half_power_width_rad = 100.0;
+  sensor.antenna.elevation.cut_rad = 1.5;
+  renderer::World world =
+      tests::world(sensor, tests::ground(4000.0, 250.0, [](double, double) { return 0.0; }),
+                   {kGrass, kGrass}, std::move(meshes));
+  world.specular = {ground};
+  world.targets = {
+      {"sphere", materials::ConstantRcs{1.0}, {{0.0, {0.0, distance_m, height_m}}}, glm::dmat3(1)}};
+  return world;
+}
+
+std::vector<core::Echo> echoes(const renderer::World& world, double sensor_height_m,
+                               Multipath multipath) {
+  return renderer::point_echoes(world, antenna_at(sensor_height_m), 0.0, multipath);
+}
+
+double total_W(const std::vector<core::Echo>& echoes) {
+  double sum = 0.0;
+  for (const core::Echo& echo : echoes) sum += echo.power_W;
+  return sum;
+}
+
+double gain(const renderer::World& world, double sensor_height_m, Multipath multipath) {
+  return total_W(echoes(world, sensor_height_m, multipath)) /
+         total_W(echoes(world, sensor_height_m, Multipath::none));
+}
+
+}  // namespace
+
+TEST_CASE("G02 the ground path is longer by 0.0799839870383 m", "[multipath]") {
+  const renderer::World world = flat_world(3000.0, 2.0, kMetal);
+  const auto path = renderer::ground_path(world, antenna_at(60.0), {0.0, 3000.0, 2.0});
+  REQUIRE(path);
+  CHECK(path->longer_m == Approx(0.0799839870383).margin(1e-12));
+  CHECK(path->amplitude.real() == Approx(-1.0).margin(1e-3));
+  CHECK(path->elevation_rad == Approx(-std::atan(62.0 / 3000.0)).margin(1e-9));
+}
+
+TEST_CASE("Over a perfect mirror the echo follows 16 sin^4(2 pi h1 h2 / (lambda R))",
+          "[multipath]") {
+  constexpr double kDistance_m = 3000.0, kSensor_m = 60.0;
+  const double wavelength_m = tests::hivision().wavelength_m();
+  for (int i = 0; i <= 40; ++i) {
+    const double height_m = 0.5 + 0.01 * i;  // over two lobes
+    const renderer::World world = flat_world(kDistance_m, height_m, kMetal);
+    const double range_m = std::hypot(kDistance_m, kSensor_m - height_m);
+    const double textbook =
+        16.0 *
+        std::pow(std::sin(2.0 * core::kPi * kSensor_m * height_m / (wavelength_m * range_m)), 4);
+    INFO("height " << height_m);
+    CHECK(gain(world, kSensor_m, Multipath::coherent) == Approx(textbook).margin(0.05));
+  }
+}
+
+TEST_CASE("A lobe is 12 dB up and a null is dark", "[multipath]") {
+  constexpr double kDistance_m = 2000.0, kSensor_m = 80.0;
+  const double half_m = tests::hivision().wavelength_m() / 2;
+  // Path difference d(h) by its definition; halving finds the height for a multiple of lambda / 2.
+  const auto height_for = [&](double longer_m) {
+    double low_m = 0.0, high_m = 5.0;
+    for (int i = 0; i < 60; ++i) {
+      const double h_m = (low_m + high_m) / 2;
+      const double d_m =
+          4.0 * kSensor_m * h_m /
+          (std::hypot(kDistance_m, kSensor_m + h_m) + std::hypot(kDistance_m, kSensor_m - h_m));
+      (d_m < longer_m ? low_m : high_m) = h_m;
+    }
+    return low_m;
+  };
+  const double lobe = gain(flat_world(kDistance_m, height_for(21 * half_m), kMetal), kSensor_m,
+                           Multipath::coherent);
+  CHECK(10.0 * std::log10(lobe) == Approx(12.0412).margin(0.01));
+  const double null = gain(flat_world(kDistance_m, height_for(20 * half_m), kMetal), kSensor_m,
+                           Multipath::coherent);
+  CHECK(10.0 * std::log10(null) < -80.0);
+}
+
+TEST_CASE("The mean is 1 + 4 r^2 + r^4, and the mean of the coherent pattern over heights",
+          "[multipath]") {
+  constexpr double kDistance_m = 1500.0, kSensor_m = 90.0;
+  const materials::SpecularSurface soil{{4.0, 0.5}, 0.004};
+  const renderer::World world = flat_world(kDistance_m, 3.0, soil);
+  const auto path = renderer::ground_path(world, antenna_at(kSensor_m), {0.0, kDistance_m, 3.0});
+  REQUIRE(path);
+  const double square = std::norm(path->amplitude);
+  CHECK(square > 0.05);
+  CHECK(square < 0.95);
+  CHECK(gain(world, kSensor_m, Multipath::mean) ==
+        Approx(1.0 + 4.0 * square + square * square).epsilon(1e-12));
+  double sum = 0.0;
+  constexpr int kSteps = 4000;
+  // Ten whole periods of the pattern: lambda R / (2 h1) each.
+  const double span_m = 10.0 * tests::hivision().wavelength_m() *
+                        std::hypot(kDistance_m, kSensor_m) / (2.0 * kSensor_m);
+  for (int i = 0; i < kSteps; ++i)
+    sum += gain(flat_world(kDistance_m, 3.0 + span_m * (i + 0.5) / kSteps, soil), kSensor_m,
+                Multipath::coherent);
+  CHECK(sum / kSteps == Approx(gain(world, kSensor_m, Multipath::mean)).epsilon(0.01));
+}
+
+TEST_CASE("Paths that end in different range cells are echoes of their own", "[multipath]") {
+  // d = 4 h1 h2 / (R + R') = 39 m: six cells.
+  const renderer::World world = flat_world(1000.0, 100.0, kMetal);
+  const double direct_m = std::hypot(1000.0, 100.0), image_m = std::hypot(1000.0, 300.0);
+  const double direct_W = total_W(echoes(world, 200.0, Multipath::none));
+  for (const Multipath multipath : {Multipath::mean, Multipath::coherent}) {
+    const std::vector<core::Echo> found = echoes(world, 200.0, multipath);
+    REQUIRE(found.size() == 3);
+    const double loss = direct_m / image_m;  // of one way by the ground, as amplitude
+    CHECK(found[0].power_W == Approx(direct_W));
+    CHECK(found[1].power_W == Approx(4.0 * loss * loss * direct_W).epsilon(1e-3));
+    CHECK(found[2].power_W == Approx(std::pow(loss, 4) * direct_W).epsilon(1e-3));
+    CHECK(found[1].range_m == Approx((direct_m + image_m) / 2).margin(1e-9));
+    CHECK(found[2].range_m == Approx(image_m).margin(1e-9));
+    CHECK(found[2].elevation_rad == Approx(-std::atan(0.3)).margin(1e-9));
+  }
+}
+
+TEST_CASE("A tilted plane reflects as the level one does, seen from its own normal",
+          "[multipath]") {
+  const double slope = 0.02;
+  renderer::World world = flat_world(3000.0, 2.0, kMetal);
+  world.surfaces = std::make_unique<terrain::RayScene>(
+      tests::ground(4000.0, 250.0, [&](double, double y_m) { return slope * y_m; }),
+      std::vector<terrain::SurfacePatch>{}, std::vector<terrain::PlacedMesh>{});
+  const glm::dvec3 target_m(0.0, 3000.0, slope * 3000.0 + 2.0);
+  const auto path = renderer::ground_path(world, antenna_at(200.0), target_m);
+  REQUIRE(path);
+  const double cosine = 1.0 / std::sqrt(1.0 + slope * slope);
+  const double direct_m = glm::distance(target_m, glm::dvec3(0.0, 0.0, 200.0));
+  const double heights_m2 = 4.0 * 200.0 * cosine * 2.0 * cosine;
+  CHECK(
+      path->longer_m ==
+      Approx(heights_m2 / (direct_m + std::sqrt(direct_m * direct_m + heights_m2))).epsilon(1e-9));
+}
+
+TEST_CASE("Dark ground, rough ground or a blocked leg leave the direct echo as it was",
+          "[multipath]") {
+  const auto same = [](const renderer::World& world) {
+    const std::vector<core::Echo> off = echoes(world, 60.0, Multipath::none);
+    REQUIRE(off.size() == 1);
+    for (const Multipath multipath : {Multipath::mean, Multipath::coherent}) {
+      const std::vector<core::Echo> on = echoes(world, 60.0, multipath);
+      REQUIRE(on.size() == 1);
+      CHECK(std::memcmp(&on[0].power_W, &off[0].power_W, sizeof(double)) == 0);
+      CHECK(on[0].range_m == off[0].range_m);
+    }
+  };
+  same(flat_world(2000.0, 10.0, std::nullopt));
+  same(flat_world(2000.0, 10.0, materials::SpecularSurface{{1.0, 0.0}, 0.0}));
+  same(flat_world(2000.0, 10.0, materials::SpecularSurface{{5.0, 0.1}, 100.0}));
+  // The reflection lies 286 m before the target; a low wall beyond it hides the target from it
+  // but not from the sensor.
+  same(
+      flat_world(2000.0, 10.0, kMetal, {tests::box({-20.0, 1900.0, 0.0}, {20.0, 1901.0, 9.0}, 1)}));
+  CHECK(gain(flat_world(2000.0, 10.0, kMetal), 60.0, Multipath::mean) == Approx(6.0).epsilon(0.01));
+}
+
+TEST_CASE("Multipath runs where point targets stand over ground that reflects",
+          "[multipath][plan]") {
+  renderer::SceneFacts facts;
+  facts.sensor = tests::hivision();
+  const auto runs = [&](const char* wishes) {
+    return renderer::plan(
+               facts, 0.5,
+               wishes == nullptr ? renderer::EffectWishes{} : renderer::parse_effect_wishes(wishes))
+        .runs(renderer::kMultipath);
+  };
+  facts.has_point_targets = true;
+  facts.reflects = true;  // a wall does
+  CHECK_FALSE(runs(nullptr));
+  facts.ground_reflects = true;
+  CHECK(runs(nullptr));
+  CHECK_FALSE(runs("-multipath"));
+  facts.has_point_targets = false;
+  CHECK_FALSE(runs(nullptr));
+}
+
+TEST_CASE("Frames show the mean without and a phase with a realisation", "[multipath]") {
+  const renderer::World world = flat_world(1000.0, 2.0, kMetal);
+  const auto sum_W = [&](bool multipath) {
+    renderer::Effects effects;
+    effects.multipath = multipath;
+    const renderer::Frame frame =
+        renderer::FrameRenderer(world, {}, {}, effects).render(tests::level_pose(60.0));
+    double sum = 0.0;
+    for (const double value : frame.bscope_W) sum += value;
+    return sum;
+  };
+  const double ground_W = [&] {
+    renderer::World bare = flat_world(1000.0, 2.0, kMetal);
+    bare.targets.clear();
+    const renderer::Frame frame =
+        renderer::FrameRenderer(bare, {}, {}, {}).render(tests::level_pose(60.0));
+    double sum = 0.0;
+    for (const double value : frame.bscope_W) sum += value;
+    return sum;
+  }();
+  CHECK((sum_W(true) - ground_W) / (sum_W(false) - ground_W) == Approx(6.0).epsilon(0.01));
+}

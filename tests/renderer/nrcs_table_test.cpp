@@ -1,0 +1,77 @@
+// The table that the ray loop reads, against the models it was made of.
+#include "renderer/casting/nrcs_table.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/units.h"
+#include "materials/library/material_library.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+using materials::NrcsCurve;
+using materials::PhongNrcs;
+
+// Largest relative error of the table from `lowest_deg` up to the normal.
+double largest_error(const NrcsCurve& curve, double lowest_deg) {
+  const NrcsTable table(curve);
+  const double lowest = std::sin(core::radians(lowest_deg));
+  double largest = 0.0;
+  constexpr int kPlaces = 20000;
+  for (int i = 0; i <= kPlaces; ++i) {
+    const double sine = lowest * std::pow(1.0 / lowest, static_cast<double>(i) / kPlaces);
+    const double exact = curve.sigma0(sine) / sine;
+    largest = std::max(largest, std::abs(table.sigma0_over_sine(sine) / exact - 1.0));
+  }
+  return largest;
+}
+
+TEST_CASE("The NRCS table keeps every shipped row to 1e-4", "[renderer][nrcs-table]") {
+  core::ProblemList problems;
+  const auto library = materials::MaterialLibrary::from_file(
+      std::string(FANBEAM_SOURCE_DIR) + "/materials/library.toml", problems);
+  REQUIRE(problems.all().empty());
+  const auto curves =
+      library.curves(materials::SurfaceState::dry, core::Polarisation::horizontal, 35e9);
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    INFO(library[i].name);
+    CHECK(largest_error(curves[i], 0.01) < 1e-4);
+  }
+}
+
+TEST_CASE("The NRCS table keeps every model to 1e-4 from 0.1 degrees up",
+          "[renderer][nrcs-table]") {
+  using namespace materials;
+  for (const SurfaceModel& model :
+       {SurfaceModel(KuleminSurface{KuleminTerrain::concrete}),
+        SurfaceModel(KuleminSurface{KuleminTerrain::urban}),
+        SurfaceModel(GitLandSurface{GitTerrain::trees}), SurfaceModel(NrlSeaSurface{0.0}),
+        SurfaceModel(OhSurface{DielectricMedium::concrete, 2e-4, 288.15}),
+        SurfaceModel(RoughMetal{}), SurfaceModel(ConstantGammaSurface{GammaTerrain::woods})}) {
+    INFO(name_of(model));
+    CHECK(largest_error(NrcsCurve(model, Polarisation::horizontal, 35e9), 0.1) < 1e-4);
+  }
+}
+
+TEST_CASE("The NRCS table bears every Phong exponent and the ends of the angle range",
+          "[renderer][nrcs-table]") {
+  for (const double c : {0.0, 0.5, 1.0, 1.5, 2.0, 3.0, 4.0, 10.0}) {
+    const NrcsTable table(PhongNrcs(0.0, 0.01, c));
+    INFO("c = " << c);
+    CHECK(largest_error(PhongNrcs(0.0, 0.01, c), 0.1) < 1e-4);
+    for (const double sine : {1e-300, 1e-12, 1e-5, 1.0 / 32.0, 1.0, 1.0 + 1e-12})
+      CHECK(std::isfinite(table.sigma0_over_sine(sine)));
+    CHECK(table.sigma0_over_sine(0.0) == 0.0);
+    CHECK(table.sigma0_over_sine(-0.5) == 0.0);
+    CHECK(table.sigma0_over_sine(1.0) == Approx(0.01).epsilon(1e-14));
+  }
+  CHECK(NrcsTable(NrcsCurve()).sigma0_over_sine(0.5) == 0.0);
+  // Constant gamma has no error but rounding: a stays a.
+  const NrcsTable flat(PhongNrcs(0.02, 0.0, 1.0));
+  for (const double sine : {1e-9, 0.001, 0.0313, 0.4, 1.0})
+    CHECK(flat.sigma0_over_sine(sine) == Approx(0.02).epsilon(1e-15));
+}
+
+}  // namespace
+}  // namespace fanbeam::renderer

@@ -1,0 +1,191 @@
+// The echo of rain against closed forms:
+//   P(cell) = K phi_az * integral over the cell of eta L(R) / R^2 [ integral over free elevations of g_el^2 de ] dR
+// with K = Pt G0^2 lambda^2 / (4 pi)^3, phi_az the integral of the squared azimuth pattern.
+#include "renderer/stages/rain_echo.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "renderer/plan/plan.h"
+#include "sensors/antenna/beam_pattern.h"
+#include "sensors/cells.h"
+#include "tests/renderer/test_worlds.h"
+
+namespace {
+
+using namespace fanbeam;
+
+constexpr double kFrequency_Hz = 35e9;
+constexpr double kHeight_m = 60.0;
+const materials::PhongNrcs kBlack;
+
+atmosphere::Weather rain(double rate_mm_per_h) {
+  atmosphere::Weather weather;
+  weather.rain_rate_mm_per_h = rate_mm_per_h;
+  weather.rain_top_m = 12000.0;  // the beam stays below it
+  weather.simulate_gas = weather.simulate_fog = weather.simulate_rain = false;
+  return weather;
+}
+
+renderer::World rainy_world(const sensors::Sensor& sensor, bool with_ground,
+                            const atmosphere::Weather& weather) {
+  std::optional<terrain::HeightField> ground;
+  if (with_ground) ground = tests::ground(4000.0, 20.0, [](double, double) { return 0.0; });
+  renderer::World world = tests::world(sensor, std::move(ground), {kBlack});
+  world.attenuation = atmosphere::PathAttenuation(weather, kFrequency_Hz);
+  world.volume_echo.emplace(weather, kFrequency_Hz);
+  return world;
+}
+
+renderer::Frame render(const renderer::World& world, bool echo = true,
+                       renderer::Products products = {true, false}) {
+  return renderer::FrameRenderer(world, renderer::sampling_for(2.0), products, {.rain_echo = echo})
+      .render(tests::level_pose(kHeight_m));
+}
+
+double two_way_gain_above(const sensors::Sensor& sensor, double lowest_rad) {
+  const sensors::Antenna& antenna = sensor.antenna;
+  return sensors::two_way_integral(antenna.elevation, lowest_rad - antenna.boresight_elevation_rad,
+                                   antenna.elevation.cut_rad);
+}
+
+// Simpson over the cell.
+double closed_form_W(const renderer::World& world, int cell, bool with_ground,
+                     double loss_dB_per_km) {
+  const sensors::Sensor& sensor = world.sensor;
+  const double eta = world.volume_echo->eta_m2_per_m3({0.0, 0.0, kHeight_m});
+  const double from_m = sensors::range_edge_m(sensor.range, cell);
+  const double step_m = sensor.range.cell_m / 20.0;
+  double sum = 0.0;
+  for (int i = 0; i <= 20; ++i) {
+    const double range_m = from_m + step_m * i;
+    const double lowest_rad = with_ground ? -std::asin(kHeight_m / range_m) : -1.0;
+    const double loss = std::pow(10.0, -0.2 * loss_dB_per_km * range_m / 1000.0);
+    sum += (i == 0 || i == 20 ? 1.0
+            : i % 2 == 1      ? 4.0
+                              : 2.0) *
+           two_way_gain_above(sensor, lowest_rad) * loss / (range_m * range_m);
+  }
+  return sensor.radar_constant_W_m2() * eta * sensors::two_way_width(sensor.antenna.azimuth) * sum *
+         step_m / 3.0;
+}
+
+void check_cells(const renderer::World& world, bool with_ground, double loss_dB_per_km,
+                 double tolerance_dB) {
+  const sensors::Sensor& sensor = world.sensor;
+  const renderer::Frame frame = render(world);
+  double largest_dB = 0.0;
+  int worst_cell = -1;
+  for (int cell = 0; cell < sensor.range.cells; ++cell) {
+    const double expected_W = closed_form_W(world, cell, with_ground, loss_dB_per_km);
+    for (int column = 0; column < sensor.scan.columns; ++column) {
+      const double power_W =
+          frame.bscope_W[static_cast<std::size_t>(cell * sensor.scan.columns + column)];
+      const double error_dB = std::abs(10.0 * std::log10(power_W / expected_W));
+      if (error_dB > largest_dB) worst_cell = cell;
+      largest_dB = std::max(largest_dB, error_dB);
+    }
+  }
+  INFO("cell " << worst_cell);
+  CHECK(largest_dB < tolerance_dB);
+}
+
+}  // namespace
+
+TEST_CASE("Rain in free space returns the volume radar equation", "[rain_echo]") {
+  const renderer::World world = rainy_world(tests::hivision(6), false, rain(10.0));
+  check_cells(world, false, 0.0, 1e-6);
+}
+
+TEST_CASE("The ground cuts the lower part of the beam out of the rain", "[rain_echo]") {
+  const renderer::World world = rainy_world(tests::hivision(6), true, rain(10.0));
+  // At 200 m range the ground takes 3 % of the beam, at 3.7 km 38 %.
+  check_cells(world, true, 0.0, 0.02);
+}
+
+TEST_CASE("Rain dims its own echo", "[rain_echo]") {
+  atmosphere::Weather weather = rain(25.0);
+  weather.simulate_rain = true;
+  const renderer::World world = rainy_world(tests::hivision(4), false, weather);
+  // P.838-3 at 35 GHz, 25 mm/h, horizontal: 6.2067 dB/km (case A01), 45 dB at the far end.
+  check_cells(world, false, 6.2067, 0.01);
+}
+
+TEST_CASE("Rain echo in the C-scope holds the power of the B-scope", "[rain_echo]") {
+  sensors::Sensor sensor = tests::hivision(4);
+  // A window as tall as the whole elevation pattern.
+  sensor.display.cscope_top_rad =
+      sensor.antenna.boresight_elevation_rad + sensor.antenna.elevation.cut_rad;
+  sensor.display.cscope_span_rad = 2.0 * sensor.antenna.elevation.cut_rad;
+  const renderer::World world = rainy_world(sensor, true, rain(10.0));
+  const renderer::Frame frame = render(world, true, {true, true});
+  double by_range = 0.0;
+  for (std::size_t i = 0; i < frame.bscope_W.size(); ++i) {
+    const double range_m =
+        sensors::range_middle_m(sensor.range, static_cast<int>(i) / sensor.scan.columns);
+    by_range += frame.bscope_W[i] * range_m * range_m * range_m;
+  }
+  double by_elevation = 0.0;
+  for (const double value : frame.cscope_W_m3) by_elevation += value;
+  CHECK(by_elevation == Approx(by_range).epsilon(1e-9));
+}
+
+TEST_CASE("A building hides the rain behind it", "[rain_echo]") {
+  const sensors::Sensor sensor = tests::hivision(2);
+  renderer::World world = rainy_world(sensor, false, rain(10.0));
+  // A screen across the whole beam 1 km ahead: 500 m tall, 200 m wide.
+  world.surfaces = std::make_unique<terrain::RayScene>(
+      std::nullopt, std::vector<terrain::SurfacePatch>{},
+      std::vector<terrain::PlacedMesh>{
+          tests::box({-400.0, 1000.0, -500.0}, {400.0, 1010.0, 800.0}, 0)});
+  const renderer::Frame frame = render(world);
+  for (int cell = 0; cell < sensor.range.cells; ++cell) {
+    const double power_W = frame.bscope_W[static_cast<std::size_t>(cell * 2)];
+    INFO(sensors::range_middle_m(sensor.range, cell));
+    if (sensors::range_edge_m(sensor.range, cell + 1) < 1000.0) CHECK(power_W > 0.0);
+    // The beam reaches down to -19.4 deg: the screen is 1000 to 1061 m away.
+    if (sensors::range_edge_m(sensor.range, cell) > 1068.0) CHECK(power_W == 0.0);
+  }
+}
+
+TEST_CASE("No rain and rain echo off give the same bytes", "[rain_echo]") {
+  const sensors::Sensor sensor = tests::hivision(4);
+  const renderer::World dry = rainy_world(sensor, true, rain(0.0));
+  CHECK(render(dry, true).bscope_W == render(dry, false).bscope_W);
+}
+
+TEST_CASE("The plan runs the rain echo where it shows and says why not", "[rain_echo]") {
+  renderer::SceneFacts facts;
+  facts.sensor = tests::hivision();
+  facts.highest_m = 300.0;
+  const auto decision = [&](double eta) {
+    facts.largest_eta_m2_per_m3 = eta;
+    for (const core::EffectDecision& found : renderer::plan(facts, 0.5, {}).decisions)
+      if (found.effect == renderer::kRainEcho) return found;
+    return core::EffectDecision{};
+  };
+  CHECK_FALSE(decision(0.0).on);
+  CHECK(decision(0.0).reason == "nothing falls in this scene");
+  CHECK(decision(3.4e-4).on);
+  // What is left out changes no pixel by more than its bound.
+  const core::EffectDecision tiny = decision(2e-12);
+  CHECK_FALSE(tiny.on);
+  CHECK(tiny.bound_grey > 0.0);
+}
+
+TEST_CASE("Case A06: more rain never brightens a surface", "[rain_echo]") {
+  const sensors::Sensor sensor = tests::hivision(4);
+  renderer::World world =
+      tests::world(sensor, tests::ground(4000.0, 20.0, [](double, double) { return 0.0; }),
+                   {materials::PhongNrcs(0.0325, 0.136, 1.99)});
+  std::vector<double> before;
+  for (int step = 0; step <= 20; ++step) {
+    atmosphere::Weather weather = rain(7.5 * step);
+    weather.simulate_rain = true;
+    world.attenuation = atmosphere::PathAttenuation(weather, kFrequency_Hz);
+    const std::vector<double> now = render(world, false).bscope_W;
+    if (step > 0)
+      for (std::size_t i = 0; i < now.size(); ++i) REQUIRE(now[i] <= before[i]);
+    before = now;
+  }
+}
