@@ -24,10 +24,12 @@ struct FrameOutput {
   renderer::Frame frame;
   core::Metadata metadata;
   std::string detection_table{};  // of the product "detections"
+  std::string obstacle_table{};   // of the product "obstacles"
 };
 
 // Names of products: "bscope", "cscope", "pair" (both side by side), "power",
-// "ppi" (track up), "ppi_north" (north up), "preview", "detections" (mask and table).
+// "ppi" (track up), "ppi_north" (north up), "preview", "detections" (mask and table),
+// "obstacles" (table).
 using ProductSet = std::set<std::string>;
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,

@@ -49,8 +49,11 @@ std::string style_of(const PlotSeries& series, std::size_t index) {
   const char* colour = kColours[index % kColours.size()];
   if (series.style == PlotSeries::Style::points)
     return fmt::format("with points pt 7 ps 0.6 lc rgb '{}'", colour);
+  // When the colours come round again, dots in the line tell the curves apart; dashes mean a style.
+  constexpr std::array<int, 4> kSolidThenDotted = {1, 4, 5, 3};
   const bool dashed = series.style == PlotSeries::Style::dashed_line;
-  return fmt::format("with lines lw 2 dt {} lc rgb '{}'", dashed ? 2 : 1, colour);
+  const int dashes = dashed ? 2 : kSolidThenDotted[index / kColours.size() % 4];
+  return fmt::format("with lines lw 2 dt {} lc rgb '{}'", dashes, colour);
 }
 
 std::string data_block(const PlotSeries& series, std::size_t index) {
@@ -119,7 +122,7 @@ std::string gnuplot_script(const Plot& plot, const fs::path& output) {
       plot.width_px, plot.height_px, gnuplot_text(output.string()));
   text += fmt::format("set title {} noenhanced\n", gnuplot_text(plot.title));
   text += axis_commands('x', plot.x) + axis_commands('y', plot.y);
-  text += "set grid lt 1 lc rgb '#d0d0d0'\nset key outside right top noenhanced\n";
+  text += "set grid lt 1 lc rgb '#d0d0d0'\nset key outside right top noenhanced maxcols 1\n";
   for (std::size_t i = 0; i < plot.series.size(); ++i) text += data_block(plot.series[i], i);
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     text +=

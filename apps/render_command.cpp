@@ -11,6 +11,7 @@
 
 #include "apps/detection_product.h"
 #include "apps/frame_writer.h"
+#include "apps/obstacle_product.h"
 #include "apps/preview.h"
 #include "apps/progress.h"
 #include "apps/run_record.h"
@@ -32,7 +33,8 @@ double seconds_since(Clock::time_point begin) {
 
 ProductSet parse_products(const std::string& text) {
   const ProductSet known = {"bscope", "cscope", "pair",      "power",
-                            "ppi",    "ppi_north", "preview", "detections"};
+                            "ppi",    "ppi_north", "preview", "detections",
+                            "obstacles"};
   ProductSet products;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
@@ -44,6 +46,14 @@ ProductSet parse_products(const std::string& text) {
     products.insert(name);
   }
   return products;
+}
+
+std::string cscope_text(sensors::Display::CScopeMode mode) {
+  using Mode = sensors::Display::CScopeMode;
+  if (mode == Mode::true_elevation)
+    return "true_elevation: ground truth, a fan beam cannot measure elevation";
+  if (mode == Mode::flat_earth) return "flat_earth: elevation from range and height above ground";
+  return "shadow: flat_earth with obstacles raised to heights estimated from their shadows";
 }
 
 core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& record,
@@ -71,9 +81,7 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& rec
                                     sensor.range.cells, core::number_text(sensor.range.cell_m))},
       {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(sensor.display.low_dB),
                                          core::number_text(sensor.display.high_dB))},
-      {"fanbeam:cscope", sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation
-                             ? "true_elevation: ground truth, a fan beam cannot measure elevation"
-                             : "flat_earth: elevation from range and height above ground"},
+      {"fanbeam:cscope", cscope_text(sensor.display.cscope_mode)},
       {"fanbeam:realisation", realisation_of(scene.plan)},
       {"fanbeam:rays", std::to_string(record.rays)},
       {"fanbeam:blanked", std::to_string(record.blanked)},
@@ -92,6 +100,11 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
                FrameRecord& record) {
   for (const std::string& product : products) {
     if (product == "preview") return false;
+    if (product == "obstacles") {  // its table does not hold the frame's record
+      if (products.size() == 1 || !has_obstacle_table(folder, record.index, fingerprint))
+        return false;
+      continue;
+    }
     if (product == "detections" && !has_detection_table(folder, record.index, fingerprint))
       return false;
     const fs::path file = frame_path(folder, product, record.index);
@@ -155,7 +168,8 @@ class Run {
     const bool both = products_.contains("pair") || products_.contains("preview");
     const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north");
     return {both || plan_view || products_.contains("bscope"),
-            both || products_.contains("cscope"), products_.contains("detections")};
+            both || products_.contains("cscope"), products_.contains("detections"),
+            products_.contains("obstacles")};
   }
 
   const RenderOptions& options_;
@@ -196,6 +210,8 @@ void Run::render_frames() {
       record.blanked = output.frame.blanked;
       record.events = output.frame.events;
       output.metadata = frame_metadata(scene_, record, fingerprint_);
+      if (products_.contains("obstacles"))
+        output.obstacle_table = obstacle_table(output.frame.obstacles, fingerprint_);
       if (products_.contains("detections"))
         output.detection_table =
             detection_table(sensor, index, record.time_s, fingerprint_, output.frame.detections);

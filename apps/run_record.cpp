@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -59,6 +60,11 @@ Json sensor_json(const sensors::Sensor& sensor) {
           {"cscope_top_deg", core::degrees(sensor.display.cscope_top_rad)},
           {"cscope_span_deg", core::degrees(sensor.display.cscope_span_rad)},
           {"assumed", sensor.assumed}};
+}
+
+// Angles that files state in degrees, without the rounding of their way through radians.
+double whole_micro_deg(double angle_rad) {
+  return std::round(core::degrees(angle_rad) * 1e6) / 1e6;
 }
 
 Json receiver_json(const scenes::Scene& scene) {
@@ -117,7 +123,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
          {"model", surface.model},
          {"confidence", surface.confidence},
          {"source_covers_grazing_deg",
-          {core::degrees(surface.grazing_rad.low), core::degrees(surface.grazing_rad.high)}}});
+          {whole_micro_deg(surface.grazing_rad.low), whole_micro_deg(surface.grazing_rad.high)}}});
     for (const materials::Extrapolation& outside : surface.extrapolations)
       json["extrapolations"].push_back({{"material", surface.shown_as},
                                         {"quantity", outside.quantity},

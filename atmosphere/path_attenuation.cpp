@@ -40,8 +40,8 @@ class PathAttenuation::Builder {
     add_outside(-HUGE_VAL, kLowest_m);
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) add_layer(borders[i], borders[i + 1]);
     add_outside(kHighest_m, kHighest_m);
-    result_.is_clear_ = std::all_of(
-        result_.cells_.begin(), result_.cells_.end(), [](const Cell& cell) {
+    result_.is_clear_ =
+        std::all_of(result_.cells_.begin(), result_.cells_.end(), [](const Cell& cell) {
           return cell.at_start_dB_per_km == 0.0 && cell.slope_dB_per_km_m == 0.0;
         });
   }
@@ -94,8 +94,7 @@ class PathAttenuation::Builder {
 
   void add_layer(double start_m, double end_m) {
     const double height_m = end_m - start_m;
-    const double finest_m =
-        melts_between(start_m, end_m) ? kMeltingCellHeight_m : kCellHeight_m;
+    const double finest_m = melts_between(start_m, end_m) ? kMeltingCellHeight_m : kCellHeight_m;
     const bool uniform = !weather_.simulate_gas && !melts_between(start_m, end_m);
     const std::size_t cells =
         uniform ? 1 : static_cast<std::size_t>(std::ceil(height_m / finest_m));
@@ -192,8 +191,8 @@ double PathAttenuation::largest_one_way_dB_per_km(double lowest_m,
                                                   double highest_m) const noexcept {
   const Location low = locate(lowest_m);
   const Location high = locate(highest_m);
-  double largest = std::max(total_dB_per_km(low.cell, lowest_m),
-                            total_dB_per_km(high.cell, highest_m));
+  double largest =
+      std::max(total_dB_per_km(low.cell, lowest_m), total_dB_per_km(high.cell, highest_m));
   // Linear in each cell: the ends of the cells are enough.
   for (std::size_t cell = low.cell + 1; cell <= high.cell; ++cell)
     largest = std::max({largest, cells_[cell].at_start_dB_per_km,

@@ -85,7 +85,8 @@ void check_levels(core::ProblemList& problems, const Weather& weather) {
       check_range(problems, prefix + "pressure_hPa", *level.pressure_hPa, {100.0, 1100.0, "hPa"});
     if (level.pressure_hPa && weather.pressure_hPa)
       problems.error(core::ErrorClass::range, {}, prefix + "pressure_hPa",
-                     core::number_text(*level.pressure_hPa), "no value beside weather.pressure_hPa");
+                     core::number_text(*level.pressure_hPa),
+                     "no value beside weather.pressure_hPa");
     if (i > 0 && level.height_m <= weather.levels[i - 1].height_m)
       problems.error(core::ErrorClass::range, {}, prefix + "height_m",
                      core::number_text(level.height_m), "above the level before");
@@ -104,9 +105,9 @@ void check_snow(core::ProblemList& problems, const Weather& weather) {
               {0.0, kLargestSnowRate_mm_per_h, "mm/h"});
   check_range(problems, "snow_top_m", weather.snow_top_m, kHeights);
   if (weather.melting_height_m)
-    check_range(problems, "melting_height_m", *weather.melting_height_m,
-                {kLowestWeather_m, kHighestWeather_m - kRainHeightAboveZeroC_m,
-                 "m above the origin"});
+    check_range(
+        problems, "melting_height_m", *weather.melting_height_m,
+        {kLowestWeather_m, kHighestWeather_m - kRainHeightAboveZeroC_m, "m above the origin"});
   if (weather.snow_rate_mm_per_h > 0.0 && weather.rain_rate_mm_per_h > 0.0 &&
       !weather.melting_layer && !weather.melting_height_m)
     problems.error(core::ErrorClass::range, {}, "snow_rate_mm_per_h",
@@ -138,9 +139,8 @@ void check_laws(core::ProblemList& problems, const Weather& weather, double freq
             [&] { rain_dB_per_km(weather, weather.rain_rate_mm_per_h, frequency_Hz); });
   const auto echo_of = [&](const std::string& prefix, double rate_mm_per_h) {
     if (weather.rain_echo_law == RainEchoLaw::mie || rate_mm_per_h == 0.0) return;
-    collect(problems, prefix, [&] {
-      rain_eta_m2_per_m3(weather.rain_echo_law, rate_mm_per_h, frequency_Hz);
-    });
+    collect(problems, prefix,
+            [&] { rain_eta_m2_per_m3(weather.rain_echo_law, rate_mm_per_h, frequency_Hz); });
   };
   echo_of("", weather.rain_rate_mm_per_h);
   for (std::size_t i = 0; i < weather.rain_cells.size(); ++i)

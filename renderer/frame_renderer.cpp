@@ -13,6 +13,7 @@
 #include "sensors/display/display.h"
 #include "sensors/receiver/point_response.h"
 #include "sensors/receiver/receiver_figures.h"
+#include "sensors/shadow/shadow_cscope.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -140,11 +141,18 @@ void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
   if (products_.bscope) frame.bscope_grey = sensors::bscope_grey(sensor, received_W);
   if (products_.detections)
     frame.detections = above_threshold(sensor, threshold_W_, received_W);
+  const bool above = height_above_ground_m > 0.0;
+  using Mode = sensors::Display::CScopeMode;
+  const Mode mode = sensor.display.cscope_mode;
+  if (above && (products_.obstacles || (products_.cscope && mode == Mode::shadow)))
+    frame.obstacles = sensors::shadow_obstacles(sensor, received_W, height_above_ground_m);
   if (!products_.cscope) return;
-  if (sensor.display.cscope_mode == sensors::Display::CScopeMode::flat_earth) {
-    const bool above = height_above_ground_m > 0.0;
+  if (mode != Mode::true_elevation) {
+    // In mode flat_earth nothing is raised.
+    const auto raised =
+        mode == Mode::shadow ? frame.obstacles : std::vector<sensors::ShadowObstacle>{};
     frame.cscope_W_m3 =
-        above ? sensors::flat_earth_cscope_W_m3(sensor, received_W, height_above_ground_m)
+        above ? sensors::shadow_cscope_W_m3(sensor, received_W, height_above_ground_m, raised)
               : std::vector<double>(static_cast<std::size_t>(sensor.display.cscope_rows) *
                                         static_cast<std::size_t>(sensor.scan.columns),
                                     0.0);

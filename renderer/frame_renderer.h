@@ -15,6 +15,7 @@
 #include "renderer/stages/threshold.h"
 #include "renderer/world.h"
 #include "sensors/antenna/antenna_frame.h"
+#include "sensors/shadow/shadow_obstacles.h"
 
 namespace fanbeam::renderer {
 
@@ -23,6 +24,7 @@ struct Products {
   bool bscope = true;
   bool cscope = true;
   bool detections = false;
+  bool obstacles = false;
 };
 
 // The aircraft at one instant in scene axes.
@@ -44,6 +46,7 @@ struct Frame {
       bscope_grey;  // unrounded, 0 to 255, with the mean noise power when noise is on
   std::vector<double> cscope_grey;
   std::vector<ThresholdDetection> detections;
+  std::vector<sensors::ShadowObstacle> obstacles;  // also for a C-scope of mode shadow
   std::uint64_t rays = 0;
   std::uint64_t blanked = 0;  // hits nearer than the first range cell
   // "below_terrain": the sensor is not above the ground, the picture holds noise alone.

@@ -90,6 +90,8 @@ struct ModelDescription {
   double above_ground_m = 0.0, heading_rad = 0.0;
   std::map<std::string, std::string> materials;  // glTF material name to ours
   std::string default_material = "metal";
+  std::filesystem::path open_material;       // .xoma or .xomm, empty for none
+  std::filesystem::path open_material_root;  // the folder that all files it names must lie in
   core::Place place;
 };
 
@@ -124,19 +126,20 @@ struct TargetDescription {
   core::Place place;
 };
 
+struct WireDescription {
+  double radius_m = 0.01;
+  double coherence_length_m = 0.0;         // 0 for the distance of two points
+  std::optional<double> polarisation_rad;  // else from the sensor's and the line's slope
+};
+
 // A wire, pole or fence: point scatterers along a straight line. What stands at each of them is
 // one of three: the line's even cross-section, a piece of wire, one typical object.
 struct LineDescription {
-  struct Wire {
-    double radius_m = 0.01;
-    double coherence_length_m = 0.0;         // 0 for the distance of two points
-    std::optional<double> polarisation_rad;  // else from the sensor's and the line's slope
-  };
   std::string name;
   Spot from, to;
   double from_above_m = 0.0, to_above_m = 0.0;
   double rcs_m2_per_m = 0.0, spacing_m = 1.0;
-  std::optional<Wire> wire;
+  std::optional<WireDescription> wire;
   std::optional<materials::RcsModel> object;
   core::Swerling swerling = core::Swerling::steady;  // of the object
   core::Place place;

@@ -17,7 +17,7 @@ glm::dmat3 axes_along(const glm::dvec3& z) {
 }
 
 // Between the electric field and the line, seen from the side at level flight.
-double polarisation_rad(const LineDescription::Wire& wire, const glm::dvec3& along,
+double polarisation_rad(const WireDescription& wire, const glm::dvec3& along,
                         core::Polarisation polarisation) {
   if (wire.polarisation_rad) return *wire.polarisation_rad;
   const double slope_rad = std::asin(std::min(1.0, std::abs(along.z)));

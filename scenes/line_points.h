@@ -5,9 +5,9 @@
 // adds its power to the one range cell it lies in, without common phase with the others.
 //
 //   even    sigma = rcs_per_m L / count
-//   wire    a round wire (materials/rcs/round_wire.h) of length L / count, straight over a coherence
-//           length c: its lobe is lambda / 2c wide. The sum over the points of a long wire does not
-//           depend on c: it is the flash of the whole wire at its distance R,
+//   wire    a round wire (materials/rcs/round_wire.h) of length L / count, straight over a
+//           coherence length c: its lobe is lambda / 2c wide. The sum over the points of a long
+//           wire does not depend on c: it is the flash of the whole wire at its distance R,
 //               sigma = s(ka) R,   pi a R for a thick one
 //           s the cross-section per length of the endless cylinder; exactly, and steady while the
 //           radar moves, for R >= 2 c spacing / lambda (the lobe is sampled densely enough)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "scenes/objects.h"
 #include "scenes/placed_problems.h"
@@ -108,7 +109,8 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,
-               core::ProblemList& problems, std::vector<PlacedMesh>& meshes) {
+               ModelMaterials& model_materials, core::ProblemList& problems,
+               std::vector<PlacedMesh>& meshes) {
   const auto at_m = ground.local_m(model.at);
   if (!at_m) return;
   PlacedMesh placed;
@@ -120,9 +122,13 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
     vertex = base_m + right * vertex.x + forward * vertex.y + glm::dvec3(0.0, 0.0, vertex.z);
   for (const std::string& name : placed.mesh.material_names) {
     const auto mapped = model.materials.find(name);
-    placed.material_of_name.push_back(
-        names.id(mapped != model.materials.end() ? mapped->second : model.default_material,
-                 model.place, "model.materials"));
+    const bool overridden = mapped != model.materials.end();
+    std::optional<terrain::MaterialId> id;
+    if (!overridden) id = model_materials.id(model, name);
+    if (!id)
+      id = names.id(overridden ? mapped->second : model.default_material, model.place,
+                    "model.materials");
+    placed.material_of_name.push_back(*id);
   }
   for (const auto& [name, material] : model.materials) {
     const auto& used = placed.mesh.material_names;
@@ -157,7 +163,8 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
 }
 
 std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
-                                     const MaterialNames& names, core::ProblemList& problems) {
+                                     const MaterialNames& names, ModelMaterials& model_materials,
+                                     core::ProblemList& problems) {
   std::vector<PlacedMesh> meshes;
   const auto guarded = [&](const core::Place& place, const char* field, auto&& add) {
     try {
@@ -172,7 +179,8 @@ std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground
     guarded(buildings.place, "buildings",
             [&] { add_buildings(buildings, ground, names, problems, meshes); });
   for (const ModelDescription& model : scene.models)
-    guarded(model.place, "model", [&] { add_model(model, ground, names, problems, meshes); });
+    guarded(model.place, "model",
+            [&] { add_model(model, ground, names, model_materials, problems, meshes); });
   return meshes;
 }
 

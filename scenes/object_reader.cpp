@@ -82,6 +82,25 @@ SurfaceDescription read_surface(ConfigTable& table) {
   return surface;
 }
 
+void read_open_material(ConfigTable& table, const DataSearch& search, ModelDescription& model) {
+  const std::string name = table.text("open_material", "");
+  if (name.empty() || model.file.empty()) return;
+  if (name != "auto") {
+    model.open_material = search.find(table, "open_material");
+    if (!model.open_material.empty())
+      model.open_material_root = search.root_of(model.open_material);
+    return;
+  }
+  std::filesystem::path beside = model.file;
+  beside.replace_extension(".xoma");
+  model.open_material_root = model.root;
+  if (std::filesystem::is_regular_file(beside))
+    model.open_material = beside;
+  else
+    table.error(core::ErrorClass::io, "open_material", "\"auto\"",
+                "the file " + beside.string() + " beside the model");
+}
+
 ModelDescription read_model(ConfigTable& table, const DataSearch& search) {
   ModelDescription model;
   model.place = table.place("");
@@ -94,6 +113,7 @@ ModelDescription read_model(ConfigTable& table, const DataSearch& search) {
   model.default_material = table.text("default_material", model.default_material);
   ConfigTable materials = table.table("materials");
   for (const std::string& key : materials.keys()) model.materials[key] = materials.text(key, "");
+  read_open_material(table, search, model);
   return model;
 }
 

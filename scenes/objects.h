@@ -6,6 +6,7 @@
 #include "renderer/world.h"
 #include "scenes/description.h"
 #include "scenes/ground.h"
+#include "scenes/model_materials.h"
 #include "terrain/ray_scene.h"
 
 namespace fanbeam::scenes {
@@ -16,6 +17,7 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
 
 std::vector<terrain::PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
                                               const MaterialNames& names,
+                                              ModelMaterials& model_materials,
                                               core::ProblemList& problems);
 
 // E-LIMIT for a line of more than 100000 points; W-NEAR-FIELD, see near_field.h.

@@ -8,7 +8,9 @@
 #include "materials/library/material_library.h"
 #include "renderer/stages/side_lobes.h"
 #include "scenes/ground.h"
+#include "scenes/model_materials.h"
 #include "scenes/objects.h"
+#include "scenes/scene_mirrors.h"
 #include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory_builder.h"
 #include "scenes/weather_placement.h"
@@ -71,6 +73,26 @@ atmosphere::Weather simulated_weather(atmosphere::Weather weather, const core::E
   return weather;
 }
 
+// Behind the library's, where their ids count on.
+void add_model_materials(const ModelMaterials& materials, const sensors::Waveform& waveform,
+                         renderer::World& world) {
+  for (const ModelMaterials::Entry& entry : materials.all()) {
+    world.nrcs.emplace_back(entry.surface, waveform.polarisation, waveform.frequency_Hz);
+    world.material_names.push_back(entry.name);
+  }
+}
+
+void record_model_materials(const ModelMaterials& materials, Scene& scene) {
+  const sensors::Waveform& waveform = scene.description.sensor.waveform;
+  for (const ModelMaterials::Entry& entry : materials.all())
+    scene.surfaces.push_back(
+        {entry.name, entry.name, std::string(name_of(entry.surface)), "stated by the model's files",
+         validity_of(entry.surface).grazing_rad,
+         extrapolations_of(entry.surface, waveform.polarisation, waveform.frequency_Hz)});
+  for (const std::filesystem::path& file : materials.files())
+    scene.description.files.push_back(file);
+}
+
 core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
   core::Geodetic origin = scene.origin;
   if (scene.datum == core::VerticalDatum::egm96)
@@ -104,7 +126,9 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   const terrain::LocalFrame frame(ellipsoidal_origin(description), description.earth);
   const Ground ground(description, frame, names, problems);
   std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names);
-  std::vector<terrain::PlacedMesh> meshes = build_meshes(description, ground, names, problems);
+  ModelMaterials model_materials(description, library.size(), problems);
+  std::vector<terrain::PlacedMesh> meshes =
+      build_meshes(description, ground, names, model_materials, problems);
   std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems);
   const atmosphere::Weather weather = placed_weather(description, ground);
   std::optional<Trajectory> trajectory;
@@ -119,6 +143,10 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   facts.largest_eta_m2_per_m3 = volume_echo.largest_eta_m2_per_m3();
   facts.surface_not_dry = description.surface_state != materials::SurfaceState::dry;
   facts.surface_change_dB = state_change_dB(description, library, names.used());
+  add_mirror_facts(
+      {specular_surfaces(description, library, materials::SurfaceState::dry),
+       specular_surfaces(description, library, description.surface_state)},
+      ground.field(), patches, meshes, !targets.empty(), facts);
   core::EffectPlan plan = renderer::plan(facts, options.accuracy_grey, options.wishes);
   const materials::SurfaceState state = plan.runs(renderer::kSurfaceState)
                                             ? description.surface_state
@@ -135,13 +163,16 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
       .attenuation = atmosphere::PathAttenuation(simulated_weather(weather, plan), frequency_Hz),
       .sensor = plan.runs(renderer::kSideLobes)
                     ? description.sensor
-                    : renderer::without_side_lobes(description.sensor)};
+                    : renderer::without_side_lobes(description.sensor),
+      .specular = specular_surfaces(description, library, state)};
   const atmosphere::RainCells rain_cells(simulated_weather(weather, plan), frequency_Hz);
   if (!rain_cells.empty()) world.rain_cells = rain_cells;
   if (plan.runs(renderer::kRainEcho)) world.volume_echo = volume_echo;
+  add_model_materials(model_materials, description.sensor.waveform, world);
   auto scene = std::make_unique<Scene>(
       Scene{description, frame, std::move(*trajectory), std::move(plan), std::move(world), 0.0});
   scene->surfaces = record_surfaces(description, library, names.used(), state);
+  record_model_materials(model_materials, *scene);
   scene->build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return scene;
 }

@@ -132,6 +132,8 @@ void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs:
   if (!file.empty()) {
     scene.sensor = sensors::read_sensor(file, root.problems());
     scene.files.push_back(file);
+    for (const std::string& pattern : scene.sensor.antenna.pattern_files)
+      scene.files.emplace_back(pattern);
   }
   sensors::Mounting& mounting = scene.sensor.mounting;
   mounting.forward_m = table.number("forward_m", {-100, 100}, mounting.forward_m);
@@ -155,9 +157,9 @@ void read_display(ConfigTable& root, sensors::Display& display) {
   if (display.high_dB <= display.low_dB)
     table.error(core::ErrorClass::range, "high_dB", core::number_text(display.high_dB),
                 "above low_dB = " + core::number_text(display.low_dB));
-  display.cscope_mode =
-      static_cast<Display::CScopeMode>(table.choice("cscope_mode", {"true_elevation", "flat_earth"},
-                                                    static_cast<std::size_t>(display.cscope_mode)));
+  display.cscope_mode = static_cast<Display::CScopeMode>(
+      table.choice("cscope_mode", {"true_elevation", "flat_earth", "shadow"},
+                   static_cast<std::size_t>(display.cscope_mode)));
 }
 
 void list_files(SceneDescription& scene) {

@@ -102,8 +102,7 @@ void read_layers(ConfigTable& table, const SceneDescription& scene, atmosphere::
 
   weather.melting_layer = table.boolean("melting_layer", table.has("melting_height_m"));
   weather.melting_height_m = table.optional_number(
-      "melting_height_m",
-      {kHeight_m.low, kHeight_m.high - atmosphere::kRainHeightAboveZeroC_m});
+      "melting_height_m", {kHeight_m.low, kHeight_m.high - atmosphere::kRainHeightAboveZeroC_m});
   if (!weather.melting_layer && weather.melting_height_m)
     table.error(core::ErrorClass::range, "melting_height_m", "given without a melting layer",
                 "melting_layer = true, or neither key");
@@ -146,11 +145,11 @@ void read_weather(ConfigTable& root, SceneDescription& scene) {
   read_layers(table, scene, weather);
   read_air(table, scene, weather);
   ListTables lists = {{"fog_layer", {}}, {"level", {}}, {"rain_cell", {}}};
-  weather.fog_layers = read_list<atmosphere::FogLayer>(table, "fog_layer", read_fog_layer,
-                                                       lists[0].second);
+  weather.fog_layers =
+      read_list<atmosphere::FogLayer>(table, "fog_layer", read_fog_layer, lists[0].second);
   weather.levels = read_list<atmosphere::AirLevel>(table, "level", read_level, lists[1].second);
-  scene.rain_cells = read_list<RainCellDescription>(table, "rain_cell", read_rain_cell,
-                                                    lists[2].second);
+  scene.rain_cells =
+      read_list<RainCellDescription>(table, "rain_cell", read_rain_cell, lists[2].second);
 
   if (!(scene.sensor.waveform.frequency_Hz > 0.0)) return;  // no usable sensor: already reported
   atmosphere::Weather with_cells = weather;

@@ -6,8 +6,8 @@
 
 namespace fanbeam::scenes {
 
-// Fills `scene.weather` and `scene.rain_cells`. Numbers of [weather] keep the ranges that atmosphere
-// documents; it checks them once more with the sensor's frequency.
+// Fills `scene.weather` and `scene.rain_cells`. Numbers of [weather] keep the ranges that
+// atmosphere documents; it checks them once more with the sensor's frequency.
 void read_weather(core::ConfigTable& root, SceneDescription& scene);
 
 }  // namespace fanbeam::scenes

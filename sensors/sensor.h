@@ -41,6 +41,7 @@ struct Antenna {
   double boresight_elevation_rad = 0.0;
   double peak_gain = 1.0;   // linear, one-way
   double efficiency = 1.0;  // peak gain over directivity; informative
+  std::vector<std::string> pattern_files;  // that the cuts were read from
 };
 
 // How the beam moves over a picture's columns.
@@ -117,7 +118,7 @@ struct Display {
   Mapping mapping = Mapping::stc;
   double low_dB = -55.0;  // shown as grey 0
   double high_dB = 5.0;   // shown as grey 255
-  enum class CScopeMode { true_elevation, flat_earth };
+  enum class CScopeMode { true_elevation, flat_earth, shadow };
   CScopeMode cscope_mode = CScopeMode::true_elevation;
   double cscope_top_rad = 0.0;  // upper edge of the C-scope window
   double cscope_span_rad = 0.0;

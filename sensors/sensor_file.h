@@ -41,12 +41,13 @@
 //                        false_alarm_probability per cell, 1e-15 to 0.1, default 1e-6
 //   [mounting]           forward_m, right_m, down_m, +-1000; yaw_deg, pitch_deg, roll_deg; all 0
 //   [display]            mapping "stc" | "log" | "seed"; low_dB < high_dB, each +-400
-//   [display.cscope]     mode "true_elevation" | "flat_earth"; top_deg, span_deg, rows; by default
+//   [display.cscope]     mode "true_elevation" | "flat_earth" | "shadow"; top_deg, span_deg, rows; by default
 //                        the elevation beam's width about the boresight, as many rows as cells
 //   [seed]               only to follow a published table to the letter, see seed_signal.h:
 //                        speed_of_light_mps, pulse_us, elevation_minimum_deg
 //
-// A warning W-RESOLUTION says that the range cells are finer than the bandwidth resolves.
+// A warning W-RESOLUTION says that the range cells are finer than the bandwidth resolves,
+// W-STEERING what the one beam of a frequency-scanned picture neglects.
 #pragma once
 
 #include <filesystem>

@@ -47,15 +47,13 @@ Sounding::Sounding(const std::vector<AirLevel>& levels, double origin_height_m,
 
 double Sounding::temperature_K(double h_km) const {
   if (h_km <= levels_.front().h_km)
-    return levels_.front().temperature_K -
-           kLapse_K_per_km * lapse_km(h_km, levels_.front().h_km);
+    return levels_.front().temperature_K - kLapse_K_per_km * lapse_km(h_km, levels_.front().h_km);
   if (h_km >= levels_.back().h_km)
     return levels_.back().temperature_K - kLapse_K_per_km * lapse_km(h_km, levels_.back().h_km);
   const auto above = std::upper_bound(levels_.begin(), levels_.end(), h_km,
                                       [](double h, const Level& level) { return h < level.h_km; });
   const Level& low = *(above - 1);
-  return mix(low.temperature_K, above->temperature_K,
-             (h_km - low.h_km) / (above->h_km - low.h_km));
+  return mix(low.temperature_K, above->temperature_K, (h_km - low.h_km) / (above->h_km - low.h_km));
 }
 
 double Sounding::ln_column(double h_km) const {
@@ -66,9 +64,9 @@ double Sounding::ln_column(double h_km) const {
   const double bend_km =
       above == levels_.end() ? std::min(h_km, std::max(kTropopause_km, start.h_km)) : h_km;
   const double bend_K = temperature_K(bend_km);
-  return start.ln_column -
-         kHydrostatic_K_per_km * (layer_km_per_K(bend_km - start.h_km, start.temperature_K, bend_K) +
-                                  (h_km - bend_km) / bend_K);
+  return start.ln_column - kHydrostatic_K_per_km *
+                               (layer_km_per_K(bend_km - start.h_km, start.temperature_K, bend_K) +
+                                (h_km - bend_km) / bend_K);
 }
 
 double Sounding::ln_pressure(double h_km) const {
@@ -87,9 +85,8 @@ double Sounding::ln_pressure(double h_km) const {
 }
 
 double Sounding::vapour_beyond_g_per_m3(const Level& end, double h_km) const {
-  const double at_end =
-      end.humidity *
-      saturation_vapour_density_g_per_m3(end.temperature_K, std::exp(ln_pressure(end.h_km)));
+  const double at_end = end.humidity * saturation_vapour_density_g_per_m3(
+                                           end.temperature_K, std::exp(ln_pressure(end.h_km)));
   return at_end * std::exp(-1e3 * (h_km - end.h_km) / kVapourScaleHeight_m);
 }
 
@@ -105,13 +102,12 @@ AirState Sounding::at(double height_m) const {
   } else if (h_km >= levels_.back().h_km) {
     air.vapour_density_g_per_m3 = std::min(saturated, vapour_beyond_g_per_m3(levels_.back(), h_km));
   } else {
-    const auto above = std::upper_bound(
-        levels_.begin(), levels_.end(), h_km,
-        [](double h, const Level& level) { return h < level.h_km; });
+    const auto above =
+        std::upper_bound(levels_.begin(), levels_.end(), h_km,
+                         [](double h, const Level& level) { return h < level.h_km; });
     const Level& low = *(above - 1);
-    air.vapour_density_g_per_m3 =
-        saturated * mix(low.humidity, above->humidity,
-                        (h_km - low.h_km) / (above->h_km - low.h_km));
+    air.vapour_density_g_per_m3 = saturated * mix(low.humidity, above->humidity,
+                                                  (h_km - low.h_km) / (above->h_km - low.h_km));
   }
   return air;
 }

@@ -14,9 +14,7 @@ namespace {
 constexpr int kIntervals = 398;  // even, as Simpson's rule wants
 constexpr double kStep_mm = (kLargestDrop_mm - kSmallestDrop_mm) / kIntervals;
 
-double diameter_mm(std::size_t i) {
-  return kSmallestDrop_mm + kStep_mm * static_cast<double>(i);
-}
+double diameter_mm(std::size_t i) { return kSmallestDrop_mm + kStep_mm * static_cast<double>(i); }
 
 double simpson_weight(int i) {
   if (i == 0 || i == kIntervals) return kStep_mm / 3.0;
@@ -53,8 +51,7 @@ double DropScattering::over_all_drops(const std::vector<double>& section_m2_mm, 
 
 double DropScattering::attenuation_dB_per_km(DropSizes sizes, double rain_rate_mm_per_h) const {
   constexpr double kdB_per_km_of_nepers_per_m = 4342.944819032518;  // 1e4 / ln 10
-  return kdB_per_km_of_nepers_per_m *
-         over_all_drops(extinction_m2_mm_, sizes, rain_rate_mm_per_h);
+  return kdB_per_km_of_nepers_per_m * over_all_drops(extinction_m2_mm_, sizes, rain_rate_mm_per_h);
 }
 
 double DropScattering::eta_m2_per_m3(DropSizes sizes, double rain_rate_mm_per_h) const {

@@ -50,10 +50,8 @@ MieEfficiencies mie_efficiencies(double x, Complex m) {
 
     const Complex electric = inside[index] / m;
     const Complex magnetic = inside[index] * m;
-    const Complex a =
-        psi * (electric - outside[index]) / ((electric + ratio) * xi - xi_before);
-    const Complex b =
-        psi * (magnetic - outside[index]) / ((magnetic + ratio) * xi - xi_before);
+    const Complex a = psi * (electric - outside[index]) / ((electric + ratio) * xi - xi_before);
+    const Complex b = psi * (magnetic - outside[index]) / ((magnetic + ratio) * xi - xi_before);
     const double weight = 2.0 * n + 1.0;
     extinction += weight * (a + b).real();
     backward += sign * weight * (a - b);

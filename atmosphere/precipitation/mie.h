@@ -12,7 +12,7 @@
 // Neglected: the shape of drops (flattened above 2 mm).
 // Accuracy: the test values of Wiscombe 1979 to all printed digits. The extinction of a sphere
 // that absorbs nothing loses digits below x = 0.01, where it is scattering alone.
-// Cost: 0.5 microseconds at x = 1, 3 microseconds at x = 10.
+// Cost: 1.2 microseconds for x up to 3, 1.6 up to 8, on average.
 #pragma once
 
 #include <complex>

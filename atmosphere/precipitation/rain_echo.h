@@ -1,8 +1,8 @@
 // Radar reflectivity of rain: cross-section per volume, eta in m2/m3.
 //
 // mie (default): water spheres of a drop-size law, drop_scattering.h. 1 to 1000 GHz, meant for 10
-// to 100 GHz. Rayleigh's Z = 200 R^1.6 is no use here: at 35 GHz it is 0.55, 1.2 and 3.2 times the
-// Mie value at 1, 10 and 50 mm/h, at 94 GHz up to 160 times.
+// to 100 GHz. Rayleigh's Z = 200 R^1.6 is no use here: at 35 GHz it is 0.57, 1.2 and 3.3 times the
+// Mie value at 1, 10 and 50 mm/h, at 94 GHz up to 190 times.
 //
 // mie-fit: log10 eta = q0 + q1 x + q2 x^2, x = log10 R, a least-squares fit to mie with
 // Marshall-Palmer drops at 10 C from 0.5 to 100 mm/h; largest error 0.24 dB at 9.4 GHz, 0.14 at 24,

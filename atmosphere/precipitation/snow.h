@@ -7,8 +7,8 @@
 // Accuracy: one published example value is met; nature: not better than a factor 2.
 //
 // Echo: Z = 1780 R^2.21 mm6/m3, Sekhon and Srivastava 1970 (J. Atmos. Sci. 27, 299), Z of the
-// melted drops, so that eta = pi^5 0.208 Z / L^4 (Smith 1984, J. Clim. Appl. Met. 23, 1258: |K|^2 of
-// ice as if it had the density of water). Rayleigh: flakes larger than a wavelength return less,
+// melted drops, so that eta = pi^5 0.208 Z / L^4 (Smith 1984, J. Clim. Appl. Met. 23, 1258: |K|^2
+// of ice as if it had the density of water). Rayleigh: flakes larger than a wavelength return less,
 // so at 35 GHz this is an upper bracket, up to 10 dB high in heavy snow. Refused above 40 GHz.
 // Confidence: coefficients from secondary sources, the originals were not seen.
 //

@@ -37,9 +37,9 @@ class VerticalPrism {
   VerticalPrism() = default;
 
   glm::dvec2 centre_m_{0.0};
-  glm::dvec2 along_{0.0, 1.0};      // unit vector of a rectangle's length
-  double radius_m_ = 0.0;           // 0 for a rectangle
-  glm::dvec2 half_m_{0.0};          // half length, half width
+  glm::dvec2 along_{0.0, 1.0};  // unit vector of a rectangle's length
+  double radius_m_ = 0.0;       // 0 for a rectangle
+  glm::dvec2 half_m_{0.0};      // half length, half width
   double base_m_ = 0.0, top_m_ = 0.0;
 };
 

@@ -11,10 +11,10 @@
 // of sand and clay, m the volumetric moisture, f in GHz; water is pure water at the soil's
 // temperature (water_ice.h). Source: Dobson, Ulaby, Hallikainen, El-Rayes, IEEE Trans. Geosci.
 // Remote Sens. 23(1), 35-46 (1985), with the conductivity that its authors give above 1.4 GHz and
-// the water of ITU-R P.527-6, section 5.2, whose soil model is the same. The recommendation's
-// further term, which blends to another conductivity below 1.35 GHz, is left out: it changes eps by
-// up to 6 % at 4 GHz, 0.8 % at 10 GHz and 0.1 % at 35 GHz. All coefficients were
-// compared with public transcriptions of both, not with the documents themselves.
+// the water of ITU-R P.527-4 to -6, whose soil model is the same. The recommendation's further
+// term, which blends to another conductivity below 1.35 GHz, is left out: it changes eps by up to
+// 6 % at 4 GHz, 0.8 % at 10 GHz and 0.1 % at 35 GHz. All coefficients were compared with public
+// transcriptions of both, not with the documents themselves.
 //
 // Inputs outside the stated ranges throw InputError E-RANGE or E-NONFINITE. Neglected: salt, bound
 // water, organic matter, frost, layers and stones. A negative free-water conductivity, which the

@@ -12,10 +12,12 @@
 
 #include <complex>
 
+#include "core/polarisation.h"
 #include "materials/dielectric/permittivity.h"
-#include "materials/nrcs/polarisation.h"
 
 namespace fanbeam::materials {
+
+using core::Polarisation;
 
 struct SpecularSurface {
   Permittivity permittivity;

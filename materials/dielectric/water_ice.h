@@ -1,7 +1,7 @@
 // Relative permittivity of pure water and pure ice.
 //
 //   water  double Debye relaxation, Liebe, Hufford and Manabe, Int. J. Infrared Millim. Waves 12
-//          (1991); the same curve as ITU-R P.527-6 for pure water
+//          (1991); the same curve as ITU-R P.527-4 for pure water
 //   ice    Maetzler, in Thermal Microwave Radiation, IET (2006)
 //
 // Inputs outside the ranges below throw InputError E-RANGE or E-NONFINITE. Neglected: salt and

@@ -120,8 +120,8 @@ std::vector<Extrapolation> extrapolations_of(const SurfaceModel& model, Polarisa
 double sigma0(const SurfaceModel& model, Polarisation polarisation, double frequency_Hz,
               double grazing_rad);
 
-// The same without the refusal of frequency (0.1 to 300 GHz) and polarisation: outside, the rules at
-// the top of this file hold.
+// The same without the refusal of frequency (0.1 to 300 GHz) and polarisation: outside, the rules
+// at the top of this file hold.
 double continued_sigma0(const SurfaceModel& model, Polarisation polarisation, double frequency_Hz,
                         double grazing_rad);
 

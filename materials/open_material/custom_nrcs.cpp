@@ -19,7 +19,7 @@ constexpr core::NumberRange kFrequency_GHz{0.1, 300.0};
 // E-REF for what is not among `known`: a misspelt key of ours would go unnoticed otherwise.
 void refuse_other_keys(const JsonNode& node, std::initializer_list<std::string_view> known) {
   std::string expected = "one of";
-  for (const std::string_view key : known) expected += " " + std::string(key);
+  for (const std::string_view key : known) expected.append(" ").append(key);
   for (const std::string& key : node.keys())
     if (std::find(known.begin(), known.end(), key) == known.end())
       node.problems().error(ErrorClass::ref, node.place(), node.member(key).pointer(),

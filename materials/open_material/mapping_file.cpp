@@ -74,13 +74,15 @@ void read_asset(const std::filesystem::path& file, const std::filesystem::path& 
                      "not read: materials are found by name only");
   const auto text = uri.text();
   if (!text) return;
+  core::ProblemList mapping_problems;
   try {
     read_mapping(core::file_of_uri(allowed_folder, file, *text, uri.place(), uri.pointer()),
-                 problems, mapping);
+                 mapping_problems, mapping);
   } catch (const core::InputError& error) {
-    problems.append(error.problems());
-    return;
+    mapping_problems.append(error.problems());
   }
+  problems.append(mapping_problems.all());
+  if (mapping_problems.has_errors()) return;  // a name may be missing because of them
   for (const char* key : {"materialReplacements", "materialReplacement"})
     replace_names(root.member(key), mapping);
 }

@@ -1,5 +1,7 @@
 #include "materials/open_material/open_materials.h"
 
+#include <algorithm>
+
 #include "core/relative_uri.h"
 #include "materials/open_material/brdf_table.h"
 #include "materials/open_material/permittivity_table.h"
@@ -21,6 +23,20 @@ Lookup<SurfaceModel> from_custom_properties(const OpenMaterialFile& material,
   const CustomNrcs* best = best_of(material.nrcs, query);
   if (best == nullptr) return {{}, "no entry for this frequency and polarisation"};
   return {best->surface, {}};
+}
+
+void report_extrapolations(const SurfaceModel& surface, const RadarQuery& query,
+                           const fs::path& file, core::ProblemList& problems) {
+  for (const Extrapolation& beyond :
+       extrapolations_of(surface, query.polarisation, query.frequency_Hz)) {
+    const std::string field = std::string(name_of(surface)) + " at " + beyond.quantity;
+    if (query.allow_extrapolation)
+      problems.warning("EXTRAPOLATED", {file.string()}, field, beyond.asked,
+                       "known for " + beyond.known);
+    else
+      problems.error(ErrorClass::range, {file.string()}, field, beyond.asked,
+                     beyond.known + ", or allow_extrapolation = true in [materials]");
+  }
 }
 
 // The three ways to a reflectivity, with what each of them lacks.
@@ -45,11 +61,16 @@ OpenMaterials::OpenMaterials(const fs::path& file, fs::path allowed_folder, cons
       query_(query),
       mapping_(read_open_mapping(file, allowed_folder_, problems)) {}
 
+void OpenMaterials::list_file(const fs::path& file) {
+  if (std::find(files().begin(), files().end(), file) == files().end())
+    mapping_.files.push_back(file);
+}
+
 std::optional<fs::path> OpenMaterials::table_file(const fs::path& from, const NamedUri& uri,
                                                   core::ProblemList& problems) {
   try {
     fs::path file = core::file_of_uri(allowed_folder_, from, uri.uri, {from.string()}, uri.pointer);
-    mapping_.files.push_back(file);
+    list_file(file);
     return file;
   } catch (const core::InputError& error) {
     problems.append(error.problems());
@@ -65,7 +86,7 @@ std::optional<SurfaceModel> OpenMaterials::surface_of(const std::string& name,
                                             {mapping_.file.string()}, uri.pointer);
     const auto known = surfaces_.find(file);
     if (known != surfaces_.end()) return known->second;  // its problems have been told
-    mapping_.files.push_back(file);
+    list_file(file);
     return surfaces_[file] = read_surface(file, problems);
   } catch (const core::InputError& error) {
     problems.append(error.problems());
@@ -116,13 +137,8 @@ std::optional<SurfaceModel> OpenMaterials::read_surface(const fs::path& file,
       problems.error(ErrorClass::unsupported, {file.string()}, "/materialProperties",
                      "no reflectivity at " + radar_text(query_), ways.why_not());
   }
+  if (surface) report_extrapolations(*surface, query_, file, problems);
   if (problems.has_errors()) surface.reset();
-  if (surface)
-    for (const Extrapolation& beyond :
-         extrapolations_of(*surface, query_.polarisation, query_.frequency_Hz))
-      problems.warning("EXTRAPOLATED", {file.string()},
-                       std::string(name_of(*surface)) + " at " + beyond.quantity, beyond.asked,
-                       "known for " + beyond.known);
   outer_problems.append(problems.all());
   return surface;
 }

@@ -39,13 +39,15 @@ class OpenMaterials {
 
   // The reflectivity of a known name. Reports the problems of the material and its tables, E-PATH
   // for files outside the folder, E-UNSUPPORTED when nothing in it serves this radar;
-  // W-EXTRAPOLATED when Oh's model is used beyond its data. Nothing after an error.
+  // E-RANGE for Oh's model beyond its data, W-EXTRAPOLATED where that is allowed. Nothing after an
+  // error.
   std::optional<SurfaceModel> surface_of(const std::string& name, core::ProblemList& problems);
 
-  // All files read so far, in the order of reading.
+  // All files read so far, each once, in the order of reading.
   const std::vector<std::filesystem::path>& files() const { return mapping_.files; }
 
  private:
+  void list_file(const std::filesystem::path& file);
   std::optional<SurfaceModel> read_surface(const std::filesystem::path& file,
                                            core::ProblemList& problems);
   Lookup<SurfaceModel> from_brdfs(const std::filesystem::path& file,

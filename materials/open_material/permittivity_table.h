@@ -7,9 +7,9 @@
 // humidity. Between two wavelengths eps' and eps'' are linear in the logarithm of the wavelength;
 // up to 10 % outside the table the end row is held, beyond it nothing is made up. Rows without
 // wavelength, eps' or eps'' are passed over. A metal's negative eps' becomes 1 where its loss is at
-// least a hundred times larger in size: |Gamma| changes by less than 1e-2 of itself, at such
-// losses; a negative eps' without that loss is no answer. Magnetic media (mu other than 1 by more
-// than 0.01) are no answer either: the reflection models here hold for mu = 1.
+// least a hundred times larger in size: |Gamma| changes by at most 1.3 % at such losses; a negative
+// eps' without that loss is no answer. Magnetic media (mu other than 1 by more than 0.01) are no
+// answer either: the reflection models here hold for mu = 1.
 #pragma once
 
 #include <filesystem>

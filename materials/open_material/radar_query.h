@@ -11,7 +11,8 @@ namespace fanbeam::materials {
 struct RadarQuery {
   double frequency_Hz = 35e9;
   core::Polarisation polarisation = core::Polarisation::horizontal;
-  double temperature_K = 288.15;  // of the surface
+  double temperature_K = 288.15;     // of the surface
+  bool allow_extrapolation = false;  // models may be used outside what they know
 };
 
 template <class Value>

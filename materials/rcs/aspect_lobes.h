@@ -3,12 +3,12 @@
 //   sigma = max(floor, max over lobes of peak 10^(-1.2 ((az - az_i) / w_i)^2
 //                                                 -1.2 ((el - el_i) / v_i)^2))
 // w and v are 3 dB widths: the lobes of 3GPP TR 38.901 release 19, 7.9.2.1 (RCS model 2, one
-// scattering point), where sectors of 45 deg to each side of a lobe choose it; the lobes are back at
-// the floor long before a sector ends, so that the strongest is the same.
+// scattering point). There, sectors of 45 deg to each side of a lobe choose it; the lobes are back
+// at the floor before a sector ends, so that the strongest is the same.
 //
 // Azimuth counts from the object's x axis (its front) to the left, elevation up. A lobe without an
 // azimuth width is the same all around (roof).
-// Neglected: the spread about this mean (typical_object.h keeps it), polarisation, frequency.
+// Neglected: the spread about this mean (object_library.h keeps it), polarisation, frequency.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -8,8 +8,8 @@
 //
 // Input: radius and wavelength in m, above 0. Neglected: losses and coatings, deviations from a
 // sphere; a sphere has no far-field distance worth the name, it is met within R >> a.
-// Accuracy: 1e-12 of the series. Cost: ka + 4 (ka)^(1/3) + 10 terms of two complex divisions, a
-// microsecond.
+// Accuracy: 1e-13 against the series in extended precision, ka 0.01 to 50. Cost: ka + 4 (ka)^(1/3)
+// + 10 terms, a few microseconds.
 #pragma once
 
 namespace fanbeam::materials {

@@ -19,6 +19,9 @@ NrcsTable::NrcsTable(const materials::NrcsCurve& nrcs) {
     const double sine = kFineBelow * i / kFineSteps;
     values_.push_back(i == 0 ? lowest(kFineBelow / kFineSteps) : ratio(sine));
   }
+  const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
+  constexpr double kRounding = 1e-14;
+  flat_ = *most - *least <= kRounding * *most;
 }
 
 }  // namespace fanbeam::renderer

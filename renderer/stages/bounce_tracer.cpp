@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/stages/bistatic_nrcs.h"
 #include "terrain/secondary_origin.h"
 
 namespace fanbeam::renderer {
@@ -83,19 +84,20 @@ struct BounceTracer::Lane {
   glm::dvec3 direction{0.0};
 };
 
-double bistatic_sigma0_over_sine(const NrcsTable& nrcs, double sin_in, double sin_out,
-                                 double normal_on_half) noexcept {
-  if (!(sin_in > 0.0 && sin_out > 0.0)) return 0.0;
-  return nrcs.sigma0_over_sine(normal_on_half) * std::sqrt(sin_out / sin_in);
+namespace {
+
+std::vector<NrcsTable> tables(const std::vector<materials::NrcsCurve>& curves) {
+  return {curves.begin(), curves.end()};
 }
+
+}  // namespace
 
 BounceTracer::BounceTracer(const World& world)
     : world_(world),
-      mirrors_(world.specular, world.sensor.wavelength_m()),
+      nrcs_(tables(world.nrcs)),
+      mirrors_(world.specular, nrcs_, world.sensor.wavelength_m()),
       elevation_gain_(world.sensor.antenna.elevation),
-      radar_constant_W_m2_(world.sensor.radar_constant_W_m2()) {
-  for (const materials::NrcsCurve& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
-}
+      radar_constant_W_m2_(world.sensor.radar_constant_W_m2()) {}
 
 std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna, const AntennaRay* rays,
                                   int count, Bounce* bounces) const {

@@ -9,7 +9,7 @@
 //                         at the range (R1 + R2 + R3) / 2
 //   O A B A O             dP = K g(p)^2 rho^2 gamma_B(sin psi_i) L dOmega / (R1 + R2)^2
 //                         at the range R1 + R2
-//   sigma_B = sqrt(sin psi_i sin psi_s) gamma_B(n.h),  gamma_B(x) = sigma0_B(x) / x
+//   sigma_B and gamma_B: bistatic_nrcs.h
 //
 // The plane mirror keeps the ray's solid angle, so B's lit area is (R1 + R2)^2 dOmega / sin psi_i.
 // The factor 4: the two senses of the first route have the same length and, by reciprocity, the
@@ -27,12 +27,6 @@
 #include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::renderer {
-
-// Bistatic NRCS over the sine of the incoming grazing angle; 0 when a sine is not positive.
-// Monostatic it is sigma0 / sin(psi); swapping the directions changes it by the ratio of the sines
-// only, as reciprocity asks.
-double bistatic_sigma0_over_sine(const NrcsTable& nrcs, double sin_in, double sin_out,
-                                 double normal_on_half) noexcept;
 
 // An echo with its power per solid angle of the first ray, at azimuth gain 1 around `azimuth_rad`,
 // the mean of the first and the last direction.
@@ -77,8 +71,8 @@ class BounceTracer {
   double loss_factor(const glm::dvec3& a_m, const glm::dvec3& b_m, double length_m) const;
 
   const World& world_;
-  Mirrors mirrors_;
   std::vector<NrcsTable> nrcs_;  // by material id
+  Mirrors mirrors_;
   sensors::TwoWayTable elevation_gain_;
   double radar_constant_W_m2_ = 0.0;
 };

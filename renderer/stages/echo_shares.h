@@ -31,9 +31,8 @@ void share_echo(const core::Echo& echo, const sensors::Sensor& sensor, const Sha
   const int last = std::min(scan.columns - 1, static_cast<int>(std::floor(position + reach)));
   for (int column = first; column <= last; ++column)
     share(cell, column,
-          echo.power_W *
-              sensors::two_way_gain_with_side_lobes(sensor.antenna.azimuth,
-                                                (column - position) * width_rad * sky));
+          echo.power_W * sensors::two_way_gain_with_side_lobes(
+                             sensor.antenna.azimuth, (column - position) * width_rad * sky));
 }
 
 }  // namespace fanbeam::renderer

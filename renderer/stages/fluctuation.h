@@ -4,8 +4,8 @@
 // A cell's power is the mean over N looks of
 //     | sum over targets of sqrt(P_t f_t) e^(i phi_t)  +  z |^2
 // z complex Gaussian with E|z|^2 = diffuse power + noise power, phi_t uniform, f_t the Swerling
-// factor of mean 1 (core/swerling.h). Without targets that is diffuse + noise times a gamma variable
-// of order N and mean 1: exponential for one look, fully developed speckle.
+// factor of mean 1 (core/swerling.h). Without targets that is diffuse + noise times a gamma
+// variable of order N and mean 1: exponential for one look, fully developed speckle.
 // Sources: J. W. Goodman, "Statistical Properties of Laser Speckle Patterns", 1975, eqs. 8 and 15
 // (exponential, and the sum of looks); S. O. Rice, "Mathematical analysis of random noise", Bell
 // Syst. Tech. J. 24, 1945, 3.10 (a steady signal in noise); F. T. Ulaby, M. C. Dobson, "Handbook of
@@ -14,18 +14,18 @@
 //
 // What is independent: cells, looks and frames. Neighbouring columns share scatterers under the
 // beam, but a frequency-scanned column has a band of its own, which decorrelates them; a beam
-// scanned by turning would not. phi_t is drawn per target, column and look: all echoes of one target
-// in one column and look interfere with a common phase.
+// scanned by turning would not. phi_t is drawn per target, column and look: all echoes of one
+// target in one column and look share it, as if their paths differed by whole wavelengths.
 // A C-scope of true elevation has a realisation of its own, each pixel a cell of N looks: no radar
 // makes that picture. The flat-earth C-scope is drawn from the B-scope's realisation.
 //
 // Every number is a pure function of (seed, frame, cell, draw), see core/random.h: u is at least
 // 2^-33, so that one look is at most 22.8739 times and at least 1.16e-10 times its mean.
 // Inputs: powers 0 or more; looks 1 to 1000. Zero power stays zero.
-// Neglected: texture (correlated or spiky clutter, K law), range correlation of speckle by a window,
-// noise correlation between looks. Accuracy: the laws are exact up to the 32 bits of u, tested by
-// chi-square and moments. Cost: one Philox block and one logarithm a cell for up to 4 looks, 2.5 ms
-// a HiVision frame.
+// Neglected: texture (correlated or spiky clutter, K law), range correlation of speckle by a
+// window, noise correlation between looks. Accuracy: the laws are exact up to the 32 bits of u,
+// tested by chi-square and moments. Cost of a HiVision picture on one core: 2.6 ms up to 4 looks
+// (a Philox block and a logarithm a cell), 11 ms for 28, 8 ms beyond.
 #pragma once
 
 #include <cstdint>
@@ -63,8 +63,8 @@ std::vector<TargetShare> cscope_shares(const std::vector<core::Echo>& echoes,
 
 // `picture` holds the diffuse power of cells of `columns` columns and is left with targets added:
 // without speckle their powers in expected ground and no noise, with speckle one realisation, the
-// noise of mean power `noise` in it. `cases` are the targets' by index; `stream` names the picture's
-// draws (core/random.h).
+// noise of mean power `noise` in it. `cases` are the targets' by index; `stream` names the
+// picture's draws (core/random.h).
 void realise(std::vector<TargetShare> shares, std::span<const core::Swerling> cases,
              const Fluctuation& fluctuation, std::uint32_t stream, double noise, int columns,
              std::vector<double>& picture);

@@ -3,7 +3,9 @@
 //     rho = |Gamma_s|^2 c + |Gamma_p|^2 (1 - c),  times the coherent factor of the roughness
 // with Gamma of materials/dielectric/specular_surface.h and c the share of the wave's power whose
 // field stands perpendicular to the plane of incidence. The two parts do not interfere here: the
-// turn of polarisation at oblique planes is neglected. Linear interpolation between 1024 steps of
+// turn of polarisation at oblique planes is neglected. What a surface scatters it cannot mirror: rho
+// is at most one less the scattered share of bistatic_nrcs.h. Sheet metal whose reflectivity is that
+// of a rough mirror (all power in a lobe) is so kept from being a smooth mirror as well. Linear interpolation between 1024 steps of
 // the sine of the grazing angle; accuracy 1e-3 absolute for rms heights up to 5 mm at 35 GHz.
 #pragma once
 
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "materials/dielectric/specular_surface.h"
+#include "renderer/casting/nrcs_table.h"
 #include "terrain/height_field.h"
 
 namespace fanbeam::renderer {
@@ -20,7 +23,7 @@ class Mirrors {
  public:
   // By material id; materials beyond the end, and empty ones, do not reflect.
   Mirrors(const std::vector<std::optional<materials::SpecularSurface>>& specular,
-          double wavelength_m);
+          const std::vector<NrcsTable>& nrcs, double wavelength_m);
 
   // False when nothing reflects at any angle.
   bool any() const { return any_; }

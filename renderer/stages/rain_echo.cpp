@@ -16,8 +16,15 @@
 namespace fanbeam::renderer {
 namespace {
 
-constexpr double kLargestStep_rad = 0.5 * core::kPi / 180.0;
+// Rows of a C-scope lie 0.02 deg apart: wider intervals would show as bands.
+constexpr double kLargestStep_rad = 0.1 * core::kPi / 180.0;
 constexpr int kCellsPerStep = 8;
+// Echo and loss change slowly with elevation and along a ray: they are evaluated this far apart and
+// interpolated. The border of a rain cell is sharp in eta; its loss is off by at most half a step of
+// loss, 0.1 dB in a shower of 40 mm/h at 94 GHz.
+constexpr double kNodeStep_rad = 1.0 * core::kPi / 180.0;
+constexpr int kCellsPerLoss = 4;
+constexpr double kNeperPer_dB = 0.1 * 2.302585092994046;  // of power
 constexpr double kUnlimited_m = std::numeric_limits<double>::infinity();
 
 // Borders of the elevation intervals, increasing, over the whole elevation pattern.
@@ -30,8 +37,8 @@ std::vector<double> elevation_borders(const sensors::Sensor& sensor, double heig
   std::vector<double> wanted = {low_rad, high_rad};
   if (height_m > 0.0)
     for (int step = 0; step * kCellsPerStep < sensor.range.cells + kCellsPerStep; ++step) {
-      const double range_m = sensors::range_edge_m(
-          sensor.range, std::min(step * kCellsPerStep, sensor.range.cells));
+      const double range_m =
+          sensors::range_edge_m(sensor.range, std::min(step * kCellsPerStep, sensor.range.cells));
       if (range_m <= height_m) continue;
       const double elevation_rad = -std::asin(height_m / range_m);
       if (elevation_rad > low_rad && elevation_rad < high_rad) wanted.push_back(elevation_rad);
@@ -65,8 +72,10 @@ class Echo {
     for (std::size_t i = 0; i + 1 < borders_.size(); ++i)
       gain_rad_.push_back(sensors::two_way_integral(cut, borders_[i] - boresight_rad,
                                                     borders_[i + 1] - boresight_rad));
-    if (!same_in_all_azimuths_) return;
-    for (std::size_t i = 0; i < gain_rad_.size(); ++i) common_.push_back(profile(i, 0.0));
+    const double span_rad = borders_.back() - borders_.front();
+    nodes_ = 1 + static_cast<int>(std::ceil(span_rad / kNodeStep_rad));
+    node_step_rad_ = span_rad / (nodes_ - 1);
+    if (same_in_all_azimuths_) common_ = profiles(0.0);
   }
 
   void run() {
@@ -83,42 +92,63 @@ class Echo {
     return ground_m ? antenna_.position_m.z - *ground_m : 0.0;
   }
 
-  double two_way_factor(const glm::dvec3& place_m, double range_m) const {
-    return world_.attenuation.two_way_power_factor(antenna_.position_m.z, place_m.z, range_m) *
-           (world_.rain_cells
-                ? world_.rain_cells->two_way_power_factor(antenna_.position_m, place_m)
-                : 1.0);
+  // Loss along a ray from the antenna, one way, in dB: every few cells, straight lines between.
+  std::vector<double> loss_dB(const glm::dvec3& along) const {
+    const auto exact_dB = [&](int cell) {
+      const double range_m = sensors::range_edge_m(sensor_.range, cell);
+      const glm::dvec3 place_m = antenna_.position_m + along * range_m;
+      const double cells_dB =
+          world_.rain_cells ? world_.rain_cells->one_way_dB(antenna_.position_m, place_m) : 0.0;
+      return cells_dB + world_.attenuation.one_way_dB(antenna_.position_m.z, place_m.z, range_m);
+    };
+    const int cells = sensor_.range.cells;
+    std::vector<double> edges_dB(static_cast<std::size_t>(cells) + 1);
+    int from = 0;
+    double from_dB = exact_dB(0);
+    while (from < cells) {
+      const int to = std::min(from + kCellsPerLoss, cells);
+      const double to_dB = exact_dB(to);
+      for (int cell = from; cell <= to; ++cell)
+        edges_dB[static_cast<std::size_t>(cell)] =
+            from_dB + (to_dB - from_dB) * (cell - from) / (to - from);
+      from = to;
+      from_dB = to_dB;
+    }
+    return edges_dB;
   }
 
   // Echo power per unit of two-way elevation gain and radian of azimuth in every range cell, as if
-  // the air were free: the middle of elevation interval `i`.
-  std::vector<double> profile(std::size_t i, double azimuth_rad) const {
-    const glm::dvec3 along = sensors::direction(
-        antenna_, azimuth_rad, (borders_[i] + borders_[i + 1]) / 2.0, sensor_.scan.surface);
+  // the air were free.
+  std::vector<double> profile(double elevation_rad, double azimuth_rad) const {
+    const glm::dvec3 along =
+        sensors::direction(antenna_, azimuth_rad, elevation_rad, sensor_.scan.surface);
+    const std::vector<double> edges_dB = loss_dB(along);
     // J of ray_caster.h.
     const double jacobian =
         sensor_.scan.surface == sensors::ScanSurface::cone ? std::cos(azimuth_rad) : 1.0;
     const double constant = sensor_.radar_constant_W_m2() * jacobian;
-    std::vector<double> power_W(static_cast<std::size_t>(sensor_.range.cells));
-    double near_m = sensors::range_edge_m(sensor_.range, 0);
-    double near_factor = two_way_factor(antenna_.position_m + along * near_m, near_m);
-    for (int cell = 0; cell < sensor_.range.cells; ++cell) {
-      const double far_m = sensors::range_edge_m(sensor_.range, cell + 1);
-      const double far_factor = two_way_factor(antenna_.position_m + along * far_m, far_m);
+    std::vector<double> power_W(static_cast<std::size_t>(sensor_.range.cells), 0.0);
+    for (std::size_t cell = 0; cell < power_W.size(); ++cell) {
+      const double near_m = sensors::range_edge_m(sensor_.range, static_cast<int>(cell));
+      const double far_m = sensors::range_edge_m(sensor_.range, static_cast<int>(cell) + 1);
       const double eta =
           world_.volume_echo->eta_m2_per_m3(antenna_.position_m + along * ((near_m + far_m) / 2.0));
-      if (eta > 0.0 && near_factor > 0.0 && near_m > 0.0) {
-        const double length_m = far_m - near_m;
-        const double extinction_per_m =
-            far_factor > 0.0 ? std::log(near_factor / far_factor) / (2.0 * length_m) : 1.0;
-        power_W[static_cast<std::size_t>(cell)] =
-            constant * eta * near_factor *
-            atmosphere::attenuated_length_m(extinction_per_m, length_m) / (near_m * far_m);
-      }
-      near_m = far_m;
-      near_factor = far_factor;
+      if (!(eta > 0.0 && near_m > 0.0)) continue;
+      const double extinction_per_m =
+          (edges_dB[cell + 1] - edges_dB[cell]) / (far_m - near_m) * kNeperPer_dB;
+      power_W[cell] = constant * eta * std::exp(-2.0 * kNeperPer_dB * edges_dB[cell]) *
+                      atmosphere::attenuated_length_m(extinction_per_m, far_m - near_m) /
+                      (near_m * far_m);
     }
     return power_W;
+  }
+
+  std::vector<std::vector<double>> profiles(double azimuth_rad) const {
+    std::vector<std::vector<double>> found;
+    found.reserve(static_cast<std::size_t>(nodes_));
+    for (int node = 0; node < nodes_; ++node)
+      found.push_back(profile(borders_.front() + node * node_step_rad_, azimuth_rad));
+    return found;
   }
 
   double free_m(double azimuth_rad, double elevation_rad) const {
@@ -130,8 +160,8 @@ class Echo {
   }
 
   void add_block(int block);
-  void add_interval(std::size_t i, const std::vector<double>& power_W, double free_low_m,
-                    double free_high_m, std::vector<double>& range_W,
+  void add_interval(std::size_t i, const std::vector<std::vector<double>>& nodes_W,
+                    double free_low_m, double free_high_m, std::vector<double>& range_W,
                     std::vector<double>& row_W_m3) const;
 
   const World& world_;
@@ -141,15 +171,22 @@ class Echo {
   FanSums& sums_;
   std::vector<double> borders_;
   std::vector<double> gain_rad_;  // per interval
+  int nodes_ = 0;
+  double node_step_rad_ = 0.0;
   bool same_in_all_azimuths_;
   std::vector<std::vector<double>> common_;
 };
 
 // Adds one interval: free up to the nearer of the two distances, half way between them by half.
-void Echo::add_interval(std::size_t i, const std::vector<double>& power_W, double free_low_m,
-                        double free_high_m, std::vector<double>& range_W,
+void Echo::add_interval(std::size_t i, const std::vector<std::vector<double>>& nodes_W,
+                        double free_low_m, double free_high_m, std::vector<double>& range_W,
                         std::vector<double>& row_W_m3) const {
-  const double gain_rad = gain_rad_[i];
+  const double position =
+      std::clamp(((borders_[i] + borders_[i + 1]) / 2.0 - borders_.front()) / node_step_rad_, 0.0,
+                 nodes_ - 1.0 - 1e-9);
+  const auto node = static_cast<std::size_t>(position);
+  const double upper = gain_rad_[i] * (position - static_cast<double>(node));
+  const double lower = gain_rad_[i] - upper;
   const double nearer_m = std::min(free_low_m, free_high_m);
   const double farther_m = std::max(free_low_m, free_high_m);
   double sum_W_m3 = 0.0;
@@ -159,8 +196,9 @@ void Echo::add_interval(std::size_t i, const std::vector<double>& power_W, doubl
     if (range_m >= farther_m) break;
     if (range_m > nearer_m)
       share = farther_m == kUnlimited_m ? 0.5 : (farther_m - range_m) / (farther_m - nearer_m);
-    const double added_W = share * gain_rad * power_W[static_cast<std::size_t>(cell)];
-    range_W[static_cast<std::size_t>(cell)] += added_W;
+    const auto k = static_cast<std::size_t>(cell);
+    const double added_W = share * (lower * nodes_W[node][k] + upper * nodes_W[node + 1][k]);
+    range_W[k] += added_W;
     sum_W_m3 += added_W * range_m * range_m * range_m;
   }
   if (row_W_m3.empty()) return;
@@ -177,11 +215,13 @@ void Echo::add_block(int block) {
   const double azimuth_rad = sums_.first_azimuth_rad + (first + last) / 2.0 * sums_.step_rad;
   std::vector<double> range_W(static_cast<std::size_t>(sums_.cells), 0.0);
   std::vector<double> row_W_m3(static_cast<std::size_t>(sums_.rows), 0.0);
+  const std::vector<std::vector<double>> own =
+      same_in_all_azimuths_ ? std::vector<std::vector<double>>{} : profiles(azimuth_rad);
+  const std::vector<std::vector<double>>& nodes_W = same_in_all_azimuths_ ? common_ : own;
   double free_low_m = free_m(azimuth_rad, borders_.front());
   for (std::size_t i = 0; i < gain_rad_.size(); ++i) {
     const double free_high_m = free_m(azimuth_rad, borders_[i + 1]);
-    add_interval(i, same_in_all_azimuths_ ? common_[i] : profile(i, azimuth_rad), free_low_m,
-                 free_high_m, range_W, row_W_m3);
+    add_interval(i, nodes_W, free_low_m, free_high_m, range_W, row_W_m3);
     free_low_m = free_high_m;
   }
   const auto add = [](const std::vector<double>& from, double* to) {

@@ -45,8 +45,29 @@ std::vector<double> shares_of(const sensors::PointResponse& response, double cel
   return shares;
 }
 
-FANBEAM_HOT void add_weighted(const double* from, double weight, int count, double* to) {
-  for (int i = 0; i < count; ++i) to[i] += weight * from[i];
+// One row of a picture whose columns share one response; four rows at a time, for fewer passes over
+// `to`.
+FANBEAM_HOT void gather_row(const double* picture, int columns, int cells, int row,
+                            const std::vector<double>& shares, double* to) {
+  const int reach = static_cast<int>(shares.size()) - 1;
+  const int last = std::min(cells - 1, row + reach);
+  const auto share = [&](int from) {
+    return shares[static_cast<std::size_t>(std::abs(from - row))];
+  };
+  const auto line = [&](int from) {
+    return picture + static_cast<std::size_t>(from) * static_cast<std::size_t>(columns);
+  };
+  int from = std::max(0, row - reach);
+  for (; from + 3 <= last; from += 4) {
+    const double k0 = share(from), k1 = share(from + 1), k2 = share(from + 2), k3 = share(from + 3);
+    const double *a = line(from), *b = line(from + 1), *c = line(from + 2), *d = line(from + 3);
+    for (int i = 0; i < columns; ++i) to[i] += (k0 * a[i] + k1 * b[i]) + (k2 * c[i] + k3 * d[i]);
+  }
+  for (; from <= last; ++from) {
+    const double k = share(from);
+    const double* a = line(from);
+    for (int i = 0; i < columns; ++i) to[i] += k * a[i];
+  }
 }
 
 }  // namespace
@@ -70,16 +91,15 @@ void RangeResponse::apply(std::vector<double>& image) const {
   core::parallel_for(static_cast<std::size_t>(cells_), [&](std::size_t row) {
     double* const to = &image[row * columns];
     std::fill(to, to + columns, 0.0);
-    const auto distance = [row](std::size_t from) { return from > row ? from - row : row - from; };
+    if (shares_.size() == 1) {
+      gather_row(before.data(), columns_, cells_, static_cast<int>(row), shares_.front(), to);
+      return;
+    }
     for (std::size_t from = 0; from < static_cast<std::size_t>(cells_); ++from) {
-      const double* const source = &before[from * columns];
-      const std::size_t k = distance(from);
-      if (shares_.size() == 1) {
-        if (k < shares_[0].size()) add_weighted(source, shares_[0][k], columns_, to);
-        continue;
-      }
+      const std::size_t k = from > row ? from - row : row - from;
       for (std::size_t column = 0; column < columns; ++column)
-        if (k < shares_[column].size()) to[column] += shares_[column][k] * source[column];
+        if (k < shares_[column].size())
+          to[column] += shares_[column][k] * before[from * columns + column];
     }
   });
 }

@@ -56,6 +56,8 @@ void read_antenna(ConfigTable table, Antenna& antenna) {
       read_beam_cut(elevation_table, PatternPlane::elevation, antenna.boresight_elevation_rad);
   antenna.azimuth = azimuth.cut;
   antenna.elevation = elevation.cut;
+  for (const ReadCut* read : {&azimuth, &elevation})
+    if (!read->file.empty()) antenna.pattern_files.push_back(read->file);
   antenna.peak_gain = table.boolean("peak_gain_from_file", false)
                           ? file_gain(table, azimuth.file_peak_gain, elevation.file_peak_gain)
                           : stated_gain(table);

@@ -82,6 +82,7 @@ void read_pattern_file(core::ConfigTable& table, PatternPlane plane, ReadCut& re
     const std::filesystem::path folder = std::filesystem::path(table.place("").file).parent_path();
     const std::filesystem::path file = core::path_inside(folder.empty() ? "." : folder, name,
                                                          table.place("file"), table.path("file"));
+    read.file = file.string();
     PatternCut pattern = read_pattern_cut(file, plane, found);
     read.file_peak_gain = pattern.peak_gain;
     read.cut.table_angle_rad = std::move(pattern.angle_rad);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "core/config_table.h"
 #include "sensors/antenna/pattern_file.h"
@@ -11,6 +12,7 @@ namespace fanbeam::sensors {
 
 struct ReadCut {
   BeamCut cut;
+  std::string file;                      // that the cut was read from
   std::optional<double> file_peak_gain;  // what a pattern file says of the antenna's gain, linear
 };
 

@@ -5,8 +5,8 @@
 //   sinc_squared  g = (sin(pi u) / (pi u))^2, u = k sin x: the far field of a uniformly lit
 //                 aperture, k such that g(w/2) = 1/2
 //                 (Balanis, Antenna Theory, 4th ed., chapter 12)
-//   cosine_aperture  g = (cos(pi u) / (1 - 4 u^2))^2, u = k sin x: an aperture lit as a cosine, first
-//                 side lobe -23.0 dB (Balanis, 4th ed., table 12.1)
+//   cosine_aperture  g = (cos(pi u) / (1 - 4 u^2))^2, u = k sin x: an aperture lit as a cosine,
+//                 first side lobe -23.0 dB (Balanis, 4th ed., table 12.1)
 //   cosecant_squared  the Gaussian down to y = -x = y1 below the peak, from there to y2
 //                 g = g(y1) sin^2(d1) / sin^2(d), d the depression below the horizon, d1 at y1:
 //                 flat ground gives equal power at all ranges (Skolnik, Introduction to Radar

@@ -94,6 +94,11 @@ void check_sweep(core::ConfigTable scan, core::ConfigTable waveform, const Senso
     waveform.error(
         ErrorClass::range, "bandwidth_MHz", number_text(sensor.waveform.bandwidth_Hz / 1e6),
         "the sweep over the field of view, " + number_text(sweep_Hz / 1e6) + ", within 1 %");
+  const double neglected_dB = neglected_steering_dB(sensor);
+  scan.warning("STEERING", "steering", "\"frequency\"",
+               "gain, beam width and wavelength of the picture's centre are kept; a point target "
+               "in another column would differ by up to " +
+                   number_text(std::round(100.0 * neglected_dB) / 100.0) + " dB");
 }
 
 }  // namespace fanbeam::sensors

@@ -12,9 +12,9 @@
 // All terms are positive, for every case, so nothing cancels.
 //
 // Sources: J. I. Marcum, "A statistical theory of target detection by pulsed radar", IRE Trans.
-// IT-6, 1960; P. Swerling, the same issue; D. P. Meyer, H. A. Mayer, "Radar Target Detection", 1973;
-// D. A. Shnidman, "The calculation of the probability of detection and the generalized Marcum
-// Q-function", IEEE Trans. IT-35, 1989. Closed forms for one look follow:
+// IT-6, 1960; P. Swerling, the same issue; D. P. Meyer, H. A. Mayer, "Radar Target Detection",
+// 1973; D. A. Shnidman, "The calculation of the probability of detection and the generalized
+// Marcum Q-function", IEEE Trans. IT-35, 1989. Closed forms for one look follow:
 // Swerling 1 and 2, Pd = Pfa^(1 / (1 + snr)).
 //
 // Inputs: looks 1 to 1000, snr 0 or more (linear, mean, per look), probabilities in (0, 1).

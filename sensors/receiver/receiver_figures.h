@@ -5,9 +5,9 @@
 //     minimum detectable signal   noise times the signal-to-noise ratio per look that reaches the
 //                 detection probability of kDetectionProbability
 // Assumptions of the minimum detectable signal: signal and noise in one range cell and column, at
-// the receiver's input and with its loss in the signal; square-law detector; N independent looks; noise known; no
-// clutter. Source: detection.h; definition: M. I. Skolnik, "Introduction to Radar Systems", 3rd
-// edition, 2.2 to 2.6.
+// the receiver's input and with its loss in the signal; square-law detector; N independent looks;
+// noise known; no clutter. Source: detection.h; definition: M. I. Skolnik, "Introduction to Radar
+// Systems", 3rd edition, 2.2 to 2.6.
 #pragma once
 
 #include "sensors/sensor.h"

@@ -20,7 +20,7 @@ using Histogram = std::array<int, kBins>;
 
 std::size_t bin_of(double power_over_noise) {
   if (!(power_over_noise > 1.0)) return 0;
-  const double bin = kBinsPerDecibel * core::dB_from_power(power_over_noise);
+  const double bin = kBinsPerDecibel * core::dB_from_power(power_over_noise, 0.0);
   return static_cast<std::size_t>(std::min(bin, kBins - 1.0));
 }
 
@@ -37,7 +37,8 @@ double mode(const Histogram& histogram) {
     middle = bin;
   }
   // The lowest place stands for noise alone.
-  const double level_dB = middle == 2 ? 0.25 : (static_cast<double>(middle) + 0.5) / kBinsPerDecibel;
+  const double level_dB =
+      middle == 2 ? 0.25 : (static_cast<double>(middle) + 0.5) / kBinsPerDecibel;
   return core::power_from_dB(level_dB) - 1.0;
 }
 
@@ -89,8 +90,7 @@ double fluctuation_of(std::span<const double> power_W, std::size_t columns, doub
 ShadowGround shadow_ground(const Sensor& sensor, std::span<const double> power_W) {
   const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   const double noise_W = sensor.noise_power_W();
-  const std::vector<double> clutter =
-      clutter_by_row(power_W, sensor.range.cells, columns, noise_W);
+  const std::vector<double> clutter = clutter_by_row(power_W, sensor.range.cells, columns, noise_W);
   ShadowGround ground;
   ground.columns = sensor.scan.columns;
   ground.fluctuation = fluctuation_of(power_W, columns, noise_W);

@@ -14,6 +14,7 @@ constexpr int kLongestAfter = 16;        // cells of lit ground behind a run tha
 constexpr double kLeastContrast = 0.25;  // 1 - dark / lit
 constexpr double kLeastScore = 3.0;
 constexpr double kLeastFluctuation = 0.05;
+constexpr double kLeastRoof = 0.1;  // of the lit ground
 constexpr double kBrightestGround = 1.5;
 
 double square(double x) { return x * x; }
@@ -41,6 +42,7 @@ class Column {
   std::vector<Dip> dips() const;
   ShadowRun run_of(const Dip& dip) const;
   double end_offset(const Dip& dip) const;
+  int roof_rows(const Dip& dip) const;
   bool falls_on_object(int row) const;
 
   const ShadowGround& ground_;
@@ -67,10 +69,14 @@ void Column::weigh(int start, int end, Dip& best) const {
   const int m = std::clamp(n / 2, 3, kLongestAfter);
   const double dark = std::max(mean(start, end), 0.0);
   double lit = std::min(mean(start - 2, start), 1.0);
-  if (end < rows_end_)
-    lit = std::min(lit, mean(end, std::min(end + m, rows_end_)));
-  else if (mean(end - m, end) > 0.5 * (dark + lit))
+  if (end < rows_end_) {
+    const int to = std::min(end + m, rows_end_);
+    lit = std::min(lit, mean(end, to));
+    // Ground goes on behind its first cells, a thing inside the shadow does not.
+    if (end + 2 < to) lit = std::min(lit, mean(end + 2, to));
+  } else if (mean(end - m, end) > 0.5 * (dark + lit)) {
     return;  // lit again before the end of the gate
+  }
   if (!(lit > 0.0) || dark > (1.0 - kLeastContrast) * lit) return;
   const double noise = ground_.noise[static_cast<std::size_t>(start)];
   const double deviation =
@@ -126,6 +132,28 @@ double Column::end_offset(const Dip& dip) const {
   return std::clamp(dark_cells, -1.0, 1.0);
 }
 
+// A roof seen at grazing incidence may be darker than the ground, but echoes: the run then begins
+// with rows that stand out of the rest of it.
+int Column::roof_rows(const Dip& dip) const {
+  const int n = dip.end - dip.start;
+  const double noise = ground_.noise[static_cast<std::size_t>(dip.start)];
+  int rows = 0;
+  double best = kLeastScore;
+  for (int k = kShortest - 1; k <= std::min(kDeepestObstacle, n / 2); ++k) {
+    const double roof = mean(dip.start, dip.start + k);
+    const double dark = std::max(mean(dip.start + k, dip.end), 0.0);
+    const double last = mean(dip.start + k - 2, dip.start + k);
+    // Level to its end: not the smeared face of an oblique wall.
+    if (roof < kLeastRoof * dip.lit || roof < 2.0 * dark || last < 0.7 * roof) continue;
+    const double deviation =
+        fluctuation_ * std::sqrt(square(roof + noise) / k + square(dark + noise) / (n - k));
+    if ((roof - dark) / deviation <= best) continue;
+    best = (roof - dark) / deviation;
+    rows = k;
+  }
+  return rows;
+}
+
 // Bright at the end and darker behind: not the ground, but an object in the shadow.
 bool Column::falls_on_object(int row) const {
   if (row + 4 >= rows_end_) return false;
@@ -140,6 +168,7 @@ ShadowRun Column::run_of(const Dip& dip) const {
   run.start_row = dip.start;
   run.end_row = dip.end;
   run.end_offset = end_offset(dip);
+  run.roof_rows = roof_rows(dip);
   run.dark = dip.dark;
   run.lit = dip.lit;
   run.score = dip.score;
@@ -153,7 +182,8 @@ ShadowRun Column::run_of(const Dip& dip) const {
   run.before = run.edge_row >= 8 ? mean(run.edge_row - 8, run.edge_row - 2) : run.edge;
   run.truncated = dip.end + 2 >= rows_end_ || falls_on_object(dip.end);
   const double thing = kBrightestGround * (1.0 + 3.0 * ground_.fluctuation) * dip.lit;
-  for (int row = dip.start + 1; row + 1 < dip.end; ++row) run.merged = run.merged || at(row) > thing;
+  for (int row = dip.start + 1; row + 1 < dip.end; ++row)
+    run.merged = run.merged || at(row) > thing;
   return run;
 }
 

@@ -9,7 +9,8 @@
 // the picture is smooth. From each start the first scale after which the ground is lit again is
 // kept, for a shadow on ground that is dark itself. Runs of one column do not overlap, higher S
 // first. Between two means the border that maximises S is Otsu's threshold of the two classes.
-// Cells brighter than 1.5 count as 1.5: what stands inside a shadow does not end it.
+// Cells brighter than 1.5 count as 1.5, and the rows after must be lit without their first two as
+// well: what stands inside a shadow does not end it.
 //
 // Source of the idea (shadows by histogram and multi-scale wavelet, heights from their lengths):
 // Y. Huang, X. Qian, B. Tsou, "Height Reconstruction from Radar Shadow", Air Force Research
@@ -28,6 +29,7 @@ struct ShadowRun {
   int column = 0;
   int start_row = 0, end_row = 0;
   double end_offset = 0.0;  // of the shadow's end behind the edge of end_row, in rows
+  int roof_rows = 0;        // rows behind the start that echo: a dark roof
   int edge_row = 0;         // brightest row before the start with no dark ground between
   double edge = 0.0;        // q there
   double before = 0.0;      // mean q of the ground before that edge

@@ -119,7 +119,8 @@ TEST_CASE("The shipped library is what the fits to its own references give, byte
     CHECK(line_again == line);
   }
   REQUIRE(again == text);
-  for (const Material& material : shipped().all()) CHECK(material.reference.has_value());
+  const MaterialLibrary library = shipped();
+  for (const Material& material : library.all()) CHECK(material.reference.has_value());
 }
 
 TEST_CASE("Making the fits again repairs spoilt figures and touches nothing else",

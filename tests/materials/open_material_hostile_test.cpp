@@ -11,13 +11,14 @@ using tests::open_surface;
 using tests::OpenMaterialFolder;
 using tests::told;
 
-// What is told about the material after one replacement in one file; the surface must be gone.
+// What is told about the material after one replacement in one file; a material with a problem of
+// its own must be gone.
 Lines after(const std::string& file, const std::string& from, const std::string& to,
             const std::string& name = "Concrete") {
   const OpenMaterialFolder folder;
   folder.replace(file, from, to);
   const tests::OpenSurface result = open_surface(folder.path(), name);
-  CHECK_FALSE(result.surface);
+  if (file.starts_with("materials/")) CHECK_FALSE(result.surface);
   return told(result);
 }
 

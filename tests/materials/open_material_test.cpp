@@ -175,6 +175,21 @@ TEST_CASE("A material that nothing serves is refused with all that was missing",
           "surfaceRoughness with electromagneticPropertiesUri (no permittivity)");
 }
 
+TEST_CASE("Oh's model beyond its data is refused, or told where the scene allows it",
+          "[materials][open_material]") {
+  const OpenMaterialFolder folder;
+  folder.replace("materials/concrete.xomp", "0.0005", "0.00005");  // k s = 0.04
+  const tests::OpenSurface refused = open_surface(folder.path(), "Concrete");
+  REQUIRE_FALSE(refused.surface);
+  REQUIRE(tests::told(refused) ==
+          std::vector<std::string>{"E-RANGE concrete.xomp oh1992 at frequency_GHz"});
+  const tests::OpenSurface allowed =
+      open_surface(folder.path(), "Concrete", {35e9, Polarisation::horizontal, 288.15, true});
+  REQUIRE(allowed.surface);
+  REQUIRE(tests::told(allowed) ==
+          std::vector<std::string>{"W-EXTRAPOLATED concrete.xomp oh1992 at frequency_GHz"});
+}
+
 TEST_CASE("Every file that was read is listed once", "[materials][open_material]") {
   const tests::OpenSurface result = open_surface(tests::open_material_data(), "Panel");
   std::vector<std::string> names;

@@ -1,5 +1,5 @@
-// Peaks, half-power points, nulls and limits of the standard shapes, against closed forms, published
-// rows and rays traced into the corners.
+// Peaks, half-power points, nulls and limits of the standard shapes, against closed forms,
+// committed rows and rays traced into the corners.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -129,7 +129,8 @@ TEST_CASE("At 2 to 5 degrees dry grass outshines asphalt, asphalt concrete, conc
 
 TEST_CASE("What mirrors has a medium and a height, and the medium is known at 35 GHz",
           "[materials][state]") {
-  for (const Material& material : shipped().all()) {
+  const MaterialLibrary library = shipped();
+  for (const Material& material : library.all()) {
     INFO(material.name);
     CHECK(material.dielectric.empty() == !material.rms_height_m.has_value());
     if (material.dielectric.empty()) continue;

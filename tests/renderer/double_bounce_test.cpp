@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "renderer/plan/plan.h"
+#include "renderer/stages/bistatic_nrcs.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 #include "tests/renderer/test_worlds.h"
@@ -25,6 +26,8 @@ constexpr int kCornerCell = 120;
 
 const materials::PhongNrcs kBlack(0.0, 0.0, 1.0);
 const materials::PhongNrcs kRough(0.05, 0.3, 3.0);
+// So weak that next to nothing is taken from what it mirrors.
+const materials::PhongNrcs kFaint(0.00005, 0.0003, 3.0);
 // Reflects all there is at every angle.
 const materials::SpecularSurface kPolished{{1.0, 1e9}, 0.0};
 
@@ -183,7 +186,7 @@ TEST_CASE("An inner corner of two walls seen at 45 deg returns in the corner's c
   const double z_m = kHeight_m - kDistance_m * std::tan(core::radians(3.8));
   const glm::dvec3 low(0.0, kDistance_m, z_m - kTall_m / 2), high = low + glm::dvec3(0, 0, kTall_m);
   const glm::dvec3 left(-reach_m, -reach_m, 0.0), right(reach_m, -reach_m, 0.0);
-  renderer::World world = tests::world(tests::hivision(16), std::nullopt, {kRough},
+  renderer::World world = tests::world(tests::hivision(16), std::nullopt, {kFaint},
                                        {quad({low + left, low, high, high + left}, 0),
                                         quad({low, low + right, high + right, high}, 0)});
   world.specular = {kPolished};
@@ -208,7 +211,7 @@ TEST_CASE("An inner corner of two walls seen at 45 deg returns in the corner's c
     const double azimuth_rad = std::atan2(s_m / std::sqrt(2.0), kDistance_m);
     pair_W += 2.0 * 4.0 * sensor.radar_constant_W_m2() *
               sensors::two_way_gain(sensor.antenna.azimuth, azimuth_rad) *
-              std::sqrt(sin_in * sin_out) * kRough.sigma0(normal_on_half) / normal_on_half *
+              std::sqrt(sin_in * sin_out) * kFaint.sigma0(normal_on_half) / normal_on_half *
               kTall_m * kLength_m / kSteps / (in_m * in_m * out_m * out_m);
   }
   pair_W *= sensors::two_way_width(sensor.antenna.azimuth) / sensor.scan.column_width_rad();
@@ -300,6 +303,23 @@ TEST_CASE("The bistatic form is monostatic where the directions meet, and recipr
   const double back = renderer::bistatic_sigma0_over_sine(table, 0.7, 0.1, 0.6) * 0.7;
   CHECK(there == Approx(back).epsilon(1e-12));
   CHECK(renderer::bistatic_sigma0_over_sine(table, 0.1, -0.1, 0.6) == 0.0);
+}
+
+TEST_CASE("A surface mirrors no more than it leaves unscattered", "[bounce]") {
+  // Constant gamma: the integral of gamma sqrt(s / s_i) / 2 over the sine s is gamma / (3 sqrt s_i).
+  const renderer::NrcsTable even(materials::PhongNrcs(0.1, 0.0, 1.0));
+  for (const double sine : {0.05, 0.3, 1.0})
+    CHECK(renderer::scattered_share(even, sine) ==
+          Approx(0.1 / (3.0 * std::sqrt(sine))).epsilon(0.01));
+  // Sheet metal of the library: geometric optics of slopes of 0.2, a mirror with all its power in
+  // the lobe.
+  const materials::PhongNrcs sheet(0.16393, 12.088, 24.664);
+  const renderer::Mirrors mirrors({kPolished, kPolished},
+                                  {renderer::NrcsTable(kFaint), renderer::NrcsTable(sheet)},
+                                  tests::hivision().wavelength_m());
+  CHECK(mirrors.power(0, 1.0, 1.0) > 0.998);
+  CHECK(mirrors.power(1, 1.0, 1.0) < 0.25);
+  CHECK(mirrors.power(2, 1.0, 1.0) == 0.0);
 }
 
 TEST_CASE("Double bounce runs where walls stand beside something that reflects", "[bounce][plan]") {

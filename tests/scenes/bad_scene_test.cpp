@@ -128,7 +128,7 @@ TEST_CASE("Objects outside the terrain and unknown materials", "[bad_scene]") {
   check_problems("material = \"short_grass\"", "material = \"shortgrass\"",
                  "6:1: E-REF terrain.material = \"shortgrass\": expected a material of the "
                  "library; nearest are short_grass, "
-                 "tall_grass, forest");
+                 "tall_grass, short_grass_wet");
 }
 
 TEST_CASE("A trajectory outside the terrain, and a sensor inside the ground", "[bad_scene]") {

@@ -1,5 +1,5 @@
-// What [[target]] and [[line]] become: shapes, typical objects, wires, poles, and what is told about
-// them.
+// What [[target]] and [[line]] become: shapes, typical objects, wires, poles, and what is told
+// about them.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -158,7 +158,7 @@ TEST_CASE("Wrong names and keys of point scatterers", "[targets][bad_scene]") {
   CHECK(problems(target("rcs = \"cr\"")) ==
         Expected{"E-REF target[0].rcs = \"cr\": an object of the library; nearest are car, cart, "
                  "bus"});
-  CHECK(problems(target("rcs = 3.0")) == Expected{"E-PARSE target[0].rcs = 3.0: a table"});
+  CHECK(problems(target("rcs = 3.0")) == Expected{"E-PARSE target[0].rcs = 3: a table"});
   CHECK(problems(target("")).size() == 1);
   CHECK(
       problems(target("rcs = { shape = \"ball\" }"))[0].starts_with("E-RANGE target[0].rcs.shape"));

@@ -129,5 +129,6 @@ TEST_CASE("docs/scene-format.md names every key that a scene can have", "[scene_
         missing.push_back(entry.first);
     }
   }
+  for (const std::string& key : missing) UNSCOPED_INFO(key);
   CHECK(missing.empty());
 }

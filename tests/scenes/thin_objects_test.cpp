@@ -94,7 +94,7 @@ Steadiness steadiness(const renderer::World& world, const char* name,
 TEST_CASE("R09 a 0.3 m pole at 1500 m is steady and has its closed-form cross-section", "[R09]") {
   scenes::LineDescription line;
   line.name = "pole";
-  // pi r / W for poles within 10 deg of plumb: docs/physics/thin-objects.md.
+  // pi r / W with W = 10 deg: docs/physics/thin-objects.md.
   line.rcs_m2_per_m = kPi * 0.15 / core::radians(10.0);
   const glm::dvec3 foot_m(0.0, kRange_m, 0.0);
   const glm::dvec3 top_m(0.0, kRange_m, 12.0);

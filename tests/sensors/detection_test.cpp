@@ -28,7 +28,7 @@ double simpson(const std::function<double(double)>& f, double from, double to, i
 }
 
 // W. J. Albersheim, "A closed-form approximation to Robertson's detection characteristics", Proc.
-// IEEE 69, 1981, stated to be within 0.2 dB for Pd 0.1 to 0.9 and Pfa 1e-7 to 1e-3, linear detector.
+// IEEE 69, 1981, stated to be within 0.2 dB for Pd 0.1 to 0.9, Pfa 1e-7 to 1e-3, linear detector.
 // For one look, where all detectors are alike and Rice's density decides, it is not below Pd 0.3:
 // 4 dB low at Pd 0.1, Pfa 1e-3.
 double albersheim_dB(double pd, double pfa, int looks) {
@@ -139,7 +139,7 @@ TEST_CASE("N looks: closed forms of cases 1 and 2, steady target averaged over c
       for (const auto& [target, order] :
            {std::pair{Swerling::case3, 2}, std::pair{Swerling::case4, 2 * looks}}) {
         const double m = order;
-        const auto averaged = [&, target = target](double x) {
+        const auto averaged = [&](double x) {
           const double steady = detection_probability(Swerling::steady, snr * x / m, looks, t);
           return steady * poisson_probability(static_cast<int>(m) - 1, x);
         };

@@ -25,13 +25,17 @@ inline sensors::Sensor shipped_sensor(const std::string& name) {
 
 inline sensors::Sensor hivision() { return shipped_sensor("hivision.toml"); }
 
-// The text of hivision.toml with the one place where `from` stands replaced.
-inline std::string hivision_text(const std::string& from, const std::string& to) {
-  std::string text = core::read_file(sensor_path("hivision.toml"), 1U << 20U);
+// The text with the one place where `from` stands replaced.
+inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
+  INFO(from);
   REQUIRE(at != std::string::npos);
   REQUIRE(text.find(from, at + 1) == std::string::npos);
   return text.replace(at, from.size(), to);
+}
+
+inline std::string hivision_text(const std::string& from, const std::string& to) {
+  return replaced(core::read_file(sensor_path("hivision.toml"), 1U << 20U), from, to);
 }
 
 }  // namespace fanbeam::tests

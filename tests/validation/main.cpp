@@ -18,7 +18,8 @@ std::vector<Section> all_sections() {
   namespace v = fanbeam::validation;
   std::vector<Section> all;
   for (const auto& part : {v::gas_sections, v::fog_sections, v::rain_sections, v::surface_sections,
-                           v::dielectric_sections, v::target_sections, v::sensor_sections}) {
+                           v::precipitation_sections, v::dielectric_sections, v::target_sections,
+                           v::sensor_sections, v::detection_sections}) {
     const std::vector<Section> sections = part();
     all.insert(all.end(), sections.begin(), sections.end());
   }

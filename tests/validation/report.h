@@ -46,6 +46,8 @@ std::vector<Section> rain_sections();
 std::vector<Section> surface_sections();
 std::vector<Section> dielectric_sections();
 std::vector<Section> target_sections();
+std::vector<Section> precipitation_sections();
 std::vector<Section> sensor_sections();
+std::vector<Section> detection_sections();
 
 }  // namespace fanbeam::validation

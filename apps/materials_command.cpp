@@ -1,0 +1,262 @@
+#include "apps/materials_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/common.h"
+#include "apps/gnuplot.h"
+#include "apps/measurement_csv.h"
+#include "core/files.h"
+#include "core/units.h"
+#include "materials/library/library_text.h"
+#include "materials/library/material_library.h"
+#include "materials/library/model_reader.h"
+
+namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using materials::Material;
+using materials::NrcsCurve;
+
+constexpr double kListAngles_deg[] = {3.0, 10.0, 30.0};
+constexpr std::uint64_t kLargestFile_bytes = 4U << 20U;
+
+fs::path library_file(const MaterialsOptions& options) {
+  return options.library.empty() ? shipped_folder() / "materials" / "library.toml"
+                                 : fs::path(options.library);
+}
+
+core::Polarisation polarisation_of(const MaterialsOptions& options) {
+  return options.polarisation == "VV" ? core::Polarisation::vertical
+                                      : core::Polarisation::horizontal;
+}
+
+materials::SurfaceState state_of(const MaterialsOptions& options) {
+  const auto& names = materials::kSurfaceStateNames;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (options.state == names[i]) return static_cast<materials::SurfaceState>(i);
+  core::throw_input_error(core::ErrorClass::ref, "--state", "\"" + options.state + "\"",
+                          "dry, wet, dry-snow or wet-snow");
+}
+
+materials::MaterialLibrary read_library(const MaterialsOptions& options) {
+  core::ProblemList problems;
+  auto library = materials::MaterialLibrary::from_file(library_file(options), problems);
+  problems.throw_if_errors();
+  return library;
+}
+
+// One row as the options ask to see it.
+struct Row {
+  const Material& dry;
+  const Material& shown;
+  NrcsCurve curve;
+  bool known;  // at the frequency and polarisation asked for
+
+  double level_dB(double grazing_deg) const {
+    return 10.0 * std::log10(curve.sigma0(std::sin(core::radians(grazing_deg))));
+  }
+};
+
+std::vector<Row> rows_of(const materials::MaterialLibrary& library,
+                         const MaterialsOptions& options) {
+  const double frequency_Hz = options.frequency_GHz * 1e9;
+  const core::Polarisation polarisation = polarisation_of(options);
+  const materials::SurfaceState state = state_of(options);
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < library.size(); ++i) {
+    const Material& shown = library[library.in_state(i, state)];
+    rows.push_back({library[i], shown, NrcsCurve(shown.model, polarisation, frequency_Hz),
+                    extrapolations_of(shown.model, polarisation, frequency_Hz).empty()});
+  }
+  return rows;
+}
+
+std::string level_text(double level_dB) {
+  return std::isfinite(level_dB) ? fmt::format("{:7.1f}", level_dB) : "   dark";
+}
+
+// "HH", "VV" or "any": what the model tells apart.
+const char* polarisation_text(const materials::ModelValidity& known) {
+  return known.horizontal && known.vertical ? "any" : known.horizontal ? "HH" : "VV";
+}
+
+Json row_json(const Row& row) {
+  const materials::ModelValidity known = validity_of(row.shown.model);
+  Json json = {{"material", row.dry.name},
+               {"shown_as", row.shown.name},
+               {"model", name_of(row.shown.model)}};
+  if (const auto* phong = std::get_if<materials::PhongSurface>(&row.shown.model)) {
+    json["a"] = phong->nrcs.a();
+    json["b"] = phong->nrcs.b();
+    json["c"] = phong->nrcs.c();
+    json["reference_frequency_GHz"] = phong->reference_frequency_Hz / 1e9;
+    json["frequency_exponent"] = phong->frequency_exponent;
+  }
+  json["frequency_range_GHz"] = {known.frequency_Hz.low / 1e9, known.frequency_Hz.high / 1e9};
+  json["grazing_range_deg"] = {core::degrees(known.grazing_rad.low),
+                               core::degrees(known.grazing_rad.high)};
+  json["polarisation"] = polarisation_text(known);
+  json["extrapolated"] = !row.known;
+  json["sigma0_dB"] = Json::object();
+  for (const double angle_deg : kListAngles_deg) {
+    const double level_dB = row.level_dB(angle_deg);
+    json["sigma0_dB"][core::number_text(angle_deg)] =
+        std::isfinite(level_dB) ? Json(level_dB) : Json(nullptr);
+  }
+  if (!row.shown.dielectric.empty()) json["dielectric"] = row.shown.dielectric;
+  if (row.shown.rms_height_m) json["rms_height_mm"] = *row.shown.rms_height_m * 1000.0;
+  json["confidence"] = name_of(row.shown.confidence);
+  json["source"] = row.shown.source;
+  return json;
+}
+
+void print_row(const Row& row) {
+  const materials::ModelValidity known = validity_of(row.shown.model);
+  std::string figures = fmt::format("{:>32}", name_of(row.shown.model));
+  if (const auto* phong = std::get_if<materials::PhongSurface>(&row.shown.model))
+    figures = fmt::format("{:>10.4g} {:>10.4g} {:>10.4g}", phong->nrcs.a(), phong->nrcs.b(),
+                          phong->nrcs.c());
+  std::string levels;
+  for (const double angle_deg : kListAngles_deg) levels += level_text(row.level_dB(angle_deg));
+  const std::string range =
+      fmt::format("{:g}-{:g}", known.frequency_Hz.low / 1e9, known.frequency_Hz.high / 1e9);
+  fmt::print("{:<19}{} {}{} {:>9} {:<4} {:<9} {}{}\n", row.dry.name, figures, levels,
+             row.known ? " " : "*", range, polarisation_text(known), name_of(row.shown.confidence),
+             row.shown.name == row.dry.name ? "" : "as " + row.shown.name + ": ", row.shown.source);
+}
+
+// The keys of a library row for the model that the options name, to be read like one.
+std::string model_keys(const MaterialsFitOptions& fit) {
+  const auto quoted = [](const std::string& text) { return Json(text).dump(); };
+  std::string keys = "model = " + quoted(fit.model) + "\n";
+  if (!fit.terrain.empty()) keys += "terrain = " + quoted(fit.terrain) + "\n";
+  if (!fit.medium.empty()) keys += "medium = " + quoted(fit.medium) + "\n";
+  if (!fit.permittivity.empty())
+    keys += fmt::format("permittivity = [{}, {}]\n", core::number_text(fit.permittivity[0]),
+                        core::number_text(fit.permittivity[1]));
+  const auto number = [&keys](const char* key, const std::optional<double>& value) {
+    if (value) keys += fmt::format("{} = {}\n", key, core::number_text(*value));
+  };
+  number("sea_state", fit.sea_state);
+  number("rms_height_mm", fit.rms_height_mm);
+  number("rms_slope", fit.rms_slope);
+  number("temperature_C", fit.temperature_C);
+  return keys;
+}
+
+std::vector<materials::NrcsSample> samples_of_model(const MaterialsOptions& options,
+                                                    const MaterialsFitOptions& fit) {
+  core::ProblemList problems;
+  core::ConfigTable table = core::ConfigTable::from_text(model_keys(fit), "command line", problems);
+  const materials::SurfaceModel model = materials::read_surface_model(table);
+  table.report_unknown_keys();
+  problems.throw_if_errors();
+  std::size_t set = 0;
+  while (set + 1 < materials::kFitAnglesNames.size() &&
+         fit.angles != materials::kFitAnglesNames[set])
+    ++set;
+  return materials::sample_model(
+      [&](double grazing_rad) {
+        return sigma0(model, polarisation_of(options), options.frequency_GHz * 1e9, grazing_rad);
+      },
+      materials::fit_angles_deg(static_cast<materials::FitAngles>(set)));
+}
+
+std::vector<materials::NrcsSample> samples_of_file(const std::string& file) {
+  core::ProblemList problems;
+  auto samples = read_measurements(core::read_file(file, kLargestFile_bytes), file, problems);
+  problems.throw_if_errors();
+  return samples;
+}
+
+int print_library_again(const MaterialsOptions& options) {
+  const fs::path file = library_file(options);
+  core::ProblemList problems;
+  const std::string text = materials::with_fits_made_again(
+      core::read_file(file, kLargestFile_bytes), file.string(), problems);
+  problems.throw_if_errors();
+  fmt::print("{}", text);
+  return kExitDone;
+}
+
+}  // namespace
+
+int list_materials(const MaterialsOptions& options) {
+  const materials::MaterialLibrary library = read_library(options);
+  const std::vector<Row> rows = rows_of(library, options);
+  if (options.json) {
+    Json json = {{"library", library_file(options).string()},
+                 {"frequency_GHz", options.frequency_GHz},
+                 {"polarisation", options.polarisation},
+                 {"state", options.state},
+                 {"materials", Json::array()}};
+    for (const Row& row : rows) json["materials"].push_back(row_json(row));
+    fmt::print("{}\n", json.dump(1));
+    return kExitDone;
+  }
+  fmt::print(
+      "sigma0 at {:g} GHz, {}, {} surfaces, at grazing angles of 3, 10 and 30 deg; * is "
+      "outside what the row knows\n",
+      options.frequency_GHz, options.polarisation, options.state);
+  fmt::print("{:<19}{:>10} {:>10} {:>10}  {:>6} {:>6} {:>6} {:>10} {:<4} {:<9} {}\n", "material",
+             "a", "b", "c", "3 deg", "10 deg", "30 deg", "GHz", "pol.", "confid.", "source");
+  for (const Row& row : rows) print_row(row);
+  return kExitDone;
+}
+
+int plot_materials(const MaterialsOptions& options, const MaterialsPlotOptions& plot) {
+  constexpr int kPlaces = 400;
+  const materials::MaterialLibrary library = read_library(options);
+  core::ProblemList problems;
+  for (const std::string& name : plot.names) library.find(name, {}, "material", problems);
+  problems.throw_if_errors();
+  Plot picture;
+  picture.title = fmt::format("Surface reflectivity at {:g} GHz, {}, {}", options.frequency_GHz,
+                              options.polarisation, options.state);
+  picture.x = {"grazing angle, deg", true, 0.5, 90.0};
+  picture.y = {"sigma0, dB", false, {}, {}};
+  for (const Row& row : rows_of(library, options)) {
+    const bool wanted = plot.names.empty() || std::find(plot.names.begin(), plot.names.end(),
+                                                        row.dry.name) != plot.names.end();
+    if (!wanted) continue;
+    PlotSeries series;
+    series.title = row.dry.name;
+    if (!row.known) series.style = PlotSeries::Style::dashed_line;
+    for (int i = 0; i <= kPlaces; ++i) {
+      series.x.push_back(0.5 * std::pow(180.0, static_cast<double>(i) / kPlaces));
+      series.y.push_back(row.level_dB(std::min(series.x.back(), 90.0)));
+    }
+    picture.series.push_back(std::move(series));
+  }
+  const int key_px = 120 + 22 * static_cast<int>(picture.series.size());
+  picture.height_px = std::max(picture.height_px, key_px);
+  write_plot(picture, plot.output);
+  return kExitDone;
+}
+
+int fit_materials(const MaterialsOptions& options, const MaterialsFitOptions& fit) {
+  if (fit.whole_library) return print_library_again(options);
+  const materials::PhongFit result = materials::fit_phong(
+      fit.csv.empty() ? samples_of_model(options, fit) : samples_of_file(fit.csv));
+  if (options.json) {
+    const Json json = {{"a", result.nrcs.a()},
+                       {"b", result.nrcs.b()},
+                       {"c", result.nrcs.c()},
+                       {"rms_dB", result.rms_dB},
+                       {"largest_dB", result.max_dB}};
+    fmt::print("{}\n", json.dump(1));
+    return kExitDone;
+  }
+  fmt::print("a = {}\nb = {}\nc = {}\n# misses its source by {:.2f} dB RMS, {:.2f} dB at most\n",
+             materials::five_digits(result.nrcs.a()), materials::five_digits(result.nrcs.b()),
+             materials::five_digits(result.nrcs.c()), result.rms_dB, result.max_dB);
+  return kExitDone;
+}
+
+}  // namespace fanbeam::apps

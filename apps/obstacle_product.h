@@ -1,0 +1,25 @@
+// The product "obstacles": what cast a shadow in a frame's B-scope, with its estimated height.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "sensors/shadow/shadow_obstacles.h"
+
+namespace fanbeam::apps {
+
+// One line per obstacle under a comment with the input's fingerprint and the column names: range_m
+// (slant, of the leading edge), azimuth_deg, height_m, error_m (one range cell of shadow), shadow_m
+// (its length), truncated (1: height is a lower bound), merged (1: another object stands in the
+// shadow).
+std::string obstacle_table(const std::vector<sensors::ShadowObstacle>& obstacles,
+                           const std::string& fingerprint);
+
+std::filesystem::path obstacle_table_path(const std::filesystem::path& folder, int frame);
+
+// Whether the table of a frame is there and of this input.
+bool has_obstacle_table(const std::filesystem::path& folder, int frame,
+                        const std::string& fingerprint);
+
+}  // namespace fanbeam::apps

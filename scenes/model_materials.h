@@ -1,0 +1,50 @@
+// Materials that a model's own files describe (ASAM OpenMATERIAL 3D), beside those of the library.
+//
+// They look as their files say in every state of the weather: a wetted or snow-covered surface is
+// another material, and those files have none.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/errors.h"
+#include "materials/open_material/open_materials.h"
+#include "scenes/description.h"
+#include "terrain/height_field.h"
+
+namespace fanbeam::scenes {
+
+class ModelMaterials {
+ public:
+  // Ids count from `first_id`, the end of the library.
+  ModelMaterials(const SceneDescription& scene, std::size_t first_id, core::ProblemList& problems);
+
+  // The id of a glTF material of the model; nothing when the model has no such files, or they do
+  // not know the name. Problems as OpenMaterials; E-LIMIT beyond 65535 materials.
+  std::optional<terrain::MaterialId> id(const ModelDescription& model,
+                                        const std::string& gltf_name);
+
+  struct Entry {
+    std::string name;  // "car.glb:Steel"
+    materials::SurfaceModel surface;
+  };
+  const std::vector<Entry>& all() const { return entries_; }
+  std::vector<std::filesystem::path> files() const;
+
+ private:
+  using Key = std::pair<std::filesystem::path, std::filesystem::path>;  // model, materials
+
+  materials::RadarQuery query_;
+  std::size_t first_id_;
+  core::ProblemList& problems_;
+  std::map<std::filesystem::path, materials::OpenMaterials> opened_;
+  std::map<std::pair<Key, std::string>, std::optional<terrain::MaterialId>> ids_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace fanbeam::scenes
