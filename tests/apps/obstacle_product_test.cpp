@@ -34,7 +34,7 @@ TEST_CASE("render writes obstacles and raises them in a C-scope of mode shadow",
   std::ifstream shipped(fs::path(FANBEAM_SOURCE_DIR) / "scenes/obstacle-field/scene.toml");
   std::ofstream(scene / "scene.toml")
       << shipped.rdbuf() << "\n[display]\ncscope_mode = \"shadow\"\n";
-  const std::string words = " --frames 380 --effects=-rain-echo,-double-bounce -q ";
+  const std::string words = " --frames 380 --effects=-double-bounce -q ";
   const auto run = [&](const std::string& what, const char* out) {
     const Result result = run_fanbeam("render " + quoted(scene) + words + what + " -o " +
                                       quoted(folder.path() / out));

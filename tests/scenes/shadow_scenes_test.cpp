@@ -33,8 +33,8 @@ void check_all_found_within_1_m(const ShadowTally& tally, const std::string& box
 
 TEST_CASE("on level ground every wall and hangar with a free shadow has its height within 1 m",
           "[shadow]") {
-  // Neither rain's own echo nor ground mirrored in metal walls fills the shadows.
-  const ShadowTally tally = tally_of("obstacle-field", "-rain-echo,-double-bounce", 40);
+  // No ground mirrored in metal walls fills the shadows.
+  const ShadowTally tally = tally_of("obstacle-field", "-double-bounce", 40);
   CHECK(tally.frames == 15);
   check_all_found_within_1_m(tally, "wall", 13);
   check_all_found_within_1_m(tally, "oblique wall", 10);
@@ -44,21 +44,14 @@ TEST_CASE("on level ground every wall and hangar with a free shadow has its heig
   CHECK(tally.false_alarms <= 1);            // the runway in the farthest frame
 }
 
-TEST_CASE("metal walls mirror the ground into their shadows, dull walls keep theirs", "[shadow]") {
-  const ShadowTally tally = tally_of("obstacle-field", "-rain-echo", 80);
+TEST_CASE("metal walls mirror ground into their shadows, dull walls keep theirs", "[shadow]") {
+  const ShadowTally tally = tally_of("obstacle-field", "", 80);
   check_all_found_within_1_m(tally, "wall", 6);
   check_all_found_within_1_m(tally, "oblique wall", 5);
-  CHECK(tally.boxes.at("hangar west").found == 0);
-  CHECK(tally.boxes.at("hangar east").found == 0);
-}
-
-TEST_CASE("with everything that this scene calls for what is found is right", "[shadow]") {
-  // Rain of 4 mm/h takes contrast from every shadow; how much hangs on its echo.
-  const ShadowTally tally = tally_of("obstacle-field", "", 80);
-  for (const char* box : {"wall", "oblique wall"}) {
-    INFO(box);
-    CHECK(tally.boxes.at(box).within == tally.boxes.at(box).found);
-  }
+  // Fewer of the hangars' shadows are left, here 2 of 4; those tell the height.
+  const ShadowScore& hangar = tally.boxes.at("hangar west");
+  CHECK(hangar.found < hangar.free);
+  CHECK(hangar.within == hangar.found);
   CHECK(tally.false_alarms <= 1);
 }
 
@@ -67,7 +60,7 @@ TEST_CASE("rolling ground: how often and how well, and false alarms per frame", 
   INFO(tally.false_alarms << " false alarms in " << tally.frames << " frames, "
                           << tally.buildings.found << " at buildings, " << tally.buildings.within
                           << " of them within 1 m, " << tally.woods << " at woods");
-  CHECK(tally.false_alarms <= 0.6 * tally.frames);             // measured 0.42
+  CHECK(tally.false_alarms <= 0.6 * tally.frames);             // measured 0.35
   CHECK(tally.buildings.found >= 6 * tally.frames);            // measured 9.2
   CHECK(tally.buildings.within >= tally.buildings.found / 3);  // measured 41 %
 }
