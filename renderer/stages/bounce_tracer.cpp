@@ -157,8 +157,11 @@ bool BounceTracer::mirror(const sensors::AntennaFrame& antenna, const Packet& pa
 
 double BounceTracer::loss_factor(const glm::dvec3& a_m, const glm::dvec3& b_m,
                                  double length_m) const {
-  if (world_.attenuation.is_clear()) return 1.0;
-  return std::sqrt(world_.attenuation.two_way_power_factor(a_m.z, b_m.z, length_m));
+  double two_way = 1.0;
+  if (!world_.attenuation.is_clear())
+    two_way = world_.attenuation.two_way_power_factor(a_m.z, b_m.z, length_m);
+  if (world_.rain_cells) two_way *= world_.rain_cells->two_way_power_factor(a_m, b_m);
+  return std::sqrt(two_way);
 }
 
 bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay& ray,

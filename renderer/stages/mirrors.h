@@ -3,10 +3,12 @@
 //     rho = |Gamma_s|^2 c + |Gamma_p|^2 (1 - c),  times the coherent factor of the roughness
 // with Gamma of materials/dielectric/specular_surface.h and c the share of the wave's power whose
 // field stands perpendicular to the plane of incidence. The two parts do not interfere here: the
-// turn of polarisation at oblique planes is neglected. What a surface scatters it cannot mirror: rho
-// is at most one less the scattered share of bistatic_nrcs.h. Sheet metal whose reflectivity is that
-// of a rough mirror (all power in a lobe) is so kept from being a smooth mirror as well. Linear interpolation between 1024 steps of
-// the sine of the grazing angle; accuracy 1e-3 absolute for rms heights up to 5 mm at 35 GHz.
+// turn of polarisation at oblique planes is neglected. What a surface scatters it cannot mirror:
+// rho is at most one less the scattered share of bistatic_nrcs.h. Sheet metal whose reflectivity
+// is that of a rough mirror (all power in a lobe) is so kept from being a smooth mirror as well.
+// Linear interpolation between 1024 steps of the sine of the grazing angle; by the second
+// derivative of the roughness factor 1.3e-5 absolute for rms heights of 5 mm at 35 GHz, 5e-4 for
+// 30 mm. Metal in vertical polarisation turns below 0.06 deg, inside the first step.
 #pragma once
 
 #include <array>

@@ -76,7 +76,7 @@ TEST_CASE("run.json and timing.json have their documented keys, pictures the ess
   CHECK(run["sensor"] == "HiVision");
   CHECK(run["seed"] == 7);
   CHECK(run["caster"] == "rays");
-  CHECK(run["input"]["weather.rain_rate_mm_per_h"] == 4.0);
+  CHECK(run["input"]["weather.visibility_m"] == 200.0);
   CHECK(run["input"]["terrain.spacing_m"] == 10.0);
   CHECK(run["input"]["trajectory.ils.flare_height_m"] == 12.0);  // a default
   REQUIRE(run["plan"].size() >= 4);

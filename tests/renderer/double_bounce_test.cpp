@@ -251,6 +251,21 @@ TEST_CASE("An occluded corner gives nothing", "[bounce]") {
   CHECK(dB(image_W / dihedral_W(hanging.sensor).image_W) == Approx(0.0).margin(0.5));
 }
 
+TEST_CASE("A rain cell takes from a bounce what it takes from a direct echo", "[bounce]") {
+  renderer::World world = corner_world();
+  const double dry_W = added_W(world, renderer::sampling_for(4.0))[kCornerCell];
+  atmosphere::Weather weather;
+  weather.rain_cells = {{.radius_m = 50000.0, .rain_rate_mm_per_h = 20.0, .base_m = -100.0}};
+  world.rain_cells.emplace(weather, world.sensor.waveform.frequency_Hz);
+  const double wet_W = added_W(world, renderer::sampling_for(4.0))[kCornerCell];
+  // Every way by the corner is twice its slant range long, within a metre.
+  const double range_m = std::hypot(kDistance_m, kHeight_m);
+  const double two_way_dB =
+      2.0 * world.rain_cells->one_way_dB({0.0, 0.0, kHeight_m}, {0.0, range_m, kHeight_m});
+  CHECK(two_way_dB > 5.0);
+  CHECK(10.0 * std::log10(dry_W / wet_W) == Approx(two_way_dB).margin(0.02));
+}
+
 TEST_CASE("Nothing that reflects: the effect changes no byte", "[bounce]") {
   renderer::World world = corner_world();
   const renderer::Sampling sampling = renderer::sampling_for(4.0);

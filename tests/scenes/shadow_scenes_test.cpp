@@ -48,7 +48,7 @@ TEST_CASE("metal walls mirror ground into their shadows, dull walls keep theirs"
   const ShadowTally tally = tally_of("obstacle-field", "", 80);
   check_all_found_within_1_m(tally, "wall", 6);
   check_all_found_within_1_m(tally, "oblique wall", 5);
-  // Fewer of the hangars' shadows are left, here 2 of 4; those tell the height.
+  // Fewer of the hangars' shadows are left; those tell the height.
   const ShadowScore& hangar = tally.boxes.at("hangar west");
   CHECK(hangar.found < hangar.free);
   CHECK(hangar.within == hangar.found);

@@ -1,0 +1,98 @@
+#include "apps/frame_metadata.h"
+
+#include <fmt/format.h>
+
+#include "apps/common.h"
+#include "apps/detection_product.h"
+#include "apps/obstacle_product.h"
+#include "core/units.h"
+
+namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string cscope_text(sensors::Display::CScopeMode mode) {
+  using Mode = sensors::Display::CScopeMode;
+  if (mode == Mode::true_elevation)
+    return "true_elevation: ground truth, a fan beam cannot measure elevation";
+  if (mode == Mode::flat_earth) return "flat_earth: elevation from range and height above ground";
+  return "shadow: flat_earth with obstacles raised to heights estimated from their shadows";
+}
+
+std::string value_of(const core::Metadata& metadata, const std::string& name) {
+  for (const auto& [key, value] : metadata)
+    if (key == name) return value;
+  return "";
+}
+
+}  // namespace
+
+core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& record,
+                              const std::string& fingerprint) {
+  const sensors::Sensor& sensor = scene.description.sensor;
+  std::string events;
+  for (const std::string& event : record.events) events += (events.empty() ? "" : " ") + event;
+  return {
+      {"Software", "fanbeam " + version_text() + " " + commit_text()},
+      {"fanbeam:scene", scene.description.name},
+      {"fanbeam:sensor", sensor.name},
+      {"fanbeam:input", fingerprint},
+      {"fanbeam:frame", std::to_string(record.index)},
+      {"fanbeam:time_s", core::number_text(record.time_s)},
+      {"fanbeam:latitude_deg", core::number_text(core::degrees(record.pose.position.latitude_rad))},
+      {"fanbeam:longitude_deg",
+       core::number_text(core::degrees(record.pose.position.longitude_rad))},
+      {"fanbeam:height_m", core::number_text(record.pose.position.height_m)},
+      {"fanbeam:heading_deg",
+       core::number_text(core::degrees(core::attitude_from(record.pose.q_NB).heading_rad))},
+      {"fanbeam:azimuth",
+       fmt::format("{} columns, {} deg", sensor.scan.columns,
+                   core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
+      {"fanbeam:range", fmt::format("{} m + {} x {} m", core::number_text(sensor.range.minimum_m),
+                                    sensor.range.cells, core::number_text(sensor.range.cell_m))},
+      {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(sensor.display.low_dB),
+                                         core::number_text(sensor.display.high_dB))},
+      {"fanbeam:cscope", cscope_text(sensor.display.cscope_mode)},
+      {"fanbeam:realisation", realisation_of(scene.plan)},
+      {"fanbeam:rays", std::to_string(record.rays)},
+      {"fanbeam:blanked", std::to_string(record.blanked)},
+      {"fanbeam:events", events}};
+}
+
+bool take_over(const fs::path& folder, const ProductSet& products, const std::string& fingerprint,
+               FrameRecord& record) {
+  for (const std::string& product : products) {
+    if (product == "preview") return false;
+    if (product == "obstacles") {  // its table does not hold the frame's record
+      if (products.size() == 1 || !has_obstacle_table(folder, record.index, fingerprint))
+        return false;
+      continue;
+    }
+    if (product == "detections" && !has_detection_table(folder, record.index, fingerprint))
+      return false;
+    const fs::path file = frame_path(folder, product, record.index);
+    if (!fs::is_regular_file(file)) return false;
+    core::Metadata metadata;
+    try {
+      metadata = core::read_metadata(file);
+      core::read_image(file);  // whole?
+    } catch (const core::InputError&) {
+      return false;  // damaged: render it again
+    }
+    if (value_of(metadata, "fanbeam:input") != fingerprint) return false;
+    record.rays = std::stoull("0" + value_of(metadata, "fanbeam:rays"));
+    record.blanked = std::stoull("0" + value_of(metadata, "fanbeam:blanked"));
+    record.events.clear();
+    const std::string events = value_of(metadata, "fanbeam:events");
+    for (std::size_t from = 0; from < events.size();) {
+      const std::size_t blank = std::min(events.find(' ', from), events.size());
+      record.events.push_back(events.substr(from, blank - from));
+      from = blank + 1;
+    }
+  }
+  record.resumed = true;
+  return true;
+}
+
+}  // namespace fanbeam::apps
