@@ -22,7 +22,7 @@ constexpr int kCellsPerStep = 8;
 // Echo and loss change slowly with elevation and along a ray: they are evaluated this far apart and
 // interpolated. The border of a rain cell is sharp in eta; its loss is off by at most half a step of
 // loss, 0.1 dB in a shower of 40 mm/h at 94 GHz.
-constexpr double kNodeStep_rad = 1.0 * core::kPi / 180.0;
+constexpr double kNodeStep_rad = 2.0 * core::kPi / 180.0;
 constexpr int kCellsPerLoss = 4;
 constexpr double kNeperPer_dB = 0.1 * 2.302585092994046;  // of power
 constexpr double kUnlimited_m = std::numeric_limits<double>::infinity();
@@ -92,29 +92,13 @@ class Echo {
     return ground_m ? antenna_.position_m.z - *ground_m : 0.0;
   }
 
-  // Loss along a ray from the antenna, one way, in dB: every few cells, straight lines between.
-  std::vector<double> loss_dB(const glm::dvec3& along) const {
-    const auto exact_dB = [&](int cell) {
-      const double range_m = sensors::range_edge_m(sensor_.range, cell);
-      const glm::dvec3 place_m = antenna_.position_m + along * range_m;
-      const double cells_dB =
-          world_.rain_cells ? world_.rain_cells->one_way_dB(antenna_.position_m, place_m) : 0.0;
-      return cells_dB + world_.attenuation.one_way_dB(antenna_.position_m.z, place_m.z, range_m);
-    };
-    const int cells = sensor_.range.cells;
-    std::vector<double> edges_dB(static_cast<std::size_t>(cells) + 1);
-    int from = 0;
-    double from_dB = exact_dB(0);
-    while (from < cells) {
-      const int to = std::min(from + kCellsPerLoss, cells);
-      const double to_dB = exact_dB(to);
-      for (int cell = from; cell <= to; ++cell)
-        edges_dB[static_cast<std::size_t>(cell)] =
-            from_dB + (to_dB - from_dB) * (cell - from) / (to - from);
-      from = to;
-      from_dB = to_dB;
-    }
-    return edges_dB;
+  // One way, from the antenna to the near edge of a cell.
+  double loss_dB(const glm::dvec3& along, int cell) const {
+    const double range_m = sensors::range_edge_m(sensor_.range, cell);
+    const glm::dvec3 place_m = antenna_.position_m + along * range_m;
+    const double cells_dB =
+        world_.rain_cells ? world_.rain_cells->one_way_dB(antenna_.position_m, place_m) : 0.0;
+    return cells_dB + world_.attenuation.one_way_dB(antenna_.position_m.z, place_m.z, range_m);
   }
 
   // Echo power per unit of two-way elevation gain and radian of azimuth in every range cell, as if
@@ -122,23 +106,31 @@ class Echo {
   std::vector<double> profile(double elevation_rad, double azimuth_rad) const {
     const glm::dvec3 along =
         sensors::direction(antenna_, azimuth_rad, elevation_rad, sensor_.scan.surface);
-    const std::vector<double> edges_dB = loss_dB(along);
     // J of ray_caster.h.
     const double jacobian =
         sensor_.scan.surface == sensors::ScanSurface::cone ? std::cos(azimuth_rad) : 1.0;
     const double constant = sensor_.radar_constant_W_m2() * jacobian;
-    std::vector<double> power_W(static_cast<std::size_t>(sensor_.range.cells), 0.0);
-    for (std::size_t cell = 0; cell < power_W.size(); ++cell) {
-      const double near_m = sensors::range_edge_m(sensor_.range, static_cast<int>(cell));
-      const double far_m = sensors::range_edge_m(sensor_.range, static_cast<int>(cell) + 1);
-      const double eta =
-          world_.volume_echo->eta_m2_per_m3(antenna_.position_m + along * ((near_m + far_m) / 2.0));
-      if (!(eta > 0.0 && near_m > 0.0)) continue;
+    const int cells = sensor_.range.cells;
+    const double cell_m = sensor_.range.cell_m;
+    std::vector<double> power_W(static_cast<std::size_t>(cells), 0.0);
+    double near_dB = loss_dB(along, 0);
+    for (int first = 0; first < cells; first += kCellsPerLoss) {
+      const int last = std::min(first + kCellsPerLoss, cells);
+      const double far_dB = loss_dB(along, last);
       const double extinction_per_m =
-          (edges_dB[cell + 1] - edges_dB[cell]) / (far_m - near_m) * kNeperPer_dB;
-      power_W[cell] = constant * eta * std::exp(-2.0 * kNeperPer_dB * edges_dB[cell]) *
-                      atmosphere::attenuated_length_m(extinction_per_m, far_m - near_m) /
-                      (near_m * far_m);
+          std::max(far_dB - near_dB, 0.0) / ((last - first) * cell_m) * kNeperPer_dB;
+      const double per_cell = std::exp(-2.0 * extinction_per_m * cell_m);
+      double length_m = atmosphere::attenuated_length_m(extinction_per_m, cell_m) *
+                        std::exp(-2.0 * kNeperPer_dB * near_dB);
+      for (int cell = first; cell < last; ++cell, length_m *= per_cell) {
+        const double from_m = sensors::range_edge_m(sensor_.range, cell);
+        const double eta = world_.volume_echo->eta_m2_per_m3(antenna_.position_m +
+                                                             along * (from_m + cell_m / 2.0));
+        if (from_m > 0.0)
+          power_W[static_cast<std::size_t>(cell)] =
+              constant * eta * length_m / (from_m * (from_m + cell_m));
+      }
+      near_dB = far_dB;
     }
     return power_W;
   }
@@ -157,6 +149,28 @@ class Echo {
     const auto hit =
         world_.surfaces->intersect(antenna_.position_m, along, sensor_.range.maximum_m());
     return hit ? hit->distance_m : kUnlimited_m;
+  }
+
+  // How far the air is free along every border. Where two borders a few intervals apart both see
+  // the sky, or both end before the first range cell, so does what lies between: things narrower
+  // than half a degree above the horizon are missed.
+  std::vector<double> free_distances_m(double azimuth_rad) const {
+    constexpr std::size_t kStride = 5;
+    const auto unseen = [&](double free_m) {
+      return free_m == kUnlimited_m || free_m < sensor_.range.minimum_m;
+    };
+    std::vector<double> free(borders_.size());
+    free[0] = free_m(azimuth_rad, borders_[0]);
+    for (std::size_t from = 0; from + 1 < borders_.size();) {
+      const std::size_t to = std::min(from + kStride, borders_.size() - 1);
+      free[to] = free_m(azimuth_rad, borders_[to]);
+      const bool between = !unseen(free[from]) || !unseen(free[to]) ||
+                           std::isinf(free[from]) != std::isinf(free[to]);
+      for (std::size_t i = from + 1; i < to; ++i)
+        free[i] = between ? free_m(azimuth_rad, borders_[i]) : free[from];
+      from = to;
+    }
+    return free;
   }
 
   void add_block(int block);
@@ -189,6 +203,7 @@ void Echo::add_interval(std::size_t i, const std::vector<std::vector<double>>& n
   const double lower = gain_rad_[i] - upper;
   const double nearer_m = std::min(free_low_m, free_high_m);
   const double farther_m = std::max(free_low_m, free_high_m);
+  if (farther_m <= sensor_.range.minimum_m) return;
   double sum_W_m3 = 0.0;
   for (int cell = 0; cell < sensor_.range.cells; ++cell) {
     const double range_m = sensors::range_middle_m(sensor_.range, cell);
@@ -218,12 +233,9 @@ void Echo::add_block(int block) {
   const std::vector<std::vector<double>> own =
       same_in_all_azimuths_ ? std::vector<std::vector<double>>{} : profiles(azimuth_rad);
   const std::vector<std::vector<double>>& nodes_W = same_in_all_azimuths_ ? common_ : own;
-  double free_low_m = free_m(azimuth_rad, borders_.front());
-  for (std::size_t i = 0; i < gain_rad_.size(); ++i) {
-    const double free_high_m = free_m(azimuth_rad, borders_[i + 1]);
-    add_interval(i, nodes_W, free_low_m, free_high_m, range_W, row_W_m3);
-    free_low_m = free_high_m;
-  }
+  const std::vector<double> free = free_distances_m(azimuth_rad);
+  for (std::size_t i = 0; i < gain_rad_.size(); ++i)
+    add_interval(i, nodes_W, free[i], free[i + 1], range_W, row_W_m3);
   const auto add = [](const std::vector<double>& from, double* to) {
     for (std::size_t k = 0; k < from.size(); ++k) to[k] += from[k];
   };
