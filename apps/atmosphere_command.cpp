@@ -37,22 +37,20 @@ Question question_of(const AtmosphereOptions& options) {
     question = {scene.weather, scene.sensor, scene.rain_cells};
   }
   problems.throw_if_errors();
-  atmosphere::Weather& weather = question.weather;
-  if (options.rain_mm_per_h) weather.rain_rate_mm_per_h = *options.rain_mm_per_h;
-  if (options.snow_mm_per_h) weather.snow_rate_mm_per_h = *options.snow_mm_per_h;
-  if (options.visibility_m || options.liquid_water_g_per_m3) {
-    weather.visibility_m = options.visibility_m;
-    weather.liquid_water_g_per_m3 = options.liquid_water_g_per_m3;
-  }
-  if (options.fog_top_m) weather.fog_top_m = *options.fog_top_m;
-  if (options.temperature_C) weather.temperature_C = options.temperature_C;
-  if (options.humidity) weather.humidity = options.humidity;
-  if (options.pressure_hPa) weather.pressure_hPa = options.pressure_hPa;
-  if (!options.rain_law.empty()) weather.rain_law = atmosphere::rain_law_named(options.rain_law);
-  if (!options.drop_sizes.empty())
-    weather.drop_sizes = atmosphere::drop_sizes_named(options.drop_sizes);
-  if (options.vertical) weather.polarisation_tilt_rad = core::kPi / 2;
+  put_over(options.weather, question.weather);
   return question;
+}
+
+// The problem in the words of the command line, where an option gave the value.
+core::Problem in_words_of_options(core::Problem problem, const AtmosphereOptions& options) {
+  const bool compares = !options.compare_GHz.empty();
+  std::string option = option_behind(options.weather, problem.field);
+  if (problem.field == "frequency_Hz" && (compares || !options.frequency_GHz.empty())) {
+    option = compares ? "--compare" : "--frequency";
+    problem.value = core::number_text(std::stod(problem.value) * 1e-9) + " GHz";
+  }
+  if (!option.empty()) problem.field = option;
+  return problem;
 }
 
 // dB of an echo that may be none.
@@ -115,15 +113,16 @@ void print_table(const AtmosphereTable& table) {
                2.0 * row.total_one_way_dB(), row.eta_m2_per_m3, dB_text(row.equivalent_sigma0_dB));
 }
 
-void print_all(const Question& question, const AtmospherePath& path,
-               const std::vector<AtmosphereTable>& tables,
-               const std::vector<AtmosphereModel>& models) {
+void print_notes(const AtmospherePath& path, const std::vector<AtmosphereModel>& models) {
   fmt::print(
       "Path from {} m to {} m above the origin; eta where it ends, and the sigma0 of ground "
       "that would\nreturn as much as a beam of {:.2f} deg (two-way) full of it.\n",
       path.from_height_m, path.to_height_m, path.beam_height_rad * 180.0 / core::kPi);
   for (const AtmosphereModel& model : models)
     fmt::print("  {:<10} {:<42} {}\n", model.cause, model.model, model.source);
+}
+
+void print_tables(const Question& question, const std::vector<AtmosphereTable>& tables) {
   for (const AtmosphereTable& table : tables) {
     print_table(table);
     for (const scenes::RainCellDescription& described : question.rain_cells) {
@@ -162,13 +161,13 @@ void write_files(const fs::path& folder, const std::vector<AtmosphereTable>& tab
     write_plot(plot_of(tables), folder / name);
 }
 
-}  // namespace
-
-int atmosphere(const AtmosphereOptions& options, const CommonOptions& common) {
-  const Question question = question_of(options);
-  if (!options.compare_GHz.empty())
-    return compare_frequencies(question.weather, 1e9 * options.compare_GHz[0],
-                               1e9 * options.compare_GHz[1], options.output, common);
+void answer(const Question& question, const AtmosphereOptions& options,
+            const CommonOptions& common) {
+  if (!options.compare_GHz.empty()) {
+    compare_frequencies(question.weather, 1e9 * options.compare_GHz[0],
+                        1e9 * options.compare_GHz[1], options.output);
+    return;
+  }
   const AtmospherePath path{options.height_m, options.to_height_m, options.range_m, options.step_m,
                             sensors::two_way_width(question.sensor.antenna.elevation)};
   std::vector<double> frequencies_GHz = options.frequency_GHz;
@@ -178,13 +177,29 @@ int atmosphere(const AtmosphereOptions& options, const CommonOptions& common) {
   for (const double frequency_GHz : frequencies_GHz)
     tables.push_back(atmosphere_table(question.weather, 1e9 * frequency_GHz, path));
   const std::vector<AtmosphereModel> models = atmosphere_models(question.weather);
-  if (options.json)
+  if (options.json) {
     fmt::print("{}", json_of(tables, models));
-  else if (options.csv)
+  } else if (options.csv) {
     fmt::print("{}", csv_of(tables));
-  else if (!common.quiet)
-    print_all(question, path, tables, models);
+  } else {
+    if (!common.quiet) print_notes(path, models);
+    print_tables(question, tables);
+  }
   if (!options.output.empty()) write_files(options.output, tables, models);
+}
+
+}  // namespace
+
+int atmosphere(const AtmosphereOptions& options, const CommonOptions& common) {
+  const Question question = question_of(options);
+  try {
+    answer(question, options, common);
+  } catch (const core::InputError& error) {
+    std::vector<core::Problem> problems;
+    for (const core::Problem& problem : error.problems())
+      problems.push_back(in_words_of_options(problem, options));
+    throw core::InputError(problems);
+  }
   return kExitDone;
 }
 

@@ -94,7 +94,8 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
   if (pairs == 0)
     core::throw_input_error(core::ErrorClass::io, core::Place{a.string()}, "images",
                             "none in both folders", "PNG or EXR images");
-  fmt::print("{} pairs of images {}\n", pairs, same ? "agree" : "compared, some differ");
+  if (!common.quiet || !same)
+    fmt::print("{} pairs of images {}\n", pairs, same ? "agree" : "compared, some differ");
   return same ? kExitDone : kExitCompareFailed;
 }
 

@@ -191,12 +191,12 @@ PowerBalance rain_balance(const Weather& base, double rain_mm_per_h, double rang
           2.0 * (one_way_dB(weather, first_Hz, range_m) - one_way_dB(weather, second_Hz, range_m))};
 }
 
-int compare_frequencies(const Weather& base, double first_Hz, double second_Hz,
-                        const fs::path& folder, const CommonOptions& common) {
+void compare_frequencies(const Weather& base, double first_Hz, double second_Hz,
+                         const fs::path& folder) {
   for (const double frequency_Hz : {first_Hz, second_Hz})
     atmosphere::problems_in(clear_weather(base), frequency_Hz).throw_if_errors();
-  if (!common.quiet) print_figures(base, first_Hz, second_Hz);
-  if (folder.empty()) return kExitDone;
+  print_figures(base, first_Hz, second_Hz);
+  if (folder.empty()) return;
   fs::create_directories(folder);
   const std::vector<std::pair<std::string, Plot>> plots = {
       {"fog", fog_plot(base, {first_Hz, second_Hz})},
@@ -206,7 +206,6 @@ int compare_frequencies(const Weather& base, double first_Hz, double second_Hz,
   for (const auto& [what, plot] : plots)
     for (const char* ending : {".svg", ".png"})
       write_plot(plot, folder / fmt::format("frequency-choice-{}{}", what, ending));
-  return kExitDone;
 }
 
 }  // namespace fanbeam::apps

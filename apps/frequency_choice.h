@@ -3,7 +3,6 @@
 
 #include <filesystem>
 
-#include "apps/common.h"
 #include "atmosphere/weather.h"
 
 namespace fanbeam::apps {
@@ -12,8 +11,8 @@ namespace fanbeam::apps {
 // frequency-choice-{fog,rain,loss,balance} there, each as .svg and .png. Temperature, pressure,
 // laws and drop sizes are those of `base`; its fog and rain are replaced by what each plot varies.
 // Level paths at the origin's height.
-int compare_frequencies(const atmosphere::Weather& base, double first_Hz, double second_Hz,
-                        const std::filesystem::path& folder, const CommonOptions& common);
+void compare_frequencies(const atmosphere::Weather& base, double first_Hz, double second_Hz,
+                         const std::filesystem::path& folder);
 
 // What a watt sent at the second frequency brings back of a volume of water drops, over what it
 // brings at the first, in dB, the antenna's area, beam filling and receiver being equal.

@@ -150,8 +150,25 @@ std::string model_keys(const MaterialsFitOptions& fit) {
   return keys;
 }
 
+// "rms_height_mm" came from --rms-height-mm; only a frequency's unit is not part of its option.
+[[noreturn]] void throw_in_words_of_options(const core::InputError& error,
+                                            const std::string& model) {
+  std::vector<core::Problem> problems;
+  for (core::Problem problem : error.problems()) {
+    problem.place = {};
+    problem.field = problem.field == "frequency_GHz" ? "--frequency" : "--" + problem.field;
+    std::replace(problem.field.begin(), problem.field.end(), '_', '-');
+    if (problem.value == "unknown key") {
+      problem.value = "given";
+      problem.expected = "an option of the model " + model;
+    }
+    problems.push_back(problem);
+  }
+  throw core::InputError(problems);
+}
+
 std::vector<materials::NrcsSample> samples_of_model(const MaterialsOptions& options,
-                                                    const MaterialsFitOptions& fit) {
+                                                    const MaterialsFitOptions& fit) try {
   core::ProblemList problems;
   core::ConfigTable table = core::ConfigTable::from_text(model_keys(fit), "command line", problems);
   const materials::SurfaceModel model = materials::read_surface_model(table);
@@ -166,6 +183,8 @@ std::vector<materials::NrcsSample> samples_of_model(const MaterialsOptions& opti
         return sigma0(model, polarisation_of(options), options.frequency_GHz * 1e9, grazing_rad);
       },
       materials::fit_angles_deg(static_cast<materials::FitAngles>(set)));
+} catch (const core::InputError& error) {
+  throw_in_words_of_options(error, fit.model);
 }
 
 std::vector<materials::NrcsSample> samples_of_file(const std::string& file) {

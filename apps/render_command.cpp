@@ -33,15 +33,14 @@ double seconds_since(Clock::time_point begin) {
 }
 
 ProductSet parse_products(const std::string& text) {
-  const ProductSet known = {"bscope", "cscope", "pair",      "power",
-                            "ppi",    "ppi_north", "preview", "detections",
-                            "obstacles"};
+  std::vector<std::string_view> known;
+  for (const Product& product : kProducts) known.push_back(product.name);
   ProductSet products;
   for (std::size_t from = 0; from <= text.size();) {
     const std::size_t comma = std::min(text.find(',', from), text.size());
     const std::string name = text.substr(from, comma - from);
     from = comma + 1;
-    if (!known.contains(name))
+    if (std::find(known.begin(), known.end(), name) == known.end())
       core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
                               fmt::format("a list of {}", fmt::join(known, ", ")));
     products.insert(name);

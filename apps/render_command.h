@@ -1,12 +1,27 @@
 // fanbeam render: a scene's approach as pictures.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "apps/common.h"
 
 namespace fanbeam::apps {
+
+struct Product {
+  std::string_view name, what;
+};
+inline constexpr std::array<Product, 9> kProducts = {{{"bscope", "range over azimuth, PNG"},
+                                                      {"cscope", "elevation over azimuth, PNG"},
+                                                      {"pair", "both side by side"},
+                                                      {"ppi", "plan view, track up"},
+                                                      {"ppi_north", "plan view, north up"},
+                                                      {"power", "EXR, watts, with ground truth"},
+                                                      {"detections", "mask and CSV"},
+                                                      {"obstacles", "CSV, heights from shadows"},
+                                                      {"preview", "video"}}};
 
 struct RenderOptions {
   std::string scene = "braunschweig-26";

@@ -57,13 +57,21 @@ double VolumeEcho::largest_eta_m2_per_m3(double lowest_m, double highest_m) cons
   return eta;
 }
 
-double VolumeEcho::top_m() const noexcept {
-  double top_m = kLowestWeather_m;
-  if (rain_eta_m2_per_m3_ > 0.0) top_m = std::max(top_m, layers_.rain_top_m);
-  if (snow_eta_m2_per_m3_ > 0.0 && layers_.snow_base_m < layers_.snow_top_m)
-    top_m = std::max(top_m, layers_.snow_top_m);
-  for (const Cell& cell : cells_) top_m = std::max(top_m, cell.prism.top_m());
-  return top_m;
+bool VolumeEcho::same_at_all_heights(double lowest_m, double highest_m) const noexcept {
+  const auto between = [&](double border_m) {
+    return lowest_m < border_m && border_m <= highest_m;
+  };
+  if (rain_eta_m2_per_m3_ > 0.0) {
+    if (between(layers_.rain_top_m)) return false;
+    const bool melts_there =
+        lowest_m < layers_.rain_top_m && highest_m > layers_.rain_top_m - kMeltingDepth_m;
+    if (layers_.melting && melts_there) return false;
+  }
+  if (snow_eta_m2_per_m3_ > 0.0 && (between(layers_.snow_base_m) || between(layers_.snow_top_m)))
+    return false;
+  return std::none_of(cells_.begin(), cells_.end(), [&](const Cell& cell) {
+    return between(cell.prism.base_m()) || between(cell.prism.top_m());
+  });
 }
 
 }  // namespace fanbeam::atmosphere

@@ -24,9 +24,6 @@ class VolumeEcho {
   // Throws InputError with every problem of problems_in(weather, frequency_Hz).
   VolumeEcho(const Weather& weather, double frequency_Hz);
 
-  // Nothing echoes anywhere.
-  bool is_empty() const noexcept { return largest_eta_m2_per_m3() == 0.0; }
-
   // Local metres: x east, y north, z above the scene's origin; finite.
   double eta_m2_per_m3(const glm::dvec3& position_m) const noexcept;
 
@@ -40,8 +37,8 @@ class VolumeEcho {
   double largest_eta_m2_per_m3() const noexcept;
   double largest_eta_m2_per_m3(double lowest_m, double highest_m) const noexcept;
 
-  // Nothing echoes at or above this height (the lowest height of the weather when empty).
-  double top_m() const noexcept;
+  // Height alone changes nothing between two heights: no top, base or melting layer lies there.
+  bool same_at_all_heights(double lowest_m, double highest_m) const noexcept;
 
  private:
   struct Cell {

@@ -16,15 +16,12 @@ glm::dmat3 axes_along(const glm::dvec3& z) {
   return {x, glm::cross(z, x), z};
 }
 
-// Between the electric field and the line, seen from the side at level flight.
-double polarisation_rad(const WireDescription& wire, const glm::dvec3& along,
-                        core::Polarisation polarisation) {
-  if (wire.polarisation_rad) return *wire.polarisation_rad;
-  const double slope_rad = std::asin(std::min(1.0, std::abs(along.z)));
+}  // namespace
+
+double across_wire_rad(double sin_slope, core::Polarisation polarisation) {
+  const double slope_rad = std::asin(std::min(1.0, std::abs(sin_slope)));
   return polarisation == core::Polarisation::horizontal ? slope_rad : core::kPi / 2.0 - slope_rad;
 }
-
-}  // namespace
 
 int line_point_count(const LineDescription& line, double length_m) {
   return std::max(1, static_cast<int>(std::ceil(length_m / line.spacing_m)));
@@ -41,8 +38,9 @@ void add_line_points(const LineDescription& line, const glm::dvec3& begin_m,
   if (line.object) rcs = *line.object;
   if (line.wire && length_m > 0.0) {
     const glm::dvec3 along = path_m / length_m;
-    rcs = materials::RoundWire{line.wire->radius_m, length_m / count,
-                               polarisation_rad(*line.wire, along, polarisation),
+    const double across_rad =
+        line.wire->polarisation_rad.value_or(across_wire_rad(along.z, polarisation));
+    rcs = materials::RoundWire{line.wire->radius_m, length_m / count, across_rad,
                                line.wire->coherence_length_m};
     axes = axes_along(along);
   }

@@ -28,6 +28,10 @@ namespace fanbeam::scenes {
 // At least one. The ends may coincide.
 int line_point_count(const LineDescription& line, double length_m);
 
+// The angle between the electric field and a wire that rises with this slope, seen from the side at
+// level flight: 0 along the wire, pi / 2 across it.
+double across_wire_rad(double sin_slope, core::Polarisation polarisation);
+
 // The radar's polarisation matters to wires alone.
 void add_line_points(const LineDescription& line, const glm::dvec3& begin_m,
                      const glm::dvec3& end_m, core::Polarisation polarisation,

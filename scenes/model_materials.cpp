@@ -1,18 +1,18 @@
 #include "scenes/model_materials.h"
 
+#include "scenes/scene_surfaces.h"
+
 namespace fanbeam::scenes {
 namespace {
 
 constexpr std::size_t kMostMaterials = 65535;
-constexpr double kStandardTemperature_C = 15.0;
 
 }  // namespace
 
 ModelMaterials::ModelMaterials(const SceneDescription& scene, std::size_t first_id,
                                core::ProblemList& problems)
     : query_{scene.sensor.waveform.frequency_Hz, scene.sensor.waveform.polarisation,
-             273.15 + scene.weather.temperature_C.value_or(kStandardTemperature_C),
-             scene.allow_extrapolation},
+             surface_temperature_K(scene), scene.allow_extrapolation},
       first_id_(first_id),
       problems_(problems) {}
 
@@ -34,9 +34,9 @@ std::optional<terrain::MaterialId> ModelMaterials::id(const ModelDescription& mo
   if (!opened->second.knows(gltf_name)) return id;
   const std::string name = model.file.filename().string() + ":" + gltf_name;
   if (auto surface = opened->second.surface_of(gltf_name, problems_))
-    entries_.push_back({name, std::move(*surface)});
+    entries_.push_back({name, std::move(surface->reflectivity), surface->mirror});
   else
-    entries_.push_back({name, {}});  // its problems have been told
+    entries_.push_back({name, {}, {}});  // its problems have been told
   const std::size_t index = first_id_ + entries_.size() - 1;
   if (index >= kMostMaterials) {
     problems_.error(core::ErrorClass::limit, model.place, "model.open_material", name,

@@ -32,6 +32,7 @@ class ModelMaterials {
   struct Entry {
     std::string name;  // "car.glb:Steel"
     materials::SurfaceModel surface;
+    std::optional<materials::SpecularSurface> mirror;
   };
   const std::vector<Entry>& all() const { return entries_; }
   std::vector<std::filesystem::path> files() const;

@@ -65,6 +65,18 @@ renderer::SceneFacts facts_of(const SceneDescription& scene, const terrain::Loca
   return facts;
 }
 
+// Targets may hang higher than anything else in the scene.
+void add_target_facts(const std::vector<renderer::PointTarget>& targets,
+                      renderer::SceneFacts& facts) {
+  for (const renderer::PointTarget& target : targets) {
+    facts.rcs_sum_m2 += materials::largest_rcs_m2(target.rcs, facts.sensor.wavelength_m());
+    for (const renderer::PointTarget::Waypoint& waypoint : target.path) {
+      facts.lowest_m = std::min(facts.lowest_m, waypoint.position_m.z);
+      facts.highest_m = std::max(facts.highest_m, waypoint.position_m.z);
+    }
+  }
+}
+
 atmosphere::Weather simulated_weather(atmosphere::Weather weather, const core::EffectPlan& plan) {
   weather.simulate_gas = plan.runs(renderer::kGas);
   weather.simulate_fog = plan.runs(renderer::kFog);
@@ -80,6 +92,16 @@ void add_model_materials(const ModelMaterials& materials, const sensors::Wavefor
     world.nrcs.emplace_back(entry.surface, waveform.polarisation, waveform.frequency_Hz);
     world.material_names.push_back(entry.name);
   }
+}
+
+// Of the library in a state of the weather, and of the models behind it.
+SpecularSurfaces all_mirrors(const SceneDescription& scene,
+                             const materials::MaterialLibrary& library,
+                             const ModelMaterials& model_materials,
+                             materials::SurfaceState state) {
+  SpecularSurfaces mirrors = specular_surfaces(scene, library, state);
+  for (const ModelMaterials::Entry& entry : model_materials.all()) mirrors.push_back(entry.mirror);
+  return mirrors;
 }
 
 void record_model_materials(const ModelMaterials& materials, Scene& scene) {
@@ -141,11 +163,11 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   facts.weather = weather;
   const atmosphere::VolumeEcho volume_echo(weather, description.sensor.waveform.frequency_Hz);
   facts.largest_eta_m2_per_m3 = volume_echo.largest_eta_m2_per_m3();
-  facts.surface_not_dry = description.surface_state != materials::SurfaceState::dry;
-  facts.surface_change_dB = state_change_dB(description, library, names.used());
+  add_surface_facts(description, library, names.used(), model_materials, facts);
+  add_target_facts(targets, facts);
   add_mirror_facts(
-      {specular_surfaces(description, library, materials::SurfaceState::dry),
-       specular_surfaces(description, library, description.surface_state)},
+      {all_mirrors(description, library, model_materials, materials::SurfaceState::dry),
+       all_mirrors(description, library, model_materials, description.surface_state)},
       ground.field(), patches, meshes, !targets.empty(), facts);
   core::EffectPlan plan = renderer::plan(facts, options.accuracy_grey, options.wishes);
   const materials::SurfaceState state = plan.runs(renderer::kSurfaceState)
@@ -164,7 +186,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
       .sensor = plan.runs(renderer::kSideLobes)
                     ? description.sensor
                     : renderer::without_side_lobes(description.sensor),
-      .specular = specular_surfaces(description, library, state)};
+      .specular = all_mirrors(description, library, model_materials, state)};
   const atmosphere::RainCells rain_cells(simulated_weather(weather, plan), frequency_Hz);
   if (!rain_cells.empty()) world.rain_cells = rain_cells;
   if (plan.runs(renderer::kRainEcho)) world.volume_echo = volume_echo;
@@ -172,6 +194,8 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   auto scene = std::make_unique<Scene>(
       Scene{description, frame, std::move(*trajectory), std::move(plan), std::move(world), 0.0});
   scene->surfaces = record_surfaces(description, library, names.used(), state);
+  if (facts.has_walls || facts.has_point_targets)
+    report_mirrors(description, library, scene->surfaces, problems);
   record_model_materials(model_materials, *scene);
   scene->build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return scene;

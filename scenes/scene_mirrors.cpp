@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
+#include <string>
 
 #include "materials/dielectric/dielectric_medium.h"
 
@@ -10,8 +12,6 @@ namespace fanbeam::scenes {
 namespace {
 
 using materials::DielectricMedium;
-
-constexpr double kUsualTemperature_K = 288.15;
 
 // The nearest temperature that the medium's model knows (dielectric_medium.h).
 double known_temperature_K(DielectricMedium medium, double temperature_K) {
@@ -29,6 +29,19 @@ double known_temperature_K(DielectricMedium medium, double temperature_K) {
   }
 }
 
+// The medium of a material that mirrors.
+std::optional<DielectricMedium> mirroring_medium(const materials::Material& material) {
+  if (!material.rms_height_m) return std::nullopt;
+  return materials::dielectric_medium_named(material.dielectric);
+}
+
+double held_frequency_Hz(DielectricMedium medium, double frequency_Hz) {
+  const materials::Interval known_Hz = materials::valid_frequency_Hz(medium);
+  return std::clamp(frequency_Hz, known_Hz.low, known_Hz.high);
+}
+
+std::string text_GHz(double frequency_Hz) { return core::number_text(frequency_Hz / 1e9); }
+
 // A facet within 30 deg of the vertical: its normal is within 30 deg of the horizontal.
 bool has_wall(const terrain::TriangleMesh& mesh) {
   return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& corner) {
@@ -45,22 +58,48 @@ SpecularSurfaces specular_surfaces(const SceneDescription& scene,
                                    const materials::MaterialLibrary& library,
                                    materials::SurfaceState state) {
   const double frequency_Hz = scene.sensor.waveform.frequency_Hz;
-  const double temperature_K =
-      scene.weather.temperature_C ? *scene.weather.temperature_C + 273.15 : kUsualTemperature_K;
+  const double temperature_K = surface_temperature_K(scene);
   SpecularSurfaces surfaces;
   for (std::size_t index = 0; index < library.size(); ++index) {
     surfaces.emplace_back();
     const materials::Material& material = library[library.in_state(index, state)];
-    const auto medium = materials::dielectric_medium_named(material.dielectric);
-    if (!medium || !material.rms_height_m ||
-        !materials::valid_frequency_Hz(*medium).contains(frequency_Hz))
-      continue;
+    const auto medium = mirroring_medium(material);
+    if (!medium) continue;
+    const double known_Hz = held_frequency_Hz(*medium, frequency_Hz);
+    if (known_Hz != frequency_Hz && !scene.allow_extrapolation) continue;
     surfaces.back() = materials::SpecularSurface{
-        materials::permittivity_of(*medium, frequency_Hz,
-                                   known_temperature_K(*medium, temperature_K)),
+        materials::permittivity_of(*medium, known_Hz, known_temperature_K(*medium, temperature_K)),
         *material.rms_height_m};
   }
   return surfaces;
+}
+
+void report_mirrors(const SceneDescription& scene, const materials::MaterialLibrary& library,
+                    std::vector<SurfaceRecord>& records, core::ProblemList& problems) {
+  const double frequency_Hz = scene.sensor.waveform.frequency_Hz;
+  std::set<std::string> told;  // several materials may turn into one
+  for (SurfaceRecord& record : records) {
+    const auto index = library.index_of(record.shown_as);
+    if (!index) continue;
+    const materials::Material& material = library[*index];
+    const auto medium = mirroring_medium(material);
+    if (!medium) continue;
+    const double known_Hz = held_frequency_Hz(*medium, frequency_Hz);
+    if (known_Hz == frequency_Hz) continue;
+    const materials::Interval range_Hz = materials::valid_frequency_Hz(*medium);
+    const materials::Extrapolation beyond{
+        "frequency_GHz of dielectric " + material.dielectric, text_GHz(frequency_Hz),
+        text_GHz(range_Hz.low) + " to " + text_GHz(range_Hz.high)};
+    if (scene.allow_extrapolation) record.extrapolations.push_back(beyond);
+    if (!told.insert(material.name).second) continue;
+    problems.warning(
+        "EXTRAPOLATED", material.place, "material '" + material.name + "' at " + beyond.quantity,
+        beyond.asked,
+        "known for " + beyond.known +
+            (scene.allow_extrapolation
+                 ? "; mirrors as at " + text_GHz(known_Hz) + " GHz"
+                 : "; does not mirror, or allow_extrapolation = true under [materials]"));
+  }
 }
 
 void add_mirror_facts(const std::vector<SpecularSurfaces>& specular,

@@ -1,4 +1,7 @@
 // What reflects like a mirror in a scene, and what the effect plan wants to know of it.
+//
+// Neglected: frost. Soil below 0 C is taken as unfrozen at 0 C; the water in frozen soil is mostly
+// ice, so it reflects less than this (moist loam at 35 GHz: toward dry loam, 4.6 dB at the normal).
 #pragma once
 
 #include <optional>
@@ -8,6 +11,7 @@
 #include "materials/library/material_library.h"
 #include "renderer/plan/scene_facts.h"
 #include "scenes/description.h"
+#include "scenes/scene_surfaces.h"
 #include "terrain/ray_scene.h"
 
 namespace fanbeam::scenes {
@@ -15,11 +19,17 @@ namespace fanbeam::scenes {
 using SpecularSurfaces = std::vector<std::optional<materials::SpecularSurface>>;
 
 // By index of the dry material: dielectric and rms height of what it is in `state`. Empty without
-// both, and for a medium that is not known at the sensor's frequency. The medium has the weather's
-// temperature, 15 C where it says none, or the nearest one that its model knows.
+// both. A medium that is not known at the sensor's frequency is as at the nearest one that it is
+// known at where the scene allows extrapolation, else it does not reflect. The medium has
+// surface_temperature_K, or the nearest temperature that its model knows.
 SpecularSurfaces specular_surfaces(const SceneDescription& scene,
                                    const materials::MaterialLibrary& library,
                                    materials::SurfaceState state);
+
+// W-EXTRAPOLATED for each material of the records whose medium is not known at the sensor's
+// frequency; where the scene allows that, the record lists it as well.
+void report_mirrors(const SceneDescription& scene, const materials::MaterialLibrary& library,
+                    std::vector<SurfaceRecord>& records, core::ProblemList& problems);
 
 // Fills the facts on walls, mirrors and point targets; a mirror in either list counts.
 void add_mirror_facts(const std::vector<SpecularSurfaces>& specular,

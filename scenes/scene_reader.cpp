@@ -9,6 +9,7 @@
 #include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory_reader.h"
 #include "scenes/weather_reader.h"
+#include "sensors/display/grey_reader.h"
 #include "sensors/sensor_file.h"
 #include "terrain/raster/land_cover_raster.h"
 
@@ -147,17 +148,10 @@ void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs:
   scene.sensor.scan.stabilised = table.boolean("stabilised", scene.sensor.scan.stabilised);
 }
 
-void read_display(ConfigTable& root, sensors::Display& display) {
+void read_display(ConfigTable& root, const sensors::RangeGate& range, sensors::Display& display) {
   ConfigTable table = root.table("display");
-  using Display = sensors::Display;
-  display.mapping = static_cast<Display::Mapping>(
-      table.choice("mapping", {"stc", "log", "seed"}, static_cast<std::size_t>(display.mapping)));
-  display.low_dB = table.number("low_dB", {-300, 300}, display.low_dB);
-  display.high_dB = table.number("high_dB", {-300, 300}, display.high_dB);
-  if (display.high_dB <= display.low_dB)
-    table.error(core::ErrorClass::range, "high_dB", core::number_text(display.high_dB),
-                "above low_dB = " + core::number_text(display.low_dB));
-  display.cscope_mode = static_cast<Display::CScopeMode>(
+  sensors::read_grey_mapping(table, range, display);
+  display.cscope_mode = static_cast<sensors::Display::CScopeMode>(
       table.choice("cscope_mode", {"true_elevation", "flat_earth", "shadow"},
                    static_cast<std::size_t>(display.cscope_mode)));
 }
@@ -190,13 +184,13 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
   read_sensor_table(root, options, scene.folder, scene);
   read_terrain(root, search, scene.terrain);
   ObjectNames objects(root.has("object_library") ? search.find(root, "object_library")
-                                                  : options.shipped / "materials" / "objects.toml",
+                                                 : options.shipped / "materials" / "objects.toml",
                       scene.sensor.waveform.frequency_Hz);
   read_objects(root, search, objects, scene);
   read_weather(root, scene);
   read_surfaces(root, scene);
   read_trajectory(root, search, scene);
-  read_display(root, scene.sensor.display);
+  read_display(root, scene.sensor.range, scene.sensor.display);
   ConfigTable accuracy = root.table("accuracy");
   scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
   scene.sample = accuracy.choice("realisation", {"mean", "sample"}, 0) == 1;

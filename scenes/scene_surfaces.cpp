@@ -1,14 +1,27 @@
 #include "scenes/scene_surfaces.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "core/units.h"
+#include "atmosphere/air_column.h"
+#include "renderer/casting/nrcs_table.h"
 
 namespace fanbeam::scenes {
 
 using materials::MaterialLibrary;
 using materials::SurfaceState;
+
+namespace {
+
+constexpr double kNoFiniteChange_dB = 3000.0;
+
+// As the ray caster sees the surface.
+renderer::NrcsTable table_of(const SceneDescription& scene, const materials::SurfaceModel& model) {
+  const sensors::Waveform& waveform = scene.sensor.waveform;
+  return renderer::NrcsTable(
+      materials::NrcsCurve(model, waveform.polarisation, waveform.frequency_Hz));
+}
+
+}  // namespace
 
 void read_surfaces(core::ConfigTable& root, SceneDescription& scene) {
   scene.allow_extrapolation = root.table("materials").boolean("allow_extrapolation", false);
@@ -24,6 +37,10 @@ void check_surfaces(const SceneDescription& scene, const MaterialLibrary& librar
     library.report_extrapolations(index, scene.sensor.waveform.polarisation,
                                   scene.sensor.waveform.frequency_Hz, scene.allow_extrapolation,
                                   problems);
+}
+
+double surface_temperature_K(const SceneDescription& scene) {
+  return atmosphere::AirColumn(scene.weather).at(0.0).temperature_K;
 }
 
 std::vector<SurfaceRecord> record_surfaces(const SceneDescription& scene,
@@ -42,26 +59,38 @@ std::vector<SurfaceRecord> record_surfaces(const SceneDescription& scene,
 
 double state_change_dB(const SceneDescription& scene, const MaterialLibrary& library,
                        const std::set<std::size_t>& used) {
-  constexpr int kAngles = 400;
-  constexpr double kLowest_deg = 0.5;
-  const sensors::Waveform& waveform = scene.sensor.waveform;
   double largest_dB = 0.0;
   for (const std::size_t index : used) {
     const std::size_t other = library.in_state(index, scene.surface_state);
     if (other == index) continue;
-    const materials::NrcsCurve dry(library[index].model, waveform.polarisation,
-                                   waveform.frequency_Hz);
-    const materials::NrcsCurve turned(library[other].model, waveform.polarisation,
-                                      waveform.frequency_Hz);
-    for (int i = 0; i < kAngles; ++i) {
-      const double angle_deg = kLowest_deg * std::pow(90.0 / kLowest_deg, i / (kAngles - 1.0));
-      const double sine = std::sin(core::radians(angle_deg));
-      const double change_dB = 10.0 * std::log10(turned.sigma0(sine) / dry.sigma0(sine));
-      // A perfectly dark material has no finite change: the whole window may be at stake.
-      largest_dB = std::max(largest_dB, std::isfinite(change_dB) ? std::abs(change_dB) : 3000.0);
-    }
+    const double change_dB =
+        table_of(scene, library[other].model)
+            .largest_change_dB(table_of(scene, library[index].model));
+    // A perfectly dark material has no finite change: the whole window may be at stake.
+    largest_dB = std::max(largest_dB, std::min(change_dB, kNoFiniteChange_dB));
   }
   return largest_dB;
+}
+
+void add_surface_facts(const SceneDescription& scene, const MaterialLibrary& library,
+                       const std::set<std::size_t>& used, const ModelMaterials& model_materials,
+                       renderer::SceneFacts& facts) {
+  facts.surface_not_dry = scene.surface_state != SurfaceState::dry;
+  facts.surface_change_dB = state_change_dB(scene, library, used);
+  const auto brightest = [&](const materials::SurfaceModel& model) {
+    facts.largest_sigma0_over_sine =
+        std::max(facts.largest_sigma0_over_sine, table_of(scene, model).largest());
+  };
+  for (const std::size_t index : used) {
+    const materials::Material& dry = library[index];
+    const materials::Material& turned = library[library.in_state(index, scene.surface_state)];
+    facts.state_changes_mirrors = facts.state_changes_mirrors ||
+                                  dry.dielectric != turned.dielectric ||
+                                  dry.rms_height_m != turned.rms_height_m;
+    brightest(dry.model);
+    brightest(turned.model);
+  }
+  for (const ModelMaterials::Entry& entry : model_materials.all()) brightest(entry.surface);
 }
 
 }  // namespace fanbeam::scenes

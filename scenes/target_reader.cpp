@@ -1,7 +1,10 @@
 #include "scenes/target_reader.h"
 
+#include <cmath>
+
 #include "core/decibel.h"
 #include "core/units.h"
+#include "scenes/line_points.h"
 #include "scenes/object_reader.h"
 
 namespace fanbeam::scenes {
@@ -22,16 +25,17 @@ double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBs
   return core::power_from_dB(table.number(key, kRcs_dBsm, fallback_dBsm));
 }
 
-materials::RoundWire read_wire(ConfigTable& table) {
+materials::RoundWire read_wire(ConfigTable& table, double usual_polarisation_rad) {
   materials::RoundWire wire;
   wire.radius_m = table.number("radius_m", kWireRadius_m, 0.01);
   wire.length_m = table.number("length_m", kSize_m, 1.0);
-  wire.polarisation_rad = radians(table.number("polarisation_deg", kAcrossWire_deg, 0.0));
+  wire.polarisation_rad = radians(
+      table.number("polarisation_deg", kAcrossWire_deg, core::degrees(usual_polarisation_rad)));
   wire.coherence_length_m = table.number("coherence_length_m", kSize_m, wire.length_m);
   return wire;
 }
 
-materials::RcsModel read_shape(ConfigTable& table) {
+materials::RcsModel read_shape(ConfigTable& table, double wire_polarisation_rad) {
   switch (table.choice("shape",
                        {"constant", "sphere", "trihedral", "square_trihedral", "dihedral", "plate",
                         "cylinder", "wire"},
@@ -52,7 +56,7 @@ materials::RcsModel read_shape(ConfigTable& table) {
       return materials::Cylinder{table.number("radius_m", kSize_m, 0.1),
                                  table.number("length_m", kSize_m, 1.0)};
     case 7:
-      return read_wire(table);
+      return read_wire(table, wire_polarisation_rad);
     default:
       return materials::ConstantRcs{rcs_m2_from(table, "rcs_dBsm", 0.0)};
   }
@@ -60,7 +64,8 @@ materials::RcsModel read_shape(ConfigTable& table) {
 
 // `rcs` is the name of a typical object or the table of a shape. Returns the Swerling case that
 // goes with it.
-core::Swerling read_rcs(ConfigTable& target, ObjectNames& objects, materials::RcsModel& rcs) {
+core::Swerling read_rcs(ConfigTable& target, ObjectNames& objects, double wire_polarisation_rad,
+                        materials::RcsModel& rcs) {
   if (target.is_text("rcs")) {
     const materials::TypicalObject* object = objects.find(target, "rcs");
     if (object == nullptr) return core::Swerling::steady;
@@ -71,19 +76,22 @@ core::Swerling read_rcs(ConfigTable& target, ObjectNames& objects, materials::Rc
   if (!target.has("rcs"))
     target.error(core::ErrorClass::ref, "rcs", "missing",
                  "the name of an object or { shape, ... }, see docs/scene-format.md");
-  rcs = read_shape(table);
+  rcs = read_shape(table, wire_polarisation_rad);
   return core::Swerling::steady;
 }
 
 }  // namespace
 
-TargetDescription read_target(ConfigTable& table, ObjectNames& objects) {
+TargetDescription read_target(ConfigTable& table, ObjectNames& objects,
+                              core::Polarisation polarisation) {
   TargetDescription target;
   target.place = table.place("");
   target.name = table.text("name", "target");
-  const core::Swerling usual = read_rcs(table, objects, target.rcs);
   target.heading_rad = radians(table.number("heading_deg", kHeading_deg, 0.0));
   target.tilt_rad = radians(table.number("tilt_deg", {-90, 90}, 0.0));
+  // A wire stands across the boresight.
+  const core::Swerling usual = read_rcs(
+      table, objects, across_wire_rad(std::cos(target.tilt_rad), polarisation), target.rcs);
   target.swerling =
       static_cast<core::Swerling>(table.integer("swerling", 0, 4, static_cast<int>(usual)));
   std::vector<ConfigTable> waypoints = table.tables("waypoint");

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "core/config_table.h"
+#include "core/polarisation.h"
 #include "scenes/description.h"
 #include "scenes/object_names.h"
 
 namespace fanbeam::scenes {
 
-TargetDescription read_target(core::ConfigTable& table, ObjectNames& objects);
+// `polarisation` is the radar's: what a wire is seen with.
+TargetDescription read_target(core::ConfigTable& table, ObjectNames& objects,
+                              core::Polarisation polarisation);
 LineDescription read_line(core::ConfigTable& table, ObjectNames& objects);
 
 }  // namespace fanbeam::scenes

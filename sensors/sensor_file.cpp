@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "sensors/antenna/antenna_reader.h"
 #include "sensors/antenna/frequency_scan_file.h"
+#include "sensors/display/grey_reader.h"
 #include "sensors/receiver/window_file.h"
 
 namespace fanbeam::sensors {
@@ -162,22 +163,7 @@ void read_cscope(ConfigTable table, const Sensor& sensor, Display& display) {
 }
 
 void read_display(ConfigTable table, const Sensor& sensor, Display& display) {
-  using Mapping = Display::Mapping;
-  display.mapping = static_cast<Mapping>(table.choice("mapping", {"stc", "log", "seed"}, 0));
-  const NumberRange range_dB{-400.0, 400.0};
-  if (display.mapping == Mapping::log) {  // the default window is an NRCS, not a power
-    display.low_dB = table.required_number("low_dB", range_dB);
-    display.high_dB = table.required_number("high_dB", range_dB);
-  } else {
-    display.low_dB = table.number("low_dB", range_dB, display.low_dB);
-    display.high_dB = table.number("high_dB", range_dB, display.high_dB);
-  }
-  if (!(display.high_dB > display.low_dB))
-    table.error(ErrorClass::range, "high_dB", number_text(display.high_dB),
-                "above low_dB = " + number_text(display.low_dB));
-  if (display.mapping == Mapping::seed && !(sensor.range.minimum_m > 0.0))
-    table.error(ErrorClass::range, "mapping", "\"seed\"",
-                "range.minimum_m above 0, which its strongest signal needs");
+  read_grey_mapping(table, sensor.range, display);
   read_cscope(table.table("cscope"), sensor, display);
 }
 

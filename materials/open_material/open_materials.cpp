@@ -41,11 +41,14 @@ void report_extrapolations(const SurfaceModel& surface, const RadarQuery& query,
 
 // The three ways to a reflectivity, with what each of them lacks.
 struct Ways {
-  Lookup<SurfaceModel> custom, brdf, rough;
+  Lookup<SurfaceModel> custom, brdf;
+  Lookup<SpecularSurface> rough;
 
-  std::optional<SurfaceModel> first() const {
+  std::optional<SurfaceModel> first(double temperature_K) const {
     if (custom.value) return custom.value;
-    return brdf.value ? brdf.value : rough.value;
+    if (brdf.value) return brdf.value;
+    if (!rough.value) return std::nullopt;
+    return OhSurface{rough.value->permittivity, rough.value->rms_height_m, temperature_K};
   }
   std::string why_not() const {
     return "customProperties.fanbeam.nrcs (" + custom.why_not + "), brdfUris (" + brdf.why_not +
@@ -78,8 +81,8 @@ std::optional<fs::path> OpenMaterials::table_file(const fs::path& from, const Na
   }
 }
 
-std::optional<SurfaceModel> OpenMaterials::surface_of(const std::string& name,
-                                                      core::ProblemList& problems) {
+std::optional<OpenSurface> OpenMaterials::surface_of(const std::string& name,
+                                                     core::ProblemList& problems) {
   const NamedUri& uri = mapping_.material_of_name.at(name);
   try {
     const fs::path file = core::file_of_uri(allowed_folder_, mapping_.file, uri.uri,
@@ -109,35 +112,36 @@ Lookup<SurfaceModel> OpenMaterials::from_brdfs(const fs::path& file,
   return found;
 }
 
-Lookup<SurfaceModel> OpenMaterials::from_roughness(const fs::path& file,
-                                                   const OpenMaterialFile& material,
-                                                   core::ProblemList& problems) {
+Lookup<SpecularSurface> OpenMaterials::rough_boundary(const fs::path& file,
+                                                      const OpenMaterialFile& material,
+                                                      core::ProblemList& problems) {
   Lookup<Permittivity> permittivity{{}, "no permittivity"};
   if (material.permittivity)
     if (const auto table = table_file(file, *material.permittivity, problems))
       permittivity = PermittivityTable::from_file(*table, problems).at(query_);
   if (!permittivity.value) return {{}, permittivity.why_not};
   if (!material.rms_height_m) return {{}, "no surface height"};
-  return {OhSurface{*permittivity.value, *material.rms_height_m, query_.temperature_K}, {}};
+  return {SpecularSurface{*permittivity.value, *material.rms_height_m}, {}};
 }
 
-std::optional<SurfaceModel> OpenMaterials::read_surface(const fs::path& file,
-                                                        core::ProblemList& outer_problems) {
+std::optional<OpenSurface> OpenMaterials::read_surface(const fs::path& file,
+                                                       core::ProblemList& outer_problems) {
   core::ProblemList problems;
-  std::optional<SurfaceModel> surface;
+  std::optional<OpenSurface> surface;
   if (const auto material = read_open_material_file(file, problems)) {
     const Ways ways{from_custom_properties(*material, query_),
                     from_brdfs(file, *material, problems),
-                    from_roughness(file, *material, problems)};
+                    rough_boundary(file, *material, problems)};
     for (const NamedUri& uri : material->reflection_coefficients)
       if (const auto table = table_file(file, uri, problems))
         check_reflection_table(*table, problems);
-    surface = ways.first();
+    if (auto reflectivity = ways.first(query_.temperature_K))
+      surface = OpenSurface{std::move(*reflectivity), ways.rough.value};
     if (!surface && !problems.has_errors())
       problems.error(ErrorClass::unsupported, {file.string()}, "/materialProperties",
                      "no reflectivity at " + radar_text(query_), ways.why_not());
   }
-  if (surface) report_extrapolations(*surface, query_, file, problems);
+  if (surface) report_extrapolations(surface->reflectivity, query_, file, problems);
   if (problems.has_errors()) surface.reset();
   outer_problems.append(problems.all());
   return surface;

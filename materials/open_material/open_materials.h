@@ -8,7 +8,8 @@
 //   3. Oh 1992 from surfaceHeightRms and the permittivity   permittivity_table.h, oh1992.h
 //
 // that knows the radar's frequency and polarisation. When none does, the material is refused with
-// all three reasons: no reflectivity is made up. Files are read when the first name asks for them,
+// all three reasons: no reflectivity is made up. Whichever it is, a material with surfaceHeightRms
+// and a permittivity also mirrors (specular_surface.h). Files are read when the first name asks for them,
 // each once, and only from inside one folder. Source of the layout: ASAM OpenMATERIAL 3D 1.0.0 and
 // 1.1.0, schemas asset, mapping, material, material_emp, material_brdf and material_reflCoeff.
 // Neglected: humidity, layers and thickness (geometryProperties), assignment textures. Accuracy:
@@ -23,11 +24,17 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "materials/dielectric/specular_surface.h"
 #include "materials/nrcs/surface_model.h"
 #include "materials/open_material/mapping_file.h"
 #include "materials/open_material/radar_query.h"
 
 namespace fanbeam::materials {
+
+struct OpenSurface {
+  SurfaceModel reflectivity;
+  std::optional<SpecularSurface> mirror;
+};
 
 class OpenMaterials {
  public:
@@ -37,24 +44,24 @@ class OpenMaterials {
 
   bool knows(const std::string& name) const { return mapping_.material_of_name.count(name) > 0; }
 
-  // The reflectivity of a known name. Reports the problems of the material and its tables, E-PATH
+  // What a known name looks like. Reports the problems of the material and its tables, E-PATH
   // for files outside the folder, E-UNSUPPORTED when nothing in it serves this radar;
   // E-RANGE for Oh's model beyond its data, W-EXTRAPOLATED where that is allowed. Nothing after an
   // error.
-  std::optional<SurfaceModel> surface_of(const std::string& name, core::ProblemList& problems);
+  std::optional<OpenSurface> surface_of(const std::string& name, core::ProblemList& problems);
 
   // All files read so far, each once, in the order of reading.
   const std::vector<std::filesystem::path>& files() const { return mapping_.files; }
 
  private:
   void list_file(const std::filesystem::path& file);
-  std::optional<SurfaceModel> read_surface(const std::filesystem::path& file,
-                                           core::ProblemList& problems);
+  std::optional<OpenSurface> read_surface(const std::filesystem::path& file,
+                                          core::ProblemList& problems);
   Lookup<SurfaceModel> from_brdfs(const std::filesystem::path& file,
                                   const OpenMaterialFile& material, core::ProblemList& problems);
-  Lookup<SurfaceModel> from_roughness(const std::filesystem::path& file,
-                                      const OpenMaterialFile& material,
-                                      core::ProblemList& problems);
+  Lookup<SpecularSurface> rough_boundary(const std::filesystem::path& file,
+                                         const OpenMaterialFile& material,
+                                         core::ProblemList& problems);
   // The table that `uri` of `from` names; nothing after reporting.
   std::optional<std::filesystem::path> table_file(const std::filesystem::path& from,
                                                   const NamedUri& uri, core::ProblemList& problems);
@@ -62,7 +69,7 @@ class OpenMaterials {
   std::filesystem::path allowed_folder_;
   RadarQuery query_;
   OpenMapping mapping_;
-  std::map<std::filesystem::path, std::optional<SurfaceModel>> surfaces_;  // by material file
+  std::map<std::filesystem::path, std::optional<OpenSurface>> surfaces_;  // by material file
 };
 
 }  // namespace fanbeam::materials

@@ -79,6 +79,23 @@ double evaluate(const LobedRcs& object, const glm::dvec3& direction, double) {
   return lobed_rcs_m2(object, direction);
 }
 
+const glm::dvec3 kBroadside(1.0, 0.0, 0.0);
+
+template <class Shape>
+double largest(const Shape& shape, double wavelength_m) {
+  return evaluate(shape, kBroadside, wavelength_m);
+}
+
+double largest(const RoundWire& wire, double wavelength_m) {
+  return 2.0 * evaluate(wire, kBroadside, wavelength_m);
+}
+
+double largest(const LobedRcs& object, double) {
+  double most_m2 = object.floor_m2;
+  for (const AspectLobe& lobe : object.lobes) most_m2 = std::max(most_m2, lobe.peak_m2);
+  return most_m2;
+}
+
 double square(double value) { return value * value; }
 
 // D^2 of far_field_distance_m.
@@ -142,6 +159,11 @@ double rcs_m2(const RcsModel& model, const glm::dvec3& direction_to_radar_in_tar
   const glm::dvec3 direction = direction_to_radar_in_target_axes / length;
   return std::visit([&](const auto& shape) { return evaluate(shape, direction, wavelength_m); },
                     model);
+}
+
+double largest_rcs_m2(const RcsModel& model, double wavelength_m) {
+  require_range("wavelength_m", wavelength_m, 1e-6, 1e3);
+  return std::visit([&](const auto& shape) { return largest(shape, wavelength_m); }, model);
 }
 
 double far_field_distance_m(const RcsModel& model, double wavelength_m) {

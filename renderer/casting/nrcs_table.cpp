@@ -24,4 +24,14 @@ NrcsTable::NrcsTable(const materials::NrcsCurve& nrcs) {
   flat_ = *most - *least <= kRounding * *most;
 }
 
+double NrcsTable::largest() const { return *std::max_element(values_.begin(), values_.end()); }
+
+double NrcsTable::largest_change_dB(const NrcsTable& other) const {
+  double most_dB = 0.0;
+  for (std::size_t i = 0; i < values_.size(); ++i)
+    if (values_[i] != other.values_[i])
+      most_dB = std::max(most_dB, std::abs(10.0 * std::log10(values_[i] / other.values_[i])));
+  return most_dB;
+}
+
 }  // namespace fanbeam::renderer

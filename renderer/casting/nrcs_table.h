@@ -35,6 +35,14 @@ class NrcsTable {
     return value[0] + (value[1] - value[0]) * share;
   }
 
+  // Over all angles: what is interpolated never exceeds its nodes.
+  double largest() const;
+
+  // Largest change at any angle, either way, of sigma0 from `other` to this, in dB: a quotient of two
+  // values on one pair of straight lines lies between those at its ends. Infinite where only one of
+  // the two is dark.
+  double largest_change_dB(const NrcsTable& other) const;
+
  private:
   static constexpr int kSteps = 4096;
   static constexpr int kFineSteps = 2048;

@@ -1,28 +1,34 @@
-// The power that a picture shows as black: what additive effects are held against.
+// How much additional power can change what a picture shows.
+//
+// A pixel of power P with a floor f, the largest power shown as black (GreyScale), shows
+// max(P, f). Power p on top changes it by at most
+//     10 log10(max(P + p, f) / max(P, f)) <= 10 log10(1 + p / f)
+// whatever P is; noise in P makes it less. Pixels by picture:
+//   B-scope  p is what is added to a range cell, f that row's floor
+//   C-scope of true elevation  p is what is added to a row's sum of P R^3
+//   C-scope of flat earth  a row adds up the P R^3 of range cells, each with a share of at most 1;
+//            near the ground one row holds them all: p is the sum over every cell
+//   C-scope of mode shadow  an obstacle is raised or not: the whole window, plan.cpp
+// In one realisation of speckle (fluctuation.h) p is drawn: at most 22.88 times its mean, and the
+// same draw multiplies P and p.
+// The bound is that of the worse picture of the sensor's C-scope mode, at most the window.
 #pragma once
 
-#include <cmath>
+#include <vector>
 
-#include "sensors/antenna/beam_pattern.h"
-#include "sensors/sensor.h"
+#include "renderer/plan/scene_facts.h"
 
 namespace fanbeam::renderer {
 
-// Received power at `range_m` that the display maps to grey 0: with the stc mapping that of level
-// ground with the NRCS of the window's lower end, which falls with R^3; else the lower end itself.
-inline double display_floor_W(const sensors::Sensor& sensor, double range_m) {
-  const double low = std::pow(10.0, sensor.display.low_dB / 10.0);
-  if (sensor.display.mapping != sensors::Display::Mapping::stc) return low;
-  return low * sensor.radar_constant_W_m2() * sensors::two_way_width(sensor.antenna.azimuth) *
-         sensor.range.cell_m / (range_m * range_m * range_m);
-}
+// Upper bounds of a power that an effect adds.
+struct AddedPower {
+  std::vector<double> cell_W;  // in any column of each range cell
+  double row_W_m3 = 0.0;       // in any pixel of a C-scope of true elevation
+};
 
-// The brightest echo that spreading effects must reckon with, over what is shown as black. Surfaces
-// and targets may exceed the window's top: by 27 dB a metal wall facing the radar, by 40 dB 4e5 m^2
-// at 200 m.
-inline double brightest_over_floor(const sensors::Sensor& sensor) {
-  constexpr double kHeadroom_dB = 40.0;
-  return std::pow(10.0, (sensor.display.high_dB - sensor.display.low_dB + kHeadroom_dB) / 10.0);
-}
+double largest_change_dB(const AddedPower& added, const SceneFacts& facts);
+
+// Of the display, as it is shown: grey 0 to 255.
+double window_dB(const sensors::Sensor& sensor);
 
 }  // namespace fanbeam::renderer

@@ -2,14 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "atmosphere/path_attenuation.h"
 #include "atmosphere/precipitation/rain_cells.h"
-#include "renderer/plan/display_floor.h"
+#include "core/constants.h"
+#include "renderer/plan/largest_echo.h"
 #include "renderer/stages/fluctuation.h"
 #include "renderer/stages/rain_echo.h"
 #include "renderer/stages/range_response.h"
 #include "renderer/stages/side_lobes.h"
+#include "sensors/antenna/beam_pattern.h"
+#include "sensors/display/display.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -19,7 +23,20 @@ using atmosphere::Weather;
 // Buildings and models rise above the ground by up to this.
 constexpr double kTallest_m = 300.0;
 
-// The largest loss per kilometre at any height of the scene, all the way to the farthest range.
+// Sines of the lowest and highest elevation of the beam; all of them when it moves with the
+// aircraft's attitude.
+std::pair<double, double> sines_of_beam(const sensors::Sensor& sensor) {
+  if (!sensor.scan.stabilised) return {-1.0, 1.0};
+  const sensors::Antenna& antenna = sensor.antenna;
+  const auto sine = [](double elevation_rad) {
+    return std::sin(std::clamp(elevation_rad, -core::kPi / 2.0, core::kPi / 2.0));
+  };
+  const double reach_rad = sensors::reach_rad(antenna.elevation);
+  return {sine(antenna.boresight_elevation_rad - reach_rad),
+          sine(antenna.boresight_elevation_rad + reach_rad)};
+}
+
+// The largest loss per kilometre at any height that is seen, all the way to the farthest range.
 double longest_path_dB(const SceneFacts& facts, std::string_view effect) {
   Weather weather = facts.weather;
   weather.simulate_gas = effect == kGas;
@@ -29,8 +46,15 @@ double longest_path_dB(const SceneFacts& facts, std::string_view effect) {
   const double frequency_Hz = facts.sensor.waveform.frequency_Hz;
   const double range_m = facts.sensor.range.maximum_m();
   const atmosphere::PathAttenuation path(weather, frequency_Hz);
-  const double layers_dB_per_km =
-      path.largest_one_way_dB_per_km(facts.lowest_m, facts.highest_m + kTallest_m);
+  double lowest_m = facts.lowest_m;
+  double highest_m = facts.highest_m + kTallest_m;
+  // What falls echoes as high and, off the edge of the terrain, as low as the beam reaches.
+  if (facts.largest_eta_m2_per_m3 > 0.0) {
+    const auto [down, up] = sines_of_beam(facts.sensor);
+    lowest_m = facts.lowest_m + std::min(0.0, range_m * down);
+    highest_m = std::max(highest_m, facts.highest_m + range_m * up);
+  }
+  const double layers_dB_per_km = path.largest_one_way_dB_per_km(lowest_m, highest_m);
   const atmosphere::RainCells cells(weather, frequency_Hz);
   return 2.0 * (layers_dB_per_km * 1e-3 * range_m + cells.largest_one_way_dB(range_m));
 }
@@ -47,23 +71,25 @@ double snow_dB(const SceneFacts& facts) { return longest_path_dB(facts, kSnow); 
 
 bool has_echo(const SceneFacts& facts) { return facts.largest_eta_m2_per_m3 > 0.0; }
 
-// Noise against the display floor in the farthest cell, where compensation lifts it most.
+// Noise in every cell, and in a row of the C-scope what the display adds there.
 double noise_dB(const SceneFacts& facts) {
-  const double floor_W = display_floor_W(facts.sensor, facts.sensor.range.maximum_m());
-  return 10.0 * std::log10(1.0 + facts.sensor.noise_power_W() / floor_W);
+  const sensors::Sensor& sensor = facts.sensor;
+  const AddedPower noise{
+      std::vector<double>(static_cast<std::size_t>(sensor.range.cells), sensor.noise_power_W()),
+      sensors::cscope_noise_W_m3(sensor)};
+  return largest_change_dB(noise, facts);
 }
 
 // At grazing angles every surface reflects all there is, and nothing limits how bright the corner
 // is beside the display's floor; in a null of two rays a target is gone. No bound below the whole
 // window holds for every scene.
-bool has_corners(const SceneFacts& facts) { return facts.has_walls && facts.reflects; }
-bool has_mirrored_targets(const SceneFacts& facts) {
-  return facts.has_point_targets && facts.ground_reflects;
-}
 bool has_surface_state(const SceneFacts& facts) { return facts.surface_not_dry; }
-double surface_state_dB(const SceneFacts& facts) { return facts.surface_change_dB; }
-double whole_window_dB(const SceneFacts& facts) {
-  return facts.sensor.display.high_dB - facts.sensor.display.low_dB;
+double whole_window_dB(const SceneFacts& facts) { return window_dB(facts.sensor); }
+
+// The same holds for what another state makes of mirrors.
+double surface_state_dB(const SceneFacts& facts) {
+  return facts.state_changes_mirrors && has_unbounded_echo(facts) ? whole_window_dB(facts)
+                                                                  : facts.surface_change_dB;
 }
 
 bool shows_sample(const SceneFacts& facts) { return facts.sample; }
@@ -90,11 +116,12 @@ const std::vector<Effect>& effect_catalogue() {
        "Mie scattering over drop sizes, volume radar equation", has_echo, rain_echo_bound_dB,
        "nothing falls in this scene"},
       {kDoubleBounce, "wall and ground, or two walls, seen through each other",
-       "mirror and bistatic NRCS, docs/physics/double-bounce.md", has_corners, whole_window_dB,
-       "the scene has no walls, or nothing in it reflects like a mirror"},
+       "mirror and bistatic NRCS, docs/physics/double-bounce.md", corners_possible, whole_window_dB,
+       "the scene has no walls, or nothing that is known to mirror at this frequency"},
       {kMultipath, "point targets mirrored in the ground",
-       "two-ray propagation factor, docs/physics/multipath.md", has_mirrored_targets,
-       whole_window_dB, "the scene has no point targets, or no ground that reflects like a mirror"},
+       "two-ray propagation factor, docs/physics/multipath.md", mirrored_targets_possible,
+       whole_window_dB,
+       "the scene has no point targets, or no ground that is known to mirror at this frequency"},
       {kSurfaceState, "wet or snow-covered surfaces instead of dry ones",
        "rows of the material library, docs/physics/surface-state.md", has_surface_state,
        surface_state_dB, "the scene's surfaces are dry"},

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/errors.h"
+#include "sensors/display/grey_scale.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -19,8 +20,16 @@ std::string rounded(double value) {
   return text;
 }
 
-double dB_per_grey(const sensors::Display& display) {
-  return (display.high_dB - display.low_dB) / 255.0;
+// A C-scope of mode shadow raises an obstacle or does not, by thresholds; a realisation lets point
+// targets cancel the ground they stand on. There any change can be one of the whole window.
+bool tips_over(const SceneFacts& facts) {
+  return facts.sensor.display.cscope_mode == sensors::Display::CScopeMode::shadow ||
+         (facts.sample && facts.has_point_targets);
+}
+
+double bound_dB(const Effect& effect, const SceneFacts& facts, double window_dB) {
+  const double bound_dB = effect.bound_dB(facts);
+  return bound_dB > 0.0 && tips_over(facts) ? std::max(bound_dB, window_dB) : bound_dB;
 }
 
 }  // namespace
@@ -57,6 +66,7 @@ core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const Effec
   SceneFacts facts = scene;
   facts.sample = scene.sample || contains(wishes.forced_on, kSpeckle) ||
                  contains(wishes.forced_on, kSwerling);
+  const sensors::GreyScale scale(facts.sensor);
   core::EffectPlan result;
   std::vector<bool> open(catalogue.size(), false);
   for (std::size_t i = 0; i < catalogue.size(); ++i) {
@@ -65,8 +75,8 @@ core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const Effec
     decision.effect = effect.name;
     const bool possible = effect.possible(facts);
     if (possible) {
-      decision.bound_dB = effect.bound_dB(facts);
-      decision.bound_grey = decision.bound_dB / dB_per_grey(facts.sensor.display);
+      decision.bound_dB = bound_dB(effect, facts, scale.window_dB());
+      decision.bound_grey = decision.bound_dB / scale.dB_per_grey();
     }
     if (contains(wishes.forced_off, effect.name)) {
       decision.reason = "switched off by the user";

@@ -4,17 +4,15 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "renderer/stages/bistatic_nrcs.h"
+#include "renderer/plan/largest_echo.h"
+#include "sensors/cells.h"
+#include "sensors/display/grey_scale.h"
 #include "terrain/secondary_origin.h"
 
 namespace fanbeam::renderer {
 namespace {
 
 using Packet = terrain::RayPacket<BounceTracer::kAtOnce>;
-
-// A mirror that keeps less than this changes what it shows by less than 0.02 dB (10 log10(1 + 4
-// rho)), a tenth of a grey level: not followed.
-constexpr double kFaintest = 1e-3;
 
 void point(Packet& packet, int i, const glm::dvec3& origin_m, const glm::dvec3& direction,
            double far_m) {
@@ -86,8 +84,31 @@ struct BounceTracer::Lane {
 
 namespace {
 
-std::vector<NrcsTable> tables(const std::vector<materials::NrcsCurve>& curves) {
-  return {curves.begin(), curves.end()};
+std::vector<BistaticNrcs> tables(const std::vector<materials::NrcsCurve>& curves) {
+  std::vector<BistaticNrcs> tables;
+  for (const materials::NrcsCurve& curve : curves) tables.emplace_back(NrcsTable(curve));
+  return tables;
+}
+
+// The mirror in which even the brightest surface of the world stays black. Filling the whole
+// elevation beam of one range cell it returns at most 4 K rho gamma w_az w_el / R^2, to be held
+// against the floor of the display. A hundredth of that: 0.04 dB on a cell that is just not black,
+// and room for a B that lies at a tenth of the range where its echo appears.
+double faintest_mirror(const sensors::Sensor& sensor, const std::vector<BistaticNrcs>& nrcs) {
+  constexpr double kShareOfFloor = 0.01;
+  double brightest = 0.0;
+  for (const BistaticNrcs& surface : nrcs)
+    brightest = std::max(brightest, surface.monostatic().largest());
+  const double beam_W_m2 = 4.0 * sensor.radar_constant_W_m2() * brightest *
+                           azimuth_width_rad(sensor) * elevation_width_rad(sensor);
+  const sensors::GreyScale scale(sensor);
+  double faintest = 1.0;
+  for (int row = 0; row < sensor.range.cells; ++row) {
+    const double range_m = sensors::range_middle_m(sensor.range, row);
+    faintest = std::min(faintest,
+                        kShareOfFloor * scale.bscope_floor_W(row) * range_m * range_m / beam_W_m2);
+  }
+  return faintest;
 }
 
 }  // namespace
@@ -97,7 +118,8 @@ BounceTracer::BounceTracer(const World& world)
       nrcs_(tables(world.nrcs)),
       mirrors_(world.specular, nrcs_, world.sensor.wavelength_m()),
       elevation_gain_(world.sensor.antenna.elevation),
-      radar_constant_W_m2_(world.sensor.radar_constant_W_m2()) {}
+      radar_constant_W_m2_(world.sensor.radar_constant_W_m2()),
+      faintest_(faintest_mirror(world.sensor, nrcs_)) {}
 
 std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna, const AntennaRay* rays,
                                   int count, Bounce* bounces) const {
@@ -146,7 +168,7 @@ bool BounceTracer::mirror(const sensors::AntennaFrame& antenna, const Packet& pa
   lane.reflection =
       mirrors_.power(material, hit.sin_grazing,
                      perpendicular_share(hit, antenna.up, world_.sensor.waveform.polarisation));
-  if (!(lane.reflection >= kFaintest)) return false;
+  if (!(lane.reflection >= faintest_)) return false;
   lane.mirror_m = hit.point_m;
   lane.first_m = hit.distance_m;
   lane.surface = surface_of(packet, i, hit);
@@ -174,7 +196,7 @@ bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay&
   if (!(hit.sin_grazing > 0.0)) return false;
   const terrain::MaterialId material = world_.surfaces->material(
       packet.geometry[i], packet.primitive[i], hit.point_m.x, hit.point_m.y);
-  const NrcsTable& nrcs = nrcs_[material];
+  const BistaticNrcs& nrcs = nrcs_[material];
   const bool cone = sensor.scan.surface == sensors::ScanSurface::cone;
   const double jacobian = cone ? std::cos(ray.azimuth_rad) : 1.0;  // as in ray_caster.h
   const double first_gain = elevation_gain_(ray.elevation_rad - boresight_rad);
@@ -183,8 +205,8 @@ bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay&
                        loss_factor(lane.mirror_m, hit.point_m, hit.distance_m);
   bounce.image = {there_m, ray.azimuth_rad, ray.elevation_rad,
                   radar_constant_W_m2_ * first_gain * lane.reflection * lane.reflection *
-                      nrcs.sigma0_over_sine(hit.sin_grazing) * there * there * jacobian /
-                      (there_m * there_m)};
+                      nrcs.monostatic().sigma0_over_sine(hit.sin_grazing) * there * there *
+                      jacobian / (there_m * there_m)};
 
   const glm::dvec3 back_m = antenna.position_m - hit.point_m;
   const double back_length_m = glm::length(back_m);
@@ -199,8 +221,8 @@ bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay&
       sensors::two_way_gain(sensor.antenna.azimuth, (ray.azimuth_rad - last->azimuth_rad) / 2);
   const double gain =
       std::sqrt(first_gain * elevation_gain_(last->elevation_rad - boresight_rad)) * apart;
-  const double scatter = bistatic_sigma0_over_sine(
-      nrcs, hit.sin_grazing, glm::dot(back, hit.normal), glm::dot(half, hit.normal) / half_length);
+  const double scatter = nrcs.sigma0_over_sine(hit.sin_grazing, glm::dot(back, hit.normal),
+                                               glm::dot(half, hit.normal) / half_length);
   const double density = 4.0 * radar_constant_W_m2_ * gain * lane.reflection * scatter * there *
                          loss_factor(hit.point_m, antenna.position_m, back_length_m) * jacobian /
                          (back_length_m * back_length_m);

@@ -20,7 +20,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/casting/nrcs_table.h"
+#include "renderer/stages/bistatic_nrcs.h"
 #include "renderer/stages/mirrors.h"
 #include "renderer/world.h"
 #include "sensors/antenna/antenna_frame.h"
@@ -71,10 +71,11 @@ class BounceTracer {
   double loss_factor(const glm::dvec3& a_m, const glm::dvec3& b_m, double length_m) const;
 
   const World& world_;
-  std::vector<NrcsTable> nrcs_;  // by material id
+  std::vector<BistaticNrcs> nrcs_;  // by material id
   Mirrors mirrors_;
   sensors::TwoWayTable elevation_gain_;
   double radar_constant_W_m2_ = 0.0;
+  double faintest_ = 0.0;  // a mirror that keeps less is not followed
 };
 
 }  // namespace fanbeam::renderer

@@ -87,7 +87,8 @@ std::optional<GroundPath> ground_path(const World& world, const sensors::Antenna
   if (!angles || !direct || !(direct_m > 0.0)) return std::nullopt;
   const sensors::Antenna& beams = world.sensor.antenna;
   const auto gain = [&](double elevation_rad) {
-    return sensors::one_way_gain(beams.elevation, elevation_rad - beams.boresight_elevation_rad);
+    return sensors::one_way_gain_with_side_lobes(beams.elevation,
+                                                 elevation_rad - beams.boresight_elevation_rad);
   };
   const double direct_gain = gain(direct->elevation_rad);
   if (!(direct_gain > 0.0)) return std::nullopt;

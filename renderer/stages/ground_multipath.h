@@ -10,6 +10,7 @@
 // A phase wants d within a wavelength's tenth, heights within millimetres: files know them to
 // centimetres. Expected power therefore uses the mean; a realisation of speckle the coherent form.
 //
+// g: with side lobes.
 // h1, h2: heights of antenna and target over the tangent plane of the ground at the reflection,
 // found by iteration (8 steps at most) on planes through the ground's heights two posts apart;
 // R' the distance to the target's image. Gamma of the material there, polarisation as over level
@@ -19,7 +20,7 @@
 // Neglected: divergence by the Earth's curvature and by hills, more than one reflection point,
 // diffuse reflection, loss in air over d, a change of RCS between the two directions, targets seen
 // by the ground alone. Accuracy: d to 1e-12 relative; closed forms on flat ground in the tests.
-// Cost: 1 microsecond and two shadow rays a target.
+// Cost: 1 microsecond a target, two shadow rays included.
 #pragma once
 
 #include <complex>

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "renderer/stages/bistatic_nrcs.h"
-
 namespace fanbeam::renderer {
 
 using materials::Polarisation;
@@ -13,7 +11,7 @@ namespace {
 
 // What the surface does not scatter, at the given number of equal steps of the sine; computed at
 // every 32nd and linear between.
-std::vector<double> left_to_mirror(const NrcsTable& nrcs, int steps) {
+std::vector<double> left_to_mirror(const BistaticNrcs& nrcs, int steps) {
   constexpr int kStride = 32;
   std::vector<double> left(static_cast<std::size_t>(steps) + 1);
   double at_low = 0.0;
@@ -31,7 +29,7 @@ std::vector<double> left_to_mirror(const NrcsTable& nrcs, int steps) {
 }  // namespace
 
 Mirrors::Mirrors(const std::vector<std::optional<materials::SpecularSurface>>& specular,
-                 const std::vector<NrcsTable>& nrcs, double wavelength_m) {
+                 const std::vector<BistaticNrcs>& nrcs, double wavelength_m) {
   for (std::size_t material = 0; material < specular.size(); ++material) {
     tables_.emplace_back();
     if (!specular[material]) continue;

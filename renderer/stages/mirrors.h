@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "materials/dielectric/specular_surface.h"
-#include "renderer/casting/nrcs_table.h"
+#include "renderer/stages/bistatic_nrcs.h"
 #include "terrain/height_field.h"
 
 namespace fanbeam::renderer {
@@ -25,7 +25,7 @@ class Mirrors {
  public:
   // By material id; materials beyond the end, and empty ones, do not reflect.
   Mirrors(const std::vector<std::optional<materials::SpecularSurface>>& specular,
-          const std::vector<NrcsTable>& nrcs, double wavelength_m);
+          const std::vector<BistaticNrcs>& nrcs, double wavelength_m);
 
   // False when nothing reflects at any angle.
   bool any() const { return any_; }

@@ -9,7 +9,8 @@
 #include "core/parallel.h"
 #include "renderer/casting/deposit.h"
 #include "renderer/casting/elevation_fan.h"
-#include "renderer/plan/display_floor.h"
+#include "renderer/plan/largest_echo.h"
+#include "renderer/stages/range_response.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 
@@ -19,10 +20,13 @@ namespace {
 // Rows of a C-scope lie 0.02 deg apart: wider intervals would show as bands.
 constexpr double kLargestStep_rad = 0.1 * core::kPi / 180.0;
 constexpr int kCellsPerStep = 8;
-// Echo and loss change slowly with elevation and along a ray: they are evaluated this far apart and
-// interpolated. The border of a rain cell is sharp in eta; its loss is off by at most half a step of
-// loss, 0.1 dB in a shower of 40 mm/h at 94 GHz.
-constexpr double kNodeStep_rad = 2.0 * core::kPi / 180.0;
+// Echo and loss are evaluated this far apart in elevation and interpolated: seldom where no top or
+// base lies within the beam, since they then change with range alone (and slowly with the air), often
+// where one does.
+constexpr double kSmoothStep_rad = 2.0 * core::kPi / 180.0;
+constexpr double kLayeredStep_rad = 0.1 * core::kPi / 180.0;
+// The loss between these is a straight line in dB. The border of a rain cell is sharp in eta; its
+// loss is off by at most half a step, 0.1 dB in a shower of 40 mm/h at 94 GHz.
 constexpr int kCellsPerLoss = 4;
 constexpr double kNeperPer_dB = 0.1 * 2.302585092994046;  // of power
 constexpr double kUnlimited_m = std::numeric_limits<double>::infinity();
@@ -30,10 +34,9 @@ constexpr double kUnlimited_m = std::numeric_limits<double>::infinity();
 // Borders of the elevation intervals, increasing, over the whole elevation pattern.
 std::vector<double> elevation_borders(const sensors::Sensor& sensor, double height_m) {
   const sensors::Antenna& antenna = sensor.antenna;
-  const double low_rad =
-      std::max(antenna.boresight_elevation_rad - antenna.elevation.cut_rad, -core::kPi / 2);
-  const double high_rad =
-      std::min(antenna.boresight_elevation_rad + antenna.elevation.cut_rad, core::kPi / 2);
+  const double reach_rad = sensors::reach_rad(antenna.elevation);
+  const double low_rad = std::max(antenna.boresight_elevation_rad - reach_rad, -core::kPi / 2);
+  const double high_rad = std::min(antenna.boresight_elevation_rad + reach_rad, core::kPi / 2);
   std::vector<double> wanted = {low_rad, high_rad};
   if (height_m > 0.0)
     for (int step = 0; step * kCellsPerStep < sensor.range.cells + kCellsPerStep; ++step) {
@@ -69,13 +72,20 @@ class Echo {
                               !world.volume_echo->varies_sideways()) {
     const sensors::BeamCut& cut = sensor_.antenna.elevation;
     const double boresight_rad = sensor_.antenna.boresight_elevation_rad;
-    for (std::size_t i = 0; i + 1 < borders_.size(); ++i)
-      gain_rad_.push_back(sensors::two_way_integral(cut, borders_[i] - boresight_rad,
-                                                    borders_[i + 1] - boresight_rad));
+    for (std::size_t i = 0; i + 1 < borders_.size(); ++i) {
+      const double from_rad = borders_[i] - boresight_rad;
+      const double to_rad = borders_[i + 1] - boresight_rad;
+      const double middle_rad = (from_rad + to_rad) / 2.0;
+      gain_rad_.push_back(std::abs(middle_rad) <= cut.cut_rad
+                              ? sensors::two_way_integral(cut, from_rad, to_rad)
+                              : sensors::two_way_gain_with_side_lobes(cut, middle_rad) *
+                                    (to_rad - from_rad));
+    }
     const double span_rad = borders_.back() - borders_.front();
-    nodes_ = 1 + static_cast<int>(std::ceil(span_rad / kNodeStep_rad));
+    const double step_rad = one_layer_in_beam() ? kSmoothStep_rad : kLayeredStep_rad;
+    nodes_ = 1 + static_cast<int>(std::ceil(span_rad / step_rad));
     node_step_rad_ = span_rad / (nodes_ - 1);
-    if (same_in_all_azimuths_) common_ = profiles(0.0);
+    if (same_in_all_azimuths_) profiles(0.0, common_);
   }
 
   void run() {
@@ -85,6 +95,15 @@ class Echo {
   }
 
  private:
+  bool one_layer_in_beam() const {
+    const bool level = antenna_.up.z > kLevelCosine;
+    const double reach_m = sensor_.range.maximum_m();
+    const double down_m = reach_m * (level ? std::sin(borders_.front()) : -1.0);
+    const double up_m = reach_m * (level ? std::sin(borders_.back()) : 1.0);
+    return world_.volume_echo->same_at_all_heights(antenna_.position_m.z + down_m,
+                                                   antenna_.position_m.z + up_m);
+  }
+
   double height_above_ground_m() const {
     const terrain::HeightField* ground = world_.surfaces->terrain();
     if (ground == nullptr) return 0.0;
@@ -103,7 +122,7 @@ class Echo {
 
   // Echo power per unit of two-way elevation gain and radian of azimuth in every range cell, as if
   // the air were free.
-  std::vector<double> profile(double elevation_rad, double azimuth_rad) const {
+  void profile(double elevation_rad, double azimuth_rad, std::vector<double>& power_W) const {
     const glm::dvec3 along =
         sensors::direction(antenna_, azimuth_rad, elevation_rad, sensor_.scan.surface);
     // J of ray_caster.h.
@@ -112,7 +131,7 @@ class Echo {
     const double constant = sensor_.radar_constant_W_m2() * jacobian;
     const int cells = sensor_.range.cells;
     const double cell_m = sensor_.range.cell_m;
-    std::vector<double> power_W(static_cast<std::size_t>(cells), 0.0);
+    power_W.assign(static_cast<std::size_t>(cells), 0.0);
     double near_dB = loss_dB(along, 0);
     for (int first = 0; first < cells; first += kCellsPerLoss) {
       const int last = std::min(first + kCellsPerLoss, cells);
@@ -132,15 +151,13 @@ class Echo {
       }
       near_dB = far_dB;
     }
-    return power_W;
   }
 
-  std::vector<std::vector<double>> profiles(double azimuth_rad) const {
-    std::vector<std::vector<double>> found;
-    found.reserve(static_cast<std::size_t>(nodes_));
+  void profiles(double azimuth_rad, std::vector<std::vector<double>>& nodes_W) const {
+    nodes_W.resize(static_cast<std::size_t>(nodes_));
     for (int node = 0; node < nodes_; ++node)
-      found.push_back(profile(borders_.front() + node * node_step_rad_, azimuth_rad));
-    return found;
+      profile(borders_.front() + node * node_step_rad_, azimuth_rad,
+              nodes_W[static_cast<std::size_t>(node)]);
   }
 
   double free_m(double azimuth_rad, double elevation_rad) const {
@@ -154,12 +171,12 @@ class Echo {
   // How far the air is free along every border. Where two borders a few intervals apart both see
   // the sky, or both end before the first range cell, so does what lies between: things narrower
   // than half a degree above the horizon are missed.
-  std::vector<double> free_distances_m(double azimuth_rad) const {
+  void free_distances_m(double azimuth_rad, std::vector<double>& free) const {
     constexpr std::size_t kStride = 5;
     const auto unseen = [&](double free_m) {
       return free_m == kUnlimited_m || free_m < sensor_.range.minimum_m;
     };
-    std::vector<double> free(borders_.size());
+    free.resize(borders_.size());
     free[0] = free_m(azimuth_rad, borders_[0]);
     for (std::size_t from = 0; from + 1 < borders_.size();) {
       const std::size_t to = std::min(from + kStride, borders_.size() - 1);
@@ -170,7 +187,6 @@ class Echo {
         free[i] = between ? free_m(azimuth_rad, borders_[i]) : free[from];
       from = to;
     }
-    return free;
   }
 
   void add_block(int block);
@@ -228,12 +244,14 @@ void Echo::add_block(int block) {
   const int first = block * subs_;
   const int last = std::min(first + subs_, sums_.sub_columns);
   const double azimuth_rad = sums_.first_azimuth_rad + (first + last) / 2.0 * sums_.step_rad;
-  std::vector<double> range_W(static_cast<std::size_t>(sums_.cells), 0.0);
-  std::vector<double> row_W_m3(static_cast<std::size_t>(sums_.rows), 0.0);
-  const std::vector<std::vector<double>> own =
-      same_in_all_azimuths_ ? std::vector<std::vector<double>>{} : profiles(azimuth_rad);
+  // Kept by the thread from block to block.
+  thread_local std::vector<double> range_W, row_W_m3, free;
+  thread_local std::vector<std::vector<double>> own;
+  range_W.assign(static_cast<std::size_t>(sums_.cells), 0.0);
+  row_W_m3.assign(static_cast<std::size_t>(sums_.rows), 0.0);
+  if (!same_in_all_azimuths_) profiles(azimuth_rad, own);
   const std::vector<std::vector<double>>& nodes_W = same_in_all_azimuths_ ? common_ : own;
-  const std::vector<double> free = free_distances_m(azimuth_rad);
+  free_distances_m(azimuth_rad, free);
   for (std::size_t i = 0; i < gain_rad_.size(); ++i)
     add_interval(i, nodes_W, free[i], free[i + 1], range_W, row_W_m3);
   const auto add = [](const std::vector<double>& from, double* to) {
@@ -253,15 +271,10 @@ void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
 }
 
 double rain_echo_bound_dB(const SceneFacts& facts) {
-  const sensors::Sensor& sensor = facts.sensor;
-  const double beam_m2 = sensor.radar_constant_W_m2() * facts.largest_eta_m2_per_m3 *
-                         sensor.range.cell_m * sensors::two_way_width(sensor.antenna.elevation) *
-                         sensors::two_way_width(sensor.antenna.azimuth);
-  // Echo over floor goes with R or, without range compensation, with 1 / R^2: one end is the worst.
-  double most = 0.0;
-  for (const double range_m : {sensors::range_middle_m(sensor.range, 0), sensor.range.maximum_m()})
-    most = std::max(most, beam_m2 / (range_m * range_m * display_floor_W(sensor, range_m)));
-  return 10.0 * std::log10(1.0 + most);
+  AddedPower added = largest_echo({0.0, facts.largest_eta_m2_per_m3, 0.0},
+                                  whole_beam(facts.sensor), facts.sensor);
+  added.cell_W = largest_spread(facts.sensor, added.cell_W);
+  return largest_change_dB(added, facts);
 }
 
 }  // namespace fanbeam::renderer

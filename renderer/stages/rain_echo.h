@@ -10,7 +10,8 @@
 // of level ground border each other, at most a tenth of a degree elsewhere. A ray along each border
 // says how far the air is free; between two rays the free share of an interval falls linearly with
 // range. Inside a range cell eta is that of the middle and the loss decays exponentially; over
-// elevation both are interpolated between values two degrees apart.
+// elevation both are interpolated between values 0.1 deg apart, or 2 deg where no top, base or melting
+// layer lies within the beam.
 //
 // Neglected: depolarisation, multiple scattering, echo that reaches the antenna by way of the ground.
 // Accuracy: 0.02 dB over level ground against the closed form; 1 % of a cell's echo where a silhouette
@@ -27,8 +28,9 @@ namespace fanbeam::renderer {
 void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
                    int sub_columns_per_column, FanSums& sums);
 
-// Upper bound of the change of a pixel by the echo, in dB: the largest eta filling the whole beam
-// without loss, over the display's floor, at the range where that is most.
+// Upper bound of the change of a pixel by the echo, in dB: the largest eta filling the whole beam,
+// side lobes included, without loss (largest_echo.h), spread by the range response, over the floor
+// of the display's pictures (display_floor.h) where that is most.
 double rain_echo_bound_dB(const SceneFacts& facts);
 
 }  // namespace fanbeam::renderer

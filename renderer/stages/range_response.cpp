@@ -6,7 +6,7 @@
 
 #include "core/dispatch.h"
 #include "core/parallel.h"
-#include "renderer/plan/display_floor.h"
+#include "renderer/plan/largest_echo.h"
 #include "sensors/receiver/point_response.h"
 
 namespace fanbeam::renderer {
@@ -70,6 +70,16 @@ FANBEAM_HOT void gather_row(const double* picture, int columns, int cells, int r
   }
 }
 
+double gathered(const std::vector<double>& cell_W, int row, const std::vector<double>& shares) {
+  const int reach = static_cast<int>(shares.size()) - 1;
+  const int last = std::min(static_cast<int>(cell_W.size()) - 1, row + reach);
+  double sum = 0.0;
+  for (int from = std::max(0, row - reach); from <= last; ++from)
+    sum += shares[static_cast<std::size_t>(std::abs(from - row))] *
+           cell_W[static_cast<std::size_t>(from)];
+  return sum;
+}
+
 }  // namespace
 
 RangeResponse::RangeResponse(const sensors::Sensor& sensor)
@@ -129,17 +139,34 @@ bool has_range_response(const SceneFacts& facts) {
   return sensors::has_point_response(facts.sensor);
 }
 
+std::vector<double> largest_spread(const sensors::Sensor& sensor, std::vector<double> cell_W) {
+  if (!sensors::has_point_response(sensor)) return cell_W;
+  const RangeResponse response(sensor);
+  std::vector<double> most_W(cell_W.size(), 0.0);
+  // Columns differ by their bandwidth alone; where they do not, one stands for all.
+  const int columns = sensors::point_response_varies(sensor) ? sensor.scan.columns : 1;
+  for (int column = 0; column < columns; ++column)
+    for (int row = 0; row < sensor.range.cells; ++row) {
+      const double power_W = gathered(cell_W, row, response.shares(column));
+      most_W[static_cast<std::size_t>(row)] =
+          std::max(most_W[static_cast<std::size_t>(row)], power_W);
+    }
+  return most_W;
+}
+
 double range_response_bound_dB(const SceneFacts& facts) {
-  const sensors::Display& display = facts.sensor.display;
-  const RangeResponse response(facts.sensor);
-  double bound_dB = 0.0;
-  for (const int column : {0, facts.sensor.scan.columns - 1}) {
-    const std::vector<double>& shares = response.shares(column);
-    const double beside = shares.size() > 1 ? shares[1] : 0.0;
-    bound_dB = std::max({bound_dB, -10.0 * std::log10(shares[0]),
-                         10.0 * std::log10(1.0 + beside * brightest_over_floor(facts.sensor))});
-  }
-  return std::min(bound_dB, display.high_dB - display.low_dB);
+  const sensors::Sensor& sensor = facts.sensor;
+  if (has_unbounded_echo(facts)) return window_dB(sensor);
+  const RangeResponse response(sensor);
+  double least_kept = 1.0;
+  for (int column = 0; column < sensor.scan.columns; ++column)
+    least_kept = std::min(least_kept, response.shares(column)[0]);
+  const std::vector<double> echo_W =
+      largest_echo(all_sources(facts), whole_beam(sensor), sensor).cell_W;
+  AddedPower beside{largest_spread(sensor, echo_W)};
+  for (std::size_t i = 0; i < echo_W.size(); ++i) beside.cell_W[i] -= least_kept * echo_W[i];
+  return std::clamp(-10.0 * std::log10(least_kept), largest_change_dB(beside, facts),
+                    window_dB(sensor));
 }
 
 }  // namespace fanbeam::renderer

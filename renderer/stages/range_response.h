@@ -14,11 +14,11 @@
 // is left. Cost: cells^2 x columns multiply-adds for windows with slow side lobes: 45 million, 10 ms
 // for HiVision.
 //
-// Bound, dB. Main-lobe spread: an echo loses 1 - K_0 in its own cell, and fills the floor beside it
-// with K_1; with an echo h = 40 dB over the window's top (side_lobes.h)
-//     max(-10 log10 K_0, 10 log10(1 + K_1 h 10^((high - low) / 10)))
-// and at most the window. Where a bin is about a cell, K_1 is above 10 % and the effect always
-// runs; the far side lobes (-13 to -43 dB of the peak) change less than that.
+// Bound, dB. An echo keeps at least K_0 in its own cell, and fills the cells around it; with E the
+// largest echo in each range cell of what the scene holds (largest_echo.h)
+//     max(-10 log10 K_0, change of a pixel by sum over k away from 0 of K_|k| E(row - k))
+// (display_floor.h), at most the window; the whole window where double bounce or ground multipath
+// are possible. Where a bin is about a cell, K_1 is above 10 % and the effect always runs.
 #pragma once
 
 #include <vector>
@@ -50,6 +50,9 @@ class RangeResponse {
   int cells_ = 0;
   std::vector<std::vector<double>> shares_;  // one for all columns, or one each
 };
+
+// Upper bound of `cell_W` [cell] after the response, in any column; as it is without one.
+std::vector<double> largest_spread(const sensors::Sensor& sensor, std::vector<double> cell_W);
 
 bool has_range_response(const SceneFacts& facts);
 double range_response_bound_dB(const SceneFacts& facts);

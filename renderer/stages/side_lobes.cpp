@@ -4,7 +4,8 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "renderer/plan/display_floor.h"
+#include "renderer/plan/largest_echo.h"
+#include "renderer/stages/range_response.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 
@@ -35,30 +36,33 @@ FanPlace place_in(const FanSums& fan, double azimuth_rad) {
   return {edge, position - static_cast<double>(edge)};
 }
 
-double lobe_width_rad(const sensors::Sensor& sensor) {
-  const sensors::BeamCut& azimuth = sensor.antenna.azimuth;
-  if (!(azimuth.side_lobe_gain > 0.0)) return 0.0;
-  const double fan_rad = sensor.scan.field_of_view_rad + 2.0 * azimuth.cut_rad;
-  return std::min(2.0 * (azimuth.side_lobe_extent_rad - azimuth.cut_rad), fan_rad);
-}
-
-// Two-way power that the azimuth's side lobes collect over that of its main beam.
-double azimuth_lobes(const sensors::Sensor& sensor) {
-  const sensors::BeamCut& azimuth = sensor.antenna.azimuth;
-  const double main_rad = sensors::two_way_width(sensors::main_beam(azimuth));
-  const double level = azimuth.side_lobe_gain * azimuth.side_lobe_gain;
-  return (level * lobe_width_rad(sensor) + sensors::two_way_width(azimuth) - main_rad) / main_rad;
-}
-
-// The largest two-way gain outside the elevation's main beam.
-double elevation_lobes(const sensors::BeamCut& elevation) {
+// The largest two-way gain outside the main beam.
+double largest_lobe(const sensors::BeamCut& cut) {
   constexpr int kSteps = 4096;
-  const double null_rad = sensors::main_beam(elevation).cut_rad;
-  double most = elevation.side_lobe_gain * elevation.side_lobe_gain;
-  for (int i = 1; i <= kSteps && null_rad < elevation.cut_rad; ++i)
-    most = std::max(most, sensors::two_way_gain(
-                              elevation, null_rad + (elevation.cut_rad - null_rad) * i / kSteps));
+  const double null_rad = sensors::main_beam(cut).cut_rad;
+  double most = cut.side_lobe_gain * cut.side_lobe_gain;
+  for (int i = 1; i <= kSteps && null_rad < cut.cut_rad; ++i)
+    most = std::max(most,
+                    sensors::two_way_gain(cut, null_rad + (cut.cut_rad - null_rad) * i / kSteps));
   return most;
+}
+
+// What the whole beam has beyond the main beams.
+BeamPart side_lobes(const sensors::Sensor& sensor) {
+  // A faint level would drown in the difference of whole and main beam.
+  const auto beyond_null_rad = [](const sensors::BeamCut& cut) {
+    return sensors::two_way_width(cut) - sensors::two_way_width(sensors::main_beam(cut));
+  };
+  const sensors::Antenna& antenna = sensor.antenna;
+  const double main_azimuth_rad = sensors::two_way_width(sensors::main_beam(antenna.azimuth));
+  const double azimuth_lobes_rad = beyond_null_rad(antenna.azimuth) + azimuth_level_rad(sensor);
+  const double elevation_lobes_rad =
+      beyond_null_rad(antenna.elevation) + elevation_level_rad(sensor);
+  const double largest_elevation = largest_lobe(antenna.elevation);
+  return {azimuth_lobes_rad * elevation_width_rad(sensor) + main_azimuth_rad * elevation_lobes_rad,
+          (azimuth_lobes_rad + main_azimuth_rad * largest_elevation) *
+              cscope_row_rad(sensor.display),
+          std::max(largest_lobe(antenna.azimuth), largest_elevation)};
 }
 
 }  // namespace
@@ -100,11 +104,10 @@ bool has_side_lobes(const SceneFacts& facts) {
 }
 
 double side_lobe_bound_dB(const SceneFacts& facts) {
-  const sensors::Display& display = facts.sensor.display;
-  const double window_dB = display.high_dB - display.low_dB;
-  const double azimuth = azimuth_lobes(facts.sensor);
-  const double lobes = azimuth + elevation_lobes(facts.sensor.antenna.elevation) * (1.0 + azimuth);
-  return std::min(window_dB, 10.0 * std::log10(1.0 + lobes * brightest_over_floor(facts.sensor)));
+  if (has_unbounded_echo(facts)) return window_dB(facts.sensor);
+  AddedPower added = largest_echo(all_sources(facts), side_lobes(facts.sensor), facts.sensor);
+  added.cell_W = largest_spread(facts.sensor, added.cell_W);
+  return largest_change_dB(added, facts);
 }
 
 sensors::Sensor without_side_lobes(const sensors::Sensor& sensor) {

@@ -10,14 +10,13 @@
 // power; the level of the lobes is less well known than these 6 dB. Structure of the lobes; the
 // narrowing of azimuth away from the horizon (cos of the elevation, 0.3 dB at 20 deg).
 //
-// Bound, dB: side lobes add power, so with L the two-way power that they collect over what the main
-// beam collects from the same surroundings, a cell at the display's floor beside surroundings at
-// the window's top changes by at most
-//     10 log10(1 + L h 10^((high - low) / 10)) ,
-// never more than the window. L = (s_az^2 W + lobes of the shape) / two-way width, W the two-sided
-// angle from cut to extent or the fan, whichever is less, plus the largest two-way elevation lobe.
-// h = 40 dB of headroom: surroundings and targets may be brighter than the window's top by that
-// much (the brightest surface, metal facing the radar, is 27 dB over; 4e5 m^2 at 200 m).
+// Bound, dB: side lobes add power, so a pixel changes by at most 10 log10(1 + p / floor)
+// (display_floor.h) with p the largest echo of what the scene holds (largest_echo.h) through the
+// part of the pattern that the effect adds,
+//     Omega = A E - A_main E_main ,
+// A and E the two-way integrals over azimuth and elevation with all lobes, A_main and E_main those
+// of the main beams; point targets with the largest two-way gain outside a main beam. Where double
+// bounce or ground multipath are possible no echo has a bound: the whole window.
 #pragma once
 
 #include <vector>

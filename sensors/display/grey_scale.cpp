@@ -57,6 +57,15 @@ double GreyScale::grey_of_level(double level_dB) const {
   return std::min(255.0, (level_dB - low_dB_) * greys_per_dB_);
 }
 
+double GreyScale::bscope_floor_W(int range_row) const {
+  return std::pow(10.0, low_dB_ / 10.0) /
+         level_per_power_per_W_[static_cast<std::size_t>(range_row)];
+}
+
+double GreyScale::cscope_floor_W_m3() const {
+  return std::pow(10.0, low_dB_ / 10.0) / level_per_compensated_per_W_m3_;
+}
+
 double GreyScale::level_dB(double power_W, int range_row) const {
   return level_of(power_W * level_per_power_per_W_[static_cast<std::size_t>(range_row)],
                   "received power");

@@ -34,6 +34,12 @@ class GreyScale {
 
   double low_dB() const { return low_dB_; }
   double high_dB() const { return high_dB_; }
+  double window_dB() const { return high_dB_ - low_dB_; }
+  double dB_per_grey() const { return window_dB() / 255.0; }
+
+  // The largest power that is still shown as grey 0.
+  double bscope_floor_W(int range_row) const;
+  double cscope_floor_W_m3() const;
 
   // Unrounded, 0 to 255. -infinity is 0, +infinity 255.
   double grey_of_level(double level_dB) const;

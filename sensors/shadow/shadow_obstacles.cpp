@@ -7,13 +7,13 @@
 #include "core/errors.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
+#include "sensors/shadow/shadow_certainty.h"
 #include "sensors/shadow/shadow_runs.h"
 
 namespace fanbeam::sensors {
 namespace {
 
 constexpr int kStartStep = 4;  // rows between the starts of neighbouring columns
-constexpr int kWall = 4;       // rows between bright edge and shadow without a roof
 constexpr int kBorder = 2;     // columns at the picture's sides
 constexpr int kSkirt = 4;      // columns beside a shadow that its smeared sides may reach
 constexpr double kLeastDepth = 0.35;
@@ -23,28 +23,19 @@ constexpr double kDeepFill = 0.02;
 constexpr double kLongShadow = 0.9;  // ratio of its quarters' ranges: below it sides can be told
 constexpr double kLeastHeight_m = 3.0;
 
-using Group = std::vector<ShadowRun>;
+using Group = ShadowColumns;
 
-template <class Value>
-double median_of(const Group& group, const Value& value) {
-  std::vector<double> values;
-  for (const ShadowRun& run : group) values.push_back(value(run));
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-bool same_obstacle(const ShadowRun& a, const ShadowRun& b) {
+bool same_obstacle(const ShadowRun &a, const ShadowRun &b) {
   const int common = std::min(a.end_row, b.end_row) - std::max(a.start_row, b.start_row);
   const int shorter = std::min(a.end_row - a.start_row, b.end_row - b.start_row);
   return std::abs(a.start_row - b.start_row) <= kStartStep && 2 * common >= shorter;
 }
 
-std::vector<Group> groups_of(const std::vector<ShadowRun>& runs) {
+std::vector<Group> groups_of(const std::vector<ShadowRun> &runs) {
   std::vector<Group> groups;
-  for (const ShadowRun& run : runs) {
-    Group* home = nullptr;
-    for (Group& group : groups)
+  for (const ShadowRun &run : runs) {
+    Group *home = nullptr;
+    for (Group &group : groups)
       if (group.back().column == run.column - 1 && same_obstacle(group.back(), run) &&
           (home == nullptr || home->back().score < group.back().score))
         home = &group;
@@ -57,12 +48,12 @@ std::vector<Group> groups_of(const std::vector<ShadowRun>& runs) {
 }
 
 // Without the columns that the beam's edge alone darkens.
-Group core_of(const Group& group) {
+Group core_of(const Group &group) {
   double deepest = 0.0;
-  for (const ShadowRun& run : group) deepest = std::max(deepest, run.depth());
+  for (const ShadowRun &run : group) deepest = std::max(deepest, run.depth());
   Group core;
   if (deepest < kLeastDepth) return core;
-  for (const ShadowRun& run : group)
+  for (const ShadowRun &run : group)
     if (run.depth() >= 0.5 * deepest) core.push_back(run);
   return core;
 }
@@ -73,10 +64,10 @@ struct Cut {
   double floor = 1.0;    // of the darkest column, as a share of the lit ground
 };
 
-Cut cut_through(const ShadowGround& ground, const Group& core, double from, double to) {
-  const double start = median_of(core, [](const ShadowRun& run) { return run.start_row; });
-  const double length = median_of(core, [](const ShadowRun& run) { return run.end_row; }) - start;
-  const double lit = median_of(core, [](const ShadowRun& run) { return run.lit; });
+Cut cut_through(const ShadowGround &ground, const Group &core, double from, double to) {
+  const double start = median_of(core, [](const ShadowRun &run) { return run.start_row; });
+  const double length = median_of(core, [](const ShadowRun &run) { return run.end_row; }) - start;
+  const double lit = median_of(core, [](const ShadowRun &run) { return run.lit; });
   const int first = static_cast<int>(start + from * length);
   const int last = std::max(static_cast<int>(start + to * length), first + 1);
   const auto share = [&](int column) {
@@ -103,26 +94,26 @@ Cut cut_through(const ShadowGround& ground, const Group& core, double from, doub
   return cut;
 }
 
-bool stands_out(const ShadowGround& ground, const Group& core) {
+bool stands_out(const ShadowGround &ground, const Group &core) {
   const double speckle = 4.0 * ground.fluctuation;
-  const double edge = median_of(core, [](const ShadowRun& run) { return run.edge / run.lit; });
+  const double edge = median_of(core, [](const ShadowRun &run) { return run.edge / run.lit; });
   const double front =
-      median_of(core, [](const ShadowRun& run) { return run.edge / std::max(run.before, 0.05); });
+      median_of(core, [](const ShadowRun &run) { return run.edge / std::max(run.before, 0.05); });
   return edge >= kLeastEdge + speckle && front >= kLeastFront + speckle;
 }
 
 // As dark and as straight as a shadow of its width, not as dark ground is.
-bool is_shadow(const Sensor& sensor, const ShadowGround& ground, const Group& core) {
+bool is_shadow(const Sensor &sensor, const ShadowGround &ground, const Group &core) {
   const Cut near = cut_through(ground, core, 0.1, 0.4);
   const Cut far = cut_through(ground, core, 0.6, 0.9);
   const double width_rad = 0.5 * (near.columns + far.columns) * sensor.scan.column_width_rad();
-  const BeamCut& beam = sensor.antenna.azimuth;
+  const BeamCut &beam = sensor.antenna.azimuth;
   const double fill =
       1.0 - two_way_integral(beam, -0.5 * width_rad, 0.5 * width_rad) / two_way_width(beam);
   if (std::max(near.floor, far.floor) > fill + kFillTolerance) return false;
   if (fill < kDeepFill && std::min(near.floor, far.floor) > kDeepFill) return false;
-  const double start = median_of(core, [](const ShadowRun& run) { return run.start_row; });
-  const double length = median_of(core, [](const ShadowRun& run) { return run.end_row; }) - start;
+  const double start = median_of(core, [](const ShadowRun &run) { return run.start_row; });
+  const double length = median_of(core, [](const ShadowRun &run) { return run.end_row; }) - start;
   const auto range_m = [&](double share) {
     return sensor.range.minimum_m + (start + share * length) * sensor.range.cell_m;
   };
@@ -130,25 +121,15 @@ bool is_shadow(const Sensor& sensor, const ShadowGround& ground, const Group& co
   return strip > kLongShadow || far.columns >= 0.5 * (1.0 + strip) * near.columns;
 }
 
-double top_range_m(const RangeGate& gate, const ShadowRun& run) {
-  if (run.roof_rows > 0) return range_middle_m(gate, run.start_row + run.roof_rows - 1);
-  return run.start_row - run.edge_row <= kWall ? range_middle_m(gate, run.edge_row)
-                                               : range_middle_m(gate, run.start_row - 1);
-}
-
-double end_range_m(const RangeGate& gate, const ShadowRun& run) {
-  return range_edge_m(gate, run.end_row) + run.end_offset * gate.cell_m;
-}
-
-ShadowObstacle obstacle_of(const Sensor& sensor, const Group& core, double height_m) {
-  const RangeGate& gate = sensor.range;
+ShadowObstacle obstacle_of(const Sensor &sensor, const Group &core, double height_m) {
+  const RangeGate &gate = sensor.range;
   ShadowObstacle obstacle;
   obstacle.first_column = core.front().column;
   obstacle.last_column = core.back().column;
   Group free, cut;
   std::size_t merged = 0;
   double weight = 0.0;
-  for (const ShadowRun& run : core) {
+  for (const ShadowRun &run : core) {
     (run.truncated ? cut : free).push_back(run);
     merged += run.merged ? 1 : 0;
     obstacle.azimuth_rad += run.depth() * column_middle_rad(sensor.scan, run.column);
@@ -160,14 +141,13 @@ ShadowObstacle obstacle_of(const Sensor& sensor, const Group& core, double heigh
   obstacle.azimuth_rad /= weight;
   obstacle.truncated = 3 * free.size() < core.size();
   obstacle.merged = 3 * merged >= core.size();
-  const Group& whole = obstacle.truncated ? cut : free;
+  const Group &whole = obstacle.truncated ? cut : free;
   const double top_m =
-      median_of(whole, [&](const ShadowRun& run) { return top_range_m(gate, run); });
+      median_of(whole, [&](const ShadowRun &run) { return top_range_m(gate, run); });
   obstacle.range_m =
-      median_of(core, [&](const ShadowRun& run) { return range_middle_m(gate, run.edge_row); });
-  obstacle.height_m = median_of(whole, [&](const ShadowRun& run) {
-    return height_m * (1.0 - top_range_m(gate, run) / end_range_m(gate, run));
-  });
+      median_of(core, [&](const ShadowRun &run) { return range_middle_m(gate, run.edge_row); });
+  obstacle.height_m =
+      median_of(whole, [&](const ShadowRun &run) { return shadow_height_m(gate, run, height_m); });
   // L from the height, so that the figures of one obstacle agree.
   const double end_m = top_m / (1.0 - obstacle.height_m / height_m);
   obstacle.shadow_length_m = end_m - top_m;
@@ -175,7 +155,7 @@ ShadowObstacle obstacle_of(const Sensor& sensor, const Group& core, double heigh
   return obstacle;
 }
 
-void check(const Sensor& sensor, std::size_t cells, double height_m) {
+void check(const Sensor &sensor, std::size_t cells, double height_m) {
   const std::size_t expected =
       static_cast<std::size_t>(sensor.range.cells) * static_cast<std::size_t>(sensor.scan.columns);
   if (cells != expected)
@@ -190,18 +170,19 @@ void check(const Sensor& sensor, std::size_t cells, double height_m) {
 
 }  // namespace
 
-std::vector<ShadowObstacle> shadow_obstacles(const Sensor& sensor, std::span<const double> power_W,
+std::vector<ShadowObstacle> shadow_obstacles(const Sensor &sensor, std::span<const double> power_W,
                                              double height_m) {
   check(sensor, power_W.size(), height_m);
   const ShadowGround ground = shadow_ground(sensor, power_W);
   std::vector<ShadowObstacle> obstacles;
-  for (const Group& group : groups_of(shadow_runs(ground))) {
+  for (const Group &group : groups_of(shadow_runs(ground))) {
     const Group core = core_of(group);
     if (core.size() < 2 || core.front().column < kBorder ||
         core.back().column >= sensor.scan.columns - kBorder)
       continue;
     if (!stands_out(ground, core) || !is_shadow(sensor, ground, core)) continue;
-    const ShadowObstacle obstacle = obstacle_of(sensor, core, height_m);
+    ShadowObstacle obstacle = obstacle_of(sensor, core, height_m);
+    obstacle.uncertain = obstacle.merged || !tells_height(sensor.range, core, height_m);
     if (obstacle.height_m >= kLeastHeight_m) obstacles.push_back(obstacle);
   }
   return obstacles;

@@ -1,12 +1,18 @@
 // The program as a user meets it: exit codes, messages, what validate, compare and bad input do.
 #include <filesystem>
 
+#include "apps/render_command.h"
+#include "renderer/plan/effect_catalogue.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam::tests;
 namespace fs = std::filesystem;
 
 namespace {
+
+const char* const kCommands[] = {"render",        "validate",         "compare",
+                                 "atmosphere",    "materials",        "materials plot",
+                                 "materials fit", "materials objects"};
 
 const std::string kBadScene =
     "[scene]\nname = \"bad\"\norigin = { latitude_deg = 95.0, longitude_deg = 10.0 }\n"
@@ -15,20 +21,28 @@ const std::string kBadScene =
 }  // namespace
 
 TEST_CASE("Help and version are told with exit code 0", "[cli]") {
-  for (const char* words : {"--help", "render --help", "validate --help", "compare --help"}) {
-    const Result result = run_fanbeam(words);
-    INFO(words);
-    CHECK(result.exit_code == 0);
-    CHECK(result.output.find("Usage") != std::string::npos);
+  for (const char* command : kCommands) {
+    INFO(command);
+    const Result help = run_fanbeam(std::string(command) + " --help");
+    CHECK(help.exit_code == 0);
+    CHECK(help.output.find("Usage") != std::string::npos);
+    for (const char* option : {"--version", "--quiet", "--log-level"})
+      CHECK(help.output.find(option) != std::string::npos);
+    const Result version = run_fanbeam(std::string(command) + " --version");
+    CHECK(version.exit_code == 0);
+    CHECK(version.output == run_fanbeam("--version").output);
   }
   CHECK(run_fanbeam("--help").output.find("Exit codes: 0 done, 1 comparison failed, 2 usage") !=
         std::string::npos);
-  for (const char* words :
-       {"--version", "render --version", "validate --version", "compare --version"}) {
-    const Result result = run_fanbeam(words);
-    CHECK(result.exit_code == 0);
-    CHECK(result.output.rfind("fanbeam ", 0) == 0);
-  }
+  CHECK(run_fanbeam("--version").output.rfind("fanbeam ", 0) == 0);
+}
+
+TEST_CASE("render --help names every effect and product", "[cli]") {
+  const std::string help = run_fanbeam("render --help").output;
+  for (const fanbeam::renderer::Effect& effect : fanbeam::renderer::effect_catalogue())
+    CHECK(help.find(effect.name) != std::string::npos);
+  for (const fanbeam::apps::Product& product : fanbeam::apps::kProducts)
+    CHECK(help.find(std::string(product.name) + " (") != std::string::npos);
 }
 
 TEST_CASE("Exit code 2: a command line that cannot be understood", "[cli]") {

@@ -110,13 +110,31 @@ TEST_CASE("fanbeam materials fit gives the figures of the library", "[cli][mater
   CHECK(vertical["a"].get<double>() > 2.0 * concrete["a"].get<double>());
   const Result text = run_fanbeam("materials fit --model nrl-sea --sea-state 0");
   CHECK(text.output.find("c = 7.0315\n# misses its source by 1.21 dB RMS") != std::string::npos);
+}
+
+TEST_CASE("fanbeam materials refuses options without an effect, by the names they were given",
+          "[cli][materials]") {
   for (const char* words :
-       {"materials fit", "materials fit --model kulemin --csv x.csv", "materials fit --angles all"})
-    CHECK(run_fanbeam(words).exit_code == 2);
-  for (const char* words : {"materials fit --model kulemin --terrain moor",
-                            "materials fit --model nrl-sea --sea-state 1 --frequency 94",
-                            "materials fit --model kulemin --terrain urban --sea-state 1"})
-    CHECK(run_fanbeam(words).exit_code == 3);
+       {"fit", "fit --model kulemin --csv x.csv", "fit --angles all", "fit --model phong",
+        "fit --csv x.csv --terrain urban", "fit --csv x.csv --sea-state 1",
+        "fit --csv x.csv --rms-slope 0.1", "fit --csv x.csv --angles steep",
+        "fit --csv x.csv --frequency 94", "fit --csv x.csv --polarisation VV",
+        "fit --library --terrain urban", "fit --library --frequency 94", "fit --library --json",
+        "fit --model kulemin --terrain moor", "fit --model nrl-sea --sea-state 9",
+        "fit --model kulemin --terrain urban --sea-state 1", "--json objects",
+        "--state wet fit --model kulemin --terrain urban", "--frequency 94 plot -o x.svg"}) {
+    INFO("fanbeam materials " << words);
+    const Result result = run_fanbeam(std::string("materials ") + words);
+    INFO(result.output);
+    CHECK(result.exit_code == 2);
+  }
+  const auto output = [](const char* words) { return run_fanbeam(words).output; };
+  CHECK(output("materials fit --model kulemin --terrain urban --sea-state 1")
+            .rfind("E-REF --sea-state = given: expected an option of the model kulemin\n", 0) == 0);
+  CHECK(output("materials fit --model rough-metal --rms-slope 2 --rms-height-mm 0.1")
+            .rfind("E-RANGE --rms-slope = 2: expected 0.01 to 1\n", 0) == 0);
+  CHECK(output("materials fit --model nrl-sea --sea-state 1 --frequency 94")
+            .rfind("E-RANGE --frequency = 94: expected 0.5 to 35", 0) == 0);
 }
 
 TEST_CASE("fanbeam materials fit --library prints the shipped library byte for byte",

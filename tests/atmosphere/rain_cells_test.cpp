@@ -210,7 +210,7 @@ TEST_CASE("Cells add to the layers, and their bounds hold", "[rain_cells]") {
         tests::within(rain_eta(2.0) + rain_eta(30.0) + rain_eta(10.0), 1e-13));
   weather.simulate_rain = false;
   CHECK(RainCells(weather, 35e9).empty());
-  CHECK(VolumeEcho(Weather{}, 35e9).is_empty());
+  CHECK(VolumeEcho(Weather{}, 35e9).largest_eta_m2_per_m3() == 0.0);
   CHECK(VolumeEcho(Weather{}, 35e9).eta_m2_per_m3({0.0, 0.0, 0.0}) == 0.0);
 }
 

@@ -107,7 +107,11 @@ TEST_CASE("Rain below, melting layer, dry snow above", "[melting][path_attenuati
         tests::within(rain_eta * melting_multiple(-300.0), 1e-12));
   CHECK(echo.layered_eta_m2_per_m3(rain_height_m) == snow_eta_m2_per_m3(5.0, 35e9));
   CHECK(echo.layered_eta_m2_per_m3(4000.0) == 0.0);
-  CHECK(echo.top_m() == 4000.0);
+  CHECK(echo.same_at_all_heights(-500.0, rain_height_m - kMeltingDepth_m));
+  CHECK_FALSE(echo.same_at_all_heights(-500.0, rain_height_m - kMeltingDepth_m + 1.0));
+  CHECK_FALSE(echo.same_at_all_heights(rain_height_m - 1.0, rain_height_m));
+  CHECK(echo.same_at_all_heights(rain_height_m, 3999.0));
+  CHECK_FALSE(echo.same_at_all_heights(rain_height_m, 4000.0));
   CHECK(echo.largest_eta_m2_per_m3(-100.0, 100.0) == rain_eta);
   for (double h = -500.0; h < 5000.0; h += 1.0)
     REQUIRE(echo.layered_eta_m2_per_m3(h) <= echo.largest_eta_m2_per_m3());

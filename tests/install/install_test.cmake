@@ -19,6 +19,7 @@ run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}")
 # Every shipped data file arrives; without this the program could still find those of the source tree around it.
 file(GLOB_RECURSE shipped RELATIVE "${SOURCE}" "${SOURCE}/scenes/*/*" "${SOURCE}/sensors/*.toml"
      "${SOURCE}/materials/*.toml")
+list(FILTER shipped EXCLUDE REGEX "\\.(h|cpp)$")  # scenes/trajectory holds sources
 if(NOT shipped)
   message(FATAL_ERROR "no data files in ${SOURCE}")
 endif()

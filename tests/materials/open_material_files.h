@@ -54,7 +54,9 @@ inline OpenSurface open_surface(const std::filesystem::path& folder, const std::
                                 const std::string& file = "block.xoma") {
   OpenSurface result;
   materials::OpenMaterials materials(folder / file, folder, query, result.problems);
-  if (materials.knows(name)) result.surface = materials.surface_of(name, result.problems);
+  if (materials.knows(name))
+    if (const auto surface = materials.surface_of(name, result.problems))
+      result.surface = surface->reflectivity;
   result.files = materials.files();
   return result;
 }

@@ -7,9 +7,9 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "renderer/plan/plan.h"
-#include "renderer/stages/bistatic_nrcs.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
+#include "sensors/display/grey_scale.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {
@@ -309,32 +309,17 @@ TEST_CASE("Double bounce gives the same bytes on any number of threads", "[bounc
   }
 }
 
-TEST_CASE("The bistatic form is monostatic where the directions meet, and reciprocal", "[bounce]") {
-  const renderer::NrcsTable table(kRough);
-  for (const double sine : {0.05, 0.3, 0.9})
-    CHECK(renderer::bistatic_sigma0_over_sine(table, sine, sine, sine) ==
-          Approx(kRough.sigma0(sine) / sine).epsilon(1e-4));
-  const double there = renderer::bistatic_sigma0_over_sine(table, 0.1, 0.7, 0.6) * 0.1;
-  const double back = renderer::bistatic_sigma0_over_sine(table, 0.7, 0.1, 0.6) * 0.7;
-  CHECK(there == Approx(back).epsilon(1e-12));
-  CHECK(renderer::bistatic_sigma0_over_sine(table, 0.1, -0.1, 0.6) == 0.0);
-}
-
-TEST_CASE("A surface mirrors no more than it leaves unscattered", "[bounce]") {
-  // Constant gamma: the integral of gamma sqrt(s / s_i) / 2 over the sine s is gamma / (3 sqrt s_i).
-  const renderer::NrcsTable even(materials::PhongNrcs(0.1, 0.0, 1.0));
-  for (const double sine : {0.05, 0.3, 1.0})
-    CHECK(renderer::scattered_share(even, sine) ==
-          Approx(0.1 / (3.0 * std::sqrt(sine))).epsilon(0.01));
-  // Sheet metal of the library: geometric optics of slopes of 0.2, a mirror with all its power in
-  // the lobe.
-  const materials::PhongNrcs sheet(0.16393, 12.088, 24.664);
-  const renderer::Mirrors mirrors({kPolished, kPolished},
-                                  {renderer::NrcsTable(kFaint), renderer::NrcsTable(sheet)},
-                                  tests::hivision().wavelength_m());
-  CHECK(mirrors.power(0, 1.0, 1.0) > 0.998);
-  CHECK(mirrors.power(1, 1.0, 1.0) < 0.25);
-  CHECK(mirrors.power(2, 1.0, 1.0) == 0.0);
+TEST_CASE("A mirror too faint for any cut-off by its strength still shows an echo in shadow",
+          "[bounce]") {
+  // The ground keeps 1e-4 of the power: under -40 dB, yet the wall's mirrored echo appears where
+  // without it a black cell is, far above the display's floor.
+  renderer::World world = corner_world();
+  const double sine = (kHeight_m + kWall_m / 2) / std::hypot(kDistance_m, kHeight_m);
+  const double k_per_m = 2.0 * core::kPi / world.sensor.wavelength_m();
+  world.specular = {
+      materials::SpecularSurface{{1.0, 1e9}, std::sqrt(std::log(1e4)) / (2.0 * k_per_m * sine)}};
+  const std::vector<double> added = added_W(world, renderer::sampling_for(16.0));
+  CHECK(added[kCornerCell] > 10.0 * sensors::GreyScale(world.sensor).bscope_floor_W(kCornerCell));
 }
 
 TEST_CASE("Double bounce runs where walls stand beside something that reflects", "[bounce][plan]") {

@@ -52,6 +52,28 @@ double gain(const renderer::World& world, double sensor_height_m, Multipath mult
          total_W(echoes(world, sensor_height_m, Multipath::none));
 }
 
+// The height of a target whose paths differ by `longer_m`, by their definition and halving.
+double height_for_m(double distance_m, double sensor_m, double longer_m) {
+  double low_m = 0.0, high_m = 5.0;
+  for (int i = 0; i < 60; ++i) {
+    const double h_m = (low_m + high_m) / 2;
+    const double d_m =
+        4.0 * sensor_m * h_m /
+        (std::hypot(distance_m, sensor_m + h_m) + std::hypot(distance_m, sensor_m - h_m));
+    (d_m < longer_m ? low_m : high_m) = h_m;
+  }
+  return low_m;
+}
+
+// Received power of one frame over the whole picture.
+double frame_W(const renderer::World& world, const renderer::Effects& effects) {
+  const renderer::Frame frame =
+      renderer::FrameRenderer(world, {}, {}, effects).render(tests::level_pose(60.0));
+  double sum = 0.0;
+  for (const double value : frame.bscope_W) sum += value;
+  return sum;
+}
+
 }  // namespace
 
 TEST_CASE("G02 the ground path is longer by 0.0799839870383 m", "[multipath]") {
@@ -82,23 +104,14 @@ TEST_CASE("Over a perfect mirror the echo follows 16 sin^4(2 pi h1 h2 / (lambda 
 TEST_CASE("A lobe is 12 dB up and a null is dark", "[multipath]") {
   constexpr double kDistance_m = 2000.0, kSensor_m = 80.0;
   const double half_m = tests::hivision().wavelength_m() / 2;
-  // Path difference d(h) by its definition; halving finds the height for a multiple of lambda / 2.
-  const auto height_for = [&](double longer_m) {
-    double low_m = 0.0, high_m = 5.0;
-    for (int i = 0; i < 60; ++i) {
-      const double h_m = (low_m + high_m) / 2;
-      const double d_m =
-          4.0 * kSensor_m * h_m /
-          (std::hypot(kDistance_m, kSensor_m + h_m) + std::hypot(kDistance_m, kSensor_m - h_m));
-      (d_m < longer_m ? low_m : high_m) = h_m;
-    }
-    return low_m;
+  const auto height_m = [&](double longer_m) {
+    return height_for_m(kDistance_m, kSensor_m, longer_m);
   };
-  const double lobe = gain(flat_world(kDistance_m, height_for(21 * half_m), kMetal), kSensor_m,
-                           Multipath::coherent);
+  const double lobe =
+      gain(flat_world(kDistance_m, height_m(21 * half_m), kMetal), kSensor_m, Multipath::coherent);
   CHECK(10.0 * std::log10(lobe) == Approx(12.0412).margin(0.01));
-  const double null = gain(flat_world(kDistance_m, height_for(20 * half_m), kMetal), kSensor_m,
-                           Multipath::coherent);
+  const double null =
+      gain(flat_world(kDistance_m, height_m(20 * half_m), kMetal), kSensor_m, Multipath::coherent);
   CHECK(10.0 * std::log10(null) < -80.0);
 }
 
@@ -203,25 +216,63 @@ TEST_CASE("Multipath runs where point targets stand over ground that reflects",
   CHECK_FALSE(runs(nullptr));
 }
 
+TEST_CASE("A target that only side lobes light has its ground path as well", "[multipath]") {
+  // The beam ends 0.5 deg from its axis at -3.8 deg; target and mirrored direction lie behind.
+  renderer::World world = flat_world(2000.0, 10.0, kMetal);
+  sensors::BeamCut& cut = world.sensor.antenna.elevation;
+  cut.half_power_width_rad = 0.01;
+  cut.cut_rad = 0.009;
+  cut.side_lobe_gain = 1e-3;
+  cut.side_lobe_extent_rad = 0.5;
+  CHECK(total_W(echoes(world, 60.0, Multipath::none)) > 0.0);
+  CHECK(gain(world, 60.0, Multipath::mean) == Approx(6.0).epsilon(0.01));
+  // Down at the ground 60 m below and 1 km off, 3.4 deg, is the main beam: its target is lit by
+  // side lobes directly, and by the beam's axis through the ground.
+  world.targets[0].path[0].position_m = {0.0, 1000.0, 7.0};
+  const auto path = renderer::ground_path(world, antenna_at(60.0), {0.0, 1000.0, 7.0});
+  REQUIRE(path);
+  const double axis_rad = world.sensor.antenna.boresight_elevation_rad;
+  const double mirrored = sensors::one_way_gain(cut, path->elevation_rad - axis_rad);
+  REQUIRE(mirrored > 0.5);
+  CHECK(std::norm(path->amplitude) == Approx(mirrored / 1e-3).epsilon(0.02));
+  cut.side_lobe_gain = 0.0;
+  CHECK(echoes(world, 60.0, Multipath::mean).empty());
+}
+
 TEST_CASE("Frames show the mean without and a phase with a realisation", "[multipath]") {
-  const renderer::World world = flat_world(1000.0, 2.0, kMetal);
-  const auto sum_W = [&](bool multipath) {
-    renderer::Effects effects;
-    effects.multipath = multipath;
-    const renderer::Frame frame =
-        renderer::FrameRenderer(world, {}, {}, effects).render(tests::level_pose(60.0));
-    double sum = 0.0;
-    for (const double value : frame.bscope_W) sum += value;
-    return sum;
+  const double wave_m = tests::hivision().wavelength_m();
+  const double null_m = height_for_m(1000.0, 60.0, 20.0 * wave_m);
+  const double lobe_m = height_for_m(1000.0, 60.0, 20.5 * wave_m);
+  // The target alone: ground that mirrors but scatters nothing, and no noise.
+  const auto ratio = [](double height_m, bool speckle) {
+    renderer::World world = flat_world(1000.0, height_m, kMetal);
+    world.nrcs.assign(2, materials::PhongNrcs(0.0, 0.0, 1.0));
+    world.sensor.receiver.looks = 1000;
+    const double without_W = frame_W(world, {.speckle = speckle});
+    return frame_W(world, {.speckle = speckle, .multipath = true}) / without_W;
   };
-  const double ground_W = [&] {
-    renderer::World bare = flat_world(1000.0, 2.0, kMetal);
-    bare.targets.clear();
-    const renderer::Frame frame =
-        renderer::FrameRenderer(bare, {}, {}, {}).render(tests::level_pose(60.0));
-    double sum = 0.0;
-    for (const double value : frame.bscope_W) sum += value;
-    return sum;
-  }();
-  CHECK((sum_W(true) - ground_W) / (sum_W(false) - ground_W) == Approx(6.0).epsilon(0.01));
+  for (const double height_m : {null_m, lobe_m})
+    CHECK(ratio(height_m, false) == Approx(6.0).epsilon(0.01));
+  CHECK(ratio(null_m, true) < 1e-4);
+  CHECK(ratio(lobe_m, true) == Approx(16.0).epsilon(0.01));
+}
+
+TEST_CASE("In a realisation over speckled ground nulls are the ground alone, lobes stand out",
+          "[multipath]") {
+  const double wave_m = tests::hivision().wavelength_m();
+  // Over the frames of many looks, against the same draws without the target.
+  const auto target_W = [](double height_m, bool multipath) {
+    renderer::World world = flat_world(1000.0, height_m, kMetal);
+    world.targets[0].rcs = materials::ConstantRcs{100.0};
+    world.sensor.receiver.looks = 1000;
+    const renderer::Effects effects{.speckle = true, .multipath = multipath};
+    const double with_W = frame_W(world, effects);
+    world.targets.clear();
+    return with_W - frame_W(world, effects);
+  };
+  const double null_m = height_for_m(1000.0, 60.0, 20.0 * wave_m);
+  const double lobe_m = height_for_m(1000.0, 60.0, 20.5 * wave_m);
+  const double free_W = target_W(lobe_m, false);
+  CHECK(target_W(lobe_m, true) / free_W == Approx(16.0).epsilon(0.05));
+  CHECK(std::abs(target_W(null_m, true)) < 0.05 * free_W);
 }

@@ -92,6 +92,31 @@ void check_cells(const renderer::World& world, bool with_ground, double loss_dB_
 
 }  // namespace
 
+TEST_CASE("A rain top within the beam cuts the echo where rays leave the rain", "[rain_echo]") {
+  atmosphere::Weather weather = rain(10.0);
+  weather.rain_top_m = 100.0;  // 40 m above the antenna
+  const renderer::World world = rainy_world(tests::hivision(4), false, weather);
+  const sensors::Sensor& sensor = world.sensor;
+  const renderer::Frame frame = render(world);
+  const double eta = world.volume_echo->eta_m2_per_m3({0.0, 0.0, kHeight_m});
+  for (int cell = 0; cell < sensor.range.cells; ++cell) {
+    const double range_m = sensors::range_middle_m(sensor.range, cell);
+    const double from_m = sensors::range_edge_m(sensor.range, cell);
+    const sensors::Antenna& antenna = sensor.antenna;
+    // Elevations below the top: sin e < 40 m / R.
+    const double gain_rad = sensors::two_way_integral(
+        antenna.elevation, -antenna.elevation.cut_rad,
+        std::asin(std::min(40.0 / range_m, 1.0)) - antenna.boresight_elevation_rad);
+    const double expected_W = sensor.radar_constant_W_m2() * eta *
+                              sensors::two_way_width(antenna.azimuth) * gain_rad *
+                              sensor.range.cell_m / (from_m * (from_m + sensor.range.cell_m));
+    const double power_W = frame.bscope_W[static_cast<std::size_t>(cell * sensor.scan.columns + 2)];
+    INFO(range_m);
+    // A step of 0.1 deg in the middle of the beam is worth 1.5 % of it.
+    REQUIRE(std::abs(10.0 * std::log10(power_W / expected_W)) < 0.05);
+  }
+}
+
 TEST_CASE("Rain in free space returns the volume radar equation", "[rain_echo]") {
   const renderer::World world = rainy_world(tests::hivision(6), false, rain(10.0));
   check_cells(world, false, 0.0, 1e-6);

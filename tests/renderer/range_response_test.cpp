@@ -202,6 +202,7 @@ TEST_CASE("the plan runs the range response only where a window or a whole scan 
           "[range_response]") {
   renderer::SceneFacts facts;
   facts.sensor = tests::hivision();
+  facts.largest_sigma0_over_sine = 0.17;  // grass
   const auto runs = [&](const char* wishes) {
     return renderer::plan(facts, 0.5, renderer::parse_effect_wishes(wishes))
         .runs(renderer::kRangeResponse);

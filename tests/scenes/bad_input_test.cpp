@@ -4,12 +4,14 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
+#include "core/files.h"
 #include "tests/scenes/problem_checks.h"
 
 using namespace fanbeam;
 using tests::check_problems;
 using tests::file_trajectory;
 using tests::kIls;
+using tests::kSmallScene;
 using tests::TemporaryFolder;
 
 namespace fs = std::filesystem;
@@ -73,6 +75,40 @@ TEST_CASE("T06 scene values outside their domain, each class by its name", "[bad
                  "13:70: E-NONFINITE runway[0].second.elevation_m = nan: expected -500 to 6000");
   check_problems("visibility_m = 400.0", "visibility_m = -3",
                  "23:1: E-RANGE weather.visibility_m = -3: expected 10 to 100000");
+}
+
+TEST_CASE("A display's window belongs to its mapping, in a scene as in a sensor file",
+          "[bad_input]") {
+  const TemporaryFolder folder;
+  const std::string place = "@/scene.toml:28:1: ";
+  check_problems(folder, kSmallScene + "[display]\nmapping = \"log\"\n",
+                 {place + "E-REF display.low_dB = missing: expected -400 to 400",
+                  place + "E-REF display.high_dB = missing: expected -400 to 400"});
+  check_problems(folder, kSmallScene + "[display]\nmapping = \"log\"\nlow_dB = -150.0\n",
+                 {place + "E-REF display.high_dB = missing: expected -400 to 400"});
+  check_problems(folder, kSmallScene + "[display]\nlow_dB = 9.0\n",
+                 {place + "E-RANGE display.high_dB = 5: expected above low_dB = 9"});
+  CHECK(tests::build_text(folder, kSmallScene + "[display]\nmapping = \"seed\"\n").scene);
+
+  // A sensor that looks from its own place on has no strongest signal.
+  const std::string hivision =
+      core::read_file(FANBEAM_SOURCE_DIR "/sensors/hivision.toml", 1U << 20U);
+  folder.write("near.toml", tests::replaced(hivision, "minimum_m = 200.0", "minimum_m = 0.0"));
+  const std::string near = kSmallScene + "[sensor]\nfile = \"near.toml\"\n";
+  CHECK(tests::build_text(folder, near).scene);
+  check_problems(folder, near + "[display]\nmapping = \"seed\"\n",
+                 {"@/scene.toml:31:1: E-RANGE display.mapping = \"seed\": expected range.minimum_m "
+                  "of the sensor above 0, which its strongest signal needs"});
+  // A sensor that shows received power has no NRCS window to lend.
+  folder.write("power.toml",
+               tests::replaced(tests::replaced(tests::replaced(hivision, "mapping = \"stc\"",
+                                                               "mapping = \"log\""),
+                                               "low_dB = -55.0", "low_dB = -150.0"),
+                               "high_dB = 5.0", "high_dB = -90.0"));
+  const std::string power = kSmallScene + "[sensor]\nfile = \"power.toml\"\n[display]\n";
+  CHECK(tests::build_text(folder, power + "low_dB = -140.0\n").scene);
+  check_problems(folder, power + "mapping = \"stc\"\nlow_dB = -50.0\n",
+                 {"@/scene.toml:30:1: E-REF display.high_dB = missing: expected -400 to 400"});
 }
 
 TEST_CASE("Datums: a wrong name, none, and one that cannot be brought to the scene's",

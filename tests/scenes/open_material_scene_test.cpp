@@ -102,6 +102,29 @@ TEST_CASE("Names of a mapping become materials of the model, behind the library'
   CHECK(scene->surfaces.end()[-1].model == "tabulated");
 }
 
+TEST_CASE("A material with a surface height and a permittivity mirrors; one without does not",
+          "[open_material]") {
+  const TemporaryFolder folder;
+  write_model(folder);
+  folder.write("wall.gltf", wall_gltf("Concrete"));
+  const std::string text =
+      replaced(wall_scene("open_material = \"block.xoma\""), "short_grass", "forest");
+  const auto scene = tests::good_scene(folder, text);
+  const auto& names = scene->world.material_names;
+  const auto mirror_of = [&](const std::string& name) {
+    const auto at = std::find(names.begin(), names.end(), name);
+    REQUIRE(at != names.end());
+    return scene->world.specular.at(static_cast<std::size_t>(at - names.begin()));
+  };
+  const auto concrete = mirror_of("wall.gltf:Concrete");
+  REQUIRE(concrete);
+  CHECK(concrete->rms_height_m == Approx(0.0005));
+  CHECK(concrete->permittivity.real == Approx(5.24).margin(0.05));
+  CHECK_FALSE(mirror_of("wall.gltf:Steel").has_value());  // a height, but no permittivity
+  // Forest mirrors nothing: this wall alone makes corners worth a look.
+  CHECK(scene->plan.runs(renderer::kDoubleBounce));
+}
+
 TEST_CASE("The wall's echo is as strong as its material says", "[open_material]") {
   // One wall under three strengths of "a" alone: what the ground adds drops out of the ratio.
   const auto power_W = [](const std::string& a) {

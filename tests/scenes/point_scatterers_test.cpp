@@ -3,7 +3,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/constants.h"
 #include "core/decibel.h"
+#include "core/files.h"
 #include "tests/scenes/built_scene.h"
 #include "tests/scenes/problem_checks.h"
 
@@ -143,6 +145,40 @@ TEST_CASE("A wire's pieces lie along it, share its length and know the radar's p
   const auto stated =
       targets_of(folder, line("model = \"wire\"\npolarisation_deg = 45.0", "-30.0"));
   CHECK(std::get<materials::RoundWire>(stated[0].rcs).polarisation_rad == Approx(core::kPi / 4.0));
+}
+
+TEST_CASE("A thin wire is the same as a target and as a line, for both polarisations",
+          "[targets]") {
+  const TemporaryFolder folder;
+  folder.write(
+      "vertical.toml",
+      tests::replaced(core::read_file(FANBEAM_SOURCE_DIR "/sensors/hivision.toml", 1U << 20U),
+                      "polarisation = \"HH\"", "polarisation = \"VV\""));
+  const std::string same_place =
+      "to_above_m = 1.0\nmodel = \"wire\"\nradius_m = 0.00015\n"
+      "spacing_m = 1.0";
+  const std::string thin = "above_ground_m = 0.5\nrcs = { shape = \"wire\", radius_m = 0.00015 }";
+  const auto rcs_dBsm = [](const renderer::PointTarget& wire, const glm::dvec3& direction) {
+    return 10.0 * std::log10(materials::rcs_m2(wire.rcs, glm::transpose(wire.axes) * direction,
+                                               core::kSpeedOfLight_mps / 35e9));
+  };
+  const std::string vertical_sensor =
+      "[sensor]\nfile = \"vertical.toml\"\n[materials]\nallow_extrapolation = true\n";
+  double level_dBsm[2];
+  for (const bool vertical : {false, true}) {
+    const auto wires =
+        targets_of(folder, target(thin) + target(thin + "\ntilt_deg = 90.0\nheading_deg = 90.0") +
+                               line(same_place, "30.0") + (vertical ? vertical_sensor : ""));
+    REQUIRE(wires.size() == 3);  // the line first
+    for (const glm::dvec3& direction : {glm::dvec3(0.0, -1.0, 0.0), glm::dvec3(0.0, -1.0, 0.003)})
+      CHECK(rcs_dBsm(wires[1], direction) == Approx(rcs_dBsm(wires[0], direction)).margin(1e-3));
+    level_dBsm[vertical ? 1 : 0] = rcs_dBsm(wires[1], {0.0, -1.0, 0.0});
+    // Boresight to the sky: the wire lies level.
+    const auto level = std::get<materials::RoundWire>(wires[2].rcs);
+    CHECK(level.polarisation_rad == Approx(vertical ? core::kPi / 2.0 : 0.0).margin(1e-9));
+  }
+  // ka = 0.11: a field across such a wire hardly sees it.
+  CHECK(level_dBsm[1] - level_dBsm[0] > 20.0);
 }
 
 TEST_CASE("Wrong names and keys of point scatterers", "[targets][bad_scene]") {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/units.h"
@@ -20,7 +21,8 @@ namespace fanbeam::tests {
 // Tally of one object over a run of frames.
 struct ShadowScore {
   int free = 0;    // frames in which its shadow ends on level ground inside the range gate
-  int found = 0;   // of these
+  int seen = 0;    // of these: reported, with or without a height
+  int found = 0;   // of these: with a height
   int within = 0;  // of these: height within 1 m or a range cell's worth
   double worst_m = 0.0;
   std::vector<double> errors_m;
@@ -35,9 +37,14 @@ struct ShadowScore {
 struct ShadowTally {
   int frames = 0;
   std::map<std::string, ShadowScore> boxes;
-  ShadowScore buildings;  // other obstacles found where a building stands; free is not known
-  int woods = 0;          // found where the ground or a wood drops by 3 m or more
-  int false_alarms = 0;
+  // Everything else with a height: found where a building stands, or where the ground or a wood
+  // drops by 3 m or more; how many shadows are free is not known.
+  ShadowScore buildings, woods;
+  int uncertain = 0;      // obstacles without a height
+  int false_alarms = 0;   // obstacles where nothing stands
+  int false_heights = 0;  // of these: with a height
+
+  int heights = 0, within = 0;  // of all heights given, boxes included and false ones too
 };
 
 class ShadowTruth {
@@ -95,35 +102,65 @@ class ShadowTruth {
            std::abs(obstacle.range_m - range_m) < half_depth_m(box, away) + 20.0;
   }
 
-  // Highest building over the ground, and largest drop of the surface, about an obstacle's edge.
-  struct Surroundings {
-    double building_m = 0.0, drop_m = 0.0;
+  // What casts the shadow of an obstacle: the edge that most of the columns' rays pass on their way
+  // to what lies behind. Height over the ground at that edge; over the ground 25 m behind it where
+  // the edge belongs to the terrain, whose surface holds the woods.
+  struct Caster {
+    bool building = false;
+    double height_m = 0.0;
   };
-  Surroundings around(const sensors::ShadowObstacle& obstacle) const {
-    Surroundings found;
-    for (int column = obstacle.first_column - 1; column <= obstacle.last_column + 1; ++column) {
-      double highest_m = -1e9, lowest_m = 1e9;
-      const std::size_t k = static_cast<std::size_t>(
-          std::clamp(column, obstacle.first_column, obstacle.last_column) - obstacle.first_column);
-      const double edge_m = obstacle.column_range_m[k];
-      for (double range_m = edge_m - 14.0; range_m <= edge_m + 140.0; range_m += 3.0) {
-        const glm::dvec2 at = on_ground(column, range_m);
-        const auto hit =
-            scene_.world.surfaces->intersect(glm::dvec3(at, 2000.0), {0.0, 0.0, -1.0}, 5000.0);
-        if (!hit) continue;
-        const double top_m = 2000.0 - hit->distance_m;
-        if (range_m <= edge_m + 80.0) {
-          highest_m = std::max(highest_m, top_m);
-          found.building_m = std::max(found.building_m, top_m - ground_m(at));
-        }
-        if (range_m >= edge_m) lowest_m = std::min(lowest_m, top_m);
+  std::optional<Caster> caster(const sensors::ShadowObstacle& obstacle) const {
+    const double top_m = obstacle.shadow_length_m * (height_m_ / obstacle.height_m - 1.0);
+    const sensors::Scan& scan = scene_.world.sensor.scan;
+    std::vector<double> buildings_m, drops_m;
+    for (int column = obstacle.first_column; column <= obstacle.last_column; ++column)
+      for (const double part : {0.0, -0.5, 0.5}) {
+        const auto k = static_cast<std::size_t>(column - obstacle.first_column);
+        const double shift_m = obstacle.column_range_m[k] - obstacle.range_m;
+        const auto edge =
+            edge_along(sensors::column_middle_rad(scan, column) + part * scan.column_width_rad(),
+                       top_m + shift_m, top_m + shift_m + obstacle.shadow_length_m);
+        if (edge) (edge->building ? buildings_m : drops_m).push_back(edge->height_m);
       }
-      found.drop_m = std::max(found.drop_m, highest_m - lowest_m);
-    }
-    return found;
+    std::vector<double>& heights_m = buildings_m.empty() ? drops_m : buildings_m;
+    if (heights_m.empty()) return std::nullopt;
+    std::sort(heights_m.begin(), heights_m.end());
+    return Caster{!buildings_m.empty(), heights_m[heights_m.size() / 2]};
   }
 
  private:
+  // Of the gaps in range that rays of rising elevation find along one azimuth, the near side of the
+  // one that shares most with [top_m, end_m].
+  std::optional<Caster> edge_along(double azimuth_rad, double top_m, double end_m) const {
+    constexpr double kStep_rad = 7e-5;  // 1 m of ground at 2 km from 280 m height
+    constexpr double kGap_m = 13.0;     // two range cells
+    const auto depth_rad = [&](double range_m) {
+      return std::asin(std::min(height_m_ / range_m, 1.0));
+    };
+    std::optional<Caster> best;
+    double longest_m = 0.0, last_m = 0.0;
+    glm::dvec3 last(0.0);
+    bool building = false;
+    for (double rad = -depth_rad(std::max(top_m - 400.0, 1.0)); rad < 0.05; rad += kStep_rad) {
+      const glm::dvec3 ahead =
+          sensors::direction(antenna_, azimuth_rad, rad, scene_.world.sensor.scan.surface);
+      const auto hit = scene_.world.surfaces->intersect(antenna_.position_m, ahead, 2.0e4);
+      const double range_m = hit ? hit->distance_m : 2.0e4;
+      const double shared_m = std::min(range_m, end_m) - std::max(last_m, top_m);
+      if (last_m > top_m - 100.0 && range_m - last_m > kGap_m && shared_m > longest_m) {
+        longest_m = shared_m;
+        const glm::dvec2 away = glm::normalize(glm::dvec2(ahead));
+        const glm::dvec2 foot = glm::dvec2(last) + (building ? 0.0 : 25.0) * away;
+        best = Caster{building, last.z - ground_m(foot)};
+      }
+      if (!hit || range_m > end_m + 400.0) break;
+      last = antenna_.position_m + ahead * range_m;
+      last_m = range_m;
+      building = hit->geometry != terrain::kTerrainGeometry;
+    }
+    return best;
+  }
+
   double ground_m(glm::dvec2 at) const {
     return scene_.world.surfaces->terrain()->height_at(at.x, at.y).value_or(0.0);
   }
@@ -139,14 +176,6 @@ class ShadowTruth {
         std::abs(line.x * std::cos(box.heading_rad) - line.y * std::sin(box.heading_rad));
     return std::min(c > 0.0 ? 0.5 * box.length_m / c : 1e9, s > 0.0 ? 0.5 * box.width_m / s : 1e9);
   }
-  glm::dvec2 on_ground(int column, double range_m) const {
-    const sensors::Scan& scan = scene_.world.sensor.scan;
-    const glm::dvec3 ahead =
-        sensors::direction(antenna_, sensors::column_middle_rad(scan, column), 0.0, scan.surface);
-    const double distance_m = std::sqrt(std::max(range_m * range_m - height_m_ * height_m_, 0.0));
-    return glm::dvec2(antenna_.position_m) + glm::normalize(glm::dvec2(ahead)) * distance_m;
-  }
-
   const scenes::Scene& scene_;
   glm::dvec2 along_{0.0, 1.0}, threshold_m_{0.0};
   sensors::AntennaFrame antenna_;
@@ -159,6 +188,12 @@ inline void score(double estimate_m, double truth_m, double cell_m, ShadowScore&
   score.errors_m.push_back(error_m);
   score.worst_m = std::max(score.worst_m, std::abs(error_m));
   if (std::abs(error_m) <= std::max(1.0, cell_m)) ++score.within;
+}
+
+inline void add(double truth_m, const sensors::ShadowObstacle& obstacle, ShadowTally& tally) {
+  ++tally.heights;
+  if (std::abs(obstacle.height_m - truth_m) <= std::max(1.0, obstacle.height_error_m))
+    ++tally.within;
 }
 
 // Every `step`-th frame of the flight down to 20 m above the ground.
@@ -181,20 +216,32 @@ inline ShadowTally tally_shadows(const scenes::Scene& scene, int step) {
       const auto at = std::partition(left.begin(), left.end(), [&](const auto& obstacle) {
         return !truth.is_at(obstacle, box);
       });
-      const auto best = std::max_element(
-          at, left.end(), [](const auto& a, const auto& b) { return a.height_m < b.height_m; });
-      if (free && best != left.end())
+      // The tallest with a height, if there is one.
+      const auto best = std::max_element(at, left.end(), [](const auto& a, const auto& b) {
+        return std::pair(!a.uncertain, a.height_m) < std::pair(!b.uncertain, b.height_m);
+      });
+      if (best == left.end()) continue;
+      of_box.seen += free ? 1 : 0;
+      if (free && !best->uncertain)
         score(best->height_m, box.height_m, best->height_error_m, of_box);
+      // A box may be found in parts; each has its say in what is given altogether.
+      for (auto part = at; part != left.end(); ++part) {
+        if (!part->uncertain) add(box.height_m, *part, tally);
+        tally.uncertain += part->uncertain ? 1 : 0;
+      }
       left.erase(at, left.end());
     }
     for (const sensors::ShadowObstacle& obstacle : left) {
-      const ShadowTruth::Surroundings there = truth.around(obstacle);
-      if (there.building_m > 2.0)
-        score(obstacle.height_m, there.building_m, obstacle.height_error_m, tally.buildings);
-      else if (there.drop_m >= 3.0)
-        ++tally.woods;
-      else
-        ++tally.false_alarms;
+      const auto caster = truth.caster(obstacle);
+      const bool nothing = !caster || caster->height_m < (caster->building ? 2.0 : 3.0);
+      tally.false_alarms += nothing ? 1 : 0;
+      tally.uncertain += obstacle.uncertain ? 1 : 0;
+      if (obstacle.uncertain) continue;
+      tally.false_heights += nothing ? 1 : 0;
+      add(nothing ? 0.0 : caster->height_m, obstacle, tally);
+      if (!nothing)
+        score(obstacle.height_m, caster->height_m, obstacle.height_error_m,
+              caster->building ? tally.buildings : tally.woods);
     }
   }
   return tally;

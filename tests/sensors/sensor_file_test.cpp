@@ -69,6 +69,16 @@ TEST_CASE("S10 sensor settings that make no sense are refused at load", "[sensor
   });
 }
 
+TEST_CASE("received power has no window of its own: both ends are asked for", "[sensor_file]") {
+  const auto problems = problems_of(
+      tests::hivision_text("mapping = \"stc\"\nlow_dB = -55.0", "mapping = \"log\"\n# -55.0"));
+  check_single(problems, "E-REF", "display.low_dB");
+  std::string seed = tests::hivision_text("mapping = \"stc\"", "mapping = \"seed\"");
+  CHECK(problems_of(seed).empty());
+  seed = tests::replaced(seed, "minimum_m = 200.0", "minimum_m = 0.0");
+  check_single(problems_of(seed), "E-RANGE", "display.mapping");
+}
+
 TEST_CASE("R17 absurd sizes are refused before anything is allocated", "[sensor_file]") {
   const auto begin = std::chrono::steady_clock::now();
   check_each({

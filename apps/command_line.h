@@ -1,0 +1,28 @@
+// What each command takes from the command line: its options, which of them go together, its help.
+// An option that would do nothing beside the others given is refused, with exit code 2.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace fanbeam::apps {
+
+struct AtmosphereOptions;
+struct CommonOptions;
+struct MaterialsFitOptions;
+struct MaterialsOptions;
+struct MaterialsPlotOptions;
+struct RenderOptions;
+
+// --version, --quiet and --log-level, which every command and subcommand has (--help is CLI11's).
+void add_common_options(CLI::App& command, CommonOptions& common);
+
+// Each adds its command to `app`. What is given may be read once the command line was parsed.
+void add_render_command(CLI::App& app, RenderOptions& options, CommonOptions& common);
+void add_atmosphere_command(CLI::App& app, AtmosphereOptions& options, CommonOptions& common);
+// Its own subcommands are plot, fit and objects.
+void add_materials_command(CLI::App& app, MaterialsOptions& options, MaterialsPlotOptions& plot,
+                           MaterialsFitOptions& fit, CommonOptions& common);
+
+}  // namespace fanbeam::apps

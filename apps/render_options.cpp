@@ -1,0 +1,77 @@
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line.h"
+#include "apps/render_command.h"
+#include "core/errors.h"
+#include "renderer/casting/sampling.h"
+#include "renderer/plan/effect_catalogue.h"
+
+namespace fanbeam::apps {
+namespace {
+
+std::string products_help() {
+  std::string text = "A list of";
+  for (const Product& product : kProducts)
+    text += (text.ends_with("of") ? " " : ", ") + std::string(product.name) + " (" +
+            std::string(product.what) + ")";
+  return text;
+}
+
+std::string effects_help() {
+  std::string names;
+  for (const renderer::Effect& effect : renderer::effect_catalogue())
+    names += (names.empty() ? "" : ", ") + std::string(effect.name);
+  return "all, none, or a list such as +rain,-gas of the effects " + names +
+         " (default: what the scene calls for)";
+}
+
+void add_sampling(CLI::App& command, RenderOptions& options) {
+  CLI::Option* rays =
+      command
+          .add_option("--rays-per-cell", options.rays_per_cell,
+                      "Rays per range cell and column: more is sharper and slower (default: the "
+                      "scene's, else " +
+                          core::number_text(renderer::kDefaultRaysPerCell) + ")")
+          ->check(CLI::Range(0.1, 100000.0));
+  command
+      .add_flag("--reference", options.reference,
+                "Converged sampling: 256 azimuths per column x 8 rays per cell, about 10 s a frame")
+      ->excludes(rays);
+  command
+      .add_option("--realisation", options.realisation,
+                  "mean: expected power; sample: one draw with speckle, noise and fluctuating "
+                  "targets (default: the scene's)")
+      ->check(CLI::IsMember({"mean", "sample"}));
+  command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
+}
+
+}  // namespace
+
+void add_render_command(CLI::App& app, RenderOptions& options, CommonOptions& common) {
+  CLI::App& command =
+      *app.add_subcommand("render", "Render a scene's approach to B-scope and C-scope pictures");
+  command
+      .add_option("SCENE", options.scene,
+                  "A folder with scene.toml, that file, or the name of a shipped scene")
+      ->capture_default_str();
+  command.add_option("-o,--output", options.output,
+                     "Folder to write to (default out/<scene name>)");
+  command.add_option("--frames", options.frames,
+                     "A:B[:STEP], counted like a Python slice, or one frame");
+  command.add_option("--products", options.products, products_help())->capture_default_str();
+  command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
+  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
+      ->check(CLI::Range(0, 1024));
+  add_sampling(command, options);
+  command.add_option("--effects", options.effects, effects_help());
+  command.add_flag("--resume", options.resume,
+                   "Keep frames that an earlier run with the same input has finished");
+  command.add_option("--preview-format", options.preview_format, "Form of the preview")
+      ->check(CLI::IsMember({"mp4", "gif", "apng"}))
+      ->capture_default_str();
+  command.add_option("--data", options.data,
+                     "Folder with terrain and flight data (before FANBEAM_DATA)");
+  add_common_options(command, common);
+}
+
+}  // namespace fanbeam::apps

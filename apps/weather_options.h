@@ -1,0 +1,27 @@
+// The weather that options of the command line put over a scene's, or over a standard day.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "atmosphere/weather.h"
+
+namespace fanbeam::apps {
+
+// As atmosphere::Weather; what is unset, empty or false stays as it is.
+struct WeatherOptions {
+  std::optional<double> visibility_m, liquid_water_g_per_m3, fog_top_m;
+  std::optional<double> rain_mm_per_h, rain_top_m, melting_height_m, snow_mm_per_h, snow_top_m;
+  std::optional<double> temperature_C, humidity, pressure_hPa;
+  bool melting_layer = false;
+  std::string fog_type, fog_law, rain_law, rain_echo_law, drop_sizes;
+  std::string polarisation;  // "HH" or "VV"
+};
+
+// Throws InputError E-REF for an unknown name of a law.
+void put_over(const WeatherOptions& options, atmosphere::Weather& weather);
+
+// The option that gave a field of atmosphere's problems its value; empty when none did.
+std::string option_behind(const WeatherOptions& options, const std::string& field);
+
+}  // namespace fanbeam::apps
