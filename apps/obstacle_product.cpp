@@ -18,12 +18,16 @@ std::string comment(const std::string& fingerprint) {
 std::string obstacle_table(const std::vector<sensors::ShadowObstacle>& obstacles,
                            const std::string& fingerprint) {
   std::string table =
-      comment(fingerprint) + "\nrange_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged\n";
-  for (const sensors::ShadowObstacle& obstacle : obstacles)
-    table +=
-        fmt::format("{:.2f},{:.3f},{:.2f},{:.2f},{:.1f},{:d},{:d}\n", obstacle.range_m,
-                    core::degrees(obstacle.azimuth_rad), obstacle.height_m, obstacle.height_error_m,
-                    obstacle.shadow_length_m, obstacle.truncated, obstacle.merged);
+      comment(fingerprint) +
+      "\nrange_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged,uncertain\n";
+  for (const sensors::ShadowObstacle& obstacle : obstacles) {
+    const std::string height = obstacle.uncertain ? ","
+                                                  : fmt::format("{:.2f},{:.2f}", obstacle.height_m,
+                                                                obstacle.height_error_m);
+    table += fmt::format("{:.2f},{:.3f},{},{:.1f},{:d},{:d},{:d}\n", obstacle.range_m,
+                         core::degrees(obstacle.azimuth_rad), height, obstacle.shadow_length_m,
+                         obstacle.truncated, obstacle.merged, obstacle.uncertain);
+  }
   return table;
 }
 

@@ -84,9 +84,8 @@ class Run {
   renderer::Products wanted() const {
     const bool both = products_.contains("pair") || products_.contains("preview");
     const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north");
-    return {both || plan_view || products_.contains("bscope"),
-            both || products_.contains("cscope"), products_.contains("detections"),
-            products_.contains("obstacles")};
+    return {both || plan_view || products_.contains("bscope"), both || products_.contains("cscope"),
+            products_.contains("detections"), products_.contains("obstacles")};
   }
 
   const RenderOptions& options_;

@@ -70,7 +70,8 @@ double whole_micro_deg(double angle_rad) {
 Json receiver_json(const scenes::Scene& scene) {
   const sensors::Sensor& sensor = scene.description.sensor;
   const sensors::ReceiverFigures figures = sensors::receiver_figures(sensor);
-  const bool noisy = scene.plan.runs(renderer::kSpeckle) && scene.plan.runs(renderer::kThermalNoise);
+  const bool noisy =
+      scene.plan.runs(renderer::kSpeckle) && scene.plan.runs(renderer::kThermalNoise);
   return {{"noise_W", figures.noise_W},
           {"threshold_W", figures.threshold_W},
           {"false_alarm_probability", sensor.receiver.false_alarm_probability},
@@ -112,8 +113,8 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
                             {"on", decision.on},
                             {"reason", decision.reason},
                             {"bound_grey", decision.bound_grey}});
-  json["surface_state"] = materials::kSurfaceStateNames[static_cast<std::size_t>(
-      scene.description.surface_state)];
+  json["surface_state"] =
+      materials::kSurfaceStateNames[static_cast<std::size_t>(scene.description.surface_state)];
   json["materials"] = Json::array();
   json["extrapolations"] = Json::array();
   for (const scenes::SurfaceRecord& surface : scene.surfaces) {

@@ -139,8 +139,7 @@ void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
   const double noise_W = mean_noise ? sensor.noise_power_W() : 0.0;
   const std::vector<double> received_W = plus(frame.bscope_W, noise_W);
   if (products_.bscope) frame.bscope_grey = sensors::bscope_grey(sensor, received_W);
-  if (products_.detections)
-    frame.detections = above_threshold(sensor, threshold_W_, received_W);
+  if (products_.detections) frame.detections = above_threshold(sensor, threshold_W_, received_W);
   const bool above = height_above_ground_m > 0.0;
   using Mode = sensors::Display::CScopeMode;
   const Mode mode = sensor.display.cscope_mode;

@@ -46,7 +46,7 @@ struct World {
   // By material id; materials beyond the end, and empty ones, do not reflect like a mirror.
   std::vector<std::optional<materials::SpecularSurface>> specular{};
   std::optional<atmosphere::VolumeEcho> volume_echo{};  // where the effect rain echo runs
-  std::optional<atmosphere::RainCells> rain_cells{};  // what they take beyond `attenuation`
+  std::optional<atmosphere::RainCells> rain_cells{};    // what they take beyond `attenuation`
 };
 
 }  // namespace fanbeam::renderer

@@ -184,10 +184,8 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
   for (ConfigTable& table : root.tables("buildings"))
     scene.buildings.push_back(read_buildings(table, search));
   for (ConfigTable& table : root.tables("target"))
-    scene.targets.push_back(
-        read_target(table, objects, scene.sensor.waveform.polarisation));
-  for (ConfigTable& table : root.tables("line"))
-    scene.lines.push_back(read_line(table, objects));
+    scene.targets.push_back(read_target(table, objects, scene.sensor.waveform.polarisation));
+  for (ConfigTable& table : root.tables("line")) scene.lines.push_back(read_line(table, objects));
 }
 
 }  // namespace fanbeam::scenes

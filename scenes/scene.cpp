@@ -54,9 +54,8 @@ renderer::SceneFacts facts_of(const SceneDescription& scene, const terrain::Loca
   const auto fluctuates = [](const auto& described) {
     return described.swerling != core::Swerling::steady;
   };
-  facts.fluctuating_targets =
-      std::any_of(scene.targets.begin(), scene.targets.end(), fluctuates) ||
-      std::any_of(scene.lines.begin(), scene.lines.end(), fluctuates);
+  facts.fluctuating_targets = std::any_of(scene.targets.begin(), scene.targets.end(), fluctuates) ||
+                              std::any_of(scene.lines.begin(), scene.lines.end(), fluctuates);
   for (const core::Pose& pose : trajectory.poses()) {
     const double height_m = frame.to_local_m(pose.position).z;
     facts.lowest_m = std::min(facts.lowest_m, height_m);
@@ -97,8 +96,7 @@ void add_model_materials(const ModelMaterials& materials, const sensors::Wavefor
 // Of the library in a state of the weather, and of the models behind it.
 SpecularSurfaces all_mirrors(const SceneDescription& scene,
                              const materials::MaterialLibrary& library,
-                             const ModelMaterials& model_materials,
-                             materials::SurfaceState state) {
+                             const ModelMaterials& model_materials, materials::SurfaceState state) {
   SpecularSurfaces mirrors = specular_surfaces(scene, library, state);
   for (const ModelMaterials::Entry& entry : model_materials.all()) mirrors.push_back(entry.mirror);
   return mirrors;
@@ -170,9 +168,8 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
        all_mirrors(description, library, model_materials, description.surface_state)},
       ground.field(), patches, meshes, !targets.empty(), facts);
   core::EffectPlan plan = renderer::plan(facts, options.accuracy_grey, options.wishes);
-  const materials::SurfaceState state = plan.runs(renderer::kSurfaceState)
-                                            ? description.surface_state
-                                            : materials::SurfaceState::dry;
+  const materials::SurfaceState state =
+      plan.runs(renderer::kSurfaceState) ? description.surface_state : materials::SurfaceState::dry;
   const double frequency_Hz = description.sensor.waveform.frequency_Hz;
   std::vector<std::string> material_names;
   for (const materials::Material& material : library.all()) material_names.push_back(material.name);
@@ -183,9 +180,8 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
       .material_names = std::move(material_names),
       .targets = std::move(targets),
       .attenuation = atmosphere::PathAttenuation(simulated_weather(weather, plan), frequency_Hz),
-      .sensor = plan.runs(renderer::kSideLobes)
-                    ? description.sensor
-                    : renderer::without_side_lobes(description.sensor),
+      .sensor = plan.runs(renderer::kSideLobes) ? description.sensor
+                                                : renderer::without_side_lobes(description.sensor),
       .specular = all_mirrors(description, library, model_materials, state)};
   const atmosphere::RainCells rain_cells(simulated_weather(weather, plan), frequency_Hz);
   if (!rain_cells.empty()) world.rain_cells = rain_cells;

@@ -1,7 +1,7 @@
 // What reflects like a mirror in a scene, and what the effect plan wants to know of it.
 //
 // Neglected: frost. Soil below 0 C is taken as unfrozen at 0 C; the water in frozen soil is mostly
-// ice, so it reflects less than this (moist loam at 35 GHz: toward dry loam, 4.6 dB at the normal).
+// ice, so it reflects less than this, by up to 4.6 dB (wet over dry loam at the normal, 35 GHz).
 #pragma once
 
 #include <optional>

@@ -63,9 +63,8 @@ double state_change_dB(const SceneDescription& scene, const MaterialLibrary& lib
   for (const std::size_t index : used) {
     const std::size_t other = library.in_state(index, scene.surface_state);
     if (other == index) continue;
-    const double change_dB =
-        table_of(scene, library[other].model)
-            .largest_change_dB(table_of(scene, library[index].model));
+    const double change_dB = table_of(scene, library[other].model)
+                                 .largest_change_dB(table_of(scene, library[index].model));
     // A perfectly dark material has no finite change: the whole window may be at stake.
     largest_dB = std::max(largest_dB, std::min(change_dB, kNoFiniteChange_dB));
   }

@@ -39,8 +39,8 @@ struct Antenna {
   BeamCut azimuth;
   BeamCut elevation;
   double boresight_elevation_rad = 0.0;
-  double peak_gain = 1.0;   // linear, one-way
-  double efficiency = 1.0;  // peak gain over directivity; informative
+  double peak_gain = 1.0;                  // linear, one-way
+  double efficiency = 1.0;                 // peak gain over directivity; informative
   std::vector<std::string> pattern_files;  // that the cuts were read from
 };
 
@@ -98,10 +98,10 @@ struct Waveform {
 };
 
 struct Receiver {
-  double noise_figure = 1.0;  // linear
-  double loss = 1.0;          // linear, at least 1; divides the received power
-  double dwell_s = 0.0;       // coherent time of one look
-  int looks = 1;              // per column, their powers averaged
+  double noise_figure = 1.0;              // linear
+  double loss = 1.0;                      // linear, at least 1; divides the received power
+  double dwell_s = 0.0;                   // coherent time of one look
+  int looks = 1;                          // per column, their powers averaged
   double false_alarm_probability = 1e-6;  // per cell, of threshold detection
 };
 

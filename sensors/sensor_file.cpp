@@ -125,9 +125,8 @@ void read_receiver(ConfigTable table, const Scan& scan, Receiver& receiver) {
   receiver.looks = whole(table, "looks", kMostLooks, 1);
   receiver.false_alarm_probability =
       table.number("false_alarm_probability", {1e-15, 0.1}, receiver.false_alarm_probability);
-  const double longest_s = scan.frame_rate_Hz > 0.0
-                               ? 1.0 / (scan.frame_rate_Hz * scan.columns * receiver.looks)
-                               : 1.0;
+  const double longest_s =
+      scan.frame_rate_Hz > 0.0 ? 1.0 / (scan.frame_rate_Hz * scan.columns * receiver.looks) : 1.0;
   // A dwell rounded to the digits of a sensor file may end a little after its column.
   const NumberRange range_us = above_zero(1e6 * longest_s * (1.0 + 1e-6));
   const auto dwell_us = table.optional_number("dwell_us", range_us);

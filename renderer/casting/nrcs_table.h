@@ -38,9 +38,9 @@ class NrcsTable {
   // Over all angles: what is interpolated never exceeds its nodes.
   double largest() const;
 
-  // Largest change at any angle, either way, of sigma0 from `other` to this, in dB: a quotient of two
-  // values on one pair of straight lines lies between those at its ends. Infinite where only one of
-  // the two is dark.
+  // Largest change at any angle, either way, of sigma0 from `other` to this, in dB: the quotient of
+  // two values on straight lines lies between those at their ends. Infinite where only one of the
+  // two is dark.
   double largest_change_dB(const NrcsTable& other) const;
 
  private:

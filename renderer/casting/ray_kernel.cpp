@@ -404,14 +404,13 @@ void GroupCaster<N>::lose_in_rain_cells() {
   for (int a = 0; a < kGroupAzimuths; ++a) {
     for (CastRay& ray : scratch_.rays[a]) {
       if (!(ray.density_W_per_rad2 > 0.0F)) continue;
-      const Axes w = direction_weights(cone_, std::cos(ray.elevation_rad),
-                                       std::sin(ray.elevation_rad), columns_[a].cosine,
-                                       columns_[a].sine);
+      const Axes w =
+          direction_weights(cone_, std::cos(ray.elevation_rad), std::sin(ray.elevation_rad),
+                            columns_[a].cosine, columns_[a].sine);
       const glm::dvec3 direction =
           w.forward * antenna.forward + w.right * antenna.right + w.up * antenna.up;
       ray.density_W_per_rad2 *= static_cast<float>(frame_.world.rain_cells->two_way_power_factor(
-          antenna.position_m,
-          antenna.position_m + static_cast<double>(ray.range_m) * direction));
+          antenna.position_m, antenna.position_m + static_cast<double>(ray.range_m) * direction));
     }
   }
 }

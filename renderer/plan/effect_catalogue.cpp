@@ -136,8 +136,8 @@ const std::vector<Effect>& effect_catalogue() {
       {kSpeckle, "a realisation of ground and noise instead of their expected power",
        "gamma law of N looks, Goodman 1975", shows_sample, fluctuation_dB,
        "frames show the expected power ([accuracy] realisation)"},
-      {kSwerling, "fluctuation of point targets", "Swerling 1954, cases 1 to 4",
-       targets_fluctuate, fluctuation_dB,
+      {kSwerling, "fluctuation of point targets", "Swerling 1954, cases 1 to 4", targets_fluctuate,
+       fluctuation_dB,
        "no target fluctuates, or frames show the expected power ([accuracy] realisation)"},
   };
   return kCatalogue;

@@ -4,8 +4,8 @@
 // Bounds are the largest change of displayed grey that leaving the effect out can cause anywhere:
 //   a multiplicative effect of x dB changes x / (dB per grey level);
 //   an additive power p over a local floor f changes 10 log10(1 + p / f) dB (display_floor.h).
-// They hold for the B-scope and for the C-scope of the sensor's mode. Where a small change can decide
-// over a large one plan.cpp takes the whole window instead.
+// They hold for the B-scope and for the C-scope of the sensor's mode. Where a small change can
+// decide over a large one plan.cpp takes the whole window instead.
 // New effects are new rows: nothing else lists them.
 #pragma once
 

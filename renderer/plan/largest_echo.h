@@ -2,9 +2,9 @@
 // it stands.
 //
 // Surfaces. A ray's share of power is K g^2 (sigma0 / sin psi) L de daz / R^2 (ray_caster.h), and
-// every elevation holds one surface: with G the largest sigma0 / sin psi of any material and L <= 1,
-// a range cell gets at most K G Omega / R^2, Omega the two-way pattern integrated over the part of
-// it that is asked about. R is the near edge of the cell before, since rays spread their power over
+// every elevation holds one surface: with G the largest sigma0 / sin psi of any material and
+// L <= 1, a range cell gets at most K G Omega / R^2, Omega the two-way pattern integrated over the
+// part of it that is asked about. R is the near edge of the cell before, since rays spread their power over
 // half the way to their neighbours.
 // Air. K eta cell Omega / (R1 R2) between the edges R1 and R2 of the cell (rain_echo.h).
 // Point targets. K g^2 / R^4 times the sum of their largest cross-sections, as if all stood there.

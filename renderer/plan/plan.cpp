@@ -64,8 +64,8 @@ EffectWishes parse_effect_wishes(const std::string& text) {
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {
   const std::vector<Effect>& catalogue = effect_catalogue();
   SceneFacts facts = scene;
-  facts.sample = scene.sample || contains(wishes.forced_on, kSpeckle) ||
-                 contains(wishes.forced_on, kSwerling);
+  facts.sample =
+      scene.sample || contains(wishes.forced_on, kSpeckle) || contains(wishes.forced_on, kSwerling);
   const sensors::GreyScale scale(facts.sensor);
   core::EffectPlan result;
   std::vector<bool> open(catalogue.size(), false);

@@ -12,18 +12,18 @@ struct SceneFacts {
   sensors::Sensor sensor;
   double lowest_m = 0.0;  // of ground and sensor
   double highest_m = 0.0;
-  bool has_walls = false;          // facets that stand within 30 deg of the vertical
+  bool has_walls = false;  // facets that stand within 30 deg of the vertical
   bool has_point_targets = false;
-  bool reflects = false;           // a material in the scene reflects like a mirror
-  bool ground_reflects = false;    // one of the ground does
+  bool reflects = false;             // a material in the scene reflects like a mirror
+  bool ground_reflects = false;      // one of the ground does
   bool sample = false;               // frames show one realisation, not the expected power
   bool fluctuating_targets = false;  // a target of Swerling case 1 to 4
   bool surface_not_dry = false;
-  double surface_change_dB = 0.0;  // largest change of NRCS from dry to the scene's state
+  double surface_change_dB = 0.0;      // largest change of NRCS from dry to the scene's state
   bool state_changes_mirrors = false;  // dielectric or roughness of a material differ in that state
   double largest_eta_m2_per_m3 = 0.0;  // of rain and snow, anywhere
   double largest_sigma0_over_sine = 0.0;  // NRCS over sine of grazing of any material, any state
-  double rcs_sum_m2 = 0.0;  // of the point targets, each at its brightest aspect
+  double rcs_sum_m2 = 0.0;                // of the point targets, each at its brightest aspect
 };
 
 }  // namespace fanbeam::renderer

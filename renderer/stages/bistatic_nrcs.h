@@ -10,7 +10,7 @@
 // monostatic-bistatic equivalence (R. E. Kell, Proc. IEEE 53, 1965) says of the bisector. It is
 // reciprocal and never above sigma0(n.h).
 // Energy: with f = 1 the share grows as gamma / (3 sqrt(sin psi_i)) towards grazing, without end.
-// f keeps it at 1 and is the same in both directions. It is 1 down to about sin psi = (gamma / 3)^2,
+// f keeps it at 1 and is the same in both directions. It is 1 down to about sin psi = (gamma/3)^2,
 // for 30 of the library's 34 rows down to 0.5 deg. Where it is not, the form is below the
 // monostatic curve also where the directions meet.
 // Neglected: dependence on the plane of scattering, cross polarisation. Accuracy: not known;

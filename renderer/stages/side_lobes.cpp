@@ -59,10 +59,10 @@ BeamPart side_lobes(const sensors::Sensor& sensor) {
   const double elevation_lobes_rad =
       beyond_null_rad(antenna.elevation) + elevation_level_rad(sensor);
   const double largest_elevation = largest_lobe(antenna.elevation);
-  return {azimuth_lobes_rad * elevation_width_rad(sensor) + main_azimuth_rad * elevation_lobes_rad,
-          (azimuth_lobes_rad + main_azimuth_rad * largest_elevation) *
-              cscope_row_rad(sensor.display),
-          std::max(largest_lobe(antenna.azimuth), largest_elevation)};
+  return {
+      azimuth_lobes_rad * elevation_width_rad(sensor) + main_azimuth_rad * elevation_lobes_rad,
+      (azimuth_lobes_rad + main_azimuth_rad * largest_elevation) * cscope_row_rad(sensor.display),
+      std::max(largest_lobe(antenna.azimuth), largest_elevation)};
 }
 
 }  // namespace

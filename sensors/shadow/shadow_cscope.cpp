@@ -12,7 +12,7 @@ namespace {
 constexpr int kEdgeRows = 3;
 
 // P R^3 of the leading edge.
-double face_W_m3(const Sensor &sensor, std::span<const double> power_W, int column,
+double face_W_m3(const Sensor& sensor, std::span<const double> power_W, int column,
                  double range_m) {
   const int middle = range_row(sensor.range, range_m);
   const int last = std::min(middle + kEdgeRows, sensor.range.cells - 1);
@@ -25,26 +25,26 @@ double face_W_m3(const Sensor &sensor, std::span<const double> power_W, int colu
   return brightest_W_m3;
 }
 
-// Elevation of a point `height_m` above (below: negative) the antenna at a
-// slant range.
+// Elevation of a point `height_m` above (below: negative) the antenna at a slant range.
 double elevation_rad(double height_m, double range_m) {
   return std::asin(std::clamp(height_m / range_m, -1.0, 1.0));
 }
 
 }  // namespace
 
-std::vector<double> shadow_cscope_W_m3(const Sensor &sensor, std::span<const double> power_W,
+std::vector<double> shadow_cscope_W_m3(const Sensor& sensor, std::span<const double> power_W,
                                        double height_m,
-                                       const std::vector<ShadowObstacle> &obstacles) {
+                                       const std::vector<ShadowObstacle>& obstacles) {
   std::vector<double> cscope_W_m3 = flat_earth_cscope_W_m3(sensor, power_W, height_m);
-  const Display &display = sensor.display;
+  const Display& display = sensor.display;
   const double rows_per_rad = display.cscope_rows / display.cscope_span_rad;
-  std::vector<const ShadowObstacle *> order;
-  for (const ShadowObstacle &obstacle : obstacles) order.push_back(&obstacle);
+  std::vector<const ShadowObstacle*> order;
+  for (const ShadowObstacle& obstacle : obstacles)
+    if (!obstacle.uncertain) order.push_back(&obstacle);
   std::stable_sort(
       order.begin(), order.end(),
-      [](const ShadowObstacle *a, const ShadowObstacle *b) { return a->range_m > b->range_m; });
-  for (const ShadowObstacle *obstacle : order)
+      [](const ShadowObstacle* a, const ShadowObstacle* b) { return a->range_m > b->range_m; });
+  for (const ShadowObstacle* obstacle : order)
     for (int column = obstacle->first_column; column <= obstacle->last_column; ++column) {
       const double range_m =
           obstacle->column_range_m[static_cast<std::size_t>(column - obstacle->first_column)];

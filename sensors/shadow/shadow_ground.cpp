@@ -25,7 +25,7 @@ std::size_t bin_of(double power_over_noise) {
 }
 
 // Clutter over noise at the fullest place of five bins; never quite 0.
-double mode(const Histogram &histogram) {
+double mode(const Histogram& histogram) {
   int most = -1;
   std::size_t middle = 0;
   for (std::size_t bin = 2; bin + 2 < kBins; ++bin) {
@@ -87,7 +87,7 @@ double fluctuation_of(std::span<const double> power_W, std::size_t columns, doub
 
 }  // namespace
 
-ShadowGround shadow_ground(const Sensor &sensor, std::span<const double> power_W) {
+ShadowGround shadow_ground(const Sensor& sensor, std::span<const double> power_W) {
   const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   const double noise_W = sensor.noise_power_W();
   const std::vector<double> clutter = clutter_by_row(power_W, sensor.range.cells, columns, noise_W);

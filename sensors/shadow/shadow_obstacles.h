@@ -1,42 +1,34 @@
 // Heights of obstacles from the lengths of their radar shadows.
 //
-// The ray over the top of an obstacle ends where its shadow ends. On flat
-// ground the heights of its points below the antenna are as their slant ranges,
-// so without any approximation
+// The ray over the top of an obstacle ends where its shadow ends. On flat ground the heights of its
+// points below the antenna are as their slant ranges, so without any approximation
 //   height = h (1 - R / E) = h L / (R + L)
-// h the antenna's height above the ground, R the slant range of the top edge
-// that casts the shadow, E = R + L that of the shadow's end. One cell of shadow
-// is worth dh = h R cell / (R + L)^2, which is the stated error. R is the
-// middle of the brightest cell when the shadow begins in the next one (a wall),
-// else where the dark begins, to a part of a cell (the far edge of a roof).
+// h the antenna's height above the ground, R the slant range of the top edge that casts the shadow,
+// E = R + L that of the shadow's end. One cell of shadow is worth dh = h R cell / (R + L)^2, which
+// is the stated error.
+// R is the middle of the brightest cell when the shadow begins in the next one (a wall), else where
+// the dark begins, to a part of a cell (the far edge of a roof).
 //
-// Runs of neighbouring columns whose starts differ by at most four rows are one
-// obstacle. It is kept when
-//   edge      its leading edge stands out, 2 times the ground behind and 1.5
-//   times that before it
-//             (under speckle more, by the fluctuation of one cell), median of
-//             its columns
-//   depth     its deepest column lies at least 35 % below the ground; columns
-//   of less than half
+// Runs of neighbouring columns whose starts differ by at most four rows are one obstacle. It is
+// kept when
+//   edge      its leading edge stands out, 2 times the ground behind and 1.5 times that before it
+//             (under speckle more, by the fluctuation of one cell), median of its columns
+//   depth     its deepest column lies at least 35 % below the ground; columns of less than half
 //             that depth are the beam's edge and dropped, two must be left
-//   beam      it is as dark as the two-way beam lets a shadow of its width be,
-//   within 15 %, and
+//   beam      it is as dark as the two-way beam lets a shadow of its width be, within 15 %, and
 //             within 2 % where that is less than 2 %: dark ground still echoes
-//   sides     long ones do not narrow like a strip of constant width (a runway)
-//   does, but run along
+//   sides     long ones do not narrow like a strip of constant width (a runway) does, but run along
 //             the rays
 //   height    at least 3 m
 // The outermost two columns on either side of the picture are left out.
-// A height is for use only where the shadow can tell it: see
-// shadow_certainty.h.
+// A height is for use only where the shadow can tell it: see shadow_certainty.h.
 //
-// Inputs: h in m above 0, as for flat_earth_cscope_W_m3 (what a radar altimeter
-// reads below the aircraft); B-scope power in W with its noise. Neglected:
-// slopes behind the obstacle and between aircraft and obstacle (ground lower by
-// d at the shadow's end reads as d R / (R + L) more height), curvature (0.15 m
-// at 3.5 km), several obstacles behind each other (flagged), shadows beyond the
-// range gate (flagged). Accuracy: docs/physics/shadow-heights.md. Cost: 25 to
-// 32 ms a frame of HiVision on two cores.
+// Inputs: h in m above 0, as for flat_earth_cscope_W_m3 (what a radar altimeter reads below the
+// aircraft); B-scope power in W with its noise.
+// Neglected: slopes behind the obstacle and between aircraft and obstacle (ground lower by d at the
+// shadow's end reads as d R / (R + L) more height), curvature (0.15 m at 3.5 km), several
+// obstacles behind each other (flagged), shadows beyond the range gate (flagged).
+// Accuracy: docs/physics/shadow-heights.md. Cost: 25 to 32 ms a frame of HiVision on two cores.
 #pragma once
 
 #include <span>

@@ -1,27 +1,22 @@
-// Dark runs along range behind something bright: where a column of the B-scope
-// may show a shadow.
+// Dark runs along range behind something bright: where a column of the B-scope may show a shadow.
 //
-// A run is the rows [start, end) of one column that separate best from the
-// ground around them:
+// A run is the rows [start, end) of one column that separate best from the ground around them:
 //   S = (lit - dark) / (f sqrt((dark + noise)^2 / n + (lit + noise)^2 / m))
-// dark is the mean of q over the n rows, lit the lower one of the two rows
-// before and the m rows after (m = n / 2, 3 to 16), at most 1, f the picture's
-// fluctuation (at least 0.05: texture). This is a Haar wavelet, tried at every
-// start and on scales of 4, 5, 6 ... cells that grow by an eighth, then refined
-// to the cell; speckle averages out over long runs, short ones are found where
-// the picture is smooth. From each start the first scale after which the ground
-// is lit again is kept, for a shadow on ground that is dark itself. Runs of one
-// column do not overlap, higher S first. Between two means the border that
-// maximises S is Otsu's threshold of the two classes. Cells brighter than 1.5
-// count as 1.5, and the rows after must be lit without their first two as well:
-// what stands inside a shadow does not end it.
+// dark is the mean of q over the n rows, lit the lower one of the two rows before and the m rows
+// after (m = n / 2, 3 to 16), at most 1, f the picture's fluctuation (at least 0.05: texture).
+// This is a Haar wavelet, tried at every start and on scales of 4, 5, 6 ... cells that grow by an
+// eighth, then refined to the cell; speckle averages out over long runs, short ones are found where
+// the picture is smooth. From each start the first scale after which the ground is lit again is
+// kept, for a shadow on ground that is dark itself. Runs of one column do not overlap, higher S
+// first. Between two means the border that maximises S is Otsu's threshold of the two classes.
+// Cells brighter than 1.5 count as 1.5, and the rows after must be lit without their first two as
+// well: what stands inside a shadow does not end it.
 //
-// Source of the idea (shadows by histogram and multi-scale wavelet, heights
-// from their lengths): Y. Huang, X. Qian, B. Tsou, "Height Reconstruction from
-// Radar Shadow", Air Force Research Laboratory, 711th Human Performance Wing,
-// reference [8] of the HiVision paper. That report was not at hand; the
-// statistic and its thresholds are ours. Cost: 20 to 30 ms for 164 columns of
-// 524 rows on two cores.
+// Source of the idea (shadows by histogram and multi-scale wavelet, heights from their lengths):
+// Y. Huang, X. Qian, B. Tsou, "Height Reconstruction from Radar Shadow", Air Force Research
+// Laboratory, 711th Human Performance Wing, reference [8] of the HiVision paper. That report was
+// not at hand; the statistic and its thresholds are ours.
+// Cost: 20 to 30 ms for 164 columns of 524 rows on two cores.
 #pragma once
 
 #include <vector>

@@ -21,10 +21,13 @@ TEST_CASE("A table of obstacles names its columns, its input and what is a lower
   obstacle.height_error_m = 0.26;
   obstacle.shadow_length_m = 188.4;
   obstacle.truncated = true;
-  CHECK(apps::obstacle_table({obstacle}, "abc") ==
+  sensors::ShadowObstacle uncertain = obstacle;
+  uncertain.uncertain = true;
+  CHECK(apps::obstacle_table({obstacle, uncertain}, "abc") ==
         "# obstacles, heights estimated from radar shadows, of the input abc\n"
-        "range_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged\n"
-        "2084.28,5.730,8.09,0.26,188.4,1,0\n");
+        "range_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged,uncertain\n"
+        "2084.28,5.730,8.09,0.26,188.4,1,0,0\n"
+        "2084.28,5.730,,,188.4,1,0,1\n");
 }
 
 TEST_CASE("render writes obstacles and raises them in a C-scope of mode shadow", "[render]") {

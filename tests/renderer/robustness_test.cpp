@@ -28,8 +28,8 @@ renderer::World village(int columns) {
     const double y = 700.0 + 260.0 * (i / 8) + 13.0 * (i % 5);
     houses.push_back(tests::box({x, y, -20.0}, {x + 14.0, y + 11.0, 15.0}, 1));
   }
-  return tests::world(tests::hivision(columns), rolling_ground(), {kGrass, materials::PhongNrcs(0.3, 0.5, 3.0)},
-                      std::move(houses));
+  return tests::world(tests::hivision(columns), rolling_ground(),
+                      {kGrass, materials::PhongNrcs(0.3, 0.5, 3.0)}, std::move(houses));
 }
 
 void check_finite(const renderer::Frame& frame) {

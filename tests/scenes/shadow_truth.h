@@ -132,7 +132,7 @@ class ShadowTruth {
   // Of the gaps in range that rays of rising elevation find along one azimuth, the near side of the
   // one that shares most with [top_m, end_m].
   std::optional<Caster> edge_along(double azimuth_rad, double top_m, double end_m) const {
-    constexpr double kStep_rad = 7e-5;  // 1 m of ground at 2 km from 280 m height
+    constexpr double kStep_rad = 1e-4;  // 1.3 m of ground at 2 km from 300 m height
     constexpr double kGap_m = 13.0;     // two range cells
     const auto depth_rad = [&](double range_m) {
       return std::asin(std::min(height_m_ / range_m, 1.0));
