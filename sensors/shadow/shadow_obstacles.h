@@ -53,9 +53,9 @@ struct ShadowObstacle {
   bool uncertain = false;
 };
 
-// In order of column. Throws InputError E-RANGE unless height_m is above 0,
-// E-NONFINITE when it is not finite.
-std::vector<ShadowObstacle> shadow_obstacles(const Sensor &sensor, std::span<const double> power_W,
+// In order of column. Throws InputError E-RANGE unless height_m is above 0, E-NONFINITE when it is
+// not finite.
+std::vector<ShadowObstacle> shadow_obstacles(const Sensor& sensor, std::span<const double> power_W,
                                              double height_m);
 
 }  // namespace fanbeam::sensors

@@ -21,7 +21,7 @@ constexpr double kSmoothPicture = 0.2;  // fluctuation up to which one cell tell
 
 double square(double x) { return x * x; }
 
-double median(const std::vector<double> &values, int from, int to) {
+double median(const std::vector<double>& values, int from, int to) {
   std::vector<double> part(values.begin() + from, values.begin() + to);
   const auto middle = part.begin() + static_cast<std::ptrdiff_t>(part.size() / 2);
   std::nth_element(part.begin(), middle, part.end());
@@ -35,7 +35,7 @@ struct Dip {
 
 class Column {
  public:
-  Column(const ShadowGround &ground, int column);
+  Column(const ShadowGround& ground, int column);
 
   std::vector<ShadowRun> runs() const;
 
@@ -46,24 +46,24 @@ class Column {
     return (sum_[static_cast<std::size_t>(to)] - sum_[static_cast<std::size_t>(from)]) /
            (to - from);
   }
-  void weigh(int start, int end, Dip &best) const;
+  void weigh(int start, int end, Dip& best) const;
   Dip best_from(int start) const;
   std::vector<Dip> dips() const;
-  ShadowRun run_of(const Dip &dip) const;
-  double start_offset(const ShadowRun &run) const;
-  double end_offset(const ShadowRun &run) const;
-  void look_behind(ShadowRun &run) const;
-  int roof_rows(const Dip &dip) const;
+  ShadowRun run_of(const Dip& dip) const;
+  double start_offset(const ShadowRun& run) const;
+  double end_offset(const ShadowRun& run) const;
+  void look_behind(ShadowRun& run) const;
+  int roof_rows(const Dip& dip) const;
   bool falls_on_object(int row) const;
 
-  const ShadowGround &ground_;
+  const ShadowGround& ground_;
   int column_;
   int rows_end_;
   double fluctuation_;
   std::vector<double> q_, sum_;
 };
 
-Column::Column(const ShadowGround &ground, int column)
+Column::Column(const ShadowGround& ground, int column)
     : ground_(ground),
       column_(column),
       rows_end_(ground.rows_end),
@@ -75,7 +75,7 @@ Column::Column(const ShadowGround &ground, int column)
   }
 }
 
-void Column::weigh(int start, int end, Dip &best) const {
+void Column::weigh(int start, int end, Dip& best) const {
   const int n = end - start;
   const int m = std::clamp(n / 2, 3, kLongestAfter);
   const double dark = std::max(mean(start, end), 0.0);
@@ -83,8 +83,7 @@ void Column::weigh(int start, int end, Dip &best) const {
   if (end < rows_end_) {
     const int to = std::min(end + m, rows_end_);
     lit = std::min(lit, mean(end, to));
-    // Ground goes on behind its first cells, a thing inside the shadow does
-    // not.
+    // Ground goes on behind its first cells, a thing inside the shadow does not.
     if (end + 2 < to) lit = std::min(lit, mean(end + 2, to));
   } else if (mean(end - m, end) > 0.5 * (dark + lit)) {
     return;  // lit again before the end of the gate
@@ -101,8 +100,7 @@ Dip Column::best_from(int start) const {
   Dip best;
   for (int n = kShortest; start + n <= rows_end_; n += std::max(1, n / 8)) {
     weigh(start, start + n, best);
-    // Longer runs may score higher: on ground that is dark itself a later one
-    // is another thing.
+    // Longer runs may score higher: on ground that is dark itself a later one is another thing.
     if (best.score >= kLeastScore && 2 * n > 3 * (best.end - start) + 6) break;
     if (n + n / 8 + 1 > rows_end_ - start) weigh(start, rows_end_, best);
   }
@@ -121,21 +119,21 @@ std::vector<Dip> Column::dips() const {
     if (dip.score >= kLeastScore) all.push_back(dip);
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const Dip &a, const Dip &b) { return a.score > b.score; });
+                   [](const Dip& a, const Dip& b) { return a.score > b.score; });
   std::vector<Dip> taken;
-  for (const Dip &dip : all)
-    if (std::none_of(taken.begin(), taken.end(), [&](const Dip &other) {
+  for (const Dip& dip : all)
+    if (std::none_of(taken.begin(), taken.end(), [&](const Dip& other) {
           return dip.start < other.end && other.start < dip.end;
         }))
       taken.push_back(dip);
   std::sort(taken.begin(), taken.end(),
-            [](const Dip &a, const Dip &b) { return a.start < b.start; });
+            [](const Dip& a, const Dip& b) { return a.start < b.start; });
   return taken;
 }
 
 // The first dark cell may be part roof: its excess over the next ones is the
 // length of that part. Only where one cell tells more than it fluctuates.
-double Column::start_offset(const ShadowRun &run) const {
+double Column::start_offset(const ShadowRun& run) const {
   if (ground_.fluctuation > kSmoothPicture || run.roof_rows > 0) return 0.0;
   const double dark = median(q_, run.start_row + 1, run.start_row + kShortest);
   const double bright = std::min(at(run.start_row - 1), run.lit);
@@ -145,7 +143,7 @@ double Column::start_offset(const ShadowRun &run) const {
 
 // The cells about the end are part dark, part lit: their deficit is the length
 // of the dark part.
-double Column::end_offset(const ShadowRun &run) const {
+double Column::end_offset(const ShadowRun& run) const {
   if (ground_.fluctuation > kSmoothPicture || !(run.behind > run.dark)) return 0.0;
   double dark_cells = -2.0;
   for (int row = run.end_row - 2; row < run.end_row + 2; ++row)
@@ -153,7 +151,7 @@ double Column::end_offset(const ShadowRun &run) const {
   return std::clamp(dark_cells, -1.0, 1.0);
 }
 
-void Column::look_behind(ShadowRun &run) const {
+void Column::look_behind(ShadowRun& run) const {
   const int from = run.end_row + 1, to = from + kBehind;
   if (to > rows_end_) return;
   run.behind = run.behind_least = run.behind_most = mean(from, to);
@@ -163,9 +161,9 @@ void Column::look_behind(ShadowRun &run) const {
   run.behind_most = *std::max_element(q_.begin() + from, q_.begin() + to);
 }
 
-// A roof seen at grazing incidence may be darker than the ground, but echoes:
-// the run then begins with rows that stand out of the rest of it.
-int Column::roof_rows(const Dip &dip) const {
+// A roof seen at grazing incidence may be darker than the ground, but echoes: the run then begins
+// with rows that stand out of the rest of it.
+int Column::roof_rows(const Dip& dip) const {
   const int n = dip.end - dip.start;
   const double noise = ground_.noise[static_cast<std::size_t>(dip.start)];
   int rows = 0;
@@ -185,8 +183,7 @@ int Column::roof_rows(const Dip &dip) const {
   return rows;
 }
 
-// Bright at the end and darker behind: not the ground, but an object in the
-// shadow.
+// Bright at the end and darker behind: not the ground, but an object in the shadow.
 bool Column::falls_on_object(int row) const {
   if (row + 4 >= rows_end_) return false;
   const double brightest = std::max({at(row), at(row + 1), at(row + 2)});
@@ -194,7 +191,7 @@ bool Column::falls_on_object(int row) const {
   return brightest > kBrightestGround * (1.0 + 3.0 * ground_.fluctuation) * behind;
 }
 
-ShadowRun Column::run_of(const Dip &dip) const {
+ShadowRun Column::run_of(const Dip& dip) const {
   ShadowRun run;
   run.column = column_;
   run.start_row = dip.start;
@@ -223,19 +220,19 @@ ShadowRun Column::run_of(const Dip &dip) const {
 
 std::vector<ShadowRun> Column::runs() const {
   std::vector<ShadowRun> runs;
-  for (const Dip &dip : dips()) runs.push_back(run_of(dip));
+  for (const Dip& dip : dips()) runs.push_back(run_of(dip));
   return runs;
 }
 
 }  // namespace
 
-std::vector<ShadowRun> shadow_runs(const ShadowGround &ground) {
+std::vector<ShadowRun> shadow_runs(const ShadowGround& ground) {
   std::vector<std::vector<ShadowRun>> found(static_cast<std::size_t>(ground.columns));
   core::parallel_for(found.size(), [&](std::size_t column) {
     found[column] = Column(ground, static_cast<int>(column)).runs();
   });
   std::vector<ShadowRun> runs;
-  for (const std::vector<ShadowRun> &column : found)
+  for (const std::vector<ShadowRun>& column : found)
     runs.insert(runs.end(), column.begin(), column.end());
   return runs;
 }

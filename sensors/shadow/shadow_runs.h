@@ -46,6 +46,6 @@ struct ShadowRun {
 };
 
 // In order of column and start.
-std::vector<ShadowRun> shadow_runs(const ShadowGround &ground);
+std::vector<ShadowRun> shadow_runs(const ShadowGround& ground);
 
 }  // namespace fanbeam::sensors
