@@ -27,7 +27,10 @@ constexpr const char* kHead =
     "One grey level is 60/255 = 0.235 dB. The reference has 256 jittered azimuths per column and "
     "8\n"
     "rays per range cell; in one view per scene a second one with another seed states its own "
-    "error.\n\n";
+    "error.\n\n"
+    "Errors, sampling steps and bare-pass ratios are of surfaces and point targets alone: double "
+    "bounce and\nground multipath are off there. Frames written to disk run every effect that the "
+    "plan asks for.\n\n";
 
 std::string first_line_of(const char* command) {
   std::FILE* pipe = popen(command, "r");
