@@ -3,20 +3,13 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <fstream>
 
+#include "apps/frame_table.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "sensors/cells.h"
 
 namespace fanbeam::apps {
-namespace {
-
-std::string comment(const std::string& fingerprint) {
-  return "# threshold detections of the input " + fingerprint;
-}
-
-}  // namespace
 
 core::Picture8 detection_mask(const sensors::Sensor& sensor,
                               const std::vector<renderer::ThresholdDetection>& detections) {
@@ -32,8 +25,8 @@ core::Picture8 detection_mask(const sensors::Sensor& sensor,
 std::string detection_table(const sensors::Sensor& sensor, int frame, double time_s,
                             const std::string& fingerprint,
                             const std::vector<renderer::ThresholdDetection>& detections) {
-  std::string table =
-      comment(fingerprint) + "\nframe,time_s,row,column,range_m,azimuth_deg,power_W,snr_dB\n";
+  std::string table = table_comment("threshold detections", fingerprint) +
+                      "\nframe,time_s,row,column,range_m,azimuth_deg,power_W,snr_dB\n";
   const double noise_W = sensor.noise_power_W();
   for (const renderer::ThresholdDetection& detection : detections)
     table += fmt::format("{},{},{},{},{:.2f},{:.3f},{:.6e},{:.2f}\n", frame,
@@ -42,17 +35,6 @@ std::string detection_table(const sensors::Sensor& sensor, int frame, double tim
                          core::degrees(sensors::column_middle_rad(sensor.scan, detection.column)),
                          detection.power_W, 10.0 * std::log10(detection.power_W / noise_W - 1.0));
   return table;
-}
-
-std::filesystem::path detection_table_path(const std::filesystem::path& folder, int frame) {
-  return folder / "detections" / fmt::format("{:05}.csv", frame);
-}
-
-bool has_detection_table(const std::filesystem::path& folder, int frame,
-                         const std::string& fingerprint) {
-  std::ifstream stream(detection_table_path(folder, frame));
-  std::string line;
-  return std::getline(stream, line) && line == comment(fingerprint);
 }
 
 }  // namespace fanbeam::apps

@@ -1,7 +1,6 @@
 // The product "detections": a mask picture and a table per frame.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -21,11 +20,5 @@ core::Picture8 detection_mask(const sensors::Sensor& sensor,
 std::string detection_table(const sensors::Sensor& sensor, int frame, double time_s,
                             const std::string& fingerprint,
                             const std::vector<renderer::ThresholdDetection>& detections);
-
-std::filesystem::path detection_table_path(const std::filesystem::path& folder, int frame);
-
-// Whether the table of a frame is there and of this input.
-bool has_detection_table(const std::filesystem::path& folder, int frame,
-                         const std::string& fingerprint);
 
 }  // namespace fanbeam::apps

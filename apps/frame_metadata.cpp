@@ -3,8 +3,7 @@
 #include <fmt/format.h>
 
 #include "apps/common.h"
-#include "apps/detection_product.h"
-#include "apps/obstacle_product.h"
+#include "apps/frame_table.h"
 #include "core/units.h"
 
 namespace fanbeam::apps {
@@ -65,11 +64,11 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
   for (const std::string& product : products) {
     if (product == "preview") return false;
     if (product == "obstacles") {  // its table does not hold the frame's record
-      if (products.size() == 1 || !has_obstacle_table(folder, record.index, fingerprint))
+      if (products.size() == 1 || !has_frame_table(folder, product, record.index, fingerprint))
         return false;
       continue;
     }
-    if (product == "detections" && !has_detection_table(folder, record.index, fingerprint))
+    if (product == "detections" && !has_frame_table(folder, product, record.index, fingerprint))
       return false;
     const fs::path file = frame_path(folder, product, record.index);
     if (!fs::is_regular_file(file)) return false;

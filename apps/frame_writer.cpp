@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "apps/detection_product.h"
-#include "apps/obstacle_product.h"
+#include "apps/frame_table.h"
 #include "core/files.h"
 #include "sensors/display/display.h"
 #include "sensors/display/ppi.h"
@@ -128,13 +128,14 @@ void FrameWriter::write(const FrameOutput& output) const {
                     output.metadata);
   }
   if (products_.contains("detections")) {
-    core::write_file_atomically(detection_table_path(folder_, output.index),
+    core::write_file_atomically(frame_table_path(folder_, "detections", output.index),
                                 output.detection_table);
     core::write_png(frame_path(folder_, "detections", output.index),
                     detection_mask(sensor_, frame.detections), output.metadata);
   }
   if (products_.contains("obstacles"))
-    core::write_file_atomically(obstacle_table_path(folder_, output.index), output.obstacle_table);
+    core::write_file_atomically(frame_table_path(folder_, "obstacles", output.index),
+                                output.obstacle_table);
   if (products_.contains("power")) {
     core::Image image{sensor_.scan.columns, sensor_.range.cells, {}};
     image.layers.push_back({"power_W", farthest_on_top(frame.bscope_W, sensor_.scan.columns)});

@@ -2,23 +2,15 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
-
+#include "apps/frame_table.h"
 #include "core/units.h"
 
 namespace fanbeam::apps {
-namespace {
-
-std::string comment(const std::string& fingerprint) {
-  return "# obstacles, heights estimated from radar shadows, of the input " + fingerprint;
-}
-
-}  // namespace
 
 std::string obstacle_table(const std::vector<sensors::ShadowObstacle>& obstacles,
                            const std::string& fingerprint) {
   std::string table =
-      comment(fingerprint) +
+      table_comment("obstacles, heights estimated from radar shadows,", fingerprint) +
       "\nrange_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged,uncertain\n";
   for (const sensors::ShadowObstacle& obstacle : obstacles) {
     const std::string height = obstacle.uncertain ? ","
@@ -29,17 +21,6 @@ std::string obstacle_table(const std::vector<sensors::ShadowObstacle>& obstacles
                          obstacle.truncated, obstacle.merged, obstacle.uncertain);
   }
   return table;
-}
-
-std::filesystem::path obstacle_table_path(const std::filesystem::path& folder, int frame) {
-  return folder / "obstacles" / fmt::format("{:05}.csv", frame);
-}
-
-bool has_obstacle_table(const std::filesystem::path& folder, int frame,
-                        const std::string& fingerprint) {
-  std::ifstream stream(obstacle_table_path(folder, frame));
-  std::string line;
-  return std::getline(stream, line) && line == comment(fingerprint);
 }
 
 }  // namespace fanbeam::apps

@@ -1,7 +1,6 @@
 // The product "obstacles": what cast a shadow in a frame's B-scope, with its estimated height.
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -15,11 +14,5 @@ namespace fanbeam::apps {
 // shadow), uncertain (1: the shadow does not tell the height; height_m and error_m are empty).
 std::string obstacle_table(const std::vector<sensors::ShadowObstacle>& obstacles,
                            const std::string& fingerprint);
-
-std::filesystem::path obstacle_table_path(const std::filesystem::path& folder, int frame);
-
-// Whether the table of a frame is there and of this input.
-bool has_obstacle_table(const std::filesystem::path& folder, int frame,
-                        const std::string& fingerprint);
 
 }  // namespace fanbeam::apps

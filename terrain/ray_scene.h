@@ -39,6 +39,24 @@ struct alignas(N * 4) RayPacket {
   float normal_x[N], normal_y[N], normal_z[N];
   float u[N], v[N];
   std::uint32_t primitive[N], geometry[N], instance[N];
+
+  // Makes lane `i` a ray that has hit nothing yet.
+  void aim(int i, const glm::dvec3& origin_m, const glm::dvec3& direction, double far_m) noexcept {
+    origin_x[i] = static_cast<float>(origin_m.x);
+    origin_y[i] = static_cast<float>(origin_m.y);
+    origin_z[i] = static_cast<float>(origin_m.z);
+    near[i] = 0.0F;
+    direction_x[i] = static_cast<float>(direction.x);
+    direction_y[i] = static_cast<float>(direction.y);
+    direction_z[i] = static_cast<float>(direction.z);
+    time[i] = 0.0F;
+    distance[i] = static_cast<float>(far_m);
+    mask[i] = 0xFFFFFFFFU;
+    id[i] = 0;
+    flags[i] = 0;
+    geometry[i] = kNoHit;
+    instance[i] = kNoHit;
+  }
 };
 
 // A mesh in local metres together with the material id of each of its triangles.

@@ -153,20 +153,7 @@ inline void fill_packet(const sensors::AntennaFrame& antenna, bool cone, double 
   for (int i = 0; i < N; ++i) {
     const Axes w = direction_weights(cone, lanes.cos_elevation[i], lanes.sin_elevation[i],
                                      lanes.cos_azimuth[i], lanes.sin_azimuth[i]);
-    packet.origin_x[i] = static_cast<float>(antenna.position_m.x);
-    packet.origin_y[i] = static_cast<float>(antenna.position_m.y);
-    packet.origin_z[i] = static_cast<float>(antenna.position_m.z);
-    packet.near[i] = 0.0F;
-    packet.direction_x[i] = static_cast<float>(w.forward * f.x + w.right * r.x + w.up * u.x);
-    packet.direction_y[i] = static_cast<float>(w.forward * f.y + w.right * r.y + w.up * u.y);
-    packet.direction_z[i] = static_cast<float>(w.forward * f.z + w.right * r.z + w.up * u.z);
-    packet.time[i] = 0.0F;
-    packet.distance[i] = static_cast<float>(far_m);
-    packet.mask[i] = 0xFFFFFFFFU;
-    packet.id[i] = 0;
-    packet.flags[i] = 0;
-    packet.geometry[i] = terrain::kNoHit;
-    packet.instance[i] = terrain::kNoHit;
+    packet.aim(i, antenna.position_m, w.forward * f + w.right * r + w.up * u, far_m);
   }
 }
 

@@ -14,24 +14,6 @@ namespace {
 
 using Packet = terrain::RayPacket<BounceTracer::kAtOnce>;
 
-void point(Packet& packet, int i, const glm::dvec3& origin_m, const glm::dvec3& direction,
-           double far_m) {
-  packet.origin_x[i] = static_cast<float>(origin_m.x);
-  packet.origin_y[i] = static_cast<float>(origin_m.y);
-  packet.origin_z[i] = static_cast<float>(origin_m.z);
-  packet.near[i] = 0.0F;
-  packet.direction_x[i] = static_cast<float>(direction.x);
-  packet.direction_y[i] = static_cast<float>(direction.y);
-  packet.direction_z[i] = static_cast<float>(direction.z);
-  packet.time[i] = 0.0F;
-  packet.distance[i] = static_cast<float>(far_m);
-  packet.mask[i] = 0xFFFFFFFFU;
-  packet.id[i] = 0;
-  packet.flags[i] = 0;
-  packet.geometry[i] = terrain::kNoHit;
-  packet.instance[i] = terrain::kNoHit;
-}
-
 // Where a lane's ray met a surface, from the caster's own floats: rounding of the ray is not an
 // error of the point.
 struct Hit {
@@ -129,8 +111,8 @@ std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna, const An
   for (int i = 0; i < kAtOnce; ++i) {
     const AntennaRay& ray = rays[std::min(i, count - 1)];
     active[i] = i < count ? -1 : 0;
-    point(
-        packet, i, antenna.position_m,
+    packet.aim(
+        i, antenna.position_m,
         sensors::direction(antenna, ray.azimuth_rad, ray.elevation_rad, world_.sensor.scan.surface),
         far_m);
   }
@@ -144,8 +126,8 @@ std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna, const An
     const bool follow = active[i] != 0 && mirror(antenna, packet, i, lanes[i]);
     active[i] = follow ? -1 : 0;
     // B is nearer to p than the farthest range: R2 <= R1 + R3 and R1 + R2 + R3 <= 2 range.
-    point(mirrored, i, follow ? lanes[i].start_m : antenna.position_m,
-          follow ? lanes[i].direction : antenna.forward, far_m);
+    mirrored.aim(i, follow ? lanes[i].start_m : antenna.position_m,
+                 follow ? lanes[i].direction : antenna.forward, far_m);
     if (follow) ++cast;
     any = any || follow;
   }

@@ -6,11 +6,12 @@
 #include "atmosphere/precipitation/rain.h"
 #include "atmosphere/precipitation/snow.h"
 #include "core/constants.h"
-#include "tests/atmosphere/oracle_csv.h"
+#include "tests/atmosphere/within.h"
+#include "tests/data_rows.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;
-using fanbeam::tests::OracleRow;
+using fanbeam::tests::DataRow;
 
 namespace {
 
@@ -19,23 +20,23 @@ double tilt_rad(const std::string& polarisation) {
   return polarisation == "V" ? core::kPi / 2 : core::kPi / 4;
 }
 
-GasAttenuation gas(const OracleRow& row) {
+GasAttenuation gas(const DataRow& row) {
   return gas_attenuation(row.number("frequency_GHz") * 1e9, row.number("pressure_hPa"),
                          row.number("temperature_C") + 273.15, row.number("vapour_density_gm3"));
 }
 
-double rain(const OracleRow& row, RainLaw law) {
+double rain(const DataRow& row, RainLaw law) {
   return rain_attenuation_dB_per_km(law, row.number("rain_mm_h"), row.number("frequency_GHz") * 1e9,
                                     0.0, tilt_rad(row.text("polarisation")));
 }
 
-double fog(const OracleRow& row, FogLaw law) {
+double fog(const DataRow& row, FogLaw law) {
   const double temperature_C = row.has("temperature_C") ? row.number("temperature_C") : 10.0;
   return fog_attenuation_dB_per_km(law, row.number("liquid_gm3"), row.number("frequency_GHz") * 1e9,
                                    temperature_C);
 }
 
-double computed(const OracleRow& row) {
+double computed(const DataRow& row) {
   const std::string& model = row.text("model");
   if (model == "itu-r-p676-13-gas-total") return gas(row).total_dB_per_km();
   if (model == "itu-r-p676-13-oxygen") return gas(row).oxygen_dB_per_km;
@@ -55,7 +56,7 @@ double computed(const OracleRow& row) {
 
 TEST_CASE("Every one-way reference value is met to its ten printed digits", "[atmosphere_rows]") {
   std::map<std::string, int> count;
-  for (const OracleRow& row : tests::oracle_rows("atmosphere.csv")) {
+  for (const DataRow& row : tests::data_rows("atmosphere.csv")) {
     const std::string& model = row.text("model");
     ++count[model];
     INFO(model << " at " << row.text("frequency_GHz") << " GHz");

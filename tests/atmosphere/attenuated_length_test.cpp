@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "tests/atmosphere/oracle_csv.h"
+#include "tests/atmosphere/within.h"
 
 using namespace fanbeam;
 using atmosphere::attenuated_length_m;

@@ -5,8 +5,8 @@
 
 #include "atmosphere/fog/fog_water.h"
 #include "core/constants.h"
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;

@@ -3,14 +3,15 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
+#include "tests/data_rows.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;
 
 TEST_CASE("Gas attenuation meets the ITU's P.676-13 examples to all digits", "[gases]") {
-  const auto rows = tests::oracle_rows("itu_p676_13_validation.csv");
+  const auto rows = tests::data_rows("itu_p676_13_validation.csv");
   REQUIRE(rows.size() == 120);
   for (const auto& row : rows) {
     INFO(row.text("f_GHz") << " GHz");

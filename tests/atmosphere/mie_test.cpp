@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/constants.h"
-#include "tests/atmosphere/oracle_csv.h"
+#include "tests/atmosphere/within.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;

@@ -8,8 +8,9 @@
 #include "atmosphere/gas/gases.h"
 #include "atmosphere/gas/standard_atmosphere.h"
 #include "core/random.h"
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
+#include "tests/data_rows.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;
@@ -38,7 +39,7 @@ Weather murky() {
 }  // namespace
 
 TEST_CASE("Gas loss on slant paths agrees with a 4000-step integration", "[path_attenuation]") {
-  const auto rows = tests::oracle_rows("gas_slant_path.csv");
+  const auto rows = tests::data_rows("gas_slant_path.csv");
   REQUIRE(rows.size() == 6);
   for (const auto& row : rows) {
     const PathAttenuation path(Weather{}, row.number("frequency_GHz") * 1e9);

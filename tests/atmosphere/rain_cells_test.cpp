@@ -9,8 +9,8 @@
 #include "atmosphere/weather.h"
 #include "core/constants.h"
 #include "core/random.h"
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;

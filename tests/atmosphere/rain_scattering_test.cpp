@@ -5,8 +5,9 @@
 #include "atmosphere/precipitation/rain.h"
 #include "atmosphere/precipitation/rain_echo.h"
 #include "core/constants.h"
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
+#include "tests/data_rows.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;
@@ -24,7 +25,7 @@ double ratio_dB(double a, double b) { return 10.0 * std::log10(a / b); }
 }  // namespace
 
 TEST_CASE("All rows of the Mie rain table are met", "[rain_scattering]") {
-  const auto rows = tests::oracle_rows("rain_mie.csv");
+  const auto rows = tests::data_rows("rain_mie.csv");
   REQUIRE(rows.size() == 100);
   for (const auto& row : rows) {
     const double frequency_Hz = row.number("frequency_GHz") * 1e9;
@@ -40,7 +41,7 @@ TEST_CASE("All rows of the Mie rain table are met", "[rain_scattering]") {
 }
 
 TEST_CASE("The fits of the rain echo keep their stated error", "[rain_scattering]") {
-  const auto rows = tests::oracle_rows("rain_eta_fits.csv");
+  const auto rows = tests::data_rows("rain_eta_fits.csv");
   REQUIRE(rows.size() == 5);
   for (const auto& row : rows) {
     const double frequency_Hz = row.number("frequency_GHz") * 1e9;

@@ -6,8 +6,9 @@
 
 #include "core/constants.h"
 #include "core/units.h"
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
+#include "tests/data_rows.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;
@@ -25,7 +26,7 @@ double level_rain(double rate_mm_per_h, double tilt_rad) {
 }  // namespace
 
 TEST_CASE("Rain meets the ITU's P.838-3 examples", "[rain]") {
-  const auto rows = tests::oracle_rows("itu_p838_3_validation.csv");
+  const auto rows = tests::data_rows("itu_p838_3_validation.csv");
   REQUIRE(rows.size() == 32);
   for (const auto& row : rows) {
     const double frequency_Hz = row.number("f_GHz") * 1e9;
@@ -43,7 +44,7 @@ TEST_CASE("Rain meets the ITU's P.838-3 examples", "[rain]") {
 }
 
 TEST_CASE("Rain coefficients follow the regression from 1 to 100 GHz", "[rain]") {
-  const auto rows = tests::oracle_rows("itu_p838_k_alpha.csv");
+  const auto rows = tests::data_rows("itu_p838_k_alpha.csv");
   REQUIRE(rows.size() == 28);
   for (const auto& row : rows) {
     const double frequency_Hz = row.number("frequency_GHz") * 1e9;

@@ -6,8 +6,8 @@
 #include "atmosphere/precipitation/melting_layer.h"
 #include "atmosphere/volume_echo.h"
 #include "core/constants.h"
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "atmosphere/gas/gases.h"
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;

@@ -3,8 +3,8 @@
 
 #include "atmosphere/air_column.h"
 #include "atmosphere/path_attenuation.h"
-#include "tests/atmosphere/oracle_csv.h"
 #include "tests/atmosphere/rejection.h"
+#include "tests/atmosphere/within.h"
 
 using namespace fanbeam;
 using namespace fanbeam::atmosphere;

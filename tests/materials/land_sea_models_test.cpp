@@ -10,8 +10,8 @@
 #include "materials/nrcs/git_land.h"
 #include "materials/nrcs/kulemin.h"
 #include "materials/nrcs/nrl_sea.h"
-#include "tests/materials/csv_rows.h"
 #include "tests/materials/error_class.h"
+#include "tests/nrcs_rows.h"
 
 namespace fanbeam::materials {
 namespace {
@@ -22,39 +22,17 @@ using tests::refuses;
 
 double level_dB(double power) { return 10.0 * std::log10(power); }
 
-double evaluate(const tests::CsvRow& row) {
-  static const std::map<std::string, KuleminTerrain> kKulemin = {
-      {"concrete", KuleminTerrain::concrete},
-      {"arable_land", KuleminTerrain::arable_land},
-      {"snow", KuleminTerrain::snow},
-      {"forest_summer", KuleminTerrain::forest_summer},
-      {"grass_over_0.5m", KuleminTerrain::grass_above_half_metre},
-      {"urban", KuleminTerrain::urban}};
-  static const std::map<std::string, GitTerrain> kGit = {{"grass", GitTerrain::grass},
-                                                         {"trees", GitTerrain::trees},
-                                                         {"wet_snow", GitTerrain::wet_snow},
-                                                         {"dry_snow", GitTerrain::dry_snow}};
-  const double frequency_Hz = row.number("frequency_GHz") * 1e9;
-  const double grazing_rad = radians(row.number("grazing_deg"));
-  if (row.text("model") == "kulemin")
-    return kulemin_sigma0(kKulemin.at(row.text("terrain")), frequency_Hz, grazing_rad);
-  if (row.text("model") == "git_land")
-    return git_land_sigma0(kGit.at(row.text("terrain")), GitBand::ka_35GHz, grazing_rad);
-  const Polarisation polarisation =
-      row.text("polarisation") == "H" ? Polarisation::horizontal : Polarisation::vertical;
-  return nrl_sea_sigma0(polarisation, row.number("sea_state"), frequency_Hz, grazing_rad);
-}
-
 TEST_CASE("Kulemin, GIT and NRL models give the independently computed values",
           "[materials][models]") {
-  for (const tests::CsvRow& row : tests::csv_rows("nrcs_model_vectors.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("nrcs_model_vectors.csv")) {
     INFO(row.text("model") << ' ' << row.text("terrain") << ' ' << row.text("polarisation")
                            << " sea " << row.text("sea_state") << ' ' << row.text("frequency_GHz")
                            << " GHz " << row.text("grazing_deg") << " deg");
     // The NRL rows use the report's coefficients, rounded one digit earlier than the authors' code:
     // up to 0.02 dB.
     const double tolerance_dB = row.text("model") == "nrl_sea" ? 0.02 : 6e-4;
-    REQUIRE(std::abs(level_dB(evaluate(row)) - row.number("sigma0_dB")) < tolerance_dB);
+    REQUIRE(std::abs(level_dB(tests::modelled_sigma0(row)) - row.number("sigma0_dB")) <
+            tolerance_dB);
   }
 }
 
@@ -73,11 +51,8 @@ TEST_CASE("NRL sea model deviates from Nathanson's tables as its authors publish
     int all = 0, low = 0;
   };
   std::map<std::string, Sum> sums;
-  for (const tests::CsvRow& row : tests::csv_rows("nathanson_sea.csv")) {
-    const bool horizontal = row.text("polarisation") == "HH";
-    const double model = nrl_sea_sigma0(
-        horizontal ? Polarisation::horizontal : Polarisation::vertical, row.number("sea_state"),
-        row.number("frequency_GHz") * 1e9, radians(row.number("grazing_deg")));
+  for (const tests::DataRow& row : tests::data_rows("nathanson_sea.csv")) {
+    const double model = tests::nrl_sigma0(row);
     const double deviation_dB = std::abs(level_dB(model) - row.number("sigma0_dB"));
     Sum& sum = sums[row.text("polarisation")];
     sum.all_dB += deviation_dB;

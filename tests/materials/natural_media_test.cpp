@@ -6,7 +6,7 @@
 #include "materials/dielectric/snow.h"
 #include "materials/dielectric/soil.h"
 #include "materials/dielectric/water_ice.h"
-#include "tests/materials/csv_rows.h"
+#include "tests/data_rows.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {
@@ -17,7 +17,7 @@ using tests::refuses;
 
 TEST_CASE("Wet snow equals the published figures at both ends of its frequencies",
           "[materials][permittivity]") {
-  for (const tests::CsvRow& row : tests::csv_rows("wet_snow_figures.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("wet_snow_figures.csv")) {
     const Permittivity eps = wet_snow_permittivity({250.0, row.number("water_percent") / 100.0},
                                                    row.number("frequency_GHz") * 1e9);
     INFO(row.text("frequency_GHz") << " GHz, " << row.text("water_percent") << " %");
@@ -42,7 +42,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Soil follows ITU-R P.527 from 10 to 37 GHz", "[materials][permittivity]") {
-  for (const tests::CsvRow& row : tests::csv_rows("soil_permittivity.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("soil_permittivity.csv")) {
     Soil soil;
     soil.sand_mass_fraction = row.number("sand");
     soil.clay_mass_fraction = row.number("clay");

@@ -6,7 +6,7 @@
 #include "materials/dielectric/fresnel.h"
 #include "materials/dielectric/snow.h"
 #include "materials/dielectric/water_ice.h"
-#include "tests/materials/csv_rows.h"
+#include "tests/data_rows.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {
@@ -29,7 +29,7 @@ Permittivity evaluate(const std::string& material, double frequency_Hz) {
 
 TEST_CASE("Permittivities and normal reflectivities equal the check values at 35, 76 and 94 GHz",
           "[materials][permittivity]") {
-  for (const tests::CsvRow& row : tests::csv_rows("fresnel_check_values.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("fresnel_check_values.csv")) {
     const Permittivity eps = evaluate(row.text("material"), row.number("frequency_GHz") * 1e9);
     INFO(row.text("material") << " at " << row.text("frequency_GHz") << " GHz");
     // Half a unit of the last printed digit.

@@ -13,7 +13,7 @@
 #include "materials/nrcs/kulemin.h"
 #include "materials/nrcs/nrl_sea.h"
 #include "materials/nrcs/oh1992.h"
-#include "tests/materials/csv_rows.h"
+#include "tests/data_rows.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {
@@ -74,7 +74,7 @@ std::map<std::string, Model> published_references() {
 TEST_CASE("Fits reproduce those of another program to 0.02 dB and 1 percent", "[materials][fit]") {
   const auto references = published_references();
   const std::vector<double> steep_deg = {20, 25, 30, 35, 40, 45, 50, 55, 60, 65, 70, 75, 80};
-  for (const tests::CsvRow& row : tests::csv_rows("phong_fits_35GHz.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("phong_fits_35GHz.csv")) {
     INFO(row.text("material"));
     // The other program's choice of angles is known for the models fitted to grazing, not for Oh's;
     // there a fifth of a dB and two percent are left.

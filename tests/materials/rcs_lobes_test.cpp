@@ -10,7 +10,7 @@
 #include "core/constants.h"
 #include "core/units.h"
 #include "materials/rcs/rcs.h"
-#include "tests/materials/csv_rows.h"
+#include "tests/data_rows.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {
@@ -47,9 +47,9 @@ RcsModel shape_named(const std::string& name) {
 
 TEST_CASE("Peaks of all shapes at 35, 76 and 94 GHz are those of the committed rows",
           "[materials][rcs]") {
-  const auto rows = tests::csv_rows("rcs_peaks.csv");
+  const auto rows = tests::data_rows("rcs_peaks.csv");
   REQUIRE(rows.size() == 18);
-  for (const tests::CsvRow& row : rows) {
+  for (const tests::DataRow& row : rows) {
     INFO(row.text("shape") << " " << row.text("frequency_GHz") << " GHz");
     const double lambda_m = core::kSpeedOfLight_mps / (row.number("frequency_GHz") * 1e9);
     // The sphere at 35 GHz has ka = 73, where geometrical optics is used.

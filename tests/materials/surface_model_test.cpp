@@ -11,7 +11,7 @@
 #include "materials/nrcs/nrcs_curve.h"
 #include "materials/nrcs/nrl_sea.h"
 #include "materials/nrcs/oh1992.h"
-#include "tests/materials/csv_rows.h"
+#include "tests/data_rows.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {
@@ -54,7 +54,7 @@ TEST_CASE("Every model gives the independently computed values through the inter
       {"git_land trees", GitLandSurface{GitTerrain::trees}},
       {"git_land wet_snow", GitLandSurface{GitTerrain::wet_snow}},
       {"git_land dry_snow", GitLandSurface{GitTerrain::dry_snow}}};
-  for (const tests::CsvRow& row : tests::csv_rows("nrcs_model_vectors.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("nrcs_model_vectors.csv")) {
     const bool sea = row.text("model") == "nrl_sea";
     const std::string name = row.text("model") + " " + row.text("terrain");
     INFO(name << ' ' << row.text("frequency_GHz") << " GHz " << row.text("grazing_deg"));

@@ -7,8 +7,8 @@
 #include "materials/dielectric/snow.h"
 #include "materials/dielectric/soil.h"
 #include "materials/dielectric/water_ice.h"
+#include "tests/data_rows.h"
 #include "tests/validation/report.h"
-#include "tests/validation/rows.h"
 
 namespace fanbeam::validation {
 namespace {
@@ -39,7 +39,7 @@ Section permittivities() {
                   Section::Measure::relative,
                   2e-2,
                   "four decimals are printed, which is two digits for the loss of ice"};
-  for (const Row& row : rows_of("fresnel_check_values.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("fresnel_check_values.csv")) {
     const Permittivity ours = permittivity(row.text("material"), row.number("frequency_GHz") * 1e9);
     const std::string at =
         fmt::format("{} at {} GHz", row.text("material"), row.text("frequency_GHz"));
@@ -56,7 +56,7 @@ Section reflectivities() {
                   Section::Measure::difference,
                   6e-6,
                   "five decimals are printed"};
-  for (const Row& row : rows_of("fresnel_check_values.csv"))
+  for (const tests::DataRow& row : tests::data_rows("fresnel_check_values.csv"))
     section.add(fmt::format("{} at {} GHz", row.text("material"), row.text("frequency_GHz")),
                 materials::normal_reflectivity(
                     permittivity(row.text("material"), row.number("frequency_GHz") * 1e9)),
@@ -74,7 +74,7 @@ Section wet_snow() {
       Section::Measure::difference,
       1e-3,
       "three decimals were read off"};
-  for (const Row& row : rows_of("wet_snow_figures.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("wet_snow_figures.csv")) {
     const Permittivity ours = materials::wet_snow_permittivity(
         {250.0, row.number("water_percent") / 100.0}, row.number("frequency_GHz") * 1e9);
     const std::string at =
@@ -93,7 +93,7 @@ Section soil() {
                   Section::Measure::relative,
                   9e-3,
                   "that term: 0.8 % at 10 GHz, falling with 1 / f^2"};
-  for (const Row& row : rows_of("soil_permittivity.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("soil_permittivity.csv")) {
     materials::Soil soil;
     soil.sand_mass_fraction = row.number("sand");
     soil.clay_mass_fraction = row.number("clay");

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "atmosphere/fog/fog_water.h"
+#include "tests/data_rows.h"
 #include "tests/validation/report.h"
-#include "tests/validation/rows.h"
 
 namespace fanbeam::validation {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 Section attenuation(const std::string& model, atmosphere::FogLaw law, const std::string& source) {
   Section section{"Fog: " + model,         source, "dB/km", Section::Measure::relative, 6e-10,
                   "ten digits are printed"};
-  for (const Row& row : rows_of("atmosphere.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("atmosphere.csv")) {
     if (row.text("model") != model) continue;
     // The centimetre law knows no temperature; its rows leave the column empty.
     const double temperature_C = row.has("temperature_C") ? row.number("temperature_C") : 10.0;
@@ -36,7 +36,7 @@ Section water_content() {
                   Section::Measure::relative,
                   1e-5,
                   "c and n are rounded to six digits in the table"};
-  for (const Row& row : rows_of("fog_water_content_models.csv"))
+  for (const tests::DataRow& row : tests::data_rows("fog_water_content_models.csv"))
     for (const double visibility_m : {50.0, 100.0, 300.0, 1000.0})
       section.add(fmt::format("{}, {} m", row.text("name"), visibility_m),
                   atmosphere::liquid_water_g_per_m3(

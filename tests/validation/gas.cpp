@@ -2,8 +2,8 @@
 
 #include "atmosphere/gas/gases.h"
 #include "atmosphere/path_attenuation.h"
+#include "tests/data_rows.h"
 #include "tests/validation/report.h"
-#include "tests/validation/rows.h"
 
 namespace fanbeam::validation {
 namespace {
@@ -18,7 +18,7 @@ Section itu_examples() {
                   Section::Measure::relative,
                   1e-9,
                   "all printed digits count"};
-  for (const Row& row : rows_of("itu_p676_13_validation.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("itu_p676_13_validation.csv")) {
     const GasAttenuation gas =
         atmosphere::gas_attenuation(row.number("f_GHz") * 1e9, row.number("p_dry_hPa"),
                                     row.number("T_K"), row.number("rho_gm3"));
@@ -37,7 +37,7 @@ Section other_air() {
                   Section::Measure::relative,
                   6e-10,
                   "ten digits are printed"};
-  for (const Row& row : rows_of("atmosphere.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("atmosphere.csv")) {
     const std::string& model = row.text("model");
     if (!model.starts_with("itu-r-p676")) continue;
     const GasAttenuation gas = atmosphere::gas_attenuation(
@@ -62,7 +62,7 @@ Section slant_paths() {
                   Section::Measure::relative,
                   1e-4,
                   "the profile is linear within 25 m of height"};
-  for (const Row& row : rows_of("gas_slant_path.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("gas_slant_path.csv")) {
     const atmosphere::PathAttenuation path(atmosphere::Weather{},
                                            row.number("frequency_GHz") * 1e9);
     section.add(fmt::format("{} GHz, {} km from height {} to {} km", row.text("frequency_GHz"),

@@ -7,8 +7,8 @@
 #include "atmosphere/precipitation/drop_scattering.h"
 #include "atmosphere/precipitation/rain_echo.h"
 #include "atmosphere/precipitation/snow.h"
+#include "tests/data_rows.h"
 #include "tests/validation/report.h"
-#include "tests/validation/rows.h"
 
 namespace fanbeam::validation {
 namespace {
@@ -36,7 +36,7 @@ const char* const kMieSource =
     "ITU-R P.840, drop sizes of Marshall and Palmer 1948 (MP), Joss drizzle (JD) and thunderstorm "
     "(JT) 1968";
 
-std::string conditions(const Row& row) {
+std::string conditions(const tests::DataRow& row) {
   return fmt::format("{} GHz, {} C, {}, {} mm/h", row.text("frequency_GHz"),
                      row.text("temperature_C"), row.text("dsd"), row.text("rain_mm_h"));
 }
@@ -49,7 +49,7 @@ Section mie(bool echo) {
                   1e-3,
                   "five digits are printed and the integration steps differ; two correct codes "
                   "are expected to agree within 1 %"};
-  for (const Row& row : rows_of("rain_mie.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("rain_mie.csv")) {
     const DropScattering& scattering =
         drops(row.number("frequency_GHz"), row.number("temperature_C"));
     const DropSizes sizes = sizes_of(row.text("dsd"));
@@ -71,9 +71,9 @@ Section fits() {
                   Section::Measure::difference,
                   0.03,
                   "two decimals are printed, and the fits' worst rain rates are not in the table"};
-  for (const Row& fit : rows_of("rain_eta_fits.csv")) {
+  for (const tests::DataRow& fit : tests::data_rows("rain_eta_fits.csv")) {
     double quadratic_dB = 0.0;
-    for (const Row& row : rows_of("rain_mie.csv")) {
+    for (const tests::DataRow& row : tests::data_rows("rain_mie.csv")) {
       if (row.text("dsd") != "MP" || row.number("temperature_C") != 10.0 ||
           row.number("frequency_GHz") != fit.number("frequency_GHz"))
         continue;
@@ -96,7 +96,7 @@ Section dry_snow() {
                   Section::Measure::relative,
                   6e-10,
                   "ten digits are printed"};
-  for (const Row& row : rows_of("atmosphere.csv"))
+  for (const tests::DataRow& row : tests::data_rows("atmosphere.csv"))
     if (row.text("model") == "gunn-east-1954-dry-snow")
       section.add(fmt::format("{} GHz, {} mm/h", row.text("frequency_GHz"), row.text("rain_mm_h")),
                   atmosphere::snow_attenuation_dB_per_km(row.number("rain_mm_h"),

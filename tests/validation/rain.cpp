@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/units.h"
+#include "tests/data_rows.h"
 #include "tests/validation/report.h"
-#include "tests/validation/rows.h"
 
 namespace fanbeam::validation {
 namespace {
@@ -27,7 +27,7 @@ Section itu_examples() {
                   Section::Measure::relative,
                   4e-7,
                   "the examples print eight decimals"};
-  for (const Row& row : rows_of("itu_p838_3_validation.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("itu_p838_3_validation.csv")) {
     const double frequency_Hz = row.number("f_GHz") * 1e9;
     const double elevation_rad = radians(row.number("elevation_deg"));
     const double tau_rad = radians(row.number("tau_deg"));
@@ -52,7 +52,7 @@ Section coefficients() {
                   Section::Measure::relative,
                   5e-6,
                   "six digits are printed"};
-  for (const Row& row : rows_of("itu_p838_k_alpha.csv")) {
+  for (const tests::DataRow& row : tests::data_rows("itu_p838_k_alpha.csv")) {
     const double frequency_Hz = row.number("frequency_GHz") * 1e9;
     const RainCoefficients h = atmosphere::rain_coefficients(frequency_Hz, 0.0, tilt_rad("H"));
     const RainCoefficients v = atmosphere::rain_coefficients(frequency_Hz, 0.0, tilt_rad("V"));
@@ -68,7 +68,7 @@ Section coefficients() {
 Section attenuation(const std::string& model, RainLaw law, const std::string& source) {
   Section section{"Rain: " + model,           source, "dB/km",
                   Section::Measure::relative, 6e-10,  "ten digits are printed"};
-  for (const Row& row : rows_of("atmosphere.csv"))
+  for (const tests::DataRow& row : tests::data_rows("atmosphere.csv"))
     if (row.text("model") == model)
       section.add(fmt::format("{} GHz, {} mm/h {}", row.text("frequency_GHz"),
                               row.text("rain_mm_h"), row.text("polarisation")),

@@ -1,15 +1,12 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <map>
+#include <tuple>
 
-#include "core/decibel.h"
 #include "core/units.h"
-#include "materials/nrcs/git_land.h"
-#include "materials/nrcs/kulemin.h"
 #include "materials/nrcs/nrl_sea.h"
+#include "tests/nrcs_rows.h"
 #include "tests/validation/report.h"
-#include "tests/validation/rows.h"
 
 namespace fanbeam::validation {
 namespace {
@@ -19,41 +16,10 @@ using Polarisation = core::Polarisation;
 
 double level_dB(double sigma0) { return 10.0 * std::log10(sigma0); }
 
-double nrl(const Row& row) {
-  const bool horizontal = row.text("polarisation").starts_with('H');
-  return materials::nrl_sea_sigma0(horizontal ? Polarisation::horizontal : Polarisation::vertical,
-                                   row.number("sea_state"), row.number("frequency_GHz") * 1e9,
-                                   radians(row.number("grazing_deg")));
-}
-
-double modelled(const Row& row) {
-  using materials::GitTerrain;
-  using materials::KuleminTerrain;
-  static const std::map<std::string, KuleminTerrain> kKulemin = {
-      {"concrete", KuleminTerrain::concrete},
-      {"arable_land", KuleminTerrain::arable_land},
-      {"snow", KuleminTerrain::snow},
-      {"forest_summer", KuleminTerrain::forest_summer},
-      {"grass_over_0.5m", KuleminTerrain::grass_above_half_metre},
-      {"urban", KuleminTerrain::urban}};
-  static const std::map<std::string, GitTerrain> kGit = {{"grass", GitTerrain::grass},
-                                                         {"trees", GitTerrain::trees},
-                                                         {"wet_snow", GitTerrain::wet_snow},
-                                                         {"dry_snow", GitTerrain::dry_snow}};
-  const double grazing_rad = radians(row.number("grazing_deg"));
-  if (row.text("model") == "kulemin")
-    return materials::kulemin_sigma0(kKulemin.at(row.text("terrain")),
-                                     row.number("frequency_GHz") * 1e9, grazing_rad);
-  if (row.text("model") == "git_land")
-    return materials::git_land_sigma0(kGit.at(row.text("terrain")), materials::GitBand::ka_35GHz,
-                                      grazing_rad);
-  return nrl(row);
-}
-
 Section formulas(const std::string& model, const std::string& title, const std::string& source,
                  double tolerance_dB, const std::string& reason) {
   Section section{title, source, "dB", Section::Measure::difference, tolerance_dB, reason};
-  for (const Row& row : rows_of("nrcs_model_vectors.csv"))
+  for (const tests::DataRow& row : tests::data_rows("nrcs_model_vectors.csv"))
     if (row.text("model") == model)
       section.add(
           fmt::format(
@@ -62,7 +28,7 @@ Section formulas(const std::string& model, const std::string& title, const std::
                                          : row.text("terrain"),
               row.text("polarisation") == "-" ? ", " : " " + row.text("polarisation") + ", ",
               row.text("frequency_GHz"), row.text("grazing_deg")),
-          level_dB(modelled(row)), row.number("sigma0_dB"));
+          level_dB(tests::modelled_sigma0(row)), row.number("sigma0_dB"));
   return section;
 }
 
@@ -84,9 +50,10 @@ Section nathanson() {
     double sum_dB = 0.0;
     int low = 0;
     int all = 0;
-    for (const Row& row : rows_of("nathanson_sea.csv")) {
+    for (const tests::DataRow& row : tests::data_rows("nathanson_sea.csv")) {
       if (row.text("polarisation") != polarisation) continue;
-      const double deviation_dB = std::abs(level_dB(nrl(row)) - row.number("sigma0_dB"));
+      const double deviation_dB =
+          std::abs(level_dB(tests::nrl_sigma0(row)) - row.number("sigma0_dB"));
       sum_dB += deviation_dB;
       ++all;
       if (row.number("grazing_deg") > 10.0) continue;

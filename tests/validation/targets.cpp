@@ -2,8 +2,8 @@
 
 #include "core/constants.h"
 #include "materials/rcs/rcs.h"
+#include "tests/data_rows.h"
 #include "tests/validation/report.h"
-#include "tests/validation/rows.h"
 
 namespace fanbeam::validation {
 namespace {
@@ -44,7 +44,7 @@ Section peaks() {
                   Section::Measure::difference,
                   6e-4,
                   "rounded to 0.001 dB"};
-  for (const Row& row : rows_of("rcs_peaks.csv"))
+  for (const tests::DataRow& row : tests::data_rows("rcs_peaks.csv"))
     section.add(row.text("shape") + " at " + row.text("frequency_GHz") + " GHz",
                 peak_dBsm(shape(row.text("shape")), row.number("frequency_GHz")),
                 row.number("rcs_dBsm"));

@@ -1,4 +1,4 @@
-// Rows of the committed tables in tests/data: '#' comments, one header line, no quoting.
+// Rows of the published tables in tests/data: '#' comments, one header line, no quoting.
 #pragma once
 
 #include <fstream>
@@ -10,11 +10,12 @@
 
 #include "core/text.h"
 
-namespace fanbeam::validation {
+namespace fanbeam::tests {
 
-class Row {
+// Unknown columns and cells that hold no number throw: a test then fails with the column's name.
+class DataRow {
  public:
-  Row(const std::vector<std::string>& columns, const std::string& line) {
+  DataRow(const std::vector<std::string>& columns, const std::string& line) {
     std::istringstream stream(line);
     for (const std::string& column : columns) std::getline(stream, cells_[column], ',');
   }
@@ -31,12 +32,12 @@ class Row {
   std::map<std::string, std::string> cells_;
 };
 
-inline std::vector<Row> rows_of(const std::string& file_in_test_data) {
+// At least one row, else an exception.
+inline std::vector<DataRow> data_rows(const std::string& file_in_test_data) {
   const std::string path = std::string(FANBEAM_SOURCE_DIR) + "/tests/data/" + file_in_test_data;
   std::ifstream file(path);
-  if (!file) throw std::runtime_error(path + " cannot be read");
   std::vector<std::string> columns;
-  std::vector<Row> rows;
+  std::vector<DataRow> rows;
   for (std::string line; std::getline(file, line);) {
     if (line.empty() || line[0] == '#') continue;
     if (!columns.empty()) {
@@ -46,7 +47,8 @@ inline std::vector<Row> rows_of(const std::string& file_in_test_data) {
     std::istringstream header(line);
     for (std::string column; std::getline(header, column, ',');) columns.push_back(column);
   }
+  if (rows.empty()) throw std::runtime_error(path + " holds no rows or cannot be read");
   return rows;
 }
 
-}  // namespace fanbeam::validation
+}  // namespace fanbeam::tests
