@@ -16,6 +16,7 @@
 #include "materials/nrcs/nrcs_curve.h"
 #include "materials/rcs/rcs.h"
 #include "sensors/sensor.h"
+#include "terrain/buildings/solids.h"
 #include "terrain/ray_scene.h"
 
 namespace fanbeam::renderer {
@@ -47,6 +48,7 @@ struct World {
   std::vector<std::optional<materials::SpecularSurface>> specular{};
   std::optional<atmosphere::VolumeEcho> volume_echo{};  // where the effect rain echo runs
   std::optional<atmosphere::RainCells> rain_cells{};    // what they take beyond `attenuation`
+  terrain::Solids solids{};  // the buildings of `surfaces`, for the profile caster
 };
 
 }  // namespace fanbeam::renderer
