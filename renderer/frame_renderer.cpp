@@ -4,6 +4,7 @@
 
 #include "core/errors.h"
 #include "core/random.h"
+#include "renderer/casting/profile/profile_caster.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/stages/azimuth_beam.h"
 #include "renderer/stages/fluctuation.h"
@@ -32,6 +33,12 @@ void check_pose(const FramePose& pose) {
   }
 }
 
+std::unique_ptr<Caster> make_caster(const World& world, const Sampling& sampling) {
+  if (sampling.caster == CasterKind::profile)
+    return std::make_unique<ProfileCaster>(world, sampling);
+  return std::make_unique<RayCaster>(world, sampling);
+}
+
 std::vector<double> plus(const std::vector<double>& values, double constant) {
   std::vector<double> result(values);
   for (double& value : result) value += constant;
@@ -46,7 +53,7 @@ FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const
       sampling_(sampling),
       products_(products),
       effects_(effects),
-      caster_(std::make_unique<RayCaster>(world, sampling)),
+      caster_(make_caster(world, sampling)),
       double_bounce_(effects.double_bounce ? std::make_unique<DoubleBounce>(world, sampling)
                                            : nullptr),
       range_response_(effects.range_response && sensors::has_point_response(world.sensor)

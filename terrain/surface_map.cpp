@@ -64,8 +64,13 @@ bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m,
 MaterialId SurfaceMap::material_at(double x_m, double y_m) const noexcept {
   const int i = std::clamp(static_cast<int>((x_m - west_m_) * per_spacing_), 0, columns_ - 1);
   const int j = std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
-  const std::size_t cell = static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
-                           static_cast<std::size_t>(i);
+  return material_in_cell(i, j, x_m, y_m);
+}
+
+MaterialId SurfaceMap::material_in_cell(int column, int row, double x_m,
+                                        double y_m) const noexcept {
+  const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                           static_cast<std::size_t>(column);
   const MaterialId base = cells_[cell];
   if ((base & kPatched) == 0) return base;
   for (std::uint32_t k = patch_begin_[cell]; k < patch_begin_[cell + 1]; ++k) {

@@ -31,6 +31,9 @@ class SurfaceMap {
   // Point is clamped to the grid.
   MaterialId material_at(double x_m, double y_m) const noexcept;
 
+  // The same for a point that is known to lie in this cell.
+  MaterialId material_in_cell(int column, int row, double x_m, double y_m) const noexcept;
+
   const std::vector<SurfacePatch>& patches() const { return patches_; }
 
  private:

@@ -22,6 +22,7 @@ struct FanSums {
       elevation_W_m3_per_rad;  // [sub-column][row]: power times R^3, summed over range
 
   std::uint64_t rays = 0;
+  std::uint64_t slices = 0;
   std::uint64_t hits = 0;
   std::uint64_t blanked = 0;  // hits nearer than the first range cell
 };

@@ -19,6 +19,8 @@ class PathLossTable {
   PathLossTable(const atmosphere::PathAttenuation& attenuation, double sensor_height_m,
                 double lowest_m, double highest_m);
 
+  bool clear() const noexcept { return clear_; }  // every factor is 1
+
   double two_way_factor(double height_m, double range_m) const noexcept {
     if (clear_) return 1.0;
     const double position =

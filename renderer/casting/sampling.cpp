@@ -28,4 +28,16 @@ Sampling sampling_for(double rays_per_cell) {
   return sampling;
 }
 
+Sampling profile_sampling_for(double slices) {
+  // The beam is over two columns wide: finer sub-columns than these do not show.
+  constexpr int kMostSubColumns = 8;
+  const int wanted = std::max(1, static_cast<int>(std::lround(slices)));
+  Sampling sampling;
+  sampling.caster = CasterKind::profile;
+  sampling.sub_columns = std::min(wanted, kMostSubColumns);
+  sampling.slices_per_sub_column = (wanted + sampling.sub_columns - 1) / sampling.sub_columns;
+  sampling.rays_per_cell = 1.0;
+  return sampling;
+}
+
 }  // namespace fanbeam::renderer

@@ -5,7 +5,14 @@
 
 namespace fanbeam::renderer {
 
+// Two ways to see a scene: ray_caster.h and profile/profile_caster.h.
+enum class CasterKind { rays, profile };
+
 struct Sampling {
+  CasterKind caster = CasterKind::rays;
+  // Profile caster: azimuth slices per sub-column. What follows then only concerns the azimuths
+  // that are left to rays.
+  int slices_per_sub_column = 1;
   // Azimuth sub-columns per picture column. Azimuth is what limits the error over cities: spend
   // here first.
   int sub_columns = 4;
@@ -37,5 +44,11 @@ inline constexpr double kDefaultRaysPerCell = 4.0;
 // `rays_per_cell` rays per range cell and column, split between azimuth and range in the proportion
 // that measured best (docs/performance.md): azimuth first.
 Sampling sampling_for(double rays_per_cell);
+
+inline constexpr double kDefaultSlicesPerColumn = 16.0;
+
+// `slices` azimuth slices per column through the profile caster, at least 1; each crosses every
+// range cell once.
+Sampling profile_sampling_for(double slices);
 
 }  // namespace fanbeam::renderer

@@ -1,0 +1,126 @@
+#include "renderer/casting/profile/ground_cut.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/dispatch.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+// At a post up to three lines are crossed at once.
+constexpr double kSmallestPiece_m = 1e-9;
+
+// The part of the half-line inside [0, cells] along one axis.
+void clip_axis(double from, double per_m, double cells, double& near_m, double& far_m) {
+  if (per_m == 0.0) {
+    if (from < 0.0 || from > cells) far_m = -1.0;
+    return;
+  }
+  const double a_m = -from / per_m, b_m = (cells - from) / per_m;
+  near_m = std::max(near_m, std::min(a_m, b_m));
+  far_m = std::min(far_m, std::max(a_m, b_m));
+}
+
+// Grid lines of one family in the order in which the cut meets them.
+struct Crossings {
+  double next_m = kNever;
+  double step_m = 0.0;
+  double base_m = 0.0;
+  int line = 0;  // the whole number that is met next
+  int direction = 0;
+  int count = 0;
+
+  // Lines at whole numbers of a coordinate that is `from` at distance 0 and rises by `per_m`;
+  // the first one behind `near_m`.
+  Crossings(double from, double per_m, double near_m) {
+    if (per_m == 0.0) return;
+    const double at_near = from + per_m * near_m;
+    direction = per_m > 0.0 ? 1 : -1;
+    line = static_cast<int>(per_m > 0.0 ? std::floor(at_near) + 1.0 : std::ceil(at_near) - 1.0);
+    base_m = (line - from) / per_m;
+    step_m = 1.0 / std::abs(per_m);
+    next_m = base_m;
+  }
+  void advance() {
+    next_m = base_m + step_m * ++count;
+    line += direction;
+  }
+};
+
+}  // namespace
+
+FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2& origin_m,
+                            const glm::dvec2& along, double far_m, double zero_m, GroundCut& cut) {
+  cut.distance_m.clear();
+  cut.height_m.clear();
+  cut.cells.clear();
+  const double per_spacing = 1.0 / ground.spacing_m;
+  const double u0 = (origin_m.x - ground.west_m) * per_spacing, u_per_m = along.x * per_spacing;
+  const double v0 = (origin_m.y - ground.south_m) * per_spacing, v_per_m = along.y * per_spacing;
+  double near_m = 0.0;
+  clip_axis(u0, u_per_m, ground.columns - 1, near_m, far_m);
+  clip_axis(v0, v_per_m, ground.rows - 1, near_m, far_m);
+  if (!(far_m > near_m)) return;
+
+  const double* height = ground.height_m.data();
+  const auto stride = static_cast<std::ptrdiff_t>(ground.columns);
+  const int last_column = ground.columns - 2, last_row = ground.rows - 2;
+  const auto cell = [](double at, int last) { return std::clamp(static_cast<int>(at), 0, last); };
+  const auto add_point = [&](double distance_m, double height_m) {
+    cut.distance_m.push_back(distance_m);
+    cut.height_m.push_back(height_m - zero_m);
+  };
+  const auto height_at = [&](double distance_m) {
+    const double u = u0 + u_per_m * distance_m, v = v0 + v_per_m * distance_m;
+    const int i = cell(u, last_column), j = cell(v, last_row);
+    const double a = u - i, b = v - j;
+    const double* sw = height + j * stride + i;
+    return a < b ? sw[0] + b * (sw[stride] - sw[0]) + a * (sw[stride + 1] - sw[stride])
+                 : sw[0] + a * (sw[1] - sw[0]) + b * (sw[stride + 1] - sw[1]);
+  };
+  // Which triangle a piece lies in follows from its middle: no state to lose at corners.
+  const auto add_piece = [&](double from_m, double to_m) {
+    const double middle_m = (from_m + to_m) / 2;
+    const double u = u0 + u_per_m * middle_m, v = v0 + v_per_m * middle_m;
+    const int i = cell(u, last_column), j = cell(v, last_row);
+    cut.cells.push_back({i, j, u - i < v - j});
+  };
+
+  Crossings column(u0, u_per_m, near_m), row(v0, v_per_m, near_m),
+      diagonal(u0 - v0, u_per_m - v_per_m, near_m);
+  double last_m = near_m;
+  add_point(near_m, height_at(near_m));
+  for (;;) {
+    const double next_m = std::min({column.next_m, row.next_m, diagonal.next_m});
+    if (next_m >= far_m) break;
+    const double u = u0 + u_per_m * next_m, v = v0 + v_per_m * next_m;
+    double height_m;
+    if (next_m == column.next_m) {
+      const int j = cell(v, last_row);
+      const double* south = height + j * stride + column.line;
+      height_m = south[0] + (v - j) * (south[stride] - south[0]);
+      column.advance();
+    } else if (next_m == row.next_m) {
+      const int i = cell(u, last_column);
+      const double* west = height + row.line * stride + i;
+      height_m = west[0] + (u - i) * (west[1] - west[0]);
+      row.advance();
+    } else {
+      const int i = cell(u, last_column), j = std::clamp(i - diagonal.line, 0, last_row);
+      const double* sw = height + j * stride + i;
+      height_m = sw[0] + (u - i) * (sw[stride + 1] - sw[0]);
+      diagonal.advance();
+    }
+    if (next_m - last_m < kSmallestPiece_m) continue;
+    add_piece(last_m, next_m);
+    add_point(next_m, height_m);
+    last_m = next_m;
+  }
+  add_piece(last_m, far_m);
+  add_point(far_m, height_at(far_m));
+}
+
+}  // namespace fanbeam::renderer

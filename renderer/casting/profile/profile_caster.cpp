@@ -1,0 +1,234 @@
+#include "renderer/casting/profile/profile_caster.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <mutex>
+
+#include "core/parallel.h"
+#include "renderer/casting/profile/slice_sweep.h"
+#include "renderer/casting/ray_kernel.h"
+
+namespace fanbeam::renderer {
+
+struct ProfileCaster::Frame {
+  const sensors::AntennaFrame& antenna;
+  const PathLossTable& path_loss;
+  const std::vector<Slice>& slices;
+  const EdgeIndex& edges;
+  bool with_cscope;
+};
+
+namespace {
+
+// Slices that share their candidates.
+constexpr int kTileSlices = 16;
+
+void prepare(const World& world, const Sampling& sampling, bool with_cscope, FanSums& sums) {
+  const sensors::Scan& scan = world.sensor.scan;
+  const int margin = margin_sub_columns(world.sensor, sampling.sub_columns);
+  sums.step_rad = scan.column_width_rad() / sampling.sub_columns;
+  sums.first_azimuth_rad = -scan.field_of_view_rad / 2 - margin * sums.step_rad;
+  const int needed = scan.columns * sampling.sub_columns + 2 * margin;
+  sums.sub_columns = (needed + kGroupAzimuths - 1) / kGroupAzimuths * kGroupAzimuths;
+  sums.cells = world.sensor.range.cells;
+  sums.rows = with_cscope ? world.sensor.display.cscope_rows : 0;
+  const auto subs = static_cast<std::size_t>(sums.sub_columns);
+  sums.range_W_per_rad.resize(subs * static_cast<std::size_t>(sums.cells));
+  sums.elevation_W_m3_per_rad.resize(subs * static_cast<std::size_t>(sums.rows));
+  sums.rays = sums.slices = sums.hits = sums.blanked = 0;
+}
+
+glm::dvec2 horizontal(const glm::dvec3& direction) {
+  const glm::dvec2 flat(direction.x, direction.y);
+  const double length = glm::length(flat);
+  return length > 1e-9 ? flat / length : glm::dvec2(0.0, 1.0);
+}
+
+double turn_rad(const glm::dvec2& from, const glm::dvec2& to) {
+  return std::atan2(from.y * to.x - from.x * to.y, glm::dot(from, to));
+}
+
+// Buffers of one thread.
+struct SliceScratch {
+  VisiblePieces pieces;
+  PieceCuts cuts;
+};
+
+}  // namespace
+
+bool profile_applies(const World& world) { return world.surfaces->terrain() != nullptr; }
+
+ProfileCaster::ProfileCaster(const World& world, const Sampling& sampling)
+    : world_(world), sampling_(sampling), tables_(world) {
+  const terrain::HeightField& ground = *world.surfaces->terrain();
+  const auto [low, high] = std::minmax_element(ground.height_m.begin(), ground.height_m.end());
+  lowest_m_ = *low;
+  highest_m_ = *high;
+}
+
+std::vector<Slice> ProfileCaster::level_slices(const sensors::AntennaFrame& antenna,
+                                               const FanSums& sums) const {
+  const glm::dvec2 forward = horizontal(antenna.forward);
+  const int count = sums.sub_columns * sampling_.slices_per_sub_column;
+  const double width_rad = sums.step_rad / sampling_.slices_per_sub_column;
+  std::vector<Slice> slices;
+  slices.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double azimuth_rad = sums.first_azimuth_rad + (i + 0.5) * width_rad;
+    const glm::dvec2 along = horizontal(
+        sensors::direction(antenna, azimuth_rad, world_.sensor.antenna.boresight_elevation_rad,
+                           world_.sensor.scan.surface));
+    slices.push_back({along, turn_rad(forward, along), width_rad});
+  }
+  return slices;
+}
+
+// Evenly over all headings in which some elevation of the beam sees the fan.
+std::vector<Slice> ProfileCaster::tilted_slices(const sensors::AntennaFrame& antenna,
+                                                const FanSums& sums) const {
+  const glm::dvec2 forward = horizontal(antenna.forward);
+  const sensors::Antenna& beams = world_.sensor.antenna;
+  const double reach_rad = sensors::reach_rad(beams.elevation);
+  double left_rad = core::kPi, right_rad = -core::kPi;
+  constexpr int kSteps = 16;
+  for (int e = 0; e <= kSteps; ++e) {
+    const double elevation_rad =
+        beams.boresight_elevation_rad + reach_rad * (2.0 * e / kSteps - 1.0);
+    for (int a = 0; a <= kSteps; ++a) {
+      const double azimuth_rad =
+          sums.first_azimuth_rad + sums.sub_columns * sums.step_rad * a / kSteps;
+      const double heading_rad = turn_rad(
+          forward, horizontal(sensors::direction(antenna, azimuth_rad, elevation_rad,
+                                                 world_.sensor.scan.surface)));
+      left_rad = std::min(left_rad, heading_rad);
+      right_rad = std::max(right_rad, heading_rad);
+    }
+  }
+  const double wanted_rad = sums.step_rad / sampling_.slices_per_sub_column;
+  const int count = static_cast<int>(std::ceil((right_rad - left_rad) / wanted_rad)) + 1;
+  const glm::dvec2 clockwise(forward.y, -forward.x);
+  std::vector<Slice> slices;
+  slices.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double heading_rad = left_rad + (i + 0.5) * wanted_rad;
+    slices.push_back({forward * std::cos(heading_rad) + clockwise * std::sin(heading_rad),
+                      heading_rad, wanted_rad});
+  }
+  return slices;
+}
+
+void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
+                         FanSums& sums) const {
+  prepare(world_, sampling_, with_cscope, sums);
+  const double sensor_m = antenna.position_m.z;
+  const PathLossTable path_loss(world_.attenuation, sensor_m,
+                                std::min(sensor_m, lowest_m_) - 10.0,
+                                std::max(sensor_m, highest_m_) + 300.0);
+  const bool level = world_.sensor.scan.surface == sensors::ScanSurface::plane &&
+                     antenna.up.z > kLevelCosine;
+  const std::vector<Slice> slices =
+      level ? level_slices(antenna, sums) : tilted_slices(antenna, sums);
+  std::vector<double> headings_rad;
+  for (const Slice& slice : slices) headings_rad.push_back(slice.heading_rad);
+  const EdgeIndex edges(world_, {antenna.position_m.x, antenna.position_m.y},
+                        horizontal(antenna.forward), headings_rad, kTileSlices);
+  const Frame frame{antenna, path_loss, slices, edges, with_cscope};
+  if (level)
+    cast_level(frame, sums);
+  else
+    cast_across(frame, sums);
+  sums.slices = slices.size();
+}
+
+void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
+  const std::size_t count = frame.slices.size();
+  const auto cells = static_cast<std::size_t>(sums.cells), rows = static_cast<std::size_t>(sums.rows);
+  const auto per_sub = static_cast<std::size_t>(sampling_.slices_per_sub_column);
+  std::mutex totals;
+  core::parallel_for(static_cast<std::size_t>(sums.sub_columns), [&](std::size_t sub) {
+    thread_local SliceScratch scratch;
+    SlicePower power(world_, frame.antenna, tables_, frame.path_loss);
+    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges);
+    SliceBins bins;
+    bins.range_W_per_rad = &sums.range_W_per_rad[sub * cells];
+    std::fill_n(bins.range_W_per_rad, cells, 0.0);
+    if (frame.with_cscope) {
+      bins.elevation_W_m3_per_rad = &sums.elevation_W_m3_per_rad[sub * rows];
+      std::fill_n(bins.elevation_W_m3_per_rad, rows, 0.0);
+    }
+    bins.weight = 1.0 / static_cast<double>(per_sub);
+    std::uint64_t hits = 0;
+    for (std::size_t i = sub * per_sub; i < std::min((sub + 1) * per_sub, count); ++i) {
+      const Slice& slice = frame.slices[i];
+      const auto empty = [&](VisiblePieces& pieces) {
+        hits += static_cast<std::uint64_t>(pieces.count);
+        power.add(slice, pieces, scratch.cuts, bins);
+      };
+      sweep.run(slice, frame.edges.candidates(i / kTileSlices), world_.sensor.range.maximum_m(),
+                scratch.pieces, empty);
+      empty(scratch.pieces);
+    }
+    const std::lock_guard<std::mutex> lock(totals);  // whole numbers: their sum has no order
+    sums.hits += hits;
+    sums.blanked += power.blanked();
+  });
+}
+
+// Neighbouring slices share sub-columns here. A fixed number of parts, each with sums of its own
+// that are added in their order, keeps the result the same for any number of threads.
+void ProfileCaster::cast_across(const Frame& frame, FanSums& sums) const {
+  constexpr std::size_t kParts = 16;
+  const auto cells = static_cast<std::size_t>(sums.cells), rows = static_cast<std::size_t>(sums.rows);
+  const std::size_t count = frame.slices.size();
+  struct Part {
+    std::vector<double> range_W_per_rad, elevation_W_m3_per_rad;
+    std::uint64_t hits = 0, blanked = 0;
+  };
+  std::vector<Part> parts(kParts);
+  const auto subs = static_cast<std::size_t>(sums.sub_columns);
+  core::parallel_for(kParts, [&](std::size_t p) {
+    thread_local SliceScratch scratch;
+    Part& part = parts[p];
+    part.range_W_per_rad.assign(subs * cells, 0.0);
+    part.elevation_W_m3_per_rad.assign(subs * rows, 0.0);
+    SlicePower power(world_, frame.antenna, tables_, frame.path_loss);
+    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges);
+    SliceBins bins;
+    bins.range_W_per_rad = part.range_W_per_rad.data();
+    if (frame.with_cscope) bins.elevation_W_m3_per_rad = part.elevation_W_m3_per_rad.data();
+    bins.across = true;
+    bins.first_azimuth_rad = sums.first_azimuth_rad;
+    bins.step_rad = sums.step_rad;
+    bins.sub_columns = sums.sub_columns;
+    for (std::size_t i = count * p / kParts; i < count * (p + 1) / kParts; ++i) {
+      const Slice& slice = frame.slices[i];
+      bins.weight = slice.width_rad / sums.step_rad;
+      const auto empty = [&](VisiblePieces& pieces) {
+        part.hits += static_cast<std::uint64_t>(pieces.count);
+        power.add(slice, pieces, scratch.cuts, bins);
+      };
+      sweep.run(slice, frame.edges.candidates(i / kTileSlices), world_.sensor.range.maximum_m(),
+                scratch.pieces, empty);
+      empty(scratch.pieces);
+    }
+    part.blanked = power.blanked();
+  });
+  core::parallel_for(subs, [&](std::size_t sub) {
+    const auto gather = [&](std::vector<double>& to, std::vector<double> Part::*from,
+                            std::size_t bins) {
+      for (std::size_t b = sub * bins; b < (sub + 1) * bins; ++b) {
+        to[b] = 0.0;
+        for (const Part& part : parts) to[b] += (part.*from)[b];
+      }
+    };
+    gather(sums.range_W_per_rad, &Part::range_W_per_rad, cells);
+    gather(sums.elevation_W_m3_per_rad, &Part::elevation_W_m3_per_rad, rows);
+  });
+  for (const Part& part : parts) {
+    sums.hits += part.hits;
+    sums.blanked += part.blanked;
+  }
+}
+
+}  // namespace fanbeam::renderer

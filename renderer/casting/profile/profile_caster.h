@@ -1,0 +1,54 @@
+// Azimuth slices instead of rays: the scene is cut along vertical half-planes, each is swept once
+// for exact visibility, and every visible piece is deposited in closed form.
+//
+// What it sees: the triangulated ground with its land cover and painted surfaces, and the solid
+// prisms of World::solids. Inside a slice nothing is sampled: visibility (slice_sweep.h) and power
+// (slice_power.h) are exact for plane facets; a slice stands for the wedge around it, over which
+// oblique walls are spread. The error left is that of the azimuths between slices.
+// What a vertical cut cannot describe (models, prisms with air under them) is left to rays: the
+// groups of sub-columns that such a thing stands in are cast by a RayCaster. Half-planes of other
+// azimuths cannot meet it, so both see each other rightly. With a tilted antenna or a cone scan
+// sub-columns are no half-planes; scenes with such things then go to rays alone.
+//
+// Neglected: what ray_caster.h neglects. A slice is a half-plane through the local vertical; an
+// antenna tilted by less than 1 mrad counts as level.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "renderer/casting/caster.h"
+#include "renderer/casting/profile/edge_index.h"
+#include "renderer/casting/profile/slice.h"
+#include "renderer/casting/profile/slice_power.h"
+#include "renderer/casting/ray_caster.h"
+#include "renderer/casting/sampling.h"
+#include "renderer/world.h"
+
+namespace fanbeam::renderer {
+
+// Whether the profile caster can show this world at all: it needs a ground.
+bool profile_applies(const World& world);
+
+class ProfileCaster : public Caster {
+ public:
+  // `world` must outlive the caster and satisfy profile_applies.
+  ProfileCaster(const World& world, const Sampling& sampling);
+
+  void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const override;
+
+ private:
+  struct Frame;
+  std::vector<Slice> level_slices(const sensors::AntennaFrame& antenna, const FanSums& sums) const;
+  std::vector<Slice> tilted_slices(const sensors::AntennaFrame& antenna,
+                                   const FanSums& sums) const;
+  void cast_level(const Frame& frame, FanSums& sums) const;
+  void cast_across(const Frame& frame, FanSums& sums) const;
+
+  const World& world_;
+  Sampling sampling_;
+  PowerTables tables_;
+  double lowest_m_ = 0.0, highest_m_ = 0.0;  // of the terrain
+};
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,66 @@
+// Exact visibility inside one slice: the profile of ground, walls and roofs, walked from near to
+// far under a running horizon.
+//
+// A point is visible when the tangent of its elevation is above that of everything nearer. Buildings
+// are solid from the ground up, so the upper outline of ground and active roofs is all there is; a
+// wall shows where the outline jumps up. Pieces are cut exactly where the horizon crosses them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "renderer/casting/profile/edge_index.h"
+#include "renderer/casting/profile/ground_cut.h"
+#include "renderer/casting/profile/slice.h"
+#include "renderer/world.h"
+
+namespace fanbeam::renderer {
+
+class SliceSweep {
+ public:
+  SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges);
+
+  // Walks `slice` out to `far_m`. `full` is called whenever `pieces` has no room left and must
+  // empty it; what remains at the end stays there.
+  using Full = std::function<void(VisiblePieces&)>;
+  void run(const Slice& slice, const EdgeIndex::Candidates& candidates, double far_m,
+           VisiblePieces& pieces, const Full& full);
+
+ private:
+  struct Event {
+    double distance_m;
+    std::uint32_t edge;
+  };
+  void find_events(const EdgeIndex::Candidates& candidates, double far_m);
+  void pass(const Event& event, double ground_m);
+  void enter(const Event& event, const CutEdge& edge, double ground_m);
+  void leave(double distance_m, std::uint32_t prism);
+  void walk_ground(double d0, double z0, double d1, double z1, std::size_t piece);
+  void see_ground(double d0, double z0, double d1, double z1, std::size_t piece);
+  void see_wall(double distance_m, double low_m, double top_m, const CutEdge& edge);
+  void close_roof(double distance_m);
+  void find_top();
+  bool visible(double& d0, double& z0, double d1, double z1);
+  int next_piece();
+
+  const World& world_;
+  const terrain::HeightField* ground_;
+  const terrain::SurfaceMap* map_;
+  glm::dvec3 sensor_m_;
+  const EdgeIndex& edges_;
+
+  Slice slice_;
+  GroundCut cut_;
+  std::vector<Event> events_;
+  VisiblePieces* pieces_ = nullptr;
+  const Full* full_ = nullptr;
+  double horizon_ = 0.0;  // tangent
+  std::vector<std::uint32_t> active_;  // prisms around the walk
+  bool roofed_ = false;
+  double roof_m_ = 0.0;       // highest active roof, relative to the sensor
+  double roof_from_m_ = 0.0;  // the roof is seen as far as here
+  std::int32_t roof_material_ = 0;
+};
+
+}  // namespace fanbeam::renderer
