@@ -27,8 +27,8 @@ std::string value_of(const core::Metadata& metadata, const std::string& name) {
 
 }  // namespace
 
-core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& record,
-                              const std::string& fingerprint) {
+core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampling& sampling,
+                              const FrameRecord& record, const std::string& fingerprint) {
   const sensors::Sensor& sensor = scene.description.sensor;
   std::string events;
   for (const std::string& event : record.events) events += (events.empty() ? "" : " ") + event;
@@ -54,7 +54,9 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& rec
                                          core::number_text(sensor.display.high_dB))},
       {"fanbeam:cscope", cscope_text(sensor.display.cscope_mode)},
       {"fanbeam:realisation", realisation_of(scene.plan)},
+      {"fanbeam:caster", caster_text(sampling)},
       {"fanbeam:rays", std::to_string(record.rays)},
+      {"fanbeam:slices", std::to_string(record.slices)},
       {"fanbeam:blanked", std::to_string(record.blanked)},
       {"fanbeam:events", events}};
 }
@@ -81,6 +83,7 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
     }
     if (value_of(metadata, "fanbeam:input") != fingerprint) return false;
     record.rays = std::stoull("0" + value_of(metadata, "fanbeam:rays"));
+    record.slices = std::stoull("0" + value_of(metadata, "fanbeam:slices"));
     record.blanked = std::stoull("0" + value_of(metadata, "fanbeam:blanked"));
     record.events.clear();
     const std::string events = value_of(metadata, "fanbeam:events");

@@ -12,8 +12,8 @@
 namespace fanbeam::apps {
 
 // `fingerprint` tells the run's input from every other.
-core::Metadata frame_metadata(const scenes::Scene& scene, const FrameRecord& record,
-                              const std::string& fingerprint);
+core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampling& sampling,
+                              const FrameRecord& record, const std::string& fingerprint);
 
 // Fills `record` with what an earlier run with the same input left of this frame; false when any
 // product is missing, damaged or of another input.

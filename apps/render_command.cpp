@@ -48,12 +48,13 @@ ProductSet parse_products(const std::string& text) {
   return products;
 }
 
-renderer::Sampling choose_sampling(const RenderOptions& options,
-                                   const scenes::SceneDescription& scene) {
+renderer::Sampling choose_sampling(const RenderOptions& options, const scenes::Scene& scene) {
   if (options.reference) return renderer::reference_sampling(options.seed);
-  double rays_per_cell = options.rays_per_cell > 0.0 ? options.rays_per_cell : scene.rays_per_cell;
-  if (!(rays_per_cell > 0.0)) rays_per_cell = renderer::kDefaultRaysPerCell;
-  return renderer::sampling_for(rays_per_cell);
+  const double asked =
+      options.rays_per_cell > 0.0 ? options.rays_per_cell : scene.description.rays_per_cell;
+  if (scene.caster.chosen == renderer::CasterKind::profile)
+    return renderer::profile_sampling_for(asked > 0.0 ? asked : renderer::kDefaultSlicesPerColumn);
+  return renderer::sampling_for(asked > 0.0 ? asked : renderer::kDefaultRaysPerCell);
 }
 
 class Run {
@@ -66,7 +67,7 @@ class Run {
         products_(std::move(products)),
         folder_(options.output.empty() ? fs::path("out") / scene.description.name
                                        : fs::path(options.output)) {
-    record_.sampling = choose_sampling(options, scene.description);
+    record_.sampling = choose_sampling(options, scene);
     record_.seed = options.seed;
     record_.threads = threads;
     record_.scene_build_s = scene.build_s;
@@ -123,9 +124,10 @@ void Run::render_frames() {
                          {}};
       record.frame_ms = 1000.0 * seconds_since(frame_begin);
       record.rays = output.frame.rays;
+      record.slices = output.frame.slices;
       record.blanked = output.frame.blanked;
       record.events = output.frame.events;
-      output.metadata = frame_metadata(scene_, record, fingerprint_);
+      output.metadata = frame_metadata(scene_, record_.sampling, record, fingerprint_);
       if (products_.contains("obstacles"))
         output.obstacle_table = obstacle_table(output.frame.obstacles, fingerprint_);
       if (products_.contains("detections"))
@@ -151,6 +153,7 @@ void Run::print_summary() const {
   fmt::print("{} frames in {:.1f} s", record_.frames.size(), record_.wall_s);
   if (resumed > 0) fmt::print(" ({} already there)", resumed);
   fmt::print(", scene built in {:.1f} s\n", record_.scene_build_s);
+  fmt::print("cast by {}: {}\n", caster_text(record_.sampling), scene_.caster.reason);
   for (const core::EffectDecision& decision : scene_.plan.decisions)
     fmt::print("  {:14} {:3}  {}\n", decision.effect, decision.on ? "on" : "off", decision.reason);
   for (const std::string& product : products_) {
@@ -217,6 +220,11 @@ int render(const RenderOptions& options, const CommonOptions& common) {
   if (!options.realisation.empty()) description.sample = options.realisation == "sample";
   scenes::BuildOptions build;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
+  if (options.reference) {
+    build.caster = renderer::CasterWish::rays;
+  } else if (!options.caster.empty()) {
+    build.caster = renderer::caster_wish(options.caster);
+  }
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
   if (!common.quiet) print_problems(problems.all());
   if (scene->trajectory.attitude_derived)

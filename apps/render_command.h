@@ -34,7 +34,8 @@ struct RenderOptions {
   std::string realisation;  // "mean" or "sample"; empty: the scene's
   std::string preview_format = "mp4";
   int threads = 0;
-  double rays_per_cell = 0.0;  // 0: the scene's, else the default
+  std::string caster;          // one of kCasterWishes; empty: the scene's
+  double rays_per_cell = 0.0;  // or slices per column; 0: the scene's, else the default
   bool reference = false;
   bool resume = false;
   std::uint64_t seed = 0;

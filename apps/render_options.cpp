@@ -4,6 +4,7 @@
 #include "apps/render_command.h"
 #include "core/errors.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/plan/caster_choice.h"
 #include "renderer/plan/effect_catalogue.h"
 
 namespace fanbeam::apps {
@@ -29,13 +30,22 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
   CLI::Option* rays =
       command
           .add_option("--rays-per-cell", options.rays_per_cell,
-                      "Rays per range cell and column: more is sharper and slower (default: the "
-                      "scene's, else " +
-                          core::number_text(renderer::kDefaultRaysPerCell) + ")")
+                      "Rays per range cell and column, or azimuth slices per column: more is "
+                      "sharper and slower (default: the scene's, else " +
+                          core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
+                          core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
           ->check(CLI::Range(0.1, 100000.0));
+  const auto& wishes = renderer::kCasterWishes;
+  command
+      .add_option("--caster", options.caster,
+                  "rays: any geometry, the reference; profile: azimuth slices in closed form, the "
+                  "same error in a fraction of the time; auto: slices where they apply (default: "
+                  "the scene's, else rays)")
+      ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
   command
       .add_flag("--reference", options.reference,
-                "Converged sampling: 256 azimuths per column x 8 rays per cell, about 10 s a frame")
+                "Converged sampling, always with rays: 256 azimuths per column x 8 rays per cell, "
+                "about 10 s a frame")
       ->excludes(rays);
   command
       .add_option("--realisation", options.realisation,
@@ -43,6 +53,13 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                   "targets (default: the scene's)")
       ->check(CLI::IsMember({"mean", "sample"}));
   command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
+  command.callback([&options] {
+    if (options.reference && options.caster == name_of(renderer::CasterWish::profile))
+      throw CLI::ValidationError(
+          "--caster profile",
+          "--reference is what all errors are stated against, and always made of rays; leave out "
+          "one of the two, or take --caster profile with a large --rays-per-cell");
+  });
 }
 
 }  // namespace

@@ -25,6 +25,29 @@ Json resolved_json(const core::ResolvedConfig& resolved) {
   return json;
 }
 
+int slices_per_column(const renderer::Sampling& sampling) {
+  return sampling.sub_columns * sampling.slices_per_sub_column;
+}
+
+double rays_per_cell_and_column(const renderer::Sampling& sampling) {
+  return sampling.sub_columns * sampling.rays_per_cell * std::max(1, sampling.jittered_passes);
+}
+
+Json caster_json(const renderer::CasterChoice& caster, const renderer::Sampling& sampling) {
+  Json json = {{"chosen", renderer::name_of(caster.chosen)},
+               {"wish", renderer::name_of(caster.wish)},
+               {"reason", caster.reason}};
+  if (caster.chosen == renderer::CasterKind::rays) {
+    json["rays_per_cell_and_column"] = rays_per_cell_and_column(sampling);
+    return json;
+  }
+  json["slices_per_column"] = slices_per_column(sampling);
+  json["objects_left_to_rays"] = caster.others;
+  return json;
+}
+
+// With slices, whose number stands under `caster`, all but `sub_columns` concerns the azimuths left
+// to rays.
 Json sampling_json(const renderer::Sampling& sampling) {
   return {{"sub_columns", sampling.sub_columns},
           {"rays_per_cell_and_sub_column", sampling.rays_per_cell},
@@ -101,7 +124,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["scene"] = scene.description.name;
   json["sensor"] = scene.description.sensor.name;
   json["seed"] = record.seed;
-  json["caster"] = record.caster;
+  json["caster"] = caster_json(scene.caster, record.sampling);
   json["input"] = resolved_json(scene.description.resolved);
   json["sensor_values"] = sensor_json(scene.description.sensor);
   json["receiver"] = receiver_json(scene);
@@ -147,6 +170,13 @@ std::string realisation_of(const core::EffectPlan& plan) {
   return plan.runs(renderer::kSpeckle) || plan.runs(renderer::kSwerling) ? "sample" : "mean";
 }
 
+std::string caster_text(const renderer::Sampling& sampling) {
+  if (sampling.caster == renderer::CasterKind::profile)
+    return fmt::format("profile, {} slices per column", slices_per_column(sampling));
+  return fmt::format("rays, {} per range cell and column",
+                     core::number_text(rays_per_cell_and_column(sampling)));
+}
+
 std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
   Json json = header_json(scene, record);
   json["frames"] = Json::array();
@@ -155,6 +185,7 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
                               {"time_s", frame.time_s},
                               {"pose", pose_json(frame.pose)},
                               {"rays", frame.rays},
+                              {"slices", frame.slices},
                               {"blanked", frame.blanked},
                               {"events", frame.events}});
   return json.dump(1) + "\n";
@@ -169,12 +200,14 @@ std::string timing_json(const RunRecord& record) {
   std::vector<double> times_ms;
   double total_ms = 0.0;
   double rays = 0.0;
+  double slices = 0.0;
   for (const FrameRecord& frame : record.frames) {
     if (frame.resumed) continue;
     json["frames"].push_back({{"index", frame.index}, {"frame_ms", frame.frame_ms}});
     times_ms.push_back(frame.frame_ms);
     total_ms += frame.frame_ms;
     rays += static_cast<double>(frame.rays);
+    slices += static_cast<double>(frame.slices);
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -185,6 +218,7 @@ std::string timing_json(const RunRecord& record) {
       {"frames_per_s_written",
        record.wall_s > 0.0 ? static_cast<double>(times_ms.size()) / record.wall_s : 0.0},
       {"rays_per_s", total_ms > 0.0 ? rays / total_ms * 1000.0 : 0.0},
+      {"slices_per_s", total_ms > 0.0 ? slices / total_ms * 1000.0 : 0.0},
       {"scene_build_s", record.scene_build_s},
       {"peak_memory_bytes", static_cast<std::int64_t>(usage.ru_maxrss) * 1024}};
   return json.dump(1) + "\n";

@@ -18,6 +18,7 @@ struct FrameRecord {
   double time_s = 0.0;
   core::Pose pose;
   std::uint64_t rays = 0;
+  std::uint64_t slices = 0;
   std::uint64_t blanked = 0;
   std::vector<std::string> events;
   double frame_ms = 0.0;
@@ -25,7 +26,6 @@ struct FrameRecord {
 };
 
 struct RunRecord {
-  std::string caster = "rays";
   renderer::Sampling sampling;
   std::uint64_t seed = 0;
   std::vector<FrameRecord> frames;
@@ -36,6 +36,9 @@ struct RunRecord {
 
 // "sample" when frames show one realisation, "mean" when they show the expected power.
 std::string realisation_of(const core::EffectPlan& plan);
+
+// "rays, 4 per range cell and column", "profile, 16 slices per column".
+std::string caster_text(const renderer::Sampling& sampling);
 
 std::string run_json(const scenes::Scene& scene, const RunRecord& record);
 std::string timing_json(const RunRecord& record);

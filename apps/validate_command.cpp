@@ -24,6 +24,8 @@ int validate(const std::string& name, const std::string& data, const std::string
   fmt::print("  scatterers  {} points\n", scene->world.targets.size());
   fmt::print("  sensor      {}, {} x {} cells, {:.4g} GHz\n", radar.name, radar.scan.columns,
              radar.range.cells, radar.waveform.frequency_Hz / 1e9);
+  fmt::print("  caster      {}: {}\n", renderer::name_of(scene->caster.chosen),
+             scene->caster.reason);
   fmt::print("  built in    {:.1f} s\n", scene->build_s);
   return kExitDone;
 }

@@ -93,6 +93,7 @@ Frame FrameRenderer::render(const FramePose& pose) const {
     add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
   if (double_bounce_) double_bounce_->add(antenna, sums);
   frame.rays = sums.rays;
+  frame.slices = sums.slices;
   frame.blanked = sums.blanked;
   frame.bscope_W =
       apply_azimuth_beam(sums.range_W_per_rad, sums.cells, sums, sensor, sampling_.sub_columns);

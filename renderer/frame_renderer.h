@@ -48,6 +48,7 @@ struct Frame {
   std::vector<ThresholdDetection> detections;
   std::vector<sensors::ShadowObstacle> obstacles;  // also for a C-scope of mode shadow
   std::uint64_t rays = 0;
+  std::uint64_t slices = 0;
   std::uint64_t blanked = 0;  // hits nearer than the first range cell
   // "below_terrain": the sensor is not above the ground, the picture holds noise alone.
   // "empty_view": nothing was hit.

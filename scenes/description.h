@@ -15,6 +15,7 @@
 #include "core/swerling.h"
 #include "materials/library/surface_state.h"
 #include "materials/rcs/rcs.h"
+#include "renderer/plan/caster_choice.h"
 #include "scenes/trajectory/ils_approach.h"
 #include "scenes/trajectory/trajectory_attitude.h"
 #include "scenes/trajectory/trajectory_csv.h"
@@ -194,7 +195,9 @@ struct SceneDescription {
   bool allow_extrapolation = false;  // materials may be used outside what their models know
   materials::SurfaceState surface_state = materials::SurfaceState::dry;
   TrajectoryDescription trajectory;
-  double rays_per_cell = 0.0;                // of the scene's [accuracy]; 0 when it does not say
+  double rays_per_cell = 0.0;  // of the scene's [accuracy]; 0 when it does not say
+  renderer::CasterWish caster = renderer::CasterWish::rays;
+  core::Place caster_place;
   bool sample = false;                       // frames show one realisation, not the expected power
   core::ResolvedConfig resolved;             // every setting with its default, for run.json
   std::vector<std::filesystem::path> files;  // what the scene is made of beside scene.toml

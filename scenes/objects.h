@@ -1,6 +1,7 @@
-// Turns the described objects into patches, meshes and point targets on the scene's ground.
+// Turns the described objects into patches, bodies and point targets on the scene's ground.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "renderer/world.h"
@@ -15,10 +16,16 @@ namespace fanbeam::scenes {
 std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
                                                  const Ground& ground, const MaterialNames& names);
 
-std::vector<terrain::PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
-                                              const MaterialNames& names,
-                                              ModelMaterials& model_materials,
-                                              core::ProblemList& problems);
+// Boxes, building files and models, in this order: as triangles for rays, and as what a vertical
+// cut can make of them.
+struct Bodies {
+  std::vector<terrain::PlacedMesh> meshes;
+  terrain::Solids solids;
+  std::size_t floating = 0;  // building parts over open air, see terrain/buildings/solid_prisms.h
+};
+
+Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
+                    ModelMaterials& model_materials, core::ProblemList& problems);
 
 // E-LIMIT for a line of more than 100000 points; W-NEAR-FIELD, see near_field.h.
 std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene,

@@ -10,6 +10,7 @@
 #include "scenes/ground.h"
 #include "scenes/model_materials.h"
 #include "scenes/objects.h"
+#include "scenes/scene_caster.h"
 #include "scenes/scene_mirrors.h"
 #include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory_builder.h"
@@ -147,12 +148,17 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   const Ground ground(description, frame, names, problems);
   std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names);
   ModelMaterials model_materials(description, library.size(), problems);
-  std::vector<terrain::PlacedMesh> meshes =
-      build_meshes(description, ground, names, model_materials, problems);
+  Bodies bodies = build_bodies(description, ground, names, model_materials, problems);
   std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems);
   const atmosphere::Weather weather = placed_weather(description, ground);
   std::optional<Trajectory> trajectory;
   if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);
+  renderer::CasterChoice caster;
+  if (trajectory)
+    caster = scene_caster(
+        description, options.caster,
+        caster_facts(description.sensor, frame, *trajectory, ground.field(), bodies.solids),
+        problems);
   check_surfaces(description, library, names.used(), problems);
   if (trajectory) check_flight(description, frame, *trajectory, ground, problems);
   problems.throw_if_errors();
@@ -166,7 +172,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   add_mirror_facts(
       {all_mirrors(description, library, model_materials, materials::SurfaceState::dry),
        all_mirrors(description, library, model_materials, description.surface_state)},
-      ground.field(), patches, meshes, !targets.empty(), facts);
+      ground.field(), patches, bodies.meshes, !targets.empty(), facts);
   core::EffectPlan plan = renderer::plan(facts, options.accuracy_grey, options.wishes);
   const materials::SurfaceState state =
       plan.runs(renderer::kSurfaceState) ? description.surface_state : materials::SurfaceState::dry;
@@ -174,21 +180,24 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   std::vector<std::string> material_names;
   for (const materials::Material& material : library.all()) material_names.push_back(material.name);
   renderer::World world{
-      .surfaces = std::make_unique<terrain::RayScene>(ground.field(), std::move(patches),
-                                                      std::move(meshes), options.instruction_set),
+      .surfaces = std::make_unique<terrain::RayScene>(
+          ground.field(), std::move(patches), std::move(bodies.meshes), options.instruction_set),
       .nrcs = library.curves(state, description.sensor.waveform.polarisation, frequency_Hz),
       .material_names = std::move(material_names),
       .targets = std::move(targets),
       .attenuation = atmosphere::PathAttenuation(simulated_weather(weather, plan), frequency_Hz),
       .sensor = plan.runs(renderer::kSideLobes) ? description.sensor
                                                 : renderer::without_side_lobes(description.sensor),
-      .specular = all_mirrors(description, library, model_materials, state)};
+      .specular = all_mirrors(description, library, model_materials, state),
+      .solids = std::move(bodies.solids)};
   const atmosphere::RainCells rain_cells(simulated_weather(weather, plan), frequency_Hz);
   if (!rain_cells.empty()) world.rain_cells = rain_cells;
   if (plan.runs(renderer::kRainEcho)) world.volume_echo = volume_echo;
   add_model_materials(model_materials, description.sensor.waveform, world);
   auto scene = std::make_unique<Scene>(
       Scene{description, frame, std::move(*trajectory), std::move(plan), std::move(world), 0.0});
+  scene->floating_buildings = bodies.floating;
+  scene->caster = std::move(caster);
   scene->surfaces = record_surfaces(description, library, names.used(), state);
   if (facts.has_walls || facts.has_point_targets)
     report_mirrors(description, library, scene->surfaces, problems);

@@ -1,11 +1,14 @@
 // A scene ready to render.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "core/effect_plan.h"
 #include "core/errors.h"
 #include "renderer/frame_renderer.h"
+#include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
 #include "renderer/world.h"
 #include "scenes/description.h"
@@ -22,7 +25,10 @@ struct Scene {
   core::EffectPlan plan;
   renderer::World world;
   double build_s = 0.0;
+  renderer::CasterChoice caster{};
   std::vector<SurfaceRecord> surfaces{};  // materials in use, as shown
+  // Building parts over open air: triangles and boxes, but no solids of `world`.
+  std::size_t floating_buildings = 0;
 
   int frame_count() const { return trajectory.frame_count(description.sensor.scan.frame_rate_Hz); }
   renderer::FramePose frame_pose(int frame_index) const;
@@ -31,6 +37,7 @@ struct Scene {
 
 struct BuildOptions {
   renderer::EffectWishes wishes;
+  std::optional<renderer::CasterWish> caster;  // instead of the scene's
   double accuracy_grey = 0.5;
   std::string instruction_set;  // see RayScene
 };
@@ -38,7 +45,8 @@ struct BuildOptions {
 // Loads what the description names and puts the world together. Everything wrong is collected in
 // `problems` and then thrown as one InputError; warnings stay in `problems`. Errors beside those of
 // the files: E-REF for unknown materials and runway names, E-RANGE for a runway, object or
-// trajectory outside the terrain and a sensor inside the ground.
+// trajectory outside the terrain and a sensor inside the ground; E-UNSUPPORTED for slices that are
+// forced on a scene they cannot show.
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
                                    core::ProblemList& problems);
 

@@ -193,6 +193,10 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
   read_display(root, scene.sensor.range, scene.sensor.display);
   ConfigTable accuracy = root.table("accuracy");
   scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
+  scene.caster = static_cast<renderer::CasterWish>(accuracy.choice(
+      "caster",
+      {renderer::kCasterWishes[0], renderer::kCasterWishes[1], renderer::kCasterWishes[2]}, 0));
+  scene.caster_place = accuracy.place("caster");
   scene.sample = accuracy.choice("realisation", {"mean", "sample"}, 0) == 1;
   scene.material_library = root.has("material_library")
                                ? search.find(root, "material_library")

@@ -67,17 +67,12 @@ MaterialId SurfaceMap::material_at(double x_m, double y_m) const noexcept {
   return material_in_cell(i, j, x_m, y_m);
 }
 
-MaterialId SurfaceMap::material_in_cell(int column, int row, double x_m,
-                                        double y_m) const noexcept {
-  const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                           static_cast<std::size_t>(column);
-  const MaterialId base = cells_[cell];
-  if ((base & kPatched) == 0) return base;
+MaterialId SurfaceMap::patched_material(std::size_t cell, double x_m, double y_m) const noexcept {
   for (std::uint32_t k = patch_begin_[cell]; k < patch_begin_[cell + 1]; ++k) {
     const std::uint32_t p = patch_index_[k];
     if (inside(patches_[p], boxes_[p], x_m, y_m)) return patches_[p].material;
   }
-  return static_cast<MaterialId>(base & ~kPatched);
+  return static_cast<MaterialId>(cells_[cell] & ~kPatched);
 }
 
 }  // namespace fanbeam::terrain

@@ -32,7 +32,11 @@ class SurfaceMap {
   MaterialId material_at(double x_m, double y_m) const noexcept;
 
   // The same for a point that is known to lie in this cell.
-  MaterialId material_in_cell(int column, int row, double x_m, double y_m) const noexcept;
+  MaterialId material_in_cell(int column, int row, double x_m, double y_m) const noexcept {
+    const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+                             static_cast<std::size_t>(column);
+    return (cells_[cell] & kPatched) == 0 ? cells_[cell] : patched_material(cell, x_m, y_m);
+  }
 
   const std::vector<SurfacePatch>& patches() const { return patches_; }
 
@@ -41,6 +45,7 @@ class SurfaceMap {
     double west_m, south_m, east_m, north_m;
   };
   bool inside(const SurfacePatch& patch, const Box& box, double x_m, double y_m) const noexcept;
+  MaterialId patched_material(std::size_t cell, double x_m, double y_m) const noexcept;
 
   double west_m_, south_m_, per_spacing_;
   int columns_, rows_;                            // cells

@@ -21,6 +21,13 @@ class PathLossTable {
 
   bool clear() const noexcept { return clear_; }  // every factor is 1
 
+  // For vector loops: nepers of two-way power per metre of one-way path, at `lowest_m` plus whole
+  // steps; one entry more than kSteps.
+  const double* nepers_per_m() const noexcept { return nepers_per_m_.data(); }
+  double lowest_m() const noexcept { return lowest_m_; }
+  double steps_per_m() const noexcept { return per_step_; }
+  static constexpr double kSteps = 1024.0;
+
   double two_way_factor(double height_m, double range_m) const noexcept {
     if (clear_) return 1.0;
     const double position =
@@ -41,7 +48,6 @@ class PathLossTable {
     return 1.0 - x * (1.0 - x * (k2 - x * (k3 - x * (k4 - x * (k5 - x * k6)))));
   }
 
-  static constexpr double kSteps = 1024.0;
   bool clear_ = false;
   double lowest_m_ = 0.0;
   double per_step_ = 0.0;

@@ -7,23 +7,22 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/vec2.hpp>
 #include <string>
 #include <vector>
 
 #include "core/errors.h"
+#include "terrain/buildings/clean_footprint.h"
 #include "terrain/mesh.h"
 
 namespace fanbeam::terrain {
 
-using Ring_m = std::vector<glm::dvec2>;
-
-// Rings of at least three points, in either direction, the last point not the first again.
+// Rings of at least three points, in either direction.
 struct Prism {
   Ring_m outer_m;
   std::vector<Ring_m> holes_m;
   double bottom_m = 0.0;
   double top_m = 0.0;
+  bool on_ground = true;  // its walls reach into the ground; else there is air under its bottom
 };
 
 struct ExtrusionMaterials {
@@ -35,15 +34,21 @@ struct ExtrusionMaterials {
 inline constexpr std::uint32_t kWallSlot = 0;
 inline constexpr std::uint32_t kRoofSlot = 1;
 
+// What walls and roof were made of. A repaired prism may have several.
+struct ExtrudedPolygon {
+  Polygon_m rings_m;
+  std::uint32_t prism = 0;  // index
+};
+
 struct Extrusion {
   TriangleMesh mesh;
   // Which prism each triangle belongs to.
   std::vector<std::uint32_t> triangle_prism;
+  std::vector<ExtrudedPolygon> polygons;
   std::size_t failed = 0;
 };
 
-// Rings that cross or touch themselves are repaired first (GEOS MakeValid). `name` goes into the
-// mesh and the messages. Errors: E-NONFINITE, E-RANGE (a coordinate beyond kLargestCoordinate_m),
+// Footprints are repaired first (clean_footprint.h). `name` goes into the mesh and the messages. Errors: E-NONFINITE, E-RANGE (a coordinate beyond kLargestCoordinate_m),
 // with the prism's index; the prism is left out. Warnings: W-DEGENERATE with the count of prisms
 // without area or height, W-SKIPPED with the count that GEOS could not triangulate; together
 // they are `failed`.

@@ -75,7 +75,7 @@ TEST_CASE("run.json and timing.json have their documented keys, pictures the ess
   CHECK(run["scene"] == "obstacle-field");
   CHECK(run["sensor"] == "HiVision");
   CHECK(run["seed"] == 7);
-  CHECK(run["caster"] == "rays");
+  CHECK(run["caster"]["chosen"] == "rays");
   CHECK(run["input"]["weather.visibility_m"] == 200.0);
   CHECK(run["input"]["terrain.spacing_m"] == 10.0);
   CHECK(run["input"]["trajectory.ils.flare_height_m"] == 12.0);  // a default
@@ -87,7 +87,7 @@ TEST_CASE("run.json and timing.json have their documented keys, pictures the ess
   REQUIRE(run["frames"].size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
     const nlohmann::json& frame = run["frames"][i];
-    check_has(frame, {"index", "time_s", "pose", "rays", "events"});
+    check_has(frame, {"index", "time_s", "pose", "rays", "slices", "events"});
     CHECK(frame["index"] == 100 + 20 * i);
     CHECK(frame["time_s"].get<double>() ==
           (100.5 + 20.0 * static_cast<double>(i)) / 16.0);  // the middle of the frame

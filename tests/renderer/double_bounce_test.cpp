@@ -54,7 +54,7 @@ terrain::PlacedMesh wall(double y_m, double bottom_m, double top_m) {
 }
 
 // Ground 0 is a perfect black mirror, wall 1 a diffuse surface.
-renderer::World corner_world(std::vector<terrain::PlacedMesh> screens = {}) {
+renderer::World corner_world(std::vector<tests::Body> screens = {}) {
   screens.push_back(wall(kDistance_m, 0.0, kWall_m));
   renderer::World world =
       tests::world(tests::hivision(12), plane(), {kBlack, kRough}, std::move(screens));
@@ -286,16 +286,16 @@ TEST_CASE("Nothing that reflects: the effect changes no byte", "[bounce]") {
 
 TEST_CASE("Double bounce gives the same bytes on any number of threads", "[bounce]") {
   // Walls at odd angles, so that mirrored rays come back in other columns.
-  std::vector<terrain::PlacedMesh> meshes;
+  std::vector<tests::Body> bodies;
   for (int i = 0; i < 6; ++i) {
     const glm::dvec3 at(-60.0 + 22.0 * i, 700.0 + 60.0 * i, 0.0);
     const double turn = 0.5 * i;
     const glm::dvec3 along(12.0 * std::cos(turn), 12.0 * std::sin(turn), 0.0), up(0.0, 0.0, 9.0);
-    meshes.push_back(quad({at, at + along, at + along + up, at + up}, 1));
-    meshes.push_back(quad({at + up, at + along + up, at + along, at}, 1));
+    bodies.push_back(quad({at, at + along, at + along + up, at + up}, 1));
+    bodies.push_back(quad({at + up, at + along + up, at + along, at}, 1));
   }
   renderer::World world =
-      tests::world(tests::hivision(24), plane(), {kRough, kRough}, std::move(meshes));
+      tests::world(tests::hivision(24), plane(), {kRough, kRough}, std::move(bodies));
   world.specular = {kPolished, kPolished};
   std::vector<renderer::Frame> frames;
   for (const int threads : {1, 2, 5}) {

@@ -23,13 +23,13 @@ sensors::AntennaFrame antenna_at(double height_m) {
 // A target of 1 m2 over flat ground, and an elevation beam so wide that both paths have its gain.
 renderer::World flat_world(double distance_m, double height_m,
                            const std::optional<materials::SpecularSurface>& ground,
-                           std::vector<terrain::PlacedMesh> meshes = {}) {
+                           std::vector<tests::Body> bodies = {}) {
   sensors::Sensor sensor = tests::hivision(8);
   sensor.antenna.elevation.half_power_width_rad = 100.0;
   sensor.antenna.elevation.cut_rad = 1.5;
   renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 250.0, [](double, double) { return 0.0; }),
-                   {kGrass, kGrass}, std::move(meshes));
+                   {kGrass, kGrass}, std::move(bodies));
   world.specular = {ground};
   world.targets = {
       {"sphere", materials::ConstantRcs{1.0}, {{0.0, {0.0, distance_m, height_m}}}, glm::dmat3(1)}};

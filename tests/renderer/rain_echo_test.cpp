@@ -162,7 +162,7 @@ TEST_CASE("A building hides the rain behind it", "[rain_echo]") {
   world.surfaces = std::make_unique<terrain::RayScene>(
       std::nullopt, std::vector<terrain::SurfacePatch>{},
       std::vector<terrain::PlacedMesh>{
-          tests::box({-400.0, 1000.0, -500.0}, {400.0, 1010.0, 800.0}, 0)});
+          tests::box({-400.0, 1000.0, -500.0}, {400.0, 1010.0, 800.0}, 0).mesh});
   const renderer::Frame frame = render(world);
   for (int cell = 0; cell < sensor.range.cells; ++cell) {
     const double power_W = frame.bscope_W[static_cast<std::size_t>(cell * 2)];

@@ -22,7 +22,7 @@ terrain::HeightField rolling_ground() {
 }
 
 renderer::World village(int columns) {
-  std::vector<terrain::PlacedMesh> houses;
+  std::vector<tests::Body> houses;
   for (int i = 0; i < 40; ++i) {
     const double x = -400.0 + 97.0 * (i % 8);
     const double y = 700.0 + 260.0 * (i / 8) + 13.0 * (i % 5);

@@ -8,6 +8,7 @@
 
 #include "renderer/frame_renderer.h"
 #include "sensors/sensor_file.h"
+#include "terrain/buildings/solid_prisms.h"
 
 namespace fanbeam::tests {
 
@@ -41,16 +42,52 @@ inline terrain::HeightField ground(double half_extent_m, double spacing_m,
   return field;
 }
 
+// Something on the ground for both casters.
+struct Body {
+  // Any mesh: no solid, only a box around it.
+  Body(terrain::PlacedMesh placed) : mesh(std::move(placed)) {
+    solids.others = {terrain::box_around(mesh.mesh)};
+  }
+  Body(terrain::PlacedMesh placed, terrain::Solids cut)
+      : mesh(std::move(placed)), solids(std::move(cut)) {}
+
+  terrain::PlacedMesh mesh;
+  terrain::Solids solids;
+};
+
+inline Body building(const terrain::Prism& prism, terrain::MaterialId wall,
+                     terrain::MaterialId roof) {
+  core::ProblemList problems;
+  terrain::Extrusion extrusion = terrain::extrude({prism}, "building", {}, problems);
+  problems.throw_if_errors();
+  terrain::Solids solids;
+  terrain::add_solids({prism}, extrusion, wall, roof, solids);
+  return {{std::move(extrusion.mesh), {wall, roof}}, std::move(solids)};
+}
+
+// A closed box on the ground of one material.
+inline Body box(glm::dvec3 low, glm::dvec3 high, terrain::MaterialId material) {
+  return building({{low, {high.x, low.y}, high, {low.x, high.y}}, {}, low.z, high.z}, material,
+                  material);
+}
+
 inline renderer::World world(const sensors::Sensor& sensor,
                              std::optional<terrain::HeightField> field,
-                             std::vector<materials::NrcsCurve> nrcs,
-                             std::vector<terrain::PlacedMesh> meshes = {},
+                             std::vector<materials::NrcsCurve> nrcs, std::vector<Body> bodies = {},
                              std::vector<terrain::SurfacePatch> patches = {}) {
+  std::vector<terrain::PlacedMesh> meshes;
+  terrain::Solids solids;
+  for (Body& body : bodies) {
+    meshes.push_back(std::move(body.mesh));
+    for (terrain::Solid& solid : body.solids.prisms) solids.prisms.push_back(std::move(solid));
+    for (const terrain::Box_m& other : body.solids.others) solids.others.push_back(other);
+  }
   return {.surfaces = std::make_unique<terrain::RayScene>(std::move(field), std::move(patches),
                                                           std::move(meshes)),
           .nrcs = std::move(nrcs),
           .attenuation = clear_air(),
-          .sensor = sensor};
+          .sensor = sensor,
+          .solids = std::move(solids)};
 }
 
 // Level, heading north, `height_m` above the origin.
@@ -59,21 +96,6 @@ inline renderer::FramePose level_pose(double height_m) {
   pose.position_m = {0.0, 0.0, height_m};
   pose.north_east_down = {{0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}};
   return pose;
-}
-
-// A closed box on the ground as a mesh of one material.
-inline terrain::PlacedMesh box(glm::dvec3 low, glm::dvec3 high, terrain::MaterialId material) {
-  terrain::PlacedMesh placed;
-  for (int i = 0; i < 8; ++i)
-    placed.mesh.vertices_m.emplace_back((i & 1) != 0 ? high.x : low.x,
-                                        (i & 2) != 0 ? high.y : low.y,
-                                        (i & 4) != 0 ? high.z : low.z);
-  placed.mesh.triangles = {{0, 1, 5}, {0, 5, 4}, {1, 3, 7}, {1, 7, 5}, {3, 2, 6},
-                           {3, 6, 7}, {2, 0, 4}, {2, 4, 6}, {4, 5, 7}, {4, 7, 6}};
-  placed.mesh.triangle_material.assign(placed.mesh.triangles.size(), 0);
-  placed.mesh.material_names = {"box"};
-  placed.material_of_name = {material};
-  return placed;
 }
 
 }  // namespace fanbeam::tests

@@ -50,10 +50,13 @@ std::set<std::string> words_of(const std::string& key) {
 
 }  // namespace
 
-TEST_CASE("The documented default of rays per cell is the renderer's", "[scene_reader][docs]") {
+TEST_CASE("The documented defaults of rays per cell and slices are the renderer's",
+          "[scene_reader][docs]") {
   const std::string text = core::read_file(FANBEAM_SOURCE_DIR "/docs/scene-format.md", 1U << 22U);
   CHECK(text.find("stands for the program's default, " +
                   core::number_text(renderer::kDefaultRaysPerCell) + " |") != std::string::npos);
+  CHECK(text.find("0 stands for " + core::number_text(renderer::kDefaultSlicesPerColumn) + ")") !=
+        std::string::npos);
 }
 
 TEST_CASE("Every setting of run.json's input is documented", "[scene_reader][docs]") {

@@ -140,6 +140,7 @@ high_dB = -90.0
 cscope_mode = "flat_earth"
 
 [accuracy]
+caster = "auto"
 rays_per_cell = 4.0
 
 [trajectory]

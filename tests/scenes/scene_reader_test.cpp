@@ -25,6 +25,7 @@ TEST_CASE("Scene, terrain and runway arrive in SI", "[scene_reader]") {
   CHECK(scene.datum == core::VerticalDatum::egm96);
   CHECK(scene.earth == terrain::EarthModel::plane);
   CHECK(scene.rays_per_cell == 4.0);
+  CHECK(scene.caster == renderer::CasterWish::automatic);
   CHECK(scene.material_library.filename() == "mine.toml");
 
   const TerrainDescription& terrain = scene.terrain;

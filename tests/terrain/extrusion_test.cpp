@@ -1,11 +1,13 @@
 #include "terrain/buildings/extrusion.h"
 
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -63,10 +65,44 @@ int open_edges_above(const TriangleMesh& mesh, double bottom_m) {
       std::count_if(balance.begin(), balance.end(), [](const auto& e) { return e.second != 0; }));
 }
 
+// Both casters see the same building: its polygons have the roofs' area, and an edge of a ring
+// is the bottom of a wall and the other way round.
+void check_polygons_are_the_mesh(const Extrusion& extrusion) {
+  using Edge = std::array<double, 4>;
+  std::multiset<Edge> ring_edges;
+  double sum_m2 = 0.0;
+  for (const ExtrudedPolygon& polygon : extrusion.polygons)
+    for (const Ring_m& ring : polygon.rings_m) {
+      sum_m2 += signed_area_m2(ring);
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const glm::dvec2& a = ring[i];
+        const glm::dvec2& b = ring[(i + 1) % ring.size()];
+        ring_edges.insert({a.x, a.y, b.x, b.y});
+      }
+    }
+  std::multiset<Edge> wall_edges;
+  const TriangleMesh& mesh = extrusion.mesh;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    if (mesh.triangle_material[i] != kWallSlot) continue;
+    const glm::uvec3& t = mesh.triangles[i];
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec3& a = mesh.vertices_m[t[k]];
+      const glm::dvec3& b = mesh.vertices_m[t[(k + 1) % 3]];
+      const bool upright = a.x == b.x && a.y == b.y;
+      if (a.z == b.z && !upright && a.z < mesh.vertices_m[t[(k + 2) % 3]].z)
+        wall_edges.insert({a.x, a.y, b.x, b.y});
+    }
+  }
+  CHECK(sum_m2 == Approx(area_m2(mesh, kRoofSlot)).epsilon(1e-9));
+  CHECK(ring_edges.size() == wall_edges.size());
+  CHECK((ring_edges == wall_edges));
+}
+
 Extrusion extrude_one(const Prism& prism) {
   core::ProblemList problems;
   Extrusion result = extrude({prism}, "buildings", {}, problems);
   CHECK(problems.all().empty());
+  check_polygons_are_the_mesh(result);
   return result;
 }
 
@@ -130,6 +166,16 @@ TEST_CASE("A ring that touches itself is extruded with the area it encloses", "[
   const Extrusion crossing = extrude_one(bow_tie);
   CHECK(volume_m3(crossing.mesh, 0.0) == Approx(8.0 * 3.0).epsilon(1e-9));
 
+  REQUIRE(crossing.polygons.size() == 2);
+  CHECK(crossing.polygons[1].prism == 0);
+
+  // Courtyards that touch a corner of the outline and one another.
+  const Prism yards{{{0, 0}, {10, 0}, {10, 10}, {0, 10}},
+                    {{{0, 0}, {4, 2}, {2, 4}}, {{4, 2}, {8, 3}, {8, 7}}},
+                    0.0,
+                    5.0};
+  CHECK(volume_m3(extrude_one(yards).mesh, 0.0) == Approx((100.0 - 6.0 - 8.0) * 5.0).epsilon(1e-9));
+
   // A repeated point and one on a straight edge are no reason to fail.
   const Prism repeated{{{0, 0}, {5, 0}, {5, 0}, {10, 0}, {10, 10}, {0, 10}}, {}, 0.0, 1.0};
   CHECK(volume_m3(extrude_one(repeated).mesh, 0.0) == Approx(100.0).epsilon(1e-9));
@@ -148,10 +194,28 @@ TEST_CASE("Every triangle names its prism, and prisms that fail leave nothing", 
   CHECK(extrusion.mesh.triangles.size() == 20);
   CHECK(std::count(extrusion.triangle_prism.begin(), extrusion.triangle_prism.end(), 1U) == 10);
   CHECK(std::count(extrusion.triangle_prism.begin(), extrusion.triangle_prism.end(), 4U) == 10);
+  REQUIRE(extrusion.polygons.size() == 2);
+  CHECK(extrusion.polygons[0].prism == 1);
+  CHECK(extrusion.polygons[1].prism == 4);
   CHECK(extrusion.mesh.material_names == std::vector<std::string>{"brick", "tar"});
   REQUIRE(problems.all().size() == 1);
   CHECK_THAT(core::to_string(problems.all().front()),
              Contains("W-DEGENERATE city buildings without area or height = 3"));
+}
+
+TEST_CASE("Where a roof cannot be triangulated there is neither mesh nor polygon", "[extrusion]") {
+  // GEOS gives up on a courtyard that touches its outline between two corners.
+  const Prism square{{{0, 0}, {10, 0}, {10, 10}, {0, 10}}, {}, 0.0, 5.0};
+  Prism touching_side = square;
+  touching_side.holes_m = {{{0, 4}, {3, 3}, {3, 5}}};
+  core::ProblemList problems;
+  const Extrusion extrusion = extrude({square, touching_side, square}, "city", {}, problems);
+  CHECK(extrusion.failed == 1);
+  REQUIRE(extrusion.polygons.size() == 2);
+  CHECK(extrusion.polygons[1].prism == 2);
+  check_polygons_are_the_mesh(extrusion);
+  REQUIRE(problems.all().size() == 1);
+  CHECK_THAT(core::to_string(problems.all().front()), Contains("W-SKIPPED"));
 }
 
 TEST_CASE("Prisms with absurd coordinates are errors by index", "[extrusion]") {
@@ -160,6 +224,7 @@ TEST_CASE("Prisms with absurd coordinates are errors by index", "[extrusion]") {
   core::ProblemList problems;
   const Extrusion extrusion = extrude({nan_point, far_away}, "city", {}, problems);
   CHECK(extrusion.mesh.triangles.empty());
+  CHECK(extrusion.polygons.empty());
   REQUIRE(problems.all().size() == 2);
   CHECK_THAT(core::to_string(problems.all()[0]), Contains("E-NONFINITE city building 0"));
   CHECK_THAT(core::to_string(problems.all()[1]), Contains("E-RANGE city building 1"));
@@ -207,6 +272,7 @@ TEST_CASE("All of Innsbruck's buildings extrude, closed and with the right volum
   CHECK(extrusion.failed == 0);
   CHECK(area_m2(extrusion.mesh, kRoofSlot) == Approx(expected_m2).epsilon(1e-9));
   CHECK(volume_m3(extrusion.mesh, 0.0) == Approx(expected_m2 * 10.0).epsilon(1e-8));
+  check_polygons_are_the_mesh(extrusion);
 }
 
 }  // namespace fanbeam::terrain

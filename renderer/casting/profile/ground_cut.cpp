@@ -54,9 +54,7 @@ struct Crossings {
 
 FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2& origin_m,
                             const glm::dvec2& along, double far_m, double zero_m, GroundCut& cut) {
-  cut.distance_m.clear();
-  cut.height_m.clear();
-  cut.cells.clear();
+  cut.pieces = 0;
   const double per_spacing = 1.0 / ground.spacing_m;
   const double u0 = (origin_m.x - ground.west_m) * per_spacing, u_per_m = along.x * per_spacing;
   const double v0 = (origin_m.y - ground.south_m) * per_spacing, v_per_m = along.y * per_spacing;
@@ -69,10 +67,18 @@ FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2
   const auto stride = static_cast<std::ptrdiff_t>(ground.columns);
   const int last_column = ground.columns - 2, last_row = ground.rows - 2;
   const auto cell = [](double at, int last) { return std::clamp(static_cast<int>(at), 0, last); };
-  const auto add_point = [&](double distance_m, double height_m) {
-    cut.distance_m.push_back(distance_m);
-    cut.height_m.push_back(height_m - zero_m);
-  };
+  const double span_m = far_m - near_m;
+  const auto most = static_cast<std::size_t>(
+      2.0 * span_m * (std::abs(u_per_m) + std::abs(v_per_m)) + 8.0);  // diagonals: their sum at most
+  if (cut.distance_m.size() < most + 1) {
+    cut.distance_m.resize(most + 1);
+    cut.height_m.resize(most + 1);
+    cut.cells.resize(most);
+  }
+  double* distance_of = cut.distance_m.data();
+  double* height_of = cut.height_m.data();
+  GroundCut::Cell* cell_of = cut.cells.data();
+  std::size_t pieces = 0;
   const auto height_at = [&](double distance_m) {
     const double u = u0 + u_per_m * distance_m, v = v0 + v_per_m * distance_m;
     const int i = cell(u, last_column), j = cell(v, last_row);
@@ -82,17 +88,19 @@ FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2
                  : sw[0] + a * (sw[1] - sw[0]) + b * (sw[stride + 1] - sw[1]);
   };
   // Which triangle a piece lies in follows from its middle: no state to lose at corners.
-  const auto add_piece = [&](double from_m, double to_m) {
-    const double middle_m = (from_m + to_m) / 2;
+  const auto add_piece = [&](double to_m, double height_m) {
+    const double middle_m = (distance_of[pieces] + to_m) / 2;
     const double u = u0 + u_per_m * middle_m, v = v0 + v_per_m * middle_m;
     const int i = cell(u, last_column), j = cell(v, last_row);
-    cut.cells.push_back({i, j, u - i < v - j});
+    cell_of[pieces++] = {i, j, u - i < v - j};
+    distance_of[pieces] = to_m;
+    height_of[pieces] = height_m - zero_m;
   };
 
   Crossings column(u0, u_per_m, near_m), row(v0, v_per_m, near_m),
       diagonal(u0 - v0, u_per_m - v_per_m, near_m);
-  double last_m = near_m;
-  add_point(near_m, height_at(near_m));
+  distance_of[0] = near_m;
+  height_of[0] = height_at(near_m) - zero_m;
   for (;;) {
     const double next_m = std::min({column.next_m, row.next_m, diagonal.next_m});
     if (next_m >= far_m) break;
@@ -114,13 +122,10 @@ FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2
       height_m = sw[0] + (u - i) * (sw[stride + 1] - sw[0]);
       diagonal.advance();
     }
-    if (next_m - last_m < kSmallestPiece_m) continue;
-    add_piece(last_m, next_m);
-    add_point(next_m, height_m);
-    last_m = next_m;
+    if (next_m - distance_of[pieces] >= kSmallestPiece_m) add_piece(next_m, height_m);
   }
-  add_piece(last_m, far_m);
-  add_point(far_m, height_at(far_m));
+  add_piece(far_m, height_at(far_m));
+  cut.pieces = pieces;
 }
 
 }  // namespace fanbeam::renderer

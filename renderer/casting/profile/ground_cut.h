@@ -15,16 +15,15 @@
 namespace fanbeam::renderer {
 
 struct GroundCut {
-  // Piece i lies between points i and i + 1.
-  std::vector<double> distance_m;  // horizontal, from the cut's origin, rising
-  std::vector<double> height_m;    // relative to the height given
   struct Cell {
     std::int32_t column, row;
     bool upper;  // the triangle north-west of the cell's diagonal
   };
+  // Piece i < pieces lies between points i and i + 1. The arrays only ever grow.
+  std::size_t pieces = 0;
+  std::vector<double> distance_m;  // horizontal, from the cut's origin, rising
+  std::vector<double> height_m;    // relative to the height given
   std::vector<Cell> cells;
-
-  std::size_t pieces() const { return cells.size(); }
 };
 
 // Replaces `cut`. `along` is a unit vector; the cut goes from `origin_m` to `far_m` or the grid's

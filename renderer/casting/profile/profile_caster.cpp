@@ -49,12 +49,6 @@ double turn_rad(const glm::dvec2& from, const glm::dvec2& to) {
   return std::atan2(from.y * to.x - from.x * to.y, glm::dot(from, to));
 }
 
-// Buffers of one thread.
-struct SliceScratch {
-  VisiblePieces pieces;
-  PieceCuts cuts;
-};
-
 }  // namespace
 
 bool profile_applies(const World& world) { return world.surfaces->terrain() != nullptr; }
@@ -147,15 +141,16 @@ void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
   const auto per_sub = static_cast<std::size_t>(sampling_.slices_per_sub_column);
   std::mutex totals;
   core::parallel_for(static_cast<std::size_t>(sums.sub_columns), [&](std::size_t sub) {
-    thread_local SliceScratch scratch;
+    thread_local VisiblePieces visible;
+    thread_local std::vector<double> range_bins, row_bins;
     SlicePower power(world_, frame.antenna, tables_, frame.path_loss);
     SliceSweep sweep(world_, frame.antenna.position_m, frame.edges);
     SliceBins bins;
-    bins.range_W_per_rad = &sums.range_W_per_rad[sub * cells];
-    std::fill_n(bins.range_W_per_rad, cells, 0.0);
+    range_bins.assign(cells + 1, 0.0);
+    bins.range_W_per_rad = range_bins.data();
     if (frame.with_cscope) {
-      bins.elevation_W_m3_per_rad = &sums.elevation_W_m3_per_rad[sub * rows];
-      std::fill_n(bins.elevation_W_m3_per_rad, rows, 0.0);
+      row_bins.assign(rows + 2, 0.0);
+      bins.elevation_W_m3_per_rad = row_bins.data();
     }
     bins.weight = 1.0 / static_cast<double>(per_sub);
     std::uint64_t hits = 0;
@@ -163,12 +158,15 @@ void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
       const Slice& slice = frame.slices[i];
       const auto empty = [&](VisiblePieces& pieces) {
         hits += static_cast<std::uint64_t>(pieces.count);
-        power.add(slice, pieces, scratch.cuts, bins);
+        power.add(slice, pieces, bins);
       };
       sweep.run(slice, frame.edges.candidates(i / kTileSlices), world_.sensor.range.maximum_m(),
-                scratch.pieces, empty);
-      empty(scratch.pieces);
+                visible, empty);
+      empty(visible);
     }
+    std::copy_n(range_bins.begin(), cells, &sums.range_W_per_rad[sub * cells]);
+    if (frame.with_cscope)
+      std::copy_n(row_bins.begin() + 1, rows, &sums.elevation_W_m3_per_rad[sub * rows]);
     const std::lock_guard<std::mutex> lock(totals);  // whole numbers: their sum has no order
     sums.hits += hits;
     sums.blanked += power.blanked();
@@ -188,7 +186,7 @@ void ProfileCaster::cast_across(const Frame& frame, FanSums& sums) const {
   std::vector<Part> parts(kParts);
   const auto subs = static_cast<std::size_t>(sums.sub_columns);
   core::parallel_for(kParts, [&](std::size_t p) {
-    thread_local SliceScratch scratch;
+    thread_local VisiblePieces visible;
     Part& part = parts[p];
     part.range_W_per_rad.assign(subs * cells, 0.0);
     part.elevation_W_m3_per_rad.assign(subs * rows, 0.0);
@@ -206,11 +204,11 @@ void ProfileCaster::cast_across(const Frame& frame, FanSums& sums) const {
       bins.weight = slice.width_rad / sums.step_rad;
       const auto empty = [&](VisiblePieces& pieces) {
         part.hits += static_cast<std::uint64_t>(pieces.count);
-        power.add(slice, pieces, scratch.cuts, bins);
+        power.add(slice, pieces, bins);
       };
       sweep.run(slice, frame.edges.candidates(i / kTileSlices), world_.sensor.range.maximum_m(),
-                scratch.pieces, empty);
-      empty(scratch.pieces);
+                visible, empty);
+      empty(visible);
     }
     part.blanked = power.blanked();
   });

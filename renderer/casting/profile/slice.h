@@ -15,21 +15,22 @@ struct Slice {
 };
 
 // Straight visible pieces of the profile, side by side for the vector units. Distances are
-// horizontal from the sensor, heights relative to it. Each piece lies on a plane facet; `in_plane`
-// and `facet` are the distances of the sensor from the piece's line inside the half-plane and from
-// the facet's plane, as quotients n / sqrt(d2) whose roots are left to the vector loop.
+// horizontal from the sensor, heights relative to it. Each piece lies on a plane facet, whose plane
+// passes the sensor at `facet_m` / sqrt(facet_d2): the root is left to the vector loop.
 struct VisiblePieces {
-  static constexpr int kCapacity = 256;
+  static constexpr int kCapacity = 128;
   template <class T>
   using Column = std::array<T, kCapacity>;
 
   alignas(64) Column<double> near_distance_m, near_height_m, far_distance_m, far_height_m;
-  alignas(64) Column<double> in_plane_n_m, in_plane_d2, facet_n_m, facet_d2;
-  // Walls: how much nearer and farther the facet lies at the wedge's borders.
-  alignas(64) Column<double> nearer_m, farther_m;
+  // Twice the area of the triangle between the sensor and the piece, positive when it faces there.
+  alignas(64) Column<double> cross_m2;
+  alignas(64) Column<double> facet_m, facet_d2;
   alignas(64) Column<std::int32_t> material;
-  int count = 0;
+  // Walls: how much nearer and farther the facet lies at the wedge's borders; 0 elsewhere.
+  alignas(64) Column<double> nearer_m, farther_m;
 
+  int count = 0;
   bool full() const { return count == kCapacity; }
 };
 

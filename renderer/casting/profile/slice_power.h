@@ -6,8 +6,8 @@
 // the sensor's distance from the facet's plane the grazing angle is sin(psi) = q / R, and
 //     dP/daz = K integral g_el^2 [sigma0 / sin(psi)] L de / R^2
 //            = K g_el^2 [sigma0 / sin(psi)] L  integral p ds / (p^2 + s^2)^2 ,
-// the same power as in ray_caster.h. Pieces are cut where they pass from one range cell into the
-// next (s^2 = R^2 - p^2) and where the line is nearest to the sensor. The integral is evaluated as
+// the same power as in ray_caster.h. The integral is taken between the borders of range cells
+// (s^2 = R^2 - p^2). It is evaluated as
 //     2 h p / Rm^4 [1 + C2 x/3 + C4 x^2/5 + C6 x^3/7] ,  x = (h / Rm)^2 ,
 // around the middle m of a cut of half-length h, with the Gegenbauer polynomials C_2k^(2)(s_m/R_m)
 // (Abramowitz & Stegun, Handbook of Mathematical Functions, 1964, 22.9.3): relative error below
@@ -15,10 +15,12 @@
 // Elevation rows: the power of a cut times its middle R^3, spread evenly over the elevations
 // between its ends.
 //
+// A piece that passes one border between cells is integrated on both sides of it with the pattern,
+// NRCS and loss of its own middle; longer ones are cut into pieces of their own.
+//
 // A wall that stands obliquely in the slice's wedge spreads evenly over the ranges it takes there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -50,14 +52,20 @@ class PowerTables {
   double steps_per_sine() const { return steps_per_sine_; }
   const double* gain() const { return gain_.data(); }
   const double* row() const { return row_.data(); }
+  double top_rad() const { return top_rad_; }
+  double rows_per_rad() const { return rows_per_rad_; }
+  // The pattern ends at sines smaller than this, either way.
+  bool near_horizon(double sine) const { return lowest_sine_ > -sine && highest_sine_ < sine; }
 
  private:
   std::vector<double> nrcs_, gain_, row_;
-  double lowest_sine_ = 0.0, steps_per_sine_ = 0.0;
+  double lowest_sine_ = 0.0, highest_sine_ = 0.0, steps_per_sine_ = 0.0;
+  double top_rad_ = 0.0, rows_per_rad_ = 0.0;
 };
 
 // Where the power of one slice goes: [sub-column][bin], from the sub-column whose left edge is at
-// `first_azimuth_rad`.
+// `first_azimuth_rad`. With a single sub-column there are sinks for what lies outside: one more
+// range cell behind the last, one more elevation row before the first and behind the last.
 struct SliceBins {
   double* range_W_per_rad = nullptr;
   double* elevation_W_m3_per_rad = nullptr;  // null without a C-scope
@@ -70,18 +78,22 @@ struct SliceBins {
   int sub_columns = 1;
 };
 
-// Cuts of pieces, each inside one range cell but for walls, side by side.
-struct PieceCuts {
-  static constexpr int kCapacity = 512;
+// What the vector loops find of each piece.
+struct PiecePowers {
   template <class T>
-  using Column = std::array<T, kCapacity>;
-  alignas(64) Column<double> near_distance_m, near_height_m, far_distance_m, far_height_m;
-  alignas(64) Column<double> in_plane_m, facet_m;
-  alignas(64) Column<double> from_cell, to_cell;
-  alignas(64) Column<std::int32_t> material;
-  // Results
-  alignas(64) Column<double> middle_distance_m, middle_height_m, range_m, power_W_per_rad;
+  using Column = VisiblePieces::Column<T>;
+  enum Kind : std::int32_t { plain, many_cells, wedge, many_rows };
+  alignas(64) Column<std::int32_t> kind;
+  alignas(64) Column<double> near_range_m, far_range_m;
+  // The parts before and behind a border of range cells; the sink takes what is outside the gate
+  // and what is not plain.
+  alignas(64) Column<std::int32_t> first_cell, second_cell;
+  alignas(64) Column<double> first, second;                  // integrals, then W/rad
+  alignas(64) Column<double> distance_m, height_m, range_m;  // of the middle
+  // Elevation rows, counted from 1: powers times R^3 in this row and the next; row 0 is a sink.
   alignas(64) Column<double> first_row, last_row;
+  alignas(64) Column<std::int32_t> row;
+  alignas(64) Column<double> row_share, row_power;
   int count = 0;
 };
 
@@ -91,21 +103,27 @@ class SlicePower {
              const PathLossTable& path_loss);
 
   // Adds the pieces' power to `bins` and empties them.
-  void add(const Slice& slice, VisiblePieces& pieces, PieceCuts& cuts, const SliceBins& bins);
+  void add(const Slice& slice, VisiblePieces& pieces, const SliceBins& bins);
 
   std::uint64_t blanked() const { return blanked_; }
 
  private:
-  void flush(PieceCuts& cuts, const Slice& slice, const SliceBins& bins);
-  void lose_on_path(const Slice& slice, PieceCuts& cuts) const;
-  void deposit_in_column(const PieceCuts& cuts, const SliceBins& bins) const;
-  void deposit_across(const PieceCuts& cuts, const Slice& slice, const SliceBins& bins) const;
+  void evaluate(const Slice& slice, const VisiblePieces& pieces, const SliceBins& bins);
+  void lose_in_rain_cells(const Slice& slice);
+  void cut_at_cells(const VisiblePieces& pieces, int i, const Slice& slice, const SliceBins& bins);
+  void finish_rest(const Slice& slice, const SliceBins& bins);
+  void deposit_in_column(const VisiblePieces& pieces, const SliceBins& bins);
+  void deposit_special(const VisiblePieces& pieces, int i, const SliceBins& bins);
+  void deposit_across(const VisiblePieces& pieces, const Slice& slice, const SliceBins& bins);
 
   const World& world_;
   const sensors::AntennaFrame& antenna_;
   const PowerTables& tables_;
   const PathLossTable& path_loss_;
   double radar_constant_W_m2_;
+  VisiblePieces rest_;  // parts of pieces over many cells
+  VisiblePieces::Column<std::int32_t> rest_cell_;
+  PiecePowers powers_;
   std::uint64_t blanked_ = 0;
 };
 

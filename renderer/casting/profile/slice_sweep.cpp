@@ -30,7 +30,7 @@ void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates
   cut_ground(*ground_, {sensor_m_.x, sensor_m_.y}, slice.along, far_m, sensor_m_.z, cut_);
   find_events(candidates, far_m);
   std::size_t next = 0;
-  for (std::size_t i = 0; i < cut_.pieces(); ++i) {
+  for (std::size_t i = 0; i < cut_.pieces; ++i) {
     double d0 = cut_.distance_m[i], z0 = cut_.height_m[i];
     const double d1 = cut_.distance_m[i + 1], z1 = cut_.height_m[i + 1];
     while (next < events_.size() && events_[next].distance_m < d1) {
@@ -43,7 +43,7 @@ void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates
     }
     walk_ground(d0, z0, d1, z1, i);
   }
-  if (roofed_ && cut_.pieces() > 0) close_roof(cut_.distance_m.back());
+  if (roofed_ && cut_.pieces > 0) close_roof(cut_.distance_m[cut_.pieces]);
 }
 
 // Edges come roughly sorted: insertion puts the rest in order.
@@ -141,7 +141,7 @@ bool SliceSweep::visible(double& d0, double& z0, double d1, double z1) {
     z0 += share * (z1 - z0);
   }
   horizon_ = z1 / d1;
-  return true;
+  return d1 > d0;  // rounding may leave nothing
 }
 
 int SliceSweep::next_piece() {
@@ -166,9 +166,8 @@ void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::siz
   pieces_->far_height_m[i] = z1;
   // The facet's plane passes this far below the sensor.
   const double below_m = slope * d1 - z1;
-  pieces_->in_plane_n_m[i] = below_m;
-  pieces_->in_plane_d2[i] = 1.0 + slope * slope;
-  pieces_->facet_n_m[i] = below_m;
+  pieces_->cross_m2[i] = below_m * (d1 - d0);
+  pieces_->facet_m[i] = below_m;
   pieces_->facet_d2[i] = 1.0 + gx * gx + gy * gy;
   pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
   const double middle_m = (d0 + d1) / 2;
@@ -186,15 +185,16 @@ void SliceSweep::close_roof(double distance_m) {
   pieces_->near_height_m[i] = roof_m_;
   pieces_->far_distance_m[i] = distance_m;
   pieces_->far_height_m[i] = roof_m_;
-  pieces_->in_plane_n_m[i] = pieces_->facet_n_m[i] = -roof_m_;
-  pieces_->in_plane_d2[i] = pieces_->facet_d2[i] = 1.0;
+  pieces_->cross_m2[i] = -roof_m_ * (distance_m - d0);
+  pieces_->facet_m[i] = -roof_m_;
+  pieces_->facet_d2[i] = 1.0;
   pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
   pieces_->material[i] = roof_material_;
 }
 
 void SliceSweep::see_wall(double distance_m, double low_m, double top_m, const CutEdge& edge) {
-  if (top_m <= horizon_ * distance_m) return;
   const double from_m = std::max(low_m, horizon_ * distance_m);
+  if (!(top_m > from_m)) return;
   horizon_ = top_m / distance_m;
   const glm::dvec2 step = edge.to_m - edge.from_m;
   // The wall stands at cross / (along x step) under every heading; the wedge's borders are clipped
@@ -215,9 +215,9 @@ void SliceSweep::see_wall(double distance_m, double low_m, double top_m, const C
   pieces_->near_distance_m[i] = pieces_->far_distance_m[i] = distance_m;
   pieces_->near_height_m[i] = from_m;
   pieces_->far_height_m[i] = top_m;
-  pieces_->in_plane_n_m[i] = distance_m;
-  pieces_->in_plane_d2[i] = pieces_->facet_d2[i] = 1.0;
-  pieces_->facet_n_m[i] = std::abs(edge.cross_m2) / glm::length(step);
+  pieces_->cross_m2[i] = distance_m * (top_m - from_m);
+  pieces_->facet_d2[i] = 1.0;
+  pieces_->facet_m[i] = std::abs(edge.cross_m2) / glm::length(step);
   pieces_->nearer_m[i] = std::min({left_m, right_m, 0.0});
   pieces_->farther_m[i] = std::max({left_m, right_m, 0.0});
   pieces_->material[i] = world_.solids.prisms[edge.prism].wall;

@@ -7,6 +7,7 @@
 #include "scenes/placed_problems.h"
 #include "terrain/buildings/extrusion.h"
 #include "terrain/buildings/footprints.h"
+#include "terrain/buildings/solid_prisms.h"
 #include "terrain/gltf/gltf_loader.h"
 
 namespace fanbeam::scenes {
@@ -42,8 +43,17 @@ std::vector<terrain::MaterialId> ids_of(const terrain::TriangleMesh& mesh,
   return ids;
 }
 
+void add_prisms(const std::vector<terrain::Prism>& prisms, terrain::Extrusion extrusion,
+                const MaterialNames& names, const core::Place& place, const std::string& field,
+                Bodies& bodies) {
+  std::vector<terrain::MaterialId> ids = ids_of(extrusion.mesh, names, place, field);
+  bodies.floating += terrain::add_solids(prisms, extrusion, ids[terrain::kWallSlot],
+                                         ids[terrain::kRoofSlot], bodies.solids);
+  bodies.meshes.push_back({std::move(extrusion.mesh), std::move(ids)});
+}
+
 void add_box(const BoxDescription& box, const Ground& ground, const MaterialNames& names,
-             core::ProblemList& problems, std::vector<PlacedMesh>& meshes) {
+             core::ProblemList& problems, Bodies& bodies) {
   const auto centre_m = ground.local_m(box.at);
   if (!centre_m) return;
   const glm::dvec2 along =
@@ -62,15 +72,14 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
   }
   prism.bottom_m = span.lowest_m - kFoundation_m;
   prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
-  terrain::Extrusion solid =
+  terrain::Extrusion extrusion =
       terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
-  std::vector<terrain::MaterialId> ids = ids_of(solid.mesh, names, box.place, "box material");
-  meshes.push_back({std::move(solid.mesh), std::move(ids)});
+  add_prisms({prism}, std::move(extrusion), names, box.place, "box material", bodies);
 }
 
-void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
-                   const MaterialNames& names, core::ProblemList& problems,
-                   std::vector<PlacedMesh>& meshes) {
+// Footprints beyond the terrain are left out with a warning.
+std::vector<terrain::Prism> prisms_of(const BuildingsDescription& buildings, const Ground& ground,
+                                      core::ProblemList& problems) {
   const std::vector<terrain::Footprint> footprints = terrain::read_footprints(
       buildings.file, {buildings.height_property, buildings.min_height_property}, problems);
   std::vector<terrain::Prism> prisms;
@@ -92,25 +101,29 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
     for (const terrain::GeodeticRing& hole : footprint.holes) prism.holes_m.push_back(ring_m(hole));
     const double base_m = buildings.base_is_mean ? span.mean_m : span.lowest_m;
     prism.top_m = base_m + footprint.height_m;
-    prism.bottom_m = footprint.min_height_m > 0.0 ? base_m + footprint.min_height_m
-                                                  : span.lowest_m - kFoundation_m;
+    prism.on_ground = !(footprint.min_height_m > 0.0);
+    prism.bottom_m =
+        prism.on_ground ? span.lowest_m - kFoundation_m : base_m + footprint.min_height_m;
     if (prism.top_m > prism.bottom_m) prisms.push_back(std::move(prism));
   }
   if (outside > 0)
     problems.warning("OUTSIDE", buildings.place, "buildings",
                      std::to_string(outside) + " footprints",
                      "not on the scene's terrain, left out");
+  return prisms;
+}
+
+void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
+                   const MaterialNames& names, core::ProblemList& problems, Bodies& bodies) {
+  const std::vector<terrain::Prism> prisms = prisms_of(buildings, ground, problems);
   terrain::Extrusion city =
       terrain::extrude(prisms, buildings.file.filename().string(),
                        {buildings.wall_material, buildings.roof_material}, problems);
-  std::vector<terrain::MaterialId> ids =
-      ids_of(city.mesh, names, buildings.place, "buildings material");
-  meshes.push_back({std::move(city.mesh), std::move(ids)});
+  add_prisms(prisms, std::move(city), names, buildings.place, "buildings material", bodies);
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,
-               ModelMaterials& model_materials, core::ProblemList& problems,
-               std::vector<PlacedMesh>& meshes) {
+               ModelMaterials& model_materials, core::ProblemList& problems, Bodies& bodies) {
   const auto at_m = ground.local_m(model.at);
   if (!at_m) return;
   PlacedMesh placed;
@@ -136,7 +149,9 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
       problems.warning("UNUSED", model.place, "model.materials", "\"" + name + "\"",
                        "no triangle of " + model.file.filename().string() + " has this material");
   }
-  meshes.push_back(std::move(placed));
+  if (!placed.mesh.vertices_m.empty())
+    bodies.solids.others.push_back(terrain::box_around(placed.mesh));
+  bodies.meshes.push_back(std::move(placed));
 }
 
 }  // namespace
@@ -162,10 +177,9 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
   return patches;
 }
 
-std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground& ground,
-                                     const MaterialNames& names, ModelMaterials& model_materials,
-                                     core::ProblemList& problems) {
-  std::vector<PlacedMesh> meshes;
+Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
+                    ModelMaterials& model_materials, core::ProblemList& problems) {
+  Bodies bodies;
   const auto guarded = [&](const core::Place& place, const char* field, auto&& add) {
     try {
       add();
@@ -174,14 +188,14 @@ std::vector<PlacedMesh> build_meshes(const SceneDescription& scene, const Ground
     }
   };
   for (const BoxDescription& box : scene.boxes)
-    guarded(box.place, "box", [&] { add_box(box, ground, names, problems, meshes); });
+    guarded(box.place, "box", [&] { add_box(box, ground, names, problems, bodies); });
   for (const BuildingsDescription& buildings : scene.buildings)
     guarded(buildings.place, "buildings",
-            [&] { add_buildings(buildings, ground, names, problems, meshes); });
+            [&] { add_buildings(buildings, ground, names, problems, bodies); });
   for (const ModelDescription& model : scene.models)
     guarded(model.place, "model",
-            [&] { add_model(model, ground, names, model_materials, problems, meshes); });
-  return meshes;
+            [&] { add_model(model, ground, names, model_materials, problems, bodies); });
+  return bodies;
 }
 
 }  // namespace fanbeam::scenes

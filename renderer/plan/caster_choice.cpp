@@ -1,0 +1,73 @@
+#include "renderer/plan/caster_choice.h"
+
+#include <algorithm>
+
+namespace fanbeam::renderer {
+namespace {
+
+// As ray_kernel.h and profile_caster.h: 1 mrad.
+constexpr double kLevelWithin_rad = 1.0e-3;
+
+// Why azimuths are no vertical half-planes of the scene; empty when they are.
+std::string why_not_level(const CasterFacts& facts) {
+  if (!facts.plane_scan) return "the scan is a cone";
+  if (!facts.stabilised) return "the antenna is not stabilised";
+  if (!(facts.vertical_turn_rad < kLevelWithin_rad))
+    return "the flight leaves the 6 km around the scene's origin in which the Earth is flat enough";
+  return {};
+}
+
+std::string others_text(std::size_t others) {
+  return others == 1 ? "the model or building part over open air"
+                     : "the " + std::to_string(others) + " models or building parts over open air";
+}
+
+// Empty when slices can show the scene.
+std::string why_no_slices(const CasterFacts& facts) {
+  if (!facts.has_ground) return "slices need a ground, and the scene has none";
+  const std::string tilt = why_not_level(facts);
+  if (facts.others == 0 || tilt.empty()) return {};
+  return "slices cannot show " + others_text(facts.others) + " because " + tilt;
+}
+
+}  // namespace
+
+CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts, const core::Place& place) {
+  CasterChoice choice;
+  choice.wish = wish;
+  if (wish == CasterWish::rays) {
+    choice.reason = "rays are the default and the reference";
+    return choice;
+  }
+  const std::string obstacle = why_no_slices(facts);
+  if (!obstacle.empty() && wish == CasterWish::profile)
+    core::throw_input_error(core::ErrorClass::unsupported, place, "caster", "\"profile\"",
+                            "\"rays\" or \"auto\": " + obstacle);
+  if (!obstacle.empty()) {
+    choice.reason = obstacle;
+    return choice;
+  }
+  choice.chosen = CasterKind::profile;
+  choice.others = facts.others;
+  choice.reason = wish == CasterWish::profile
+                      ? "asked for"
+                      : "slices need a fraction of the rays' time at equal error";
+  if (facts.others > 0)
+    choice.reason += "; azimuths with " + others_text(facts.others) + " in them go to rays";
+  return choice;
+}
+
+CasterWish caster_wish(std::string_view word) {
+  const auto found = std::find(kCasterWishes.begin(), kCasterWishes.end(), word);
+  if (found == kCasterWishes.end())
+    throw core::InternalError("no way to cast is called " + std::string(word));
+  return static_cast<CasterWish>(found - kCasterWishes.begin());
+}
+
+std::string_view name_of(CasterWish wish) { return kCasterWishes[static_cast<std::size_t>(wish)]; }
+
+std::string_view name_of(CasterKind caster) {
+  return name_of(caster == CasterKind::profile ? CasterWish::profile : CasterWish::rays);
+}
+
+}  // namespace fanbeam::renderer

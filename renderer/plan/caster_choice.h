@@ -1,0 +1,55 @@
+// Decides which way a scene is seen, by rays or by azimuth slices: a pure function of the user's
+// wish and of facts about the scene.
+//
+// Rays (ray_caster.h) show every geometry; they are the default and the reference that all errors
+// are stated against. Slices (profile/profile_caster.h) need a fraction of their time at equal
+// error (docs/performance.md), so `automatic` takes them wherever they show everything:
+//   without ground                  nothing to cut: rays
+//   nothing but ground and prisms   slices, with any antenna
+//   models or prisms over open air  a level antenna sees each azimuth in a vertical half-plane:
+//                                   those azimuths go to rays, all others to slices. With a tilted
+//                                   antenna or a cone scan an azimuth is no half-plane: rays alone.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "core/errors.h"
+#include "renderer/casting/sampling.h"
+
+namespace fanbeam::renderer {
+
+enum class CasterWish { rays, profile, automatic };
+
+struct CasterFacts {
+  bool has_ground = true;  // a terrain grid
+  std::size_t others = 0;  // models and prisms over open air: Solids::others
+  bool stabilised = true;  // the antenna, against roll and pitch; others count as tilted
+  bool plane_scan = true;
+  // Largest angle between the vertical at the aircraft and that of the scene's origin: on a round
+  // Earth even a stabilised antenna is not level in the scene far from its origin.
+  double vertical_turn_rad = 0.0;
+};
+
+struct CasterChoice {
+  CasterKind chosen = CasterKind::rays;
+  CasterWish wish = CasterWish::rays;
+  std::string reason;      // one sentence
+  std::size_t others = 0;  // what stands in azimuths that slices leave to rays
+};
+
+// Throws InputError E-UNSUPPORTED of the field "caster" at `place` when slices are forced and cannot
+// show the scene.
+CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts,
+                           const core::Place& place = {});
+
+// By the value of CasterWish: the words of the command line, scene files and run.json.
+inline constexpr std::array<std::string_view, 3> kCasterWishes = {"rays", "profile", "auto"};
+// Of one of these words.
+CasterWish caster_wish(std::string_view word);
+std::string_view name_of(CasterWish wish);
+std::string_view name_of(CasterKind caster);
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,198 @@
+// --caster as a user meets it: what it changes, what it refuses, what it writes down.
+#include <algorithm>
+
+#include "core/image.h"
+#include "tests/apps/program.h"
+
+using namespace fanbeam::tests;
+namespace core = fanbeam::core;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kFrames = " --frames 100:160:20 ";
+
+Result render(const std::string& scene, const fs::path& folder, const std::string& words) {
+  const Result result = run_fanbeam("render " + scene + " -o " + quoted(folder) + " " + words);
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  return result;
+}
+
+std::string note(const fs::path& picture, const std::string& name) {
+  for (const auto& [key, value] : core::read_metadata(picture))
+    if (key == name) return value;
+  return "missing";
+}
+
+// A truck on a plain under an antenna that is not stabilised, so that slices cannot show it; a few
+// columns, so that even a reference is quick.
+void write_tilted_scene(const TemporaryFolder& folder, const std::string& accuracy) {
+  std::string sensor = bytes_of(FANBEAM_SOURCE_DIR "/sensors/hivision.toml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = sensor.find(from);
+    REQUIRE(at != std::string::npos);
+    sensor.replace(at, from.size(), to);
+  };
+  replace("field_of_view_deg = 41.0", "field_of_view_deg = 0.5");
+  replace("columns = 164", "columns = 2");
+  replace("stabilised = true", "stabilised = false");
+  folder.write("few.toml", sensor);
+  fs::copy_file(FANBEAM_SOURCE_DIR "/scenes/braunschweig-26/truck.gltf",
+                folder.path() / "truck.gltf", fs::copy_options::overwrite_existing);
+  folder.write("scene.toml",
+               "[scene]\nname = \"t\"\norigin = { latitude_deg = 52.0, longitude_deg = 10.0 }\n"
+               "vertical_datum = \"scene\"\n[terrain]\nhalf_extent_m = 1000.0\nspacing_m = 100.0\n"
+               "[sensor]\nfile = \"few.toml\"\n" +
+                   accuracy +
+                   "[[model]]\nfile = \"truck.gltf\"\nat = { latitude_deg = 52.004, "
+                   "longitude_deg = 10.0 }\ndefault_material = \"metal\"\n"
+                   "[trajectory.fixed]\nat = { latitude_deg = 52.0, longitude_deg = 10.0 }\n"
+                   "above_ground_m = 60.0\nroll_deg = 10.0\npitch_deg = -5.0\n");
+}
+
+}  // namespace
+
+TEST_CASE("--caster rays gives the bytes of the default", "[caster]") {
+  const TemporaryFolder folder;
+  for (const std::string scene : {"flat-grass", "obstacle-field"}) {
+    const std::string words = "-q --products bscope,cscope,power --frames 0:1";
+    render(scene, folder.path() / (scene + "-default"), words);
+    render(scene, folder.path() / (scene + "-rays"), words + " --caster rays");
+    CHECK((results(folder.path() / (scene + "-rays")) ==
+           results(folder.path() / (scene + "-default"))));
+  }
+}
+
+TEST_CASE("Slices give the same bytes for any number of threads and any order of frames",
+          "[caster]") {
+  const TemporaryFolder folder;
+  const std::string words = "-q --rays-per-cell 2 --caster profile --products bscope,cscope,power ";
+  render("obstacle-field", folder.path() / "one", words + kFrames + "--threads 1");
+  const auto one = results(folder.path() / "one");
+  CHECK(one.size() >= 9);
+  for (const char* threads : {"2", "3"}) {
+    INFO(threads << " threads");
+    render("obstacle-field", folder.path() / threads, words + kFrames + "--threads " + threads);
+    CHECK((results(folder.path() / threads) == one));
+  }
+  for (const std::string frame : {"140", "100", "120"}) {
+    INFO("frame " << frame);
+    render("obstacle-field", folder.path() / frame, words + "--threads 2 --frames " + frame);
+    for (const std::string& name :
+         {"bscope/00" + frame + ".png", "cscope/00" + frame + ".png", "power/00" + frame + ".exr"})
+      CHECK((bytes_of(folder.path() / frame / name) == bytes_of(folder.path() / "one" / name)));
+  }
+}
+
+TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[caster]") {
+  const TemporaryFolder folder;
+  const Result slices =
+      render("flat-grass", folder.path() / "auto", "--caster auto --rays-per-cell 4");
+  const nlohmann::json run = json_of(folder.path() / "auto/run.json");
+  CHECK(run["caster"] ==
+        nlohmann::json({{"chosen", "profile"},
+                        {"wish", "auto"},
+                        {"reason", "slices need a fraction of the rays' time at equal error"},
+                        {"slices_per_column", 4},
+                        {"objects_left_to_rays", 0}}));
+  CHECK(run["frames"][0]["rays"] == 0);
+  CHECK(run["frames"][0]["slices"] >= 4 * 164);
+  const nlohmann::json summary = json_of(folder.path() / "auto/timing.json")["summary"];
+  CHECK(summary["rays_per_s"] == 0.0);
+  CHECK(summary["slices_per_s"] > 0.0);
+  const fs::path picture = folder.path() / "auto/bscope/00000.png";
+  CHECK(note(picture, "fanbeam:caster") == "profile, 4 slices per column");
+  CHECK(note(picture, "fanbeam:slices") == run["frames"][0]["slices"].dump());
+  CHECK(slices.output.find("cast by profile, 4 slices per column: slices need a fraction") !=
+        std::string::npos);
+
+  const Result rays = render("flat-grass", folder.path() / "rays", "");
+  CHECK(json_of(folder.path() / "rays/run.json")["caster"] ==
+        nlohmann::json({{"chosen", "rays"},
+                        {"wish", "rays"},
+                        {"reason", "rays are the default and the reference"},
+                        {"rays_per_cell_and_column", 4.0}}));
+  CHECK(json_of(folder.path() / "rays/run.json")["frames"][0]["slices"] == 0);
+  CHECK(note(folder.path() / "rays/bscope/00000.png", "fanbeam:caster") ==
+        "rays, 4 per range cell and column");
+  CHECK(rays.output.find("cast by rays, 4 per range cell and column: rays are the default") !=
+        std::string::npos);
+
+  // Without a number of its own, 16; above 8, whole eights.
+  for (const auto& [asked, used] : std::vector<std::pair<std::string, int>>{
+           {"", 16}, {"--rays-per-cell 0.1", 1}, {"--rays-per-cell 9", 16}}) {
+    INFO(asked);
+    render("flat-grass", folder.path() / "asked", "-q --caster profile " + asked);
+    const nlohmann::json caster = json_of(folder.path() / "asked/run.json")["caster"];
+    CHECK(caster["slices_per_column"] == used);
+    CHECK(caster["reason"] == "asked for");
+  }
+}
+
+TEST_CASE("--resume takes slices up again, but no frame of the other caster", "[caster]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const std::string words = kFrames + "--rays-per-cell 2 --resume --caster ";
+  render("obstacle-field", out, words + "profile");
+  const auto first = results(out);
+  CHECK(render("obstacle-field", out, words + "profile").output.find("(3 already there)") !=
+        std::string::npos);
+  CHECK((results(out) == first));
+  CHECK(render("obstacle-field", out, words + "rays").output.find("already there") ==
+        std::string::npos);
+  CHECK_FALSE((results(out) == first));
+}
+
+TEST_CASE("A reference is made of rays: slices beside it are a usage error", "[caster]") {
+  const TemporaryFolder folder;
+  const Result refused = run_fanbeam("render flat-grass --reference --caster profile -o " +
+                                     quoted(folder.path() / "out"));
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.output.find("--caster profile: --reference is what all errors are stated against, "
+                            "and always made of rays; leave out one of the two") !=
+        std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+  write_tilted_scene(folder, "[accuracy]\ncaster = \"profile\"\n");
+  for (const std::string caster : {"", "--caster auto", "--caster rays"}) {
+    INFO(caster);
+    render(quoted(folder.path()), folder.path() / "out", "-q --reference " + caster);
+    const nlohmann::json run = json_of(folder.path() / "out/run.json")["caster"];
+    CHECK(run["chosen"] == "rays");
+    CHECK(run["rays_per_cell_and_column"] == 256 * 8);
+  }
+}
+
+TEST_CASE("Slices that cannot show the scene are refused with exit code 3 and a way out",
+          "[caster]") {
+  const TemporaryFolder folder;
+  const std::string refused =
+      "E-UNSUPPORTED caster = \"profile\": expected \"rays\" or \"auto\": slices cannot show the "
+      "model or building part over open air because the antenna is not stabilised\n1 error\n";
+  const std::string words =
+      "render " + quoted(folder.path()) + " --rays-per-cell 1 -o " + quoted(folder.path() / "out");
+  write_tilted_scene(folder, "");
+  const Result forced = run_fanbeam(words + " --caster profile");
+  CHECK(forced.exit_code == 3);
+  CHECK(forced.output == refused);
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+
+  write_tilted_scene(folder, "[accuracy]\ncaster = \"profile\"\n");
+  const std::string at_line = (folder.path() / "scene.toml").string() + ":11:1: " + refused;
+  for (const std::string& command : {words, "validate " + quoted(folder.path())}) {
+    const Result by_scene = run_fanbeam(command);
+    CHECK(by_scene.exit_code == 3);
+    CHECK(by_scene.output == at_line);
+  }
+  const Result open = run_fanbeam(words + " --caster auto");
+  CHECK(open.exit_code == 0);
+  CHECK(open.output.find("cast by rays, 1 per range cell and column: slices cannot show the model "
+                         "or building part over open air because the antenna is not stabilised") !=
+        std::string::npos);
+}
+
+TEST_CASE("validate says how a scene will be cast", "[caster]") {
+  CHECK(run_fanbeam("validate flat-grass")
+            .output.find("  caster      rays: rays are the default and the reference\n") !=
+        std::string::npos);
+}
