@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "renderer/casting/path_loss_table.h"
@@ -11,7 +12,38 @@
 namespace fanbeam::renderer {
 namespace {
 
-void prepare(const World& world, const Sampling& sampling, bool with_cscope, FanSums& sums) {
+void zero(FanSums& sums) {
+  std::fill(sums.range_W_per_rad.begin(), sums.range_W_per_rad.end(), 0.0);
+  std::fill(sums.elevation_W_m3_per_rad.begin(), sums.elevation_W_m3_per_rad.end(), 0.0);
+}
+
+std::vector<std::uint32_t> all_groups(const FanSums& sums) {
+  std::vector<std::uint32_t> groups(static_cast<std::size_t>(sums.sub_columns / kGroupAzimuths));
+  std::iota(groups.begin(), groups.end(), 0U);
+  return groups;
+}
+
+// `record` keeps the packets of each group in group order.
+template <int N>
+void cast_all(const RayFrame& frame, const std::vector<std::uint32_t>& groups, FanSums& sums,
+              std::vector<std::vector<terrain::RayPacket<N>>>* record) {
+  std::mutex totals;
+  if (record != nullptr) record->resize(groups.size());
+  core::parallel_for(groups.size(), [&](std::size_t i) {
+    thread_local RayScratch scratch;
+    scratch.ray_count = scratch.hit_count = scratch.blanked_count = 0;
+    std::vector<terrain::RayPacket<N>>* packets = record != nullptr ? &(*record)[i] : nullptr;
+    cast_group(frame, static_cast<int>(groups[i]), scratch, sums, packets);
+    const std::lock_guard<std::mutex> lock(totals);  // whole numbers: their sum has no order
+    sums.rays += scratch.ray_count;
+    sums.hits += scratch.hit_count;
+    sums.blanked += scratch.blanked_count;
+  });
+}
+
+}  // namespace
+
+void lay_out_fan(const World& world, const Sampling& sampling, bool with_cscope, FanSums& sums) {
   const sensors::Scan& scan = world.sensor.scan;
   const int margin = margin_sub_columns(world.sensor, sampling.sub_columns);
   sums.step_rad = scan.column_width_rad() / sampling.sub_columns;
@@ -21,31 +53,10 @@ void prepare(const World& world, const Sampling& sampling, bool with_cscope, Fan
   sums.cells = world.sensor.range.cells;
   sums.rows = with_cscope ? world.sensor.display.cscope_rows : 0;
   const auto subs = static_cast<std::size_t>(sums.sub_columns);
-  sums.range_W_per_rad.assign(subs * static_cast<std::size_t>(sums.cells), 0.0);
-  sums.elevation_W_m3_per_rad.assign(subs * static_cast<std::size_t>(sums.rows), 0.0);
-  sums.rays = sums.hits = sums.blanked = 0;
+  sums.range_W_per_rad.resize(subs * static_cast<std::size_t>(sums.cells));
+  sums.elevation_W_m3_per_rad.resize(subs * static_cast<std::size_t>(sums.rows));
+  sums.rays = sums.slices = sums.hits = sums.blanked = 0;
 }
-
-// Runs all groups; `record` keeps the packets of each group in group order.
-template <int N>
-void cast_all(const RayFrame& frame, FanSums& sums,
-              std::vector<std::vector<terrain::RayPacket<N>>>* record) {
-  const auto groups = static_cast<std::size_t>(sums.sub_columns / kGroupAzimuths);
-  std::mutex totals;
-  if (record != nullptr) record->resize(groups);
-  core::parallel_for(groups, [&](std::size_t group) {
-    thread_local RayScratch scratch;
-    scratch.ray_count = scratch.hit_count = scratch.blanked_count = 0;
-    std::vector<terrain::RayPacket<N>>* packets = record != nullptr ? &(*record)[group] : nullptr;
-    cast_group(frame, static_cast<int>(group), scratch, sums, packets);
-    const std::lock_guard<std::mutex> lock(totals);  // whole numbers: their sum has no order
-    sums.rays += scratch.ray_count;
-    sums.hits += scratch.hit_count;
-    sums.blanked += scratch.blanked_count;
-  });
-}
-
-}  // namespace
 
 int margin_sub_columns(const sensors::Sensor& sensor, int sub_columns_per_column) {
   const double step_rad = sensor.scan.column_width_rad() / sub_columns_per_column;
@@ -72,27 +83,34 @@ PathLossTable RayCaster::path_loss_from(double sensor_height_m) const {
 }
 
 void RayCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums) const {
-  prepare(world_, sampling_, with_cscope, sums);
+  lay_out_fan(world_, sampling_, with_cscope, sums);
+  zero(sums);
+  cast_groups(antenna, with_cscope, all_groups(sums), sums);
+}
+
+void RayCaster::cast_groups(const sensors::AntennaFrame& antenna, bool with_cscope,
+                            const std::vector<std::uint32_t>& groups, FanSums& sums) const {
   const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
   const RayFrame frame{world_,     sampling_,       fan_,      nrcs_,
                        antenna,    elevation_gain_, path_loss, world_.sensor.radar_constant_W_m2(),
                        with_cscope};
   if (world_.surfaces->native_packet() == 16) {
-    cast_all<16>(frame, sums, nullptr);
+    cast_all<16>(frame, groups, sums, nullptr);
   } else {
-    cast_all<8>(frame, sums, nullptr);
+    cast_all<8>(frame, groups, sums, nullptr);
   }
 }
 
 std::vector<terrain::RayPacket<16>> RayCaster::packets(const sensors::AntennaFrame& antenna) const {
   FanSums sums;
-  prepare(world_, sampling_, true, sums);
+  lay_out_fan(world_, sampling_, true, sums);
+  zero(sums);
   const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
   const RayFrame frame{world_,  sampling_,       fan_,      nrcs_,
                        antenna, elevation_gain_, path_loss, world_.sensor.radar_constant_W_m2(),
                        true};
   std::vector<std::vector<terrain::RayPacket<16>>> groups;
-  cast_all<16>(frame, sums, &groups);
+  cast_all<16>(frame, all_groups(sums), sums, &groups);
   std::vector<terrain::RayPacket<16>> packets;
   for (const auto& group : groups) packets.insert(packets.end(), group.begin(), group.end());
   return packets;

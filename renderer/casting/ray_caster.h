@@ -22,6 +22,7 @@
 // per cell).
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "renderer/casting/caster.h"
@@ -41,6 +42,11 @@ class RayCaster : public Caster {
 
   void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const override;
 
+  // Only these groups of kGroupAzimuths sub-columns, in a fan that is laid out and zero there; its
+  // counts go up. For casters that leave some azimuths to rays.
+  void cast_groups(const sensors::AntennaFrame& frame, bool with_cscope,
+                   const std::vector<std::uint32_t>& groups, FanSums& sums) const;
+
   // Every ray of a frame as the last pass would send it, in packets, for the bare-pass benchmark.
   std::vector<terrain::RayPacket<16>> packets(const sensors::AntennaFrame& frame) const;
 
@@ -54,6 +60,10 @@ class RayCaster : public Caster {
   std::vector<NrcsTable> nrcs_;              // by material id
   double lowest_m_ = 0.0, highest_m_ = 0.0;  // of the terrain
 };
+
+// Lays out the fan of a frame: every sub-column that the beam of some column reaches, in whole
+// groups. Sums are not zeroed, counts are.
+void lay_out_fan(const World& world, const Sampling& sampling, bool with_cscope, FanSums& sums);
 
 // Number of sub-columns left and right of the picture that the azimuth beam reaches into.
 int margin_sub_columns(const sensors::Sensor& sensor, int sub_columns_per_column);

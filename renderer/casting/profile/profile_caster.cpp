@@ -13,6 +13,7 @@ namespace fanbeam::renderer {
 
 struct ProfileCaster::Frame {
   const sensors::AntennaFrame& antenna;
+  const std::vector<std::uint32_t>& ray_groups;  // rising
   const PathLossTable& path_loss;
   const std::vector<Slice>& slices;
   const EdgeIndex& edges;
@@ -24,21 +25,6 @@ namespace {
 // Slices that share their candidates.
 constexpr int kTileSlices = 16;
 
-void prepare(const World& world, const Sampling& sampling, bool with_cscope, FanSums& sums) {
-  const sensors::Scan& scan = world.sensor.scan;
-  const int margin = margin_sub_columns(world.sensor, sampling.sub_columns);
-  sums.step_rad = scan.column_width_rad() / sampling.sub_columns;
-  sums.first_azimuth_rad = -scan.field_of_view_rad / 2 - margin * sums.step_rad;
-  const int needed = scan.columns * sampling.sub_columns + 2 * margin;
-  sums.sub_columns = (needed + kGroupAzimuths - 1) / kGroupAzimuths * kGroupAzimuths;
-  sums.cells = world.sensor.range.cells;
-  sums.rows = with_cscope ? world.sensor.display.cscope_rows : 0;
-  const auto subs = static_cast<std::size_t>(sums.sub_columns);
-  sums.range_W_per_rad.resize(subs * static_cast<std::size_t>(sums.cells));
-  sums.elevation_W_m3_per_rad.resize(subs * static_cast<std::size_t>(sums.rows));
-  sums.rays = sums.slices = sums.hits = sums.blanked = 0;
-}
-
 glm::dvec2 horizontal(const glm::dvec3& direction) {
   const glm::dvec2 flat(direction.x, direction.y);
   const double length = glm::length(flat);
@@ -49,12 +35,39 @@ double turn_rad(const glm::dvec2& from, const glm::dvec2& to) {
   return std::atan2(from.y * to.x - from.x * to.y, glm::dot(from, to));
 }
 
+// What a box covers of the horizon, seen from above; the whole of it from inside.
+struct HeadingSpan {
+  double left_rad = -core::kPi, right_rad = core::kPi;
+  double nearest_m = 0.0;
+};
+
+HeadingSpan headings_of(const terrain::Box_m& box, const glm::dvec2& sensor_m,
+                        const glm::dvec2& forward) {
+  const glm::dvec2 low = glm::dvec2(box.low) - sensor_m, high = glm::dvec2(box.high) - sensor_m;
+  const glm::dvec2 nearest = glm::clamp(glm::dvec2(0.0), low, high);
+  HeadingSpan span;
+  span.nearest_m = glm::length(nearest);
+  if (span.nearest_m == 0.0) return span;
+  const double middle_rad = turn_rad(forward, (low + high) / 2.0);
+  double left_rad = 0.0, right_rad = 0.0;
+  for (int corner = 0; corner < 4; ++corner) {
+    const glm::dvec2 at((corner & 1) != 0 ? high.x : low.x, (corner & 2) != 0 ? high.y : low.y);
+    const double beside_rad = std::remainder(turn_rad(forward, at) - middle_rad, 2.0 * core::kPi);
+    left_rad = std::min(left_rad, beside_rad);
+    right_rad = std::max(right_rad, beside_rad);
+  }
+  span.left_rad = middle_rad + left_rad;
+  span.right_rad = middle_rad + right_rad;
+  return span;
+}
+
 }  // namespace
 
 bool profile_applies(const World& world) { return world.surfaces->terrain() != nullptr; }
 
 ProfileCaster::ProfileCaster(const World& world, const Sampling& sampling)
     : world_(world), sampling_(sampling), tables_(world) {
+  if (!world.solids.others.empty()) rays_ = std::make_unique<RayCaster>(world, sampling);
   const terrain::HeightField& ground = *world.surfaces->terrain();
   const auto [low, high] = std::minmax_element(ground.height_m.begin(), ground.height_m.end());
   lowest_m_ = *low;
@@ -114,7 +127,7 @@ std::vector<Slice> ProfileCaster::tilted_slices(const sensors::AntennaFrame& ant
 
 void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                          FanSums& sums) const {
-  prepare(world_, sampling_, with_cscope, sums);
+  lay_out_fan(world_, sampling_, with_cscope, sums);
   const double sensor_m = antenna.position_m.z;
   const PathLossTable path_loss(world_.attenuation, sensor_m,
                                 std::min(sensor_m, lowest_m_) - 10.0,
@@ -127,12 +140,45 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
   for (const Slice& slice : slices) headings_rad.push_back(slice.heading_rad);
   const EdgeIndex edges(world_, {antenna.position_m.x, antenna.position_m.y},
                         horizontal(antenna.forward), headings_rad, kTileSlices);
-  const Frame frame{antenna, path_loss, slices, edges, with_cscope};
+  const std::vector<std::uint32_t> ray_groups = level ? groups_for_rays(antenna, slices, sums)
+                                                      : std::vector<std::uint32_t>{};
+  const Frame frame{antenna, ray_groups, path_loss, slices, edges, with_cscope};
   if (level)
     cast_level(frame, sums);
   else
     cast_across(frame, sums);
-  sums.slices = slices.size();
+  sums.slices = slices.size() - ray_groups.size() * kGroupAzimuths *
+                                    static_cast<std::size_t>(sampling_.slices_per_sub_column);
+  if (!ray_groups.empty()) rays_->cast_groups(antenna, with_cscope, ray_groups, sums);
+}
+
+// Groups whose slices some box may meet. A sub-column's half-planes lean from the slices' by up to
+// 1 mrad of tilt times the tangent of the elevation: the neighbouring sub-column covers that.
+std::vector<std::uint32_t> ProfileCaster::groups_for_rays(const sensors::AntennaFrame& antenna,
+                                                          const std::vector<Slice>& slices,
+                                                          const FanSums& sums) const {
+  std::vector<bool> wanted(static_cast<std::size_t>(sums.sub_columns / kGroupAzimuths), false);
+  const glm::dvec2 sensor_m(antenna.position_m.x, antenna.position_m.y);
+  const glm::dvec2 forward = horizontal(antenna.forward);
+  const auto per_sub = static_cast<std::size_t>(sampling_.slices_per_sub_column);
+  for (const terrain::Box_m& box : world_.solids.others) {
+    const HeadingSpan span = headings_of(box, sensor_m, forward);
+    if (span.nearest_m > world_.sensor.range.maximum_m()) continue;
+    const auto before = [](const Slice& slice, double heading_rad) {
+      return slice.heading_rad < heading_rad;
+    };
+    const auto slice_at = [&](double heading_rad) {
+      return static_cast<std::size_t>(
+          std::lower_bound(slices.begin(), slices.end(), heading_rad, before) - slices.begin());
+    };
+    const std::size_t first = slice_at(span.left_rad - sums.step_rad);
+    const std::size_t last = slice_at(span.right_rad + sums.step_rad);
+    for (std::size_t i = first; i < last; ++i) wanted[i / per_sub / kGroupAzimuths] = true;
+  }
+  std::vector<std::uint32_t> groups;
+  for (std::size_t g = 0; g < wanted.size(); ++g)
+    if (wanted[g]) groups.push_back(static_cast<std::uint32_t>(g));
+  return groups;
 }
 
 void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
@@ -154,7 +200,10 @@ void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
     }
     bins.weight = 1.0 / static_cast<double>(per_sub);
     std::uint64_t hits = 0;
-    for (std::size_t i = sub * per_sub; i < std::min((sub + 1) * per_sub, count); ++i) {
+    const bool left_to_rays =
+        std::binary_search(frame.ray_groups.begin(), frame.ray_groups.end(),
+                           static_cast<std::uint32_t>(sub / kGroupAzimuths));
+    for (std::size_t i = sub * per_sub; !left_to_rays && i < std::min((sub + 1) * per_sub, count); ++i) {
       const Slice& slice = frame.slices[i];
       const auto empty = [&](VisiblePieces& pieces) {
         hits += static_cast<std::uint64_t>(pieces.count);

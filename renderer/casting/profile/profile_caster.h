@@ -42,12 +42,16 @@ class ProfileCaster : public Caster {
   std::vector<Slice> level_slices(const sensors::AntennaFrame& antenna, const FanSums& sums) const;
   std::vector<Slice> tilted_slices(const sensors::AntennaFrame& antenna,
                                    const FanSums& sums) const;
+  std::vector<std::uint32_t> groups_for_rays(const sensors::AntennaFrame& antenna,
+                                             const std::vector<Slice>& slices,
+                                             const FanSums& sums) const;
   void cast_level(const Frame& frame, FanSums& sums) const;
   void cast_across(const Frame& frame, FanSums& sums) const;
 
   const World& world_;
   Sampling sampling_;
   PowerTables tables_;
+  std::unique_ptr<RayCaster> rays_;  // in worlds with things that slices cannot show
   double lowest_m_ = 0.0, highest_m_ = 0.0;  // of the terrain
 };
 

@@ -24,6 +24,8 @@ using In = const double*;
 #endif
 
 constexpr double kLeast_m2 = 1e-12;
+// Share of the range below which one middle does for a piece on both sides of a cell's border.
+constexpr double kShort = 0.02;
 
 // integral of p ds / (p^2 + s^2)^2, slice_power.h.
 inline double solid_integral(double p, double s1, double s2) {
@@ -89,7 +91,9 @@ FANBEAM_HOT void integrate(const sensors::RangeGate& gate, const VisiblePieces& 
     // The ends of the gate are cut off exactly.
     const double least = c1 < c2 ? c1 : c2, most = c1 < c2 ? c2 : c1;
     const double enters = least < 0.0 ? apart : 0.0, leaves = most >= cells ? apart : 0.0;
-    const double long_one = apart + turns + enters + leaves > 1.0 ? 1.0 : 0.0;
+    // So are pieces close by, where pattern and NRCS differ from one half to the other.
+    const double near_by = length2 > kShort * kShort * range1 * range1 ? apart : 0.0;
+    const double long_one = apart + turns + enters + leaves + near_by > 1.0 ? 1.0 : 0.0;
     const double found = farther[i] - nearer[i] > 0.0 ? 2.0 : long_one;
     kind[i] = static_cast<std::int32_t>(found);
     // What is not plain goes elsewhere later.
