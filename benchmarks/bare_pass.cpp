@@ -15,7 +15,6 @@ namespace {
 
 using terrain::RayPacket;
 
-constexpr int kRepetitions = 11;
 constexpr std::size_t kPacketsPerTask = 256;
 
 // Recorded packets mark lanes without a ray by an empty interval.
@@ -75,11 +74,11 @@ void cast(const terrain::RayScene& scene, const PacketSet<N>& set,
 // Bare pass and frame in turns, so that both see the same machine.
 template <int N>
 BarePass measure_shape(const View& view, const FrameClock& clock, const PacketSet<N>& set,
-                       const std::string& shape) {
+                       const std::string& shape, int turns) {
   std::vector<RayPacket<N>> packets;
   std::vector<double> bare_ms;
   std::vector<double> frame_ms;
-  for (int i = 0; i <= kRepetitions; ++i) {
+  for (int i = 0; i <= turns; ++i) {
     packets = set.packets;
     const Clock::time_point begin = Clock::now();
     cast(*view.world().surfaces, set, packets);
@@ -94,7 +93,7 @@ BarePass measure_shape(const View& view, const FrameClock& clock, const PacketSe
 
 }  // namespace
 
-BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling) {
+BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling, int turns) {
   const std::vector<RayPacket<16>> recorded =
       renderer::RayCaster(view.world(), sampling).packets(view.antenna);
   std::uint64_t rays = 0;
@@ -114,13 +113,13 @@ BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling)
     std::array<int, 16> lanes{};
     for (int i = 0; i < 16; ++i) lanes[static_cast<std::size_t>(i)] = i;
     for (const RayPacket<16>& packet : recorded) append<16>(packet, lanes, whole);
-    passes.push_back(measure_shape<16>(view, clock, whole, "16 wide"));
+    passes.push_back(measure_shape<16>(view, clock, whole, "16 wide", turns));
   }
   const auto measure_cut = [&](const Cut8& cut, const std::string& shape) {
     PacketSet<8> halves;
     for (const RayPacket<16>& packet : recorded)
       for (const auto& lanes : cut) append<8>(packet, lanes, halves);
-    passes.push_back(measure_shape<8>(view, clock, halves, shape));
+    passes.push_back(measure_shape<8>(view, clock, halves, shape, turns));
   };
   measure_cut({{{0, 1, 2, 3, 4, 5, 6, 7}, {8, 9, 10, 11, 12, 13, 14, 15}}},
               "8 wide, 4 azimuths x 2 elevations");

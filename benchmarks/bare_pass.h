@@ -22,8 +22,9 @@ struct BarePass {
   double ratio() const { return frame_ms / bare_ms; }
 };
 
-// Throws core::InternalError when the recorded rays are not as many as a frame's.
-BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling);
+// Of a sampling of the ray caster; bare pass and frame take `turns` turns. Throws
+// core::InternalError when the recorded rays are not as many as a frame's.
+BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling, int turns);
 
 // Elevations of the lowest and highest ray that the ray caster sends at default sampling.
 struct ElevationSpan {

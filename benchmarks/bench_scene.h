@@ -12,6 +12,7 @@ namespace fanbeam::benchmarks {
 
 inline constexpr const char* kDefaultScene = "braunschweig-26";
 inline constexpr const char* kCityScene = "innsbruck-26";
+inline constexpr const char* kObstacleScene = "obstacle-field";
 
 struct BenchScene {
   std::string name;

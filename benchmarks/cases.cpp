@@ -22,16 +22,19 @@ renderer::Sampling default_sampling() {
   return renderer::sampling_for(renderer::kDefaultRaysPerCell);
 }
 
-void frame(State& state, const BenchScene& scene) {
+void frame(State& state, const BenchScene& scene, const renderer::Sampling& sampling) {
   const View view = view_at(scene, kDistance_m);
-  const FrameClock clock(view, default_sampling());
+  const FrameClock clock(view, sampling);
   renderer::Frame frame;
   double rays = 0.0;
+  double slices = 0.0;
   for ([[maybe_unused]] const auto& iteration : state) {
     clock.frame_ms(&frame);
     rays += static_cast<double>(frame.rays);
+    slices += static_cast<double>(frame.slices);
   }
-  state.counters["rays/s"] = Counter(rays, Counter::kIsRate);
+  if (rays > 0.0) state.counters["rays/s"] = Counter(rays, Counter::kIsRate);
+  if (slices > 0.0) state.counters["slices/s"] = Counter(slices, Counter::kIsRate);
 }
 
 void azimuth_beam(State& state, const BenchScene& scene) {
@@ -81,10 +84,15 @@ void scene_build(State& state, const std::string& name) {
 
 void register_cases(const std::vector<BenchScene>& scenes) {
   using benchmark::RegisterBenchmark;
-  for (const BenchScene& scene : scenes)
-    RegisterBenchmark(("frame/" + scene.name).c_str(), frame, std::cref(scene))
+  const auto slices = renderer::profile_sampling_for(renderer::kDefaultSlicesPerColumn);
+  for (const BenchScene& scene : scenes) {
+    RegisterBenchmark(("frame/" + scene.name).c_str(), frame, std::cref(scene), default_sampling())
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
+    RegisterBenchmark(("frame_slices/" + scene.name).c_str(), frame, std::cref(scene), slices)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  }
   const BenchScene& scene = scenes.front();
   RegisterBenchmark("azimuth_beam", azimuth_beam, std::cref(scene))
       ->Unit(benchmark::kMicrosecond)

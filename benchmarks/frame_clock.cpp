@@ -7,17 +7,31 @@
 
 namespace fanbeam::benchmarks {
 
-FrameClock::FrameClock(const View& view, const renderer::Sampling& sampling)
-    : view_(view), renderer_(view.world(), sampling, {}, {.thermal_noise = view.scene->noise()}) {}
+FramePower power_of(renderer::Frame&& frame) {
+  return {std::move(frame.bscope_W), std::move(frame.cscope_W_m3)};
+}
+
+FrameClock::FrameClock(const renderer::World& world, const renderer::FramePose& pose, bool noise,
+                       const renderer::Sampling& sampling)
+    : sensor_(world.sensor),
+      pose_(pose),
+      renderer_(world, sampling, {}, {.thermal_noise = noise}) {}
 
 double FrameClock::frame_ms(renderer::Frame* frame) const {
   const Clock::time_point begin = Clock::now();
-  renderer::Frame rendered = renderer_.render(view_.pose);
-  benchmark::DoNotOptimize(sensors::bscope_picture(view_.sensor(), rendered.bscope_grey));
-  benchmark::DoNotOptimize(sensors::cscope_picture(view_.sensor(), rendered.cscope_grey));
+  renderer::Frame rendered = renderer_.render(pose_);
+  benchmark::DoNotOptimize(sensors::bscope_picture(sensor_, rendered.bscope_grey));
+  benchmark::DoNotOptimize(sensors::cscope_picture(sensor_, rendered.cscope_grey));
   const double time_ms = milliseconds_since(begin);
   if (frame != nullptr) *frame = std::move(rendered);
   return time_ms;
+}
+
+FramePower FrameClock::power() const { return power_of(renderer_.render(pose_)); }
+
+double FrameClock::second_frame_ms() const {
+  frame_ms();
+  return frame_ms();
 }
 
 }  // namespace fanbeam::benchmarks

@@ -2,20 +2,34 @@
 #pragma once
 
 #include "benchmarks/bench_scene.h"
+#include "benchmarks/grey_error.h"
 #include "renderer/frame_renderer.h"
 
 namespace fanbeam::benchmarks {
 
+FramePower power_of(renderer::Frame&& frame);
+
 class FrameClock {
  public:
-  // `view` must outlive the clock.
-  FrameClock(const View& view, const renderer::Sampling& sampling);
+  // `world` must outlive the clock.
+  FrameClock(const renderer::World& world, const renderer::FramePose& pose, bool noise,
+             const renderer::Sampling& sampling);
+  FrameClock(const View& view, const renderer::Sampling& sampling)
+      : FrameClock(view.world(), view.pose, view.scene->noise(), sampling) {}
 
   // Renders B-scope and C-scope once; the frame goes to `frame` unless that is null.
   double frame_ms(renderer::Frame* frame = nullptr) const;
 
+  // Of one frame, whose time does not matter.
+  FramePower power() const;
+
+  // The second of two frames: caches and threads are as they are within a sequence, whatever ran
+  // before.
+  double second_frame_ms() const;
+
  private:
-  const View& view_;
+  const sensors::Sensor& sensor_;
+  renderer::FramePose pose_;
   renderer::FrameRenderer renderer_;
 };
 

@@ -2,11 +2,13 @@
 #include <benchmark/benchmark.h>
 #include <fmt/core.h>
 
-#include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include "benchmarks/cases.h"
+#include "benchmarks/ladder_plot.h"
+#include "benchmarks/machine_load.h"
 #include "benchmarks/report.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -16,16 +18,20 @@
 namespace fanbeam::benchmarks {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr double kDistances_m[] = {2500.0, 1000.0};
-constexpr int kSequenceFrames = 48;
+constexpr std::uint64_t kLargestNotes_bytes = 1 << 20;
 
 constexpr const char* kUsage =
-    "Usage: fanbeam_bench [--report FILE] [--no-report] [--no-cases] [--threads N] "
-    "[--benchmark_...]\n"
+    "Usage: fanbeam_bench [--report FILE] [--no-report] [--no-cases] [--quick] "
+    "[--threads N] [--benchmark_...]\n"
     "\n"
-    "  --report FILE   write the report there instead of to the standard output\n"
+    "  --report FILE   write the report there instead of to the standard output, and its plots\n"
+    "                  into the folder images beside it\n"
     "  --no-report     only the google-benchmark cases\n"
     "  --no-cases      only the report\n"
+    "  --quick         coarse and short, to try the report: its figures mean nothing\n"
     "  --threads N     threads to use (2, which the targets are set for; 0 for all cores)\n"
     "  --benchmark_... options of google-benchmark, as --benchmark_filter=frame\n";
 
@@ -33,6 +39,7 @@ struct Options {
   std::string report_file;
   bool report = true;
   bool cases = true;
+  bool quick = false;
   int threads = 2;
 };
 
@@ -46,6 +53,8 @@ Options parse(int count, char** arguments) {
       options.report = false;
     } else if (argument == "--no-cases") {
       options.cases = false;
+    } else if (argument == "--quick") {
+      options.quick = true;
     } else if (argument == "--report" && has_value) {
       options.report_file = arguments[++i];
     } else if (argument == "--threads" && has_value) {
@@ -61,35 +70,55 @@ Options parse(int count, char** arguments) {
   return options;
 }
 
-Report measure(const std::vector<BenchScene>& scenes, std::vector<std::string> skipped,
-               int threads) {
+SceneFigures measure(const BenchScene& scene, bool city, const Effort& effort, int threads) {
+  SceneFigures figures;
+  figures.scene = &scene;
+  const View farthest = view_at(scene, kDistances_m[0]);
+  for (const auto wish : {renderer::CasterWish::rays, renderer::CasterWish::automatic})
+    if (auto sequence = measure_sequence(farthest, wish, effort.sequence_frames, threads))
+      figures.sequences.push_back(*sequence);
+  for (const double distance_m : kDistances_m) {
+    Extras extras;
+    extras.second_reference = figures.views.empty();
+    // Over a city the split between azimuth and range matters most.
+    extras.splits = figures.views.empty() && city;
+    figures.views.push_back(measure_view(view_at(scene, distance_m), effort, extras));
+  }
+  if (city) figures.scaling = measure_scaling(farthest, effort);
+  return figures;
+}
+
+Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int threads) {
   Report report;
   report.threads = threads;
-  report.skipped = std::move(skipped);
-  for (const BenchScene& scene : scenes) {
-    SceneFigures figures;
-    figures.scene = &scene;
-    const View farthest = view_at(scene, kDistances_m[0]);
-    figures.sequence = measure_sequence(farthest, kSequenceFrames, threads);
-    for (const double distance_m : kDistances_m) {
-      Extras extras;
-      extras.second_reference = figures.views.empty();
-      // Over a city the split between azimuth and range matters most.
-      extras.splits = figures.views.empty() && &scene == &scenes.back();
-      figures.views.push_back(measure_view(view_at(scene, distance_m), extras));
-    }
-    report.scenes.push_back(std::move(figures));
-  }
+  report.quick = effort.quick;
+  for (const BenchScene& scene : scenes)
+    report.scenes.push_back(measure(scene, &scene == &scenes.back(), effort, threads));
+  if (const auto obstacles = load(kObstacleScene))
+    report.agreement.push_back(measure_agreement(view_at(*obstacles, kDistances_m[1]), effort));
   return report;
 }
 
-double load_average() {
-  double load = 0.0;
-  return getloadavg(&load, 1) == 1 ? load : 0.0;
+// docs/performance-notes.md of the source tree without its own title; empty where there is none.
+std::string notes() {
+  const fs::path file = fs::path(FANBEAM_SOURCE_DIR) / "docs" / "performance-notes.md";
+  if (!fs::exists(file)) return "";
+  std::string text = core::read_file(file, kLargestNotes_bytes);
+  if (text.starts_with("# ")) text.erase(0, std::min(text.size(), text.find('\n')) + 1);
+  text.erase(0, text.find_first_not_of('\n'));
+  return text;
+}
+
+void write(Report& report, const fs::path& file) {
+  for (const SceneFigures& scene : report.scenes) {
+    const std::string name = draw_ladders(scene.views, fs::absolute(file).parent_path() / "images");
+    if (!name.empty()) report.plots.push_back(name);
+  }
+  core::write_file_atomically(file, markdown(report));
 }
 
 void run(const Options& options) {
-  const double load_before = load_average();
+  const MachineLoad machine;
   const core::ThreadLimit threads(options.threads);
   std::vector<BenchScene> scenes;
   std::vector<std::string> skipped;
@@ -105,13 +134,15 @@ void run(const Options& options) {
     benchmark::RunSpecifiedBenchmarks();
   }
   if (!options.report) return;
-  Report report = measure(scenes, std::move(skipped), threads.threads());
-  report.load_before = load_before;
-  const std::string text = markdown(report);
+  Report report =
+      measure(scenes, options.quick ? quick_effort() : full_effort(), threads.threads());
+  report.other_cores = machine.other_cores();
+  report.skipped = std::move(skipped);
+  report.notes = notes();
   if (options.report_file.empty()) {
-    fmt::print("\n{}", text);
+    fmt::print("\n{}", markdown(report));
   } else {
-    core::write_file_atomically(options.report_file, text);
+    write(report, options.report_file);
   }
 }
 

@@ -5,36 +5,57 @@
 #include <algorithm>
 #include <cmath>
 
+#include "benchmarks/equal_error.h"
 #include "benchmarks/frame_clock.h"
-#include "benchmarks/stopwatch.h"
 #include "core/parallel.h"
 
 namespace fanbeam::benchmarks {
 namespace {
 
-constexpr double kLadder[] = {0.5, 1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0};
-constexpr double kNaiveRays[] = {0.1e6, 0.2e6, 0.5e6, 1e6, 2e6, 5e6, 10e6, 20e6};
+using renderer::CasterKind;
+
 constexpr double kMostPlainRays = 5e6;  // more do not help it
+constexpr double kFewNaiveRays = 1e6;   // more take a good part of a second: one frame is enough
 constexpr int kSubColumns[] = {1, 2, 4, 8, 16};
 
-FramePower power_of(renderer::Frame&& frame) {
-  return {std::move(frame.bscope_W), std::move(frame.cscope_W_m3)};
+renderer::Sampling sampling_of(CasterKind caster, double fineness) {
+  return caster == CasterKind::profile ? renderer::profile_sampling_for(fineness)
+                                       : renderer::sampling_for(fineness);
+}
+
+// What an operating point is chosen from, coarsest first: rays in steps of a quarter of an octave,
+// slices one by one.
+std::vector<double> candidates(CasterKind caster) {
+  constexpr int kCoarsest = -12;
+  constexpr int kFinest = 32;
+  constexpr int kMostSlices = 128;
+  std::vector<double> result;
+  if (caster == CasterKind::rays) {
+    for (int step = kCoarsest; step <= kFinest; ++step)
+      result.push_back(std::round(std::exp2(step / 4.0) * 1000.0) / 1000.0);
+    return result;
+  }
+  for (int slices = 1; slices <= kMostSlices; ++slices)
+    if (slices_per_column(renderer::profile_sampling_for(slices)) == slices)
+      result.push_back(slices);
+  return result;
 }
 
 class ViewBench {
  public:
-  explicit ViewBench(const View& view) : view_(view) {
+  ViewBench(const View& view, const Effort& effort) : view_(view), effort_(effort) {
     tell("reference");
     renderer::Frame frame;
-    figures_.reference_s =
-        FrameClock(view, renderer::reference_sampling(1)).frame_ms(&frame) / 1000.0;
+    figures_.reference_s = FrameClock(view, effort.reference(1)).frame_ms(&frame) / 1000.0;
     figures_.reference_rays = frame.rays;
-    reference_.emplace(view.sensor(), power_of(std::move(frame)));
+    reference_power_ = power_of(std::move(frame));
+    reference_.emplace(view.sensor(), reference_power_);
   }
 
   void measure_reference_error();
-  void measure_ladder();
-  void measure_operating_points();
+  void measure_caster(CasterKind caster);
+  void measure_agreement();
+  void measure_bare();
   void measure_naive();
   void measure_splits();
 
@@ -47,87 +68,105 @@ class ViewBench {
   void tell(const char* what) const {
     fmt::print(stderr, "{} at {:.0f} m: {}\n", view_.scene->name, view_.distance_m, what);
   }
-  SamplingFigures measure(const renderer::Sampling& sampling, double rays_per_cell) const;
-  SamplingFigures finest_within(double budget_ms) const;
+  SamplingFigures measure(const renderer::Sampling& sampling, double fineness,
+                          const Repetitions& repetitions) const;
+  SamplingFigures finest_within(CasterKind caster, double budget_ms) const;
+  ThreadFigures measure_threads(const renderer::Sampling& sampling) const;
 
   const View& view_;
+  const Effort& effort_;
+  FramePower reference_power_;
   std::optional<GreyReference> reference_;
   ViewFigures figures_;
 };
 
-SamplingFigures ViewBench::measure(const renderer::Sampling& sampling, double rays_per_cell) const {
+SamplingFigures ViewBench::measure(const renderer::Sampling& sampling, double fineness,
+                                   const Repetitions& repetitions) const {
   const FrameClock clock(view_, sampling);
   SamplingFigures figures;
   figures.sampling = sampling;
-  figures.rays_per_cell = rays_per_cell;
+  figures.fineness = fineness;
   renderer::Frame frame;
-  figures.frame_ms = median_ms({}, [&] { clock.frame_ms(&frame); });
+  figures.frame_ms = median_ms(repetitions, [&] { clock.frame_ms(&frame); });
   figures.rays = frame.rays;
+  figures.slices = frame.slices;
   figures.error = reference_->error_of(power_of(std::move(frame)));
   return figures;
 }
 
 void ViewBench::measure_reference_error() {
   tell("second reference");
-  renderer::Frame frame;
-  FrameClock(view_, renderer::reference_sampling(2)).frame_ms(&frame);
-  figures_.reference_error = reference_->error_of(power_of(std::move(frame)));
+  const FramePower second = FrameClock(view_, effort_.reference(2)).power();
+  figures_.reference_error = reference_->error_of(second);
+  figures_.reference_agreement = {view_.scene->name, view_.distance_m, "reference, another seed",
+                                  agreement_of(view_.sensor(), second, reference_power_)};
 }
 
-// Candidates are a quarter of an octave apart; bisection over the quickest of a few frames, then
-// full measurements downwards until one holds.
-SamplingFigures ViewBench::finest_within(double budget_ms) const {
-  constexpr int kCoarsest = -12;
-  constexpr int kFinest = 32;
-  const auto candidate = [](int step) {
-    return std::round(std::exp2(step / 4.0) * 1000.0) / 1000.0;
-  };
-  int low = kCoarsest;
-  int high = kFinest + 1;
+// Bisection over the quickest of a few frames, then full measurements downwards until one holds.
+SamplingFigures ViewBench::finest_within(CasterKind caster, double budget_ms) const {
+  const std::vector<double> steps = candidates(caster);
+  std::size_t low = 0;
+  std::size_t high = steps.size();
   while (high - low > 1) {
-    const int middle = (low + high) / 2;
-    const FrameClock clock(view_, renderer::sampling_for(candidate(middle)));
+    const std::size_t middle = (low + high) / 2;
+    const FrameClock clock(view_, sampling_of(caster, steps[middle]));
     double quickest_ms = clock.frame_ms();
     for (int i = 0; i < 4; ++i) quickest_ms = std::min(quickest_ms, clock.frame_ms());
     (quickest_ms <= budget_ms ? low : high) = middle;
   }
   for (;; --low) {
-    const double rays_per_cell = candidate(low);
-    SamplingFigures figures = measure(renderer::sampling_for(rays_per_cell), rays_per_cell);
-    if (figures.frame_ms <= budget_ms || low == kCoarsest) return figures;
+    SamplingFigures figures =
+        measure(sampling_of(caster, steps[low]), steps[low], effort_.operating_point);
+    if (figures.frame_ms <= budget_ms || low == 0) return figures;
   }
 }
 
-void ViewBench::measure_ladder() {
-  tell("ladder");
-  for (const double rays_per_cell : kLadder)
-    figures_.ladder.push_back(measure(renderer::sampling_for(rays_per_cell), rays_per_cell));
+ThreadFigures ViewBench::measure_threads(const renderer::Sampling& sampling) const {
+  const FrameClock clock(view_, sampling);
+  std::vector<double> all_ms;
+  std::vector<double> one_ms;
+  for (int i = 0; i < effort_.turns; ++i) {
+    all_ms.push_back(clock.second_frame_ms());
+    const core::ThreadLimit one_thread(1);
+    one_ms.push_back(clock.second_frame_ms());
+  }
+  return {median(all_ms), median(one_ms)};
 }
 
-void ViewBench::measure_operating_points() {
-  tell("16 Hz and 90 Hz");
-  figures_.at_16Hz = finest_within(kBudget16Hz_ms);
-  figures_.at_90Hz = finest_within(kBudget90Hz_ms);
-  const renderer::Sampling sampling = figures_.at_16Hz.sampling;
-  figures_.bare = measure_bare_pass(view_, sampling);
-  const core::ThreadLimit one_thread(1);
-  const FrameClock clock(view_, sampling);
-  figures_.one_thread_ms = median_ms({}, [&] { clock.frame_ms(); });
+void ViewBench::measure_caster(CasterKind caster) {
+  const bool rays = caster == CasterKind::rays;
+  CasterFigures& figures = rays ? figures_.rays : figures_.slices;
+  tell(rays ? "rays" : "slices");
+  for (const double fineness : rays ? effort_.rays_per_cell : effort_.slices)
+    figures.ladder.push_back(measure(sampling_of(caster, fineness), fineness, effort_.ladder));
+  tell(rays ? "rays at 16 Hz and 90 Hz" : "slices at 16 Hz and 90 Hz");
+  figures.at_16Hz = finest_within(caster, kBudget16Hz_ms);
+  figures.at_90Hz = finest_within(caster, kBudget90Hz_ms);
+  figures.threads = measure_threads(figures.at_16Hz.sampling);
+}
+
+void ViewBench::measure_agreement() {
+  figures_.slices_agreement = benchmarks::measure_agreement(view_, effort_, &reference_power_);
+}
+
+void ViewBench::measure_bare() {
+  tell("bare pass");
+  figures_.bare = measure_bare_pass(view_, figures_.rays.at_16Hz.sampling, effort_.turns);
 }
 
 void ViewBench::measure_naive() {
   tell("naive yardsticks");
   const ElevationSpan span = elevation_span(view_);
   for (const NaiveKind kind : {NaiveKind::plain, NaiveKind::dithered}) {
-    for (const double rays : kNaiveRays) {
+    for (const double rays : effort_.naive_rays) {
       if (kind == NaiveKind::plain && rays > kMostPlainRays) continue;
       const NaiveRenderer renderer(view_, kind, rays, span);
       NaiveFrame frame;
-      const Repetitions repetitions =
-          rays > 5e6 ? Repetitions{1, 1, 0.0} : Repetitions{3, 11, 300.0};
+      const Repetitions once{1, 1, 0.0, false};
       NaiveFigures figures;
       figures.kind = kind;
-      figures.frame_ms = median_ms(repetitions, [&] { frame = renderer.render(); });
+      figures.frame_ms = median_ms(rays > kFewNaiveRays ? once : effort_.naive,
+                                   [&] { frame = renderer.render(); });
       figures.rays = frame.rays;
       figures.error = reference_->error_of(frame.power);
       figures_.naive.push_back(figures);
@@ -142,51 +181,22 @@ void ViewBench::measure_splits() {
     renderer::Sampling sampling = renderer::sampling_for(renderer::kDefaultRaysPerCell);
     sampling.sub_columns = sub_columns;
     sampling.rays_per_cell = renderer::kDefaultRaysPerCell / sub_columns;
-    figures_.splits.push_back(measure(sampling, renderer::kDefaultRaysPerCell));
+    figures_.splits.push_back(measure(sampling, renderer::kDefaultRaysPerCell, effort_.ladder));
   }
-}
-
-struct Point {
-  double rms, ms;
-};
-
-std::optional<double> interpolated_ms(const std::vector<Point>& points, double rms) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i].rms > rms) continue;
-    if (i == 0) return points[0].ms;
-    const Point& a = points[i - 1];
-    const Point& b = points[i];
-    const double share = std::log(a.rms / rms) / std::log(a.rms / b.rms);
-    return a.ms * std::pow(b.ms / a.ms, share);
-  }
-  return std::nullopt;
 }
 
 }  // namespace
 
-ViewFigures measure_view(const View& view, const Extras& extras) {
-  ViewBench bench(view);
+ViewFigures measure_view(const View& view, const Effort& effort, const Extras& extras) {
+  ViewBench bench(view, effort);
   if (extras.second_reference) bench.measure_reference_error();
-  bench.measure_ladder();
-  bench.measure_operating_points();
+  bench.measure_agreement();
+  for (const CasterKind caster : {CasterKind::rays, CasterKind::profile})
+    bench.measure_caster(caster);
+  bench.measure_bare();
   bench.measure_naive();
   if (extras.splits) bench.measure_splits();
   return std::move(bench).figures();
-}
-
-std::optional<double> ms_at_error(const std::vector<SamplingFigures>& ladder, double rms) {
-  std::vector<Point> points;
-  for (const SamplingFigures& step : ladder)
-    points.push_back({step.error.bscope.noise_free.rms, step.frame_ms});
-  return interpolated_ms(points, rms);
-}
-
-std::optional<double> ms_at_error(const std::vector<NaiveFigures>& ladder, NaiveKind kind,
-                                  double rms) {
-  std::vector<Point> points;
-  for (const NaiveFigures& step : ladder)
-    if (step.kind == kind) points.push_back({step.error.bscope.noise_free.rms, step.frame_ms});
-  return interpolated_ms(points, rms);
 }
 
 }  // namespace fanbeam::benchmarks

@@ -1,31 +1,42 @@
-// The measured figures as Markdown: docs/performance.md is this and nothing else.
+// The measured figures as Markdown: what docs/performance.md holds.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/measure.h"
+#include "benchmarks/scaling.h"
 #include "benchmarks/sequence.h"
 
 namespace fanbeam::benchmarks {
 
 struct SceneFigures {
   const BenchScene* scene = nullptr;
-  std::optional<SequenceFigures> sequence;
+  std::vector<SequenceFigures> sequences;
   std::vector<ViewFigures> views;
+  std::vector<ScalingStep> scaling;
 };
 
 struct Report {
   int threads = 0;
-  double load_before = 0.0;  // programs that ran in the minute before: other work spoils times
+  bool quick = false;
+  double other_cores = 0.0;  // MachineLoad over the whole run
   std::vector<SceneFigures> scenes;
-  std::vector<std::string> skipped;  // scenes without their data
+  std::vector<AgreementFigures> agreement;  // in scenes without figures of their own
+  std::vector<std::string> skipped;         // scenes without their data
+  std::vector<std::string> plots;           // files, as links of the report
+  std::string notes;                        // prose to end with
 };
 
 std::string markdown(const Report& report);
 
 // The section with the design's targets beside the figures.
 std::string targets_markdown(const Report& report);
+
+// A view's own section.
+std::string view_markdown(const ViewFigures& figures, int threads);
+
+// "with noise / noise-free".
+std::string pair_text(double with_noise, double noise_free);
 
 }  // namespace fanbeam::benchmarks

@@ -32,23 +32,30 @@ class ScratchFolder {
 
 }  // namespace
 
-std::optional<SequenceFigures> measure_sequence(const View& view, int frames, int threads) {
+std::optional<SequenceFigures> measure_sequence(const View& view, renderer::CasterWish wish,
+                                                int frames, int threads) {
   const std::string& name = view.scene->name;
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "fanbeam";
   const ScratchFolder scratch;
   const int first = std::max(0, view.frame - frames / 2);
   const std::string command =
-      fmt::format("'{}' render '{}' --quiet --frames {}:{} --threads {} -o '{}'", program.string(),
-                  (fs::path(FANBEAM_SOURCE_DIR) / "scenes" / name).string(), first, first + frames,
-                  threads, scratch.path().string());
-  fmt::print(stderr, "{}: a sequence of {} frames to disk\n", name, frames);
+      fmt::format("'{}' render '{}' --quiet --caster {} --frames {}:{} --threads {} -o '{}'",
+                  program.string(), (fs::path(FANBEAM_SOURCE_DIR) / "scenes" / name).string(),
+                  renderer::name_of(wish), first, first + frames, threads, scratch.path().string());
+  fmt::print(stderr, "{}: a sequence of {} frames to disk, --caster {}\n", name, frames,
+             renderer::name_of(wish));
   if (!fs::exists(program) || std::system(command.c_str()) != 0) {
     fmt::print(stderr, "[skipped] sequence: no success with {}\n", command);
     return std::nullopt;
   }
-  std::ifstream stream(scratch.path() / "timing.json");
-  const nlohmann::json summary = nlohmann::json::parse(stream).at("summary");
-  return SequenceFigures{frames, summary.at("frame_ms_median").get<double>(),
+  const auto record = [&](const char* file) {
+    std::ifstream stream(scratch.path() / file);
+    return nlohmann::json::parse(stream);
+  };
+  const nlohmann::json summary = record("timing.json").at("summary");
+  return SequenceFigures{std::string(renderer::name_of(wish)),
+                         record("run.json").at("caster").at("chosen").get<std::string>(), frames,
+                         summary.at("frame_ms_median").get<double>(),
                          summary.at("frames_per_s_written").get<double>()};
 }
 

@@ -2,19 +2,25 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "benchmarks/bench_scene.h"
+#include "renderer/plan/caster_choice.h"
 
 namespace fanbeam::benchmarks {
 
 struct SequenceFigures {
+  std::string wish;    // value of --caster
+  std::string chosen;  // the caster it led to
   int frames = 0;
   double frame_ms = 0.0;              // median, pose to display images, while files are written
   double frames_per_s_written = 0.0;  // from the first pose to the last file
 };
 
-// `frames` frames around the view with `fanbeam render` at default sampling, into a temporary
-// folder. Nothing, and a line on stderr, when the program does not lie beside this one or fails.
-std::optional<SequenceFigures> measure_sequence(const View& view, int frames, int threads);
+// `frames` frames around the view with `fanbeam render --caster wish` at default sampling, into a
+// temporary folder. Nothing, and a line on stderr, when the program does not lie beside this one or
+// fails.
+std::optional<SequenceFigures> measure_sequence(const View& view, renderer::CasterWish wish,
+                                                int frames, int threads);
 
 }  // namespace fanbeam::benchmarks

@@ -24,12 +24,12 @@ struct Repetitions {
   int least = 11;
   int most = 21;
   double most_ms = 600.0;
+  bool warm_up = true;  // once before, not counted
 };
 
-// Runs `work` once to warm up, then as often as asked.
 template <class Work>
 double median_ms(const Repetitions& repetitions, const Work& work) {
-  work();
+  if (repetitions.warm_up) work();
   std::vector<double> times_ms;
   double spent_ms = 0.0;
   for (int i = 0; i < repetitions.most; ++i) {

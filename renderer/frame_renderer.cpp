@@ -88,7 +88,9 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   }
   // Kept by the calling thread: fresh pages for megabytes of sums would cost a tenth of a frame.
   thread_local FanSums sums;
-  caster_->cast(antenna, elevation_resolved, sums);
+  const std::vector<core::Echo> targets = unobstructed_echoes(world_, antenna, pose.time_s);
+  SightLines sight = sight_lines(world_, targets, pose.time_s);
+  caster_->cast(antenna, elevation_resolved, sums, sight);
   if (effects_.rain_echo && world_.volume_echo)
     add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
   if (double_bounce_) double_bounce_->add(antenna, sums);
@@ -107,7 +109,7 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   const Multipath multipath = !effects_.multipath ? Multipath::none
                               : effects_.speckle  ? Multipath::coherent
                                                   : Multipath::mean;
-  const std::vector<core::Echo> echoes = point_echoes(world_, antenna, pose.time_s, multipath);
+  const std::vector<core::Echo> echoes = seen_echoes(world_, antenna, targets, sight, multipath);
   receive(echoes, pose.frame_index, frame);
   if (sums.hits == 0 && echoes.empty()) frame.events.emplace_back("empty_view");
   display(height_above_ground_m, frame);

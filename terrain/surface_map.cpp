@@ -12,6 +12,36 @@ SurfacePatch rectangle_patch(glm::dvec2 centre_m, glm::dvec2 along, double lengt
   return {{centre_m - l - w, centre_m + l - w, centre_m + l + w, centre_m - l + w}, material};
 }
 
+namespace {
+
+// False when the whole cell lies outside one side of a convex outline. A long runway across the
+// grid fills little of its bounding box.
+bool may_touch(const std::vector<glm::dvec2>& outline_m, const HeightField& field, int column,
+               int row) {
+  const auto left_of = [](const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& point) {
+    return (b.x - a.x) * (point.y - a.y) - (b.y - a.y) * (point.x - a.x);
+  };
+  const glm::dvec2 low(field.west_m + field.spacing_m * column,
+                       field.south_m + field.spacing_m * row);
+  const glm::dvec2 corners[] = {low, low + glm::dvec2(field.spacing_m, 0.0),
+                                low + glm::dvec2(0.0, field.spacing_m),
+                                low + glm::dvec2(field.spacing_m)};
+  const std::size_t count = outline_m.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec2& a = outline_m[i];
+    const glm::dvec2& b = outline_m[(i + 1) % count];
+    const auto on_right = [&](const glm::dvec2& point) { return left_of(a, b, point) < 0.0; };
+    const auto on_left = [&](const glm::dvec2& point) { return left_of(a, b, point) > 0.0; };
+    const bool outline_left = std::none_of(outline_m.begin(), outline_m.end(), on_right);
+    const bool outline_right = std::none_of(outline_m.begin(), outline_m.end(), on_left);
+    if (outline_left && std::all_of(std::begin(corners), std::end(corners), on_right)) return false;
+    if (outline_right && std::all_of(std::begin(corners), std::end(corners), on_left)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 SurfaceMap::SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patches)
     : west_m_(field.west_m),
       south_m_(field.south_m),
@@ -36,7 +66,8 @@ SurfaceMap::SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patch
     for (int j = index(box.south_m, south_m_, rows_); j <= index(box.north_m, south_m_, rows_); ++j)
       for (int i = index(box.west_m, west_m_, columns_); i <= index(box.east_m, west_m_, columns_);
            ++i)
-        touching[field.cell(i, j)].push_back(static_cast<std::uint32_t>(p));
+        if (may_touch(patches_[p].outline_m, field, i, j))
+          touching[field.cell(i, j)].push_back(static_cast<std::uint32_t>(p));
   }
   patch_begin_.push_back(0);
   for (std::size_t cell = 0; cell < touching.size(); ++cell) {
@@ -59,12 +90,6 @@ bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m,
       odd = !odd;
   }
   return odd;
-}
-
-MaterialId SurfaceMap::material_at(double x_m, double y_m) const noexcept {
-  const int i = std::clamp(static_cast<int>((x_m - west_m_) * per_spacing_), 0, columns_ - 1);
-  const int j = std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
-  return material_in_cell(i, j, x_m, y_m);
 }
 
 MaterialId SurfaceMap::patched_material(std::size_t cell, double x_m, double y_m) const noexcept {

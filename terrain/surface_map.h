@@ -5,6 +5,9 @@
 // order in which they are added alone decides which is on top (the last one).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <memory>
 #include <vector>
@@ -29,7 +32,11 @@ class SurfaceMap {
   SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patches);
 
   // Point is clamped to the grid.
-  MaterialId material_at(double x_m, double y_m) const noexcept;
+  MaterialId material_at(double x_m, double y_m) const noexcept {
+    const int i = std::clamp(static_cast<int>((x_m - west_m_) * per_spacing_), 0, columns_ - 1);
+    const int j = std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
+    return material_in_cell(i, j, x_m, y_m);
+  }
 
   // The same for a point that is known to lie in this cell.
   MaterialId material_in_cell(int column, int row, double x_m, double y_m) const noexcept {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "sensors/antenna/antenna_frame.h"
+#include "terrain/ray_scene.h"
 
 namespace fanbeam::renderer {
 
@@ -27,12 +29,33 @@ struct FanSums {
   std::uint64_t blanked = 0;  // hits nearer than the first range cell
 };
 
+// Points of which is asked whether the sensor sees them. A point on a surface is not hidden by that
+// surface: what lies within kSightClearance_m before it does not count.
+struct SightLines {
+  std::vector<glm::dvec3> to_m;
+  std::vector<std::uint8_t> clear;  // the answers: 1 where nothing is in the way
+};
+
+// A light stands 0.3 m above ground that is known to 0.1 m: nearer than this the ground does not
+// hide it.
+inline constexpr double kSightClearance_m = 1.0;
+
 class Caster {
  public:
   virtual ~Caster() = default;
-  // Power for a sensor at `frame`. Thread-safe; the result does not depend on the number of
-  // threads.
-  virtual void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const = 0;
+  // Power for a sensor at `frame`, and what it sees of `sight`. Thread-safe; the result does not
+  // depend on the number of threads.
+  virtual void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums,
+                    SightLines& sight) const = 0;
+  void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const {
+    SightLines none;
+    cast(frame, with_cscope, sums, none);
+  }
 };
+
+// Answers `sight` with one ray each, for the points with `clear` at kAskRays; the others stay.
+inline constexpr std::uint8_t kAskRays = 2;
+void look_along_rays(const terrain::RayScene& surfaces, const glm::dvec3& sensor_m,
+                     SightLines& sight);
 
 }  // namespace fanbeam::renderer

@@ -1,6 +1,7 @@
 #include "renderer/casting/nrcs_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fanbeam::renderer {
 
@@ -21,7 +22,8 @@ NrcsTable::NrcsTable(const materials::NrcsCurve& nrcs) {
   }
   const auto [least, most] = std::minmax_element(values_.begin(), values_.end());
   constexpr double kRounding = 1e-14;
-  flat_ = *most - *least <= kRounding * *most;
+  // Exactly even where sigma0 is proportional to sin(psi).
+  if (*most - *least <= kRounding * *most) std::fill(values_.begin(), values_.end(), values_[0]);
 }
 
 double NrcsTable::largest() const { return *std::max_element(values_.begin(), values_.end()); }

@@ -10,8 +10,7 @@
 // Cost: one comparison and two reads.
 #pragma once
 
-#include <cmath>
-#include <cstddef>
+#include <algorithm>
 #include <vector>
 
 #include "materials/nrcs/nrcs_curve.h"
@@ -25,15 +24,23 @@ class NrcsTable {
   // 0 for sin_grazing <= 0: the back of a surface does not scatter.
   double sigma0_over_sine(double sin_grazing) const noexcept {
     if (sin_grazing <= 0.0) return 0.0;
-    if (flat_) return values_[0];
-    // Looked up rather than decided: rays at both kinds of angle follow each other at random.
-    const std::size_t part = sin_grazing < kFineBelow ? 1 : 0;
-    const double position = std::fmin(sin_grazing, 1.0) * kStepsPerSine[part];
-    const int index = static_cast<int>(position);
-    const double share = position - index;
-    const double* value = values_.data() + (index + kFirstEntry[part]);
+    double share = 0.0;
+    const double* const value = values_.data() + index_of(sin_grazing, share);
     return value[0] + (value[1] - value[0]) * share;
   }
+
+  // The same in two steps, for loops over many rays: where a sine from 0 up lies between
+  // values()[index] and the next one.
+  static int index_of(double sin_grazing, double& share) noexcept {
+    // Chosen rather than branched to: rays at both kinds of angle follow each other at random.
+    const double fine = sin_grazing < kFineBelow ? 1.0 : 0.0;
+    const double position =
+        std::min(1.0, sin_grazing) * (kSteps + fine * (kFineSteps / kFineBelow - kSteps));
+    const int index = static_cast<int>(position);
+    share = position - index;
+    return index + static_cast<int>(fine * kCoarseEntries);
+  }
+  const double* values() const noexcept { return values_.data(); }
 
   // Over all angles: what is interpolated never exceeds its nodes.
   double largest() const;
@@ -48,10 +55,7 @@ class NrcsTable {
   static constexpr int kFineSteps = 2048;
   static constexpr double kFineBelow = 1.0 / 32.0;
   static constexpr int kCoarseEntries = kSteps + 2;  // one behind the end, for sin(psi) = 1
-  static constexpr double kStepsPerSine[] = {kSteps, kFineSteps / kFineBelow};
-  static constexpr int kFirstEntry[] = {0, kCoarseEntries};
-  bool flat_ = false;           // sigma0 proportional to sin(psi)
-  std::vector<double> values_;  // the coarse steps, then the fine ones
+  std::vector<double> values_;                       // the coarse steps, then the fine ones
 };
 
 }  // namespace fanbeam::renderer

@@ -1,6 +1,7 @@
 #include "renderer/casting/path_loss_table.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fanbeam::renderer {
 

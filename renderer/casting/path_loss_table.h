@@ -7,10 +7,11 @@
 // height (1 m at 3.7 km).
 #pragma once
 
-#include <cmath>
+#include <algorithm>
 #include <vector>
 
 #include "atmosphere/path_attenuation.h"
+#include "core/series.h"
 
 namespace fanbeam::renderer {
 
@@ -27,27 +28,24 @@ class PathLossTable {
   double lowest_m() const noexcept { return lowest_m_; }
   double steps_per_m() const noexcept { return per_step_; }
   static constexpr double kSteps = 1024.0;
+  // The step at or below a height, and how far the height is on its way to the next.
+  int index_of(double height_m, double& share) const noexcept {
+    const double position =
+        std::min(kSteps - 1e-9, std::max(0.0, (height_m - lowest_m_) * per_step_));
+    const int index = static_cast<int>(position);
+    share = position - index;
+    return index;
+  }
 
   double two_way_factor(double height_m, double range_m) const noexcept {
     if (clear_) return 1.0;
-    const double position =
-        std::fmin(std::fmax((height_m - lowest_m_) * per_step_, 0.0), kSteps - 1e-9);
-    const auto index = static_cast<std::size_t>(position);
-    const double share = position - static_cast<double>(index);
-    const double nepers_per_m =
-        nepers_per_m_[index] * (1.0 - share) + nepers_per_m_[index + 1] * share;
-    return decay(nepers_per_m * range_m);
+    double share = 0.0;
+    const double* const nepers_per_m = nepers_per_m_.data() + index_of(height_m, share);
+    return core::series_decay((nepers_per_m[0] + (nepers_per_m[1] - nepers_per_m[0]) * share) *
+                              range_m);
   }
 
  private:
-  // exp(-x); in the common case of little loss by its series, whose first omitted term is below
-  // 2e-8 there.
-  static double decay(double x) noexcept {
-    if (x > 0.25) return std::exp(-x);
-    constexpr double k2 = 1.0 / 2, k3 = 1.0 / 6, k4 = 1.0 / 24, k5 = 1.0 / 120, k6 = 1.0 / 720;
-    return 1.0 - x * (1.0 - x * (k2 - x * (k3 - x * (k4 - x * (k5 - x * k6)))));
-  }
-
   bool clear_ = false;
   double lowest_m_ = 0.0;
   double per_step_ = 0.0;

@@ -12,11 +12,6 @@
 namespace fanbeam::renderer {
 namespace {
 
-void zero(FanSums& sums) {
-  std::fill(sums.range_W_per_rad.begin(), sums.range_W_per_rad.end(), 0.0);
-  std::fill(sums.elevation_W_m3_per_rad.begin(), sums.elevation_W_m3_per_rad.end(), 0.0);
-}
-
 std::vector<std::uint32_t> all_groups(const FanSums& sums) {
   std::vector<std::uint32_t> groups(static_cast<std::size_t>(sums.sub_columns / kGroupAzimuths));
   std::iota(groups.begin(), groups.end(), 0U);
@@ -82,18 +77,19 @@ PathLossTable RayCaster::path_loss_from(double sensor_height_m) const {
           std::max(sensor_height_m, highest_m_) + 300.0};
 }
 
-void RayCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums) const {
+void RayCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums,
+                     SightLines& sight) const {
+  sight.clear.assign(sight.to_m.size(), kAskRays);
+  look_along_rays(*world_.surfaces, antenna.position_m, sight);
   lay_out_fan(world_, sampling_, with_cscope, sums);
-  zero(sums);
   cast_groups(antenna, with_cscope, all_groups(sums), sums);
 }
 
 void RayCaster::cast_groups(const sensors::AntennaFrame& antenna, bool with_cscope,
                             const std::vector<std::uint32_t>& groups, FanSums& sums) const {
   const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
-  const RayFrame frame{world_,     sampling_,       fan_,      nrcs_,
-                       antenna,    elevation_gain_, path_loss, world_.sensor.radar_constant_W_m2(),
-                       with_cscope};
+  const RayFrame frame{world_,  sampling_,       fan_,      nrcs_,
+                       antenna, elevation_gain_, path_loss, with_cscope};
   if (world_.surfaces->native_packet() == 16) {
     cast_all<16>(frame, groups, sums, nullptr);
   } else {
@@ -104,11 +100,8 @@ void RayCaster::cast_groups(const sensors::AntennaFrame& antenna, bool with_csco
 std::vector<terrain::RayPacket<16>> RayCaster::packets(const sensors::AntennaFrame& antenna) const {
   FanSums sums;
   lay_out_fan(world_, sampling_, true, sums);
-  zero(sums);
   const PathLossTable path_loss = path_loss_from(antenna.position_m.z);
-  const RayFrame frame{world_,  sampling_,       fan_,      nrcs_,
-                       antenna, elevation_gain_, path_loss, world_.sensor.radar_constant_W_m2(),
-                       true};
+  const RayFrame frame{world_, sampling_, fan_, nrcs_, antenna, elevation_gain_, path_loss, true};
   std::vector<std::vector<terrain::RayPacket<16>>> groups;
   cast_all<16>(frame, all_groups(sums), sums, &groups);
   std::vector<terrain::RayPacket<16>> packets;

@@ -40,10 +40,12 @@ class RayCaster : public Caster {
   // `world` must outlive the caster.
   RayCaster(const World& world, const Sampling& sampling);
 
-  void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const override;
+  using Caster::cast;
+  void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums,
+            SightLines& sight) const override;
 
-  // Only these groups of kGroupAzimuths sub-columns, in a fan that is laid out and zero there; its
-  // counts go up. For casters that leave some azimuths to rays.
+  // Only these groups of kGroupAzimuths sub-columns, in a fan that is laid out: their sums are
+  // written whatever they held, counts go up. For casters that leave some azimuths to rays.
   void cast_groups(const sensors::AntennaFrame& frame, bool with_cscope,
                    const std::vector<std::uint32_t>& groups, FanSums& sums) const;
 

@@ -1,6 +1,8 @@
 #include "renderer/stages/azimuth_beam.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 
 #include "core/dispatch.h"
 #include "core/parallel.h"
@@ -10,8 +12,23 @@
 namespace fanbeam::renderer {
 namespace {
 
-FANBEAM_HOT void add_weighted(const double* from, double weight, int count, double* to) {
-  for (int i = 0; i < count; ++i) to[i] += weight * from[i];
+// Four bins side by side: the compiler does not find by itself that a block's sums fit registers.
+using FourBins = double __attribute__((vector_size(32)));
+constexpr int kFours = 4;
+constexpr std::size_t kBlockBins = 4 * kFours;
+
+// Sums weight times bins over `reach` sub-columns, `stride` apart; a block of bins from `from` on.
+FANBEAM_HOT void weigh_block(const double* from, std::size_t stride, const double* weights,
+                             std::size_t reach, double* sums) {
+  FourBins sum[kFours] = {};
+  for (std::size_t s = 0; s < reach; ++s, from += stride) {
+    for (int i = 0; i < kFours; ++i) {
+      FourBins bins;
+      std::memcpy(&bins, from + 4 * i, sizeof bins);
+      sum[i] += weights[s] * bins;
+    }
+  }
+  std::memcpy(sums, sum, sizeof sum);
 }
 
 }  // namespace
@@ -29,20 +46,29 @@ std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins
     weights.push_back(
         sensors::two_way_integral(sensor.antenna.azimuth, from_rad, from_rad + fan.step_rad));
   }
-  const int columns = sensor.scan.columns;
+  const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   const auto bin_count = static_cast<std::size_t>(bins);
-  std::vector<double> by_column(static_cast<std::size_t>(columns) * bin_count, 0.0);
-  core::parallel_for(static_cast<std::size_t>(columns), [&](std::size_t column) {
-    const std::size_t first = column * static_cast<std::size_t>(sub_columns_per_column);
-    for (int s = 0; s < reach; ++s)
-      add_weighted(&sums[(first + static_cast<std::size_t>(s)) * bin_count],
-                   weights[static_cast<std::size_t>(s)], bins, &by_column[column * bin_count]);
-  });
-  std::vector<double> image(by_column.size());
-  const auto width = static_cast<std::size_t>(columns);
-  core::parallel_for(bin_count, [&](std::size_t bin) {
-    for (std::size_t column = 0; column < width; ++column)
-      image[bin * width + column] = by_column[column * bin_count + bin];
+  std::vector<double> image(columns * bin_count);
+  // Block after block of bins for all columns: what columns share stays in the cache.
+  core::parallel_for((bin_count + kBlockBins - 1) / kBlockBins, [&](std::size_t block) {
+    // The last block moves back over the one before rather than be a shorter one.
+    const std::size_t begin =
+        std::min(block * kBlockBins, bin_count - std::min(kBlockBins, bin_count));
+    for (std::size_t column = 0; column < columns; ++column) {
+      const double* const from =
+          sums.data() + column * static_cast<std::size_t>(sub_columns_per_column) * bin_count;
+      double sum[kBlockBins] = {};
+      if (bin_count >= kBlockBins) {
+        weigh_block(from + begin, bin_count, weights.data(), weights.size(), sum);
+      } else {
+        for (std::size_t s = 0; s < weights.size(); ++s)
+          for (std::size_t bin = 0; bin < bin_count; ++bin)
+            sum[bin] += weights[s] * from[s * bin_count + bin];
+      }
+      const std::size_t first = block * kBlockBins;
+      for (std::size_t bin = first; bin < std::min(first + kBlockBins, bin_count); ++bin)
+        image[bin * columns + column] = sum[bin - begin];
+    }
   });
   return image;
 }

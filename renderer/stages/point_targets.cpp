@@ -12,14 +12,6 @@
 #include "sensors/cells.h"
 
 namespace fanbeam::renderer {
-namespace {
-
-// A light stands 0.3 m above ground that is known to 0.1 m: nearer than this the ground does not
-// hide it.
-constexpr double kClearance_m = 1.0;
-
-}  // namespace
-
 glm::dvec3 PointTarget::position_at(double time_s) const {
   if (time_s <= path.front().time_s) return path.front().position_m;
   if (time_s >= path.back().time_s) return path.back().position_m;
@@ -53,7 +45,6 @@ std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFram
   const double rcs_m2 = materials::rcs_m2(target.rcs, glm::transpose(target.axes) * -direction,
                                           sensor.wavelength_m());
   if (!(elevation_gain * rcs_m2 > 0.0)) return std::nullopt;
-  if (world.surfaces->occluded(antenna.position_m, position_m, kClearance_m)) return std::nullopt;
   core::Echo echo;
   echo.range_m = range_m;
   echo.azimuth_rad = angles->azimuth_rad;
@@ -70,21 +61,45 @@ std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFram
 
 }  // namespace
 
-std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
-                                     double time_s, Multipath multipath) {
+std::vector<core::Echo> unobstructed_echoes(const World& world,
+                                            const sensors::AntennaFrame& antenna, double time_s) {
+  std::vector<core::Echo> echoes;
+  for (std::size_t i = 0; i < world.targets.size(); ++i)
+    if (const auto echo = echo_of(world, antenna, time_s, i)) echoes.push_back(*echo);
+  return echoes;
+}
+
+SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes, double time_s) {
+  SightLines sight;
+  for (const core::Echo& echo : echoes)
+    sight.to_m.push_back(world.targets[echo.object_id].position_at(time_s));
+  return sight;
+}
+
+std::vector<core::Echo> seen_echoes(const World& world, const sensors::AntennaFrame& antenna,
+                                    const std::vector<core::Echo>& echoes,
+                                    const SightLines& sight, Multipath multipath) {
   constexpr std::size_t kAtOnce = 64;
-  const std::size_t count = world.targets.size();
+  const std::size_t count = echoes.size();
   std::vector<std::vector<core::Echo>> found((count + kAtOnce - 1) / kAtOnce);
   core::parallel_for(found.size(), [&](std::size_t block) {
     for (std::size_t i = block * kAtOnce; i < std::min((block + 1) * kAtOnce, count); ++i)
-      if (const auto echo = echo_of(world, antenna, time_s, i))
-        add_with_ground(world, antenna, world.targets[i].position_at(time_s), *echo, multipath,
-                        found[block]);
+      if (sight.clear[i] != 0)
+        add_with_ground(world, antenna, sight.to_m[i], echoes[i], multipath, found[block]);
   });
-  std::vector<core::Echo> echoes;
+  std::vector<core::Echo> seen;
   for (const std::vector<core::Echo>& block : found)
-    echoes.insert(echoes.end(), block.begin(), block.end());
-  return echoes;
+    seen.insert(seen.end(), block.begin(), block.end());
+  return seen;
+}
+
+std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
+                                     double time_s, Multipath multipath) {
+  const std::vector<core::Echo> echoes = unobstructed_echoes(world, antenna, time_s);
+  SightLines sight = sight_lines(world, echoes, time_s);
+  sight.clear.assign(sight.to_m.size(), kAskRays);
+  look_along_rays(*world.surfaces, antenna.position_m, sight);
+  return seen_echoes(world, antenna, echoes, sight, multipath);
 }
 
 void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& sensor,

@@ -1,8 +1,8 @@
 // Point scatterers: reflectors, posts, lights and whatever is smaller than a ray.
 //
 //     P(column) = K sigma g_el(el)^2 g_az((az - az_column) cos el)^2 L / R^4   (a cone scan: without cos el)
-// in the one range cell that holds R (rectangular range response). Visibility is one ray to the
-// scatterer; a scatterer on a surface is not hidden by that surface (1 m clearance). With
+// in the one range cell that holds R (rectangular range response). Visibility is the caster's
+// (SightLines): one ray to the scatterer, or the horizon of the azimuth slice it stands in. With
 // `multipath` the ground's mirror joins (ground_multipath.h): a target then may have one echo for
 // each range cell that its paths end in. Neglected: shadow of the scatterer itself.
 #pragma once
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/echo.h"
+#include "renderer/casting/caster.h"
 #include "renderer/casting/path_loss_table.h"
 #include "renderer/stages/ground_multipath.h"
 #include "renderer/world.h"
@@ -17,9 +18,21 @@
 
 namespace fanbeam::renderer {
 
-// Echoes of all visible targets at `time_s` in front of the antenna and inside the range gate, with
-// power at azimuth gain 1; `object_id` is the target's index; the radial speed is left at 0. Sorted
-// as the targets are.
+// Echoes of all targets at `time_s` in front of the antenna and inside the range gate as if nothing
+// stood between, with power at azimuth gain 1; `object_id` is the target's index; the radial speed
+// is left at 0. Sorted as the targets are.
+std::vector<core::Echo> unobstructed_echoes(const World& world,
+                                            const sensors::AntennaFrame& antenna, double time_s);
+
+// Lines of sight to the targets of `echoes`, to be answered by a caster.
+SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes, double time_s);
+
+// What remains of `echoes` where the sight is clear, with what the ground adds.
+std::vector<core::Echo> seen_echoes(const World& world, const sensors::AntennaFrame& antenna,
+                                    const std::vector<core::Echo>& echoes,
+                                    const SightLines& sight, Multipath multipath);
+
+// All three with one ray for each line of sight.
 std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
                                      double time_s, Multipath multipath = Multipath::none);
 

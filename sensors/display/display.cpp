@@ -25,17 +25,11 @@ double compensation_m3(const RangeGate& gate, int row) {
   return range_m * range_m * range_m;
 }
 
-// Grey of each cell, grey_of(value, row); rows are independent.
-template <class GreyOf>
-std::vector<double> grey_of_rows(std::span<const double> values, int columns,
-                                 const GreyOf& grey_of) {
-  std::vector<double> grey(values.size());
+// Calls work(row, begin, width) for every row of a picture, whose cells start at `begin`.
+template <class Work>
+void for_each_row(std::size_t cells, int columns, const Work& work) {
   const auto width = static_cast<std::size_t>(columns);
-  core::parallel_for(values.size() / width, [&](std::size_t row) {
-    for (std::size_t i = row * width; i < (row + 1) * width; ++i)
-      grey[i] = grey_of(values[i], static_cast<int>(row));
-  });
-  return grey;
+  core::parallel_for(cells / width, [&](std::size_t row) { work(row, row * width, width); });
 }
 
 // Share of the interval of elevations [low, high] that each C-scope row covers, called as add(row,
@@ -64,26 +58,35 @@ void share_among_rows(const Display& display, double low_rad, double high_rad, c
 std::vector<double> bscope_grey(const Sensor& sensor, std::span<const double> power_W) {
   check_size(power_W.size(), sensor.range.cells, sensor.scan.columns, "B-scope power");
   const GreyScale scale(sensor);
-  return grey_of_rows(power_W, sensor.scan.columns,
-                      [&](double value, int row) { return scale.bscope_grey(value, row); });
+  std::vector<double> grey(power_W.size());
+  for_each_row(grey.size(), sensor.scan.columns,
+               [&](std::size_t row, std::size_t begin, std::size_t width) {
+                 scale.bscope_grey(power_W.subspan(begin, width), static_cast<int>(row),
+                                   grey.data() + begin);
+               });
+  return grey;
 }
 
 std::vector<double> cscope_grey(const Sensor& sensor, std::span<const double> compensated_W_m3) {
   check_size(compensated_W_m3.size(), sensor.display.cscope_rows, sensor.scan.columns,
              "C-scope power");
   const GreyScale scale(sensor);
-  return grey_of_rows(compensated_W_m3, sensor.scan.columns,
-                      [&](double value, int) { return scale.cscope_grey(value); });
+  std::vector<double> grey(compensated_W_m3.size());
+  for_each_row(grey.size(), sensor.scan.columns,
+               [&](std::size_t, std::size_t begin, std::size_t width) {
+                 scale.cscope_grey(compensated_W_m3.subspan(begin, width), grey.data() + begin);
+               });
+  return grey;
 }
 
 Picture8 bscope_picture(const Sensor& sensor, std::span<const double> grey) {
   check_size(grey.size(), sensor.range.cells, sensor.scan.columns, "B-scope grey");
   Picture8 picture{sensor.scan.columns, sensor.range.cells, {}};
-  picture.pixels.reserve(grey.size());
+  picture.pixels.resize(grey.size());
   const auto width = static_cast<std::size_t>(picture.columns);
-  for (std::size_t begin = grey.size(); begin > 0; begin -= width)
-    for (const double value : grey.subspan(begin - width, width))
-      picture.pixels.push_back(grey8(value));
+  std::uint8_t* row = picture.pixels.data();
+  for (std::size_t begin = grey.size(); begin > 0; begin -= width, row += width)
+    round_greys(grey.subspan(begin - width, width), row);
   return picture;
 }
 
@@ -91,7 +94,7 @@ Picture8 cscope_picture(const Sensor& sensor, std::span<const double> grey) {
   check_size(grey.size(), sensor.display.cscope_rows, sensor.scan.columns, "C-scope grey");
   Picture8 picture{sensor.scan.columns, sensor.display.cscope_rows, {}};
   picture.pixels.resize(grey.size());
-  std::transform(grey.begin(), grey.end(), picture.pixels.begin(), grey8);
+  round_greys(grey, picture.pixels.data());
   return picture;
 }
 

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/dispatch.h"
 #include "core/errors.h"
+#include "core/series.h"
 #include "sensors/cells.h"
 #include "sensors/display/seed_signal.h"
 
@@ -22,6 +24,34 @@ double level_of(double ratio, const char* field) {
   if (std::isnan(ratio))
     core::throw_input_error(core::ErrorClass::nonfinite, field, ratio, "0 or more");
   core::throw_input_error(core::ErrorClass::range, field, ratio, "0 or more");
+}
+
+// False when a value is negative or not a number; the greys then mean nothing.
+FANBEAM_HOT bool grey_of_all(const double* values, std::size_t count, double factor, double low_dB,
+                             double greys_per_dB, double* grey) {
+  unsigned refused = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double ratio = values[i] * factor;
+    refused |= ratio >= 0.0 ? 0U : 1U;
+    const double level_dB = kDecibelsPerNaturalLog * core::series_log(ratio);
+    const double unclamped = (level_dB - low_dB) * greys_per_dB;
+    const double above = unclamped > 0.0 ? unclamped : 0.0;
+    const double clamped = above < 255.0 ? above : 255.0;
+    grey[i] = ratio > 0.0 ? clamped : 0.0;
+  }
+  return refused == 0;
+}
+
+FANBEAM_HOT bool round_all(const double* grey, std::size_t count, std::uint8_t* rounded) {
+  unsigned refused = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    refused |= grey[i] == grey[i] ? 0U : 1U;
+    const double above = grey[i] > 0.0 ? grey[i] : 0.0;
+    const double clamped = above < 255.0 ? above : 255.0;
+    const int whole = static_cast<int>(clamped);
+    rounded[i] = static_cast<std::uint8_t>(whole + (clamped - whole >= 0.5 ? 1 : 0));
+  }
+  return refused == 0;
 }
 
 }  // namespace
@@ -78,6 +108,27 @@ double GreyScale::bscope_grey(double power_W, int range_row) const {
 double GreyScale::cscope_grey(double compensated_power_W_m3) const {
   return grey_of_level(level_of(compensated_power_W_m3 * level_per_compensated_per_W_m3_,
                                 "range-compensated power"));
+}
+
+void GreyScale::bscope_grey(std::span<const double> power_W, int range_row, double* grey) const {
+  grey_of_ratios(power_W, level_per_power_per_W_[static_cast<std::size_t>(range_row)],
+                 "received power", grey);
+}
+
+void GreyScale::cscope_grey(std::span<const double> compensated_power_W_m3, double* grey) const {
+  grey_of_ratios(compensated_power_W_m3, level_per_compensated_per_W_m3_, "range-compensated power",
+                 grey);
+}
+
+void GreyScale::grey_of_ratios(std::span<const double> values, double factor, const char* field,
+                               double* grey) const {
+  if (grey_of_all(values.data(), values.size(), factor, low_dB_, greys_per_dB_, grey)) return;
+  for (const double value : values) level_of(value * factor, field);  // throws at the first
+}
+
+void round_greys(std::span<const double> grey, std::uint8_t* rounded) {
+  if (round_all(grey.data(), grey.size(), rounded)) return;
+  for (const double value : grey) grey8(value);  // throws at the first
 }
 
 std::uint8_t grey8(double grey) {

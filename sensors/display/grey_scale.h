@@ -21,6 +21,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "sensors/sensor.h"
@@ -49,8 +50,15 @@ class GreyScale {
   double bscope_grey(double power_W, int range_row) const;
   // Of C-scope cells.
   double cscope_grey(double compensated_power_W_m3) const;
+  // The same of many cells, those of one row or of any, within 1e-11 grey. `grey` is as long as the
+  // powers.
+  void bscope_grey(std::span<const double> power_W, int range_row, double* grey) const;
+  void cscope_grey(std::span<const double> compensated_power_W_m3, double* grey) const;
 
  private:
+  void grey_of_ratios(std::span<const double> values, double factor, const char* field,
+                      double* grey) const;
+
   double low_dB_ = 0.0;
   double high_dB_ = 0.0;
   double greys_per_dB_ = 0.0;
@@ -62,5 +70,7 @@ class GreyScale {
 // `grey` rises.
 // Throws InputError E-NONFINITE for NaN.
 std::uint8_t grey8(double grey);
+// grey8 of many; `rounded` is as long.
+void round_greys(std::span<const double> grey, std::uint8_t* rounded);
 
 }  // namespace fanbeam::sensors

@@ -83,9 +83,9 @@ class PieceIntegral {
   double density(double along_m) const {
     const glm::dvec2 point = foot_ + along_m * along_;
     const double range_m = glm::length(point), sine = facet_m_ / range_m;
-    const double gain =
-        sensors::two_way_gain(sensor_.antenna.elevation, std::asin(point.y / range_m) -
-                                                             sensor_.antenna.boresight_elevation_rad);
+    const double gain = sensors::two_way_gain(
+        sensor_.antenna.elevation,
+        std::asin(point.y / range_m) - sensor_.antenna.boresight_elevation_rad);
     return gain * piece_.nrcs.sigma0(sine) / sine * glm::length(foot_) / std::pow(range_m, 4);
   }
 
@@ -131,25 +131,28 @@ inline double slice_azimuth_rad(const renderer::FanSums& sums, int sub_column) {
 }
 
 // Largest relative difference of one sub-column; infinite when a cell is lit that should be dark.
+// Power below `slivers` of level ground's, `level`, counts relative to that: rounding of where a
+// shadow ends is all of a cell that it barely lets be seen.
 inline double largest_error(const renderer::FanSums& sums, int sub_column,
-                            const std::vector<double>& expected) {
+                            const std::vector<double>& expected,
+                            const std::vector<double>& level = {}, double slivers = 0.0) {
   double largest = 0.0;
   for (std::size_t k = 0; k < expected.size(); ++k) {
     const double found = sums.range_W_per_rad[static_cast<std::size_t>(sub_column) *
                                                   static_cast<std::size_t>(sums.cells) +
                                               k];
     if (found == expected[k]) continue;
-    const double error = expected[k] > 0.0 ? std::abs(found / expected[k] - 1.0)
-                                           : std::numeric_limits<double>::infinity();
-    largest = std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(largest, error);
+    const double scale = std::max(expected[k], level.empty() ? 0.0 : slivers * level[k]);
+    const double error = std::abs(found - expected[k]) / scale;
+    largest =
+        std::isnan(error) ? std::numeric_limits<double>::infinity() : std::max(largest, error);
   }
   return largest;
 }
 
 // A number in (0, 1) for each place of a grid or draw of a test.
 inline double uniform(std::uint64_t seed, std::uint64_t cell, std::uint32_t draw = 0) {
-  return core::uniform_from(
-      core::random_words({seed, core::kStreamTerrain, 0}, cell, draw)[0]);
+  return core::uniform_from(core::random_words({seed, core::kStreamTerrain, 0}, cell, draw)[0]);
 }
 
 }  // namespace fanbeam::tests

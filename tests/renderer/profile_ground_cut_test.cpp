@@ -53,10 +53,9 @@ void check_cut(const terrain::HeightField& field, const glm::dvec2& origin_m,
   for (std::size_t i = 0; i <= cut.pieces; ++i) {
     // Rounding may place a point of the rim outside, where there is no height.
     constexpr double kInwards_m = 1e-12;
-    const glm::dvec2 at =
-        glm::clamp(origin_m + along * cut.distance_m[i],
-                   glm::dvec2(field.west_m, field.south_m) + kInwards_m,
-                   glm::dvec2(field.east_m(), field.north_m()) - kInwards_m);
+    const glm::dvec2 at = glm::clamp(origin_m + along * cut.distance_m[i],
+                                     glm::dvec2(field.west_m, field.south_m) + kInwards_m,
+                                     glm::dvec2(field.east_m(), field.north_m()) - kInwards_m);
     REQUIRE(field.height_at(at.x, at.y).has_value());
     REQUIRE(cut.height_m[i] + 100.0 == Approx(*field.height_at(at.x, at.y)).margin(1e-9));
   }
@@ -94,8 +93,14 @@ TEST_CASE("A cut exactly along grid lines and diagonals, from posts, rims and ed
   for (const double spacing_m : {10.0, 0.3, 250.0}) {
     const terrain::HeightField field = rough(9, 6, spacing_m);
     const double r = std::sqrt(0.5);
-    for (const glm::dvec2 along : {glm::dvec2(1.0, 0.0), {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0},
-                                   {r, r}, {-r, -r}, {r, -r}, {-r, r}})
+    for (const glm::dvec2 along : {glm::dvec2(1.0, 0.0),
+                                   {-1.0, 0.0},
+                                   {0.0, 1.0},
+                                   {0.0, -1.0},
+                                   {r, r},
+                                   {-r, -r},
+                                   {r, -r},
+                                   {-r, r}})
       for (int row = 0; row < field.rows; ++row)
         for (int column = 0; column < field.columns; ++column) {
           const glm::dvec2 at = post(field, column, row);

@@ -20,8 +20,7 @@ std::vector<tests::VisiblePiece> plane_under(const sensors::Sensor& sensor, cons
                                              double azimuth_rad,
                                              const materials::PhongNrcs& nrcs = tests::kGamma) {
   const double far_m = sensor.range.maximum_m();
-  const double rise =
-      slope.x * std::sin(azimuth_rad) + slope.y * std::cos(azimuth_rad);
+  const double rise = slope.x * std::sin(azimuth_rad) + slope.y * std::cos(azimuth_rad);
   return {{{0.0, -kHeight_m},
            {far_m, rise * far_m - kHeight_m},
            nrcs,
@@ -39,8 +38,7 @@ renderer::World plane(const sensors::Sensor& sensor, double spacing_m, const glm
 
 // Largest relative error over all sub-columns, seen from kHeight_m above `place_m`.
 double plane_error(const renderer::World& world, const glm::dvec2& slope, const glm::dvec2& place_m,
-                   double heading_rad = 0.0,
-                   const materials::PhongNrcs& nrcs = tests::kGamma) {
+                   double heading_rad = 0.0, const materials::PhongNrcs& nrcs = tests::kGamma) {
   const glm::dvec3 position_m(place_m, glm::dot(slope, place_m) + kHeight_m);
   const renderer::FanSums sums =
       tests::cast_profile(world, 1, tests::level_antenna(position_m, heading_rad));
@@ -111,19 +109,20 @@ TEST_CASE("Planes inclined along track and across hold the exact integral", "[pr
 }
 
 TEST_CASE("The local grazing angle counts from the facet, not from its cut", "[profile]") {
-  // sigma0 / sin(psi) = 0.1 sin(psi) is straight, so only its value at the middle of each cut
-  // differs from the integral: at most 2 (cell / 2 R)^2, 5.6e-4 in the first cell. A cross slope of
-  // 0.3 taken for level would be off by 4 %.
+  // sigma0 / sin(psi) = 0.1 sin(psi) changes by cell / R = 3 % over the first cell, and a piece
+  // takes the value of its middle for all of it, also for the part beyond a border between cells. A
+  // cross slope of 0.3 taken for level would be off by 4 % in every cell.
   const materials::PhongNrcs square(0.0, 0.1, 2.0);
   for (const glm::dvec2 slope : {glm::dvec2(0.0, 0.0), {0.3, 0.0}, {-0.2, 0.1}})
     for (const double spacing_m : {10.0, 250.0}) {
       const renderer::World world =
           plane(short_sensor(tests::even_hivision(4)), spacing_m, slope, square);
-      CHECK(plane_error(world, slope, {3.7, -1.3}, 0.0, square) < 5.6e-4);
+      CHECK(plane_error(world, slope, {3.7, -1.3}, 0.0, square) < 5e-3);
     }
 }
 
-TEST_CASE("A frame over level ground is the cell's integral times the azimuth beam's", "[profile]") {
+TEST_CASE("A frame over level ground is the cell's integral times the azimuth beam's",
+          "[profile]") {
   const sensors::Sensor sensor = short_sensor(tests::even_hivision(6));
   const renderer::World world = plane(sensor, 10.0, {});
   const std::vector<double> per_rad = tests::closed_form(sensor, plane_under(sensor, {}, 0.0));
@@ -150,12 +149,16 @@ TEST_CASE("HiVision over Phong ground follows the closed form within 0.01 dB at 
       const renderer::Frame frame =
           renderer::FrameRenderer(world, renderer::profile_sampling_for(4.0), {true, false}, {})
               .render(tests::level_pose(kHeight_m));
-      std::vector<double> worst_dB(150, 0.0);
-      for (std::size_t i = 0; i < frame.bscope_W.size(); ++i)
-        worst_dB[i / 12] =
-            std::max(worst_dB[i / 12],
-                     std::abs(10.0 * std::log10(frame.bscope_W[i] / (per_rad[i / 12] * beam_rad))));
-      INFO("posts " << spacing_m << " m apart, from cell 0: " << Catch::StringMaker<std::vector<double>>::convert(worst_dB));
-      CHECK(*std::max_element(worst_dB.begin(), worst_dB.end()) < 0.01);
+      double largest_dB = 0.0;
+      std::size_t worst_cell = 0;
+      for (std::size_t i = 0; i < frame.bscope_W.size(); ++i) {
+        const double error_dB =
+            std::abs(10.0 * std::log10(frame.bscope_W[i] / (per_rad[i / 12] * beam_rad)));
+        if (error_dB <= largest_dB) continue;
+        largest_dB = error_dB;
+        worst_cell = i / 12;
+      }
+      INFO("posts " << spacing_m << " m apart, worst cell " << worst_cell);
+      CHECK(largest_dB < 0.01);
     }
 }

@@ -45,10 +45,11 @@ TEST_CASE("A ridge hides exactly the ground behind its crest, and the border spl
           "[profile]") {
   const sensors::Sensor sensor = near_sensor(6.67, 180);
   constexpr double kCrest_m = 620.0, kTop_m = 20.0, kPosts_m = 10.0;
-  const renderer::World world = tests::world(
-      sensor, tests::ground(1500.0, kPosts_m,
-                            [](double, double y) { return y == kCrest_m ? kTop_m : 0.0; }),
-      {tests::kGamma});
+  const renderer::World world =
+      tests::world(sensor,
+                   tests::ground(1500.0, kPosts_m,
+                                 [](double, double y) { return y == kCrest_m ? kTop_m : 0.0; }),
+                   {tests::kGamma});
   const renderer::FanSums sums =
       tests::cast_profile(world, 8, tests::level_antenna({3.3, 0.0, kHeight_m}));
   const Profile profile = [&](double cosine) -> std::vector<tests::VisiblePiece> {
@@ -68,10 +69,9 @@ TEST_CASE("A hollow hides its near slope and the ground below the line over its 
   const sensors::Sensor sensor = near_sensor(6.67, 180);
   constexpr double kNear_m = 600.0, kFar_m = 700.0, kDepth_m = 40.0, kPosts_m = 10.0;
   const renderer::World world = tests::world(
-      sensor, tests::ground(1500.0, kPosts_m,
-                            [](double, double y) {
-                              return y > kNear_m && y < kFar_m ? -kDepth_m : 0.0;
-                            }),
+      sensor,
+      tests::ground(1500.0, kPosts_m,
+                    [](double, double y) { return y > kNear_m && y < kFar_m ? -kDepth_m : 0.0; }),
       {tests::kGamma});
   const renderer::FanSums sums =
       tests::cast_profile(world, 8, tests::level_antenna({3.3, 0.0, kHeight_m}));
@@ -79,8 +79,8 @@ TEST_CASE("A hollow hides its near slope and the ground below the line over its 
     const double near_m = kNear_m / cosine, far_m = kFar_m / cosine;
     const double slope_m = kPosts_m / cosine;  // horizontal extent of the far slope
     // -h d / near = -h - depth (far - d) / slope
-    const double out_m = (kHeight_m + kDepth_m * far_m / slope_m) /
-                         (kHeight_m / near_m + kDepth_m / slope_m);
+    const double out_m =
+        (kHeight_m + kDepth_m * far_m / slope_m) / (kHeight_m / near_m + kDepth_m / slope_m);
     return {{{0.0, -kHeight_m}, {near_m, -kHeight_m}},
             {{out_m, -kHeight_m * out_m / near_m}, {far_m, -kHeight_m}},
             {{far_m, -kHeight_m}, {sensor.range.maximum_m(), -kHeight_m}}};
@@ -94,9 +94,9 @@ TEST_CASE("A building's wall, roof and shadow hold their exact integrals", "[pro
   const sensors::Sensor sensor = near_sensor(20.0, 60);
   constexpr double kFront_m = 603.0, kBack_m = 631.0, kTop_m = 23.0;
   for (const double spacing_m : {10.0, 250.0}) {
-    const renderer::World world = tests::world(
-        sensor, level(spacing_m), {tests::kGamma},
-        {tests::box({-300.0, kFront_m, -5.0}, {300.0, kBack_m, kTop_m}, 0)});
+    const renderer::World world =
+        tests::world(sensor, level(spacing_m), {tests::kGamma},
+                     {tests::box({-300.0, kFront_m, -5.0}, {300.0, kBack_m, kTop_m}, 0)});
     const renderer::FanSums sums =
         tests::cast_profile(world, 8, tests::level_antenna({3.3, 0.0, kHeight_m}));
     const Profile profile = [&](double cosine) -> std::vector<tests::VisiblePiece> {
@@ -105,8 +105,7 @@ TEST_CASE("A building's wall, roof and shadow hold their exact integrals", "[pro
       return {{{0.0, -kHeight_m}, {front_m, -kHeight_m}},
               {{front_m, -kHeight_m}, {front_m, roof_m}},
               {{front_m, roof_m}, {back_m, roof_m}},
-              {{shadow_end_m(back_m, kTop_m), -kHeight_m},
-               {sensor.range.maximum_m(), -kHeight_m}}};
+              {{shadow_end_m(back_m, kTop_m), -kHeight_m}, {sensor.range.maximum_m(), -kHeight_m}}};
     };
     CHECK(largest_error(world, sums, profile) < 1e-9);
   }
@@ -117,23 +116,23 @@ TEST_CASE("A lower building behind a higher one shows what rises above the line 
   const sensors::Sensor sensor = near_sensor(20.0, 60);
   constexpr double kFirst_m = 603.0, kFirstBack_m = 611.0, kFirstTop_m = 23.0;
   constexpr double kSecond_m = 645.0, kSecondBack_m = 652.0, kSecondTop_m = 29.0;
-  const renderer::World world = tests::world(
-      sensor, level(), {tests::kGamma},
-      {tests::box({-300.0, kSecond_m, -5.0}, {300.0, kSecondBack_m, kSecondTop_m}, 0),
-       tests::box({-300.0, kFirst_m, -5.0}, {300.0, kFirstBack_m, kFirstTop_m}, 0)});
+  const renderer::World world =
+      tests::world(sensor, level(), {tests::kGamma},
+                   {tests::box({-300.0, kSecond_m, -5.0}, {300.0, kSecondBack_m, kSecondTop_m}, 0),
+                    tests::box({-300.0, kFirst_m, -5.0}, {300.0, kFirstBack_m, kFirstTop_m}, 0)});
   const renderer::FanSums sums =
       tests::cast_profile(world, 8, tests::level_antenna({3.3, 0.0, kHeight_m}));
   const Profile profile = [&](double cosine) -> std::vector<tests::VisiblePiece> {
     const double front_m = kFirst_m / cosine, edge_m = kFirstBack_m / cosine;
     const double second_m = kSecond_m / cosine, back_m = kSecondBack_m / cosine;
     const double first_m = kFirstTop_m - kHeight_m, roof_m = kSecondTop_m - kHeight_m;
-    return {{{0.0, -kHeight_m}, {front_m, -kHeight_m}},
-            {{front_m, -kHeight_m}, {front_m, first_m}},
-            {{front_m, first_m}, {edge_m, first_m}},
-            {{second_m, first_m * second_m / edge_m}, {second_m, roof_m}},
-            {{second_m, roof_m}, {back_m, roof_m}},
-            {{shadow_end_m(back_m, kSecondTop_m), -kHeight_m},
-             {sensor.range.maximum_m(), -kHeight_m}}};
+    return {
+        {{0.0, -kHeight_m}, {front_m, -kHeight_m}},
+        {{front_m, -kHeight_m}, {front_m, first_m}},
+        {{front_m, first_m}, {edge_m, first_m}},
+        {{second_m, first_m * second_m / edge_m}, {second_m, roof_m}},
+        {{second_m, roof_m}, {back_m, roof_m}},
+        {{shadow_end_m(back_m, kSecondTop_m), -kHeight_m}, {sensor.range.maximum_m(), -kHeight_m}}};
   };
   CHECK(largest_error(world, sums, profile) < 1e-9);
 }
@@ -159,11 +158,11 @@ TEST_CASE("A wall's grazing angle counts from the wall, seen obliquely", "[profi
   // less than 1e-4 more than its mean. Ground of nothing leaves the wall alone.
   const materials::PhongNrcs dark, square(0.0, 0.1, 2.0);
   const sensors::Sensor sensor = near_sensor(400.0, 4);
-  const renderer::World world =
-      tests::world(sensor, level(), {dark, square},
-                   {tests::building({{{-300.0, 603.0}, {300.0, 603.0}, {300.0, 640.0}, {-300.0, 640.0}},
-                                     {}, -5.0, 23.0},
-                                    1, 0)});
+  const renderer::World world = tests::world(
+      sensor, level(), {dark, square},
+      {tests::building(
+          {{{-300.0, 603.0}, {300.0, 603.0}, {300.0, 640.0}, {-300.0, 640.0}}, {}, -5.0, 23.0}, 1,
+          0)});
   for (const double heading_rad : {0.0, -0.4}) {
     const renderer::FanSums sums =
         tests::cast_profile(world, 8, tests::level_antenna({3.3, 0.0, kHeight_m}, heading_rad));
@@ -183,11 +182,11 @@ TEST_CASE("An oblique wall spreads over the ranges it takes within a slice's wed
   // nothing of the wall.
   const materials::PhongNrcs dark;
   sensors::Sensor sensor = near_sensor(0.5, 2000);
-  const renderer::World world =
-      tests::world(sensor, level(), {dark, tests::kGamma},
-                   {tests::building({{{-600.0, 603.0}, {300.0, 603.0}, {300.0, 640.0}, {-600.0, 640.0}},
-                                     {}, -5.0, 23.0},
-                                    1, 0)});
+  const renderer::World world = tests::world(
+      sensor, level(), {dark, tests::kGamma},
+      {tests::building(
+          {{{-600.0, 603.0}, {300.0, 603.0}, {300.0, 640.0}, {-600.0, 640.0}}, {}, -5.0, 23.0}, 1,
+          0)});
   constexpr double kHeading_rad = -0.6;
   const renderer::FanSums sums =
       tests::cast_profile(world, 1, tests::level_antenna({3.3, 0.0, kHeight_m}, kHeading_rad));
@@ -206,8 +205,8 @@ TEST_CASE("An oblique wall spreads over the ranges it takes within a slice's wed
       if (cell_m < farthest_m - 0.5 && cell_m > nearest_m) REQUIRE(power > 0.0);
     }
     const double front_m = 603.0 / std::cos(azimuth_rad);
-    const std::vector<double> expected = tests::closed_form(
-        sensor, {{{front_m, -kHeight_m}, {front_m, 23.0 - kHeight_m}}});
+    const std::vector<double> expected =
+        tests::closed_form(sensor, {{{front_m, -kHeight_m}, {front_m, 23.0 - kHeight_m}}});
     double expected_total = 0.0;
     for (const double power : expected) expected_total += power;
     REQUIRE(total == Approx(expected_total).epsilon(1e-9));

@@ -117,9 +117,11 @@ FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2
       height_m = west[0] + (u - i) * (west[1] - west[0]);
       row.advance();
     } else {
-      const int i = cell(u, last_column), j = std::clamp(i - diagonal.line, 0, last_row);
+      const int i = cell(u, last_column), j = i - diagonal.line;
       const double* sw = height + j * stride + i;
-      height_m = sw[0] + (u - i) * (sw[stride + 1] - sw[0]);
+      // Rounding on a rim may name a cell that is not there.
+      height_m = j >= 0 && j <= last_row ? sw[0] + (u - i) * (sw[stride + 1] - sw[0])
+                                         : height_at(next_m);
       diagonal.advance();
     }
     if (next_m - distance_of[pieces] >= kSmallestPiece_m) add_piece(next_m, height_m);

@@ -11,19 +11,34 @@
 
 namespace fanbeam::renderer {
 
+namespace {
+
+// The points asked for, by the slice they lie in.
+struct PointsOfSlices {
+  std::vector<std::size_t> begin;  // one more than slices
+  std::vector<SightPoint> points;
+};
+
+}  // namespace
+
 struct ProfileCaster::Frame {
   const sensors::AntennaFrame& antenna;
   const std::vector<std::uint32_t>& ray_groups;  // rising
   const PathLossTable& path_loss;
   const std::vector<Slice>& slices;
   const EdgeIndex& edges;
+  const PointsOfSlices& points;
+  std::uint8_t* clear;
+  std::size_t tile;  // slices that share their candidates
   bool with_cscope;
+
+  SliceSweep::Sights sights(std::size_t slice) const {
+    return {points.points.data() + points.begin[slice],
+            points.points.data() + points.begin[slice + 1], clear};
+  }
 };
 
 namespace {
-
-// Slices that share their candidates.
-constexpr int kTileSlices = 16;
 
 glm::dvec2 horizontal(const glm::dvec3& direction) {
   const glm::dvec2 flat(direction.x, direction.y);
@@ -33,6 +48,34 @@ glm::dvec2 horizontal(const glm::dvec3& direction) {
 
 double turn_rad(const glm::dvec2& from, const glm::dvec2& to) {
   return std::atan2(from.y * to.x - from.x * to.y, glm::dot(from, to));
+}
+
+// Points beyond the slices, and in azimuths left to rays, stay at kAskRays.
+PointsOfSlices sort_points(const std::vector<Slice>& slices, const glm::dvec3& sensor_m,
+                           const glm::dvec2& forward, SightLines& sight) {
+  std::vector<std::size_t> slice_of(sight.to_m.size());
+  PointsOfSlices sorted;
+  sorted.begin.assign(slices.size() + 1, 0);
+  const double half_rad = slices.front().width_rad / 2;
+  const auto before = [half_rad](const Slice& slice, double heading_rad) {
+    return slice.heading_rad + half_rad < heading_rad;
+  };
+  for (std::size_t i = 0; i < sight.to_m.size(); ++i) {
+    const double heading_rad = turn_rad(forward, glm::dvec2(sight.to_m[i] - sensor_m));
+    const auto at = std::lower_bound(slices.begin(), slices.end(), heading_rad, before);
+    const bool inside = at != slices.end() && heading_rad >= at->heading_rad - half_rad;
+    slice_of[i] = inside ? static_cast<std::size_t>(at - slices.begin()) : slices.size();
+    if (inside) ++sorted.begin[slice_of[i] + 1];
+  }
+  for (std::size_t s = 0; s < slices.size(); ++s) sorted.begin[s + 1] += sorted.begin[s];
+  sorted.points.resize(sorted.begin.back());
+  std::vector<std::size_t> next(sorted.begin.begin(), sorted.begin.end() - 1);
+  for (std::size_t i = 0; i < sight.to_m.size(); ++i) {
+    if (slice_of[i] == slices.size()) continue;
+    const glm::dvec3 there = sight.to_m[i] - sensor_m;
+    sorted.points[next[slice_of[i]]++] = {glm::length(glm::dvec2(there)), there.z, i};
+  }
+  return sorted;
 }
 
 // What a box covers of the horizon, seen from above; the whole of it from inside.
@@ -125,8 +168,8 @@ std::vector<Slice> ProfileCaster::tilted_slices(const sensors::AntennaFrame& ant
   return slices;
 }
 
-void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
-                         FanSums& sums) const {
+void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums,
+                         SightLines& sight) const {
   lay_out_fan(world_, sampling_, with_cscope, sums);
   const double sensor_m = antenna.position_m.z;
   const PathLossTable path_loss(world_.attenuation, sensor_m,
@@ -136,13 +179,21 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                      antenna.up.z > kLevelCosine;
   const std::vector<Slice> slices =
       level ? level_slices(antenna, sums) : tilted_slices(antenna, sums);
+  // About a column's worth: fewer candidates, or fewer lists that an edge is in.
+  const auto tile = static_cast<std::size_t>(
+      std::clamp(sampling_.sub_columns * sampling_.slices_per_sub_column, 4, 16));
   std::vector<double> headings_rad;
   for (const Slice& slice : slices) headings_rad.push_back(slice.heading_rad);
   const EdgeIndex edges(world_, {antenna.position_m.x, antenna.position_m.y},
-                        horizontal(antenna.forward), headings_rad, kTileSlices);
+                        horizontal(antenna.forward), headings_rad, tile);
   const std::vector<std::uint32_t> ray_groups = level ? groups_for_rays(antenna, slices, sums)
                                                       : std::vector<std::uint32_t>{};
-  const Frame frame{antenna, ray_groups, path_loss, slices, edges, with_cscope};
+  sight.clear.assign(sight.to_m.size(), kAskRays);
+  const PointsOfSlices points =
+      sort_points(slices, antenna.position_m, horizontal(antenna.forward), sight);
+  const Frame frame{antenna, ray_groups, path_loss,          slices,
+                    edges,   points,     sight.clear.data(), tile,
+                    with_cscope};
   if (level)
     cast_level(frame, sums);
   else
@@ -150,6 +201,7 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
   sums.slices = slices.size() - ray_groups.size() * kGroupAzimuths *
                                     static_cast<std::size_t>(sampling_.slices_per_sub_column);
   if (!ray_groups.empty()) rays_->cast_groups(antenna, with_cscope, ray_groups, sums);
+  look_along_rays(*world_.surfaces, antenna.position_m, sight);
 }
 
 // Groups whose slices some box may meet. A sub-column's half-planes lean from the slices' by up to
@@ -209,8 +261,8 @@ void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
         hits += static_cast<std::uint64_t>(pieces.count);
         power.add(slice, pieces, bins);
       };
-      sweep.run(slice, frame.edges.candidates(i / kTileSlices), world_.sensor.range.maximum_m(),
-                visible, empty);
+      sweep.run(slice, frame.edges.candidates(i / frame.tile), world_.sensor.range.maximum_m(),
+                visible, empty, frame.sights(i));
       empty(visible);
     }
     std::copy_n(range_bins.begin(), cells, &sums.range_W_per_rad[sub * cells]);
@@ -255,8 +307,8 @@ void ProfileCaster::cast_across(const Frame& frame, FanSums& sums) const {
         part.hits += static_cast<std::uint64_t>(pieces.count);
         power.add(slice, pieces, bins);
       };
-      sweep.run(slice, frame.edges.candidates(i / kTileSlices), world_.sensor.range.maximum_m(),
-                visible, empty);
+      sweep.run(slice, frame.edges.candidates(i / frame.tile), world_.sensor.range.maximum_m(),
+                visible, empty, frame.sights(i));
       empty(visible);
     }
     part.blanked = power.blanked();

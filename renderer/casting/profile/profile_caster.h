@@ -10,6 +10,9 @@
 // azimuths cannot meet it, so both see each other rightly. With a tilted antenna or a cone scan
 // sub-columns are no half-planes; scenes with such things then go to rays alone.
 //
+// Lines of sight are tested against the horizon of the slice that they lie in, at their own
+// distance and height: up to half a wedge beside their true azimuth.
+//
 // Neglected: what ray_caster.h neglects. A slice is a half-plane through the local vertical; an
 // antenna tilted by less than 1 mrad counts as level.
 #pragma once
@@ -35,7 +38,9 @@ class ProfileCaster : public Caster {
   // `world` must outlive the caster and satisfy profile_applies.
   ProfileCaster(const World& world, const Sampling& sampling);
 
-  void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const override;
+  using Caster::cast;
+  void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums,
+            SightLines& sight) const override;
 
  private:
   struct Frame;

@@ -24,8 +24,8 @@ using In = const double*;
 #endif
 
 constexpr double kLeast_m2 = 1e-12;
-// Share of the range below which one middle does for a piece on both sides of a cell's border.
-constexpr double kShort = 0.02;
+// Elevation below which one middle does for a piece on both sides of a cell's border.
+constexpr double kSmallTurn_rad = 5e-4;
 
 // integral of p ds / (p^2 + s^2)^2, slice_power.h.
 inline double solid_integral(double p, double s1, double s2) {
@@ -37,8 +37,7 @@ inline double solid_integral(double p, double s1, double s2) {
   const double x = length * length / 4 * inverse2;
   const double c2 = 12.0 * cosine2 - 2.0;
   const double c4 = (80.0 * cosine2 - 48.0) * cosine2 + 3.0;
-  const double c6 = ((448.0 * cosine2 - 480.0) * cosine2 + 120.0) * cosine2 - 4.0;
-  const double series = 1.0 + x * (c2 / 3 + x * (c4 / 5 + x * (c6 / 7)));
+  const double series = 1.0 + x * (c2 / 3 + x * (c4 / 5));
   return length * p * inverse2 * inverse2 * series;
 }
 
@@ -92,7 +91,8 @@ FANBEAM_HOT void integrate(const sensors::RangeGate& gate, const VisiblePieces& 
     const double least = c1 < c2 ? c1 : c2, most = c1 < c2 ? c2 : c1;
     const double enters = least < 0.0 ? apart : 0.0, leaves = most >= cells ? apart : 0.0;
     // So are pieces close by, where pattern and NRCS differ from one half to the other.
-    const double near_by = length2 > kShort * kShort * range1 * range1 ? apart : 0.0;
+    const double turn = cross[i] / (range1 * range2);
+    const double near_by = turn > kSmallTurn_rad ? apart : 0.0;
     const double long_one = apart + turns + enters + leaves + near_by > 1.0 ? 1.0 : 0.0;
     const double found = farther[i] - nearer[i] > 0.0 ? 2.0 : long_one;
     kind[i] = static_cast<std::int32_t>(found);
@@ -510,6 +510,7 @@ void SlicePower::deposit_across(const VisiblePieces& pieces, const Slice& slice,
     const double to = (azimuth_rad + half_rad - bins.first_azimuth_rad) / bins.step_rad;
     const int first = std::max(static_cast<int>(std::floor(from)), 0);
     const int last = std::min(static_cast<int>(std::floor(to)), bins.sub_columns - 1);
+    if (!(to > from)) continue;  // the antenna on its side: no azimuth to tell
     for (int sub = first; sub <= last; ++sub) {
       const double share = solid_angle *
                            (std::min(to, sub + 1.0) - std::max(from, static_cast<double>(sub))) /

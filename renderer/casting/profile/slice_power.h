@@ -8,10 +8,10 @@
 //            = K g_el^2 [sigma0 / sin(psi)] L  integral p ds / (p^2 + s^2)^2 ,
 // the same power as in ray_caster.h. The integral is taken between the borders of range cells
 // (s^2 = R^2 - p^2). It is evaluated as
-//     2 h p / Rm^4 [1 + C2 x/3 + C4 x^2/5 + C6 x^3/7] ,  x = (h / Rm)^2 ,
+//     2 h p / Rm^4 [1 + C2 x/3 + C4 x^2/5] ,  x = (h / Rm)^2 ,
 // around the middle m of a cut of half-length h, with the Gegenbauer polynomials C_2k^(2)(s_m/R_m)
-// (Abramowitz & Stegun, Handbook of Mathematical Functions, 1964, 22.9.3): relative error below
-// 1e-12 for cuts shorter than R/30. Pattern, NRCS and loss are those at the middle of the cut.
+// (Abramowitz & Stegun, Handbook of Mathematical Functions, 1964, 22.9.3): relative error 12 x^3,
+// 3e-10 for a cell of 6.67 m at 200 m. Pattern, NRCS and loss are those at the middle of the cut.
 // Elevation rows: the power of a cut times its middle R^3, spread evenly over the elevations
 // between its ends.
 //

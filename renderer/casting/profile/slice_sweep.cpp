@@ -4,10 +4,25 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/casting/caster.h"
+
 namespace fanbeam::renderer {
 namespace {
 
 constexpr double kBelowEverything = -1e300;
+// Elevation that one piece may span: pattern, range and, under a tilted antenna, azimuth are those
+// of its middle.
+constexpr double kMostElevation_rad = 0.002;
+// A wall nearer than this to the slice's own direction stands edge on.
+constexpr double kEdgeOn_rad = 1e-9;
+
+// Into how many parts a piece goes; from its length across the line of sight and its range.
+int parts_of(double d0, double z0, double d1, double z1) {
+  const double across2 = std::abs(d0 * z1 - d1 * z0);
+  const double nearest2 = std::min(d0 * d0 + z0 * z0, d1 * d1 + z1 * z1);
+  if (across2 <= kMostElevation_rad * nearest2) return 1;
+  return 1 + static_cast<int>(std::min(across2 / (kMostElevation_rad * nearest2), 1000.0));
+}
 
 }  // namespace
 
@@ -19,15 +34,20 @@ SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const Edg
       edges_(edges) {}
 
 void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates, double far_m,
-                     VisiblePieces& pieces, const Full& full) {
+                     VisiblePieces& pieces, const Full& full, const Sights& sights) {
   slice_ = slice;
+  sights_ = sights;
   pieces_ = &pieces;
   full_ = &full;
   horizon_ = kBelowEverything;
   active_ = edges_.below_sensor();
+  left_already_.clear();
   roof_from_m_ = 0.0;
   find_top();
   cut_ground(*ground_, {sensor_m_.x, sensor_m_.y}, slice.along, far_m, sensor_m_.z, cut_);
+  // Seen from outside, the grid's rim hides what lies under it.
+  if (cut_.pieces > 0 && cut_.distance_m[0] > 0.0)
+    horizon_ = cut_.height_m[0] / cut_.distance_m[0];
   find_events(candidates, far_m);
   std::size_t next = 0;
   for (std::size_t i = 0; i < cut_.pieces; ++i) {
@@ -46,6 +66,17 @@ void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates
   if (roofed_ && cut_.pieces > 0) close_roof(cut_.distance_m[cut_.pieces]);
 }
 
+// Where the half-plane meets an edge that it is known to cross: never beyond the edge's ends.
+double SliceSweep::crossing_m(const CutEdge& edge, const glm::dvec2& along) {
+  const glm::dvec2 step = edge.to_m - edge.from_m;
+  const double length = glm::length(step);
+  const double from_m = glm::length(edge.from_m), to_m = glm::length(edge.to_m);
+  const double across = along.x * step.y - along.y * step.x;
+  if (std::abs(across) <= kEdgeOn_rad * length) return from_m;
+  return std::clamp(edge.cross_m2 / across, std::abs(edge.cross_m2) / length,
+                    std::max({from_m, to_m, std::abs(edge.cross_m2) / length}));
+}
+
 // Edges come roughly sorted: insertion puts the rest in order.
 void SliceSweep::find_events(const EdgeIndex::Candidates& candidates, double far_m) {
   events_.clear();
@@ -54,18 +85,36 @@ void SliceSweep::find_events(const EdgeIndex::Candidates& candidates, double far
     const CutEdge& edge = edges_.edges()[index];
     const bool from_left = edge.from_rad <= slice_.heading_rad;
     if (from_left == (edge.to_rad <= slice_.heading_rad)) continue;
-    const glm::dvec2 step = edge.to_m - edge.from_m;
-    const double distance_m = edge.cross_m2 / (u.x * step.y - u.y * step.x);
-    if (!(distance_m > 0.0 && distance_m < far_m)) continue;
-    std::size_t place = events_.size();
-    events_.push_back({distance_m, index});
-    for (; place > 0 && events_[place - 1].distance_m > distance_m; --place)
-      events_[place] = events_[place - 1];
-    events_[place] = {distance_m, index};
+    const double distance_m = crossing_m(edge, u);
+    if (distance_m < far_m) add_event(distance_m, index);
+  }
+  auto number = static_cast<std::uint32_t>(edges_.edges().size());
+  for (const SightPoint* point = sights_.first; point != sights_.last; ++point) {
+    const double range_m = std::hypot(point->distance_m, point->height_m);
+    const double share = std::max(1.0 - kSightClearance_m / range_m, 0.0);
+    add_event(point->distance_m * share, number++);
   }
 }
 
+void SliceSweep::add_event(double distance_m, std::uint32_t edge) {
+  std::size_t place = events_.size();
+  events_.push_back({distance_m, edge});
+  for (; place > 0 && events_[place - 1].distance_m > distance_m; --place)
+    events_[place] = events_[place - 1];
+  events_[place] = {distance_m, edge};
+}
+
+void SliceSweep::test(const SightPoint& point, double at_m) {
+  const double tangent = point.height_m / point.distance_m;
+  const bool in_a_building = roofed_ && tangent * at_m < roof_m_;
+  sights_.clear[point.line] = tangent >= horizon_ && !in_a_building ? 1 : 0;
+}
+
 void SliceSweep::pass(const Event& event, double ground_m) {
+  if (event.edge >= edges_.edges().size()) {
+    test(sights_.first[event.edge - edges_.edges().size()], event.distance_m);
+    return;
+  }
   const CutEdge& edge = edges_.edges()[event.edge];
   if (edge.prism == CutEdge::kPaint) return;  // it has cut the ground already
   // The building lies left of the edge: beyond it when the edge runs clockwise.
@@ -76,6 +125,11 @@ void SliceSweep::pass(const Event& event, double ground_m) {
 }
 
 void SliceSweep::enter(const Event& event, const CutEdge& edge, double ground_m) {
+  const auto left = std::find(left_already_.begin(), left_already_.end(), edge.prism);
+  if (left != left_already_.end()) {
+    left_already_.erase(left);
+    return;
+  }
   const double top_m = world_.solids.prisms[edge.prism].top_m - sensor_m_.z;
   const double below_m = roofed_ ? std::max(roof_m_, ground_m) : ground_m;
   active_.push_back(edge.prism);
@@ -88,7 +142,11 @@ void SliceSweep::enter(const Event& event, const CutEdge& edge, double ground_m)
 
 void SliceSweep::leave(double distance_m, std::uint32_t prism) {
   const auto at = std::find(active_.begin(), active_.end(), prism);
-  if (at == active_.end()) return;
+  if (at == active_.end()) {
+    // Rounding at a corner may put the way out before the way in.
+    left_already_.push_back(prism);
+    return;
+  }
   active_.erase(at);
   close_roof(distance_m);
   find_top();
@@ -149,6 +207,23 @@ int SliceSweep::next_piece() {
   return pieces_->count++;
 }
 
+// Moves the near end of a piece that reaches into the range gate up to it: ground below the sensor
+// spans many elevations that no cell holds.
+void SliceSweep::skip_to_gate(double& d0, double& z0, double d1, double z1) const {
+  const double step_d = d1 - d0, step_z = z1 - z0;
+  const double length2 = step_d * step_d + step_z * step_z;
+  const double gate_m = world_.sensor.range.minimum_m;
+  if (d0 * d0 + z0 * z0 >= gate_m * gate_m) return;
+  const double along = d0 * step_d + z0 * step_z;
+  const double beside = d0 * step_z - z0 * step_d;
+  // Along the line from its nearest point: R^2 length2 = beside^2 + s^2.
+  const double at_gate =
+      std::sqrt(std::max(gate_m * gate_m * length2 - beside * beside, 0.0));
+  const double share = std::clamp((at_gate - along) / length2, 0.0, 1.0);
+  d0 += share * step_d;
+  z0 += share * step_z;
+}
+
 void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::size_t piece) {
   if (!visible(d0, z0, d1, z1)) return;
   const GroundCut::Cell& cell = cut_.cells[piece];
@@ -159,21 +234,30 @@ void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::siz
   const double gx = (cell.upper ? ne - sw[stride] : sw[1] - sw[0]) * per_m;
   const double gy = (cell.upper ? sw[stride] - sw[0] : ne - sw[1]) * per_m;
   const double slope = gx * slice_.along.x + gy * slice_.along.y;
-  const int i = next_piece();
-  pieces_->near_distance_m[i] = d0;
-  pieces_->near_height_m[i] = z0;
-  pieces_->far_distance_m[i] = d1;
-  pieces_->far_height_m[i] = z1;
   // The facet's plane passes this far below the sensor.
   const double below_m = slope * d1 - z1;
-  pieces_->cross_m2[i] = below_m * (d1 - d0);
-  pieces_->facet_m[i] = below_m;
-  pieces_->facet_d2[i] = 1.0 + gx * gx + gy * gy;
-  pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
   const double middle_m = (d0 + d1) / 2;
-  pieces_->material[i] = map_->material_in_cell(cell.column, cell.row,
-                                                sensor_m_.x + slice_.along.x * middle_m,
-                                                sensor_m_.y + slice_.along.y * middle_m);
+  const std::int32_t material = map_->material_in_cell(
+      cell.column, cell.row, sensor_m_.x + slice_.along.x * middle_m,
+      sensor_m_.y + slice_.along.y * middle_m);
+  const double gate_m = world_.sensor.range.minimum_m;
+  const bool reaches_gate = d1 >= gate_m || d1 * d1 + z1 * z1 >= gate_m * gate_m;
+  if (d0 < gate_m && reaches_gate) skip_to_gate(d0, z0, d1, z1);
+  if (!(d1 > d0)) return;
+  const int parts = reaches_gate ? parts_of(d0, z0, d1, z1) : 1;
+  const double step_d = (d1 - d0) / parts, step_z = (z1 - z0) / parts;
+  for (int part = 0; part < parts; ++part) {
+    const int i = next_piece();
+    pieces_->near_distance_m[i] = d0 + step_d * part;
+    pieces_->near_height_m[i] = z0 + step_z * part;
+    pieces_->far_distance_m[i] = part + 1 == parts ? d1 : d0 + step_d * (part + 1);
+    pieces_->far_height_m[i] = part + 1 == parts ? z1 : z0 + step_z * (part + 1);
+    pieces_->cross_m2[i] = below_m * step_d;
+    pieces_->facet_m[i] = below_m;
+    pieces_->facet_d2[i] = 1.0 + gx * gx + gy * gy;
+    pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
+    pieces_->material[i] = material;
+  }
 }
 
 void SliceSweep::close_roof(double distance_m) {
@@ -197,30 +281,34 @@ void SliceSweep::see_wall(double distance_m, double low_m, double top_m, const C
   if (!(top_m > from_m)) return;
   horizon_ = top_m / distance_m;
   const glm::dvec2 step = edge.to_m - edge.from_m;
-  // The wall stands at cross / (along x step) under every heading; the wedge's borders are clipped
-  // to the wall's corners.
-  const double across = slice_.along.x * step.y - slice_.along.y * step.x;
-  const double beside = glm::dot(slice_.along, step);
   const double range_per_distance =
       distance_m / std::sqrt(distance_m * distance_m + top_m * top_m);
+  // How much nearer or farther the wall stands under another heading of the wedge, whose borders
+  // are clipped to the wall's corners.
   const auto moved_m = [&](double turn_rad) {
-    const double there_m =
-        edge.cross_m2 / (across * std::cos(turn_rad) + beside * std::sin(turn_rad));
-    return (there_m - distance_m) * range_per_distance;
+    const glm::dvec2 clockwise(slice_.along.y, -slice_.along.x);
+    const glm::dvec2 turned =
+        slice_.along * std::cos(turn_rad) + clockwise * std::sin(turn_rad);
+    return (crossing_m(edge, turned) - distance_m) * range_per_distance;
   };
   const double half_rad = slice_.width_rad / 2;
   const double left_m = moved_m(std::max(edge.from_rad - slice_.heading_rad, -half_rad));
   const double right_m = moved_m(std::min(edge.to_rad - slice_.heading_rad, half_rad));
-  const int i = next_piece();
-  pieces_->near_distance_m[i] = pieces_->far_distance_m[i] = distance_m;
-  pieces_->near_height_m[i] = from_m;
-  pieces_->far_height_m[i] = top_m;
-  pieces_->cross_m2[i] = distance_m * (top_m - from_m);
-  pieces_->facet_d2[i] = 1.0;
-  pieces_->facet_m[i] = std::abs(edge.cross_m2) / glm::length(step);
-  pieces_->nearer_m[i] = std::min({left_m, right_m, 0.0});
-  pieces_->farther_m[i] = std::max({left_m, right_m, 0.0});
-  pieces_->material[i] = world_.solids.prisms[edge.prism].wall;
+  const double facet_m = std::abs(edge.cross_m2) / glm::length(step);
+  const int parts = parts_of(distance_m, from_m, distance_m, top_m);
+  const double part_m = (top_m - from_m) / parts;
+  for (int part = 0; part < parts; ++part) {
+    const int i = next_piece();
+    pieces_->near_distance_m[i] = pieces_->far_distance_m[i] = distance_m;
+    pieces_->near_height_m[i] = from_m + part_m * part;
+    pieces_->far_height_m[i] = part + 1 == parts ? top_m : from_m + part_m * (part + 1);
+    pieces_->cross_m2[i] = distance_m * part_m;
+    pieces_->facet_d2[i] = 1.0;
+    pieces_->facet_m[i] = facet_m;
+    pieces_->nearer_m[i] = std::min({left_m, right_m, 0.0});
+    pieces_->farther_m[i] = std::max({left_m, right_m, 0.0});
+    pieces_->material[i] = world_.solids.prisms[edge.prism].wall;
+  }
 }
 
 }  // namespace fanbeam::renderer

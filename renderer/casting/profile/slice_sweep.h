@@ -17,6 +17,13 @@
 
 namespace fanbeam::renderer {
 
+// A point in a slice of which is asked whether it is seen.
+struct SightPoint {
+  double distance_m = 0.0;  // horizontal
+  double height_m = 0.0;    // relative to the sensor
+  std::size_t line = 0;     // index into SightLines
+};
+
 class SliceSweep {
  public:
   SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges);
@@ -24,14 +31,23 @@ class SliceSweep {
   // Walks `slice` out to `far_m`. `full` is called whenever `pieces` has no room left and must
   // empty it; what remains at the end stays there.
   using Full = std::function<void(VisiblePieces&)>;
+  // Points [first, last) are tested against the horizon on the way; `clear` gets their answers.
+  struct Sights {
+    const SightPoint* first = nullptr;
+    const SightPoint* last = nullptr;
+    std::uint8_t* clear = nullptr;
+  };
   void run(const Slice& slice, const EdgeIndex::Candidates& candidates, double far_m,
-           VisiblePieces& pieces, const Full& full);
+           VisiblePieces& pieces, const Full& full, const Sights& sights);
 
  private:
   struct Event {
     double distance_m;
-    std::uint32_t edge;
+    std::uint32_t edge;  // from the number of edges on: points of `sights_`
   };
+  static double crossing_m(const CutEdge& edge, const glm::dvec2& along);
+  void add_event(double distance_m, std::uint32_t edge);
+  void test(const SightPoint& point, double at_m);
   void find_events(const EdgeIndex::Candidates& candidates, double far_m);
   void pass(const Event& event, double ground_m);
   void enter(const Event& event, const CutEdge& edge, double ground_m);
@@ -41,6 +57,7 @@ class SliceSweep {
   void see_wall(double distance_m, double low_m, double top_m, const CutEdge& edge);
   void close_roof(double distance_m);
   void find_top();
+  void skip_to_gate(double& d0, double& z0, double d1, double z1) const;
   bool visible(double& d0, double& z0, double d1, double z1);
   int next_piece();
 
@@ -55,8 +72,10 @@ class SliceSweep {
   std::vector<Event> events_;
   VisiblePieces* pieces_ = nullptr;
   const Full* full_ = nullptr;
+  Sights sights_;
   double horizon_ = 0.0;  // tangent
   std::vector<std::uint32_t> active_;  // prisms around the walk
+  std::vector<std::uint32_t> left_already_;
   bool roofed_ = false;
   double roof_m_ = 0.0;       // highest active roof, relative to the sensor
   double roof_from_m_ = 0.0;  // the roof is seen as far as here

@@ -1,0 +1,92 @@
+// Finds the gaps of a chain: where neighbours are farther apart than a range cell or hit different
+// surfaces. A gap is filled by halving, and only its halves can be gaps of the next level.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/casting/ray_chain.h"
+#include "terrain/ray_scene.h"
+
+namespace fanbeam::renderer {
+
+class GapFinder {
+ public:
+  // Neighbours farther apart than this are not one piece of surface.
+  explicit GapFinder(double limit_m) : limit_m_(limit_m) {}
+
+  // Into `gaps`, all of a fan just linked, from the lowest elevation up.
+  void search_fan(const RayChain& rays, bool horizon_only, std::vector<std::uint8_t>& marks,
+                  std::vector<RayGap>& gaps) const {
+    const int count = rays.count() - kGroupAzimuths;
+    gaps.clear();
+    if (count <= 0) return;
+    marks.resize(static_cast<std::size_t>(count));
+    gaps.resize(static_cast<std::size_t>(count));
+    if (horizon_only) {
+      mark<true>(rays, count, marks.data());
+    } else {
+      mark<false>(rays, count, marks.data());
+    }
+    RayGap* found = gaps.data();
+    const std::uint8_t* const mark_of = marks.data();
+    for (std::int32_t i = 0; i < count; ++i) {
+      *found = {i, i + kGroupAzimuths};
+      found += mark_of[i];
+    }
+    gaps.resize(static_cast<std::size_t>(found - gaps.data()));
+  }
+
+  // Into `halves`, those of `gaps` filled by the rays from `first` on.
+  void search_halves(const RayChain& rays, bool horizon_only, const std::vector<RayGap>& gaps,
+                     int first, std::vector<RayGap>& halves) const {
+    halves.resize(2 * gaps.size());
+    std::size_t found = 0;
+    for (const RayGap& gap : gaps) {
+      const std::int32_t between = first++;
+      halves[found] = {gap.below, between};
+      found += is_gap(rays, gap.below, between, horizon_only) ? 1 : 0;
+      halves[found] = {between, gap.above};
+      found += is_gap(rays, between, gap.above, horizon_only) ? 1 : 0;
+    }
+    halves.resize(found);
+  }
+
+ private:
+  static constexpr double kSmallestStep_rad = 1e-5;  // 4 cm at 3.7 km: finer than any surface
+
+  bool is_gap(const RayChain& rays, std::int32_t below, std::int32_t above,
+              bool horizon_only) const {
+    const auto b = static_cast<std::size_t>(below), a = static_cast<std::size_t>(above);
+    return differ(rays.elevation_rad.data(), rays.range_m.data(), rays.surface.data(), b, a,
+                  horizon_only);
+  }
+  template <bool horizon_only>
+  void mark(const RayChain& rays, int count, std::uint8_t* marks) const {
+    const double* elevation_rad = rays.elevation_rad.data();
+    const float* range_m = rays.range_m.data();
+    const std::uint32_t* surface = rays.surface.data();
+    for (int i = 0; i < count; ++i) {
+      const auto below = static_cast<std::size_t>(i);
+      marks[i] =
+          differ(elevation_rad, range_m, surface, below, below + kGroupAzimuths, horizon_only) ? 1
+                                                                                               : 0;
+    }
+  }
+  bool differ(const double* elevation_rad, const float* range_m, const std::uint32_t* surface,
+              std::size_t below, std::size_t above, bool horizon_only) const {
+    const bool resolved = elevation_rad[above] - elevation_rad[below] >= kSmallestStep_rad;
+    const bool horizon = (surface[below] == terrain::kNoHit) != (surface[above] == terrain::kNoHit);
+    const bool apart = static_cast<double>(std::abs(range_m[above] - range_m[below])) > limit_m_;
+    const bool differs =
+        static_cast<unsigned>(surface[below] != surface[above]) | static_cast<unsigned>(apart);
+    return static_cast<unsigned>(resolved) &
+           static_cast<unsigned>(horizon_only ? horizon : differs);
+  }
+
+  double limit_m_;
+};
+
+}  // namespace fanbeam::renderer

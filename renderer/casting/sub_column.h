@@ -1,0 +1,26 @@
+// Where inside its sub-column of azimuth a ray goes.
+#pragma once
+
+#include <cstdint>
+
+namespace fanbeam::renderer {
+
+struct SubColumn {
+  double centre_rad = 0.0, cosine = 0.0, sine = 0.0, step_rad = 0.0;
+
+  // Of `place` in [0, 1) from the middle.
+  double offset_rad(double place) const { return step_rad * (place - 0.5); }
+};
+
+// A low-discrepancy place inside the sub-column for ray `index`: multiples of the golden ratio,
+// shifted from sub-column to sub-column by another irrational so that neighbours do not repeat each
+// other.
+inline double dither(std::uint32_t index, int sub_column) {
+  // Fractions as 32-bit integers wrap round by themselves: 0.6180339887 and 0.7548776662 times
+  // 2^32.
+  const std::uint32_t value =
+      index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U;
+  return static_cast<double>(value) * 0x1p-32;
+}
+
+}  // namespace fanbeam::renderer
