@@ -37,6 +37,9 @@ ElevationFan::ElevationFan(const World& world, const Sampling& sampling)
   const double reach_rad = sensors::reach_rad(antenna.elevation);
   lowest_rad_ = std::max(antenna.boresight_elevation_rad - reach_rad, -core::kPi / 2);
   highest_rad_ = std::min(antenna.boresight_elevation_rad + reach_rad, core::kPi / 2);
+  const sensors::Display& display = world.sensor.display;
+  object_step_rad_ =
+      std::min(sampling.largest_step_rad, display.cscope_span_rad / display.cscope_rows);
 }
 
 void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
@@ -50,7 +53,8 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
     follow_ground(frame, middle_rad, edges);
     // Beside the centre azimuth the horizon may stand a little higher.
     for (const double margin_rad : kHorizonMargin_rad)
-      if (!edges.empty()) add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, edges);
+      if (!edges.empty())
+        add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, object_step_rad_, edges);
   }
   if (!world_.surfaces->has_meshes()) return;
   double top_rad = highest_object_rad(frame, heading(middle_rad));
@@ -60,7 +64,7 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
     if (top_rad <= lowest_rad_) return;
     edges.push_back(lowest_rad_);
   }
-  add_until(std::min(top_rad, highest_rad_), 1, edges);
+  add_until(std::min(top_rad, highest_rad_), 1, object_step_rad_, edges);
 }
 
 void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
@@ -95,7 +99,7 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
     } else {
-      add_until(std::min(elevation_rad, highest_rad_), parts, edges);
+      add_until(std::min(elevation_rad, highest_rad_), parts, sampling_.largest_step_rad, edges);
     }
   }
 }
@@ -121,12 +125,12 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
   return std::atan(top_slope);
 }
 
-void ElevationFan::add_until(double elevation_rad, int parts, std::vector<double>& edges) const {
+void ElevationFan::add_until(double elevation_rad, int parts, double largest_step_rad,
+                             std::vector<double>& edges) const {
   const double from_rad = edges.back();
   const double span_rad = elevation_rad - from_rad;
   if (span_rad <= 0.0) return;
-  const int count =
-      std::max({1, parts, static_cast<int>(std::ceil(span_rad / sampling_.largest_step_rad))});
+  const int count = std::max({1, parts, static_cast<int>(std::ceil(span_rad / largest_step_rad))});
   for (int i = 1; i <= count; ++i) edges.push_back(from_rad + span_rad * i / count);
 }
 

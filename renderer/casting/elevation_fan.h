@@ -3,8 +3,9 @@
 // Equal angles give far cells almost nothing (rays per cell fall with R^2 at fixed height). The fan
 // follows the terrain profile under one azimuth instead: wherever a range cell of ground is
 // visible, its angular interval gets the rays asked for; hidden ground gets none. Above the highest
-// ground the fan goes on to the top of the highest object. The fan only places samples: what they
-// hit is decided by the caster.
+// ground the fan goes on to the top of the highest object, row by row of the C-scope: few rays, and
+// what stands there shows against nothing. The fan only places samples: what they hit is decided by
+// the caster.
 #pragma once
 
 #include <vector>
@@ -32,12 +33,15 @@ class ElevationFan {
   void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
                      std::vector<double>& edges) const;
   double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec3& heading) const;
-  void add_until(double elevation_rad, int parts, std::vector<double>& edges) const;
+  void add_until(double elevation_rad, int parts, double largest_step_rad,
+                 std::vector<double>& edges) const;
 
   const World& world_;
   Sampling sampling_;
   double lowest_rad_ = 0.0;   // the elevation pattern is zero below
   double highest_rad_ = 0.0;  // and above
+  // Largest step above the highest ground: a row of the C-scope.
+  double object_step_rad_ = 0.0;
 };
 
 }  // namespace fanbeam::renderer

@@ -19,10 +19,13 @@ Sampling reference_sampling(std::uint64_t seed) {
 
 Sampling sampling_for(double rays_per_cell) {
   Sampling sampling;
-  // At least one ray per cell and sub-column: below that, cells share rays and the error doubles.
-  sampling.sub_columns = rays_per_cell < 2.0    ? 1
-                         : rays_per_cell < 4.0  ? 2
-                         : rays_per_cell < 12.0 ? 4
+  // Azimuth first, while a sub-column keeps at least 0.4 rays per cell, and 0.7 where there are
+  // three or more: below that cells share too many rays (docs/performance-notes.md).
+  sampling.sub_columns = rays_per_cell < 0.8    ? 1
+                         : rays_per_cell < 2.2  ? 2
+                         : rays_per_cell < 3.5  ? 3
+                         : rays_per_cell < 10.0 ? 4
+                         : rays_per_cell < 18.0 ? 6
                                                 : 8;
   sampling.rays_per_cell = rays_per_cell / sampling.sub_columns;
   return sampling;

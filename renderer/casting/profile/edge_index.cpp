@@ -76,23 +76,21 @@ class PlanView {
   double left_rad_, right_rad_, far_m_;
 };
 
-// Stable counting sort by the distance of the edges' middles.
-void order_by_distance(std::vector<CutEdge>& edges, double far_m) {
+// Numbers of the edges in the order of their middles' distance, roughly: a counting sort.
+std::vector<std::uint32_t> by_distance(const std::vector<CutEdge>& edges, double far_m) {
   constexpr std::size_t kBuckets = 512;
-  const auto bucket = [far_m](const CutEdge& edge) {
-    const double share = glm::length(edge.from_m + edge.to_m) / 2 / far_m;
-    return std::min(static_cast<std::size_t>(share * kBuckets), kBuckets - 1);
-  };
   std::vector<std::size_t> begin(kBuckets + 1, 0);
-  std::vector<std::uint16_t> of(edges.size());
+  std::vector<std::uint16_t> bucket(edges.size());
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    of[i] = static_cast<std::uint16_t>(bucket(edges[i]));
-    ++begin[of[i] + 1U];
+    const double share = glm::length(edges[i].from_m + edges[i].to_m) / 2 / far_m;
+    bucket[i] = static_cast<std::uint16_t>(std::min(share * kBuckets, kBuckets - 1.0));
+    ++begin[bucket[i] + 1U];
   }
   for (std::size_t b = 0; b < kBuckets; ++b) begin[b + 1] += begin[b];
-  std::vector<CutEdge> sorted(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) sorted[begin[of[i]]++] = edges[i];
-  edges.swap(sorted);
+  std::vector<std::uint32_t> order(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i)
+    order[begin[bucket[i]]++] = static_cast<std::uint32_t>(i);
+  return order;
 }
 
 }  // namespace
@@ -125,7 +123,6 @@ EdgeIndex::EdgeIndex(const World& world, const glm::dvec2& sensor_m, const glm::
   if (const terrain::SurfaceMap* map = world.surfaces->surface_map(); map != nullptr)
     for (const terrain::SurfacePatch& patch : map->patches())
       view.add_ring(patch.outline_m, CutEdge::kPaint, edges_);
-  order_by_distance(edges_, far_m);
 
   const std::size_t tiles = (headings_rad.size() + tile - 1) / tile;
   const auto tile_of = [&](double heading_rad) {
@@ -145,9 +142,8 @@ EdgeIndex::EdgeIndex(const World& world, const glm::dvec2& sensor_m, const glm::
   for (std::size_t t = 0; t < tiles; ++t) tile_begin_[t + 1] += tile_begin_[t];
   edge_of_tile_.resize(tile_begin_.back());
   std::vector<std::size_t> next(tile_begin_.begin(), tile_begin_.end() - 1);
-  for (std::size_t i = 0; i < edges_.size(); ++i)
-    for (std::size_t t = first[i]; t <= last[i]; ++t)
-      edge_of_tile_[next[t]++] = static_cast<std::uint32_t>(i);
+  for (const std::uint32_t i : by_distance(edges_, far_m))
+    for (std::size_t t = first[i]; t <= last[i]; ++t) edge_of_tile_[next[t]++] = i;
 }
 
 }  // namespace fanbeam::renderer

@@ -12,11 +12,13 @@ namespace {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 // At a post up to three lines are crossed at once.
 constexpr double kSmallestPiece_m = 1e-9;
+constexpr double kOnRim = 1e-9;  // cells
 
 // The part of the half-line inside [0, cells] along one axis.
 void clip_axis(double from, double per_m, double cells, double& near_m, double& far_m) {
   if (per_m == 0.0) {
-    if (from < 0.0 || from > cells) far_m = -1.0;
+    // Along a rim, a hair beside it by rounding counts as on it.
+    if (from < -kOnRim || from > cells + kOnRim) far_m = -1.0;
     return;
   }
   const double a_m = -from / per_m, b_m = (cells - from) / per_m;

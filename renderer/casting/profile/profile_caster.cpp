@@ -240,9 +240,10 @@ void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
   std::mutex totals;
   core::parallel_for(static_cast<std::size_t>(sums.sub_columns), [&](std::size_t sub) {
     thread_local VisiblePieces visible;
+    thread_local SweepScratch scratch;
     thread_local std::vector<double> range_bins, row_bins;
     SlicePower power(world_, frame.antenna, tables_, frame.path_loss);
-    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges);
+    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges, scratch);
     SliceBins bins;
     range_bins.assign(cells + 1, 0.0);
     bins.range_W_per_rad = range_bins.data();
@@ -288,11 +289,12 @@ void ProfileCaster::cast_across(const Frame& frame, FanSums& sums) const {
   const auto subs = static_cast<std::size_t>(sums.sub_columns);
   core::parallel_for(kParts, [&](std::size_t p) {
     thread_local VisiblePieces visible;
+    thread_local SweepScratch scratch;
     Part& part = parts[p];
     part.range_W_per_rad.assign(subs * cells, 0.0);
     part.elevation_W_m3_per_rad.assign(subs * rows, 0.0);
     SlicePower power(world_, frame.antenna, tables_, frame.path_loss);
-    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges);
+    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges, scratch);
     SliceBins bins;
     bins.range_W_per_rad = part.range_W_per_rad.data();
     if (frame.with_cscope) bins.elevation_W_m3_per_rad = part.elevation_W_m3_per_rad.data();

@@ -25,7 +25,7 @@ using In = const double*;
 
 constexpr double kLeast_m2 = 1e-12;
 // Elevation below which one middle does for a piece on both sides of a cell's border.
-constexpr double kSmallTurn_rad = 5e-4;
+constexpr double kSmallTurn_rad = 1e-3;
 
 // integral of p ds / (p^2 + s^2)^2, slice_power.h.
 inline double solid_integral(double p, double s1, double s2) {
@@ -63,9 +63,12 @@ FANBEAM_HOT void integrate(const sensors::RangeGate& gate, const VisiblePieces& 
     const double d2 = far_distance[i], z2 = far_height[i];
     const double step_d = d2 - d1, step_z = z2 - z1;
     const double range1 = std::sqrt(d1 * d1 + z1 * z1), range2 = std::sqrt(d2 * d2 + z2 * z2);
+    // With what a wall takes in the wedge beyond its ranges here.
+    const double more1 = range1 < range2 ? nearer[i] : farther[i];
+    const double more2 = range1 < range2 ? farther[i] : nearer[i];
     // Cells beyond the gate need no number of their own.
-    const double f1 = std::floor((range1 - minimum_m) * per_m);
-    const double f2 = std::floor((range2 - minimum_m) * per_m);
+    const double f1 = std::floor((range1 + more1 - minimum_m) * per_m);
+    const double f2 = std::floor((range2 + more2 - minimum_m) * per_m);
     const double h1 = f1 < cells ? f1 : cells, h2 = f2 < cells ? f2 : cells;
     const double c1 = h1 > -1.0 ? h1 : -1.0, c2 = h2 > -1.0 ? h2 : -1.0;
     const double length2 = step_d * step_d + step_z * step_z;
@@ -94,7 +97,8 @@ FANBEAM_HOT void integrate(const sensors::RangeGate& gate, const VisiblePieces& 
     const double turn = cross[i] / (range1 * range2);
     const double near_by = turn > kSmallTurn_rad ? apart : 0.0;
     const double long_one = apart + turns + enters + leaves + near_by > 1.0 ? 1.0 : 0.0;
-    const double found = farther[i] - nearer[i] > 0.0 ? 2.0 : long_one;
+    const double spread = farther[i] - nearer[i] > 0.0 ? apart : 0.0;
+    const double found = spread > 0.0 ? 2.0 : long_one;
     kind[i] = static_cast<std::int32_t>(found);
     // What is not plain goes elsewhere later.
     const double limit = found > 0.0 ? 0.0 : cells;

@@ -26,12 +26,15 @@ int parts_of(double d0, double z0, double d1, double z1) {
 
 }  // namespace
 
-SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges)
+SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
+                       SweepScratch& scratch)
     : world_(world),
       ground_(world.surfaces->terrain()),
       map_(world.surfaces->surface_map()),
       sensor_m_(sensor_m),
-      edges_(edges) {}
+      edges_(edges),
+      cut_(scratch.cut),
+      events_(scratch.events) {}
 
 void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates, double far_m,
                      VisiblePieces& pieces, const Full& full, const Sights& sights) {
@@ -110,7 +113,7 @@ void SliceSweep::test(const SightPoint& point, double at_m) {
   sights_.clear[point.line] = tangent >= horizon_ && !in_a_building ? 1 : 0;
 }
 
-void SliceSweep::pass(const Event& event, double ground_m) {
+void SliceSweep::pass(const SliceEvent& event, double ground_m) {
   if (event.edge >= edges_.edges().size()) {
     test(sights_.first[event.edge - edges_.edges().size()], event.distance_m);
     return;
@@ -124,7 +127,7 @@ void SliceSweep::pass(const Event& event, double ground_m) {
     leave(event.distance_m, edge.prism);
 }
 
-void SliceSweep::enter(const Event& event, const CutEdge& edge, double ground_m) {
+void SliceSweep::enter(const SliceEvent& event, const CutEdge& edge, double ground_m) {
   const auto left = std::find(left_already_.begin(), left_already_.end(), edge.prism);
   if (left != left_already_.end()) {
     left_already_.erase(left);

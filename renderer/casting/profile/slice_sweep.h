@@ -24,9 +24,22 @@ struct SightPoint {
   std::size_t line = 0;     // index into SightLines
 };
 
+// Where the walk passes a wall, a painted border or a point asked for.
+struct SliceEvent {
+  double distance_m;
+  std::uint32_t edge;  // from the number of edges on: points
+};
+
+// Buffers that one thread keeps from slice to slice.
+struct SweepScratch {
+  GroundCut cut;
+  std::vector<SliceEvent> events;
+};
+
 class SliceSweep {
  public:
-  SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges);
+  SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
+             SweepScratch& scratch);
 
   // Walks `slice` out to `far_m`. `full` is called whenever `pieces` has no room left and must
   // empty it; what remains at the end stays there.
@@ -41,16 +54,12 @@ class SliceSweep {
            VisiblePieces& pieces, const Full& full, const Sights& sights);
 
  private:
-  struct Event {
-    double distance_m;
-    std::uint32_t edge;  // from the number of edges on: points of `sights_`
-  };
   static double crossing_m(const CutEdge& edge, const glm::dvec2& along);
   void add_event(double distance_m, std::uint32_t edge);
   void test(const SightPoint& point, double at_m);
   void find_events(const EdgeIndex::Candidates& candidates, double far_m);
-  void pass(const Event& event, double ground_m);
-  void enter(const Event& event, const CutEdge& edge, double ground_m);
+  void pass(const SliceEvent& event, double ground_m);
+  void enter(const SliceEvent& event, const CutEdge& edge, double ground_m);
   void leave(double distance_m, std::uint32_t prism);
   void walk_ground(double d0, double z0, double d1, double z1, std::size_t piece);
   void see_ground(double d0, double z0, double d1, double z1, std::size_t piece);
@@ -68,8 +77,8 @@ class SliceSweep {
   const EdgeIndex& edges_;
 
   Slice slice_;
-  GroundCut cut_;
-  std::vector<Event> events_;
+  GroundCut& cut_;
+  std::vector<SliceEvent>& events_;
   VisiblePieces* pieces_ = nullptr;
   const Full* full_ = nullptr;
   Sights sights_;
