@@ -7,24 +7,6 @@
 
 namespace fanbeam::terrain {
 
-std::optional<double> HeightField::height_at(double x_m, double y_m) const {
-  const double u = (x_m - west_m) / spacing_m;
-  const double v = (y_m - south_m) / spacing_m;
-  if (!(u >= 0.0 && v >= 0.0 && u <= columns - 1 && v <= rows - 1)) return std::nullopt;
-  const int i = std::min(static_cast<int>(u), columns - 2);
-  const int j = std::min(static_cast<int>(v), rows - 2);
-  const double fu = u - i;
-  const double fv = v - j;
-  const double sw = height_m[post(i, j)];
-  const double ne = height_m[post(i + 1, j + 1)];
-  if (fu >= fv) {
-    const double se = height_m[post(i + 1, j)];
-    return sw + fu * (se - sw) + fv * (ne - se);
-  }
-  const double nw = height_m[post(i, j + 1)];
-  return sw + fv * (nw - sw) + fu * (ne - nw);
-}
-
 HeightField make_height_field(double west_m, double south_m, double east_m, double north_m,
                               double spacing_m) {
   constexpr double kMostPosts = 64.0e6;

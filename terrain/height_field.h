@@ -6,6 +6,8 @@
 // its north-east post; height_at follows the same two planes that the ray caster sees.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -36,7 +38,21 @@ struct HeightField {
 
   // Height of the triangulated surface; nothing outside the grid. Exact on the planes of the
   // triangles.
-  std::optional<double> height_at(double x_m, double y_m) const;
+  std::optional<double> height_at(double x_m, double y_m) const {
+    const double u = (x_m - west_m) / spacing_m;
+    const double v = (y_m - south_m) / spacing_m;
+    if (!(u >= 0.0 && v >= 0.0 && u <= columns - 1 && v <= rows - 1)) return std::nullopt;
+    const int i = std::min(static_cast<int>(u), columns - 2);
+    const int j = std::min(static_cast<int>(v), rows - 2);
+    const double fu = u - i;
+    const double fv = v - j;
+    const double sw = height_m[post(i, j)];
+    const double ne = height_m[post(i + 1, j + 1)];
+    // The corner that the point's triangle has besides the diagonal: chosen, as a branch here would
+    // be guessed wrong half of the time.
+    const double third = height_m[fu >= fv ? post(i + 1, j) : post(i, j + 1)];
+    return sw + std::max(fu, fv) * (third - sw) + std::min(fu, fv) * (ne - third);
+  }
 };
 
 // A grid of posts around the origin, all at height 0 and material 0: half extents and spacing in

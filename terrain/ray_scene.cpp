@@ -173,15 +173,6 @@ void RayScene::index_tops(const std::vector<PlacedMesh>& meshes) {
   }
 }
 
-double RayScene::mesh_top_m(double x_m, double y_m) const noexcept {
-  const double u = (x_m - tops_west_m_) / kTopsSpacing_m;
-  const double v = (y_m - tops_south_m_) / kTopsSpacing_m;
-  if (!(u >= 0.0 && v >= 0.0 && u < tops_columns_ && v < tops_rows_)) return -1e30;
-  return static_cast<double>(
-      tops_m_[static_cast<std::size_t>(v) * static_cast<std::size_t>(tops_columns_) +
-              static_cast<std::size_t>(u)]);
-}
-
 void RayScene::intersect(const int* active, RayPacket<8>& packet) const noexcept {
   RTCIntersectContext context = coherent_context();
   rtcIntersect8(active, library_->scene, &context, reinterpret_cast<RTCRayHit8*>(&packet));

@@ -8,6 +8,7 @@
 // turns its errors into exceptions of ours.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -111,7 +112,14 @@ class RayScene {
 
   // Upper bound of the height of mesh geometry over the square of `tops_spacing_m` that holds the
   // point; -infinity where there is none. Guides the elevation fan.
-  double mesh_top_m(double x_m, double y_m) const noexcept;
+  double mesh_top_m(double x_m, double y_m) const noexcept {
+    const double u = (x_m - tops_west_m_) / kTopsSpacing_m;
+    const double v = (y_m - tops_south_m_) / kTopsSpacing_m;
+    if (!(u >= 0.0 && v >= 0.0 && u < tops_columns_ && v < tops_rows_)) return -1e30;
+    return static_cast<double>(
+        tops_m_[static_cast<std::size_t>(v) * static_cast<std::size_t>(tops_columns_) +
+                static_cast<std::size_t>(u)]);
+  }
   double tops_spacing_m() const { return kTopsSpacing_m; }
 
  private:

@@ -30,6 +30,7 @@ struct ProfileCaster::Frame {
   const PointsOfSlices& points;
   std::uint8_t* clear;
   std::size_t tile;  // slices that share their candidates
+  double dark_below;  // tangent of the elevation at which the antenna's pattern begins
   bool with_cscope;
 
   SliceSweep::Sights sights(std::size_t slice) const {
@@ -191,9 +192,15 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
   sight.clear.assign(sight.to_m.size(), kAskRays);
   const PointsOfSlices points =
       sort_points(slices, antenna.position_m, horizontal(antenna.forward), sight);
+  // Below it nothing comes back; a tilted antenna looks anywhere.
+  constexpr double kSteepest = 1e9, kLeaning_rad = 2e-3;
+  const sensors::Antenna& beams = world_.sensor.antenna;
+  const double lowest_rad = std::max(
+      beams.boresight_elevation_rad - sensors::reach_rad(beams.elevation) - kLeaning_rad,
+      -std::atan(kSteepest));
   const Frame frame{antenna, ray_groups, path_loss,          slices,
                     edges,   points,     sight.clear.data(), tile,
-                    with_cscope};
+                    level ? std::tan(lowest_rad) : -kSteepest, with_cscope};
   if (level)
     cast_level(frame, sums);
   else
@@ -243,7 +250,7 @@ void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
     thread_local SweepScratch scratch;
     thread_local std::vector<double> range_bins, row_bins;
     SlicePower power(world_, frame.antenna, tables_, frame.path_loss);
-    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges, scratch);
+    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges, frame.dark_below, scratch);
     SliceBins bins;
     range_bins.assign(cells + 1, 0.0);
     bins.range_W_per_rad = range_bins.data();
@@ -294,7 +301,7 @@ void ProfileCaster::cast_across(const Frame& frame, FanSums& sums) const {
     part.range_W_per_rad.assign(subs * cells, 0.0);
     part.elevation_W_m3_per_rad.assign(subs * rows, 0.0);
     SlicePower power(world_, frame.antenna, tables_, frame.path_loss);
-    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges, scratch);
+    SliceSweep sweep(world_, frame.antenna.position_m, frame.edges, frame.dark_below, scratch);
     SliceBins bins;
     bins.range_W_per_rad = part.range_W_per_rad.data();
     if (frame.with_cscope) bins.elevation_W_m3_per_rad = part.elevation_W_m3_per_rad.data();

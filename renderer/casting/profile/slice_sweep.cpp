@@ -27,12 +27,13 @@ int parts_of(double d0, double z0, double d1, double z1) {
 }  // namespace
 
 SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
-                       SweepScratch& scratch)
+                       double dark_below, SweepScratch& scratch)
     : world_(world),
       ground_(world.surfaces->terrain()),
       map_(world.surfaces->surface_map()),
       sensor_m_(sensor_m),
       edges_(edges),
+      dark_below_(dark_below),
       cut_(scratch.cut),
       events_(scratch.events) {}
 
@@ -228,7 +229,7 @@ void SliceSweep::skip_to_gate(double& d0, double& z0, double d1, double z1) cons
 }
 
 void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::size_t piece) {
-  if (!visible(d0, z0, d1, z1)) return;
+  if (!visible(d0, z0, d1, z1) || z1 < dark_below_ * d1) return;
   const GroundCut::Cell& cell = cut_.cells[piece];
   const double* sw = &ground_->height_m[ground_->post(cell.column, cell.row)];
   const std::ptrdiff_t stride = ground_->columns;

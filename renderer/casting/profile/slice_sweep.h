@@ -38,8 +38,9 @@ struct SweepScratch {
 
 class SliceSweep {
  public:
+  // Ground below the tangent `dark_below` is not shown: it only hides what is behind it.
   SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
-             SweepScratch& scratch);
+             double dark_below, SweepScratch& scratch);
 
   // Walks `slice` out to `far_m`. `full` is called whenever `pieces` has no room left and must
   // empty it; what remains at the end stays there.
@@ -75,6 +76,7 @@ class SliceSweep {
   const terrain::SurfaceMap* map_;
   glm::dvec3 sensor_m_;
   const EdgeIndex& edges_;
+  double dark_below_;
 
   Slice slice_;
   GroundCut& cut_;
