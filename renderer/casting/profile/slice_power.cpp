@@ -25,7 +25,7 @@ using In = const double*;
 
 constexpr double kLeast_m2 = 1e-12;
 // Elevation below which one middle does for a piece on both sides of a cell's border.
-constexpr double kSmallTurn_rad = 1e-3;
+constexpr double kSmallTurn_rad = 7e-4;
 
 // integral of p ds / (p^2 + s^2)^2, slice_power.h.
 inline double solid_integral(double p, double s1, double s2) {
