@@ -13,6 +13,7 @@ renderer::CasterFacts caster_facts(const sensors::Sensor& sensor, const terrain:
                               .others = solids.others.size(),
                               .stabilised = sensor.scan.stabilised,
                               .plane_scan = sensor.scan.surface == sensors::ScanSurface::plane};
+  facts.fan_rad = sensor.scan.field_of_view_rad + 2.0 * sensor.antenna.azimuth.cut_rad;
   for (const core::Pose& pose : trajectory.poses()) {
     const glm::dvec3 down = frame.north_east_down_at(pose.position)[2];
     facts.vertical_turn_rad =

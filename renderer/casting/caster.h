@@ -25,8 +25,8 @@ struct FanSums {
 
   std::uint64_t rays = 0;
   std::uint64_t slices = 0;
-  std::uint64_t hits = 0;
-  std::uint64_t blanked = 0;  // hits nearer than the first range cell
+  std::uint64_t hits = 0;     // rays that met a surface, pieces of slices that are seen
+  std::uint64_t blanked = 0;  // those of them nearer than the first range cell
 };
 
 // Points of which is asked whether the sensor sees them. A point on a surface is not hidden by that

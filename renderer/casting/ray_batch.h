@@ -8,12 +8,14 @@
 #include <cstdint>
 
 #include "renderer/casting/sub_column.h"
+#include "terrain/ray_scene.h"
 
 namespace fanbeam::renderer {
 
 inline constexpr int kBatchRays = 64;
 
-// Lanes from `count` on repeat the last ray, so that no loop has a rest; they are not cast.
+// Lanes from `count` on repeat the last ray, so that no loop has a rest; they are not cast and hit
+// nothing.
 struct RayBatch {
   int count = 0;
 
@@ -45,6 +47,7 @@ struct RayBatch {
       column_cosine[i] = column_cosine[filled - 1];
       column_sine[i] = column_sine[filled - 1];
       gain[i] = gain[filled - 1];
+      geometry[i] = terrain::kNoHit;
     }
   }
 };

@@ -37,9 +37,11 @@ Sampling profile_sampling_for(double slices) {
   const int wanted = std::max(1, static_cast<int>(std::lround(slices)));
   Sampling sampling;
   sampling.caster = CasterKind::profile;
-  sampling.sub_columns = std::min(wanted, kMostSubColumns);
-  sampling.slices_per_sub_column = (wanted + sampling.sub_columns - 1) / sampling.sub_columns;
-  sampling.rays_per_cell = 1.0;
+  sampling.slices_per_sub_column = (wanted + kMostSubColumns - 1) / kMostSubColumns;
+  sampling.sub_columns =
+      (wanted + sampling.slices_per_sub_column - 1) / sampling.slices_per_sub_column;
+  // Few azimuths are left to rays; many slices deserve better ones.
+  sampling.rays_per_cell = std::max(1.0, sampling.slices_per_sub_column / 2.0);
   return sampling;
 }
 

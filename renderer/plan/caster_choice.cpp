@@ -1,12 +1,17 @@
 #include "renderer/plan/caster_choice.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "core/units.h"
+#include "renderer/casting/elevation_fan.h"
 
 namespace fanbeam::renderer {
 namespace {
 
-// As ray_kernel.h and profile_caster.h: 1 mrad.
-constexpr double kLevelWithin_rad = 1.0e-3;
+// What kLevelCosine of the casters allows.
+const double kLevelWithin_rad = std::acos(kLevelCosine);
+const double kWidestFan_rad = core::radians(150.0);
 
 // Why azimuths are no vertical half-planes of the scene; empty when they are.
 std::string why_not_level(const CasterFacts& facts) {
@@ -25,6 +30,8 @@ std::string others_text(std::size_t others) {
 // Empty when slices can show the scene.
 std::string why_no_slices(const CasterFacts& facts) {
   if (!facts.has_ground) return "slices need a ground, and the scene has none";
+  if (facts.fan_rad > kWidestFan_rad)
+    return "slices span at most 150 deg of azimuth, beam included";
   const std::string tilt = why_not_level(facts);
   if (facts.others == 0 || tilt.empty()) return {};
   return "slices cannot show " + others_text(facts.others) + " because " + tilt;

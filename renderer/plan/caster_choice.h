@@ -5,6 +5,7 @@
 // are stated against. Slices (profile/profile_caster.h) need a fraction of their time at equal
 // error (docs/performance.md), so `automatic` takes them wherever they show everything:
 //   without ground                  nothing to cut: rays
+//   a fan wider than 150 deg        headings of slices would meet behind the sensor: rays
 //   nothing but ground and prisms   slices, with any antenna
 //   models or prisms over open air  a level antenna sees each azimuth in a vertical half-plane:
 //                                   those azimuths go to rays, all others to slices. With a tilted
@@ -31,6 +32,7 @@ struct CasterFacts {
   // Largest angle between the vertical at the aircraft and that of the scene's origin: on a round
   // Earth even a stabilised antenna is not level in the scene far from its origin.
   double vertical_turn_rad = 0.0;
+  double fan_rad = 0.0;  // field of view with what the azimuth beam reaches beyond it
 };
 
 struct CasterChoice {

@@ -77,8 +77,8 @@ SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes
 }
 
 std::vector<core::Echo> seen_echoes(const World& world, const sensors::AntennaFrame& antenna,
-                                    const std::vector<core::Echo>& echoes,
-                                    const SightLines& sight, Multipath multipath) {
+                                    const std::vector<core::Echo>& echoes, const SightLines& sight,
+                                    Multipath multipath) {
   constexpr std::size_t kAtOnce = 64;
   const std::size_t count = echoes.size();
   std::vector<std::vector<core::Echo>> found((count + kAtOnce - 1) / kAtOnce);

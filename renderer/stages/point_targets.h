@@ -11,7 +11,6 @@
 
 #include "core/echo.h"
 #include "renderer/casting/caster.h"
-#include "renderer/casting/path_loss_table.h"
 #include "renderer/stages/ground_multipath.h"
 #include "renderer/world.h"
 #include "sensors/antenna/antenna_frame.h"
@@ -29,8 +28,8 @@ SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes
 
 // What remains of `echoes` where the sight is clear, with what the ground adds.
 std::vector<core::Echo> seen_echoes(const World& world, const sensors::AntennaFrame& antenna,
-                                    const std::vector<core::Echo>& echoes,
-                                    const SightLines& sight, Multipath multipath);
+                                    const std::vector<core::Echo>& echoes, const SightLines& sight,
+                                    Multipath multipath);
 
 // All three with one ray for each line of sight.
 std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,

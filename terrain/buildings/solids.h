@@ -29,7 +29,9 @@ struct Box_m {
 };
 
 struct Solids {
-  std::vector<Solid> prisms;  // solid from below the ground to `top_m`; they may overlap
+  // Solid from below the ground to `top_m`; they may overlap. A wall that crosses a dip deeper than
+  // its foundation ends in the air for rays, in the ground here.
+  std::vector<Solid> prisms;
   std::vector<Box_m> others;  // bounds of all other geometry above the ground
 };
 

@@ -98,3 +98,8 @@ TEST_CASE("Words and wishes are each other's inverse", "[caster_choice]") {
   CHECK(renderer::name_of(CasterKind::profile) == "profile");
   CHECK_THROWS_AS(renderer::caster_wish("lidar"), core::InternalError);
 }
+
+TEST_CASE("A fan wider than 150 deg goes to rays", "[caster_choice]") {
+  check_refused({.fan_rad = 2.7}, "at most 150 deg");
+  CHECK(choose_caster(CasterWish::automatic, {.fan_rad = 2.6}).chosen == CasterKind::profile);
+}

@@ -15,8 +15,8 @@ double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y 
 // One view from above: what of a ring the slices between two headings can meet.
 class PlanView {
  public:
-  PlanView(const glm::dvec2& sensor_m, const glm::dvec2& forward, double left_rad,
-           double right_rad, double far_m)
+  PlanView(const glm::dvec2& sensor_m, const glm::dvec2& forward, double left_rad, double right_rad,
+           double far_m)
       : sensor_m_(sensor_m),
         forward_(forward),
         right_(forward.y, -forward.x),
@@ -117,8 +117,7 @@ EdgeIndex::EdgeIndex(const World& world, const glm::dvec2& sensor_m, const glm::
   });
   for (const Found& block : found) {
     edges_.insert(edges_.end(), block.edges.begin(), block.edges.end());
-    below_sensor_.insert(below_sensor_.end(), block.below_sensor.begin(),
-                         block.below_sensor.end());
+    below_sensor_.insert(below_sensor_.end(), block.below_sensor.begin(), block.below_sensor.end());
   }
   if (const terrain::SurfaceMap* map = world.surfaces->surface_map(); map != nullptr)
     for (const terrain::SurfacePatch& patch : map->patches())
@@ -126,9 +125,8 @@ EdgeIndex::EdgeIndex(const World& world, const glm::dvec2& sensor_m, const glm::
 
   const std::size_t tiles = (headings_rad.size() + tile - 1) / tile;
   const auto tile_of = [&](double heading_rad) {
-    const auto slice =
-        std::lower_bound(headings_rad.begin(), headings_rad.end(), heading_rad) -
-        headings_rad.begin();
+    const auto slice = std::lower_bound(headings_rad.begin(), headings_rad.end(), heading_rad) -
+                       headings_rad.begin();
     return std::min(static_cast<std::size_t>(slice) / tile, tiles - 1);
   };
   std::vector<std::uint32_t> first(edges_.size()), last(edges_.size());

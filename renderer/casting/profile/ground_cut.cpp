@@ -70,8 +70,9 @@ FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2
   const int last_column = ground.columns - 2, last_row = ground.rows - 2;
   const auto cell = [](double at, int last) { return std::clamp(static_cast<int>(at), 0, last); };
   const double span_m = far_m - near_m;
-  const auto most = static_cast<std::size_t>(
-      2.0 * span_m * (std::abs(u_per_m) + std::abs(v_per_m)) + 8.0);  // diagonals: their sum at most
+  const auto most =
+      static_cast<std::size_t>(2.0 * span_m * (std::abs(u_per_m) + std::abs(v_per_m)) +
+                               8.0);  // diagonals: their sum at most
   if (cut.distance_m.size() < most + 1) {
     cut.distance_m.resize(most + 1);
     cut.height_m.resize(most + 1);
@@ -122,8 +123,8 @@ FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2
       const int i = cell(u, last_column), j = i - diagonal.line;
       const double* sw = height + j * stride + i;
       // Rounding on a rim may name a cell that is not there.
-      height_m = j >= 0 && j <= last_row ? sw[0] + (u - i) * (sw[stride + 1] - sw[0])
-                                         : height_at(next_m);
+      height_m =
+          j >= 0 && j <= last_row ? sw[0] + (u - i) * (sw[stride + 1] - sw[0]) : height_at(next_m);
       diagonal.advance();
     }
     if (next_m - distance_of[pieces] >= kSmallestPiece_m) add_piece(next_m, height_m);

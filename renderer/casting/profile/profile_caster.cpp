@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <mutex>
 
+#include "core/errors.h"
 #include "core/parallel.h"
 #include "renderer/casting/profile/slice_sweep.h"
 #include "renderer/casting/ray_kernel.h"
@@ -29,7 +30,7 @@ struct ProfileCaster::Frame {
   const EdgeIndex& edges;
   const PointsOfSlices& points;
   std::uint8_t* clear;
-  std::size_t tile;  // slices that share their candidates
+  std::size_t tile;   // slices that share their candidates
   double dark_below;  // tangent of the elevation at which the antenna's pattern begins
   bool with_cscope;
 
@@ -79,6 +80,9 @@ PointsOfSlices sort_points(const std::vector<Slice>& slices, const glm::dvec3& s
   return sorted;
 }
 
+// An antenna that counts as level leans by half of this at most.
+constexpr double kLeaning_rad = 2e-3;
+
 // What a box covers of the horizon, seen from above; the whole of it from inside.
 struct HeadingSpan {
   double left_rad = -core::kPi, right_rad = core::kPi;
@@ -107,11 +111,11 @@ HeadingSpan headings_of(const terrain::Box_m& box, const glm::dvec2& sensor_m,
 
 }  // namespace
 
-bool profile_applies(const World& world) { return world.surfaces->terrain() != nullptr; }
-
 ProfileCaster::ProfileCaster(const World& world, const Sampling& sampling)
     : world_(world), sampling_(sampling), tables_(world) {
   if (!world.solids.others.empty()) rays_ = std::make_unique<RayCaster>(world, sampling);
+  if (world.surfaces->terrain() == nullptr)
+    throw core::InternalError("slices without a ground to cut");
   const terrain::HeightField& ground = *world.surfaces->terrain();
   const auto [low, high] = std::minmax_element(ground.height_m.begin(), ground.height_m.end());
   lowest_m_ = *low;
@@ -145,13 +149,14 @@ std::vector<Slice> ProfileCaster::tilted_slices(const sensors::AntennaFrame& ant
   constexpr int kSteps = 16;
   for (int e = 0; e <= kSteps; ++e) {
     const double elevation_rad =
-        beams.boresight_elevation_rad + reach_rad * (2.0 * e / kSteps - 1.0);
+        std::clamp(beams.boresight_elevation_rad + reach_rad * (2.0 * e / kSteps - 1.0),
+                   -core::kPi / 2, core::kPi / 2);
     for (int a = 0; a <= kSteps; ++a) {
       const double azimuth_rad =
           sums.first_azimuth_rad + sums.sub_columns * sums.step_rad * a / kSteps;
-      const double heading_rad = turn_rad(
-          forward, horizontal(sensors::direction(antenna, azimuth_rad, elevation_rad,
-                                                 world_.sensor.scan.surface)));
+      const double heading_rad =
+          turn_rad(forward, horizontal(sensors::direction(antenna, azimuth_rad, elevation_rad,
+                                                          world_.sensor.scan.surface)));
       left_rad = std::min(left_rad, heading_rad);
       right_rad = std::max(right_rad, heading_rad);
     }
@@ -173,11 +178,14 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                          SightLines& sight) const {
   lay_out_fan(world_, sampling_, with_cscope, sums);
   const double sensor_m = antenna.position_m.z;
-  const PathLossTable path_loss(world_.attenuation, sensor_m,
-                                std::min(sensor_m, lowest_m_) - 10.0,
+  const PathLossTable path_loss(world_.attenuation, sensor_m, std::min(sensor_m, lowest_m_) - 10.0,
                                 std::max(sensor_m, highest_m_) + 300.0);
-  const bool level = world_.sensor.scan.surface == sensors::ScanSurface::plane &&
-                     antenna.up.z > kLevelCosine;
+  const bool level =
+      world_.sensor.scan.surface == sensors::ScanSurface::plane && antenna.up.z > kLevelCosine;
+  if (!level && rays_) {
+    rays_->cast(antenna, with_cscope, sums, sight);
+    return;
+  }
   const std::vector<Slice> slices =
       level ? level_slices(antenna, sums) : tilted_slices(antenna, sums);
   // About a column's worth: fewer candidates, or fewer lists that an edge is in.
@@ -187,20 +195,27 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
   for (const Slice& slice : slices) headings_rad.push_back(slice.heading_rad);
   const EdgeIndex edges(world_, {antenna.position_m.x, antenna.position_m.y},
                         horizontal(antenna.forward), headings_rad, tile);
-  const std::vector<std::uint32_t> ray_groups = level ? groups_for_rays(antenna, slices, sums)
-                                                      : std::vector<std::uint32_t>{};
+  const std::vector<std::uint32_t> ray_groups =
+      level ? groups_for_rays(antenna, slices, sums) : std::vector<std::uint32_t>{};
   sight.clear.assign(sight.to_m.size(), kAskRays);
   const PointsOfSlices points =
       sort_points(slices, antenna.position_m, horizontal(antenna.forward), sight);
   // Below it nothing comes back; a tilted antenna looks anywhere.
-  constexpr double kSteepest = 1e9, kLeaning_rad = 2e-3;
+  constexpr double kSteepest = 1e9;
   const sensors::Antenna& beams = world_.sensor.antenna;
-  const double lowest_rad = std::max(
-      beams.boresight_elevation_rad - sensors::reach_rad(beams.elevation) - kLeaning_rad,
-      -std::atan(kSteepest));
-  const Frame frame{antenna, ray_groups, path_loss,          slices,
-                    edges,   points,     sight.clear.data(), tile,
-                    level ? std::tan(lowest_rad) : -kSteepest, with_cscope};
+  const double lowest_rad =
+      std::max(beams.boresight_elevation_rad - sensors::reach_rad(beams.elevation) - kLeaning_rad,
+               -std::atan(kSteepest));
+  const Frame frame{antenna,
+                    ray_groups,
+                    path_loss,
+                    slices,
+                    edges,
+                    points,
+                    sight.clear.data(),
+                    tile,
+                    level ? std::tan(lowest_rad) : -kSteepest,
+                    with_cscope};
   if (level)
     cast_level(frame, sums);
   else
@@ -211,8 +226,9 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
   look_along_rays(*world_.surfaces, antenna.position_m, sight);
 }
 
-// Groups whose slices some box may meet. A sub-column's half-planes lean from the slices' by up to
-// 1 mrad of tilt times the tangent of the elevation: the neighbouring sub-column covers that.
+// Groups whose slices some box may meet. A level antenna may lean by 1 mrad, which moves a point by
+// the tangent of its elevation times as much in azimuth: a sub-column and 2 mrad beside it cover
+// elevations to 60 deg.
 std::vector<std::uint32_t> ProfileCaster::groups_for_rays(const sensors::AntennaFrame& antenna,
                                                           const std::vector<Slice>& slices,
                                                           const FanSums& sums) const {
@@ -230,8 +246,8 @@ std::vector<std::uint32_t> ProfileCaster::groups_for_rays(const sensors::Antenna
       return static_cast<std::size_t>(
           std::lower_bound(slices.begin(), slices.end(), heading_rad, before) - slices.begin());
     };
-    const std::size_t first = slice_at(span.left_rad - sums.step_rad);
-    const std::size_t last = slice_at(span.right_rad + sums.step_rad);
+    const std::size_t first = slice_at(span.left_rad - sums.step_rad - kLeaning_rad);
+    const std::size_t last = slice_at(span.right_rad + sums.step_rad + kLeaning_rad);
     for (std::size_t i = first; i < last; ++i) wanted[i / per_sub / kGroupAzimuths] = true;
   }
   std::vector<std::uint32_t> groups;
@@ -242,7 +258,8 @@ std::vector<std::uint32_t> ProfileCaster::groups_for_rays(const sensors::Antenna
 
 void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
   const std::size_t count = frame.slices.size();
-  const auto cells = static_cast<std::size_t>(sums.cells), rows = static_cast<std::size_t>(sums.rows);
+  const auto cells = static_cast<std::size_t>(sums.cells),
+             rows = static_cast<std::size_t>(sums.rows);
   const auto per_sub = static_cast<std::size_t>(sampling_.slices_per_sub_column);
   std::mutex totals;
   core::parallel_for(static_cast<std::size_t>(sums.sub_columns), [&](std::size_t sub) {
@@ -260,10 +277,10 @@ void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
     }
     bins.weight = 1.0 / static_cast<double>(per_sub);
     std::uint64_t hits = 0;
-    const bool left_to_rays =
-        std::binary_search(frame.ray_groups.begin(), frame.ray_groups.end(),
-                           static_cast<std::uint32_t>(sub / kGroupAzimuths));
-    for (std::size_t i = sub * per_sub; !left_to_rays && i < std::min((sub + 1) * per_sub, count); ++i) {
+    const bool left_to_rays = std::binary_search(frame.ray_groups.begin(), frame.ray_groups.end(),
+                                                 static_cast<std::uint32_t>(sub / kGroupAzimuths));
+    for (std::size_t i = sub * per_sub; !left_to_rays && i < std::min((sub + 1) * per_sub, count);
+         ++i) {
       const Slice& slice = frame.slices[i];
       const auto empty = [&](VisiblePieces& pieces) {
         hits += static_cast<std::uint64_t>(pieces.count);
@@ -286,7 +303,8 @@ void ProfileCaster::cast_level(const Frame& frame, FanSums& sums) const {
 // that are added in their order, keeps the result the same for any number of threads.
 void ProfileCaster::cast_across(const Frame& frame, FanSums& sums) const {
   constexpr std::size_t kParts = 16;
-  const auto cells = static_cast<std::size_t>(sums.cells), rows = static_cast<std::size_t>(sums.rows);
+  const auto cells = static_cast<std::size_t>(sums.cells),
+             rows = static_cast<std::size_t>(sums.rows);
   const std::size_t count = frame.slices.size();
   struct Part {
     std::vector<double> range_W_per_rad, elevation_W_m3_per_rad;

@@ -1,6 +1,7 @@
 // One azimuth half-plane of a frame and what is seen in it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -33,5 +34,15 @@ struct VisiblePieces {
   int count = 0;
   bool full() const { return count == kCapacity; }
 };
+
+// Elevation that one piece may span: pattern, range and, under a tilted antenna, azimuth are those
+// of its middle.
+inline constexpr double kMostElevation_rad = 0.002;
+
+// Into how many parts a piece goes, from its cross product and the square of its nearest range.
+inline int parts_of(double cross_m2, double nearest2_m2) {
+  constexpr double kMostParts = 1000.0;
+  return 1 + static_cast<int>(std::min(cross_m2 / (kMostElevation_rad * nearest2_m2), kMostParts));
+}
 
 }  // namespace fanbeam::renderer

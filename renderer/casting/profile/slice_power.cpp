@@ -24,6 +24,7 @@ using In = const double*;
 #endif
 
 constexpr double kLeast_m2 = 1e-12;
+constexpr double kNoLength_m2 = 1e-30;  // a piece of no length then sends nothing back, not NaN
 // Elevation below which one middle does for a piece on both sides of a cell's border.
 constexpr double kSmallTurn_rad = 7e-4;
 
@@ -71,7 +72,8 @@ FANBEAM_HOT void integrate(const sensors::RangeGate& gate, const VisiblePieces& 
     const double f2 = std::floor((range2 + more2 - minimum_m) * per_m);
     const double h1 = f1 < cells ? f1 : cells, h2 = f2 < cells ? f2 : cells;
     const double c1 = h1 > -1.0 ? h1 : -1.0, c2 = h2 > -1.0 ? h2 : -1.0;
-    const double length2 = step_d * step_d + step_z * step_z;
+    const double square_length = step_d * step_d + step_z * step_z;
+    const double length2 = square_length > kNoLength_m2 ? square_length : kNoLength_m2;
     const double per_length = 1.0 / std::sqrt(length2);
     const double crossed = cross[i] * per_length;
     const double p = crossed > 0.0 ? crossed : 0.0;
@@ -94,9 +96,12 @@ FANBEAM_HOT void integrate(const sensors::RangeGate& gate, const VisiblePieces& 
     const double least = c1 < c2 ? c1 : c2, most = c1 < c2 ? c2 : c1;
     const double enters = least < 0.0 ? apart : 0.0, leaves = most >= cells ? apart : 0.0;
     // So are pieces close by, where pattern and NRCS differ from one half to the other.
-    const double turn = cross[i] / (range1 * range2);
-    const double near_by = turn > kSmallTurn_rad ? apart : 0.0;
-    const double long_one = apart + turns + enters + leaves + near_by > 1.0 ? 1.0 : 0.0;
+    const double nearest = range1 < range2 ? range1 : range2;
+    const double turn_m2 = cross[i], small_m2 = kSmallTurn_rad * nearest * nearest;
+    const double most_m2 = kMostElevation_rad * nearest * nearest;
+    const double near_by = (turn_m2 > small_m2 ? apart : 0.0) + (turn_m2 > most_m2 ? 2.0 : 0.0);
+    const double in_gate = most >= 0.0 && least < cells ? 1.0 : 0.0;
+    const double long_one = (apart + turns + enters + leaves + near_by) * in_gate > 1.0 ? 1.0 : 0.0;
     const double spread = farther[i] - nearer[i] > 0.0 ? apart : 0.0;
     const double found = spread > 0.0 ? 2.0 : long_one;
     kind[i] = static_cast<std::int32_t>(found);
@@ -117,14 +122,15 @@ struct SineWeights {
 };
 
 // Pattern and NRCS.
-FANBEAM_HOT void weigh(const PowerTables& tables, const SineWeights& weights, double constant,
-                       const VisiblePieces& pieces, PiecePowers& powers) {
+FANBEAM_HOT void weigh(const PowerTables& tables, const double* gain_table,
+                       const SineWeights& weights, double constant, const VisiblePieces& pieces,
+                       PiecePowers& powers) {
   const In facet = pieces.facet_m.data(), facet_d2 = pieces.facet_d2.data();
   const std::int32_t* material = pieces.material.data();
   const In distance = powers.distance_m.data(), height = powers.height_m.data();
   const Out first = powers.first.data(), second = powers.second.data();
   const Out range = powers.range_m.data();
-  const In nrcs = tables.nrcs(), gain = tables.gain();
+  const In nrcs = tables.nrcs(), gain = gain_table;
   const double along = weights.along, up = weights.up;
   const double lowest_sine = tables.lowest_sine(), per_sine = tables.steps_per_sine();
   constexpr double kLastStep = PowerTables::kSineSteps - 1e-6;
@@ -143,8 +149,8 @@ FANBEAM_HOT void weigh(const PowerTables& tables, const SineWeights& weights, do
     const bool fine = sine < PowerTables::kFineBelow;
     const double position = sine * (fine ? kFine : PowerTables::kNrcsSteps);
     const double begin = fine ? PowerTables::kFirstFine : 0.0;
-    const int entry =
-        material[i] * PowerTables::kNrcsStride + static_cast<int>(position + begin);
+    const int entry = material[i] * PowerTables::kNrcsStride + static_cast<int>(position) +
+                      static_cast<int>(begin);
     const double share = position - std::trunc(position);
     const double sigma0_over_sine = nrcs[entry] + share * (nrcs[entry + 1] - nrcs[entry]);
     const double at = ((along * d + up * z) * inverse - lowest_sine) * per_sine;
@@ -192,8 +198,10 @@ constexpr double kNearHorizon = 0.4;
 
 inline double arc_sine(double x) {
   const double y = x * x;
-  return x * (1.0 + y * (1.0 / 6 + y * (3.0 / 40 + y * (15.0 / 336 + y * (105.0 / 3456 +
-         y * (945.0 / 42240 + y * (10395.0 / 599040)))))));
+  return x * (1.0 + y * (1.0 / 6 +
+                         y * (3.0 / 40 + y * (15.0 / 336 +
+                                              y * (105.0 / 3456 + y * (945.0 / 42240 +
+                                                                       y * (10395.0 / 599040)))))));
 }
 
 FANBEAM_HOT void place_rows_near_horizon(const PowerTables& tables, const SineWeights& weights,
@@ -237,8 +245,8 @@ FANBEAM_HOT void share_rows(int rows_in_picture, int cells_in_gate, PiecePowers&
     const double seen = first_cell[i] < cells ? 1.0 : 0.0;
     const double power = (first[i] + second[i]) * seen;
     // 0 where two rows of the picture hold it all.
-    const double odd = (f2 - f1 > 1.0 ? 1.0 : 0.0) + (f1 < 0.0 ? 1.0 : 0.0) +
-                       (f2 >= rows ? 1.0 : 0.0);
+    const double odd =
+        (f2 - f1 > 1.0 ? 1.0 : 0.0) + (f1 < 0.0 ? 1.0 : 0.0) + (f2 >= rows ? 1.0 : 0.0);
     kind[i] += static_cast<std::int32_t>(odd * seen > 0.0 ? 3.0 : 0.0);
     const double plain = odd > 0.0 ? 0.0 : seen;
     row[i] = static_cast<std::int32_t>(plain > 0.0 ? f1 + 1.0 : 0.0);
@@ -256,7 +264,13 @@ inline double decay(double x) {
   const double n = std::floor(held * kLog2e + 0.5);
   const double r = (n * kLn2High - held) + n * kLn2Low;  // exp(-x) = 2^-n exp(r)
   const double series =
-      1.0 + r * (1.0 + r * (1.0 / 2 + r * (1.0 / 6 + r * (1.0 / 24 + r * (1.0 / 120 + r * (1.0 / 720 + r * (1.0 / 5040 + r * (1.0 / 40320 + r / 362880))))))));
+      1.0 +
+      r * (1.0 +
+           r * (1.0 / 2 +
+                r * (1.0 / 6 + r * (1.0 / 24 +
+                                    r * (1.0 / 120 +
+                                         r * (1.0 / 720 + r * (1.0 / 5040 + r * (1.0 / 40320 +
+                                                                                 r / 362880))))))));
   const auto exponent = static_cast<std::int64_t>(1023 - static_cast<std::int32_t>(n));
   return series * std::bit_cast<double>(exponent << 52);
 }
@@ -292,8 +306,8 @@ PowerTables::PowerTables(const World& world) {
     nrcs_.resize(first + kNrcsStride);
     constexpr double kTiny = 1e-12;  // the table holds its value below the first step
     for (int i = 0; i <= kNrcsSteps + 1; ++i)
-      nrcs_[first + static_cast<std::size_t>(i)] = table.sigma0_over_sine(
-          std::clamp(static_cast<double>(i) / kNrcsSteps, kTiny, 1.0));
+      nrcs_[first + static_cast<std::size_t>(i)] =
+          table.sigma0_over_sine(std::clamp(static_cast<double>(i) / kNrcsSteps, kTiny, 1.0));
     for (int i = 0; i <= kFineSteps; ++i)
       nrcs_[first + static_cast<std::size_t>(kFirstFine + i)] =
           table.sigma0_over_sine(std::max(kFineBelow * i / kFineSteps, kTiny));
@@ -313,11 +327,20 @@ PowerTables::PowerTables(const World& world) {
     const double sine =
         std::clamp(lowest_sine_ + std::min(i, kSineSteps) / steps_per_sine_, -1.0, 1.0);
     const double elevation_rad = std::asin(sine);
-    // Nothing beyond the pattern: what lies there is held to the first and last entry.
-    const bool edge = i == 0 || i >= kSineSteps;
+    // Nothing beyond the pattern: what lies there is held to the first and last entry. A pattern
+    // that reaches straight down or up has no such end.
+    const bool edge =
+        (i == 0 && lowest_rad > -core::kPi / 2) || (i >= kSineSteps && highest_rad < core::kPi / 2);
+    even_gain_.push_back(1.0);
     gain_.push_back(edge ? 0.0 : gain(elevation_rad - antenna.boresight_elevation_rad));
     row_.push_back((display.cscope_top_rad - elevation_rad) * rows_per_rad_);
   }
+}
+
+double PowerTables::look_up(const std::vector<double>& table, double sine) const {
+  const double at = std::clamp((sine - lowest_sine_) * steps_per_sine_, 0.0, kSineSteps - 1e-6);
+  const auto step = static_cast<std::size_t>(at);
+  return table[step] + (at - static_cast<double>(step)) * (table[step + 1] - table[step]);
 }
 
 SlicePower::SlicePower(const World& world, const sensors::AntennaFrame& antenna,
@@ -339,8 +362,7 @@ void SlicePower::finish_rest(const Slice& slice, const SliceBins& bins) {
   rest_.count = 0;
 }
 
-void SlicePower::evaluate(const Slice& slice, const VisiblePieces& pieces,
-                          const SliceBins& bins) {
+void SlicePower::evaluate(const Slice& slice, const VisiblePieces& pieces, const SliceBins& bins) {
   const sensors::RangeGate& gate = world_.sensor.range;
   integrate(gate, pieces, powers_);
   if (&pieces == &rest_) {
@@ -351,7 +373,10 @@ void SlicePower::evaluate(const Slice& slice, const VisiblePieces& pieces,
   }
   const SineWeights weights{slice.along.x * antenna_.up.x + slice.along.y * antenna_.up.y,
                             antenna_.up.z};
-  weigh(tables_, weights, radar_constant_W_m2_ * bins.weight, pieces, powers_);
+  // A cone's elevation is no matter of the slice alone: deposit_across finds it.
+  const bool cone = world_.sensor.scan.surface == sensors::ScanSurface::cone;
+  weigh(tables_, cone ? tables_.even_gain() : tables_.gain(), weights,
+        radar_constant_W_m2_ * bins.weight, pieces, powers_);
   if (!path_loss_.clear()) lose_on_path(path_loss_, antenna_.position_m.z, powers_);
   if (world_.rain_cells) lose_in_rain_cells(slice);
   if (bins.elevation_W_m3_per_rad != nullptr) {
@@ -378,8 +403,8 @@ void SlicePower::evaluate(const Slice& slice, const VisiblePieces& pieces,
 void SlicePower::lose_in_rain_cells(const Slice& slice) {
   for (int i = 0; i < powers_.count; ++i) {
     const double factor = world_.rain_cells->two_way_power_factor(
-        antenna_.position_m, antenna_.position_m + glm::dvec3(slice.along * powers_.distance_m[i],
-                                                              powers_.height_m[i]));
+        antenna_.position_m,
+        antenna_.position_m + glm::dvec3(slice.along * powers_.distance_m[i], powers_.height_m[i]));
     powers_.first[i] *= factor;
     powers_.second[i] *= factor;
   }
@@ -396,20 +421,30 @@ void SlicePower::cut_at_cells(const VisiblePieces& pieces, int i, const Slice& s
   if (!(p > 0.0)) return;
   const double s1 = (d1 * step_d + z1 * step_z) / length2;  // from the foot, in piece lengths
   double at = 0.0;
+  const auto put_part = [&](double from, double to, int cell) {
+    const int n = rest_.count++;
+    rest_.near_distance_m[n] = d1 + from * step_d;
+    rest_.near_height_m[n] = z1 + from * step_z;
+    rest_.far_distance_m[n] = d1 + to * step_d;
+    rest_.far_height_m[n] = z1 + to * step_z;
+    rest_.cross_m2[n] = pieces.cross_m2[i] * (to - from);
+    rest_.facet_m[n] = pieces.facet_m[i];
+    rest_.facet_d2[n] = pieces.facet_d2[i];
+    rest_.material[n] = pieces.material[i];
+    rest_.nearer_m[n] = rest_.farther_m[n] = 0.0;
+    rest_cell_[n] = cell;
+    if (rest_.full()) finish_rest(slice, bins);
+  };
   const auto put = [&](double next, int cell) {
-    if (next > at && cell >= 0 && cell < gate.cells) {
-      const int n = rest_.count++;
-      rest_.near_distance_m[n] = d1 + at * step_d;
-      rest_.near_height_m[n] = z1 + at * step_z;
-      rest_.far_distance_m[n] = d1 + next * step_d;
-      rest_.far_height_m[n] = z1 + next * step_z;
-      rest_.cross_m2[n] = pieces.cross_m2[i] * (next - at);
-      rest_.facet_m[n] = pieces.facet_m[i];
-      rest_.facet_d2[n] = pieces.facet_d2[i];
-      rest_.material[n] = pieces.material[i];
-      rest_.nearer_m[n] = rest_.farther_m[n] = 0.0;
-      rest_cell_[n] = cell;
-      if (rest_.full()) finish_rest(slice, bins);
+    // A sliver that rounding leaves no length is none.
+    const bool some =
+        d1 + at * step_d != d1 + next * step_d || z1 + at * step_z != z1 + next * step_z;
+    if (next > at && some && cell >= 0 && cell < gate.cells) {
+      const double near_m = gate.minimum_m + gate.cell_m * cell;
+      const int parts = parts_of(pieces.cross_m2[i] * (next - at), near_m * near_m);
+      const double step = (next - at) / parts;
+      for (int part = 0; part < parts; ++part)
+        put_part(at + step * part, part + 1 == parts ? next : at + step * (part + 1), cell);
     }
     at = next;
   };
@@ -486,6 +521,13 @@ void SlicePower::deposit_special(const VisiblePieces& pieces, int i, const Slice
           bins.elevation_W_m3_per_rad + 1, world_.sensor.display.cscope_rows);
 }
 
+// The row of a point of the slice in a cone scan, whose elevation is atan2(up, forward).
+double SlicePower::cone_row(const Slice& slice, double distance_m, double height_m) const {
+  const glm::dvec3 point(slice.along * distance_m, height_m);
+  const double f = glm::dot(point, antenna_.forward), u = glm::dot(point, antenna_.up);
+  return tables_.row_at(u / std::sqrt(f * f + u * u));
+}
+
 // Where the wedge at this point lies in the antenna's azimuth, from its middle and its derivative
 // by heading; the solid angle in the antenna's coordinates as in ray_caster.h.
 void SlicePower::deposit_across(const VisiblePieces& pieces, const Slice& slice,
@@ -508,7 +550,15 @@ void SlicePower::deposit_across(const VisiblePieces& pieces, const Slice& slice,
     const double azimuth_rad = cone ? std::asin(r / range_m) : std::atan2(r, f);
     const double turn =
         cone ? turn_r / std::sqrt(f * f + u * u) : (f * turn_r - r * turn_f) / level2;
-    const double solid_angle = distance_m / (cone ? range_m : std::sqrt(level2));
+    double solid_angle = distance_m / (cone ? range_m : std::sqrt(level2));
+    double first_row = powers_.first_row[i], last_row = powers_.last_row[i];
+    if (cone) {
+      solid_angle *= tables_.gain_at(u / std::sqrt(f * f + u * u));
+      const double row1 = cone_row(slice, pieces.near_distance_m[i], pieces.near_height_m[i]);
+      const double row2 = cone_row(slice, pieces.far_distance_m[i], pieces.far_height_m[i]);
+      first_row = std::min(row1, row2);
+      last_row = std::max(row1, row2);
+    }
     const double half_rad = std::abs(turn) * slice.width_rad / 2;
     const double from = (azimuth_rad - half_rad - bins.first_azimuth_rad) / bins.step_rad;
     const double to = (azimuth_rad + half_rad - bins.first_azimuth_rad) / bins.step_rad;
@@ -537,9 +587,8 @@ void SlicePower::deposit_across(const VisiblePieces& pieces, const Slice& slice,
         put(powers_.second_cell[i], powers_.second[i]);
       }
       if (bins.elevation_W_m3_per_rad == nullptr) continue;
-      deposit(powers_.first_row[i], powers_.last_row[i],
-                   power * range_m * range_m * range_m,
-                   bins.elevation_W_m3_per_rad + s * static_cast<std::size_t>(rows), rows);
+      deposit(first_row, last_row, power * range_m * range_m * range_m,
+              bins.elevation_W_m3_per_rad + s * static_cast<std::size_t>(rows), rows);
     }
   }
 }

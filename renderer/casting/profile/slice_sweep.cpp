@@ -10,19 +10,8 @@ namespace fanbeam::renderer {
 namespace {
 
 constexpr double kBelowEverything = -1e300;
-// Elevation that one piece may span: pattern, range and, under a tilted antenna, azimuth are those
-// of its middle.
-constexpr double kMostElevation_rad = 0.002;
 // A wall nearer than this to the slice's own direction stands edge on.
 constexpr double kEdgeOn_rad = 1e-9;
-
-// Into how many parts a piece goes; from its length across the line of sight and its range.
-int parts_of(double d0, double z0, double d1, double z1) {
-  const double across2 = std::abs(d0 * z1 - d1 * z0);
-  const double nearest2 = std::min(d0 * d0 + z0 * z0, d1 * d1 + z1 * z1);
-  if (across2 <= kMostElevation_rad * nearest2) return 1;
-  return 1 + static_cast<int>(std::min(across2 / (kMostElevation_rad * nearest2), 1000.0));
-}
 
 }  // namespace
 
@@ -50,8 +39,7 @@ void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates
   find_top();
   cut_ground(*ground_, {sensor_m_.x, sensor_m_.y}, slice.along, far_m, sensor_m_.z, cut_);
   // Seen from outside, the grid's rim hides what lies under it.
-  if (cut_.pieces > 0 && cut_.distance_m[0] > 0.0)
-    horizon_ = cut_.height_m[0] / cut_.distance_m[0];
+  if (cut_.pieces > 0 && cut_.distance_m[0] > 0.0) horizon_ = cut_.height_m[0] / cut_.distance_m[0];
   find_events(candidates, far_m);
   std::size_t next = 0;
   for (std::size_t i = 0; i < cut_.pieces; ++i) {
@@ -93,10 +81,12 @@ void SliceSweep::find_events(const EdgeIndex::Candidates& candidates, double far
     if (distance_m < far_m) add_event(distance_m, index);
   }
   auto number = static_cast<std::uint32_t>(edges_.edges().size());
-  for (const SightPoint* point = sights_.first; point != sights_.last; ++point) {
+  for (const SightPoint* point = sights_.first; point != sights_.last; ++point, ++number) {
+    // Straight below, and before the rim of the ground, other means must tell.
+    if (cut_.pieces == 0 || point->distance_m <= cut_.distance_m[0]) continue;
     const double range_m = std::hypot(point->distance_m, point->height_m);
     const double share = std::max(1.0 - kSightClearance_m / range_m, 0.0);
-    add_event(point->distance_m * share, number++);
+    add_event(point->distance_m * share, number);
   }
 }
 
@@ -211,23 +201,6 @@ int SliceSweep::next_piece() {
   return pieces_->count++;
 }
 
-// Moves the near end of a piece that reaches into the range gate up to it: ground below the sensor
-// spans many elevations that no cell holds.
-void SliceSweep::skip_to_gate(double& d0, double& z0, double d1, double z1) const {
-  const double step_d = d1 - d0, step_z = z1 - z0;
-  const double length2 = step_d * step_d + step_z * step_z;
-  const double gate_m = world_.sensor.range.minimum_m;
-  if (d0 * d0 + z0 * z0 >= gate_m * gate_m) return;
-  const double along = d0 * step_d + z0 * step_z;
-  const double beside = d0 * step_z - z0 * step_d;
-  // Along the line from its nearest point: R^2 length2 = beside^2 + s^2.
-  const double at_gate =
-      std::sqrt(std::max(gate_m * gate_m * length2 - beside * beside, 0.0));
-  const double share = std::clamp((at_gate - along) / length2, 0.0, 1.0);
-  d0 += share * step_d;
-  z0 += share * step_z;
-}
-
 void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::size_t piece) {
   if (!visible(d0, z0, d1, z1) || z1 < dark_below_ * d1) return;
   const GroundCut::Cell& cell = cut_.cells[piece];
@@ -241,27 +214,19 @@ void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::siz
   // The facet's plane passes this far below the sensor.
   const double below_m = slope * d1 - z1;
   const double middle_m = (d0 + d1) / 2;
-  const std::int32_t material = map_->material_in_cell(
-      cell.column, cell.row, sensor_m_.x + slice_.along.x * middle_m,
-      sensor_m_.y + slice_.along.y * middle_m);
-  const double gate_m = world_.sensor.range.minimum_m;
-  const bool reaches_gate = d1 >= gate_m || d1 * d1 + z1 * z1 >= gate_m * gate_m;
-  if (d0 < gate_m && reaches_gate) skip_to_gate(d0, z0, d1, z1);
-  if (!(d1 > d0)) return;
-  const int parts = reaches_gate ? parts_of(d0, z0, d1, z1) : 1;
-  const double step_d = (d1 - d0) / parts, step_z = (z1 - z0) / parts;
-  for (int part = 0; part < parts; ++part) {
-    const int i = next_piece();
-    pieces_->near_distance_m[i] = d0 + step_d * part;
-    pieces_->near_height_m[i] = z0 + step_z * part;
-    pieces_->far_distance_m[i] = part + 1 == parts ? d1 : d0 + step_d * (part + 1);
-    pieces_->far_height_m[i] = part + 1 == parts ? z1 : z0 + step_z * (part + 1);
-    pieces_->cross_m2[i] = below_m * step_d;
-    pieces_->facet_m[i] = below_m;
-    pieces_->facet_d2[i] = 1.0 + gx * gx + gy * gy;
-    pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
-    pieces_->material[i] = material;
-  }
+  const std::int32_t material =
+      map_->material_in_cell(cell.column, cell.row, sensor_m_.x + slice_.along.x * middle_m,
+                             sensor_m_.y + slice_.along.y * middle_m);
+  const int i = next_piece();
+  pieces_->near_distance_m[i] = d0;
+  pieces_->near_height_m[i] = z0;
+  pieces_->far_distance_m[i] = d1;
+  pieces_->far_height_m[i] = z1;
+  pieces_->cross_m2[i] = below_m * (d1 - d0);
+  pieces_->facet_m[i] = below_m;
+  pieces_->facet_d2[i] = 1.0 + gx * gx + gy * gy;
+  pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
+  pieces_->material[i] = material;
 }
 
 void SliceSweep::close_roof(double distance_m) {
@@ -285,21 +250,20 @@ void SliceSweep::see_wall(double distance_m, double low_m, double top_m, const C
   if (!(top_m > from_m)) return;
   horizon_ = top_m / distance_m;
   const glm::dvec2 step = edge.to_m - edge.from_m;
-  const double range_per_distance =
-      distance_m / std::sqrt(distance_m * distance_m + top_m * top_m);
+  const double range_per_distance = distance_m / std::sqrt(distance_m * distance_m + top_m * top_m);
   // How much nearer or farther the wall stands under another heading of the wedge, whose borders
   // are clipped to the wall's corners.
   const auto moved_m = [&](double turn_rad) {
     const glm::dvec2 clockwise(slice_.along.y, -slice_.along.x);
-    const glm::dvec2 turned =
-        slice_.along * std::cos(turn_rad) + clockwise * std::sin(turn_rad);
+    const glm::dvec2 turned = slice_.along * std::cos(turn_rad) + clockwise * std::sin(turn_rad);
     return (crossing_m(edge, turned) - distance_m) * range_per_distance;
   };
   const double half_rad = slice_.width_rad / 2;
   const double left_m = moved_m(std::max(edge.from_rad - slice_.heading_rad, -half_rad));
   const double right_m = moved_m(std::min(edge.to_rad - slice_.heading_rad, half_rad));
   const double facet_m = std::abs(edge.cross_m2) / glm::length(step);
-  const int parts = parts_of(distance_m, from_m, distance_m, top_m);
+  const int parts = parts_of(distance_m * (top_m - from_m),
+                             distance_m * distance_m + std::min(from_m * from_m, top_m * top_m));
   const double part_m = (top_m - from_m) / parts;
   for (int part = 0; part < parts; ++part) {
     const int i = next_piece();

@@ -67,7 +67,6 @@ class SliceSweep {
   void see_wall(double distance_m, double low_m, double top_m, const CutEdge& edge);
   void close_roof(double distance_m);
   void find_top();
-  void skip_to_gate(double& d0, double& z0, double d1, double z1) const;
   bool visible(double& d0, double& z0, double d1, double z1);
   int next_piece();
 
@@ -84,7 +83,7 @@ class SliceSweep {
   VisiblePieces* pieces_ = nullptr;
   const Full* full_ = nullptr;
   Sights sights_;
-  double horizon_ = 0.0;  // tangent
+  double horizon_ = 0.0;               // tangent
   std::vector<std::uint32_t> active_;  // prisms around the walk
   std::vector<std::uint32_t> left_already_;
   bool roofed_ = false;
