@@ -119,9 +119,9 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
   CHECK(rays.output.find("cast by rays, 4 per range cell and column: rays are the default") !=
         std::string::npos);
 
-  // Without a number of its own, 16; above 8, whole eights.
+  // Without a number of its own, 16; above 8, what at most 8 sub-columns make.
   for (const auto& [asked, used] : std::vector<std::pair<std::string, int>>{
-           {"", 16}, {"--rays-per-cell 0.1", 1}, {"--rays-per-cell 9", 16}}) {
+           {"", 16}, {"--rays-per-cell 0.1", 1}, {"--rays-per-cell 9", 10}, {"--rays-per-cell 12", 12}}) {
     INFO(asked);
     render("flat-grass", folder.path() / "asked", "-q --caster profile " + asked);
     const nlohmann::json caster = json_of(folder.path() / "asked/run.json")["caster"];
