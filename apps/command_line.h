@@ -10,9 +10,11 @@ namespace fanbeam::apps {
 
 struct AtmosphereOptions;
 struct CommonOptions;
+struct CostOptions;
 struct MaterialsFitOptions;
 struct MaterialsOptions;
 struct MaterialsPlotOptions;
+struct PlanOptions;
 struct RenderOptions;
 
 // --version, --quiet and --log-level, which every command and subcommand has (--help is CLI11's).
@@ -20,7 +22,9 @@ void add_common_options(CLI::App& command, CommonOptions& common);
 
 // Each adds its command to `app`. What is given may be read once the command line was parsed.
 void add_render_command(CLI::App& app, RenderOptions& options, CommonOptions& common);
+void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common);
 void add_atmosphere_command(CLI::App& app, AtmosphereOptions& options, CommonOptions& common);
+void add_cost_command(CLI::App& app, CostOptions& options, CommonOptions& common);
 // Its own subcommands are plot, fit and objects.
 void add_materials_command(CLI::App& app, MaterialsOptions& options, MaterialsPlotOptions& plot,
                            MaterialsFitOptions& fit, CommonOptions& common);

@@ -19,6 +19,17 @@ std::string cscope_text(sensors::Display::CScopeMode mode) {
   return "shadow: flat_earth with obstacles raised to heights estimated from their shadows";
 }
 
+// As frame_metadata writes it.
+std::optional<renderer::ErrorEstimate> error_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  renderer::ErrorEstimate error;
+  char missed[8] = "";
+  if (std::sscanf(text.c_str(), "%lf levels %d %6s", &error.rms_grey, &error.levels, missed) < 2)
+    return std::nullopt;
+  error.reached = missed[0] == '\0';
+  return error;
+}
+
 std::string value_of(const core::Metadata& metadata, const std::string& name) {
   for (const auto& [key, value] : metadata)
     if (key == name) return value;
@@ -58,7 +69,11 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
       {"fanbeam:rays", std::to_string(record.rays)},
       {"fanbeam:slices", std::to_string(record.slices)},
       {"fanbeam:blanked", std::to_string(record.blanked)},
-      {"fanbeam:events", events}};
+      {"fanbeam:events", events},
+      {"fanbeam:estimated_error_grey",
+       record.error ? fmt::format("{} levels {}{}", record.error->rms_grey, record.error->levels,
+                                  record.error->reached ? "" : " missed")
+                    : ""}};
 }
 
 bool take_over(const fs::path& folder, const ProductSet& products, const std::string& fingerprint,
@@ -85,6 +100,7 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
     record.rays = std::stoull("0" + value_of(metadata, "fanbeam:rays"));
     record.slices = std::stoull("0" + value_of(metadata, "fanbeam:slices"));
     record.blanked = std::stoull("0" + value_of(metadata, "fanbeam:blanked"));
+    record.error = error_of(value_of(metadata, "fanbeam:estimated_error_grey"));
     record.events.clear();
     const std::string events = value_of(metadata, "fanbeam:events");
     for (std::size_t from = 0; from < events.size();) {

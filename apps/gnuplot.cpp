@@ -46,14 +46,34 @@ std::string axis_commands(char name, const PlotAxis& axis) {
 }
 
 std::string style_of(const PlotSeries& series, std::size_t index) {
-  const char* colour = kColours[index % kColours.size()];
+  const char* colour = kColours[series.colour.value_or(index) % kColours.size()];
   if (series.style == PlotSeries::Style::points)
     return fmt::format("with points pt 7 ps 0.6 lc rgb '{}'", colour);
+  if (series.style == PlotSeries::Style::line_points)
+    return fmt::format("with linespoints lw 2 pt 7 ps 0.6 lc rgb '{}'", colour);
   // When the colours come round again, dots in the line tell the curves apart; dashes mean a style.
   constexpr std::array<int, 4> kSolidThenDotted = {1, 4, 5, 3};
   const bool dashed = series.style == PlotSeries::Style::dashed_line;
-  const int dashes = dashed ? 2 : kSolidThenDotted[index / kColours.size() % 4];
+  const std::size_t round = series.colour ? 0 : index / kColours.size();
+  const int dashes = dashed ? 2 : kSolidThenDotted[round % 4];
   return fmt::format("with lines lw 2 dt {} lc rgb '{}'", dashes, colour);
+}
+
+std::string mark_commands(const Plot& plot) {
+  std::string text;
+  for (const PlotMark& mark : plot.marks) {
+    const std::string x = core::number_text(mark.x);
+    text += fmt::format(
+        "set arrow from first {}, graph 0 to first {}, graph 1 nohead dt 2 lc rgb "
+        "'#606060'\nset label {} at first {}, graph 0.02 rotate by 90 left offset "
+        "-0.7,0 tc rgb '#606060' noenhanced\n",
+        x, x, gnuplot_text(mark.text), x);
+  }
+  for (const PlotLabel& label : plot.labels)
+    text += fmt::format("set label {} at {}, {} left offset 0.8,0 font ',10' noenhanced\n",
+                        gnuplot_text(label.text), core::number_text(label.x),
+                        core::number_text(label.y));
+  return text;
 }
 
 std::string data_block(const PlotSeries& series, std::size_t index) {
@@ -122,7 +142,10 @@ std::string gnuplot_script(const Plot& plot, const fs::path& output) {
       plot.width_px, plot.height_px, gnuplot_text(output.string()));
   text += fmt::format("set title {} noenhanced\n", gnuplot_text(plot.title));
   text += axis_commands('x', plot.x) + axis_commands('y', plot.y);
-  text += "set grid lt 1 lc rgb '#d0d0d0'\nset key outside right top noenhanced maxcols 1\n";
+  text += fmt::format("set grid lt 1 lc rgb '#d0d0d0'\nset key {} noenhanced maxcols {}\n",
+                      plot.key_below ? "below left Left reverse" : "outside right top",
+                      plot.key_below ? 2 : 1);
+  text += mark_commands(plot);
   for (std::size_t i = 0; i < plot.series.size(); ++i) text += data_block(plot.series[i], i);
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     text +=

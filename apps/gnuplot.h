@@ -9,10 +9,22 @@
 namespace fanbeam::apps {
 
 struct PlotSeries {
-  enum class Style { line, dashed_line, points };
+  enum class Style { line, dashed_line, points, line_points };
   std::string title;  // in the key; empty for none
   std::vector<double> x, y;
   Style style = Style::line;
+  std::optional<std::size_t> colour{};  // of eight; otherwise its place among the series
+};
+
+// A line across the plot at `x`, from below to above, with its name along it.
+struct PlotMark {
+  double x = 0.0;
+  std::string text;
+};
+
+struct PlotLabel {
+  double x = 0.0, y = 0.0;
+  std::string text;  // right of the point
 };
 
 struct PlotAxis {
@@ -25,6 +37,9 @@ struct Plot {
   std::string title;
   PlotAxis x, y;
   std::vector<PlotSeries> series;
+  std::vector<PlotMark> marks{};
+  std::vector<PlotLabel> labels{};
+  bool key_below = false;  // instead of beside the plot
   int width_px = 960;
   int height_px = 640;
 };

@@ -3,8 +3,10 @@
 #include "apps/atmosphere_command.h"
 #include "apps/command_line.h"
 #include "apps/compare_command.h"
+#include "apps/cost_command.h"
 #include "apps/materials_command.h"
 #include "apps/objects_table.h"
+#include "apps/plan_command.h"
 #include "apps/render_command.h"
 #include "apps/validate_command.h"
 
@@ -63,17 +65,21 @@ int main(int argc, char** argv) {
 
   CommonOptions common;
   RenderOptions render_options;
+  PlanOptions plan_options;
   ValidateOptions validate_options;
   CompareOptions compare_options;
   MaterialsOptions materials_options;
   MaterialsPlotOptions materials_plot;
   MaterialsFitOptions materials_fit;
   AtmosphereOptions atmosphere_options;
+  CostOptions cost_options;
   add_render_command(app, render_options, common);
+  add_plan_command(app, plan_options, common);
   add_validate_command(app, validate_options, common);
   add_compare_command(app, compare_options, common);
   add_materials_command(app, materials_options, materials_plot, materials_fit, common);
   add_atmosphere_command(app, atmosphere_options, common);
+  add_cost_command(app, cost_options, common);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -82,10 +88,12 @@ int main(int argc, char** argv) {
   return run_guarded([&] {
     set_up_log(common);
     if (app.got_subcommand("render")) return render(render_options, common);
+    if (app.got_subcommand("plan")) return explain_plan(plan_options, common);
     if (app.got_subcommand("atmosphere")) return atmosphere(atmosphere_options, common);
     if (app.got_subcommand("validate"))
       return validate(validate_options.scene, validate_options.data, validate_options.sensor,
                       common);
+    if (app.got_subcommand("cost")) return cost(cost_options, common);
     if (app.got_subcommand("compare")) return compare(compare_options, common);
     const CLI::App& materials = *app.get_subcommand("materials");
     if (materials.got_subcommand("plot")) return plot_materials(materials_options, materials_plot);

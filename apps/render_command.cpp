@@ -16,6 +16,7 @@
 #include "apps/preview.h"
 #include "apps/progress.h"
 #include "apps/run_record.h"
+#include "core/errors.h"
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/units.h"
@@ -48,13 +49,31 @@ ProductSet parse_products(const std::string& text) {
   return products;
 }
 
-renderer::Sampling choose_sampling(const RenderOptions& options, const scenes::Scene& scene) {
-  if (options.reference) return renderer::reference_sampling(options.seed);
-  const double asked =
-      options.rays_per_cell > 0.0 ? options.rays_per_cell : scene.description.rays_per_cell;
-  if (scene.caster.chosen == renderer::CasterKind::profile)
-    return renderer::profile_sampling_for(asked > 0.0 ? asked : renderer::kDefaultSlicesPerColumn);
-  return renderer::sampling_for(asked > 0.0 ? asked : renderer::kDefaultRaysPerCell);
+// What was asked for and what was reached, where an accuracy or a time was asked for.
+void print_accuracy(const RunRecord& record) {
+  const SamplingChoice& choice = record.choice;
+  if (choice.budget_ms > 0.0)
+    fmt::print(
+        "{:.1f} ms of {:.1f} ms a frame, sampling error {:.2f} grey: the same again with "
+        "--rays-per-cell {}{}\n",
+        choice.slowest_ms, choice.budget_ms, choice.estimated_error_grey,
+        core::number_text(choice.samples),
+        choice.fits ? "" : " (the coarsest there is, and too slow)");
+  double largest_grey = 0.0;
+  std::size_t estimated = 0, missed = 0;
+  for (const FrameRecord& frame : record.frames) {
+    if (!frame.error) continue;
+    ++estimated;
+    largest_grey = std::max(largest_grey, frame.error->rms_grey);
+    if (!frame.error->reached) ++missed;
+  }
+  if (estimated == 0) return;
+  fmt::print("sampling error at most {:.2f} grey RMS (estimated)", largest_grey);
+  if (choice.sampling.target_grey > 0.0)
+    fmt::print(", asked for {:.2f}{}", choice.sampling.target_grey,
+               missed > 0 ? fmt::format(": {} frames missed it at the finest sampling", missed)
+                          : std::string());
+  fmt::print("\n");
 }
 
 class Run {
@@ -67,7 +86,8 @@ class Run {
         products_(std::move(products)),
         folder_(options.output.empty() ? fs::path("out") / scene.description.name
                                        : fs::path(options.output)) {
-    record_.sampling = choose_sampling(options, scene);
+    record_.choice = choose_sampling(options, scene, wanted(),
+                                     parse_frames(options.frames, scene.frame_count()));
     record_.seed = options.seed;
     record_.threads = threads;
     record_.scene_build_s = scene.build_s;
@@ -101,7 +121,7 @@ class Run {
 void Run::render_frames() {
   const sensors::Sensor& sensor = scene_.description.sensor;
   const std::vector<int> frames = parse_frames(options_.frames, scene_.frame_count());
-  const renderer::FrameRenderer frame_renderer(scene_.world, record_.sampling, wanted(),
+  const renderer::FrameRenderer frame_renderer(scene_.world, record_.choice.sampling, wanted(),
                                                renderer::effects_of(scene_.plan, options_.seed));
   FrameWriter writer(folder_, products_, sensor);
   std::optional<Preview> preview;
@@ -127,7 +147,8 @@ void Run::render_frames() {
       record.slices = output.frame.slices;
       record.blanked = output.frame.blanked;
       record.events = output.frame.events;
-      output.metadata = frame_metadata(scene_, record_.sampling, record, fingerprint_);
+      record.error = output.frame.error;
+      output.metadata = frame_metadata(scene_, record_.choice.sampling, record, fingerprint_);
       if (products_.contains("obstacles"))
         output.obstacle_table = obstacle_table(output.frame.obstacles, fingerprint_);
       if (products_.contains("detections"))
@@ -153,7 +174,8 @@ void Run::print_summary() const {
   fmt::print("{} frames in {:.1f} s", record_.frames.size(), record_.wall_s);
   if (resumed > 0) fmt::print(" ({} already there)", resumed);
   fmt::print(", scene built in {:.1f} s\n", record_.scene_build_s);
-  fmt::print("cast by {}: {}\n", caster_text(record_.sampling), scene_.caster.reason);
+  fmt::print("cast by {}: {}\n", caster_text(record_.choice.sampling), scene_.caster.reason);
+  print_accuracy(record_);
   for (const core::EffectDecision& decision : scene_.plan.decisions)
     fmt::print("  {:14} {:3}  {}\n", decision.effect, decision.on ? "on" : "off", decision.reason);
   for (const std::string& product : products_) {
@@ -219,6 +241,7 @@ int render(const RenderOptions& options, const CommonOptions& common) {
       scenes::read_scene(find_scene(options.scene), scene_options, problems);
   if (!options.realisation.empty()) description.sample = options.realisation == "sample";
   scenes::BuildOptions build;
+  if (options.accuracy_grey > 0.0) build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   if (options.reference) {
     build.caster = renderer::CasterWish::rays;

@@ -37,6 +37,9 @@ struct RenderOptions {
   std::string caster;          // one of kCasterWishes; empty: the scene's
   double rays_per_cell = 0.0;  // or slices per column; 0: the scene's, else the default
   bool reference = false;
+  double accuracy_grey = 0.0;   // 0: not asked for
+  double time_budget_ms = 0.0;  // 0: no limit
+  bool estimate_error = false;
   bool resume = false;
   std::uint64_t seed = 0;
 };

@@ -35,6 +35,26 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                           core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
                           core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
           ->check(CLI::Range(0.1, 100000.0));
+  CLI::Option* accuracy =
+      command
+          .add_option("--accuracy", options.accuracy_grey,
+                      "Error allowed, RMS in grey levels: half of it is for effects left out, half "
+                      "for sampling, which is refined frame by frame until its estimate says so "
+                      "(one grey level is 0.24 dB with the default display)")
+          ->check(CLI::Range(0.01, 100.0))
+          ->excludes(rays);
+  CLI::Option* budget =
+      command
+          .add_option("--time-budget", options.time_budget_ms,
+                      "Milliseconds a frame may take from pose to pictures in memory (16 Hz: "
+                      "62.5): the finest sampling that fits, and the error it reaches; with "
+                      "--accuracy no finer than that needs")
+          ->check(CLI::Range(0.1, 1e7))
+          ->excludes(rays);
+  CLI::Option* estimate =
+      command.add_flag("--estimate-error", options.estimate_error,
+                       "Estimate every frame's sampling error, for run.json; takes twice the time");
+  estimate->excludes(accuracy)->excludes(budget);
   const auto& wishes = renderer::kCasterWishes;
   command
       .add_option("--caster", options.caster,
@@ -46,7 +66,10 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
       .add_flag("--reference", options.reference,
                 "Converged sampling, always with rays: 256 azimuths per column x 8 rays per cell, "
                 "about 10 s a frame")
-      ->excludes(rays);
+      ->excludes(rays)
+      ->excludes(accuracy)
+      ->excludes(budget)
+      ->excludes(estimate);
   command
       .add_option("--realisation", options.realisation,
                   "mean: expected power; sample: one draw with speckle, noise and fluctuating "

@@ -46,16 +46,27 @@ Json caster_json(const renderer::CasterChoice& caster, const renderer::Sampling&
   return json;
 }
 
-// With slices, whose number stands under `caster`, all but `sub_columns` concerns the azimuths left
-// to rays.
-Json sampling_json(const renderer::Sampling& sampling) {
-  return {{"sub_columns", sampling.sub_columns},
-          {"rays_per_cell_and_sub_column", sampling.rays_per_cell},
+Json ray_sampling_json(const renderer::Sampling& sampling) {
+  return {{"rays_per_cell_and_sub_column", sampling.rays_per_cell},
           {"refinement_depth", sampling.refinement_depth},
           {"gap_cells", sampling.gap_cells},
           {"largest_step_deg", core::degrees(sampling.largest_step_rad)},
           {"deposit", sampling.deposit_intervals ? "intervals" : "points"},
           {"jittered_passes", sampling.jittered_passes}};
+}
+
+// What the caster in use goes by. Slices may leave azimuths to rays, whose settings then stand in
+// an object of their own.
+Json sampling_json(const renderer::CasterChoice& caster, const renderer::Sampling& sampling) {
+  Json json = {{"sub_columns", sampling.sub_columns}};
+  if (sampling.target_grey > 0.0) json["refined_to_grey"] = sampling.target_grey;
+  if (caster.chosen == renderer::CasterKind::rays) {
+    json.update(ray_sampling_json(sampling));
+    return json;
+  }
+  json["slices_per_sub_column"] = sampling.slices_per_sub_column;
+  if (caster.others > 0) json["azimuths_left_to_rays"] = ray_sampling_json(sampling);
+  return json;
 }
 
 Json sensor_json(const sensors::Sensor& sensor) {
@@ -124,12 +135,12 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["scene"] = scene.description.name;
   json["sensor"] = scene.description.sensor.name;
   json["seed"] = record.seed;
-  json["caster"] = caster_json(scene.caster, record.sampling);
+  json["caster"] = caster_json(scene.caster, record.choice.sampling);
   json["input"] = resolved_json(scene.description.resolved);
   json["sensor_values"] = sensor_json(scene.description.sensor);
   json["receiver"] = receiver_json(scene);
   json["realisation"] = realisation_of(scene.plan);
-  json["sampling"] = sampling_json(record.sampling);
+  json["sampling"] = sampling_json(scene.caster, record.choice.sampling);
   json["plan"] = Json::array();
   for (const core::EffectDecision& decision : scene.plan.decisions)
     json["plan"].push_back({{"effect", decision.effect},
@@ -158,6 +169,14 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   return json;
 }
 
+// Beside the header, which must not tell a sampling that was chosen from one that was asked for.
+Json budget_json(const SamplingChoice& choice) {
+  return {{"budget_ms", choice.budget_ms},
+          {"rays_per_cell", choice.samples},
+          {"estimated_error_grey", choice.estimated_error_grey},
+          {"fits", choice.fits}};
+}
+
 double median(std::vector<double> values) {
   if (values.empty()) return 0.0;
   std::sort(values.begin(), values.end());
@@ -171,6 +190,9 @@ std::string realisation_of(const core::EffectPlan& plan) {
 }
 
 std::string caster_text(const renderer::Sampling& sampling) {
+  if (sampling.target_grey > 0.0)
+    return fmt::format("{}, refined to {} grey RMS", renderer::name_of(sampling.caster),
+                       core::number_text(sampling.target_grey));
   if (sampling.caster == renderer::CasterKind::profile)
     return fmt::format("profile, {} slices per column", slices_per_column(sampling));
   return fmt::format("rays, {} per range cell and column",
@@ -179,15 +201,20 @@ std::string caster_text(const renderer::Sampling& sampling) {
 
 std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
   Json json = header_json(scene, record);
+  if (record.choice.budget_ms > 0.0) json["time_budget"] = budget_json(record.choice);
   json["frames"] = Json::array();
-  for (const FrameRecord& frame : record.frames)
-    json["frames"].push_back({{"index", frame.index},
-                              {"time_s", frame.time_s},
-                              {"pose", pose_json(frame.pose)},
-                              {"rays", frame.rays},
-                              {"slices", frame.slices},
-                              {"blanked", frame.blanked},
-                              {"events", frame.events}});
+  for (const FrameRecord& frame : record.frames) {
+    Json entry = {{"index", frame.index}, {"time_s", frame.time_s}, {"pose", pose_json(frame.pose)},
+                  {"rays", frame.rays},   {"slices", frame.slices}, {"blanked", frame.blanked}};
+    if (frame.error) {
+      entry["estimated_error_grey"] = frame.error->rms_grey;
+      entry["levels"] = frame.error->levels;
+    } else {
+      entry["estimated_error_grey"] = nullptr;
+    }
+    entry["events"] = frame.events;
+    json["frames"].push_back(std::move(entry));
+  }
   return json.dump(1) + "\n";
 }
 

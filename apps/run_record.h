@@ -4,9 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/sampling_choice.h"
+#include "renderer/accuracy/refinement.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/frame_renderer.h"
 #include "scenes/scene.h"
@@ -21,12 +24,13 @@ struct FrameRecord {
   std::uint64_t slices = 0;
   std::uint64_t blanked = 0;
   std::vector<std::string> events;
+  std::optional<renderer::ErrorEstimate> error;
   double frame_ms = 0.0;
   bool resumed = false;  // taken over from an earlier run: no time was measured
 };
 
 struct RunRecord {
-  renderer::Sampling sampling;
+  SamplingChoice choice;
   std::uint64_t seed = 0;
   std::vector<FrameRecord> frames;
   int threads = 0;
@@ -37,7 +41,7 @@ struct RunRecord {
 // "sample" when frames show one realisation, "mean" when they show the expected power.
 std::string realisation_of(const core::EffectPlan& plan);
 
-// "rays, 4 per range cell and column", "profile, 16 slices per column".
+// "rays, 4 per range cell and column", "profile, 8 slices per column".
 std::string caster_text(const renderer::Sampling& sampling);
 
 std::string run_json(const scenes::Scene& scene, const RunRecord& record);

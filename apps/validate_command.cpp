@@ -21,6 +21,9 @@ int validate(const std::string& name, const std::string& data, const std::string
   fmt::print("  frames      {} at {:.3g} Hz, {:.1f} s of flight\n", scene->frame_count(),
              radar.scan.frame_rate_Hz, scene->trajectory.end_s() - scene->trajectory.begin_s());
   fmt::print("  surfaces    {} triangles\n", scene->world.surfaces->triangle_count());
+  if (scene->raised_buildings > 0)
+    fmt::print("  buildings   {} of {} raised parts hang over open air and are left to rays\n",
+               scene->floating_buildings, scene->raised_buildings);
   fmt::print("  scatterers  {} points\n", scene->world.targets.size());
   fmt::print("  sensor      {}, {} x {} cells, {:.4g} GHz\n", radar.name, radar.scan.columns,
              radar.range.cells, radar.waveform.frequency_Hz / 1e9);

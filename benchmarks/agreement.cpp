@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "benchmarks/frame_clock.h"
-
 namespace fanbeam::benchmarks {
 namespace {
 
@@ -64,11 +62,13 @@ AgreementFigures measure_agreement(const View& view, const Effort& effort,
   fmt::print(stderr, "{} at {:.0f} m: slices against rays\n", view.scene->name, view.distance_m);
   FramePower rays;
   if (reference == nullptr) rays = FrameClock(view, effort.reference(1)).power();
+  if (reference == nullptr) reference = &rays;
   const auto converged = renderer::profile_sampling_for(effort.converged_slices);
+  const FramePower slices = FrameClock(view, converged).power();
   return {view.scene->name, view.distance_m,
           fmt::format("{:.0f} slices per column", slices_per_column(converged)),
-          agreement_of(view.sensor(), FrameClock(view, converged).power(),
-                       reference != nullptr ? *reference : rays)};
+          agreement_of(view.sensor(), slices, *reference),
+          explain_off_cells(view, effort, slices, *reference)};
 }
 
 }  // namespace fanbeam::benchmarks

@@ -6,11 +6,10 @@
 
 #include "benchmarks/bench_scene.h"
 #include "benchmarks/effort.h"
-#include "benchmarks/grey_error.h"
+#include "benchmarks/frame_clock.h"
+#include "benchmarks/off_cells.h"
 
 namespace fanbeam::benchmarks {
-
-inline constexpr double kClearlyOff_grey = 4.0;
 
 struct PictureAgreement {
   PictureError error;  // grey levels
@@ -33,6 +32,7 @@ struct AgreementFigures {
   double distance_m = 0.0;
   std::string what;
   FrameAgreement agreement;
+  OffCells off;  // of slices; why they are apart
 };
 
 // Converged slices against the converged rays of `reference`; a frame of rays is cast where that is

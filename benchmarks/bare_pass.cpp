@@ -133,22 +133,4 @@ BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling,
   return best;
 }
 
-ElevationSpan elevation_span(const View& view) {
-  const auto sampling = renderer::sampling_for(renderer::kDefaultRaysPerCell);
-  ElevationSpan span{1e300, -1e300};
-  for (const RayPacket<16>& packet :
-       renderer::RayCaster(view.world(), sampling).packets(view.antenna)) {
-    for (int i = 0; i < 16; ++i) {
-      if (!holds_ray(packet, i)) continue;
-      const glm::dvec3 direction(packet.direction_x[i], packet.direction_y[i],
-                                 packet.direction_z[i]);
-      const auto angles = sensors::angles(view.antenna, direction, view.sensor().scan.surface);
-      if (!angles) continue;
-      span.lowest_rad = std::min(span.lowest_rad, angles->elevation_rad);
-      span.highest_rad = std::max(span.highest_rad, angles->elevation_rad);
-    }
-  }
-  return span;
-}
-
 }  // namespace fanbeam::benchmarks

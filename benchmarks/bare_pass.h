@@ -26,11 +26,4 @@ struct BarePass {
 // core::InternalError when the recorded rays are not as many as a frame's.
 BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling, int turns);
 
-// Elevations of the lowest and highest ray that the ray caster sends at default sampling.
-struct ElevationSpan {
-  double lowest_rad = 0.0;
-  double highest_rad = 0.0;
-};
-ElevationSpan elevation_span(const View& view);
-
 }  // namespace fanbeam::benchmarks

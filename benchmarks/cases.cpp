@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/frame_clock.h"
-#include "benchmarks/grey_error.h"
 #include "renderer/casting/nrcs_table.h"
 #include "renderer/casting/path_loss_table.h"
 #include "renderer/casting/ray_caster.h"

@@ -30,7 +30,7 @@ std::optional<double> ms_at_error(const std::vector<SamplingFigures>& ladder, do
   return interpolated_ms(points, rms);
 }
 
-std::optional<double> ms_at_error(const std::vector<NaiveFigures>& ladder, NaiveKind kind,
+std::optional<double> ms_at_error(const std::vector<NaiveFigures>& ladder, renderer::NaiveKind kind,
                                   double rms) {
   std::vector<Point> points;
   for (const NaiveFigures& step : ladder)

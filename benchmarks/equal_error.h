@@ -14,7 +14,7 @@ inline constexpr double kEqualErrors[] = {2.6, 1.2};
 // Milliseconds for a noise-free B-scope error of `rms`, interpolated in a double logarithmic
 // ladder: nothing when no step is that good, the first step's time when that one is already.
 std::optional<double> ms_at_error(const std::vector<SamplingFigures>& ladder, double rms);
-std::optional<double> ms_at_error(const std::vector<NaiveFigures>& ladder, NaiveKind kind,
+std::optional<double> ms_at_error(const std::vector<NaiveFigures>& ladder, renderer::NaiveKind kind,
                                   double rms);
 
 }  // namespace fanbeam::benchmarks

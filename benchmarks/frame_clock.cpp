@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <memory>
+
 #include "benchmarks/stopwatch.h"
 #include "sensors/display/display.h"
 
@@ -11,11 +13,21 @@ FramePower power_of(renderer::Frame&& frame) {
   return {std::move(frame.bscope_W), std::move(frame.cscope_W_m3)};
 }
 
+FrameClock::FrameClock(const renderer::World& world, const renderer::FramePose& pose,
+                       const renderer::Effects& effects, const renderer::Sampling& sampling)
+    : sensor_(world.sensor), pose_(pose), renderer_(world, sampling, {}, effects) {}
+
 FrameClock::FrameClock(const renderer::World& world, const renderer::FramePose& pose, bool noise,
                        const renderer::Sampling& sampling)
-    : sensor_(world.sensor),
-      pose_(pose),
-      renderer_(world, sampling, {}, {.thermal_noise = noise}) {}
+    : FrameClock(world, pose, renderer::Effects{.thermal_noise = noise}, sampling) {}
+
+FrameClock::FrameClock(const View& view, renderer::NaiveKind kind, double rays,
+                       const renderer::ElevationSpan& span)
+    : sensor_(view.sensor()),
+      pose_(view.pose),
+      renderer_(view.world(), renderer::naive_sampling(kind), {},
+                {.thermal_noise = view.scene->noise()},
+                std::make_unique<renderer::NaiveCaster>(view.world(), kind, rays, span)) {}
 
 double FrameClock::frame_ms(renderer::Frame* frame) const {
   const Clock::time_point begin = Clock::now();

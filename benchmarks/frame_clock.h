@@ -2,20 +2,33 @@
 #pragma once
 
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/grey_error.h"
+#include "renderer/accuracy/grey_error.h"
+#include "renderer/accuracy/naive_caster.h"
 #include "renderer/frame_renderer.h"
 
 namespace fanbeam::benchmarks {
+
+using renderer::FrameError;
+using renderer::FrameGrey;
+using renderer::FramePower;
+using renderer::GreyError;
+using renderer::GreyReference;
+using renderer::PictureError;
 
 FramePower power_of(renderer::Frame&& frame);
 
 class FrameClock {
  public:
   // `world` must outlive the clock.
+  FrameClock(const renderer::World& world, const renderer::FramePose& pose,
+             const renderer::Effects& effects, const renderer::Sampling& sampling);
   FrameClock(const renderer::World& world, const renderer::FramePose& pose, bool noise,
              const renderer::Sampling& sampling);
   FrameClock(const View& view, const renderer::Sampling& sampling)
       : FrameClock(view.world(), view.pose, view.scene->noise(), sampling) {}
+  // About `rays` naive rays.
+  FrameClock(const View& view, renderer::NaiveKind kind, double rays,
+             const renderer::ElevationSpan& span);
 
   // Renders B-scope and C-scope once; the frame goes to `frame` unless that is null.
   double frame_ms(renderer::Frame* frame = nullptr) const;

@@ -40,7 +40,7 @@ std::vector<Step> ladder_steps(const CasterFigures& figures, double default_fine
   return steps;
 }
 
-std::vector<Step> naive_steps(const ViewFigures& view, NaiveKind kind) {
+std::vector<Step> naive_steps(const ViewFigures& view, renderer::NaiveKind kind) {
   std::vector<Step> steps;
   for (const NaiveFigures& step : view.naive)
     if (step.kind == kind) steps.push_back({step.frame_ms, step.error.bscope, "", false});
@@ -57,9 +57,9 @@ const Method kMethods[] = {
        return ladder_steps(view.rays, renderer::kDefaultRaysPerCell);
      }},
     {"naive, dithered", "#009e73",
-     [](const ViewFigures& view) { return naive_steps(view, NaiveKind::dithered); }},
+     [](const ViewFigures& view) { return naive_steps(view, renderer::NaiveKind::dithered); }},
     {"naive, plain", "#8c8c8c",
-     [](const ViewFigures& view) { return naive_steps(view, NaiveKind::plain); }},
+     [](const ViewFigures& view) { return naive_steps(view, renderer::NaiveKind::plain); }},
 };
 
 struct Range {

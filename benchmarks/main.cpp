@@ -85,6 +85,7 @@ SceneFigures measure(const BenchScene& scene, bool city, const Effort& effort, i
     figures.views.push_back(measure_view(view_at(scene, distance_m), effort, extras));
   }
   if (city) figures.scaling = measure_scaling(farthest, effort);
+  figures.plan = measure_plan(farthest, effort);
   return figures;
 }
 

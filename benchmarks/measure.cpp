@@ -6,13 +6,13 @@
 #include <cmath>
 
 #include "benchmarks/equal_error.h"
-#include "benchmarks/frame_clock.h"
 #include "core/parallel.h"
 
 namespace fanbeam::benchmarks {
 namespace {
 
 using renderer::CasterKind;
+using renderer::NaiveKind;
 
 constexpr double kMostPlainRays = 5e6;  // more do not help it
 constexpr double kFewNaiveRays = 1e6;   // more take a good part of a second: one frame is enough
@@ -98,8 +98,11 @@ void ViewBench::measure_reference_error() {
   tell("second reference");
   const FramePower second = FrameClock(view_, effort_.reference(2)).power();
   figures_.reference_error = reference_->error_of(second);
-  figures_.reference_agreement = {view_.scene->name, view_.distance_m, "reference, another seed",
-                                  agreement_of(view_.sensor(), second, reference_power_)};
+  figures_.reference_agreement = {view_.scene->name,
+                                  view_.distance_m,
+                                  "reference, another seed",
+                                  agreement_of(view_.sensor(), second, reference_power_),
+                                  {}};
 }
 
 // Bisection over the quickest of a few frames, then full measurements downwards until one holds.
@@ -156,19 +159,19 @@ void ViewBench::measure_bare() {
 
 void ViewBench::measure_naive() {
   tell("naive yardsticks");
-  const ElevationSpan span = elevation_span(view_);
+  const renderer::ElevationSpan span = renderer::elevation_span(view_.world(), view_.antenna);
   for (const NaiveKind kind : {NaiveKind::plain, NaiveKind::dithered}) {
     for (const double rays : effort_.naive_rays) {
       if (kind == NaiveKind::plain && rays > kMostPlainRays) continue;
-      const NaiveRenderer renderer(view_, kind, rays, span);
-      NaiveFrame frame;
+      const FrameClock clock(view_, kind, rays, span);
+      renderer::Frame frame;
       const Repetitions once{1, 1, 0.0, false};
       NaiveFigures figures;
       figures.kind = kind;
-      figures.frame_ms = median_ms(rays > kFewNaiveRays ? once : effort_.naive,
-                                   [&] { frame = renderer.render(); });
+      figures.frame_ms =
+          median_ms(rays > kFewNaiveRays ? once : effort_.naive, [&] { clock.frame_ms(&frame); });
       figures.rays = frame.rays;
-      figures.error = reference_->error_of(frame.power);
+      figures.error = reference_->error_of(power_of(std::move(frame)));
       figures_.naive.push_back(figures);
       if (figures.error.bscope.noise_free.rms < kEqualErrors[1]) break;
     }

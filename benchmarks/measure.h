@@ -10,8 +10,7 @@
 #include "benchmarks/bare_pass.h"
 #include "benchmarks/bench_scene.h"
 #include "benchmarks/effort.h"
-#include "benchmarks/grey_error.h"
-#include "benchmarks/naive.h"
+#include "benchmarks/frame_clock.h"
 #include "renderer/casting/sampling.h"
 
 namespace fanbeam::benchmarks {
@@ -29,7 +28,7 @@ struct SamplingFigures {
 };
 
 struct NaiveFigures {
-  NaiveKind kind = NaiveKind::plain;
+  renderer::NaiveKind kind = renderer::NaiveKind::plain;
   double frame_ms = 0.0;
   std::uint64_t rays = 0;
   FrameError error;

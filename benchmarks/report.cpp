@@ -143,14 +143,19 @@ std::string agreement_markdown(const Report& report) {
       "| view | what | B RMS | B mean | B cells | C RMS | C mean | C cells |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- |\n",
       kClearlyOff_grey);
+  std::vector<AgreementFigures> slices;
   for (const SceneFigures& scene : report.scenes) {
     for (const ViewFigures& view : scene.views) {
       out += agreement_line(view.slices_agreement);
+      slices.push_back(view.slices_agreement);
       if (view.reference_agreement) out += agreement_line(*view.reference_agreement);
     }
   }
-  for (const AgreementFigures& line : report.agreement) out += agreement_line(line);
-  return out + "\n";
+  for (const AgreementFigures& line : report.agreement) {
+    out += agreement_line(line);
+    slices.push_back(line);
+  }
+  return out + "\n" + off_cells_markdown(slices);
 }
 
 std::string scaling_markdown(const SceneFigures& scene) {

@@ -1,10 +1,12 @@
 // The measured figures as Markdown: what docs/performance.md holds.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "benchmarks/measure.h"
+#include "benchmarks/plan_cost.h"
 #include "benchmarks/scaling.h"
 #include "benchmarks/sequence.h"
 
@@ -15,6 +17,7 @@ struct SceneFigures {
   std::vector<SequenceFigures> sequences;
   std::vector<ViewFigures> views;
   std::vector<ScalingStep> scaling;
+  std::optional<PlanFigures> plan;
 };
 
 struct Report {
@@ -32,6 +35,9 @@ std::string markdown(const Report& report);
 
 // The section with the design's targets beside the figures.
 std::string targets_markdown(const Report& report);
+
+// Below the table of agreement: why cells of slices are apart from the reference.
+std::string off_cells_markdown(const std::vector<AgreementFigures>& lines);
 
 // A view's own section.
 std::string view_markdown(const ViewFigures& figures, int threads);

@@ -58,6 +58,9 @@ constexpr Target kWritten_Hz{16.0, 16.0, true};
 constexpr Target kAgreement_grey{0.5, 0.5};
 constexpr Target kAgreement_dB{0.02, 0.02};
 constexpr Target kScaling{3.0, 3.0};
+constexpr Target kPlanTime_ms{20.0, 20.0};
+constexpr Target kPlanSaving{0.3, 0.3, true};
+constexpr Target kOffOverAbsent{1.01, 1.01};
 
 std::string target_text(const ErrorTarget& target) {
   return fmt::format("{:.1f} / {:.1f}", target.with_noise, target.noise_free);
@@ -94,7 +97,7 @@ std::string naive_row(const SceneFigures& scene, const Caster& caster, double rm
                 fmt::format("{:.2f}", caster.most_of_naive));
   for (const ViewFigures& view : scene.views) {
     const auto ours_ms = ms_at_error((view.*caster.figures).ladder, rms);
-    const auto naive_ms = ms_at_error(view.naive, NaiveKind::dithered, rms);
+    const auto naive_ms = ms_at_error(view.naive, renderer::NaiveKind::dithered, rms);
     if (!ours_ms) {
       row.add("error not reached" + at(view));
       row.miss();
@@ -194,6 +197,35 @@ std::string scaling_row(const SceneFigures& scene) {
   return row.markdown();
 }
 
+std::string plan_rows(const PlanFigures& plan) {
+  const std::string& name = plan.scene->name;
+  TargetRow time(name + ", planning, ms", fmt::format("{:.0f}", kPlanTime_ms.must));
+  time.add(fmt::format("{:.2f}", plan.plan_ms));
+  time.judge(plan.plan_ms, kPlanTime_ms);
+  std::string out = time.markdown();
+  // What it saves depends on what a scene needs: the target is the default scene's.
+  if (name == kDefaultScene) {
+    TargetRow saving(name +
+                         ", rays, share of the frame time that pruning saves against all effects "
+                         "forced on",
+                     fmt::format("at least {:.2f}", kPlanSaving.must));
+    saving.add(fmt::format("{:.2f} ({:.1f} ms with {} effects, {:.1f} ms with {})",
+                           plan.saved_sample(), plan.planned_ms, plan.on_planned,
+                           plan.forced_sample_ms, plan.on_forced_sample));
+    saving.add(fmt::format("{:.2f} against {:.1f} ms with the {} of a mean picture", plan.saved(),
+                           plan.forced_ms, plan.on_forced));
+    saving.judge(plan.saved_sample(), kPlanSaving);
+    out += saving.markdown();
+  }
+  TargetRow absence(fmt::format("{}, rays, frame with {} effects possible but off over one where "
+                                "they cannot occur",
+                                name, plan.only_possible),
+                    fmt::format("{:.2f}", kOffOverAbsent.must));
+  absence.add(fmt::format("{:.4f} over {} frames", plan.off_over_absent, plan.frames));
+  absence.judge(plan.off_over_absent, kOffOverAbsent);
+  return out + absence.markdown();
+}
+
 }  // namespace
 
 std::string targets_markdown(const Report& report) {
@@ -217,6 +249,7 @@ std::string targets_markdown(const Report& report) {
     out += agreement_rows(scene.scene->name, of_slices(scene));
     if (scene.scene->name == kCityScene) out += build_row(scene);
     if (!scene.scaling.empty()) out += scaling_row(scene);
+    if (scene.plan) out += plan_rows(*scene.plan);
     for (const SequenceFigures& sequence : scene.sequences) out += sequence_row(scene, sequence);
   }
   for (const AgreementFigures& line : report.agreement) out += agreement_rows(line.scene, {line});

@@ -97,8 +97,8 @@ std::string naive_markdown(const ViewFigures& figures) {
       "cell; one azimuth per column (plain) or one per ray (dithered).\n\n" +
       ray_head("kind");
   for (const NaiveFigures& step : figures.naive)
-    out += ray_row(step.kind == NaiveKind::plain ? "plain" : "dithered", step.frame_ms, step.rays,
-                   step.error);
+    out += ray_row(step.kind == renderer::NaiveKind::plain ? "plain" : "dithered", step.frame_ms,
+                   step.rays, step.error);
   return out + "\n";
 }
 

@@ -58,11 +58,15 @@ std::vector<double> plus(const std::vector<double>& values, double constant) {
 
 FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
                              const Effects& effects)
+    : FrameRenderer(world, sampling, products, effects, make_caster(world, sampling)) {}
+
+FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
+                             const Effects& effects, std::unique_ptr<Caster> caster)
     : world_(world),
       sampling_(sampling),
       products_(products),
       effects_(effects),
-      caster_(make_caster(world, sampling)),
+      caster_(std::move(caster)),
       double_bounce_(effects.double_bounce
                          ? std::make_unique<DoubleBounce>(world, bounce_sampling(sampling))
                          : nullptr),
@@ -100,7 +104,7 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   thread_local FanSums sums;
   const std::vector<core::Echo> targets = unobstructed_echoes(world_, antenna, pose.time_s);
   SightLines sight = sight_lines(world_, targets, pose.time_s);
-  caster_->cast(antenna, elevation_resolved, sums, sight);
+  frame.error = cast(antenna, elevation_resolved, sums, sight);
   if (effects_.rain_echo && world_.volume_echo)
     add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
   if (double_bounce_) double_bounce_->add(antenna, sums);
@@ -124,6 +128,19 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   if (sums.hits == 0 && echoes.empty()) frame.events.emplace_back("empty_view");
   display(height_above_ground_m, frame);
   return frame;
+}
+
+std::optional<ErrorEstimate> FrameRenderer::cast(const sensors::AntennaFrame& antenna,
+                                                 bool with_cscope, FanSums& sums,
+                                                 SightLines& sight) const {
+  if (!(sampling_.target_grey > 0.0) && !sampling_.estimate_error) {
+    caster_->cast(antenna, with_cscope, CastPass{}, sums, sight);
+    return std::nullopt;
+  }
+  const Refinement refinement(world_, sampling_, *caster_, effects_.thermal_noise);
+  return sampling_.target_grey > 0.0
+             ? refinement.cast(antenna, with_cscope, sampling_.target_grey, sums, sight)
+             : refinement.estimate(antenna, with_cscope, sums, sight);
 }
 
 // The last stage before display: targets join the diffuse power, expected or as one realisation.

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "core/echo.h"
 #include "core/pose.h"
+#include "renderer/accuracy/refinement.h"
 #include "renderer/casting/caster.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/effects.h"
@@ -49,7 +51,8 @@ struct Frame {
   std::vector<sensors::ShadowObstacle> obstacles;  // also for a C-scope of mode shadow
   std::uint64_t rays = 0;
   std::uint64_t slices = 0;
-  std::uint64_t blanked = 0;  // hits nearer than the first range cell
+  std::uint64_t blanked = 0;           // hits nearer than the first range cell
+  std::optional<ErrorEstimate> error;  // when the sampling asks for it
   // "below_terrain": the sensor is not above the ground, the picture holds noise alone.
   // "empty_view": nothing was hit.
   std::vector<std::string> events;
@@ -60,11 +63,17 @@ class FrameRenderer {
   // `world` must outlive the renderer.
   FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
                 const Effects& effects);
+  // The same around a caster of the caller's; of `sampling` it is asked for the sub-columns that
+  // `caster` fills, and for the rays of bounces.
+  FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
+                const Effects& effects, std::unique_ptr<Caster> caster);
 
   // Thread-safe. Throws InputError E-NONFINITE or E-RANGE for an impossible pose.
   Frame render(const FramePose& pose) const;
 
  private:
+  std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
+                                    FanSums& sums, SightLines& sight) const;
   void receive(const std::vector<core::Echo>& echoes, std::uint32_t frame_index,
                Frame& frame) const;
   void display(double height_above_ground_m, Frame& frame) const;

@@ -47,6 +47,8 @@ void add_prisms(const std::vector<terrain::Prism>& prisms, terrain::Extrusion ex
                 const MaterialNames& names, const core::Place& place, const std::string& field,
                 Bodies& bodies) {
   std::vector<terrain::MaterialId> ids = ids_of(extrusion.mesh, names, place, field);
+  for (const terrain::ExtrudedPolygon& polygon : extrusion.polygons)
+    bodies.raised += prisms[polygon.prism].on_ground ? 0 : 1;
   bodies.floating += terrain::add_solids(prisms, extrusion, ids[terrain::kWallSlot],
                                          ids[terrain::kRoofSlot], bodies.solids);
   bodies.meshes.push_back({std::move(extrusion.mesh), std::move(ids)});

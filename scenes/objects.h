@@ -21,7 +21,9 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
 struct Bodies {
   std::vector<terrain::PlacedMesh> meshes;
   terrain::Solids solids;
-  std::size_t floating = 0;  // building parts over open air, see terrain/buildings/solid_prisms.h
+  // Building parts that do not reach the ground, and those of them over open air
+  // (terrain/buildings/solid_prisms.h).
+  std::size_t raised = 0, floating = 0;
 };
 
 Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,

@@ -11,6 +11,7 @@
 #include "scenes/model_materials.h"
 #include "scenes/objects.h"
 #include "scenes/scene_caster.h"
+#include "scenes/scene_facts.h"
 #include "scenes/scene_mirrors.h"
 #include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory_builder.h"
@@ -19,6 +20,12 @@
 
 namespace fanbeam::scenes {
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
 
 // Every frame's aircraft must be over the terrain and above it.
 void check_flight(const SceneDescription& scene, const terrain::LocalFrame& frame,
@@ -47,42 +54,19 @@ void check_flight(const SceneDescription& scene, const terrain::LocalFrame& fram
   }
 }
 
-renderer::SceneFacts facts_of(const SceneDescription& scene, const terrain::LocalFrame& frame,
-                              const Trajectory& trajectory, const terrain::HeightField& field) {
-  const auto [lowest, highest] = std::minmax_element(field.height_m.begin(), field.height_m.end());
-  renderer::SceneFacts facts{scene.weather, scene.sensor, *lowest, *highest};
-  facts.sample = scene.sample;
-  const auto fluctuates = [](const auto& described) {
-    return described.swerling != core::Swerling::steady;
-  };
-  facts.fluctuating_targets = std::any_of(scene.targets.begin(), scene.targets.end(), fluctuates) ||
-                              std::any_of(scene.lines.begin(), scene.lines.end(), fluctuates);
-  for (const core::Pose& pose : trajectory.poses()) {
-    const double height_m = frame.to_local_m(pose.position).z;
-    facts.lowest_m = std::min(facts.lowest_m, height_m);
-    facts.highest_m = std::max(facts.highest_m, height_m);
-  }
-  return facts;
-}
-
-// Targets may hang higher than anything else in the scene.
-void add_target_facts(const std::vector<renderer::PointTarget>& targets,
-                      renderer::SceneFacts& facts) {
-  for (const renderer::PointTarget& target : targets) {
-    facts.rcs_sum_m2 += materials::largest_rcs_m2(target.rcs, facts.sensor.wavelength_m());
-    for (const renderer::PointTarget::Waypoint& waypoint : target.path) {
-      facts.lowest_m = std::min(facts.lowest_m, waypoint.position_m.z);
-      facts.highest_m = std::max(facts.highest_m, waypoint.position_m.z);
-    }
-  }
-}
-
 atmosphere::Weather simulated_weather(atmosphere::Weather weather, const core::EffectPlan& plan) {
   weather.simulate_gas = plan.runs(renderer::kGas);
   weather.simulate_fog = plan.runs(renderer::kFog);
   weather.simulate_rain = plan.runs(renderer::kRain);
   weather.simulate_snow = plan.runs(renderer::kSnow);
   return weather;
+}
+
+void add_rain(const atmosphere::Weather& simulated, const core::EffectPlan& plan,
+              const atmosphere::VolumeEcho& volume_echo, renderer::World& world) {
+  const atmosphere::RainCells cells(simulated, world.sensor.waveform.frequency_Hz);
+  if (!cells.empty()) world.rain_cells = cells;
+  if (plan.runs(renderer::kRainEcho)) world.volume_echo = volume_echo;
 }
 
 // Behind the library's, where their ids count on.
@@ -114,6 +98,41 @@ void record_model_materials(const ModelMaterials& materials, Scene& scene) {
     scene.description.files.push_back(file);
 }
 
+// What is known before the world is built.
+struct Planned {
+  renderer::SceneFacts facts;
+  core::EffectPlan plan;
+  double plan_s = 0.0;
+  std::optional<SightMap> sight;
+};
+
+Planned plan_scene(const SceneParts& parts, const atmosphere::Weather& weather,
+                   const atmosphere::VolumeEcho& volume_echo, const BuildOptions& options) {
+  const auto begin = Clock::now();
+  Planned planned;
+  planned.facts = facts_of(parts, weather, volume_echo.largest_eta_m2_per_m3());
+  planned.plan = renderer::plan(planned.facts, options.accuracy_grey, options.wishes);
+  planned.plan_s = seconds_since(begin);
+  if (options.frame_plans)
+    planned.sight.emplace(parts.ground, parts.patches, parts.meshes,
+                          mirroring_materials(parts.mirrors));
+  return planned;
+}
+
+void keep(Planned&& planned, const BuildOptions& options, Scene& scene) {
+  scene.facts = std::move(planned.facts);
+  scene.wishes = options.wishes;
+  scene.accuracy_grey = options.accuracy_grey;
+  scene.plan_s = planned.plan_s;
+  scene.sight = std::move(planned.sight);
+}
+
+std::vector<std::string> names_of(const materials::MaterialLibrary& library) {
+  std::vector<std::string> names;
+  for (const materials::Material& material : library.all()) names.push_back(material.name);
+  return names;
+}
+
 core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
   core::Geodetic origin = scene.origin;
   if (scene.datum == core::VerticalDatum::egm96)
@@ -139,7 +158,7 @@ renderer::FramePose Scene::frame_pose(int frame_index) const {
 
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
                                    core::ProblemList& problems) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = Clock::now();
   problems.throw_if_errors();
   const materials::MaterialLibrary library =
       materials::MaterialLibrary::from_file(description.material_library, problems);
@@ -163,46 +182,44 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   if (trajectory) check_flight(description, frame, *trajectory, ground, problems);
   problems.throw_if_errors();
 
-  renderer::SceneFacts facts = facts_of(description, frame, *trajectory, ground.field());
-  facts.weather = weather;
-  const atmosphere::VolumeEcho volume_echo(weather, description.sensor.waveform.frequency_Hz);
-  facts.largest_eta_m2_per_m3 = volume_echo.largest_eta_m2_per_m3();
-  add_surface_facts(description, library, names.used(), model_materials, facts);
-  add_target_facts(targets, facts);
-  add_mirror_facts(
-      {all_mirrors(description, library, model_materials, materials::SurfaceState::dry),
-       all_mirrors(description, library, model_materials, description.surface_state)},
-      ground.field(), patches, bodies.meshes, !targets.empty(), facts);
-  core::EffectPlan plan = renderer::plan(facts, options.accuracy_grey, options.wishes);
-  const materials::SurfaceState state =
-      plan.runs(renderer::kSurfaceState) ? description.surface_state : materials::SurfaceState::dry;
   const double frequency_Hz = description.sensor.waveform.frequency_Hz;
-  std::vector<std::string> material_names;
-  for (const materials::Material& material : library.all()) material_names.push_back(material.name);
+  const atmosphere::VolumeEcho volume_echo(weather, frequency_Hz);
+  const std::vector<SpecularSurfaces> mirrors = {
+      all_mirrors(description, library, model_materials, materials::SurfaceState::dry),
+      all_mirrors(description, library, model_materials, description.surface_state)};
+  Planned planned =
+      plan_scene({description, frame, *trajectory, ground.field(), patches, bodies.meshes, targets,
+                  library, names.used(), model_materials, mirrors},
+                 weather, volume_echo, options);
+  const core::EffectPlan plan = planned.plan;
+  const bool wet = plan.runs(renderer::kSurfaceState);
+  const materials::SurfaceState state =
+      wet ? description.surface_state : materials::SurfaceState::dry;
   renderer::World world{
-      .surfaces = std::make_unique<terrain::RayScene>(
-          ground.field(), std::move(patches), std::move(bodies.meshes), options.instruction_set),
+      .surfaces = std::make_unique<terrain::RayScene>(ground.field(), std::move(patches),
+                                                      std::move(bodies.meshes),
+                                                      options.instruction_set, options.robust),
       .nrcs = library.curves(state, description.sensor.waveform.polarisation, frequency_Hz),
-      .material_names = std::move(material_names),
+      .material_names = names_of(library),
       .targets = std::move(targets),
       .attenuation = atmosphere::PathAttenuation(simulated_weather(weather, plan), frequency_Hz),
       .sensor = plan.runs(renderer::kSideLobes) ? description.sensor
                                                 : renderer::without_side_lobes(description.sensor),
-      .specular = all_mirrors(description, library, model_materials, state),
+      .specular = mirrors[wet ? 1 : 0],
       .solids = std::move(bodies.solids)};
-  const atmosphere::RainCells rain_cells(simulated_weather(weather, plan), frequency_Hz);
-  if (!rain_cells.empty()) world.rain_cells = rain_cells;
-  if (plan.runs(renderer::kRainEcho)) world.volume_echo = volume_echo;
+  add_rain(simulated_weather(weather, plan), plan, volume_echo, world);
   add_model_materials(model_materials, description.sensor.waveform, world);
   auto scene = std::make_unique<Scene>(
-      Scene{description, frame, std::move(*trajectory), std::move(plan), std::move(world), 0.0});
+      Scene{description, frame, std::move(*trajectory), plan, std::move(world), 0.0});
+  scene->raised_buildings = bodies.raised;
   scene->floating_buildings = bodies.floating;
   scene->caster = std::move(caster);
   scene->surfaces = record_surfaces(description, library, names.used(), state);
-  if (facts.has_walls || facts.has_point_targets)
+  if (planned.facts.has_walls || planned.facts.has_point_targets)
     report_mirrors(description, library, scene->surfaces, problems);
   record_model_materials(model_materials, *scene);
-  scene->build_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  keep(std::move(planned), options, *scene);
+  scene->build_s = seconds_since(begin);
   return scene;
 }
 

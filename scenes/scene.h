@@ -10,9 +10,11 @@
 #include "renderer/frame_renderer.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
+#include "renderer/plan/scene_facts.h"
 #include "renderer/world.h"
 #include "scenes/description.h"
 #include "scenes/scene_surfaces.h"
+#include "scenes/sight_map.h"
 #include "scenes/trajectory/trajectory.h"
 #include "terrain/local_frame.h"
 
@@ -27,8 +29,15 @@ struct Scene {
   double build_s = 0.0;
   renderer::CasterChoice caster{};
   std::vector<SurfaceRecord> surfaces{};  // materials in use, as shown
-  // Building parts over open air: triangles and boxes, but no solids of `world`.
-  std::size_t floating_buildings = 0;
+  // Building parts that do not reach the ground; those over open air are triangles and boxes, but
+  // no solids of `world`.
+  std::size_t raised_buildings = 0, floating_buildings = 0;
+  // What the plan was made of, and how long that took: gathering the facts, and the plan.
+  renderer::SceneFacts facts{};
+  renderer::EffectWishes wishes{};
+  double accuracy_grey = 0.5;
+  double plan_s = 0.0;
+  std::optional<SightMap> sight{};  // with BuildOptions::frame_plans
 
   int frame_count() const { return trajectory.frame_count(description.sensor.scan.frame_rate_Hz); }
   renderer::FramePose frame_pose(int frame_index) const;
@@ -40,6 +49,8 @@ struct BuildOptions {
   std::optional<renderer::CasterWish> caster;  // instead of the scene's
   double accuracy_grey = 0.5;
   std::string instruction_set;  // see RayScene
+  bool robust = true;           // see RayScene
+  bool frame_plans = false;     // prepare what frame_plan.h looks at
 };
 
 // Loads what the description names and puts the world together. Everything wrong is collected in

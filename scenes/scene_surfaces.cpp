@@ -87,7 +87,7 @@ void add_surface_facts(const SceneDescription& scene, const MaterialLibrary& lib
                                   dry.dielectric != turned.dielectric ||
                                   dry.rms_height_m != turned.rms_height_m;
     brightest(dry.model);
-    brightest(turned.model);
+    if (&turned != &dry) brightest(turned.model);
   }
   for (const ModelMaterials::Entry& entry : model_materials.all()) brightest(entry.surface);
 }

@@ -56,7 +56,7 @@ RTCIntersectContext coherent_context() {
 }  // namespace
 
 RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch> patches,
-                   std::vector<PlacedMesh> meshes, const std::string& instruction_set)
+                   std::vector<PlacedMesh> meshes, const std::string& instruction_set, bool robust)
     : library_(std::make_unique<Library>()), has_terrain_(terrain.has_value()) {
   // The number of threads of the build does not change the tree.
   const std::string configuration = instruction_set.empty() ? "" : "isa=" + instruction_set;
@@ -65,7 +65,7 @@ RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch>
     throw core::InternalError("Embree: no device for \"" + configuration + "\"");
   rtcSetDeviceErrorFunction(library_->device, remember_error, &library_->error);
   library_->scene = rtcNewScene(library_->device);
-  rtcSetSceneFlags(library_->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(library_->scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
   rtcSetSceneBuildQuality(library_->scene, RTC_BUILD_QUALITY_HIGH);
   if (has_terrain_) {
     terrain_ = std::move(*terrain);
@@ -135,6 +135,35 @@ void RayScene::add_mesh(const PlacedMesh& placed) {
   mesh_material_.push_back(std::move(materials));
   triangle_count_ += mesh.triangles.size();
   has_meshes_ = true;
+}
+
+std::array<glm::dvec3, 3> RayScene::triangle(std::uint32_t geometry,
+                                             std::uint32_t primitive) const {
+  if (has_terrain_ && geometry == kTerrainGeometry) {
+    // As add_terrain numbers them: two triangles per cell, the southern one first.
+    const int cell = static_cast<int>(primitive / 2);
+    const int i = cell % (terrain_.columns - 1), j = cell / (terrain_.columns - 1);
+    const auto post_m = [&](int column, int row) {
+      return glm::dvec3(terrain_.west_m + terrain_.spacing_m * column,
+                        terrain_.south_m + terrain_.spacing_m * row,
+                        terrain_.height_m[terrain_.post(column, row)]);
+    };
+    const bool southern = primitive % 2 == 0;
+    return {post_m(i, j), southern ? post_m(i + 1, j) : post_m(i + 1, j + 1),
+            southern ? post_m(i + 1, j + 1) : post_m(i, j + 1)};
+  }
+  const RTCGeometry mesh = rtcGetGeometry(library_->scene, geometry);
+  const auto* const vertices =
+      static_cast<const float*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_VERTEX, 0));
+  const auto* const indices =
+      static_cast<const std::uint32_t*>(rtcGetGeometryBufferData(mesh, RTC_BUFFER_TYPE_INDEX, 0));
+  std::array<glm::dvec3, 3> corners{};
+  for (std::size_t corner = 0; corner < 3; ++corner) {
+    const float* const vertex =
+        vertices + 3 * static_cast<std::size_t>(indices[3 * std::size_t{primitive} + corner]);
+    corners[corner] = {vertex[0], vertex[1], vertex[2]};
+  }
+  return corners;
 }
 
 void RayScene::index_tops(const std::vector<PlacedMesh>& meshes) {

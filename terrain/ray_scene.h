@@ -3,11 +3,12 @@
 //
 // Coordinates inside the caster are floats relative to `origin_m`, which is placed near the
 // airport; with vertices and sensor within 10 km of it a range is good to 25 mm worst case and 0.15
-// mm median. The robust flag is on: rays aimed at shared edges are not lost. Instances of this
-// class are read-only after construction and safe to use from many threads. Embree's error callback
+// mm median. The robust flag is on unless switched off to measure it: rays aimed at shared edges
+// are not lost. Instances of this class are read-only after construction and safe to use from many threads. Embree's error callback
 // turns its errors into exceptions of ours.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -78,7 +79,8 @@ class RayScene {
   // `terrain` may be absent. `instruction_set` limits Embree: "", "sse4.2", "avx", "avx2",
   // "avx512".
   RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch> patches,
-           std::vector<PlacedMesh> meshes, const std::string& instruction_set = "");
+           std::vector<PlacedMesh> meshes, const std::string& instruction_set = "",
+           bool robust = true);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
@@ -101,6 +103,10 @@ class RayScene {
     if (has_terrain_ && geometry == kTerrainGeometry) return surface_map_->material_at(x_m, y_m);
     return mesh_material_[geometry][primitive];
   }
+
+  // Corners of a triangle that was hit: the posts of the terrain, or what the library keeps of a
+  // mesh (floats). For checks, not for the ray loop.
+  std::array<glm::dvec3, 3> triangle(std::uint32_t geometry, std::uint32_t primitive) const;
 
   const HeightField* terrain() const { return has_terrain_ ? &terrain_ : nullptr; }
   const SurfaceMap* surface_map() const { return surface_map_.get(); }

@@ -40,16 +40,26 @@ struct SightLines {
 // hide it.
 inline constexpr double kSightClearance_m = 1.0;
 
+// Samples come in levels. Level 0 is what the sampling asks for; each further level takes as many
+// new samples as all levels before it together, evenly between those, so that the mean of all of
+// them is again evenly sampled.
+struct CastPass {
+  int level = 0;
+  // Of fan_layout.h, rising; null for all. Sums of other groups keep what they hold, or are
+  // anything where slices share sub-columns (a tilted antenna).
+  const std::vector<std::uint32_t>* groups = nullptr;
+};
+
 class Caster {
  public:
   virtual ~Caster() = default;
-  // Power for a sensor at `frame`, and what it sees of `sight`. Thread-safe; the result does not
-  // depend on the number of threads.
-  virtual void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums,
-                    SightLines& sight) const = 0;
+  // Power for a sensor at `frame` from the samples of one level alone, and what it sees of `sight`.
+  // Thread-safe; the result does not depend on the number of threads.
+  virtual void cast(const sensors::AntennaFrame& frame, bool with_cscope, const CastPass& pass,
+                    FanSums& sums, SightLines& sight) const = 0;
   void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums) const {
     SightLines none;
-    cast(frame, with_cscope, sums, none);
+    cast(frame, with_cscope, CastPass{}, sums, none);
   }
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/casting/fan_layout.h"
+#include "renderer/casting/heading.h"
 #include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::renderer {
@@ -14,19 +16,20 @@ namespace {
 constexpr int kMarginCells = 2;
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
 
-glm::dvec3 horizontal(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
+glm::dvec2 heading_at(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
                       sensors::ScanSurface surface) {
-  glm::dvec3 heading = sensors::direction(frame, azimuth_rad, elevation_rad, surface);
-  heading.z = 0.0;
-  const double length = glm::length(heading);
-  return length > 1e-9 ? heading / length : glm::dvec3(0.0, 1.0, 0.0);
+  return horizontal(sensors::direction(frame, azimuth_rad, elevation_rad, surface));
 }
 
-// Tangent of the elevation; rises with it.
-double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m) {
+// Tangent of the elevation as the scan counts it (sensors/antenna/antenna_frame.h); rises with it.
+double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m,
+                sensors::ScanSurface surface) {
   const double forward = glm::dot(relative_m, frame.forward);
   const double right = glm::dot(relative_m, frame.right);
-  return glm::dot(relative_m, frame.up) / std::sqrt(forward * forward + right * right);
+  const double along = surface == sensors::ScanSurface::cone
+                           ? std::max(forward, 1e-6)
+                           : std::sqrt(forward * forward + right * right);
+  return glm::dot(relative_m, frame.up) / along;
 }
 
 }  // namespace
@@ -39,14 +42,15 @@ ElevationFan::ElevationFan(const World& world, const Sampling& sampling)
   highest_rad_ = std::min(antenna.boresight_elevation_rad + reach_rad, core::kPi / 2);
   const sensors::Display& display = world.sensor.display;
   object_step_rad_ =
-      std::min(sampling.largest_step_rad, display.cscope_span_rad / display.cscope_rows);
+      std::min(sampling.largest_step_rad,
+               sampling.largest_step_rows * display.cscope_span_rad / display.cscope_rows);
 }
 
 void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
                          std::vector<double>& edges) const {
   edges.clear();
   const auto heading = [&](double azimuth_rad) {
-    return horizontal(frame, azimuth_rad, 0.0, world_.sensor.scan.surface);
+    return heading_at(frame, azimuth_rad, 0.0, world_.sensor.scan.surface);
   };
   const double middle_rad = (left_rad + right_rad) / 2;
   if (world_.surfaces->terrain() != nullptr) {
@@ -74,10 +78,11 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   const double stride = std::max(1.0, 1.0 / sampling_.rays_per_cell);
   const glm::dvec3& sensor = frame.position_m;
   const sensors::ScanSurface surface = world_.sensor.scan.surface;
-  const bool level = frame.up.z > kLevelCosine && surface == sensors::ScanSurface::plane;
-  glm::dvec3 heading = horizontal(frame, azimuth_rad, level ? 0.0 : lowest_rad_, surface);
+  const bool level = azimuths_are_upright(frame, surface);
+  const bool cone = surface == sensors::ScanSurface::cone;
+  glm::dvec2 heading = heading_at(frame, azimuth_rad, level || cone ? 0.0 : lowest_rad_, surface);
   double drop_m = 0.0;
-  int step = 0;
+  int step = 0, settling = cone ? 3 : 0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = gate.minimum_m + gate.cell_m * k;
     // The ground distance of a slant range needs the height there: the one of the step before is
@@ -88,14 +93,20 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     const std::optional<double> height_m = ground.height_at(x_m, y_m);
     if (!height_m) break;
     drop_m = std::min(std::abs(sensor.z - *height_m), range_m);
-    const double elevation_rad =
-        std::atan(slope_of(frame, {x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z}));
+    const glm::dvec3 relative_m(x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z);
+    const double elevation_rad = std::atan(slope_of(frame, relative_m, surface));
+    if (settling > 0) {  // a cone's first heading needs its elevation, and the other way round
+      --settling;
+      heading = heading_at(frame, azimuth_rad, elevation_rad, surface);
+      k -= stride;
+      continue;
+    }
     // Rays per step need not be whole: steps take turns.
     ++step;
     const double rays = sampling_.rays_per_cell * stride;
     const int parts = static_cast<int>(std::floor(step * rays) - std::floor((step - 1) * rays));
     // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
-    if (!level) heading = horizontal(frame, azimuth_rad, elevation_rad, surface);
+    if (!level) heading = heading_at(frame, azimuth_rad, elevation_rad, surface);
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
     } else {
@@ -105,13 +116,14 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
 }
 
 double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
-                                        const glm::dvec3& heading) const {
+                                        const glm::dvec2& heading) const {
   const terrain::RayScene& surfaces = *world_.surfaces;
   const double square_m = surfaces.tops_spacing_m();
   const glm::dvec3& sensor = frame.position_m;
   double top_slope = -1e30;
-  for (double distance_m = 0.0; distance_m <= world_.sensor.range.maximum_m();
-       distance_m += square_m / 2) {
+  // Half a square beyond the last cell: steps do not end on it.
+  const double farthest_m = world_.sensor.range.maximum_m() + square_m / 2;
+  for (double distance_m = 0.0; distance_m <= farthest_m; distance_m += square_m / 2) {
     const double x_m = heading.x * distance_m;
     const double y_m = heading.y * distance_m;
     const double z_m = surfaces.mesh_top_m(sensor.x + x_m, sensor.y + y_m) - sensor.z;
@@ -120,7 +132,8 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
     // side when below.
     const double shift_m = z_m > 0.0 ? -1.5 * square_m : 1.5 * square_m;
     const double at_m = std::max(distance_m + shift_m, 1.0);
-    top_slope = std::max(top_slope, slope_of(frame, {heading.x * at_m, heading.y * at_m, z_m}));
+    const glm::dvec3 relative_m(heading.x * at_m, heading.y * at_m, z_m);
+    top_slope = std::max(top_slope, slope_of(frame, relative_m, world_.sensor.scan.surface));
   }
   return std::atan(top_slope);
 }

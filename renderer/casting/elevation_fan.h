@@ -17,9 +17,6 @@
 
 namespace fanbeam::renderer {
 
-// An antenna tilted less than this (0.06 deg) sees a column as one vertical plane.
-inline constexpr double kLevelCosine = 1.0 - 5e-7;
-
 class ElevationFan {
  public:
   ElevationFan(const World& world, const Sampling& sampling);
@@ -32,7 +29,7 @@ class ElevationFan {
  private:
   void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
                      std::vector<double>& edges) const;
-  double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec3& heading) const;
+  double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec2& heading) const;
   void add_until(double elevation_rad, int parts, double largest_step_rad,
                  std::vector<double>& edges) const;
 

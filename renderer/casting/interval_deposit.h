@@ -169,12 +169,43 @@ class IntervalDeposit {
       elevation.amount[i] = in_gate * range.amount[i] * range_m * range_m * range_m;
       elevation.split(i, block.border_whole_row[i + 1], block.border_whole_row[i]);
     }
+    for (int i = 0; i < count; ++i)
+      if (crosses_gate(range, i)) clip_to_gate(block, range, i, elevation);
     // Together: neighbours add to the same bins and wait for each other.
     for (int i = 0; i < count; ++i) {
       range.add_to(bins_.range, i);
       elevation.add_to(bins_.elevation, i);
     }
     return blanked;
+  }
+
+  bool crosses_gate(const Spread& range, int i) const {
+    return (range.from[i] < 0.0 && range.to[i] > 0.0) ||
+           (range.from[i] < gate_.cells && range.to[i] > gate_.cells);
+  }
+
+  // Only what lies inside the gate shows: a whole interval there or not would make one row of level
+  // ground up to ten times too bright or leave it dark.
+  void clip_to_gate(const Block& block, const Spread& range, int i, Spread& elevation) const {
+    const double from = std::max(range.from[i], 0.0);
+    const double to = std::min(range.to[i], static_cast<double>(gate_.cells));
+    const bool rising = end_m(block, i + 1, i) < end_m(block, i + 1, i + 1);
+    const double near_row = block.border_row[rising ? i : i + 1];
+    const double far_row = block.border_row[rising ? i + 1 : i];
+    // On a plane 1 / R changes evenly with elevation. A gate may begin at the antenna.
+    const auto inverse = [&](double cell) {
+      return 1.0 / std::max(gate_.minimum_m + cell * gate_.cell_m, 1e-3);
+    };
+    const double rows_m = (far_row - near_row) / (inverse(range.to[i]) - inverse(range.from[i]));
+    const double one = near_row + rows_m * (inverse(from) - inverse(range.from[i]));
+    const double other = near_row + rows_m * (inverse(to) - inverse(range.from[i]));
+    const double range_m = gate_.minimum_m + (from + to) / 2 * gate_.cell_m;
+    elevation.from[i] = std::min(one, other);
+    elevation.to[i] = std::max(one, other);
+    elevation.amount[i] =
+        range.amount[i] * (to - from) / (range.to[i] - range.from[i]) * range_m * range_m * range_m;
+    elevation.split(i, static_cast<int>(std::floor(elevation.from[i])),
+                    static_cast<int>(std::floor(elevation.to[i])));
   }
 
   const sensors::RangeGate& gate_;

@@ -11,7 +11,7 @@ NrcsTable::NrcsTable(const materials::NrcsCurve& nrcs) {
   const auto lowest = [&ratio](double first_sine) {
     return std::min(ratio(first_sine * 1e-9), ratio(first_sine));
   };
-  values_.reserve(kCoarseEntries + kFineSteps + 1);
+  values_.reserve(kEntries);
   for (int i = 0; i < kCoarseEntries; ++i) {
     const double sine = std::min(static_cast<double>(i) / kSteps, 1.0);
     values_.push_back(i == 0 ? lowest(1.0 / kSteps) : ratio(sine));

@@ -18,6 +18,11 @@
 namespace fanbeam::renderer {
 
 class NrcsTable {
+  static constexpr int kSteps = 4096;
+  static constexpr int kFineSteps = 2048;
+  static constexpr double kFineBelow = 1.0 / 32.0;
+  static constexpr int kCoarseEntries = kSteps + 2;  // one behind the end, for sin(psi) = 1
+
  public:
   explicit NrcsTable(const materials::NrcsCurve& nrcs);
 
@@ -41,6 +46,7 @@ class NrcsTable {
     return index + static_cast<int>(fine * kCoarseEntries);
   }
   const double* values() const noexcept { return values_.data(); }
+  static constexpr int kEntries = kCoarseEntries + kFineSteps + 1;  // of values()
 
   // Over all angles: what is interpolated never exceeds its nodes.
   double largest() const;
@@ -51,11 +57,7 @@ class NrcsTable {
   double largest_change_dB(const NrcsTable& other) const;
 
  private:
-  static constexpr int kSteps = 4096;
-  static constexpr int kFineSteps = 2048;
-  static constexpr double kFineBelow = 1.0 / 32.0;
-  static constexpr int kCoarseEntries = kSteps + 2;  // one behind the end, for sin(psi) = 1
-  std::vector<double> values_;                       // the coarse steps, then the fine ones
+  std::vector<double> values_;  // the coarse steps, then the fine ones
 };
 
 }  // namespace fanbeam::renderer

@@ -22,13 +22,9 @@ class PathLossTable {
 
   bool clear() const noexcept { return clear_; }  // every factor is 1
 
-  // For vector loops: nepers of two-way power per metre of one-way path, at `lowest_m` plus whole
-  // steps; one entry more than kSteps.
+  // For loops over many points: nepers of two-way power per metre of one-way path at the steps, and
+  // the step at or below a height with how far the height is on its way to the next.
   const double* nepers_per_m() const noexcept { return nepers_per_m_.data(); }
-  double lowest_m() const noexcept { return lowest_m_; }
-  double steps_per_m() const noexcept { return per_step_; }
-  static constexpr double kSteps = 1024.0;
-  // The step at or below a height, and how far the height is on its way to the next.
   int index_of(double height_m, double& share) const noexcept {
     const double position =
         std::min(kSteps - 1e-9, std::max(0.0, (height_m - lowest_m_) * per_step_));
@@ -38,14 +34,20 @@ class PathLossTable {
   }
 
   double two_way_factor(double height_m, double range_m) const noexcept {
-    if (clear_) return 1.0;
+    return clear_ ? 1.0 : lossy_factor(height_m, range_m);
+  }
+  // The same where not all is clear. Without a branch and with an index, not a pointer, it becomes
+  // vector code.
+  double lossy_factor(double height_m, double range_m) const noexcept {
     double share = 0.0;
-    const double* const nepers_per_m = nepers_per_m_.data() + index_of(height_m, share);
-    return core::series_decay((nepers_per_m[0] + (nepers_per_m[1] - nepers_per_m[0]) * share) *
-                              range_m);
+    const int index = index_of(height_m, share);
+    const double* const table = nepers_per_m_.data();
+    const double nepers_per_m = table[index] + (table[index + 1] - table[index]) * share;
+    return core::series_decay(nepers_per_m * range_m);
   }
 
  private:
+  static constexpr double kSteps = 1024.0;
   bool clear_ = false;
   double lowest_m_ = 0.0;
   double per_step_ = 0.0;

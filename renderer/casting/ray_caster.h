@@ -27,8 +27,8 @@
 
 #include "renderer/casting/caster.h"
 #include "renderer/casting/elevation_fan.h"
+#include "renderer/casting/frame_path_loss.h"
 #include "renderer/casting/nrcs_table.h"
-#include "renderer/casting/path_loss_table.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/world.h"
 #include "sensors/antenna/beam_pattern.h"
@@ -41,33 +41,28 @@ class RayCaster : public Caster {
   RayCaster(const World& world, const Sampling& sampling);
 
   using Caster::cast;
-  void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums,
-            SightLines& sight) const override;
+  void cast(const sensors::AntennaFrame& frame, bool with_cscope, const CastPass& pass,
+            FanSums& sums, SightLines& sight) const override;
 
   // Only these groups of kGroupAzimuths sub-columns, in a fan that is laid out: their sums are
   // written whatever they held, counts go up. For casters that leave some azimuths to rays.
-  void cast_groups(const sensors::AntennaFrame& frame, bool with_cscope,
+  void cast_groups(const sensors::AntennaFrame& frame, bool with_cscope, int level,
                    const std::vector<std::uint32_t>& groups, FanSums& sums) const;
 
   // Every ray of a frame as the last pass would send it, in packets, for the bare-pass benchmark.
   std::vector<terrain::RayPacket<16>> packets(const sensors::AntennaFrame& frame) const;
 
  private:
-  PathLossTable path_loss_from(double sensor_height_m) const;
+  struct Pass;
+  void cast_once(const sensors::AntennaFrame& frame, bool with_cscope, const Pass& pass,
+                 const std::vector<std::uint32_t>& groups, FanSums& sums) const;
 
   const World& world_;
   Sampling sampling_;
   ElevationFan fan_;
   sensors::TwoWayTable elevation_gain_;
-  std::vector<NrcsTable> nrcs_;              // by material id
-  double lowest_m_ = 0.0, highest_m_ = 0.0;  // of the terrain
+  std::vector<NrcsTable> nrcs_;  // by material id
+  FramePathLoss path_loss_;
 };
-
-// Lays out the fan of a frame: every sub-column that the beam of some column reaches, in whole
-// groups. Sums are not zeroed, counts are.
-void lay_out_fan(const World& world, const Sampling& sampling, bool with_cscope, FanSums& sums);
-
-// Number of sub-columns left and right of the picture that the azimuth beam reaches into.
-int margin_sub_columns(const sensors::Sensor& sensor, int sub_columns_per_column);
 
 }  // namespace fanbeam::renderer

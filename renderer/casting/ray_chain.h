@@ -8,10 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace fanbeam::renderer {
+#include "renderer/casting/fan_layout.h"
 
-// Sub-columns that are cast together: with as many elevations they make packets square in angle.
-inline constexpr int kGroupAzimuths = 4;
+namespace fanbeam::renderer {
 
 // Two neighbours of one sub-column between which a ray is wanted.
 struct RayGap {

@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "renderer/casting/deposit.h"
 #include "renderer/casting/echo_density.h"
+#include "renderer/casting/fan_layout.h"
 #include "renderer/casting/gap_finder.h"
 #include "renderer/casting/packet_sender.h"
 #include "renderer/casting/ray_aim.h"
@@ -40,7 +41,7 @@ class GroupCaster {
         sums_(sums),
         sender_(*frame.world.surfaces, frame.world.sensor.range, frame.antenna.position_m, record),
         aim_(frame.antenna, is_cone(frame.world),
-             !is_cone(frame.world) && frame.antenna.up.z > kLevelCosine),
+             azimuths_are_upright(frame.antenna, frame.world.sensor.scan.surface)),
         echo_(frame.world, frame.nrcs, frame.path_loss, frame.antenna.position_m),
         gap_limit_m_(gap_limit_m(frame)) {
     for (int a = 0; a < kGroupAzimuths; ++a) {
@@ -119,13 +120,14 @@ class GroupCaster {
     cast_rays(kGroupAzimuths * rows(), [&](int first, int count) {
       for (int lane = 0; lane < count; lane += kGroupAzimuths) {
         const int row = (first + lane) / kGroupAzimuths;
-        const double elevation_rad = (edges[row] + edges[row + 1]) / 2;
+        const double elevation_rad =
+            edges[row] + frame_.places.elevation_share * (edges[row + 1] - edges[row]);
         const double gain = gain_at(elevation_rad);
         for (int a = 0; a < kGroupAzimuths; ++a) {
           batch_.elevation_rad[lane + a] = elevation_rad;
           batch_.gain[lane + a] = gain;
-          batch_.offset_rad[lane + a] =
-              columns_[a].offset_rad(dither(static_cast<std::uint32_t>(row), sub_column(a)));
+          batch_.offset_rad[lane + a] = columns_[a].offset_rad(
+              frame_.places.azimuth_place(static_cast<std::uint32_t>(row), sub_column(a)));
         }
       }
     });
@@ -185,7 +187,8 @@ class GroupCaster {
         batch_.set_column(lane, columns_[azimuth]);
         batch_.elevation_rad[lane] = elevation_rad;
         batch_.gain[lane] = gain_at(elevation_rad);
-        batch_.offset_rad[lane] = columns_[azimuth].offset_rad(dither(index, sub_column(azimuth)));
+        batch_.offset_rad[lane] =
+            columns_[azimuth].offset_rad(frame_.places.azimuth_place(index, sub_column(azimuth)));
       }
     });
     for (std::size_t i = 0; i < gaps.size(); ++i)
@@ -248,6 +251,7 @@ void GroupCaster<N>::deposit_points() {
   const sensors::RangeGate& gate = frame_.world.sensor.range;
   const sensors::Display& display = frame_.world.sensor.display;
   const double rows_per_rad = display.cscope_rows / display.cscope_span_rad;
+  const bool jittered = frame_.sampling.jittered_passes > 0;
   const double share = 1.0 / std::max(1, frame_.sampling.jittered_passes);
   const RayChain& rays = scratch_.rays;
   for (int ray = 0; ray < kGroupAzimuths * rows(); ++ray) {
@@ -262,9 +266,13 @@ void GroupCaster<N>::deposit_points() {
     deposit(cell, cell, power, range_bins(ray % kGroupAzimuths), sums_.cells);
     if (range_m < gate.minimum_m) ++scratch_.blanked_count;
     if (!frame_.with_cscope || range_m < gate.minimum_m || range_m >= gate.maximum_m()) continue;
-    deposit((display.cscope_top_rad - high_rad) * rows_per_rad,
-            (display.cscope_top_rad - low_rad) * rows_per_rad, power * range_m * range_m * range_m,
-            elevation_bins(ray % kGroupAzimuths), sums_.rows);
+    // A jittered ray counts where it was sent: spread over its interval it would light rows beyond
+    // the edge of what it hit.
+    const double top_rad = jittered ? rays.elevation_rad[i] : high_rad;
+    const double bottom_rad = jittered ? rays.elevation_rad[i] : low_rad;
+    deposit((display.cscope_top_rad - top_rad) * rows_per_rad,
+            (display.cscope_top_rad - bottom_rad) * rows_per_rad,
+            power * range_m * range_m * range_m, elevation_bins(ray % kGroupAzimuths), sums_.rows);
   }
 }
 

@@ -12,10 +12,24 @@
 #include "renderer/casting/path_loss_table.h"
 #include "renderer/casting/ray_chain.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/casting/sub_column.h"
 #include "renderer/world.h"
 #include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::renderer {
+
+// Where the rays of one pass over a fan lie beside those of the others.
+struct RayPlaces {
+  // The strip of every sub-column that the rays are spread over, as parts of its width. Neighbours
+  // in elevation share an interval of ranges, so a narrow strip is a sharper cut.
+  double strip_begin = 0.0, strip_width = 1.0;
+  std::uint32_t dither_shift = 0;  // inside the strip, in parts of 2^32
+  double elevation_share = 0.5;    // of each interval of elevations, from its lower end
+
+  double azimuth_place(std::uint32_t index, int sub_column) const {
+    return strip_begin + strip_width * dither(index, sub_column, dither_shift);
+  }
+};
 
 // What all groups of a frame share.
 struct RayFrame {
@@ -27,6 +41,7 @@ struct RayFrame {
   const sensors::TwoWayTable& elevation_gain;
   const PathLossTable& path_loss;
   bool with_cscope = false;
+  RayPlaces places{};
 };
 
 // Buffers of one thread, kept from group to group so that the ray loop does not allocate.

@@ -45,4 +45,19 @@ Sampling profile_sampling_for(double slices) {
   return sampling;
 }
 
+Sampling finer_in_elevation(const Sampling& sampling, int times) {
+  Sampling finer = sampling;
+  finer.rays_per_cell *= times;
+  finer.gap_cells /= times;
+  finer.largest_step_rad /= times;
+  finer.largest_step_rows /= times;
+  return finer;
+}
+
+Sampling refined_sampling(CasterKind caster, double target_grey) {
+  Sampling sampling = caster == CasterKind::profile ? profile_sampling_for(4.0) : sampling_for(4.0);
+  sampling.target_grey = target_grey;
+  return sampling;
+}
+
 }  // namespace fanbeam::renderer

@@ -25,6 +25,8 @@ struct Sampling {
   // Largest angle between neighbouring rays, on the ground close by and on what stands above the
   // horizon.
   double largest_step_rad = 3.0e-3;
+  // The same above the horizon, in rows of the C-scope.
+  double largest_step_rows = 1.0;
   // One ray stands for its whole range interval (false: for the cell it falls in, unbiased, wants
   // many rays).
   bool deposit_intervals = true;
@@ -32,6 +34,11 @@ struct Sampling {
   // by `seed`.
   int jittered_passes = 0;
   std::uint64_t seed = 0;
+  // Above 0: every frame is refined until its estimated error, RMS over a picture's displayed grey,
+  // is at most this (accuracy/refinement.h).
+  double target_grey = 0.0;
+  // Estimate the error of what the other settings give; as many samples again.
+  bool estimate_error = false;
 };
 
 // Converged rendering as all errors are stated against: 256 jittered azimuths per column, 8 rays
@@ -45,7 +52,13 @@ inline constexpr double kDefaultRaysPerCell = 4.0;
 // that measured best (docs/performance.md): azimuth first.
 Sampling sampling_for(double rays_per_cell);
 
-inline constexpr double kDefaultSlicesPerColumn = 16.0;
+// `times` as many rays in each elevation, neighbours as much closer together.
+Sampling finer_in_elevation(const Sampling& sampling, int times);
+
+// Where refinement to `target_grey` begins: coarse, a sub-column per group's quarter of a column.
+Sampling refined_sampling(CasterKind caster, double target_grey);
+
+inline constexpr double kDefaultSlicesPerColumn = 8.0;
 
 // `slices` azimuth slices per column through the profile caster, at least 1; each crosses every
 // range cell once.

@@ -14,12 +14,12 @@ struct SubColumn {
 
 // A low-discrepancy place inside the sub-column for ray `index`: multiples of the golden ratio,
 // shifted from sub-column to sub-column by another irrational so that neighbours do not repeat each
-// other.
-inline double dither(std::uint32_t index, int sub_column) {
+// other. `shift`, in parts of 2^32, moves them all.
+inline double dither(std::uint32_t index, int sub_column, std::uint32_t shift) {
   // Fractions as 32-bit integers wrap round by themselves: 0.6180339887 and 0.7548776662 times
   // 2^32.
   const std::uint32_t value =
-      index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U;
+      index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U + shift;
   return static_cast<double>(value) * 0x1p-32;
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "renderer/casting/elevation_fan.h"
+#include "renderer/casting/fan_layout.h"
 
 namespace fanbeam::renderer {
 namespace {

@@ -2,16 +2,20 @@
 //
 // A pixel of power P with a floor f, the largest power shown as black (GreyScale), shows
 // max(P, f). Power p on top changes it by at most
-//     10 log10(max(P + p, f) / max(P, f)) <= 10 log10(1 + p / f)
-// whatever P is; noise in P makes it less. Pixels by picture:
-//   B-scope  p is what is added to a range cell, f that row's floor
-//   C-scope of true elevation  p is what is added to a row's sum of P R^3
-//   C-scope of flat earth  a row adds up the P R^3 of range cells, each with a share of at most 1;
-//            near the ground one row holds them all: p is the sum over every cell
+//     10 log10(max(P + p, f) / max(P, f)) <= 10 log10(1 + p / max(f, N))
+// whatever P >= N is, with N the mean noise where the plan shows it for certain, else 0. Pixels by
+// picture:
+//   B-scope  p is what is added to a range cell, f that row's floor, N the receiver's noise
+//   C-scope of true elevation  p is what is added to a row's sum of P R^3, N that row's noise
+//   C-scope of flat earth  a row adds up shares of at most 1 of the P R^3 of range cells. Near the
+//            ground one row holds them all: p is the sum over every cell. Its noise has the same
+//            shares, so that p / N of the row is at most the largest p / N of any cell: the
+//            smaller of the two counts
 //   C-scope of mode shadow  an obstacle is raised or not: the whole window, plan.cpp
-// In one realisation of speckle (fluctuation.h) p is drawn: at most 22.88 times its mean, and the
-// same draw multiplies P and p.
+// In one realisation of speckle (fluctuation.h) one draw s <= 22.88 multiplies all of a cell: the
+// change is 10 log10(1 + p / max(f / s, N)).
 // The bound is that of the worse picture of the sensor's C-scope mode, at most the window.
+// docs/effects.md has the derivation.
 #pragma once
 
 #include <vector>

@@ -7,6 +7,7 @@
 #include "atmosphere/path_attenuation.h"
 #include "atmosphere/precipitation/rain_cells.h"
 #include "core/constants.h"
+#include "renderer/plan/effect_causes.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/fluctuation.h"
 #include "renderer/stages/rain_echo.h"
@@ -20,8 +21,11 @@ namespace {
 
 using atmosphere::Weather;
 
-// Buildings and models rise above the ground by up to this.
-constexpr double kTallest_m = 300.0;
+// Added to the heights: an antenna sits up to 173 m beside the pose, and far from the scene's origin
+// level is tilted, by 3 deg after 300 km.
+constexpr double kMargin_m = 300.0;
+// The casters' table of losses begins this much below the ground.
+constexpr double kTableMargin_m = 10.0;
 
 // Sines of the lowest and highest elevation of the beam; all of them when it moves with the
 // aircraft's attitude.
@@ -36,7 +40,8 @@ std::pair<double, double> sines_of_beam(const sensors::Sensor& sensor) {
           sine(antenna.boresight_elevation_rad + reach_rad)};
 }
 
-// The largest loss per kilometre at any height that is seen, all the way to the farthest range.
+// The largest loss per kilometre at any height that is seen, all the way to the farthest range that
+// shows in a cell.
 double longest_path_dB(const SceneFacts& facts, std::string_view effect) {
   Weather weather = facts.weather;
   weather.simulate_gas = effect == kGas;
@@ -44,15 +49,15 @@ double longest_path_dB(const SceneFacts& facts, std::string_view effect) {
   weather.simulate_rain = effect == kRain;
   weather.simulate_snow = effect == kSnow;
   const double frequency_Hz = facts.sensor.waveform.frequency_Hz;
-  const double range_m = facts.sensor.range.maximum_m();
+  const double range_m = facts.sensor.range.maximum_m() + kSpreadCells * facts.sensor.range.cell_m;
   const atmosphere::PathAttenuation path(weather, frequency_Hz);
-  double lowest_m = facts.lowest_m;
-  double highest_m = facts.highest_m + kTallest_m;
+  double lowest_m = facts.lowest_m - kTableMargin_m;
+  double highest_m = facts.highest_m + kMargin_m;
   // What falls echoes as high and, off the edge of the terrain, as low as the beam reaches.
   if (facts.largest_eta_m2_per_m3 > 0.0) {
     const auto [down, up] = sines_of_beam(facts.sensor);
-    lowest_m = facts.lowest_m + std::min(0.0, range_m * down);
-    highest_m = std::max(highest_m, facts.highest_m + range_m * up);
+    lowest_m -= kMargin_m + std::max(0.0, -range_m * down);
+    highest_m += std::max(0.0, range_m * up);
   }
   const double layers_dB_per_km = path.largest_one_way_dB_per_km(lowest_m, highest_m);
   const atmosphere::RainCells cells(weather, frequency_Hz);
@@ -72,7 +77,9 @@ double snow_dB(const SceneFacts& facts) { return longest_path_dB(facts, kSnow); 
 bool has_echo(const SceneFacts& facts) { return facts.largest_eta_m2_per_m3 > 0.0; }
 
 // Noise in every cell, and in a row of the C-scope what the display adds there.
-double noise_dB(const SceneFacts& facts) {
+double noise_dB(const SceneFacts& with) {
+  SceneFacts facts = with;
+  facts.noise_shown = false;
   const sensors::Sensor& sensor = facts.sensor;
   const AddedPower noise{
       std::vector<double>(static_cast<std::size_t>(sensor.range.cells), sensor.noise_power_W()),
@@ -105,39 +112,43 @@ double fluctuation_dB(const SceneFacts&) { return kLargestFluctuation_dB; }
 const std::vector<Effect>& effect_catalogue() {
   static const std::vector<Effect> kCatalogue = {
       {kGas, "two-way loss in oxygen and water vapour",
-       "ITU-R P.676-13 Annex 1 on the P.835-6 standard atmosphere", always, gas_dB, ""},
-      {kFog, "two-way loss in fog droplets", "ITU-R P.840-8", has_fog, fog_dB,
+       "ITU-R P.676-13 Annex 1 on the P.835-6 standard atmosphere", always, gas_dB, gas_cause, ""},
+      {kFog, "two-way loss in fog droplets", "ITU-R P.840-8", has_fog, fog_dB, fog_cause,
        "the scene has no fog"},
       {kRain, "two-way loss in rain, rain cells and the melting layer", "ITU-R P.838-3", has_rain,
-       rain_dB, "the scene has no rain"},
-      {kSnow, "two-way loss in dry snow", "Gunn and East 1954", has_snow, snow_dB,
+       rain_dB, rain_cause, "the scene has no rain"},
+      {kSnow, "two-way loss in dry snow", "Gunn and East 1954", has_snow, snow_dB, snow_cause,
        "the scene has no snow"},
       {kRainEcho, "echo of rain and snow in the air",
        "Mie scattering over drop sizes, volume radar equation", has_echo, rain_echo_bound_dB,
-       "nothing falls in this scene"},
+       rain_echo_cause, "nothing falls in this scene", "neither rain nor snow falls within range"},
       {kDoubleBounce, "wall and ground, or two walls, seen through each other",
        "mirror and bistatic NRCS, docs/physics/double-bounce.md", corners_possible, whole_window_dB,
-       "the scene has no walls, or nothing that is known to mirror at this frequency"},
+       double_bounce_cause,
+       "the scene has no walls, or nothing that is known to mirror at this frequency",
+       "within range nothing mirrors, or nothing stands in the way of mirrored rays"},
       {kMultipath, "point targets mirrored in the ground",
        "two-ray propagation factor, docs/physics/multipath.md", mirrored_targets_possible,
-       whole_window_dB,
-       "the scene has no point targets, or no ground that is known to mirror at this frequency"},
+       whole_window_dB, multipath_cause,
+       "the scene has no point targets, or no ground that is known to mirror at this frequency",
+       "no point target is in view, or no ground mirrors within range"},
       {kSurfaceState, "wet or snow-covered surfaces instead of dry ones",
        "rows of the material library, docs/physics/surface-state.md", has_surface_state,
-       surface_state_dB, "the scene's surfaces are dry"},
+       surface_state_dB, surface_state_cause, "the scene's surfaces are dry"},
       {kSideLobes, "antenna gain outside the main beam",
        "uniform level, Skolnik, Introduction to Radar Systems, 3rd ed., chapter 9", has_side_lobes,
-       side_lobe_bound_dB, "the antenna has no side lobes (antenna.*.side_lobe_level_dB)"},
+       side_lobe_bound_dB, side_lobe_cause,
+       "the antenna has no side lobes (antenna.*.side_lobe_level_dB)"},
       {kRangeResponse, "spread of echoes along range by the sweep's window",
        "Harris 1978; docs/physics/range-response.md", has_range_response, range_response_bound_dB,
-       "range cells are ideal (waveform.window, scan.sweep)"},
+       range_response_cause, "range cells are ideal (waveform.window, scan.sweep)"},
       {kThermalNoise, "mean noise power of the receiver",
-       "k T0 F / dwell, IEEE Std 686 noise figure", always, noise_dB, ""},
+       "k T0 F / dwell, IEEE Std 686 noise figure", always, noise_dB, noise_cause, ""},
       {kSpeckle, "a realisation of ground and noise instead of their expected power",
-       "gamma law of N looks, Goodman 1975", shows_sample, fluctuation_dB,
+       "gamma law of N looks, Goodman 1975", shows_sample, fluctuation_dB, speckle_cause,
        "frames show the expected power ([accuracy] realisation)"},
       {kSwerling, "fluctuation of point targets", "Swerling 1954, cases 1 to 4", targets_fluctuate,
-       fluctuation_dB,
+       fluctuation_dB, swerling_cause,
        "no target fluctuates, or frames show the expected power ([accuracy] realisation)"},
   };
   return kCatalogue;

@@ -9,6 +9,7 @@
 // New effects are new rows: nothing else lists them.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,7 +23,11 @@ struct Effect {
   std::string_view source;  // "ITU-R P.840-8"
   bool (*possible)(const SceneFacts&);
   double (*bound_dB)(const SceneFacts&);
+  std::string (*cause)(const SceneFacts&, double bound_dB);  // effect_causes.h
   std::string_view why_impossible;
+  // Why a single frame goes without; empty for what is built into the world or the same in every
+  // frame, and so decided for the whole sequence.
+  std::string_view why_unseen = {};
 };
 
 inline constexpr std::string_view kGas = "gas";

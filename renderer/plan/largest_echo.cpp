@@ -72,7 +72,7 @@ AddedPower largest_echo(const EchoSources& sources, const BeamPart& part,
     const double near_m = sensors::range_edge_m(gate, cell);
     const double far_m = sensors::range_edge_m(gate, cell + 1);
     const double middle_m = sensors::range_middle_m(gate, cell);
-    const double before_m = near_m - gate.cell_m;
+    const double before_m = near_m - kSpreadCells * gate.cell_m;
     const double surfaces =
         before_m > 0.0 ? over(sources.sigma0_over_sine * part.solid_rad2, before_m * before_m)
                        : over(sources.sigma0_over_sine, 0.0);

@@ -4,8 +4,8 @@
 // Surfaces. A ray's share of power is K g^2 (sigma0 / sin psi) L de daz / R^2 (ray_caster.h), and
 // every elevation holds one surface: with G the largest sigma0 / sin psi of any material and
 // L <= 1, a range cell gets at most K G Omega / R^2, Omega the two-way pattern integrated over the
-// part of it that is asked about. R is the near edge of the cell before, since rays spread their power over
-// half the way to their neighbours.
+// part of it that is asked about. R is kSpreadCells before the cell's near edge, since rays spread
+// their power over half the way to their neighbours.
 // Air. K eta cell Omega / (R1 R2) between the edges R1 and R2 of the cell (rain_echo.h).
 // Point targets. K g^2 / R^4 times the sum of their largest cross-sections, as if all stood there.
 // A row of the C-scope of true elevation sums P R^3 over range: K G Omega_row R_max (each elevation
@@ -27,6 +27,10 @@ bool mirrored_targets_possible(const SceneFacts& facts);
 inline bool has_unbounded_echo(const SceneFacts& facts) {
   return corners_possible(facts) || mirrored_targets_possible(facts);
 }
+
+// How many range cells away from a cell a ray may hit and still give to it: half of gap_cells (1.2)
+// over the rays per cell and sub-column (sampling.h), from 0.3 rays up.
+inline constexpr double kSpreadCells = 2.0;
 
 // What echoes.
 struct EchoSources {

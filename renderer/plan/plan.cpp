@@ -1,10 +1,10 @@
 #include "renderer/plan/plan.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <numeric>
+#include <utility>
 
 #include "core/errors.h"
+#include "renderer/plan/effect_causes.h"
 #include "sensors/display/grey_scale.h"
 
 namespace fanbeam::renderer {
@@ -14,10 +14,17 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string rounded(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.2g", value);
-  return text;
+// Of 255 levels at most.
+std::string grey_text(double bound_grey) {
+  if (bound_grey >= 255.0) return "all 255 grey levels";
+  return figure_text(bound_grey) + (bound_grey == 1.0 ? " grey level" : " grey levels");
+}
+
+SceneFacts with_realisation(const SceneFacts& scene, const EffectWishes& wishes) {
+  SceneFacts facts = scene;
+  facts.sample =
+      scene.sample || contains(wishes.forced_on, kSpeckle) || contains(wishes.forced_on, kSwerling);
+  return facts;
 }
 
 // A C-scope of mode shadow raises an obstacle or does not, by thresholds; a realisation lets point
@@ -27,9 +34,65 @@ bool tips_over(const SceneFacts& facts) {
          (facts.sample && facts.has_point_targets);
 }
 
-double bound_dB(const Effect& effect, const SceneFacts& facts, double window_dB) {
-  const double bound_dB = effect.bound_dB(facts);
-  return bound_dB > 0.0 && tips_over(facts) ? std::max(bound_dB, window_dB) : bound_dB;
+// An effect that the budget decides on.
+struct Open {
+  const Effect* effect = nullptr;
+  core::EffectDecision* decision = nullptr;
+  double own_dB = 0.0;  // its bound, were it not for tips_over
+};
+
+// Fills in the decision's bound.
+Open weighed(const Effect& effect, const SceneFacts& facts, const sensors::GreyScale& scale,
+             core::EffectDecision& decision) {
+  const double own_dB = effect.bound_dB(facts);
+  decision.bound_dB =
+      own_dB > 0.0 && tips_over(facts) ? std::max(own_dB, scale.window_dB()) : own_dB;
+  decision.bound_grey = decision.bound_dB / scale.dB_per_grey();
+  return {&effect, &decision, own_dB};
+}
+
+std::string cause_text(const Open& open, const SceneFacts& facts) {
+  const std::string text = open.effect->cause(facts, open.own_dB);
+  if (!(open.decision->bound_dB > open.own_dB)) return text;
+  const bool shadow = facts.sensor.display.cscope_mode == sensors::Display::CScopeMode::shadow;
+  return text + (shadow ? ", which in a C-scope of mode shadow can raise or hide a whole obstacle"
+                        : ", which can tip a pixel where a target and the ground cancel");
+}
+
+// Leaves out what fits into `left_grey`, smallest first.
+void share_budget(std::vector<Open> open, const SceneFacts& facts, double left_grey) {
+  std::stable_sort(open.begin(), open.end(), [](const Open& a, const Open& b) {
+    return a.decision->bound_grey < b.decision->bound_grey;
+  });
+  for (const Open& each : open) {
+    core::EffectDecision& decision = *each.decision;
+    decision.on = decision.bound_grey > left_grey;
+    decision.reason = cause_text(each, facts) + ": " + grey_text(decision.bound_grey) + ", " +
+                      (decision.on ? "more than" : "within") + " the " +
+                      figure_text(std::max(left_grey, 0.0)) + " that the budget leaves";
+    if (!decision.on) left_grey -= decision.bound_grey;
+  }
+}
+
+std::string by_user(const std::string& verdict, const core::EffectDecision& decision) {
+  if (!(decision.bound_grey > 0.0)) return verdict;
+  return verdict + (decision.on ? "; it can change" : ", though it can change") +
+         " a pixel by up to " + grey_text(decision.bound_grey);
+}
+
+// Noise that is shown for certain is part of the floor of every other effect.
+bool noise_runs(const SceneFacts& facts, double accuracy_grey, const EffectWishes& wishes,
+                const sensors::GreyScale& scale) {
+  if (contains(wishes.forced_off, kThermalNoise)) return false;
+  if (contains(wishes.forced_on, kThermalNoise)) return true;
+  if (wishes.base != EffectWishes::Base::as_needed) return wishes.base == EffectWishes::Base::all;
+  const auto& catalogue = effect_catalogue();
+  const auto noise = std::find_if(catalogue.begin(), catalogue.end(), [](const Effect& effect) {
+    return effect.name == kThermalNoise;
+  });
+  core::EffectDecision decision;
+  weighed(*noise, facts, scale, decision);
+  return decision.bound_grey > accuracy_grey / 2.0;
 }
 
 }  // namespace
@@ -63,50 +126,61 @@ EffectWishes parse_effect_wishes(const std::string& text) {
 
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {
   const std::vector<Effect>& catalogue = effect_catalogue();
-  SceneFacts facts = scene;
-  facts.sample =
-      scene.sample || contains(wishes.forced_on, kSpeckle) || contains(wishes.forced_on, kSwerling);
+  SceneFacts facts = with_realisation(scene, wishes);
   const sensors::GreyScale scale(facts.sensor);
+  facts.noise_shown = noise_runs(facts, accuracy_grey, wishes, scale);
   core::EffectPlan result;
-  std::vector<bool> open(catalogue.size(), false);
+  result.decisions.resize(catalogue.size());
+  std::vector<Open> open;
   for (std::size_t i = 0; i < catalogue.size(); ++i) {
     const Effect& effect = catalogue[i];
-    core::EffectDecision decision;
+    core::EffectDecision& decision = result.decisions[i];
     decision.effect = effect.name;
     const bool possible = effect.possible(facts);
-    if (possible) {
-      decision.bound_dB = bound_dB(effect, facts, scale.window_dB());
-      decision.bound_grey = decision.bound_dB / scale.dB_per_grey();
-    }
+    Open weighing;
+    if (possible) weighing = weighed(effect, facts, scale, decision);
     if (contains(wishes.forced_off, effect.name)) {
-      decision.reason = "switched off by the user";
+      decision.reason = by_user("switched off by the user", decision);
     } else if (!possible) {
       decision.reason = effect.why_impossible;
     } else if (contains(wishes.forced_on, effect.name) || wishes.base == EffectWishes::Base::all) {
       decision.on = true;
-      decision.reason = "switched on by the user";
+      decision.reason = by_user("switched on by the user", decision);
     } else if (wishes.base == EffectWishes::Base::none) {
-      decision.reason = "switched off by the user";
+      decision.reason = by_user("switched off by the user", decision);
     } else {
-      open[i] = true;
+      open.push_back(weighing);
     }
-    result.decisions.push_back(decision);
   }
-  std::vector<std::size_t> order(catalogue.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return result.decisions[a].bound_grey < result.decisions[b].bound_grey;
-  });
+  share_budget(std::move(open), facts, accuracy_grey / 2.0);
+  return result;
+}
+
+core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& frame,
+                            double accuracy_grey, const EffectWishes& wishes) {
+  core::EffectPlan result = sequence;
+  if (wishes.base != EffectWishes::Base::as_needed) return result;
+  SceneFacts facts = with_realisation(frame, wishes);
+  facts.noise_shown = result.runs(kThermalNoise);
+  const sensors::GreyScale scale(facts.sensor);
   double left_grey = accuracy_grey / 2.0;
-  for (const std::size_t i : order) {
-    if (!open[i]) continue;
-    core::EffectDecision& decision = result.decisions[i];
-    decision.on = decision.bound_grey > left_grey;
-    if (!decision.on) left_grey -= decision.bound_grey;
-    decision.reason = std::string(catalogue[i].what) + " can change a pixel by up to " +
-                      rounded(decision.bound_grey) + " grey levels, " +
-                      (decision.on ? "more" : "less") + " than the budget leaves";
+  std::vector<Open> open;
+  for (core::EffectDecision& decision : result.decisions) {
+    if (!decision.on && !contains(wishes.forced_off, decision.effect))
+      left_grey -= decision.bound_grey;
+    const auto effect =
+        std::find_if(effect_catalogue().begin(), effect_catalogue().end(),
+                     [&](const Effect& each) { return each.name == decision.effect; });
+    if (!decision.on || effect == effect_catalogue().end() || effect->why_unseen.empty() ||
+        contains(wishes.forced_on, decision.effect))
+      continue;
+    if (!effect->possible(facts)) {
+      decision = {decision.effect, false, std::string(effect->why_unseen)};
+      continue;
+    }
+    open.push_back(weighed(*effect, facts, scale, decision));
   }
+  share_budget(std::move(open), facts, left_grey);
   return result;
 }
 

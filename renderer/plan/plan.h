@@ -26,4 +26,14 @@ EffectWishes parse_effect_wishes(const std::string& text);
 // that half. Speckle or fluctuating targets forced on ask for a realisation where the scene does not.
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes);
 
+// The plan of one frame, inside the plan of its sequence (of the same wishes): `frame` from
+// frame_facts.h. A world is built for the sequence, so that everything keeps its state but stages
+// that a frame can go without (Effect::why_unseen), rain echo, double bounce and multipath. Of these
+// the ones that the sequence runs and nobody forced on are left out where the frame's bound stays
+// within what is left of that half: what the sequence leaves out takes its bound there first. So
+// all that a frame goes without, and with that any switch from frame to frame, changes a pixel by
+// at most half of `accuracy_grey`.
+core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& frame,
+                            double accuracy_grey, const EffectWishes& wishes);
+
 }  // namespace fanbeam::renderer

@@ -17,6 +17,7 @@ struct SceneFacts {
   bool reflects = false;             // a material in the scene reflects like a mirror
   bool ground_reflects = false;      // one of the ground does
   bool sample = false;               // frames show one realisation, not the expected power
+  bool noise_shown = false;          // set by plan(): thermal noise runs whatever else does
   bool fluctuating_targets = false;  // a target of Swerling case 1 to 4
   bool surface_not_dry = false;
   double surface_change_dB = 0.0;      // largest change of NRCS from dry to the scene's state

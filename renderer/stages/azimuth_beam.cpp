@@ -6,7 +6,7 @@
 
 #include "core/dispatch.h"
 #include "core/parallel.h"
-#include "renderer/casting/ray_caster.h"
+#include "renderer/casting/fan_layout.h"
 #include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::renderer {
@@ -17,18 +17,67 @@ using FourBins = double __attribute__((vector_size(32)));
 constexpr int kFours = 4;
 constexpr std::size_t kBlockBins = 4 * kFours;
 
-// Sums weight times bins over `reach` sub-columns, `stride` apart; a block of bins from `from` on.
-FANBEAM_HOT void weigh_block(const double* from, std::size_t stride, const double* weights,
-                             std::size_t reach, double* sums) {
-  FourBins sum[kFours] = {};
-  for (std::size_t s = 0; s < reach; ++s, from += stride) {
+// The two-way pattern over the sub-columns that a column reaches, from left to right.
+struct BeamWeights {
+  std::vector<double> of_sub_column;
+  std::size_t sub_columns_per_column;
+};
+
+BeamWeights weights_of(const FanSums& fan, const sensors::Sensor& sensor,
+                       int sub_columns_per_column) {
+  const int margin = margin_sub_columns(sensor, sub_columns_per_column);
+  BeamWeights beam;
+  beam.sub_columns_per_column = static_cast<std::size_t>(sub_columns_per_column);
+  // The same for every column: sub-column s of a column's reach begins this far from the column's
+  // centre.
+  for (int s = 0; s < 2 * margin + sub_columns_per_column; ++s) {
+    const double from_rad = (s - margin - sub_columns_per_column / 2.0) * fan.step_rad;
+    beam.of_sub_column.push_back(
+        sensors::two_way_integral(sensor.antenna.azimuth, from_rad, from_rad + fan.step_rad));
+  }
+  return beam;
+}
+
+// A block of bins of two neighbouring columns: weights times bins, `stride` apart, from the left
+// one's first sub-column on. What both reach is read once.
+FANBEAM_HOT void weigh_two(const double* from, std::size_t stride, const double* weights,
+                           std::size_t reach, std::size_t apart, double* left, double* right) {
+  FourBins left_sum[kFours] = {}, right_sum[kFours] = {};
+  std::size_t s = 0;
+  for (; s < apart; ++s, from += stride) {
     for (int i = 0; i < kFours; ++i) {
       FourBins bins;
       std::memcpy(&bins, from + 4 * i, sizeof bins);
-      sum[i] += weights[s] * bins;
+      left_sum[i] += weights[s] * bins;
     }
   }
-  std::memcpy(sums, sum, sizeof sum);
+  for (; s < reach; ++s, from += stride) {
+    for (int i = 0; i < kFours; ++i) {
+      FourBins bins;
+      std::memcpy(&bins, from + 4 * i, sizeof bins);
+      left_sum[i] += weights[s] * bins;
+      right_sum[i] += weights[s - apart] * bins;
+    }
+  }
+  for (; s < reach + apart; ++s, from += stride) {
+    for (int i = 0; i < kFours; ++i) {
+      FourBins bins;
+      std::memcpy(&bins, from + 4 * i, sizeof bins);
+      right_sum[i] += weights[s - apart] * bins;
+    }
+  }
+  std::memcpy(left, left_sum, sizeof left_sum);
+  std::memcpy(right, right_sum, sizeof right_sum);
+}
+
+// Fewer bins, or a single column.
+void weigh_one(const double* from, std::size_t stride, std::size_t bins, const BeamWeights& beam,
+               double* sums) {
+  std::fill_n(sums, bins, 0.0);
+  for (const double weight : beam.of_sub_column) {
+    for (std::size_t bin = 0; bin < bins; ++bin) sums[bin] += weight * from[bin];
+    from += stride;
+  }
 }
 
 }  // namespace
@@ -36,38 +85,33 @@ FANBEAM_HOT void weigh_block(const double* from, std::size_t stride, const doubl
 std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins,
                                        const FanSums& fan, const sensors::Sensor& sensor,
                                        int sub_columns_per_column) {
-  const int margin = margin_sub_columns(sensor, sub_columns_per_column);
-  const int reach = 2 * margin + sub_columns_per_column;
-  // The same for every column: sub-column s of a column's reach begins this far from the column's
-  // centre.
-  std::vector<double> weights;
-  for (int s = 0; s < reach; ++s) {
-    const double from_rad = (s - margin - sub_columns_per_column / 2.0) * fan.step_rad;
-    weights.push_back(
-        sensors::two_way_integral(sensor.antenna.azimuth, from_rad, from_rad + fan.step_rad));
-  }
+  const BeamWeights beam = weights_of(fan, sensor, sub_columns_per_column);
+  const std::size_t apart = beam.sub_columns_per_column, reach = beam.of_sub_column.size();
   const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   const auto bin_count = static_cast<std::size_t>(bins);
+  const std::size_t block_bins = std::min(kBlockBins, bin_count);
   std::vector<double> image(columns * bin_count);
   // Block after block of bins for all columns: what columns share stays in the cache.
   core::parallel_for((bin_count + kBlockBins - 1) / kBlockBins, [&](std::size_t block) {
     // The last block moves back over the one before rather than be a shorter one.
-    const std::size_t begin =
-        std::min(block * kBlockBins, bin_count - std::min(kBlockBins, bin_count));
-    for (std::size_t column = 0; column < columns; ++column) {
-      const double* const from =
-          sums.data() + column * static_cast<std::size_t>(sub_columns_per_column) * bin_count;
-      double sum[kBlockBins] = {};
-      if (bin_count >= kBlockBins) {
-        weigh_block(from + begin, bin_count, weights.data(), weights.size(), sum);
+    const std::size_t begin = std::min(block * kBlockBins, bin_count - block_bins);
+    const auto put = [&](const double* sum, std::size_t column) {
+      for (std::size_t bin = block * kBlockBins - begin; bin < block_bins; ++bin)
+        image[(begin + bin) * columns + column] = sum[bin];
+    };
+    for (std::size_t column = 0; column < columns; column += 2) {
+      const double* const from = sums.data() + column * apart * bin_count + begin;
+      double left[kBlockBins], right[kBlockBins];
+      if (block_bins == kBlockBins && column + 1 < columns) {
+        weigh_two(from, bin_count, beam.of_sub_column.data(), reach, apart, left, right);
+        put(left, column);
+        put(right, column + 1);
       } else {
-        for (std::size_t s = 0; s < weights.size(); ++s)
-          for (std::size_t bin = 0; bin < bin_count; ++bin)
-            sum[bin] += weights[s] * from[s * bin_count + bin];
+        for (std::size_t c = column; c < std::min(column + 2, columns); ++c) {
+          weigh_one(from + (c - column) * apart * bin_count, bin_count, block_bins, beam, left);
+          put(left, c);
+        }
       }
-      const std::size_t first = block * kBlockBins;
-      for (std::size_t bin = first; bin < std::min(first + kBlockBins, bin_count); ++bin)
-        image[bin * columns + column] = sum[bin - begin];
     }
   });
   return image;

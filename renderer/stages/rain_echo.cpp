@@ -8,7 +8,7 @@
 #include "atmosphere/attenuated_length.h"
 #include "core/parallel.h"
 #include "renderer/casting/deposit.h"
-#include "renderer/casting/elevation_fan.h"
+#include "renderer/casting/fan_layout.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/range_response.h"
 #include "sensors/antenna/beam_pattern.h"
@@ -67,8 +67,7 @@ class Echo {
         subs_(sub_columns_per_column),
         sums_(sums),
         borders_(elevation_borders(sensor_, height_above_ground_m())),
-        same_in_all_azimuths_(sensor_.scan.surface == sensors::ScanSurface::plane &&
-                              antenna.up.z > kLevelCosine &&
+        same_in_all_azimuths_(azimuths_are_upright(antenna, sensor_.scan.surface) &&
                               !world.volume_echo->varies_sideways()) {
     const sensors::BeamCut& cut = sensor_.antenna.elevation;
     const double boresight_rad = sensor_.antenna.boresight_elevation_rad;

@@ -47,6 +47,13 @@ double largest_lobe(const sensors::BeamCut& cut) {
   return most;
 }
 
+// A display of mapping stc counts in beam widths, and lobes inside the cut are part of the beam.
+double scale_change_dB(const sensors::Sensor& sensor) {
+  if (sensor.display.mapping != sensors::Display::Mapping::stc) return 0.0;
+  return 10.0 *
+         std::log10(sensor.azimuth_patch_rad() / without_side_lobes(sensor).azimuth_patch_rad());
+}
+
 // What the whole beam has beyond the main beams.
 BeamPart side_lobes(const sensors::Sensor& sensor) {
   // A faint level would drown in the difference of whole and main beam.
@@ -107,7 +114,7 @@ double side_lobe_bound_dB(const SceneFacts& facts) {
   if (has_unbounded_echo(facts)) return window_dB(facts.sensor);
   AddedPower added = largest_echo(all_sources(facts), side_lobes(facts.sensor), facts.sensor);
   added.cell_W = largest_spread(facts.sensor, added.cell_W);
-  return largest_change_dB(added, facts);
+  return std::max(largest_change_dB(added, facts), scale_change_dB(facts.sensor));
 }
 
 sensors::Sensor without_side_lobes(const sensors::Sensor& sensor) {

@@ -3,6 +3,7 @@
 
 #include "core/image.h"
 #include "tests/apps/program.h"
+#include "tests/shared_data.h"
 
 using namespace fanbeam::tests;
 namespace core = fanbeam::core;
@@ -96,6 +97,7 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
                         {"reason", "slices need a fraction of the rays' time at equal error"},
                         {"slices_per_column", 4},
                         {"objects_left_to_rays", 0}}));
+  CHECK(run["sampling"] == nlohmann::json({{"sub_columns", 4}, {"slices_per_sub_column", 1}}));
   CHECK(run["frames"][0]["rays"] == 0);
   CHECK(run["frames"][0]["slices"] >= 4 * 164);
   const nlohmann::json summary = json_of(folder.path() / "auto/timing.json")["summary"];
@@ -113,15 +115,30 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
                         {"wish", "rays"},
                         {"reason", "rays are the default and the reference"},
                         {"rays_per_cell_and_column", 4.0}}));
+  const nlohmann::json by_rays = json_of(folder.path() / "rays/run.json")["sampling"];
+  CHECK(by_rays["rays_per_cell_and_sub_column"] == 1.0);
+  CHECK(by_rays["deposit"] == "intervals");
+  CHECK_FALSE(by_rays.contains("slices_per_sub_column"));
   CHECK(json_of(folder.path() / "rays/run.json")["frames"][0]["slices"] == 0);
   CHECK(note(folder.path() / "rays/bscope/00000.png", "fanbeam:caster") ==
         "rays, 4 per range cell and column");
   CHECK(rays.output.find("cast by rays, 4 per range cell and column: rays are the default") !=
         std::string::npos);
 
-  // Without a number of its own, 16; above 8, what at most 8 sub-columns make.
-  for (const auto& [asked, used] : std::vector<std::pair<std::string, int>>{
-           {"", 16}, {"--rays-per-cell 0.1", 1}, {"--rays-per-cell 9", 10}, {"--rays-per-cell 12", 12}}) {
+  // The truck's azimuths are cast by rays, which have settings of their own.
+  render("braunschweig-26", folder.path() / "truck",
+         "-q --caster profile --rays-per-cell 2 --frames 600 --products bscope");
+  const nlohmann::json truck = json_of(folder.path() / "truck/run.json")["sampling"];
+  CHECK(truck["slices_per_sub_column"] == 1);
+  CHECK(truck["azimuths_left_to_rays"]["rays_per_cell_and_sub_column"] == 1.0);
+  CHECK_FALSE(truck.contains("rays_per_cell_and_sub_column"));
+
+  // Without a number of its own, 8; above 8, what at most 8 sub-columns make.
+  for (const auto& [asked, used] :
+       std::vector<std::pair<std::string, int>>{{"", 8},
+                                                {"--rays-per-cell 0.1", 1},
+                                                {"--rays-per-cell 9", 10},
+                                                {"--rays-per-cell 12", 12}}) {
     INFO(asked);
     render("flat-grass", folder.path() / "asked", "-q --caster profile " + asked);
     const nlohmann::json caster = json_of(folder.path() / "asked/run.json")["caster"];
@@ -195,4 +212,12 @@ TEST_CASE("validate says how a scene will be cast", "[caster]") {
   CHECK(run_fanbeam("validate flat-grass")
             .output.find("  caster      rays: rays are the default and the reference\n") !=
         std::string::npos);
+  CHECK(run_fanbeam("validate flat-grass").output.find("open air") == std::string::npos);
+}
+
+TEST_CASE("validate counts the building parts that no slice can show", "[caster][data]") {
+  if (!shared_data("lowi-innsbruck")) return;
+  CHECK(run_fanbeam("validate innsbruck-26")
+            .output.find("  buildings   33 of 55 raised parts hang over open air and are left to "
+                         "rays\n") != std::string::npos);
 }

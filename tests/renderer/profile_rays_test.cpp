@@ -1,8 +1,5 @@
 // The profile caster against converged rays on small worlds full of difficulties.
-#include <catch2/catch.hpp>
-
-#include "sensors/display/display.h"
-#include "tests/renderer/profile_closed_form.h"
+#include "tests/renderer/converged_rays.h"
 
 namespace {
 
@@ -69,77 +66,10 @@ std::vector<tests::Body> buildings() {
   return bodies;
 }
 
-struct Powers {
-  std::vector<double> bscope_W, cscope_W_m3;
-};
-
-void add(const std::vector<double>& from, double weight, std::vector<double>& to) {
-  to.resize(from.size(), 0.0);
-  for (std::size_t i = 0; i < from.size(); ++i) to[i] += weight * from[i];
-}
-
-Powers render(const renderer::World& world, const renderer::Sampling& sampling,
-              const renderer::FramePose& pose) {
-  renderer::Frame frame = renderer::FrameRenderer(world, sampling, {}, {}).render(pose);
-  return {std::move(frame.bscope_W), std::move(frame.cscope_W_m3)};
-}
-
-// Four of them together: cells of which only slivers show are still rough in one.
-Powers converged_rays(const renderer::World& world, const renderer::FramePose& pose) {
-  constexpr std::uint64_t kSeeds = 4;
-  Powers mean;
-  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    const Powers powers = render(world, renderer::reference_sampling(seed), pose);
-    add(powers.bscope_W, 1.0 / kSeeds, mean.bscope_W);
-    add(powers.cscope_W_m3, 1.0 / kSeeds, mean.cscope_W_m3);
-  }
-  return mean;
-}
-
-struct Difference {
-  double bscope_rms = 0.0, cscope_rms = 0.0;  // grey, the mean noise in both pictures
-  double mean_dB = 0.0;                       // over cells above the noise
-};
-
-double rms(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
-  return std::sqrt(sum / static_cast<double>(a.size()));
-}
-
-Difference against_rays(const sensors::Sensor& sensor, const renderer::FramePose& pose) {
+void check(const sensors::Sensor& sensor, const renderer::FramePose& pose) {
   const renderer::World world =
       tests::world(sensor, rough_ground(), library(), buildings(), paint());
-  const Powers rays = converged_rays(world, pose);
-  const Powers profile = render(world, renderer::profile_sampling_for(64.0), pose);
-  const double noise_W = sensor.noise_power_W();
-  const auto plus = [](std::vector<double> values, double constant) {
-    for (double& value : values) value += constant;
-    return values;
-  };
-  const auto bscope = [&](const Powers& powers) {
-    return sensors::bscope_grey(sensor, plus(powers.bscope_W, noise_W));
-  };
-  const auto cscope = [&](const Powers& powers) {
-    return sensors::cscope_grey(sensor,
-                                plus(powers.cscope_W_m3, sensors::cscope_noise_W_m3(sensor)));
-  };
-  Difference result{rms(bscope(profile), bscope(rays)), rms(cscope(profile), cscope(rays)), 0.0};
-  int lit = 0;
-  for (std::size_t i = 0; i < rays.bscope_W.size(); ++i) {
-    if (!(rays.bscope_W[i] > noise_W && profile.bscope_W[i] > 0.0)) continue;
-    result.mean_dB += 10.0 * std::log10(profile.bscope_W[i] / rays.bscope_W[i]);
-    ++lit;
-  }
-  REQUIRE(lit > static_cast<int>(rays.bscope_W.size() / 10));
-  result.mean_dB /= lit;
-  return result;
-}
-
-void check(const Difference& difference) {
-  CHECK(difference.bscope_rms < 0.5);
-  CHECK(difference.cscope_rms < 0.5);
-  CHECK(std::abs(difference.mean_dB) < 0.02);
+  tests::check_same_picture(tests::against_rays(world, pose));
 }
 
 renderer::FramePose rolled_pose() {
@@ -151,26 +81,60 @@ renderer::FramePose rolled_pose() {
 }  // namespace
 
 TEST_CASE("Rough ground, buildings and paint look as converged rays see them", "[profile]") {
-  check(against_rays(narrow(), tests::level_pose(kHeight_m)));
+  check(narrow(), tests::level_pose(kHeight_m));
 }
 
 TEST_CASE("The same under a beam that weighs all elevations alike", "[profile]") {
   // Visibility, land cover, walls and roofs alone, without the elevation pattern.
   sensors::Sensor sensor = narrow();
   sensor.antenna.elevation = tests::even_hivision(12).antenna.elevation;
-  check(against_rays(sensor, tests::level_pose(kHeight_m)));
+  check(sensor, tests::level_pose(kHeight_m));
 }
 
 TEST_CASE("A rolled and pitched antenna sees what its rays see", "[profile]") {
   sensors::Sensor sensor = narrow();
   sensor.scan.stabilised = false;
-  check(against_rays(sensor, rolled_pose()));
+  check(sensor, rolled_pose());
 }
 
 TEST_CASE("A cone scan sees what its rays see, level and tilted", "[profile]") {
   sensors::Sensor sensor = narrow();
   sensor.scan.surface = sensors::ScanSurface::cone;
   sensor.scan.stabilised = false;
-  check(against_rays(sensor, tests::level_pose(kHeight_m)));
-  check(against_rays(sensor, rolled_pose()));
+  check(sensor, tests::level_pose(kHeight_m));
+  check(sensor, rolled_pose());
+}
+
+TEST_CASE("A cone scan sees the ground at its own elevation 20 deg aside", "[profile]") {
+  // It is atan2(up, forward) there. With asin(up / range), a plane scan's, slices were 2 dB off
+  // 20 deg aside. Columns of 1 deg: no shadows then, whose borders would show how coarse the
+  // sub-columns are.
+  sensors::Sensor sensor = narrow();
+  sensor.scan.columns = 41;
+  sensor.scan.field_of_view_rad = core::radians(41.0);
+  sensor.scan.surface = sensors::ScanSurface::cone;
+  const auto hills_m = [](double x, double y) {
+    return 3.0 * std::sin(x / 70.0) * std::cos(y / 90.0);
+  };
+  const renderer::World world =
+      tests::world(sensor, tests::ground(1000.0, 10.0, hills_m), library());
+  tests::check_same_picture(tests::against_rays(world, tests::level_pose(kHeight_m)));
+}
+
+TEST_CASE("On a cone rays and slices fill the first range cells 20 deg aside", "[profile]") {
+  // A fan of rays placed by asin(up / range) ends 1 deg above them there and leaves them empty.
+  sensors::Sensor sensor = tests::even_hivision(12);
+  sensor.scan.columns = 41;
+  sensor.scan.field_of_view_rad = core::radians(41.0);
+  sensor.scan.surface = sensors::ScanSurface::cone;
+  sensor.range.cells = 6;
+  const renderer::World world = tests::world(
+      sensor, tests::ground(1000.0, 50.0, [](double, double) { return 0.0; }), library());
+  const renderer::FramePose pose = tests::level_pose(kHeight_m);
+  const tests::Powers rays = tests::render(world, renderer::sampling_for(64.0), pose);
+  const tests::Powers slices = tests::render(world, renderer::profile_sampling_for(64.0), pose);
+  for (std::size_t i = 0; i < rays.bscope_W.size(); ++i) {
+    INFO("cell " << i / 41 << ", column " << i % 41);
+    CHECK(rays.bscope_W[i] == Approx(slices.bscope_W[i]).epsilon(0.01));
+  }
 }

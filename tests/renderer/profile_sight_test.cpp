@@ -103,7 +103,7 @@ Answers ask_slices(const renderer::World& world, const sensors::AntennaFrame& an
   renderer::FanSums sums;
   renderer::SightLines sight{to_m, {}};
   renderer::ProfileCaster(world, renderer::profile_sampling_for(slices))
-      .cast(antenna, false, sums, sight);
+      .cast(antenna, false, renderer::CastPass{}, sums, sight);
   return {std::move(sums), std::move(sight.clear)};
 }
 

@@ -145,6 +145,7 @@ TEST_CASE("A storey over a hall is a solid, a canopy is a box and is counted", "
   const Solids& solids = scene->world.solids;
   CHECK(solids.prisms.size() == 3);  // with the hangar
   REQUIRE(solids.others.size() == 1);
+  CHECK(scene->raised_buildings == 2);
   CHECK(scene->floating_buildings == 1);
   const Box_m& canopy = solids.others.front();
   const glm::dvec2 middle_m = tests::local_m(*scene, 52.0101, 10.02015);
@@ -174,6 +175,7 @@ TEST_CASE("Innsbruck's solids are its footprints, less the parts over open air",
   const std::unique_ptr<Scene> scene = shipped("innsbruck-26", {data->parent_path()});
   const Solids& solids = scene->world.solids;
   // 59 features of the file are raised. 55 lie on the terrain; 22 of them stand on others.
+  CHECK(scene->raised_buildings == 55);
   CHECK(scene->floating_buildings == 33);
   CHECK(solids.others.size() == 33);
   core::ProblemList problems;

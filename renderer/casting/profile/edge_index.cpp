@@ -76,21 +76,76 @@ class PlanView {
   double left_rad_, right_rad_, far_m_;
 };
 
-// Numbers of the edges in the order of their middles' distance, roughly: a counting sort.
-std::vector<std::uint32_t> by_distance(const std::vector<CutEdge>& edges, double far_m) {
-  constexpr std::size_t kBuckets = 512;
-  std::vector<std::size_t> begin(kBuckets + 1, 0);
-  std::vector<std::uint16_t> bucket(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const double share = glm::length(edges[i].from_m + edges[i].to_m) / 2 / far_m;
-    bucket[i] = static_cast<std::uint16_t>(std::min(share * kBuckets, kBuckets - 1.0));
-    ++begin[bucket[i] + 1U];
+// In which tile of slices a heading lies: the first slice that is not left of it.
+class TileFinder {
+ public:
+  TileFinder(const std::vector<double>& headings_rad, std::size_t tile)
+      : headings_rad_(headings_rad),
+        tile_(tile),
+        last_tile_((headings_rad.size() - 1) / tile),
+        per_rad_(headings_rad.size() > 1 ? static_cast<double>(headings_rad.size() - 1) /
+                                               (headings_rad.back() - headings_rad.front())
+                                         : 0.0) {}
+
+  std::size_t tiles() const { return last_tile_ + 1; }
+  std::uint32_t operator()(double heading_rad) const {
+    // Headings are nearly even: a guess is right or next to it.
+    const double guess = (heading_rad - headings_rad_.front()) * per_rad_;
+    const auto most = static_cast<double>(headings_rad_.size());
+    auto slice = static_cast<std::size_t>(std::clamp(guess, 0.0, most));
+    while (slice > 0 && headings_rad_[slice - 1] >= heading_rad) --slice;
+    while (slice < headings_rad_.size() && headings_rad_[slice] < heading_rad) ++slice;
+    return static_cast<std::uint32_t>(std::min(slice / tile_, last_tile_));
   }
-  for (std::size_t b = 0; b < kBuckets; ++b) begin[b + 1] += begin[b];
-  std::vector<std::uint32_t> order(edges.size());
-  for (std::size_t i = 0; i < edges.size(); ++i)
-    order[begin[bucket[i]]++] = static_cast<std::uint32_t>(i);
+
+ private:
+  const std::vector<double>& headings_rad_;
+  std::size_t tile_, last_tile_;
+  double per_rad_;
+};
+
+// Where an edge goes: the tiles that it spans, and its middle's distance in steps.
+struct EdgePlace {
+  std::uint32_t first_tile, last_tile;
+  std::uint32_t distance_step;
+};
+constexpr std::size_t kDistanceSteps = 512;
+
+EdgePlace place_of(const CutEdge& edge, const TileFinder& tile_of, double far_m) {
+  const double share = glm::length(edge.from_m + edge.to_m) / 2 / far_m;
+  return {tile_of(std::min(edge.from_rad, edge.to_rad)),
+          tile_of(std::max(edge.from_rad, edge.to_rad)),
+          static_cast<std::uint32_t>(std::min(share * kDistanceSteps, kDistanceSteps - 1.0))};
+}
+
+// Numbers of the edges in the order of their distance steps: a counting sort.
+std::vector<std::uint32_t> by_distance(const std::vector<EdgePlace>& places) {
+  std::vector<std::size_t> begin(kDistanceSteps + 1, 0);
+  for (const EdgePlace& place : places) ++begin[place.distance_step + 1U];
+  for (std::size_t b = 0; b < kDistanceSteps; ++b) begin[b + 1] += begin[b];
+  std::vector<std::uint32_t> order(places.size());
+  for (std::size_t i = 0; i < places.size(); ++i)
+    order[begin[places[i].distance_step]++] = static_cast<std::uint32_t>(i);
   return order;
+}
+
+// What a block of prisms has in view.
+struct Found {
+  std::vector<CutEdge> edges;
+  std::vector<std::uint32_t> below_sensor;
+};
+
+Found edges_of_prisms(const std::vector<terrain::Solid>& prisms, std::size_t begin, std::size_t end,
+                      const PlanView& view) {
+  Found found;
+  for (std::size_t i = begin; i < end; ++i) {
+    const auto prism = static_cast<std::uint32_t>(i);
+    bool inside = false;
+    for (const auto& ring : prisms[i].rings_m)
+      if (view.add_ring(ring, prism, found.edges)) inside = !inside;
+    if (inside) found.below_sensor.push_back(prism);
+  }
+  return found;
 }
 
 }  // namespace
@@ -100,48 +155,42 @@ EdgeIndex::EdgeIndex(const World& world, const glm::dvec2& sensor_m, const glm::
   const double far_m = world.sensor.range.maximum_m();
   const PlanView view(sensor_m, forward, headings_rad.front(), headings_rad.back(), far_m);
   const std::vector<terrain::Solid>& prisms = world.solids.prisms;
-  struct Found {
-    std::vector<CutEdge> edges;
-    std::vector<std::uint32_t> below_sensor;
-  };
-  constexpr std::size_t kAtOnce = 1024;
-  std::vector<Found> found((prisms.size() + kAtOnce - 1) / kAtOnce);
-  core::parallel_for(found.size(), [&](std::size_t block) {
-    for (std::size_t i = block * kAtOnce; i < std::min((block + 1) * kAtOnce, prisms.size()); ++i) {
-      const auto prism = static_cast<std::uint32_t>(i);
-      bool inside = false;
-      for (const auto& ring : prisms[i].rings_m)
-        if (view.add_ring(ring, prism, found[block].edges)) inside = !inside;
-      if (inside) found[block].below_sensor.push_back(prism);
-    }
+  constexpr std::size_t kAtOnce = 256;
+  const std::size_t blocks = (prisms.size() + kAtOnce - 1) / kAtOnce;
+  std::vector<Found> found(blocks + 1);
+  core::parallel_for(blocks, [&](std::size_t block) {
+    const std::size_t begin = block * kAtOnce;
+    found[block] = edges_of_prisms(prisms, begin, std::min(begin + kAtOnce, prisms.size()), view);
   });
-  for (const Found& block : found) {
-    edges_.insert(edges_.end(), block.edges.begin(), block.edges.end());
-    below_sensor_.insert(below_sensor_.end(), block.below_sensor.begin(), block.below_sensor.end());
-  }
   if (const terrain::SurfaceMap* map = world.surfaces->surface_map(); map != nullptr)
     for (const terrain::SurfacePatch& patch : map->patches())
-      view.add_ring(patch.outline_m, CutEdge::kPaint, edges_);
+      view.add_ring(patch.outline_m, CutEdge::kPaint, found.back().edges);
 
-  const std::size_t tiles = (headings_rad.size() + tile - 1) / tile;
-  const auto tile_of = [&](double heading_rad) {
-    const auto slice = std::lower_bound(headings_rad.begin(), headings_rad.end(), heading_rad) -
-                       headings_rad.begin();
-    return std::min(static_cast<std::size_t>(slice) / tile, tiles - 1);
-  };
-  std::vector<std::uint32_t> first(edges_.size()), last(edges_.size());
-  tile_begin_.assign(tiles + 1, 0);
-  for (std::size_t i = 0; i < edges_.size(); ++i) {
-    const CutEdge& edge = edges_[i];
-    first[i] = static_cast<std::uint32_t>(tile_of(std::min(edge.from_rad, edge.to_rad)));
-    last[i] = static_cast<std::uint32_t>(tile_of(std::max(edge.from_rad, edge.to_rad)));
-    for (std::size_t t = first[i]; t <= last[i]; ++t) ++tile_begin_[t + 1];
+  std::vector<std::size_t> first_edge{0};
+  for (const Found& block : found) {
+    first_edge.push_back(first_edge.back() + block.edges.size());
+    below_sensor_.insert(below_sensor_.end(), block.below_sensor.begin(), block.below_sensor.end());
   }
-  for (std::size_t t = 0; t < tiles; ++t) tile_begin_[t + 1] += tile_begin_[t];
+  const TileFinder tile_of(headings_rad, tile);
+  edges_.resize(first_edge.back());
+  std::vector<EdgePlace> places(edges_.size());
+  core::parallel_for(found.size(), [&](std::size_t block) {
+    std::size_t at = first_edge[block];
+    for (const CutEdge& edge : found[block].edges) {
+      edges_[at] = edge;
+      places[at++] = place_of(edge, tile_of, far_m);
+    }
+  });
+
+  tile_begin_.assign(tile_of.tiles() + 1, 0);
+  for (const EdgePlace& place : places)
+    for (std::size_t t = place.first_tile; t <= place.last_tile; ++t) ++tile_begin_[t + 1];
+  for (std::size_t t = 0; t < tile_of.tiles(); ++t) tile_begin_[t + 1] += tile_begin_[t];
   edge_of_tile_.resize(tile_begin_.back());
   std::vector<std::size_t> next(tile_begin_.begin(), tile_begin_.end() - 1);
-  for (const std::uint32_t i : by_distance(edges_, far_m))
-    for (std::size_t t = first[i]; t <= last[i]; ++t) edge_of_tile_[next[t]++] = i;
+  for (const std::uint32_t i : by_distance(places))
+    for (std::size_t t = places[i].first_tile; t <= places[i].last_tile; ++t)
+      edge_of_tile_[next[t]++] = i;
 }
 
 }  // namespace fanbeam::renderer

@@ -21,12 +21,10 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "renderer/casting/caster.h"
-#include "renderer/casting/profile/edge_index.h"
-#include "renderer/casting/profile/slice.h"
-#include "renderer/casting/profile/slice_power.h"
+#include "renderer/casting/frame_path_loss.h"
+#include "renderer/casting/profile/power_tables.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/world.h"
@@ -40,24 +38,15 @@ class ProfileCaster : public Caster {
   ProfileCaster(const World& world, const Sampling& sampling);
 
   using Caster::cast;
-  void cast(const sensors::AntennaFrame& frame, bool with_cscope, FanSums& sums,
-            SightLines& sight) const override;
+  void cast(const sensors::AntennaFrame& frame, bool with_cscope, const CastPass& pass,
+            FanSums& sums, SightLines& sight) const override;
 
  private:
-  struct Frame;
-  std::vector<Slice> level_slices(const sensors::AntennaFrame& antenna, const FanSums& sums) const;
-  std::vector<Slice> tilted_slices(const sensors::AntennaFrame& antenna, const FanSums& sums) const;
-  std::vector<std::uint32_t> groups_for_rays(const sensors::AntennaFrame& antenna,
-                                             const std::vector<Slice>& slices,
-                                             const FanSums& sums) const;
-  void cast_level(const Frame& frame, FanSums& sums) const;
-  void cast_across(const Frame& frame, FanSums& sums) const;
-
   const World& world_;
   Sampling sampling_;
   PowerTables tables_;
-  std::unique_ptr<RayCaster> rays_;          // in worlds with things that slices cannot show
-  double lowest_m_ = 0.0, highest_m_ = 0.0;  // of the terrain
+  FramePathLoss path_loss_;
+  std::unique_ptr<RayCaster> rays_;  // in worlds with things that slices cannot show
 };
 
 }  // namespace fanbeam::renderer

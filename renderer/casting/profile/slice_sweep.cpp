@@ -16,13 +16,13 @@ constexpr double kEdgeOn_rad = 1e-9;
 }  // namespace
 
 SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
-                       double dark_below, SweepScratch& scratch)
+                       double darkest_tangent, SweepScratch& scratch)
     : world_(world),
       ground_(world.surfaces->terrain()),
       map_(world.surfaces->surface_map()),
       sensor_m_(sensor_m),
       edges_(edges),
-      dark_below_(dark_below),
+      darkest_tangent_(darkest_tangent),
       cut_(scratch.cut),
       events_(scratch.events) {}
 
@@ -32,28 +32,29 @@ void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates
   sights_ = sights;
   pieces_ = &pieces;
   full_ = &full;
-  horizon_ = kBelowEverything;
+  horizon_tangent_ = kBelowEverything;
   active_ = edges_.below_sensor();
   left_already_.clear();
   roof_from_m_ = 0.0;
   find_top();
   cut_ground(*ground_, {sensor_m_.x, sensor_m_.y}, slice.along, far_m, sensor_m_.z, cut_);
   // Seen from outside, the grid's rim hides what lies under it.
-  if (cut_.pieces > 0 && cut_.distance_m[0] > 0.0) horizon_ = cut_.height_m[0] / cut_.distance_m[0];
+  if (cut_.pieces > 0 && cut_.distance_m[0] > 0.0)
+    horizon_tangent_ = cut_.height_m[0] / cut_.distance_m[0];
   find_events(candidates, far_m);
   std::size_t next = 0;
   for (std::size_t i = 0; i < cut_.pieces; ++i) {
-    double d0 = cut_.distance_m[i], z0 = cut_.height_m[i];
-    const double d1 = cut_.distance_m[i + 1], z1 = cut_.height_m[i + 1];
-    while (next < events_.size() && events_[next].distance_m < d1) {
-      const double at_m = std::max(events_[next].distance_m, d0);
-      const double z = z0 + (z1 - z0) * ((at_m - d0) / (d1 - d0));
-      walk_ground(d0, z0, at_m, z, i);
-      d0 = at_m;
-      z0 = z;
-      pass(events_[next++], z);
+    ProfilePoint near{cut_.distance_m[i], cut_.height_m[i]};
+    const ProfilePoint far{cut_.distance_m[i + 1], cut_.height_m[i + 1]};
+    while (next < events_.size() && events_[next].distance_m < far.distance_m) {
+      const double at_m = std::max(events_[next].distance_m, near.distance_m);
+      const double share = (at_m - near.distance_m) / (far.distance_m - near.distance_m);
+      const ProfilePoint at{at_m, near.height_m + (far.height_m - near.height_m) * share};
+      walk_ground(near, at, i);
+      near = at;
+      pass(events_[next++], at.height_m);
     }
-    walk_ground(d0, z0, d1, z1, i);
+    walk_ground(near, far, i);
   }
   if (roofed_ && cut_.pieces > 0) close_roof(cut_.distance_m[cut_.pieces]);
 }
@@ -101,7 +102,7 @@ void SliceSweep::add_event(double distance_m, std::uint32_t edge) {
 void SliceSweep::test(const SightPoint& point, double at_m) {
   const double tangent = point.height_m / point.distance_m;
   const bool in_a_building = roofed_ && tangent * at_m < roof_m_;
-  sights_.clear[point.line] = tangent >= horizon_ && !in_a_building ? 1 : 0;
+  sights_.clear[point.line] = tangent >= horizon_tangent_ && !in_a_building ? 1 : 0;
 }
 
 void SliceSweep::pass(const SliceEvent& event, double ground_m) {
@@ -158,42 +159,44 @@ void SliceSweep::find_top() {
 }
 
 // Ground under a roof is hidden, ground that pokes through is not.
-void SliceSweep::walk_ground(double d0, double z0, double d1, double z1, std::size_t piece) {
-  if (!(d1 > d0)) return;
+void SliceSweep::walk_ground(const ProfilePoint& near, const ProfilePoint& far, std::size_t piece) {
+  if (!(far.distance_m > near.distance_m)) return;
   if (!roofed_) {
-    see_ground(d0, z0, d1, z1, piece);
+    see_ground(near, far, piece);
     return;
   }
-  if (z0 <= roof_m_ && z1 <= roof_m_) return;
-  if (z0 >= roof_m_ && z1 >= roof_m_) {
-    close_roof(d0);
-    see_ground(d0, z0, d1, z1, piece);
-    roof_from_m_ = d1;
+  if (near.height_m <= roof_m_ && far.height_m <= roof_m_) return;
+  if (near.height_m >= roof_m_ && far.height_m >= roof_m_) {
+    close_roof(near.distance_m);
+    see_ground(near, far, piece);
+    roof_from_m_ = far.distance_m;
     return;
   }
-  const double at_m = d0 + (d1 - d0) * ((roof_m_ - z0) / (z1 - z0));
-  if (z0 < roof_m_) {
-    close_roof(at_m);
-    see_ground(at_m, roof_m_, d1, z1, piece);
-    roof_from_m_ = d1;
+  const double share = (roof_m_ - near.height_m) / (far.height_m - near.height_m);
+  const ProfilePoint at{near.distance_m + (far.distance_m - near.distance_m) * share, roof_m_};
+  if (near.height_m < roof_m_) {
+    close_roof(at.distance_m);
+    see_ground(at, far, piece);
+    roof_from_m_ = far.distance_m;
   } else {
-    close_roof(d0);
-    see_ground(d0, z0, at_m, roof_m_, piece);
-    roof_from_m_ = at_m;
+    close_roof(near.distance_m);
+    see_ground(near, at, piece);
+    roof_from_m_ = at.distance_m;
   }
 }
 
 // Moves the near end of a piece to where it comes out of the horizon; false when it does not.
-bool SliceSweep::visible(double& d0, double& z0, double d1, double z1) {
-  if (z1 <= horizon_ * d1) return false;
-  if (z0 < horizon_ * d0) {
-    const double under0 = horizon_ * d0 - z0, over1 = z1 - horizon_ * d1;
-    const double share = under0 / (under0 + over1);
-    d0 += share * (d1 - d0);
-    z0 += share * (z1 - z0);
+bool SliceSweep::visible(ProfilePoint& near, const ProfilePoint& far) {
+  const double over_far_m = far.height_m - horizon_tangent_ * far.distance_m;
+  if (over_far_m <= 0.0) return false;
+  const double under_near_m = horizon_tangent_ * near.distance_m - near.height_m;
+  if (under_near_m > 0.0) {
+    const double share = under_near_m / (under_near_m + over_far_m);
+    near.distance_m += share * (far.distance_m - near.distance_m);
+    near.height_m += share * (far.height_m - near.height_m);
   }
-  horizon_ = z1 / d1;
-  return d1 > d0;  // rounding may leave nothing
+  horizon_tangent_ = far.height_m / far.distance_m;
+  return far.distance_m > near.distance_m;  // rounding may leave nothing
 }
 
 int SliceSweep::next_piece() {
@@ -201,8 +204,8 @@ int SliceSweep::next_piece() {
   return pieces_->count++;
 }
 
-void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::size_t piece) {
-  if (!visible(d0, z0, d1, z1) || z1 < dark_below_ * d1) return;
+void SliceSweep::see_ground(ProfilePoint near, const ProfilePoint& far, std::size_t piece) {
+  if (!visible(near, far) || far.height_m < darkest_tangent_ * far.distance_m) return;
   const GroundCut::Cell& cell = cut_.cells[piece];
   const double* sw = &ground_->height_m[ground_->post(cell.column, cell.row)];
   const std::ptrdiff_t stride = ground_->columns;
@@ -212,17 +215,17 @@ void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::siz
   const double gy = (cell.upper ? sw[stride] - sw[0] : ne - sw[1]) * per_m;
   const double slope = gx * slice_.along.x + gy * slice_.along.y;
   // The facet's plane passes this far below the sensor.
-  const double below_m = slope * d1 - z1;
-  const double middle_m = (d0 + d1) / 2;
+  const double below_m = slope * far.distance_m - far.height_m;
+  const double middle_m = (near.distance_m + far.distance_m) / 2;
   const std::int32_t material =
       map_->material_in_cell(cell.column, cell.row, sensor_m_.x + slice_.along.x * middle_m,
                              sensor_m_.y + slice_.along.y * middle_m);
   const int i = next_piece();
-  pieces_->near_distance_m[i] = d0;
-  pieces_->near_height_m[i] = z0;
-  pieces_->far_distance_m[i] = d1;
-  pieces_->far_height_m[i] = z1;
-  pieces_->cross_m2[i] = below_m * (d1 - d0);
+  pieces_->near_distance_m[i] = near.distance_m;
+  pieces_->near_height_m[i] = near.height_m;
+  pieces_->far_distance_m[i] = far.distance_m;
+  pieces_->far_height_m[i] = far.height_m;
+  pieces_->cross_m2[i] = below_m * (far.distance_m - near.distance_m);
   pieces_->facet_m[i] = below_m;
   pieces_->facet_d2[i] = 1.0 + gx * gx + gy * gy;
   pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
@@ -230,15 +233,15 @@ void SliceSweep::see_ground(double d0, double z0, double d1, double z1, std::siz
 }
 
 void SliceSweep::close_roof(double distance_m) {
-  double d0 = roof_from_m_, z0 = roof_m_;
+  ProfilePoint near{roof_from_m_, roof_m_};
   roof_from_m_ = distance_m;
-  if (!(distance_m > d0) || !visible(d0, z0, distance_m, roof_m_)) return;
+  if (!(distance_m > near.distance_m) || !visible(near, {distance_m, roof_m_})) return;
   const int i = next_piece();
-  pieces_->near_distance_m[i] = d0;
+  pieces_->near_distance_m[i] = near.distance_m;
   pieces_->near_height_m[i] = roof_m_;
   pieces_->far_distance_m[i] = distance_m;
   pieces_->far_height_m[i] = roof_m_;
-  pieces_->cross_m2[i] = -roof_m_ * (distance_m - d0);
+  pieces_->cross_m2[i] = -roof_m_ * (distance_m - near.distance_m);
   pieces_->facet_m[i] = -roof_m_;
   pieces_->facet_d2[i] = 1.0;
   pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
@@ -246,9 +249,9 @@ void SliceSweep::close_roof(double distance_m) {
 }
 
 void SliceSweep::see_wall(double distance_m, double low_m, double top_m, const CutEdge& edge) {
-  const double from_m = std::max(low_m, horizon_ * distance_m);
+  const double from_m = std::max(low_m, horizon_tangent_ * distance_m);
   if (!(top_m > from_m)) return;
-  horizon_ = top_m / distance_m;
+  horizon_tangent_ = top_m / distance_m;
   const glm::dvec2 step = edge.to_m - edge.from_m;
   const double range_per_distance = distance_m / std::sqrt(distance_m * distance_m + top_m * top_m);
   // How much nearer or farther the wall stands under another heading of the wedge, whose borders

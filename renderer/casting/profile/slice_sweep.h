@@ -17,6 +17,12 @@
 
 namespace fanbeam::renderer {
 
+// A point of the profile.
+struct ProfilePoint {
+  double distance_m = 0.0;  // horizontal
+  double height_m = 0.0;    // relative to the sensor
+};
+
 // A point in a slice of which is asked whether it is seen.
 struct SightPoint {
   double distance_m = 0.0;  // horizontal
@@ -38,9 +44,9 @@ struct SweepScratch {
 
 class SliceSweep {
  public:
-  // Ground below the tangent `dark_below` is not shown: it only hides what is behind it.
+  // Ground below the tangent `darkest_tangent` is not shown: it only hides what is behind it.
   SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
-             double dark_below, SweepScratch& scratch);
+             double darkest_tangent, SweepScratch& scratch);
 
   // Walks `slice` out to `far_m`. `full` is called whenever `pieces` has no room left and must
   // empty it; what remains at the end stays there.
@@ -62,12 +68,12 @@ class SliceSweep {
   void pass(const SliceEvent& event, double ground_m);
   void enter(const SliceEvent& event, const CutEdge& edge, double ground_m);
   void leave(double distance_m, std::uint32_t prism);
-  void walk_ground(double d0, double z0, double d1, double z1, std::size_t piece);
-  void see_ground(double d0, double z0, double d1, double z1, std::size_t piece);
+  void walk_ground(const ProfilePoint& near, const ProfilePoint& far, std::size_t piece);
+  void see_ground(ProfilePoint near, const ProfilePoint& far, std::size_t piece);
   void see_wall(double distance_m, double low_m, double top_m, const CutEdge& edge);
   void close_roof(double distance_m);
   void find_top();
-  bool visible(double& d0, double& z0, double d1, double z1);
+  bool visible(ProfilePoint& near, const ProfilePoint& far);
   int next_piece();
 
   const World& world_;
@@ -75,7 +81,7 @@ class SliceSweep {
   const terrain::SurfaceMap* map_;
   glm::dvec3 sensor_m_;
   const EdgeIndex& edges_;
-  double dark_below_;
+  double darkest_tangent_;
 
   Slice slice_;
   GroundCut& cut_;
@@ -83,7 +89,7 @@ class SliceSweep {
   VisiblePieces* pieces_ = nullptr;
   const Full* full_ = nullptr;
   Sights sights_;
-  double horizon_ = 0.0;               // tangent
+  double horizon_tangent_ = 0.0;
   std::vector<std::uint32_t> active_;  // prisms around the walk
   std::vector<std::uint32_t> left_already_;
   bool roofed_ = false;

@@ -1,11 +1,11 @@
-#include "benchmarks/grey_error.h"
+#include "renderer/accuracy/grey_error.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "sensors/display/display.h"
 
-namespace fanbeam::benchmarks {
+namespace fanbeam::renderer {
 namespace {
 
 std::vector<double> plus(std::vector<double> values, double constant) {
@@ -62,4 +62,4 @@ FrameError GreyReference::error_of(const FramePower& power) const {
            compare(noise_free.cscope, noise_free_.cscope, noise_free_.cscope)}};
 }
 
-}  // namespace fanbeam::benchmarks
+}  // namespace fanbeam::renderer

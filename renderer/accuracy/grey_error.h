@@ -6,7 +6,7 @@
 
 #include "sensors/sensor.h"
 
-namespace fanbeam::benchmarks {
+namespace fanbeam::renderer {
 
 struct GreyError {
   double rms = 0.0;      // over all cells
@@ -45,4 +45,4 @@ class GreyReference {
   FrameGrey with_noise_, noise_free_;
 };
 
-}  // namespace fanbeam::benchmarks
+}  // namespace fanbeam::renderer

@@ -1,0 +1,211 @@
+#include "apps/cost_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+
+#include "apps/cost/bench.h"
+#include "apps/cost/cost_csv.h"
+#include "apps/cost/cost_markdown.h"
+#include "apps/cost/cost_plots.h"
+#include "apps/cost/effect_prices.h"
+#include "apps/cost/frame_work.h"
+#include "apps/cost/ladder.h"
+#include "apps/cost/numerics.h"
+#include "apps/cost/turns.h"
+#include "apps/render_command.h"
+#include "core/files.h"
+#include "core/machine.h"
+#include "core/parallel.h"
+#include "sensors/display/grey_scale.h"
+
+namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In the middle of each half, so that neither is the first or the last frame.
+std::vector<int> spread_frames(int count) {
+  return count < 4 ? std::vector<int>{count / 2} : std::vector<int>{count / 4, 3 * count / 4};
+}
+
+renderer::CasterKind effects_caster(const CostOptions& options, const scenes::Scene& scene) {
+  const renderer::CasterWish wish =
+      options.caster.empty() ? scene.description.caster : renderer::caster_wish(options.caster);
+  return wish == renderer::CasterWish::rays ? renderer::CasterKind::rays : scene.caster.chosen;
+}
+
+double time_once_ms(const FrameWork& work) {
+  return time_in_turns({[&work] { work.render(); }}, 1).front().ms;
+}
+
+Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
+  constexpr double kNaiveRays = 2.0;
+  const renderer::FramePose pose = scene.frame_pose(frame);
+  const renderer::Effects effects = without_draws(renderer::effects_of(scene.plan, 0));
+  Pace pace;
+  pace.build_s = scene.build_s;
+  pace.frame_ms = time_once_ms(
+      {scene.world, pose, renderer::sampling_for(renderer::kDefaultRaysPerCell), effects});
+  if (slices)
+    pace.slices_ms =
+        time_once_ms({scene.world, pose,
+                      renderer::profile_sampling_for(renderer::kDefaultSlicesPerColumn), effects});
+  pace.naive_ms = time_once_ms({scene.world,
+                                pose,
+                                renderer::NaiveKind::dithered,
+                                kNaiveRays,
+                                {scene.world.sensor.antenna.boresight_elevation_rad, 0.0},
+                                effects}) /
+                  kNaiveRays;
+  return pace;
+}
+
+void write_plots(const Plot& plot, const fs::path& folder, const std::string& name) {
+  for (const char* ending : {".svg", ".png"}) write_plot(plot, folder / (name + ending));
+}
+
+// Plots last: whoever lacks gnuplot has the figures.
+void write(const CostFigures& figures, const fs::path& folder) {
+  core::write_file_atomically(folder / "cost.md", cost_markdown(figures));
+  if (!figures.ladder.empty()) {
+    core::write_file_atomically(folder / "ladder.csv", ladder_csv(figures));
+    core::write_file_atomically(folder / "equal_error.csv", equal_error_csv(figures));
+  }
+  if (!figures.effects.empty())
+    core::write_file_atomically(folder / "effects.csv", effects_csv(figures));
+  if (!figures.numerics.variants.empty())
+    core::write_file_atomically(folder / "numerics.csv", numerics_csv(figures));
+  if (!figures.ladder.empty()) {
+    write_plots(ladder_plot(figures, false), folder, "ladder");
+    write_plots(ladder_plot(figures, true), folder, "ladder-cscope");
+  }
+  if (!figures.effects.empty()) write_plots(effects_plot(figures), folder, "effects");
+}
+
+struct Parts {
+  bool ladder, effects, numerics;
+};
+
+Parts parts_of(const CostOptions& options) {
+  const auto asked = [&](const char* part) {
+    return std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
+  };
+  return {asked("ladder"), asked("effects"), asked("numerics")};
+}
+
+double expected_s(const CostBench& bench, const Parts& parts) {
+  const auto frames = static_cast<double>(bench.frames.size());
+  double total_s = 0.0;
+  if (parts.ladder || parts.numerics)
+    total_s += frames * 2.0 * bench.pace.reference_s(bench.effort);
+  if (parts.ladder) total_s += frames * bench.pace.ladder_s(bench.effort);
+  if (parts.effects) total_s += effects_s(bench);
+  if (parts.numerics) total_s += numerics_s(bench);
+  return total_s;
+}
+
+void measure(const CostBench& bench, const Parts& parts, CostFigures& figures) {
+  if (parts.ladder || parts.numerics) {
+    const auto references = render_references(bench, figures.references);
+    if (parts.ladder) figures.ladder = measure_ladder(bench, references);
+    if (parts.numerics) figures.numerics = measure_numerics(bench, references);
+  }
+  if (parts.effects) figures.effects = measure_effects(bench);
+}
+
+CostFigures head_of(const CostBench& bench, const CostOptions& options, int threads) {
+  const scenes::Scene& scene = bench.scene;
+  CostFigures figures;
+  figures.scene = scene.description.name;
+  figures.title = scene.description.title;
+  figures.machine = {core::processor_name(), core::instruction_level(), threads};
+  figures.caster = renderer::name_of(bench.sampling.caster);
+  if (!bench.slices) figures.why_no_slices = scene.caster.reason;
+  figures.triangles = scene.world.surfaces->triangle_count();
+  figures.dB_per_grey = sensors::GreyScale(scene.world.sensor).dB_per_grey();
+  figures.accuracy_grey = scene.accuracy_grey;
+  figures.quick = options.quick;
+  figures.repetitions = bench.effort.repetitions;
+  figures.frames = bench.frames;
+  return figures;
+}
+
+// Announces how long it will take, and measures.
+CostFigures run(const CostBench& quiet_bench, const CostOptions& options,
+                const CommonOptions& common, int threads) {
+  const Parts parts = parts_of(options);
+  const double total_s = expected_s(quiet_bench, parts);
+  const std::string& name = quiet_bench.scene.description.name;
+  const std::size_t frames = quiet_bench.frames.size();
+  if (!common.quiet)
+    fmt::print("{}: {} {}, about {} in all\n", name, frames, frames == 1 ? "frame" : "frames",
+               duration_text(total_s));
+  CostProgress progress(name, total_s, common.quiet);
+  CostBench bench = quiet_bench;
+  bench.progress = &progress;
+  CostFigures figures = head_of(bench, options, threads);
+  measure(bench, parts, figures);
+  return figures;
+}
+
+renderer::Sampling effects_sampling(const CostOptions& options, const scenes::Scene& scene) {
+  return effects_caster(options, scene) == renderer::CasterKind::profile
+             ? renderer::profile_sampling_for(renderer::kDefaultSlicesPerColumn)
+             : renderer::sampling_for(renderer::kDefaultRaysPerCell);
+}
+
+CostEffort effort_of(const CostOptions& options) {
+  CostEffort effort = options.quick ? quick_effort() : full_effort();
+  if (options.repetitions > 0) effort.repetitions = options.repetitions;
+  return effort;
+}
+
+}  // namespace
+
+int cost(const CostOptions& options, const CommonOptions& common) {
+  const core::ThreadLimit threads(options.threads);
+  core::ProblemList problems;
+  const scenes::SceneDescription description =
+      scenes::read_scene(find_scene(options.scene),
+                         {shipped_folder(), data_folders(options.data), options.sensor}, problems);
+  scenes::BuildOptions build;
+  build.caster = renderer::CasterWish::automatic;  // tells whether there are slices
+  if (options.caster == renderer::name_of(renderer::CasterWish::profile))
+    build.caster = renderer::CasterWish::profile;  // refuses where there are none
+  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
+  if (!common.quiet) print_problems(problems.all());
+  const std::vector<int> frames = options.frames.empty()
+                                      ? spread_frames(scene->frame_count())
+                                      : parse_frames(options.frames, scene->frame_count());
+  const fs::path folder = options.output.empty() ? fs::path("out") / (description.name + "-cost")
+                                                 : fs::path(options.output);
+  fs::create_directories(folder);  // before minutes are spent
+
+  const auto begin = std::chrono::steady_clock::now();
+  const bool slices = scene->caster.chosen == renderer::CasterKind::profile;
+  const auto rebuild = [&](const scenes::BuildOptions& other) {
+    core::ProblemList known;
+    return scenes::build_scene(description, other, known);
+  };
+  const CostBench bench{*scene,
+                        rebuild,
+                        build,
+                        effort_of(options),
+                        measure_pace(*scene, frames.front(), slices),
+                        slices,
+                        effects_sampling(options, *scene),
+                        frames};
+  write(run(bench, options, common, threads.threads()), folder);
+  if (common.quiet) return kExitDone;
+  fmt::print("measured in {}{}\n{}\n",
+             duration_text(
+                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()),
+             options.quick ? " (a quick look: its figures are no measurement)" : "",
+             fs::absolute(folder / "cost.md").lexically_normal().string());
+  return kExitDone;
+}
+
+}  // namespace fanbeam::apps

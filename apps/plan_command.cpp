@@ -1,0 +1,80 @@
+#include "apps/plan_command.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+
+#include "apps/plan_report.h"
+#include "apps/render_command.h"
+#include "core/parallel.h"
+#include "scenes/frame_plan.h"
+
+namespace fanbeam::apps {
+namespace {
+
+constexpr std::size_t kMeasuredFrames = 3;
+
+bool same_stages(const core::EffectPlan& a, const core::EffectPlan& b) {
+  for (std::size_t i = 0; i < a.decisions.size(); ++i)
+    if (a.decisions[i].on != b.decisions[i].on) return false;
+  return true;
+}
+
+void plan_frames(const std::vector<int>& frames, PlanReport& report) {
+  const auto begin = std::chrono::steady_clock::now();
+  for (const int frame : frames) {
+    core::EffectPlan plan = scenes::frame_plan(report.scene, frame);
+    if (report.spans.empty() || !same_stages(report.spans.back().plan, plan))
+      report.spans.push_back({frame, frame, std::move(plan)});
+    report.spans.back().last = frame;
+  }
+  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
+  report.frame_plan_ms = time.count() / static_cast<double>(frames.size());
+}
+
+// As fanbeam render takes it when nothing else is asked for.
+renderer::Sampling sampling_of(const scenes::Scene& scene) {
+  const double asked = scene.description.rays_per_cell;
+  if (scene.caster.chosen == renderer::CasterKind::profile)
+    return renderer::profile_sampling_for(asked > 0.0 ? asked : renderer::kDefaultSlicesPerColumn);
+  return renderer::sampling_for(asked > 0.0 ? asked : renderer::kDefaultRaysPerCell);
+}
+
+CostReport measure(const scenes::Scene& scene, const scenes::SceneDescription& description,
+                   const std::vector<int>& frames, int repetitions, int threads, bool quiet) {
+  CostReport report{
+      {spread_over(frames, kMeasuredFrames), repetitions, sampling_of(scene)}, threads, 0.0, {}};
+  report.frame_ms = frame_ms(scene, report.run);
+  report.costs = effect_costs(scene, description, report.run, [&](int done) {
+    if (!quiet)
+      fmt::print(stderr, "measured {} of {} effects\n", done, scene.plan.decisions.size());
+  });
+  return report;
+}
+
+}  // namespace
+
+int explain_plan(const PlanOptions& options, const CommonOptions& common) {
+  const core::ThreadLimit threads(options.threads);
+  core::ProblemList problems;
+  scenes::BuildOptions build;
+  build.accuracy_grey = options.accuracy_grey;
+  build.frame_plans = options.per_frame;
+  if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
+  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data),
+                                           options.sensor};
+  const scenes::SceneDescription description =
+      scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
+  if (!common.quiet) print_problems(problems.all());
+  const std::vector<int> frames = parse_frames(options.frames, scene->frame_count());
+  PlanReport report{*scene, {}, {}, 0.0};
+  if (options.per_frame) plan_frames(frames, report);
+  if (options.measure)
+    report.measured =
+        measure(*scene, description, frames, options.repetitions, threads.threads(), common.quiet);
+  fmt::print("{}", options.json ? plan_json(report) : plan_table(report, !common.quiet));
+  return kExitDone;
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,28 @@
+// fanbeam plan: which effects a scene calls for, why, and what they cost.
+#pragma once
+
+#include <string>
+
+#include "apps/common.h"
+
+namespace fanbeam::apps {
+
+struct PlanOptions {
+  std::string scene = "braunschweig-26";
+  std::string frames;  // as of fanbeam render; those looked at with per_frame and measure
+  std::string sensor;
+  std::string data;
+  std::string effects;
+  double accuracy_grey = 0.5;
+  int threads = 0;
+  bool json = false;
+  bool per_frame = false;
+  bool measure = false;
+  int repetitions = 20;
+};
+
+// Writes the table or JSON to standard output. Returns an exit code; throws InputError for bad
+// input.
+int explain_plan(const PlanOptions& options, const CommonOptions& common);
+
+}  // namespace fanbeam::apps

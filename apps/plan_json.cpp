@@ -1,0 +1,92 @@
+#include <nlohmann/json.hpp>
+
+#include "apps/common.h"
+#include "apps/plan_report.h"
+#include "apps/run_record.h"
+#include "core/machine.h"
+#include "renderer/plan/effect_catalogue.h"
+
+namespace fanbeam::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json decision_json(const core::EffectDecision& decision) {
+  return {{"effect", decision.effect},
+          {"on", decision.on},
+          {"reason", decision.reason},
+          {"bound_grey", decision.bound_grey},
+          {"bound_dB", decision.bound_dB}};
+}
+
+Json plan_rows(const PlanReport& report) {
+  Json rows = Json::array();
+  const auto& decisions = report.scene.plan.decisions;
+  for (std::size_t i = 0; i < decisions.size(); ++i) {
+    Json row = decision_json(decisions[i]);
+    for (const renderer::Effect& effect : renderer::effect_catalogue())
+      if (effect.name == decisions[i].effect) {
+        row["what"] = effect.what;
+        row["source"] = effect.source;
+      }
+    if (report.measured && report.measured->costs[i]) {
+      row["cost_ms"] = report.measured->costs[i]->ms;
+      row["cost_error_ms"] = report.measured->costs[i]->error_ms;
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Json spans_json(const PlanReport& report) {
+  Json spans = Json::array();
+  for (const PlanSpan& span : report.spans) {
+    Json off = Json::array();
+    for (std::size_t i = 0; i < span.plan.decisions.size(); ++i)
+      if (span.plan.decisions[i].on != report.scene.plan.decisions[i].on)
+        off.push_back(decision_json(span.plan.decisions[i]));
+    spans.push_back(
+        {{"first_frame", span.first}, {"last_frame", span.last}, {"left_out", std::move(off)}});
+  }
+  return spans;
+}
+
+}  // namespace
+
+std::string plan_json(const PlanReport& report) {
+  const scenes::Scene& scene = report.scene;
+  const Budget budget = budget_of(scene);
+  Json json;
+  json["version"] = version_text();
+  json["commit"] = commit_text();
+  json["scene"] = scene.description.name;
+  json["title"] = scene.description.title;
+  json["sensor"] = scene.description.sensor.name;
+  json["accuracy"] = {{"grey", scene.accuracy_grey},
+                      {"for_effects_grey", budget.for_effects},
+                      {"left_out_grey", budget.left_out},
+                      {"left_out_by_user_grey", budget.left_out_by_user},
+                      {"for_sampling_grey", budget.for_sampling}};
+  json["caster"] = {{"chosen", renderer::name_of(scene.caster.chosen)},
+                    {"wish", renderer::name_of(scene.caster.wish)},
+                    {"reason", scene.caster.reason}};
+  json["frame_count"] = scene.frame_count();
+  json["planning_ms"] = 1000.0 * scene.plan_s;
+  json["scene_build_s"] = scene.build_s;
+  json["plan"] = plan_rows(report);
+  if (report.measured)
+    json["measured"] = {{"frames", report.measured->run.frames},
+                        {"repetitions", report.measured->run.repetitions},
+                        {"frame_ms", report.measured->frame_ms},
+                        {"sampling", caster_text(report.measured->run.sampling)},
+                        {"threads", report.measured->threads},
+                        {"isa", core::instruction_level()},
+                        {"machine", core::processor_name()}};
+  if (!report.spans.empty()) {
+    json["per_frame"] = spans_json(report);
+    json["frame_planning_ms"] = report.frame_plan_ms;
+  }
+  return json.dump(1) + "\n";
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,54 @@
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line.h"
+#include "apps/plan_command.h"
+
+namespace fanbeam::apps {
+
+void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common) {
+  CLI::App& command = *app.add_subcommand(
+      "plan", "Tell which effects a scene calls for, why, how much each can change, and its cost");
+  command
+      .add_option("SCENE", options.scene,
+                  "A folder with scene.toml, that file, or the name of a shipped scene")
+      ->capture_default_str();
+  command.add_flag("--json", options.json, "The same as JSON (docs/plan.md has its keys)");
+  command
+      .add_option("--accuracy", options.accuracy_grey,
+                  "Grey levels asked for: half of it is for effects left out, half for sampling")
+      ->check(CLI::Range(0.0, 255.0))
+      ->capture_default_str();
+  command.add_option("--effects", options.effects,
+                     "all, none, or a list such as +rain,-gas; fanbeam render --help names the "
+                     "effects (default: what the scene calls for)");
+  command.add_flag("--per-frame", options.per_frame,
+                   "Tell as well what single frames can go without");
+  CLI::Option* measure = command.add_flag(
+      "--measure", options.measure,
+      "Measure what each effect costs in milliseconds a frame: on against off, in turn, over three "
+      "frames; takes minutes");
+  command
+      .add_option("--frames", options.frames,
+                  "Frames for --per-frame and --measure: A:B[:STEP], counted like a Python slice, "
+                  "or one frame")
+      ->default_str("all");
+  command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
+  command.add_option("--data", options.data,
+                     "Folder with terrain and flight data (before FANBEAM_DATA)");
+  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
+      ->check(CLI::Range(0, 1024));
+  command.add_option("--repetitions", options.repetitions, "Of each measured frame")
+      ->check(CLI::Range(1, 10000))
+      ->needs(measure)
+      ->group("");  // for tests and the impatient: a cost that is told elsewhere wants 20
+  add_common_options(command, common);
+  command.callback([&options] {
+    if (!options.frames.empty() && !options.per_frame && !options.measure)
+      throw CLI::ValidationError(
+          "--frames",
+          "only chooses frames of --per-frame and --measure; the plan itself is that "
+          "of the whole sequence");
+  });
+}
+
+}  // namespace fanbeam::apps

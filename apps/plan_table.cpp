@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "apps/plan_report.h"
+#include "apps/run_record.h"
+#include "renderer/plan/effect_catalogue.h"
+#include "renderer/plan/effect_causes.h"
+
+namespace fanbeam::apps {
+namespace {
+
+constexpr std::size_t kWidth = 100;
+
+std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
+  std::vector<std::string> lines(1);
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t blank = std::min(text.find(' ', from), text.size());
+    std::string word = text.substr(from, blank - from);
+    from = blank + 1;
+    if (!lines.back().empty() && lines.back().size() + 1 + word.size() > width)
+      lines.emplace_back();
+    for (; word.size() > width; word.erase(0, width)) {  // a path, say
+      lines.back() = word.substr(0, width);
+      lines.emplace_back();
+    }
+    if (!lines.back().empty()) lines.back() += ' ';
+    lines.back() += word;
+  }
+  return lines;
+}
+
+// `lead`, then the text beside it on as many lines as it takes.
+std::string beside(const std::string& lead, const std::string& text) {
+  std::string all;
+  for (const std::string& line : wrapped(text, kWidth - lead.size())) {
+    all += all.empty() ? lead : std::string(lead.size(), ' ');
+    all += line + '\n';
+  }
+  return all;
+}
+
+std::string labelled(std::string_view label, const std::string& text) {
+  return beside(fmt::format("{:<12} ", label), text);
+}
+
+std::string frames_text(const PlanSpan& span) {
+  return span.first == span.last ? fmt::format("frame {}", span.first)
+                                 : fmt::format("frames {} to {}", span.first, span.last);
+}
+
+bool impossible(const core::EffectDecision& decision) {
+  if (decision.on || decision.bound_dB > 0.0) return false;
+  const auto& catalogue = renderer::effect_catalogue();
+  return std::any_of(catalogue.begin(), catalogue.end(), [&](const renderer::Effect& effect) {
+    return effect.name == decision.effect && decision.reason == effect.why_impossible;
+  });
+}
+
+std::string head(const PlanReport& report) {
+  const scenes::Scene& scene = report.scene;
+  const sensors::Sensor& sensor = scene.description.sensor;
+  const Budget budget = budget_of(scene);
+  std::string accuracy = fmt::format(
+      "{} grey levels: {} for effects left out, of which {} taken; {} for sampling",
+      core::number_text(scene.accuracy_grey), core::number_text(budget.for_effects),
+      renderer::figure_text(budget.left_out) + (budget.left_out == 1.0 ? " is" : " are"),
+      core::number_text(budget.for_sampling));
+  if (budget.left_out_by_user > 0.0)
+    accuracy += fmt::format("; beyond it up to {} that the user left out",
+                            renderer::figure_text(std::min(budget.left_out_by_user, 255.0)));
+  return labelled("scene", scene.description.name + ": " + scene.description.title) +
+         labelled("sensor", fmt::format("{}, {:.4g} GHz, {} x {} cells, {:.3g} km", sensor.name,
+                                        sensor.waveform.frequency_Hz / 1e9, sensor.scan.columns,
+                                        sensor.range.cells, sensor.range.maximum_m() / 1000.0)) +
+         labelled("accuracy", accuracy) +
+         labelled("caster", fmt::format("{}: {}", renderer::name_of(scene.caster.chosen),
+                                        scene.caster.reason)) +
+         labelled("planned in", fmt::format("{:.1f} ms, of {:.1f} s for building the scene",
+                                            1000.0 * scene.plan_s, scene.build_s));
+}
+
+std::string cost_text(const std::optional<EffectCost>& cost) {
+  return cost ? fmt::format("{:.2f} +-{:.2f}", cost->ms, cost->error_ms) : "-";
+}
+
+std::string rows(const PlanReport& report) {
+  const auto& decisions = report.scene.plan.decisions;
+  std::size_t width = 6;
+  for (const core::EffectDecision& decision : decisions)
+    width = std::max(width, decision.effect.size());
+  const auto row = [&](const std::string& effect, const std::string& on, const std::string& grey,
+                       const std::string& dB, const std::string& ms, const std::string& why) {
+    std::string lead = fmt::format("{:<{}}  {:<3}  {:>5}  {:>5}", effect, width, on, grey, dB);
+    if (report.measured) lead += fmt::format("  {:>13}", ms);
+    return beside(lead + "  ", why);
+  };
+  std::string table = row("effect", "run", "grey", "dB", "ms a frame", "why");
+  for (std::size_t i = 0; i < decisions.size(); ++i) {
+    const core::EffectDecision& decision = decisions[i];
+    const bool none = impossible(decision);
+    const auto bound = [&](double value) {
+      if (none) return std::string("-");
+      return value > 0.0 && value < 0.001 ? "<.001" : renderer::figure_text(value);
+    };
+    table += row(decision.effect, decision.on ? "on" : "off",
+                 bound(std::min(decision.bound_grey, 255.0)), bound(decision.bound_dB),
+                 report.measured ? cost_text(report.measured->costs[i]) : "", decision.reason);
+  }
+  return table;
+}
+
+std::string along_trajectory(const PlanReport& report) {
+  std::string text = fmt::format("frame by frame, {:.2f} ms to plan one:\n", report.frame_plan_ms);
+  for (const PlanSpan& span : report.spans) {
+    std::string differs;
+    for (std::size_t i = 0; i < span.plan.decisions.size(); ++i) {
+      const core::EffectDecision& decision = span.plan.decisions[i];
+      if (decision.on == report.scene.plan.decisions[i].on) continue;
+      differs += fmt::format("{}{} off, {}", differs.empty() ? "" : "; ", decision.effect,
+                             decision.reason);
+    }
+    text +=
+        beside(fmt::format("  {}: ", frames_text(span)), differs.empty() ? "as above" : differs);
+  }
+  return text;
+}
+
+std::string notes_of(const PlanReport& report) {
+  std::string text = beside(
+      "",
+      "grey, dB: the most that leaving the effect out can change any pixel; 255 grey levels are "
+      "the whole display. An effect is left out when its bound fits into what the budget leaves.");
+  if (report.measured)
+    text += beside(
+        "", fmt::format("ms: measured on {} frames of this scene, {} times each way, "
+                        "{} threads, {}; +- one standard deviation.",
+                        report.measured->run.frames.size(), report.measured->run.repetitions,
+                        report.measured->threads, caster_text(report.measured->run.sampling)));
+  return text;
+}
+
+}  // namespace
+
+Budget budget_of(const scenes::Scene& scene) {
+  Budget budget{scene.accuracy_grey / 2.0, 0.0, 0.0, scene.accuracy_grey / 2.0};
+  const renderer::EffectWishes& wishes = scene.wishes;
+  for (const core::EffectDecision& decision : scene.plan.decisions) {
+    if (decision.on) continue;
+    const bool forced = wishes.base == renderer::EffectWishes::Base::none ||
+                        std::find(wishes.forced_off.begin(), wishes.forced_off.end(),
+                                  decision.effect) != wishes.forced_off.end();
+    (forced ? budget.left_out_by_user : budget.left_out) += decision.bound_grey;
+  }
+  return budget;
+}
+
+std::string plan_table(const PlanReport& report, bool notes) {
+  std::string text = head(report);
+  if (report.measured)
+    text += labelled("frame takes", fmt::format("{:.1f} ms", report.measured->frame_ms));
+  text += '\n' + rows(report);
+  if (!report.spans.empty()) text += '\n' + along_trajectory(report);
+  if (notes) text += '\n' + notes_of(report);
+  return text;
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,113 @@
+#include "benchmarks/plan_cost.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "benchmarks/frame_clock.h"
+#include "benchmarks/stopwatch.h"
+#include "scenes/scene_reader.h"
+
+namespace fanbeam::benchmarks {
+namespace {
+
+constexpr int kBuilds = 3;
+
+std::unique_ptr<scenes::Scene> build_with(const scenes::SceneDescription& description,
+                                          const std::string& effects) {
+  core::ProblemList problems;
+  scenes::BuildOptions options;
+  if (!effects.empty()) options.wishes = renderer::parse_effect_wishes(effects);
+  return scenes::build_scene(description, options, problems);
+}
+
+FrameClock clock_of(const scenes::Scene& scene, const renderer::FramePose& pose) {
+  return {scene.world, pose, renderer::effects_of(scene.plan, 1),
+          renderer::sampling_for(renderer::kDefaultRaysPerCell)};
+}
+
+std::size_t running(const core::EffectPlan& plan) {
+  return static_cast<std::size_t>(std::count_if(plan.decisions.begin(), plan.decisions.end(),
+                                                [](const auto& decision) { return decision.on; }));
+}
+
+std::size_t possible(const scenes::Scene& scene) {
+  const auto& effects = renderer::effect_catalogue();
+  return static_cast<std::size_t>(
+      std::count_if(effects.begin(), effects.end(),
+                    [&](const auto& effect) { return effect.possible(scene.facts); }));
+}
+
+void measure_saving(const View& view, const Effort& effort, PlanFigures& figures) {
+  const scenes::Scene& planned = *view.scene->scene;
+  const auto forced = build_with(planned.description, "all");
+  const auto sample = build_with(planned.description, "all,+speckle,+swerling");
+  figures.on_planned = running(planned.plan);
+  figures.on_forced = running(forced->plan);
+  figures.on_forced_sample = running(sample->plan);
+  const FrameClock clocks[] = {clock_of(planned, view.pose), clock_of(*forced, view.pose),
+                               clock_of(*sample, view.pose)};
+  std::vector<double> times_ms[3];
+  for (int turn = 0; turn < std::max(effort.turns, 2); ++turn)
+    for (std::size_t i = 0; i < 3; ++i) times_ms[i].push_back(clocks[i].second_frame_ms());
+  figures.planned_ms = median(times_ms[0]);
+  figures.forced_ms = median(times_ms[1]);
+  figures.forced_sample_ms = median(times_ms[2]);
+}
+
+scenes::SceneDescription with_weather_and_lobes(scenes::SceneDescription scene) {
+  scene.weather.rain_rate_mm_per_h = 5.0;
+  scene.surface_state = materials::SurfaceState::wet;
+  scene.sensor.antenna.azimuth.side_lobe_gain = 1e-3;
+  scene.sensor.antenna.azimuth.side_lobe_extent_rad = 0.1;
+  scene.sensor.waveform.window = sensors::Waveform::Window::hann;
+  return scene;
+}
+
+scenes::SceneDescription without_weather(scenes::SceneDescription scene) {
+  scene.weather.visibility_m.reset();
+  scene.weather.liquid_water_g_per_m3.reset();
+  return scene;
+}
+
+void measure_absence(const View& view, const Effort& effort, PlanFigures& figures) {
+  const scenes::SceneDescription& description = view.scene->scene->description;
+  const auto off = build_with(with_weather_and_lobes(description), "none");
+  const auto absent = build_with(without_weather(description), "none");
+  figures.only_possible = possible(*off) - possible(*absent);
+  const int frames = std::min(effort.quick ? 4 : 100, off->frame_count());
+  std::vector<double> ratios;
+  for (int i = 0; i < frames; ++i) {
+    const int frame = off->frame_count() * i / frames;
+    const FrameClock with = clock_of(*off, off->frame_pose(frame));
+    const FrameClock without = clock_of(*absent, absent->frame_pose(frame));
+    with.frame_ms();
+    without.frame_ms();
+    // There and back: what drifts meanwhile falls on both.
+    double with_ms = with.frame_ms();
+    const double without_ms = without.frame_ms() + without.frame_ms();
+    with_ms += with.frame_ms();
+    ratios.push_back(with_ms / without_ms);
+  }
+  figures.frames = frames;
+  figures.off_over_absent = median(ratios);
+}
+
+}  // namespace
+
+PlanFigures measure_plan(const View& view, const Effort& effort) {
+  fmt::print(stderr, "{}: what the plan costs and saves\n", view.scene->name);
+  PlanFigures figures;
+  figures.scene = view.scene;
+  std::vector<double> plan_ms;
+  for (int i = 0; i < kBuilds; ++i)
+    plan_ms.push_back(1000.0 * build_with(view.scene->scene->description, "")->plan_s);
+  figures.plan_ms = median(plan_ms);
+  measure_saving(view, effort, figures);
+  measure_absence(view, effort, figures);
+  return figures;
+}
+
+}  // namespace fanbeam::benchmarks

@@ -1,0 +1,157 @@
+#include "renderer/casting/profile/slice_deposit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "renderer/casting/deposit.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+// Ranges in cells over which an oblique wall spreads.
+struct WedgeSpan {
+  double from, to;
+};
+
+WedgeSpan wedge_span(const sensors::RangeGate& gate, const VisiblePieces& pieces,
+                     const PiecePowers& powers, int i) {
+  const double near_m = powers.near_range_m[i] - gate.minimum_m;
+  const double far_m = powers.far_range_m[i] - gate.minimum_m;
+  return {(std::min(near_m, far_m) + pieces.nearer_m[i]) / gate.cell_m,
+          (std::max(near_m, far_m) + pieces.farther_m[i]) / gate.cell_m};
+}
+
+}  // namespace
+
+void SliceDeposit::add(const VisiblePieces& pieces, const Slice& slice, PiecePowers& powers,
+                       const SliceBins& bins) const {
+  if (bins.across)
+    add_across(pieces, slice, powers, bins);
+  else
+    add_in_column(pieces, powers, bins);
+}
+
+void SliceDeposit::add_in_column(const VisiblePieces& pieces, PiecePowers& powers,
+                                 const SliceBins& bins) const {
+  double* range_bins = bins.range_W_per_rad;
+  double* row_bins = bins.elevation_W_m3_per_rad;
+  if (row_bins != nullptr)
+    share_rows(world_.sensor.display.cscope_rows, world_.sensor.range.cells, powers);
+  std::int32_t most = 0;
+  for (int i = 0; i < powers.count; ++i) {
+    range_bins[powers.before_cell[i]] += powers.before_W_per_rad[i];
+    range_bins[powers.behind_cell[i]] += powers.behind_W_per_rad[i];
+    most = std::max(most, powers.kind[i]);
+    if (row_bins == nullptr) continue;
+    const double part = powers.row_W_m3_per_rad[i] * powers.row_share[i];
+    row_bins[powers.row[i]] += part;
+    row_bins[powers.row[i] + 1] += powers.row_W_m3_per_rad[i] - part;
+  }
+  if (most < PiecePowers::wedge) return;
+  for (int i = 0; i < powers.count; ++i)
+    if (powers.kind[i] >= PiecePowers::wedge) add_special(pieces, powers, i, bins);
+}
+
+void SliceDeposit::add_special(const VisiblePieces& pieces, const PiecePowers& powers, int i,
+                               const SliceBins& bins) const {
+  const sensors::RangeGate& gate = world_.sensor.range;
+  const double power_W_per_rad = powers.before_W_per_rad[i] + powers.behind_W_per_rad[i];
+  if (powers.kind[i] == PiecePowers::wedge) {
+    const WedgeSpan span = wedge_span(gate, pieces, powers, i);
+    if (span.to < 0.0 || span.from >= gate.cells) return;
+    deposit(span.from, span.to, power_W_per_rad, bins.range_W_per_rad, gate.cells);
+  }
+  if (bins.elevation_W_m3_per_rad == nullptr) return;
+  const double range_m = powers.range_m[i];
+  deposit(powers.high_row[i], powers.low_row[i], power_W_per_rad * range_m * range_m * range_m,
+          bins.elevation_W_m3_per_rad + 1, world_.sensor.display.cscope_rows);
+}
+
+// The row of a point of the slice in a cone scan, whose elevation is atan2(up, forward).
+double SliceDeposit::cone_row(const Slice& slice, double distance_m, double height_m) const {
+  const glm::dvec3 point(slice.along * distance_m, height_m);
+  const double f = glm::dot(point, antenna_.forward), u = glm::dot(point, antenna_.up);
+  return tables_.row_at(u / std::sqrt(f * f + u * u));
+}
+
+// Where the wedge at the middle of piece i lies in the antenna's azimuth, from that point and its
+// derivative by heading; the solid angle in the antenna's coordinates as in ray_caster.h.
+SliceDeposit::Sweep SliceDeposit::sweep_of(const Slice& slice, const PiecePowers& powers, int i,
+                                           const SliceBins& bins) const {
+  const bool cone = world_.sensor.scan.surface == sensors::ScanSurface::cone;
+  const double distance_m = powers.distance_m[i], range_m = powers.range_m[i];
+  const glm::dvec3 clockwise(slice.along.y, -slice.along.x, 0.0);
+  const glm::dvec3 point(slice.along * distance_m, powers.height_m[i]);
+  const double f = glm::dot(point, antenna_.forward), r = glm::dot(point, antenna_.right);
+  const double u = glm::dot(point, antenna_.up);
+  if (f <= 0.0) return {};
+  const double turn_f = distance_m * glm::dot(clockwise, antenna_.forward);
+  const double turn_r = distance_m * glm::dot(clockwise, antenna_.right);
+  const double level2 = f * f + r * r, upright = std::sqrt(f * f + u * u);
+  const double azimuth_rad = cone ? std::asin(r / range_m) : std::atan2(r, f);
+  const double turn = cone ? turn_r / upright : (f * turn_r - r * turn_f) / level2;
+  const double half_rad = std::abs(turn) * slice.width_rad / 2;
+  return {
+      (azimuth_rad - half_rad - bins.first_azimuth_rad) / bins.step_rad,
+      (azimuth_rad + half_rad - bins.first_azimuth_rad) / bins.step_rad,
+      cone ? distance_m / range_m * tables_.gain_at(u / upright) : distance_m / std::sqrt(level2)};
+}
+
+void SliceDeposit::add_across(const VisiblePieces& pieces, const Slice& slice,
+                              const PiecePowers& powers, const SliceBins& bins) const {
+  const bool cone = world_.sensor.scan.surface == sensors::ScanSurface::cone;
+  for (int i = 0; i < powers.count; ++i) {
+    if (powers.kind[i] == PiecePowers::two_cells || powers.kind[i] == PiecePowers::many_cells)
+      continue;
+    const Sweep sweep = sweep_of(slice, powers, i, bins);
+    // No width: behind the antenna, or that on its side, where there is no azimuth to tell.
+    if (!(sweep.to > sweep.from)) continue;
+    Rows rows{powers.high_row[i], powers.low_row[i]};
+    if (cone) {
+      const double near_row = cone_row(slice, pieces.near_distance_m[i], pieces.near_height_m[i]);
+      const double far_row = cone_row(slice, pieces.far_distance_m[i], pieces.far_height_m[i]);
+      rows = {std::min(near_row, far_row), std::max(near_row, far_row)};
+    }
+    const int first = std::max(static_cast<int>(std::floor(sweep.from)), 0);
+    const int last = std::min(static_cast<int>(std::floor(sweep.to)), bins.sub_columns - 1);
+    for (int sub = first; sub <= last; ++sub) {
+      const double inside =
+          std::min(sweep.to, sub + 1.0) - std::max(sweep.from, static_cast<double>(sub));
+      const double share = sweep.solid_angle_ratio * inside / (sweep.to - sweep.from);
+      add_to_sub_column(pieces, powers, i, rows, share, sub, bins);
+    }
+  }
+}
+
+void SliceDeposit::add_to_sub_column(const VisiblePieces& pieces, const PiecePowers& powers, int i,
+                                     const Rows& rows, double share, int sub,
+                                     const SliceBins& bins) const {
+  if (!(share * (powers.before_W_per_rad[i] + powers.behind_W_per_rad[i]) > 0.0)) return;
+  const sensors::RangeGate& gate = world_.sensor.range;
+  const auto column = static_cast<std::size_t>(sub);
+  bins.reached[column] = 1;
+  double* range_bins = bins.range_W_per_rad + column * static_cast<std::size_t>(gate.cells);
+  double power_W_per_rad = 0.0;
+  if (powers.kind[i] == PiecePowers::wedge) {
+    const WedgeSpan span = wedge_span(gate, pieces, powers, i);
+    if (span.to < 0.0 || span.from >= gate.cells) return;
+    power_W_per_rad = share * (powers.before_W_per_rad[i] + powers.behind_W_per_rad[i]);
+    deposit(span.from, span.to, power_W_per_rad, range_bins, gate.cells);
+  } else {
+    const auto put = [&](std::int32_t cell, double part_W_per_rad) {
+      if (cell >= gate.cells) return;
+      range_bins[cell] += share * part_W_per_rad;
+      power_W_per_rad += share * part_W_per_rad;
+    };
+    put(powers.before_cell[i], powers.before_W_per_rad[i]);
+    put(powers.behind_cell[i], powers.behind_W_per_rad[i]);
+  }
+  if (bins.elevation_W_m3_per_rad == nullptr) return;
+  const int row_count = world_.sensor.display.cscope_rows;
+  const double range_m = powers.range_m[i];
+  deposit(rows.high, rows.low, power_W_per_rad * range_m * range_m * range_m,
+          bins.elevation_W_m3_per_rad + column * static_cast<std::size_t>(row_count), row_count);
+}
+
+}  // namespace fanbeam::renderer

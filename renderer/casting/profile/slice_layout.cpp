@@ -1,0 +1,100 @@
+#include "renderer/casting/profile/slice_layout.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/constants.h"
+#include "renderer/casting/fan_layout.h"
+#include "renderer/casting/heading.h"
+#include "sensors/antenna/beam_pattern.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+struct Headings {
+  double left_rad = core::kPi, right_rad = -core::kPi;
+};
+
+Headings headings_of_fan(const World& world, const sensors::AntennaFrame& antenna,
+                         const FanSums& sums) {
+  constexpr int kSteps = 16;
+  const glm::dvec2 forward = horizontal(antenna.forward);
+  const sensors::Antenna& beams = world.sensor.antenna;
+  const double reach_rad = sensors::reach_rad(beams.elevation);
+  Headings headings;
+  for (int e = 0; e <= kSteps; ++e) {
+    const double elevation_rad =
+        std::clamp(beams.boresight_elevation_rad + reach_rad * (2.0 * e / kSteps - 1.0),
+                   -core::kPi / 2, core::kPi / 2);
+    for (int a = 0; a <= kSteps; ++a) {
+      const double azimuth_rad =
+          sums.first_azimuth_rad + sums.sub_columns * sums.step_rad * a / kSteps;
+      const double heading_rad =
+          turn_rad(forward, horizontal(sensors::direction(antenna, azimuth_rad, elevation_rad,
+                                                          world.sensor.scan.surface)));
+      headings.left_rad = std::min(headings.left_rad, heading_rad);
+      headings.right_rad = std::max(headings.right_rad, heading_rad);
+    }
+  }
+  return headings;
+}
+
+}  // namespace
+
+// Half a spacing beside those of level 0 first, then half way between all there are.
+SlicePlaces slice_places(const Sampling& sampling, int level) {
+  const int slices = sampling.slices_per_sub_column;
+  if (level == 0) return {slices, 0.5};
+  if (level == 1) return {slices, 0.0};
+  return {slices << (level - 1), 0.5};
+}
+
+std::vector<Slice> level_slices(const World& world, const SlicePlaces& places,
+                                const sensors::AntennaFrame& antenna, const FanSums& sums) {
+  const glm::dvec2 forward = horizontal(antenna.forward);
+  const int count = sums.sub_columns * places.per_sub_column;
+  const double width_rad = sums.step_rad / places.per_sub_column;
+  std::vector<Slice> slices;
+  slices.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double azimuth_rad = sums.first_azimuth_rad + (i + places.place) * width_rad;
+    const glm::dvec2 along = horizontal(
+        sensors::direction(antenna, azimuth_rad, world.sensor.antenna.boresight_elevation_rad,
+                           world.sensor.scan.surface));
+    slices.push_back({along, turn_rad(forward, along), width_rad});
+  }
+  return slices;
+}
+
+std::vector<Slice> tilted_slices(const World& world, const SlicePlaces& places,
+                                 const sensors::AntennaFrame& antenna, const FanSums& sums) {
+  const Headings seen = headings_of_fan(world, antenna, sums);
+  const double wanted_rad = sums.step_rad / places.per_sub_column;
+  const int count = static_cast<int>(std::ceil((seen.right_rad - seen.left_rad) / wanted_rad)) + 1;
+  const glm::dvec2 forward = horizontal(antenna.forward);
+  const glm::dvec2 clockwise(forward.y, -forward.x);
+  std::vector<Slice> slices;
+  slices.reserve(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double heading_rad = seen.left_rad + (i + places.place) * wanted_rad;
+    slices.push_back({forward * std::cos(heading_rad) + clockwise * std::sin(heading_rad),
+                      heading_rad, wanted_rad});
+  }
+  return slices;
+}
+
+std::vector<SubColumnSlices> slices_of_groups(const std::vector<std::uint32_t>& groups,
+                                              int slices_per_sub_column) {
+  const auto per_sub = static_cast<std::size_t>(slices_per_sub_column);
+  std::vector<SubColumnSlices> columns;
+  columns.reserve(groups.size() * kGroupAzimuths);
+  for (const std::uint32_t group : groups) {
+    for (std::size_t a = 0; a < kGroupAzimuths; ++a) {
+      const std::size_t sub = group * std::size_t{kGroupAzimuths} + a;
+      columns.push_back({sub, sub * per_sub, (sub + 1) * per_sub});
+    }
+  }
+  return columns;
+}
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,40 @@
+// Which azimuth slices a frame is cut along.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "renderer/casting/caster.h"
+#include "renderer/casting/profile/slice.h"
+#include "renderer/casting/sampling.h"
+#include "renderer/world.h"
+#include "sensors/antenna/antenna_frame.h"
+
+namespace fanbeam::renderer {
+
+// Slices of one level (CastPass): at (k + place) / per_sub_column of a sub-column.
+struct SlicePlaces {
+  int per_sub_column = 1;
+  double place = 0.5;
+};
+SlicePlaces slice_places(const Sampling& sampling, int level);
+
+// All slices of a fan whose azimuths are upright, by rising heading: those of sub-column s are
+// numbers [s n, (s + 1) n) with n = `per_sub_column`.
+std::vector<Slice> level_slices(const World& world, const SlicePlaces& places,
+                                const sensors::AntennaFrame& antenna, const FanSums& sums);
+
+// For any antenna: evenly over all headings in which some elevation of the beam sees the fan.
+std::vector<Slice> tilted_slices(const World& world, const SlicePlaces& places,
+                                 const sensors::AntennaFrame& antenna, const FanSums& sums);
+
+// The slices that one sub-column gathers.
+struct SubColumnSlices {
+  std::size_t sub_column, begin, end;
+};
+// What of `level_slices` is cast: the sub-columns of `groups`.
+std::vector<SubColumnSlices> slices_of_groups(const std::vector<std::uint32_t>& groups,
+                                              int slices_per_sub_column);
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,142 @@
+#include "renderer/plan/effect_causes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "atmosphere/fog/fog_water.h"
+#include "renderer/plan/largest_echo.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+std::string printed(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string range_text(const SceneFacts& facts) {
+  const double range_m = facts.sensor.range.maximum_m();
+  return range_m < 1000.0 ? printed("%.0f m", range_m) : printed("%.1f km", range_m / 1000.0);
+}
+
+std::string dB_text(double value_dB) { return figure_text(value_dB) + " dB"; }
+
+std::string window_text(const SceneFacts& facts) {
+  return "the display's whole window of " + dB_text(window_dB(facts.sensor));
+}
+
+// `what` is plural or not: "take" or "takes".
+std::string loss_text(const std::string& what, const std::string& takes, const SceneFacts& facts,
+                      double bound_dB) {
+  if (bound_dB == 0.0) return what + " lies outside the heights that are seen";
+  return what + " " + takes + " up to " + dB_text(bound_dB) + " both ways over " +
+         range_text(facts);
+}
+
+std::string lift_text(const std::string& what, const SceneFacts& facts, double bound_dB) {
+  if (bound_dB >= window_dB(facts.sensor))
+    return what + " can lift a black pixel through " + window_text(facts);
+  return what + " can lift a black pixel by up to " + dB_text(bound_dB);
+}
+
+double heaviest_rain_mm_per_h(const atmosphere::Weather& weather) {
+  double most = weather.rain_rate_mm_per_h;
+  for (const atmosphere::RainCell& cell : weather.rain_cells)
+    most = std::max(most, cell.rain_rate_mm_per_h);
+  return most;
+}
+
+std::string rain_text(const atmosphere::Weather& weather) {
+  return "rain of " + figure_text(heaviest_rain_mm_per_h(weather)) + " mm/h";
+}
+
+std::string snow_text(const atmosphere::Weather& weather) {
+  return "snow of " + figure_text(weather.snow_rate_mm_per_h) + " mm/h";
+}
+
+}  // namespace
+
+std::string figure_text(double value) {
+  if (value > 0.0 && value < 0.001) return "under 0.001";
+  if (value >= 9.95) return printed("%.0f", value);
+  if (value >= 0.995) return printed("%.1f", value);
+  return printed("%.2g", value);
+}
+
+std::string gas_cause(const SceneFacts& facts, double bound_dB) {
+  return loss_text("oxygen and water vapour", "take", facts, bound_dB);
+}
+
+std::string fog_cause(const SceneFacts& facts, double bound_dB) {
+  double most_g_per_m3 = 0.0;
+  std::string what = "fog";
+  for (const atmosphere::FogLayer& layer : atmosphere::fog_in(facts.weather)) {
+    const double water_g_per_m3 = layer.visibility_m ? atmosphere::liquid_water_g_per_m3(
+                                                           layer.water_model, *layer.visibility_m)
+                                                     : layer.liquid_water_g_per_m3.value_or(0.0);
+    if (!(water_g_per_m3 > most_g_per_m3)) continue;
+    most_g_per_m3 = water_g_per_m3;
+    what = "fog of " + figure_text(water_g_per_m3) + " g/m3";
+    if (layer.visibility_m) what += ", visibility " + figure_text(*layer.visibility_m) + " m,";
+  }
+  return loss_text(what, "takes", facts, bound_dB);
+}
+
+std::string rain_cause(const SceneFacts& facts, double bound_dB) {
+  return loss_text(rain_text(facts.weather), "takes", facts, bound_dB);
+}
+
+std::string snow_cause(const SceneFacts& facts, double bound_dB) {
+  return loss_text(snow_text(facts.weather), "takes", facts, bound_dB);
+}
+
+std::string rain_echo_cause(const SceneFacts& facts, double bound_dB) {
+  const bool rain = atmosphere::has_rain(facts.weather);
+  const bool snow = atmosphere::has_snow(facts.weather);
+  std::string what = rain ? rain_text(facts.weather) : "";
+  if (snow) what += (rain ? " and " : "") + snow_text(facts.weather);
+  return lift_text("the echo of " + what, facts, bound_dB);
+}
+
+std::string double_bounce_cause(const SceneFacts& facts, double) {
+  return "a wall beside something that mirrors can be as bright as a corner reflector, up to " +
+         window_text(facts);
+}
+
+std::string multipath_cause(const SceneFacts& facts, double) {
+  return "a point target over mirroring ground can vanish or shine, up to " + window_text(facts);
+}
+
+std::string surface_state_cause(const SceneFacts& facts, double bound_dB) {
+  if (facts.state_changes_mirrors && has_unbounded_echo(facts))
+    return "wet or snow-covered surfaces mirror otherwise than dry ones, which can change " +
+           window_text(facts);
+  return "wet or snow-covered surfaces differ from dry ones by up to " + dB_text(bound_dB);
+}
+
+std::string side_lobe_cause(const SceneFacts& facts, double bound_dB) {
+  return lift_text("what the antenna sees beside its main beam", facts, bound_dB);
+}
+
+std::string range_response_cause(const SceneFacts& facts, double bound_dB) {
+  if (bound_dB >= window_dB(facts.sensor))
+    return "the sweep spreads a bright echo along range through " + window_text(facts);
+  return "the sweep spreads echoes along range and changes pixels by up to " + dB_text(bound_dB);
+}
+
+std::string noise_cause(const SceneFacts& facts, double bound_dB) {
+  const double noise_dBm = 10.0 * std::log10(facts.sensor.noise_power_W()) + 30.0;
+  return lift_text("the receiver's noise of " + printed("%.0f dBm", noise_dBm), facts, bound_dB);
+}
+
+std::string speckle_cause(const SceneFacts&, double bound_dB) {
+  return "speckle and drawn noise stray from the expected power by up to " + dB_text(bound_dB);
+}
+
+std::string swerling_cause(const SceneFacts&, double bound_dB) {
+  return "fluctuating targets stray from their mean by up to " + dB_text(bound_dB);
+}
+
+}  // namespace fanbeam::renderer

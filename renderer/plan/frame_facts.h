@@ -1,0 +1,32 @@
+// What one frame can see of a scene, and the scene's facts narrowed to that.
+//
+// Conservative: whoever fills in FrameSight may name more than the frame sees, never less. Then
+// every bound of the effect catalogue that uses the narrowed facts is a bound for that frame, and
+// at most that of the sequence. What FrameSight does not name stays as in the sequence: the
+// materials, their state, the sensor, and the echoing area of the targets while any is in view.
+#pragma once
+
+#include <vector>
+
+#include "renderer/plan/scene_facts.h"
+
+namespace fanbeam::renderer {
+
+struct FrameSight {
+  // Heights that rays of the frame pass, above the scene's origin: of the antenna, the ground
+  // within range and the targets in view.
+  double lowest_m = 0.0;
+  double highest_m = 0.0;
+  // What the fan meets first may mirror: the only rays that double bounce follows.
+  bool mirrors = false;
+  // A mirrored ray may meet something within range: a body, or the ground.
+  bool mirrored_rays_end = false;
+  bool ground_mirrors = false;                   // within range, at any azimuth
+  bool point_targets = false;                    // inside the range gate and the beam
+  std::vector<atmosphere::RainCell> rain_cells;  // within range
+  double largest_eta_m2_per_m3 = 0.0;            // of rain and snow within range and beam
+};
+
+SceneFacts frame_facts(const SceneFacts& sequence, const FrameSight& sight);
+
+}  // namespace fanbeam::renderer

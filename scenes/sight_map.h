@@ -1,0 +1,65 @@
+// Where in a scene the things stand that decide over effects, coarsely, so that a frame can tell
+// what it cannot see: renderer::FrameSight.
+//
+// The terrain is cut into tiles of about 128 m. A tile knows the heights in it, its steepest facet,
+// and whether ground or bodies in it mirror. Everything is rounded towards more: a tile within reach
+// with any part is within reach with all it holds.
+//
+// What a frame sees of mirrors. Double bounce follows the fan's rays from what they meet first
+// (bounce_tracer.h), so without a mirror inside the fan and the farthest range it has nothing to
+// add. Behind a mirror it needs something to meet: a body, which lies within the farthest range of
+// the antenna because |OB| <= R1 + R2; or the ground. A ray that comes down at the angle d onto
+// ground of slope s leaves at the angle d - 2 s or more, and what it meets lies at a chord of the
+// ground that is nowhere steeper than its steepest facet, t: with
+//     d - 2 s > t ,   sin d >= (antenna - highest mirroring ground) / farthest range
+// it meets no ground. Slopes count from the scene's horizontal, as d does.
+// Multipath reflects on the ellipsoid around antenna and target on which half the path is the range
+// of its echo, so within the farthest range at any azimuth.
+//
+// Heights are of the scene's frame. Cost: 5 ms a million cells and 30 ms a million triangles to
+// build; 20 ns per tile and frame.
+#pragma once
+
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "sensors/antenna/antenna_frame.h"
+#include "sensors/sensor.h"
+#include "terrain/height_field.h"
+#include "terrain/ray_scene.h"
+
+namespace fanbeam::scenes {
+
+class SightMap {
+ public:
+  // `mirrors` by material id: in some state of the weather the material reflects like a mirror.
+  SightMap(const terrain::HeightField& ground, const std::vector<terrain::SurfacePatch>& patches,
+           const std::vector<terrain::PlacedMesh>& meshes, const std::vector<bool>& mirrors);
+
+  struct Seen {
+    double lowest_ground_m = 0.0, highest_ground_m = 0.0;  // within range; the antenna if none is
+    bool mirrors = false;                                  // inside the fan
+    bool mirrored_rays_end = false;
+    bool ground_mirrors = false;  // within range, at any azimuth
+  };
+  Seen seen_from(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor) const;
+
+ private:
+  struct Tile {
+    glm::dvec3 low_m{1e300}, high_m{-1e300};  // ground and bodies
+    double lowest_ground_m = 1e300, highest_ground_m = -1e300;
+    double steepest = 0.0;  // tangent
+    bool ground_mirrors = false, has_bodies = false, bodies_mirror = false;
+  };
+  void add_ground(const terrain::HeightField& ground, const std::vector<bool>& mirrors);
+  void add_patch(const terrain::SurfacePatch& patch);
+  void add_mesh(const terrain::PlacedMesh& placed, const std::vector<bool>& mirrors);
+  template <class Use>
+  void for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use);
+
+  double west_m_ = 0.0, south_m_ = 0.0, tile_m_ = 0.0;
+  int posts_per_tile_ = 1, columns_ = 0, rows_ = 0;
+  std::vector<Tile> tiles_;  // [row][column]
+};
+
+}  // namespace fanbeam::scenes
