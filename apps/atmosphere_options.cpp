@@ -2,6 +2,7 @@
 
 #include "apps/atmosphere_command.h"
 #include "apps/command_line.h"
+#include "apps/number_range.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -65,7 +66,7 @@ Options add_path(CLI::App& command, AtmosphereOptions& options) {
   const auto add = [&](const char* name, double& value, const char* what, double least,
                        double most) {
     return command.add_option(name, value, what)
-        ->check(CLI::Range(least, most))
+        ->check(number_from(least, most))
         ->capture_default_str();
   };
   return {

@@ -24,7 +24,8 @@ std::optional<renderer::ErrorEstimate> error_of(const std::string& text) {
   if (text.empty()) return std::nullopt;
   renderer::ErrorEstimate error;
   char missed[8] = "";
-  if (std::sscanf(text.c_str(), "%lf levels %d %6s", &error.rms_grey, &error.levels, missed) < 2)
+  if (std::sscanf(text.c_str(), "%lf cscope %lf levels %d %6s", &error.rms_grey,
+                  &error.cscope_rms_grey, &error.levels, missed) < 3)
     return std::nullopt;
   error.reached = missed[0] == '\0';
   return error;
@@ -71,7 +72,8 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
       {"fanbeam:blanked", std::to_string(record.blanked)},
       {"fanbeam:events", events},
       {"fanbeam:estimated_error_grey",
-       record.error ? fmt::format("{} levels {}{}", record.error->rms_grey, record.error->levels,
+       record.error ? fmt::format("{} cscope {} levels {}{}", record.error->rms_grey,
+                                  record.error->cscope_rms_grey, record.error->levels,
                                   record.error->reached ? "" : " missed")
                     : ""}};
 }

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command_line.h"
+#include "apps/number_range.h"
 #include "apps/plan_command.h"
 
 namespace fanbeam::apps {
@@ -16,7 +17,7 @@ void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common
   command
       .add_option("--accuracy", options.accuracy_grey,
                   "Grey levels asked for: half of it is for effects left out, half for sampling")
-      ->check(CLI::Range(0.0, 255.0))
+      ->check(number_from(0.0, 255.0))
       ->capture_default_str();
   command.add_option("--effects", options.effects,
                      "all, none, or a list such as +rain,-gas; fanbeam render --help names the "

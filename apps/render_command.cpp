@@ -20,6 +20,8 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "renderer/planned_frames.h"
+#include "scenes/frame_plan.h"
 #include "scenes/scene.h"
 #include "sensors/display/display.h"
 
@@ -64,7 +66,7 @@ void print_accuracy(const RunRecord& record) {
   for (const FrameRecord& frame : record.frames) {
     if (!frame.error) continue;
     ++estimated;
-    largest_grey = std::max(largest_grey, frame.error->rms_grey);
+    largest_grey = std::max({largest_grey, frame.error->rms_grey, frame.error->cscope_rms_grey});
     if (!frame.error->reached) ++missed;
   }
   if (estimated == 0) return;
@@ -74,6 +76,14 @@ void print_accuracy(const RunRecord& record) {
                missed > 0 ? fmt::format(": {} frames missed it at the finest sampling", missed)
                           : std::string());
   fmt::print("\n");
+}
+
+// Effects that the sequence runs and this frame does not.
+std::vector<std::string> left_out(const core::EffectPlan& sequence, const core::EffectPlan& frame) {
+  std::vector<std::string> names;
+  for (const core::EffectDecision& decision : sequence.decisions)
+    if (decision.on && !frame.runs(decision.effect)) names.push_back(decision.effect);
+  return names;
 }
 
 class Run {
@@ -89,19 +99,24 @@ class Run {
     record_.choice = choose_sampling(options, scene, wanted(),
                                      parse_frames(options.frames, scene.frame_count()));
     record_.seed = options.seed;
+    record_.plan_per_frame = options.plan_per_frame;
     record_.threads = threads;
     record_.scene_build_s = scene.build_s;
     fingerprint_ = input_fingerprint(scene, record_);
   }
 
   void render_frames();
-  void write_records() {
+  void write_records() const {
     core::write_file_atomically(folder_ / "run.json", run_json(scene_, record_));
     core::write_file_atomically(folder_ / "timing.json", timing_json(record_));
   }
   void print_summary() const;
 
  private:
+  core::EffectPlan plan_of(int index) const {
+    return options_.plan_per_frame ? scenes::frame_plan(scene_, index) : scene_.plan;
+  }
+  FrameOutput render_frame(const renderer::FrameRenderer& frame_renderer, FrameRecord& record) const;
   renderer::Products wanted() const {
     const bool both = products_.contains("pair") || products_.contains("preview");
     const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north");
@@ -121,8 +136,8 @@ class Run {
 void Run::render_frames() {
   const sensors::Sensor& sensor = scene_.description.sensor;
   const std::vector<int> frames = parse_frames(options_.frames, scene_.frame_count());
-  const renderer::FrameRenderer frame_renderer(scene_.world, record_.choice.sampling, wanted(),
-                                               renderer::effects_of(scene_.plan, options_.seed));
+  renderer::PlannedFrames renderers(scene_.world, record_.choice.sampling, wanted(),
+                                    options_.seed);
   FrameWriter writer(folder_, products_, sensor);
   std::optional<Preview> preview;
   if (products_.contains("preview"))
@@ -136,24 +151,10 @@ void Run::render_frames() {
     record.index = index;
     record.time_s = scene_.trajectory.frame_time_s(index, sensor.scan.frame_rate_Hz);
     record.pose = scene_.trajectory.at(record.time_s);
+    const core::EffectPlan plan = plan_of(index);
+    record.left_out = left_out(scene_.plan, plan);
     if (!options_.resume || !take_over(folder_, products_, fingerprint_, record)) {
-      const Clock::time_point frame_begin = Clock::now();
-      FrameOutput output{index,
-                         core::attitude_from(record.pose.q_NB).heading_rad,
-                         frame_renderer.render(scene_.frame_pose(index)),
-                         {}};
-      record.frame_ms = 1000.0 * seconds_since(frame_begin);
-      record.rays = output.frame.rays;
-      record.slices = output.frame.slices;
-      record.blanked = output.frame.blanked;
-      record.events = output.frame.events;
-      record.error = output.frame.error;
-      output.metadata = frame_metadata(scene_, record_.choice.sampling, record, fingerprint_);
-      if (products_.contains("obstacles"))
-        output.obstacle_table = obstacle_table(output.frame.obstacles, fingerprint_);
-      if (products_.contains("detections"))
-        output.detection_table =
-            detection_table(sensor, index, record.time_s, fingerprint_, output.frame.detections);
+      FrameOutput output = render_frame(renderers.for_plan(plan), record);
       if (preview)
         preview->add(side_by_side(sensors::bscope_picture(sensor, output.frame.bscope_grey),
                                   sensors::cscope_picture(sensor, output.frame.cscope_grey)));
@@ -165,6 +166,28 @@ void Run::render_frames() {
   writer.finish();
   if (preview) preview->finish();
   record_.wall_s = seconds_since(begin);
+}
+
+FrameOutput Run::render_frame(const renderer::FrameRenderer& frame_renderer,
+                              FrameRecord& record) const {
+  const Clock::time_point begin = Clock::now();
+  FrameOutput output{record.index,
+                     core::attitude_from(record.pose.q_NB).heading_rad,
+                     frame_renderer.render(scene_.frame_pose(record.index)),
+                     {}};
+  record.frame_ms = 1000.0 * seconds_since(begin);
+  record.rays = output.frame.rays;
+  record.slices = output.frame.slices;
+  record.blanked = output.frame.blanked;
+  record.events = output.frame.events;
+  record.error = output.frame.error;
+  output.metadata = frame_metadata(scene_, record_.choice.sampling, record, fingerprint_);
+  if (products_.contains("obstacles"))
+    output.obstacle_table = obstacle_table(output.frame.obstacles, fingerprint_);
+  if (products_.contains("detections"))
+    output.detection_table = detection_table(scene_.description.sensor, record.index, record.time_s,
+                                             fingerprint_, output.frame.detections);
+  return output;
 }
 
 void Run::print_summary() const {
@@ -241,6 +264,7 @@ int render(const RenderOptions& options, const CommonOptions& common) {
       scenes::read_scene(find_scene(options.scene), scene_options, problems);
   if (!options.realisation.empty()) description.sample = options.realisation == "sample";
   scenes::BuildOptions build;
+  build.frame_plans = options.plan_per_frame;
   if (options.accuracy_grey > 0.0) build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   if (options.reference) {

@@ -40,6 +40,7 @@ struct RenderOptions {
   double accuracy_grey = 0.0;   // 0: not asked for
   double time_budget_ms = 0.0;  // 0: no limit
   bool estimate_error = false;
+  bool plan_per_frame = false;
   bool resume = false;
   std::uint64_t seed = 0;
 };

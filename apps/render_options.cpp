@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command_line.h"
+#include "apps/number_range.h"
 #include "apps/render_command.h"
 #include "core/errors.h"
 #include "renderer/casting/sampling.h"
@@ -34,14 +35,14 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                       "sharper and slower (default: the scene's, else " +
                           core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
                           core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
-          ->check(CLI::Range(0.1, 100000.0));
+          ->check(number_from(0.1, 100000.0));
   CLI::Option* accuracy =
       command
           .add_option("--accuracy", options.accuracy_grey,
                       "Error allowed, RMS in grey levels: half of it is for effects left out, half "
                       "for sampling, which is refined frame by frame until its estimate says so "
                       "(one grey level is 0.24 dB with the default display)")
-          ->check(CLI::Range(0.01, 100.0))
+          ->check(number_from(0.01, 100.0))
           ->excludes(rays);
   CLI::Option* budget =
       command
@@ -49,7 +50,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                       "Milliseconds a frame may take from pose to pictures in memory (16 Hz: "
                       "62.5): the finest sampling that fits, and the error it reaches; with "
                       "--accuracy no finer than that needs")
-          ->check(CLI::Range(0.1, 1e7))
+          ->check(number_from(0.1, 1e7))
           ->excludes(rays);
   CLI::Option* estimate =
       command.add_flag("--estimate-error", options.estimate_error,
@@ -104,6 +105,9 @@ void add_render_command(CLI::App& app, RenderOptions& options, CommonOptions& co
       ->check(CLI::Range(0, 1024));
   add_sampling(command, options);
   command.add_option("--effects", options.effects, effects_help());
+  command.add_flag("--plan-per-frame", options.plan_per_frame,
+                   "Leave out of each frame what it can do without, not only what the whole "
+                   "sequence can; no pixel changes by more than half the accuracy");
   command.add_flag("--resume", options.resume,
                    "Keep frames that an earlier run with the same input has finished");
   command.add_option("--preview-format", options.preview_format, "Form of the preview")

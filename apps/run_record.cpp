@@ -141,6 +141,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["receiver"] = receiver_json(scene);
   json["realisation"] = realisation_of(scene.plan);
   json["sampling"] = sampling_json(scene.caster, record.choice.sampling);
+  json["plan_per_frame"] = record.plan_per_frame;
   json["plan"] = Json::array();
   for (const core::EffectDecision& decision : scene.plan.decisions)
     json["plan"].push_back({{"effect", decision.effect},
@@ -208,10 +209,12 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
                   {"rays", frame.rays},   {"slices", frame.slices}, {"blanked", frame.blanked}};
     if (frame.error) {
       entry["estimated_error_grey"] = frame.error->rms_grey;
+      entry["estimated_error_cscope_grey"] = frame.error->cscope_rms_grey;
       entry["levels"] = frame.error->levels;
     } else {
       entry["estimated_error_grey"] = nullptr;
     }
+    if (record.plan_per_frame) entry["left_out"] = frame.left_out;
     entry["events"] = frame.events;
     json["frames"].push_back(std::move(entry));
   }

@@ -25,12 +25,14 @@ struct FrameRecord {
   std::uint64_t blanked = 0;
   std::vector<std::string> events;
   std::optional<renderer::ErrorEstimate> error;
+  std::vector<std::string> left_out;  // effects of the plan that this frame did without
   double frame_ms = 0.0;
   bool resumed = false;  // taken over from an earlier run: no time was measured
 };
 
 struct RunRecord {
   SamplingChoice choice;
+  bool plan_per_frame = false;
   std::uint64_t seed = 0;
   std::vector<FrameRecord> frames;
   int threads = 0;

@@ -24,6 +24,10 @@ double default_samples(renderer::CasterKind caster) {
                                                  : renderer::kDefaultRaysPerCell;
 }
 
+double larger(const renderer::ErrorEstimate& error) {
+  return std::max(error.rms_grey, error.cscope_rms_grey);
+}
+
 // Frames spread over the run, at the middles of equal parts.
 std::vector<int> spread(const std::vector<int>& frames) {
   std::vector<int> chosen;
@@ -66,7 +70,7 @@ class Trial {
     double largest_grey = 0.0;
     for (const int frame : frames_)
       largest_grey =
-          std::max(largest_grey, frame_renderer.render(scene_.frame_pose(frame)).error->rms_grey);
+          std::max(largest_grey, larger(*frame_renderer.render(scene_.frame_pose(frame)).error));
     return largest_grey;
   }
 

@@ -107,7 +107,7 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   frame.error = cast(antenna, elevation_resolved, sums, sight);
   if (effects_.rain_echo && world_.volume_echo)
     add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
-  if (double_bounce_) double_bounce_->add(antenna, sums);
+  if (double_bounce_ && !frame.error) double_bounce_->add(antenna, sums);
   frame.rays = sums.rays;
   frame.slices = sums.slices;
   frame.blanked = sums.blanked;
@@ -137,10 +137,8 @@ std::optional<ErrorEstimate> FrameRenderer::cast(const sensors::AntennaFrame& an
     caster_->cast(antenna, with_cscope, CastPass{}, sums, sight);
     return std::nullopt;
   }
-  const Refinement refinement(world_, sampling_, *caster_, effects_.thermal_noise);
-  return sampling_.target_grey > 0.0
-             ? refinement.cast(antenna, with_cscope, sampling_.target_grey, sums, sight)
-             : refinement.estimate(antenna, with_cscope, sums, sight);
+  return Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_.thermal_noise)
+      .cast(antenna, with_cscope, sums, sight);
 }
 
 // The last stage before display: targets join the diffuse power, expected or as one realisation.

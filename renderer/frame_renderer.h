@@ -72,6 +72,7 @@ class FrameRenderer {
   Frame render(const FramePose& pose) const;
 
  private:
+  // With an estimate, double bounces are in `sums` already.
   std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                                     FanSums& sums, SightLines& sight) const;
   void receive(const std::vector<core::Echo>& echoes, std::uint32_t frame_index,

@@ -1,6 +1,5 @@
 #include "renderer/accuracy/column_error.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "renderer/stages/azimuth_beam.h"
@@ -24,7 +23,7 @@ std::vector<double> mean_squares(const std::vector<double>& one, const std::vect
 
 }  // namespace
 
-std::vector<double> ColumnError::mean_square_grey2(const FanSums& one, const FanSums& other) const {
+ColumnError::Squares ColumnError::between(const FanSums& one, const FanSums& other) const {
   const auto columns = static_cast<std::size_t>(sensor_.scan.columns);
   const auto picture = [&](const std::vector<double>& power, int bins, const FanSums& fan,
                            double noise) {
@@ -42,11 +41,9 @@ std::vector<double> ColumnError::mean_square_grey2(const FanSums& one, const Fan
                                 picture(fan.elevation_W_m3_per_rad, fan.rows, fan,
                                         noise_ ? sensors::cscope_noise_W_m3(sensor_) : 0.0));
   };
-  std::vector<double> result = mean_squares(bscope(one), bscope(other), columns);
-  if (one.rows == 0) return result;
-  const std::vector<double> elevations = mean_squares(cscope(one), cscope(other), columns);
-  for (std::size_t c = 0; c < columns; ++c) result[c] = std::max(result[c], elevations[c]);
-  return result;
+  return {mean_squares(bscope(one), bscope(other), columns),
+          one.rows > 0 ? mean_squares(cscope(one), cscope(other), columns)
+                       : std::vector<double>(columns, 0.0)};
 }
 
 }  // namespace fanbeam::renderer

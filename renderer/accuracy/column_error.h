@@ -14,9 +14,11 @@ class ColumnError {
   ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column, bool noise)
       : sensor_(sensor), sub_columns_(sub_columns_per_column), noise_(noise) {}
 
-  // Mean square over a column's cells of the difference of unrounded grey; of the B-scope, or of
-  // the C-scope where the fans have elevation rows and it is larger there. One value per column.
-  std::vector<double> mean_square_grey2(const FanSums& one, const FanSums& other) const;
+  // Mean squares over a column's cells of the difference of unrounded grey, one value per column.
+  struct Squares {
+    std::vector<double> bscope_grey2, cscope_grey2;  // the latter all 0 without elevation rows
+  };
+  Squares between(const FanSums& one, const FanSums& other) const;
 
  private:
   const sensors::Sensor& sensor_;

@@ -8,7 +8,7 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "renderer/casting/fan_layout.h"
-#include "renderer/casting/path_loss_table.h"
+#include "renderer/casting/frame_path_loss.h"
 #include "renderer/casting/ray_caster.h"
 #include "sensors/cells.h"
 
@@ -22,26 +22,13 @@ double place_in(std::size_t sub_column, std::size_t index) {
   return value - std::floor(value);
 }
 
-PathLossTable path_loss_from(const World& world, double sensor_m) {
-  // As high above the ground as the ray caster's table goes.
-  constexpr double kObjects_m = 300.0;
-  double lowest_m = sensor_m;
-  double highest_m = sensor_m;
-  if (const terrain::HeightField* ground = world.surfaces->terrain(); ground != nullptr) {
-    const auto [low, high] = std::minmax_element(ground->height_m.begin(), ground->height_m.end());
-    lowest_m = std::min(sensor_m, *low);
-    highest_m = std::max(sensor_m, *high);
-  }
-  return {world.attenuation, sensor_m, lowest_m, highest_m + kObjects_m};
-}
-
 }  // namespace
 
 // What all rays of a frame share.
 struct NaiveCaster::Frame {
   Frame(const World& world, const sensors::AntennaFrame& axes, bool cscope)
       : antenna(axes),
-        path_loss(path_loss_from(world, axes.position_m.z)),
+        path_loss(FramePathLoss(world).from(axes.position_m.z)),
         radar_constant_W_m2(world.sensor.radar_constant_W_m2()),
         with_cscope(cscope) {}
 

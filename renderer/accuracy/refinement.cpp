@@ -14,15 +14,49 @@ namespace {
 
 // 256 times the samples of level 0: beyond it the reference itself is no better.
 constexpr int kFinestLevel = 8;
+constexpr int kFinestBounces = 6;
 // Two-way, the beam falls to a tenth within this many of its half-power widths.
 constexpr double kBeamReach = 0.75;
 
-double mean_factor(CasterKind caster) { return caster == CasterKind::profile ? 0.45 : 0.62; }
-double old_factor(CasterKind caster) { return caster == CasterKind::profile ? 0.50 : 0.78; }
+// Of the difference between old and new samples: refinement.h.
+struct Factors {
+  double of_mean, of_old;
+};
+constexpr Factors kSlices{0.45, 0.50}, kRays{0.62, 0.78};
+Factors factors_of(CasterKind caster) { return caster == CasterKind::profile ? kSlices : kRays; }
 
 double rms(const std::vector<double>& squares) {
   const double sum = std::accumulate(squares.begin(), squares.end(), 0.0);
   return std::sqrt(sum / static_cast<double>(squares.size()));
+}
+
+ErrorEstimate estimate_of(const ColumnError::Squares& squares, double factor, int levels) {
+  return {factor * rms(squares.bscope_grey2), factor * rms(squares.cscope_grey2), levels, true};
+}
+
+bool within(const ErrorEstimate& error, double target_grey) {
+  return std::max(error.rms_grey, error.cscope_rms_grey) <= target_grey;
+}
+
+// Of errors that have nothing to do with each other.
+ErrorEstimate together(const ErrorEstimate& one, const ErrorEstimate& other) {
+  return {std::hypot(one.rms_grey, other.rms_grey),
+          std::hypot(one.cscope_rms_grey, other.cscope_rms_grey), std::max(one.levels, other.levels),
+          one.reached && other.reached};
+}
+
+FanSums empty_like(const FanSums& fan) {
+  FanSums empty = fan;
+  std::fill(empty.range_W_per_rad.begin(), empty.range_W_per_rad.end(), 0.0);
+  std::fill(empty.elevation_W_m3_per_rad.begin(), empty.elevation_W_m3_per_rad.end(), 0.0);
+  empty.rays = empty.slices = empty.hits = empty.blanked = 0;
+  return empty;
+}
+
+FanSums plus(FanSums sums, const FanSums& more) {
+  combine_groups(more, 1.0, groups_of(sums), 1.0, sums);
+  add_counts(more, sums);
+  return sums;
 }
 
 // Columns that are still too coarse, and what of the fan their beam reaches.
@@ -34,10 +68,11 @@ class TooCoarse {
         margin_(margin_sub_columns(sensor, sub_columns)),
         groups_(static_cast<std::size_t>(fan.sub_columns) / kGroupAzimuths) {}
 
-  std::vector<std::size_t> columns(const std::vector<double>& error2, double target_grey) const {
+  std::vector<std::size_t> columns(const ColumnError::Squares& error, double target_grey) const {
     std::vector<std::size_t> found;
-    for (std::size_t c = 0; c < error2.size(); ++c)
-      if (error2[c] > target_grey * target_grey) found.push_back(c);
+    for (std::size_t c = 0; c < error.bscope_grey2.size(); ++c)
+      if (std::max(error.bscope_grey2[c], error.cscope_grey2[c]) > target_grey * target_grey)
+        found.push_back(c);
     return found;
   }
 
@@ -69,30 +104,43 @@ class TooCoarse {
 }  // namespace
 
 ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
-                               double target_grey, FanSums& sums, SightLines& sight) const {
+                               FanSums& sums, SightLines& sight) const {
+  const double target_grey = sampling_.target_grey * (bounces_ != nullptr ? std::sqrt(0.5) : 1.0);
+  const ErrorEstimate error = target_grey > 0.0
+                                  ? refine(antenna, with_cscope, target_grey, sums, sight)
+                                  : estimate(antenna, with_cscope, sums, sight);
+  if (bounces_ == nullptr) return error;
+  return together(error, add_bounces(antenna, target_grey, sums));
+}
+
+ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with_cscope,
+                                 double target_grey, FanSums& sums, SightLines& sight) const {
   const sensors::Sensor& sensor = world_.sensor;
   const ColumnError difference(sensor, sampling_.sub_columns, noise_);
-  const double factor = mean_factor(sampling_.caster);
+  const double factor = factors_of(sampling_.caster).of_mean;
   caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
-  thread_local FanSums fresh;
   const TooCoarse too_coarse(sensor, sampling_.sub_columns, sums);
   std::vector<std::uint32_t> groups = groups_of(sums);
   std::vector<std::size_t> columns(static_cast<std::size_t>(sensor.scan.columns));
   std::iota(columns.begin(), columns.end(), std::size_t{0});
-  std::vector<double> error2(columns.size(), 0.0);
+  ColumnError::Squares error{std::vector<double>(columns.size(), 0.0),
+                             std::vector<double>(columns.size(), 0.0)};
+  thread_local FanSums fresh;
   SightLines none;
   for (int level = 1;; ++level) {
     fresh = sums;  // what is not cast again is the same in both pictures
-    fresh.rays = fresh.slices = fresh.hits = fresh.blanked = 0;
     caster_.cast(antenna, with_cscope, CastPass{level, &groups}, fresh, none);
-    const std::vector<double> apart2 = difference.mean_square_grey2(sums, fresh);
-    for (const std::size_t c : columns) error2[c] = factor * factor * apart2[c];
+    const ColumnError::Squares apart = difference.between(sums, fresh);
+    for (const std::size_t c : columns) {
+      error.bscope_grey2[c] = apart.bscope_grey2[c];
+      error.cscope_grey2[c] = apart.cscope_grey2[c];
+    }
     combine_groups(fresh, 0.5, groups, 0.5, sums);
     add_counts(fresh, sums);
-    const double error_grey = rms(error2);
-    if (error_grey <= target_grey) return {error_grey, level + 1, true};
-    if (level == kFinestLevel) return {error_grey, level + 1, false};
-    columns = too_coarse.columns(error2, target_grey);
+    ErrorEstimate reached = estimate_of(error, factor, level + 1);
+    reached.reached = within(reached, target_grey);
+    if (reached.reached || level == kFinestLevel) return reached;
+    columns = too_coarse.columns(error, target_grey / factor);
     groups = too_coarse.groups(columns);
   }
 }
@@ -103,10 +151,32 @@ ErrorEstimate Refinement::estimate(const sensors::AntennaFrame& antenna, bool wi
   thread_local FanSums fresh;
   fresh = sums;
   SightLines none;
-  const std::vector<std::uint32_t> groups = groups_of(sums);
-  caster_.cast(antenna, with_cscope, CastPass{1, &groups}, fresh, none);
+  caster_.cast(antenna, with_cscope, CastPass{1, nullptr}, fresh, none);
   const ColumnError difference(world_.sensor, sampling_.sub_columns, noise_);
-  return {old_factor(sampling_.caster) * rms(difference.mean_square_grey2(sums, fresh)), 1, true};
+  return estimate_of(difference.between(sums, fresh), factors_of(sampling_.caster).of_old, 1);
+}
+
+ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna, double target_grey,
+                                      FanSums& sums) const {
+  const ColumnError difference(world_.sensor, sampling_.sub_columns, noise_);
+  FanSums echoes = empty_like(sums);
+  bounces_->add(antenna, echoes);
+  for (int level = 1;; ++level) {
+    FanSums fresh = empty_like(sums);
+    bounces_->add(antenna, fresh, level);
+    const ColumnError::Squares apart = difference.between(plus(sums, echoes), plus(sums, fresh));
+    if (!(target_grey > 0.0)) {
+      sums = plus(std::move(sums), echoes);
+      return estimate_of(apart, kRays.of_old, 1);
+    }
+    combine_groups(fresh, 0.5, groups_of(sums), 0.5, echoes);
+    add_counts(fresh, echoes);
+    ErrorEstimate reached = estimate_of(apart, kRays.of_mean, level + 1);
+    reached.reached = within(reached, target_grey);
+    if (!reached.reached && level < kFinestBounces) continue;
+    sums = plus(std::move(sums), echoes);
+    return reached;
+  }
 }
 
 }  // namespace fanbeam::renderer

@@ -13,44 +13,54 @@
 //
 // Refined is where it is needed: columns whose own error is above the target get the next level,
 // with the columns beside them that their beam reaches, until the RMS over all columns is at most
-// the target.
+// the target, of the B-scope and of the C-scope where there is one. Double bounces have samples of
+// their own; they are refined in whole fans, and share the target: sqrt(1/2) of it for each.
 //
-// Not in the estimate: what further stages add (rain echo, double bounce, point targets, all with
-// samplings of their own). They brighten cells, which makes the caster's error there smaller.
+// Not in the estimate: rain echo and point targets, which are not sampled at random.
 // Deterministic: depends on the pose and the world alone.
 // Cost: twice that of level 0 at least, and two pictures per level to compare.
 #pragma once
 
 #include "renderer/casting/caster.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/stages/double_bounce.h"
 #include "renderer/world.h"
 
 namespace fanbeam::renderer {
 
 struct ErrorEstimate {
-  double rms_grey = 0.0;
-  int levels = 1;       // cast, at the column that took most
-  bool reached = true;  // false: the finest level is still coarser than asked for
+  double rms_grey = 0.0;         // of the B-scope, the main figure
+  double cscope_rms_grey = 0.0;  // 0 without one
+  int levels = 1;                // cast, at the column that took most
+  bool reached = true;           // false: the finest level is still coarser than asked for
 };
 
 class Refinement {
  public:
-  // Of pictures with the mean noise power or without. All must outlive it.
-  Refinement(const World& world, const Sampling& sampling, const Caster& caster, bool noise)
-      : world_(world), sampling_(sampling), caster_(caster), noise_(noise) {}
+  // Of pictures with the mean noise power or without. `bounces` is null where that effect is off.
+  // All must outlive it.
+  Refinement(const World& world, const Sampling& sampling, const Caster& caster,
+             const DoubleBounce* bounces, bool noise)
+      : world_(world), sampling_(sampling), caster_(caster), bounces_(bounces), noise_(noise) {}
 
-  // Until the estimate is at most `target_grey`.
-  ErrorEstimate cast(const sensors::AntennaFrame& antenna, bool with_cscope, double target_grey,
-                     FanSums& sums, SightLines& sight) const;
-
-  // Leaves in `sums` what the sampling gives without refinement, and estimates its error.
-  ErrorEstimate estimate(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums,
-                         SightLines& sight) const;
+  // Casts and adds the bounces: until the estimate is at most the sampling's target_grey, or, where
+  // that is 0, what the sampling gives by itself with the estimate of its error.
+  ErrorEstimate cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums,
+                     SightLines& sight) const;
 
  private:
+  ErrorEstimate refine(const sensors::AntennaFrame& antenna, bool with_cscope, double target_grey,
+                       FanSums& sums, SightLines& sight) const;
+  ErrorEstimate estimate(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums,
+                         SightLines& sight) const;
+  // `target_grey` 0: level 0 alone.
+  ErrorEstimate add_bounces(const sensors::AntennaFrame& antenna, double target_grey,
+                            FanSums& sums) const;
+
   const World& world_;
   const Sampling& sampling_;
   const Caster& caster_;
+  const DoubleBounce* bounces_;
   bool noise_;
 };
 

@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "renderer/casting/fan_layout.h"
+#include "renderer/casting/radical_inverse.h"
 #include "renderer/casting/ray_kernel.h"
 
 namespace fanbeam::renderer {
@@ -26,13 +27,6 @@ void cast_all(const RayFrame& frame, const std::vector<std::uint32_t>& groups, F
     sums.hits += scratch.hit_count;
     sums.blanked += scratch.blanked_count;
   });
-}
-
-// Digits of `index` in `base`, mirrored behind the point: multiples of ever finer even spacings.
-double radical_inverse(int index, int base) {
-  double value = 0.0, digit = 1.0 / base;
-  for (; index > 0; index /= base, digit /= base) value += digit * (index % base);
-  return value;
 }
 
 // Halton points keep passes apart in azimuth and elevation; pass 0 is that of level 0.

@@ -6,6 +6,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "renderer/casting/deposit.h"
+#include "renderer/casting/radical_inverse.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -17,11 +18,18 @@ constexpr int kWindowMargin = 3;
 // Sub-columns that one ray stands for: half the casters' density, for a part of the power.
 constexpr int kAcross = 2;
 
-// Place between the borders of a block for ray `index`: multiples of the golden ratio.
-double place_of(int index, int sub_column) {
-  const auto count = static_cast<std::uint32_t>(index + 7 * sub_column);
-  return static_cast<double>(count * 2654435769U) * 0x1p-32;  // wraps round by itself
-}
+// Where the rays of one pass lie beside those of the others, and how much they count.
+struct PassPlaces {
+  std::uint32_t shift = 0;       // of azimuths, in parts of 2^32 of a block
+  double elevation_share = 0.5;  // of each interval of elevations
+  double weight = 1.0;
+
+  // Between the borders of a block for ray `index`: multiples of the golden ratio.
+  double azimuth(int index, int sub_column) const {
+    const auto count = static_cast<std::uint32_t>(index + 7 * sub_column);
+    return static_cast<double>(count * 2654435769U + shift) * 0x1p-32;  // wraps round by itself
+  }
+};
 
 // What one echo gives to one sub-column.
 struct Share {
@@ -57,13 +65,14 @@ struct StripScratch {
 class Strip {
  public:
   Strip(const World& world, const Sampling& sampling, const ElevationFan& fan,
-        const BounceTracer& tracer, const sensors::AntennaFrame& antenna, FanSums& sums, int strip,
-        StripScratch& scratch)
+        const BounceTracer& tracer, const sensors::AntennaFrame& antenna,
+        const PassPlaces& places, FanSums& sums, int strip, StripScratch& scratch)
       : world_(world),
         sampling_(sampling),
         fan_(fan),
         tracer_(tracer),
         antenna_(antenna),
+        places_(places),
         sums_(sums),
         scratch_(scratch),
         first_(strip * sampling.sub_columns),
@@ -100,7 +109,7 @@ class Strip {
     scratch_.sent.clear();
     across_ = end_ - first_;
     for (int j = first_ % kSearchStride; j < intervals_; j += kSearchStride)
-      send(j, first_, place_of(j, first_), middle_rad(j));
+      send(j, first_, places_.azimuth(j, first_), sampled_rad(j));
     cast();
     bool any = false;
     for (std::size_t i = 0; i < scratch_.sent.size(); ++i) {
@@ -122,7 +131,7 @@ class Strip {
       if (scratch_.wanted[static_cast<std::size_t>(j)] == 0) continue;
       for (int left = first_; left < end_; left += across_) {
         if (passes == 0) {
-          send(j, left, place_of(j, left), middle_rad(j));
+          send(j, left, places_.azimuth(j, left), sampled_rad(j));
           continue;
         }
         const auto words = core::random_words(
@@ -193,7 +202,8 @@ class Strip {
     share.from_cell = (std::min(a_m, b_m) - gate.minimum_m) / gate.cell_m;
     share.to_cell = (std::max(a_m, b_m) - gate.minimum_m) / gate.cell_m;
     share.power_W_per_rad =
-        echo.density_W_per_rad2 * span_rad(sent.interval) / std::max(sampling_.jittered_passes, 1);
+        places_.weight * echo.density_W_per_rad2 * span_rad(sent.interval) /
+        std::max(sampling_.jittered_passes, 1);
     share.row = (display.cscope_top_rad - echo.elevation_rad) * display.cscope_rows /
                 display.cscope_span_rad;
     if (echo.range_m >= gate.minimum_m && echo.range_m < gate.maximum_m())
@@ -219,13 +229,14 @@ class Strip {
   double span_rad(int j) const {
     return scratch_.edges[static_cast<std::size_t>(j) + 1] - low_rad(j);
   }
-  double middle_rad(int j) const { return low_rad(j) + span_rad(j) / 2; }
+  double sampled_rad(int j) const { return low_rad(j) + places_.elevation_share * span_rad(j); }
 
   const World& world_;
   const Sampling& sampling_;
   const ElevationFan& fan_;
   const BounceTracer& tracer_;
   const sensors::AntennaFrame& antenna_;
+  const PassPlaces& places_;
   FanSums& sums_;
   StripScratch& scratch_;
   int first_, end_;  // sub-columns
@@ -240,14 +251,24 @@ class Strip {
 DoubleBounce::DoubleBounce(const World& world, const Sampling& sampling)
     : world_(world), sampling_(sampling), fan_(world, sampling), tracer_(world) {}
 
-void DoubleBounce::add(const sensors::AntennaFrame& antenna, FanSums& sums) const {
+void DoubleBounce::add(const sensors::AntennaFrame& antenna, FanSums& sums, int level) const {
   if (!tracer_.any()) return;
+  const int passes = level < 2 ? 1 : 1 << (level - 1);
+  for (int pass = 0; pass < passes; ++pass)
+    add_pass(antenna, level < 2 ? level : passes + pass, 1.0 / passes, sums);
+}
+
+void DoubleBounce::add_pass(const sensors::AntennaFrame& antenna, int pass, double weight,
+                            FanSums& sums) const {
+  const PassPlaces places{static_cast<std::uint32_t>(radical_inverse(pass, 2) * 0x1p32),
+                          std::fmod(0.5 + radical_inverse(pass, 3), 1.0), weight};
   const int strips = (sums.sub_columns + sampling_.sub_columns - 1) / sampling_.sub_columns;
   std::vector<std::vector<Share>> foreign(static_cast<std::size_t>(strips));
   std::vector<std::uint64_t> cast(foreign.size(), 0);
   core::parallel_for(foreign.size(), [&](std::size_t i) {
     thread_local StripScratch scratch;
-    Strip strip(world_, sampling_, fan_, tracer_, antenna, sums, static_cast<int>(i), scratch);
+    Strip strip(world_, sampling_, fan_, tracer_, antenna, places, sums, static_cast<int>(i),
+                scratch);
     strip.run(foreign[i]);
     cast[i] = strip.cast_count();
   });

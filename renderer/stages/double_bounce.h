@@ -30,10 +30,13 @@ class DoubleBounce {
   DoubleBounce(const World& world, const Sampling& sampling);
 
   // Adds to what the caster left in `sums`; thread-safe. Changes nothing in a world that does not
-  // reflect.
-  void add(const sensors::AntennaFrame& antenna, FanSums& sums) const;
+  // reflect. Samples of level 0 by default, or of a further one alone (CastPass).
+  void add(const sensors::AntennaFrame& antenna, FanSums& sums, int level = 0) const;
 
  private:
+  void add_pass(const sensors::AntennaFrame& antenna, int pass, double weight,
+                FanSums& sums) const;
+
   const World& world_;
   Sampling sampling_;
   ElevationFan fan_;

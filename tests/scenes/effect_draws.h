@@ -136,8 +136,8 @@ inline void draw_weather(Draws& draws, EffectScene& scene) {
   scene.description.surface_state = static_cast<materials::SurfaceState>(draws.whole(0, 1));
 }
 
-// Without its side lobes such an antenna looks at the ground along other rays: over relief and
-// walls their sampling differs by more than the lobes, and only level ground shows the difference.
+// Without its side lobes such an antenna looks at the ground along other rays: over relief, walls
+// and runways these differ by more than the lobes do. Its scenes are level and of one material.
 inline bool lobes_move_rays(const sensors::Antenna& antenna) {
   constexpr auto kSinc = sensors::BeamCut::Shape::sinc_squared;
   return antenna.elevation.side_lobe_gain > 0.0 || antenna.elevation.shape == kSinc ||
@@ -191,7 +191,7 @@ inline void draw_flight(Draws& draws, EffectScene& scene) {
   scenes::SceneDescription& to = scene.description;
   const double reach_m = to.sensor.range.maximum_m();
   // The decision height of an approach is a kilometre before the threshold.
-  if (reach_m < 2000.0 || draws.chance(0.4)) {
+  if (lobes_move_rays(to.sensor.antenna) || reach_m < 2000.0 || draws.chance(0.4)) {
     to.trajectory.above_ground_m = draws.between(20.0, 300.0);
     to.trajectory.pitch_rad = core::radians(draws.between(-5.0, 5.0));
     to.trajectory.roll_rad = core::radians(draws.between(-15.0, 15.0));
@@ -210,7 +210,7 @@ inline void draw_flight(Draws& draws, EffectScene& scene) {
   to.runways = {runway};
   to.trajectory.kind = scenes::TrajectoryDescription::Kind::ils;
   to.trajectory.ils_end = "36";
-  to.trajectory.ils.start_distance_m = draws.between(0.75, 0.9);
+  to.trajectory.ils.start_distance_m = reach_m * draws.between(0.75, 0.9);
   to.trajectory.ils.speed_mps = draws.between(40.0, 110.0);
   to.trajectory.ils.end = scenes::ApproachEnd::decision_height;
 }

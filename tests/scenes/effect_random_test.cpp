@@ -6,6 +6,19 @@
 #include "tests/scenes/effect_draws.h"
 
 namespace fanbeam::tests {
+namespace {
+
+// Level ground along other rays (effect_draws.h) differs by this.
+constexpr double kOtherRays_grey = 0.05;
+
+double left_out_grey(const core::EffectPlan& plan) {
+  double sum = 0.0;
+  for (const core::EffectDecision& each : plan.decisions)
+    if (!each.on) sum += each.bound_grey;
+  return sum;
+}
+
+}  // namespace
 
 TEST_CASE("200 random scenes: the planned picture is that with everything on to a grey level",
           "[effects][random]") {
@@ -13,27 +26,19 @@ TEST_CASE("200 random scenes: the planned picture is that with everything on to 
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     EffectScene scene;
     draw_scene(seed, scene);
-    const double accuracy_grey = Draws(seed + 1000).chance(0.5) ? 0.5 : 2.0;
+    const double accuracy_grey = seed % 2 == 0 ? 0.5 : 2.0;
     INFO("seed " << seed << ", accuracy " << accuracy_grey);
-    try {
-      built(scene, "");
-    } catch (const core::InputError& e) {
-      std::printf("seed %d: %s\n", (int)seed, e.what());
-      continue;
-    }
     const Shown planned = shown(scene, "", accuracy_grey);
     INFO(plan_text(planned.plan));
     const Shown all = shown(scene, "all", accuracy_grey);
-    const double change_grey = largest_difference_grey(planned.frame, all.frame);
-    double sum_grey = 0.0;
-    for (const core::EffectDecision& each : planned.plan.decisions)
-      if (!each.on) sum_grey += each.bound_grey;
-    const bool moved =
+    const bool other_rays =
         planned.plan.runs(renderer::kSideLobes) != all.plan.runs(renderer::kSideLobes) &&
         detail::lobes_move_rays(scene.sensor().antenna);
-    if (change_grey > sum_grey)
-      std::printf("seed %d: %g > %g moved %d\n", (int)seed, change_grey, sum_grey, (int)moved);
-    CHECK(change_grey <= accuracy_grey / 2.0);
+    const double change_grey = largest_difference_grey(planned.frame, all.frame);
+    CHECK(left_out_grey(planned.plan) <= accuracy_grey / 2.0);
+    CHECK(change_grey <= 1.0);
+    CHECK(change_grey <=
+          left_out_grey(planned.plan) + (other_rays ? kOtherRays_grey : 0.0) + 1e-9);
     for (const core::EffectDecision& each : planned.plan.decisions)
       if (!each.on && each.bound_grey > 0.0) ++left_out[each.effect];
   }

@@ -1,0 +1,143 @@
+// Samples in levels (CastPass): evenly between each other, the same power, group by group.
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "tests/renderer/city_world.h"
+
+namespace {
+
+using namespace fanbeam;
+using namespace fanbeam::tests;
+
+constexpr double kHeight_m = 60.0;
+
+double total(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+// Largest difference as part of the largest value.
+double apart(const std::vector<double>& one, const std::vector<double>& other) {
+  REQUIRE(one.size() == other.size());
+  const double scale = *std::max_element(other.begin(), other.end());
+  REQUIRE(scale > 0.0);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    largest = std::max(largest, std::abs(one[i] - other[i]) / scale);
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("Three levels of slices are four slices a quarter of a sub-column apart", "[levels]") {
+  // Rough ground, without walls, which a slice spreads over a wedge as wide as its level's.
+  std::uint64_t post = 0;
+  const renderer::World world = tests::world(
+      narrow(12), ground(1300.0, 25.0, [&](double, double) { return 20.0 * uniform(3, ++post); }),
+      city_library());
+  const renderer::ProfileCaster caster(world, slices(4));
+  const auto at = [&](double turned, int level) {
+    const double step_rad = world.sensor.scan.column_width_rad() / 4.0;
+    return cast_level(caster, level,
+                      level_antenna({0.0, 0.0, kHeight_m + 20.0}, turned * step_rad));
+  };
+  renderer::FanSums levels = at(0.0, 0);
+  mix_in(at(0.0, 1), 0.5, levels);
+  mix_in(at(0.0, 2), 0.5, levels);
+  // Level 0 is in the middle: a turned antenna puts it at 0, 1/4, 1/2 and 3/4.
+  renderer::FanSums four = at(-0.5, 0);
+  mix_in(at(-0.25, 0), 1.0 / 2.0, four);
+  mix_in(at(0.0, 0), 1.0 / 3.0, four);
+  mix_in(at(0.25, 0), 1.0 / 4.0, four);
+  CHECK(apart(levels.range_W_per_rad, four.range_W_per_rad) < 1e-6);
+  CHECK(apart(levels.elevation_W_m3_per_rad, four.elevation_W_m3_per_rad) < 1e-6);
+  // And one level alone is not: the ground is rough enough to tell.
+  CHECK(apart(at(0.0, 0).range_W_per_rad, four.range_W_per_rad) > 1e-2);
+}
+
+TEST_CASE("Each level of slices has as many as those before, each where plain sampling has them",
+          "[levels]") {
+  const renderer::World world = city_world(narrow(12), everywhere);
+  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
+  const renderer::ProfileCaster caster(world, slices(4));
+  std::uint64_t before = cast_level(caster, 0, antenna).slices;
+  for (int level = 1; level <= 4; ++level) {
+    INFO("level " << level);
+    const renderer::FanSums sums = cast_level(caster, level, antenna);
+    CHECK(sums.slices == before);
+    before += sums.slices;
+    if (level < 2) continue;
+    renderer::Sampling plain = slices(4);
+    plain.slices_per_sub_column = 1 << (level - 1);
+    CHECK(sums.range_W_per_rad ==
+          cast_level(renderer::ProfileCaster(world, plain), 0, antenna).range_W_per_rad);
+  }
+}
+
+TEST_CASE("Flat ground returns the same power at every level", "[levels]") {
+  // Even gain and constant gamma: slices are then exact to 1e-9.
+  sensors::Sensor sensor = even_hivision(12);
+  sensor.range.cells = 105;
+  const renderer::World world = tests::world(sensor, level_ground(), {kGamma});
+  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
+  const renderer::ProfileCaster by_slices(world, slices(4));
+  const renderer::RayCaster by_rays(world, renderer::sampling_for(4.0));
+  const renderer::FanSums first = cast_level(by_slices, 0, antenna);
+  const double first_rays_W = total(cast_level(by_rays, 0, antenna).range_W_per_rad);
+  std::uint64_t rays = cast_level(by_rays, 0, antenna).rays;
+  for (int level = 1; level <= 5; ++level) {
+    INFO("level " << level);
+    const renderer::FanSums sums = cast_level(by_slices, level, antenna);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < sums.range_W_per_rad.size(); ++i)
+      if (first.range_W_per_rad[i] > 0.0)
+        largest =
+            std::max(largest, std::abs(sums.range_W_per_rad[i] / first.range_W_per_rad[i] - 1.0));
+    CHECK(largest < 1e-9);
+    CHECK(total(sums.elevation_W_m3_per_rad) ==
+          Approx(total(first.elevation_W_m3_per_rad)).epsilon(1e-9));
+    // Rays stand for what they hit in the middle of their interval.
+    const renderer::FanSums of_rays = cast_level(by_rays, level, antenna);
+    CHECK(total(of_rays.range_W_per_rad) == Approx(first_rays_W).epsilon(1e-3));
+    CHECK(static_cast<double>(of_rays.rays) == Approx(static_cast<double>(rays)).epsilon(0.2));
+    rays += of_rays.rays;
+  }
+}
+
+TEST_CASE("Groups that are not asked for keep what they hold", "[levels]") {
+  constexpr double kHeld = 7.0;
+  const std::vector<std::uint32_t> asked{1, 4};
+  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
+  renderer::World world = city_world(narrow(24), everywhere);
+  const auto check_kept = [&](const renderer::Sampling& sampling) {
+    const auto caster = caster_of(world, sampling);
+    for (int level = 0; level <= 3; ++level) {
+      INFO("level " << level);
+      const renderer::FanSums all = cast_level(*caster, level, antenna);
+      renderer::FanSums sums = all;
+      const auto fill = [&](std::vector<double>& values) {
+        std::fill(values.begin(), values.end(), kHeld);
+      };
+      fill(sums.range_W_per_rad);
+      fill(sums.elevation_W_m3_per_rad);
+      renderer::SightLines none;
+      caster->cast(antenna, true, {level, &asked}, sums, none);
+      const auto check = [&](const std::vector<double>& found, const std::vector<double>& cast,
+                             int bins) {
+        std::vector<double> expected(found.size(), kHeld);
+        const std::ptrdiff_t count = std::ptrdiff_t{renderer::kGroupAzimuths} * bins;
+        for (const std::ptrdiff_t group : asked)
+          std::copy_n(cast.begin() + group * count, count, expected.begin() + group * count);
+        CHECK(found == expected);
+      };
+      check(sums.range_W_per_rad, all.range_W_per_rad, sums.cells);
+      check(sums.elevation_W_m3_per_rad, all.elevation_W_m3_per_rad, sums.rows);
+      CHECK(sums.rays + sums.slices < (all.rays + all.slices) / 2);
+      CHECK(sums.rays + sums.slices > 0);
+    }
+  };
+  check_kept(renderer::sampling_for(4.0));
+  check_kept(slices(4));
+  // A box in the middle of the fan is left to rays: group 4 is theirs, group 1 is not.
+  world.solids.others = {{{-30.0, 600.0, 0.0}, {10.0, 620.0, 9.0}}};
+  check_kept(slices(4));
+}

@@ -1,0 +1,144 @@
+// What an added power can change, against closed forms: over the display's floor, over noise, in a
+// realisation, and in each picture.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "renderer/plan/effect_catalogue.h"
+#include "renderer/plan/largest_echo.h"
+#include "renderer/plan/plan.h"
+#include "sensors/antenna/beam_pattern.h"
+#include "sensors/cells.h"
+#include "sensors/display/display.h"
+#include "sensors/display/grey_scale.h"
+#include "tests/renderer/test_worlds.h"
+
+namespace fanbeam {
+namespace {
+
+using sensors::Display;
+
+double change_dB(double ratio) { return 10.0 * std::log10(1.0 + ratio); }
+
+renderer::SceneFacts facts_with(Display::CScopeMode mode) {
+  renderer::SceneFacts facts;
+  facts.sensor = tests::hivision();
+  facts.sensor.display.cscope_mode = mode;
+  return facts;
+}
+
+// `power_W` in one cell, nothing elsewhere.
+renderer::AddedPower in_cell(const sensors::Sensor& sensor, int row, double power_W) {
+  renderer::AddedPower added{std::vector<double>(static_cast<std::size_t>(sensor.range.cells))};
+  added.cell_W[static_cast<std::size_t>(row)] = power_W;
+  return added;
+}
+
+}  // namespace
+
+TEST_CASE("Added power counts over black, noise that is shown counts as well", "[plan]") {
+  renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
+  const sensors::GreyScale scale(facts.sensor);
+  for (const int row : {0, 523}) {
+    const double floor_W = scale.bscope_floor_W(row), noise_W = facts.sensor.noise_power_W();
+    const renderer::AddedPower added = in_cell(facts.sensor, row, 0.01 * floor_W);
+    facts.noise_shown = false;
+    CHECK(renderer::largest_change_dB(added, facts) == Approx(change_dB(0.01)).epsilon(1e-9));
+    // Noise is 14 dB over black at 3.7 km and far below it at 200 m.
+    facts.noise_shown = true;
+    CHECK(renderer::largest_change_dB(added, facts) ==
+          Approx(change_dB(0.01 * floor_W / std::max(floor_W, noise_W))).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("In a realisation the largest draw lifts added power over black, not over noise",
+          "[plan]") {
+  renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
+  facts.sample = true;
+  const double floor_W = sensors::GreyScale(facts.sensor).bscope_floor_W(523);
+  const renderer::AddedPower added = in_cell(facts.sensor, 523, 0.01 * floor_W);
+  CHECK(renderer::largest_change_dB(added, facts) == Approx(change_dB(0.2288)).epsilon(1e-4));
+  facts.noise_shown = true;
+  CHECK(renderer::largest_change_dB(added, facts) ==
+        Approx(change_dB(0.01 * floor_W / facts.sensor.noise_power_W())).epsilon(1e-9));
+}
+
+TEST_CASE("A row of the flat-earth C-scope may hold all cells, its noise with them", "[plan]") {
+  renderer::SceneFacts facts = facts_with(Display::CScopeMode::flat_earth);
+  const sensors::Sensor& sensor = facts.sensor;
+  renderer::AddedPower added = in_cell(sensor, 0, 0.0);
+  double sum_W_m3 = 0.0;
+  for (int row = 0; row < sensor.range.cells; ++row) {
+    const double range_m = sensors::range_middle_m(sensor.range, row);
+    added.cell_W[static_cast<std::size_t>(row)] = 1e-21;
+    sum_W_m3 += 1e-21 * range_m * range_m * range_m;
+  }
+  CHECK(renderer::largest_change_dB(added, facts) ==
+        Approx(change_dB(sum_W_m3 / sensors::GreyScale(sensor).cscope_floor_W_m3())));
+  facts.noise_shown = true;
+  CHECK(renderer::largest_change_dB(added, facts) ==
+        Approx(change_dB(1e-21 / sensor.noise_power_W())));
+}
+
+TEST_CASE("A row of the true C-scope has its own floor and noise", "[plan]") {
+  renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
+  renderer::AddedPower added = in_cell(facts.sensor, 0, 0.0);
+  added.row_W_m3 = 0.1 * sensors::GreyScale(facts.sensor).cscope_floor_W_m3();
+  CHECK(renderer::largest_change_dB(added, facts) == Approx(change_dB(0.1)));
+  facts.noise_shown = true;
+  CHECK(renderer::largest_change_dB(added, facts) ==
+        Approx(change_dB(added.row_W_m3 / sensors::cscope_noise_W_m3(facts.sensor))));
+}
+
+TEST_CASE("No change is larger than the display's window", "[plan]") {
+  const renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
+  CHECK(renderer::largest_change_dB(in_cell(facts.sensor, 5, 1.0), facts) ==
+        renderer::window_dB(facts.sensor));
+}
+
+TEST_CASE("Noise is part of the floor where the plan shows it for certain", "[plan]") {
+  renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
+  facts.largest_eta_m2_per_m3 = 1e-11;
+  const auto rain_dB = [&](const char* wishes, double accuracy_grey) {
+    for (const core::EffectDecision& each :
+         renderer::plan(facts, accuracy_grey,
+                        *wishes == 0 ? renderer::EffectWishes{}
+                                     : renderer::parse_effect_wishes(wishes))
+             .decisions)
+      if (each.effect == renderer::kRainEcho) return each.bound_dB;
+    return -1.0;
+  };
+  const double over_noise_dB = rain_dB("+thermal-noise", 0.5);
+  const double over_black_dB = rain_dB("-thermal-noise", 0.5);
+  CHECK(over_noise_dB < 0.5 * over_black_dB);
+  CHECK(rain_dB("", 0.5) == over_noise_dB);
+  CHECK(rain_dB("all", 0.5) == over_noise_dB);
+  CHECK(rain_dB("none", 0.5) == over_black_dB);
+  // At an accuracy at which noise itself might be left out nothing may count on it.
+  CHECK(rain_dB("", 500.0) == over_black_dB);
+}
+
+TEST_CASE("The largest echo of a wall across the beam is what the kernel deposits", "[plan]") {
+  // Of constant sigma0 / sin psi, at one range, through the whole beam: K G Omega / R^2.
+  const sensors::Sensor sensor = tests::hivision(4);
+  const double range_m = sensors::range_edge_m(sensor.range, 100);
+  const renderer::AddedPower most =
+      renderer::largest_echo({0.3, 0.0, 0.0}, renderer::whole_beam(sensor), sensor);
+  const double spread_m = range_m - renderer::kSpreadCells * sensor.range.cell_m;
+  CHECK(most.cell_W[100] ==
+        Approx(sensor.radar_constant_W_m2() * 0.3 *
+               sensors::two_way_width(sensor.antenna.azimuth) *
+               sensors::two_way_width(sensor.antenna.elevation) / (spread_m * spread_m)));
+  renderer::World world = tests::world(
+      sensor, tests::ground(2000.0, 500.0, [](double, double) { return 0.0; }),
+      {materials::PhongNrcs(1e-9, 0.0, 1.0), materials::PhongNrcs(0.3, 0.0, 1.0)},
+      {tests::box({-900.0, range_m + 2.0, 0.0}, {900.0, range_m + 12.0, 600.0}, 1)});
+  const renderer::Frame frame =
+      renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(300.0));
+  double brightest_W = 0.0;
+  for (std::size_t row = 95; row < 110; ++row)
+    brightest_W = std::max(brightest_W, frame.bscope_W[row * 4 + 1]);
+  CHECK(brightest_W < most.cell_W[100]);
+  CHECK(brightest_W > 0.25 * most.cell_W[100]);
+}
+
+}  // namespace fanbeam

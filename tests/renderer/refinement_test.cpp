@@ -1,0 +1,159 @@
+// Refinement to an accuracy, and whether its estimate of the error can be believed.
+#include "renderer/accuracy/refinement.h"
+
+#include <catch2/catch.hpp>
+
+#include "core/parallel.h"
+#include "renderer/accuracy/grey_error.h"
+#include "renderer/plan/caster_choice.h"
+#include "tests/renderer/city_world.h"
+
+namespace {
+
+using namespace fanbeam;
+using namespace fanbeam::tests;
+
+constexpr double kHeight_m = 60.0;
+
+renderer::FramePose pose_of(std::uint64_t number) {
+  const auto random = [number](std::uint32_t draw) { return uniform(11, number, draw); };
+  renderer::FramePose pose = level_pose(55.0 + 40.0 * random(0));
+  pose.position_m.x = 200.0 * random(1) - 100.0;
+  pose.position_m.y = 200.0 * random(2) - 100.0;
+  pose.q_NB = core::quaternion_from({0.0, 0.0, 2.0 * core::kPi * random(3)});
+  return pose;
+}
+
+struct Tally {
+  int cases = 0, within = 0;
+  double lowest = 1e9, highest = 0.0;  // true error over estimate
+
+  void add(double true_grey, double estimate_grey) {
+    const double ratio = true_grey / estimate_grey;
+    ++cases;
+    within += ratio > 1.0 / 1.5 && ratio < 1.5;
+    lowest = std::min(lowest, ratio);
+    highest = std::max(highest, ratio);
+  }
+};
+
+struct Rms {
+  double bscope_grey, cscope_grey;
+};
+
+// As a display shows both pictures.
+Rms true_error(const renderer::GreyReference& reference, const renderer::Frame& frame, bool noise) {
+  const renderer::FrameError error = reference.error_of({frame.bscope_W, frame.cscope_W_m3});
+  return noise ? Rms{error.bscope.with_noise.rms, error.cscope.with_noise.rms}
+               : Rms{error.bscope.noise_free.rms, error.cscope.noise_free.rms};
+}
+
+}  // namespace
+
+TEST_CASE("The true error lies within a factor 1.5 of its estimate in 95 % of frames over a city",
+          "[refinement]") {
+  constexpr std::uint64_t kPoses = 20;
+  const renderer::World world = city_world(narrow(12), everywhere);
+  // Refined to 1 and to 0.5 grey, and as they come.
+  std::vector<renderer::Sampling> samplings;
+  for (const renderer::CasterKind caster :
+       {renderer::CasterKind::rays, renderer::CasterKind::profile}) {
+    samplings.push_back(renderer::refined_sampling(caster, 1.0));
+    samplings.push_back(renderer::refined_sampling(caster, 0.5));
+    samplings.push_back(caster == renderer::CasterKind::rays ? renderer::sampling_for(4.0)
+                                                             : slices(8));
+    samplings.back().estimate_error = true;
+  }
+  std::vector<Tally> tallies(samplings.size());
+  for (std::uint64_t number = 0; number < kPoses; ++number) {
+    const renderer::FramePose pose = pose_of(number);
+    const renderer::Effects effects{.thermal_noise = number % 2 == 1};
+    const auto render = [&](const renderer::Sampling& sampling) {
+      return renderer::FrameRenderer(world, sampling, {}, effects).render(pose);
+    };
+    const renderer::Frame converged = render(renderer::reference_sampling(number));
+    const renderer::GreyReference reference(world.sensor,
+                                            {converged.bscope_W, converged.cscope_W_m3});
+    for (std::size_t s = 0; s < samplings.size(); ++s) {
+      const renderer::Frame frame = render(samplings[s]);
+      REQUIRE(frame.error.has_value());
+      CHECK(frame.error->reached);
+      const double target_grey = samplings[s].target_grey;
+      if (target_grey > 0.0) {
+        CHECK(frame.error->rms_grey <= target_grey);
+        CHECK(frame.error->cscope_rms_grey <= target_grey);
+      }
+      const Rms error = true_error(reference, frame, effects.thermal_noise);
+      tallies[s].add(error.bscope_grey, frame.error->rms_grey);
+      tallies[s].add(error.cscope_grey, frame.error->cscope_rms_grey);
+    }
+  }
+  Tally all;
+  for (std::size_t s = 0; s < samplings.size(); ++s) {
+    UNSCOPED_INFO("sampling " << s << ": " << tallies[s].within << " of " << tallies[s].cases
+                              << ", true over estimate " << tallies[s].lowest << " to "
+                              << tallies[s].highest);
+    all.cases += tallies[s].cases;
+    all.within += tallies[s].within;
+  }
+  CHECK(all.within >= 0.95 * all.cases);
+}
+
+TEST_CASE("A city on one side is refined on that side alone", "[refinement]") {
+  const sensors::Sensor sensor = narrow(82);
+  const renderer::World half = city_world(sensor, [](double x, double) { return x < -30.0; });
+  const renderer::World whole = city_world(sensor, everywhere);
+  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
+  for (const renderer::CasterKind kind :
+       {renderer::CasterKind::rays, renderer::CasterKind::profile}) {
+    const renderer::Sampling sampling = renderer::refined_sampling(kind, 0.5);
+    const auto samples = [&](const renderer::FanSums& sums) {
+      return static_cast<double>(kind == renderer::CasterKind::rays ? sums.rays : sums.slices);
+    };
+    const auto refined = [&](const renderer::World& world, renderer::FanSums& sums) {
+      const auto caster = caster_of(world, sampling);
+      renderer::SightLines none;
+      return renderer::Refinement(world, sampling, *caster, nullptr, false)
+          .cast(antenna, true, sums, none);
+    };
+    renderer::FanSums of_half, of_whole;
+    const renderer::ErrorEstimate estimate = refined(half, of_half);
+    refined(whole, of_whole);
+    REQUIRE(estimate.levels >= 4);
+    const auto caster = caster_of(half, sampling);
+    double all = 0.0;
+    for (int level = 0; level < estimate.levels; ++level)
+      all += samples(cast_level(*caster, level, antenna));
+    INFO(renderer::name_of(kind) << ": " << samples(of_half) << " of " << all << ", built up "
+                                 << "all over " << samples(of_whole));
+    CHECK(samples(of_half) < 0.6 * all);
+    CHECK(samples(of_whole) > 1.5 * samples(of_half));
+    // The right quarter of the fan holds the first two levels and nothing else.
+    renderer::FanSums first = cast_level(*caster, 0, antenna);
+    mix_in(cast_level(*caster, 1, antenna), 0.5, first);
+    const auto from =
+        static_cast<std::ptrdiff_t>(first.sub_columns / 4 * 3) * std::ptrdiff_t{first.cells};
+    CHECK(std::equal(first.range_W_per_rad.begin() + from, first.range_W_per_rad.end(),
+                     of_half.range_W_per_rad.begin() + from));
+  }
+}
+
+TEST_CASE("R10 refined frames have the same bytes for 1 and 2 threads", "[refinement]") {
+  const renderer::World world = city_world(narrow(24), everywhere);
+  for (const renderer::CasterKind kind :
+       {renderer::CasterKind::rays, renderer::CasterKind::profile}) {
+    const renderer::FrameRenderer frames(world, renderer::refined_sampling(kind, 0.5), {}, {});
+    const renderer::Frame expected = frames.render(pose_of(3));
+    REQUIRE(expected.error.has_value());
+    CHECK(expected.error->levels > 2);
+    for (const int threads : {1, 2}) {
+      const core::ThreadLimit limit(threads);
+      const renderer::Frame again = frames.render(pose_of(3));
+      CHECK(again.bscope_W == expected.bscope_W);
+      CHECK(again.cscope_W_m3 == expected.cscope_W_m3);
+      CHECK(again.error->rms_grey == expected.error->rms_grey);
+      CHECK(again.rays == expected.rays);
+      CHECK(again.slices == expected.slices);
+    }
+  }
+}
