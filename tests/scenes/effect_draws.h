@@ -37,6 +37,8 @@ inline void draw_beam(Draws& draws, double low_deg, double high_deg, double lobe
   cut.cut_rad = cut.half_power_width_rad * draws.between(0.8, 1.6);
   if (draws.chance(0.1)) cut.shape = sensors::BeamCut::Shape::sinc_squared;
   if (!draws.chance(lobes)) return;
+  // Two-way -61 dB: a cell on the edge of the cut does not show which rays it got.
+  cut.cut_rad = 1.6 * cut.half_power_width_rad;
   cut.side_lobe_gain = draws.scaled(1e-11, 1e-2);
   cut.side_lobe_extent_rad = core::radians(draws.between(20.0, 90.0));
 }
