@@ -28,16 +28,16 @@ inline terrain::HeightField level_ground() {
   return ground(1300.0, 50.0, [](double, double) { return 0.0; });
 }
 
-// About half of the plots of a grid of 40 m, where `built` allows: lengths, heights and directions
-// are drawn.
-inline Body city(const std::function<bool(double, double)>& built) {
+// Buildings on a `share` of the plots of a grid of 40 m, where `built` allows: lengths, heights and
+// directions are drawn.
+inline Body city(const std::function<bool(double, double)>& built, double share) {
   std::vector<terrain::Prism> prisms;
   std::uint64_t plot = 0;
   for (double x = -1000.0; x <= 1000.0; x += 40.0)
     for (double y = -1000.0; y <= 1000.0; y += 40.0) {
       ++plot;
       const auto random = [plot](std::uint32_t draw) { return uniform(5, plot, draw); };
-      if (!built(x, y) || random(0) < 0.5) continue;
+      if (!built(x, y) || random(0) >= share) continue;
       const double turn_rad = core::kPi * random(1);
       const terrain::SurfacePatch outline =
           terrain::rectangle_patch({x, y}, {std::cos(turn_rad), std::sin(turn_rad)},
@@ -53,9 +53,10 @@ inline Body city(const std::function<bool(double, double)>& built) {
 }
 
 inline renderer::World city_world(const sensors::Sensor& sensor,
-                                  const std::function<bool(double, double)>& built) {
+                                  const std::function<bool(double, double)>& built,
+                                  double share = 0.5) {
   std::vector<Body> bodies;
-  bodies.push_back(city(built));
+  bodies.push_back(city(built, share));
   return world(sensor, level_ground(), city_library(), std::move(bodies));
 }
 

@@ -24,17 +24,19 @@ renderer::FramePose pose_of(std::uint64_t number) {
   return pose;
 }
 
+// Frames together count as one wide picture: mean squares add up.
 struct Tally {
   int cases = 0, within = 0;
-  double lowest = 1e9, highest = 0.0;  // true error over estimate
+  double true_grey2 = 0.0, estimate_grey2 = 0.0;
 
   void add(double true_grey, double estimate_grey) {
     const double ratio = true_grey / estimate_grey;
     ++cases;
     within += ratio > 1.0 / 1.5 && ratio < 1.5;
-    lowest = std::min(lowest, ratio);
-    highest = std::max(highest, ratio);
+    true_grey2 += true_grey * true_grey;
+    estimate_grey2 += estimate_grey * estimate_grey;
   }
+  double true_over_estimate() const { return std::sqrt(true_grey2 / estimate_grey2); }
 };
 
 struct Rms {

@@ -97,6 +97,14 @@ inline scenes::Spot draw_spot(Draws& draws, double reach_m) {
   return spot;
 }
 
+// Without its side lobes such an antenna looks along other rays: over relief, walls, runways and
+// the borders of rain cells these differ by more than the lobes do. Its scenes have none of them.
+inline bool lobes_move_rays(const sensors::Antenna& antenna) {
+  constexpr auto kSinc = sensors::BeamCut::Shape::sinc_squared;
+  return antenna.elevation.side_lobe_gain > 0.0 || antenna.elevation.shape == kSinc ||
+         antenna.azimuth.shape == kSinc;
+}
+
 inline void draw_weather(Draws& draws, EffectScene& scene) {
   atmosphere::Weather& weather = scene.weather();
   weather.humidity = draws.chance(0.3) ? 0.0 : draws.uniform();
@@ -128,7 +136,7 @@ inline void draw_weather(Draws& draws, EffectScene& scene) {
   } else {
     weather.rain_top_m = draws.between(50.0, 2000.0);
   }
-  if (draws.chance(0.2)) {
+  if (!lobes_move_rays(scene.sensor().antenna) && draws.chance(0.2)) {
     scenes::RainCellDescription shower;
     shower.at = draw_spot(draws, scene.sensor().range.maximum_m());
     shower.cell.radius_m = draws.between(50.0, 1000.0);
@@ -136,14 +144,6 @@ inline void draw_weather(Draws& draws, EffectScene& scene) {
     scene.description.rain_cells = {shower};
   }
   scene.description.surface_state = static_cast<materials::SurfaceState>(draws.whole(0, 1));
-}
-
-// Without its side lobes such an antenna looks at the ground along other rays: over relief, walls
-// and runways these differ by more than the lobes do. Its scenes are level and of one material.
-inline bool lobes_move_rays(const sensors::Antenna& antenna) {
-  constexpr auto kSinc = sensors::BeamCut::Shape::sinc_squared;
-  return antenna.elevation.side_lobe_gain > 0.0 || antenna.elevation.shape == kSinc ||
-         antenna.azimuth.shape == kSinc;
 }
 
 // Of a scene whose weather and sensor are drawn.
