@@ -40,10 +40,10 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
       command
           .add_option("--accuracy", options.accuracy_grey,
                       "Error allowed, RMS in grey levels: half of it is for effects left out, half "
-                      "for sampling, which is refined frame by frame until its estimate says so "
-                      "(one grey level is 0.24 dB with the default display)")
-          ->check(number_from(0.01, 100.0))
-          ->excludes(rays);
+                      "for sampling, which is refined frame by frame until its estimate says so; "
+                      "with --rays-per-cell for effects alone (one grey level is 0.24 dB with the "
+                      "default display)")
+          ->check(number_from(0.01, 100.0));
   CLI::Option* budget =
       command
           .add_option("--time-budget", options.time_budget_ms,

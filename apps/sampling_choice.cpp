@@ -126,7 +126,7 @@ SamplingChoice choose_sampling(const RenderOptions& options, const scenes::Scene
   const renderer::CasterKind caster = scene.caster.chosen;
   if (options.reference) {
     choice.sampling = renderer::reference_sampling(options.seed);
-  } else if (options.accuracy_grey > 0.0) {
+  } else if (options.accuracy_grey > 0.0 && !(options.rays_per_cell > 0.0)) {
     choice.sampling =
         renderer::refined_sampling(caster, sampling_share_grey(options.accuracy_grey));
   } else {

@@ -1,6 +1,7 @@
 // How finely a run samples: as told, as fine as an accuracy needs, or as fine as a time allows.
 //
-//   --rays-per-cell, the scene, or the default   one sampling for all frames
+//   --rays-per-cell, the scene, or the default   one sampling for all frames; with --rays-per-cell
+//                                                an accuracy is for effects alone
 //   --reference                                  converged
 //   --accuracy GREY                              every frame refined until its estimated error is at
 //                                                most half of GREY (renderer/accuracy/refinement.h);

@@ -9,7 +9,8 @@
 // be 0.50 and 0.71. A slice's errors are edges that fall between two slices, evenly spread: halving
 // the spacing of a step function gives 0.29, for the old ones 0.58. Rays have a part in common that
 // D does not see, the interval of ranges that a ray stands for. The factors are fits to converged
-// pictures; docs/accuracy-and-cost.md holds estimates against true errors.
+// pictures; docs/performance-notes.md holds estimates against true errors. What every early sample
+// missed, a narrow thing behind others, is in no estimate.
 //
 // Refined is where it is needed: columns whose own error is above the target get the next level,
 // with the columns beside them that their beam reaches, until the RMS over all columns is at most

@@ -172,11 +172,22 @@ TEST_CASE("Time and accuracy together: the coarsest sampling that is accurate en
   }
 }
 
+TEST_CASE("A time budget with an accuracy is repeated by --rays-per-cell with that accuracy",
+          "[accuracy]") {
+  const TemporaryFolder folder;
+  const std::string words = kPictures + "--frames 120 --caster rays --accuracy 4" +
+                            narrow_sensor(folder);
+  const fs::path chosen = folder.path() / "chosen", told = folder.path() / "told";
+  render(chosen, words + " --time-budget 1e6");
+  const nlohmann::json budget = json_of(chosen / "run.json")["time_budget"];
+  render(told, words + " --rays-per-cell " + budget["rays_per_cell"].dump());
+  CHECK((pictures(chosen) == pictures(told)));
+}
+
 TEST_CASE("Ways to sample that contradict each other, and no numbers, are usage errors",
           "[accuracy]") {
   const TemporaryFolder folder;
   for (const auto& [words, named] : std::vector<std::pair<std::string, std::string>>{
-           {"--accuracy 1 --rays-per-cell 4", "--accuracy"},
            {"--accuracy 1 --reference", "--accuracy"},
            {"--accuracy 1 --estimate-error", "--accuracy"},
            {"--time-budget 50 --rays-per-cell 4", "--time-budget"},
