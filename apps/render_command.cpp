@@ -52,14 +52,15 @@ ProductSet parse_products(const std::string& text) {
 }
 
 // What was asked for and what was reached, where an accuracy or a time was asked for.
-void print_accuracy(const RunRecord& record) {
+void print_accuracy(const RunRecord& record, double accuracy_grey) {
   const SamplingChoice& choice = record.choice;
   if (choice.budget_ms > 0.0)
     fmt::print(
         "{:.1f} ms of {:.1f} ms a frame, sampling error {:.2f} grey: the same again with "
-        "--rays-per-cell {}{}\n",
+        "--rays-per-cell {}{}{}\n",
         choice.slowest_ms, choice.budget_ms, choice.estimated_error_grey,
         core::number_text(choice.samples),
+        accuracy_grey > 0.0 ? " --accuracy " + core::number_text(accuracy_grey) : std::string(),
         choice.fits ? "" : " (the coarsest there is, and too slow)");
   double largest_grey = 0.0;
   std::size_t estimated = 0, missed = 0;
@@ -116,7 +117,8 @@ class Run {
   core::EffectPlan plan_of(int index) const {
     return options_.plan_per_frame ? scenes::frame_plan(scene_, index) : scene_.plan;
   }
-  FrameOutput render_frame(const renderer::FrameRenderer& frame_renderer, FrameRecord& record) const;
+  FrameOutput render_frame(const renderer::FrameRenderer& frame_renderer,
+                           FrameRecord& record) const;
   renderer::Products wanted() const {
     const bool both = products_.contains("pair") || products_.contains("preview");
     const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north");
@@ -136,8 +138,7 @@ class Run {
 void Run::render_frames() {
   const sensors::Sensor& sensor = scene_.description.sensor;
   const std::vector<int> frames = parse_frames(options_.frames, scene_.frame_count());
-  renderer::PlannedFrames renderers(scene_.world, record_.choice.sampling, wanted(),
-                                    options_.seed);
+  renderer::PlannedFrames renderers(scene_.world, record_.choice.sampling, wanted(), options_.seed);
   FrameWriter writer(folder_, products_, sensor);
   std::optional<Preview> preview;
   if (products_.contains("preview"))
@@ -198,7 +199,7 @@ void Run::print_summary() const {
   if (resumed > 0) fmt::print(" ({} already there)", resumed);
   fmt::print(", scene built in {:.1f} s\n", record_.scene_build_s);
   fmt::print("cast by {}: {}\n", caster_text(record_.choice.sampling), scene_.caster.reason);
-  print_accuracy(record_);
+  print_accuracy(record_, options_.accuracy_grey);
   for (const core::EffectDecision& decision : scene_.plan.decisions)
     fmt::print("  {:14} {:3}  {}\n", decision.effect, decision.on ? "on" : "off", decision.reason);
   for (const std::string& product : products_) {

@@ -41,8 +41,8 @@ bool within(const ErrorEstimate& error, double target_grey) {
 // Of errors that have nothing to do with each other.
 ErrorEstimate together(const ErrorEstimate& one, const ErrorEstimate& other) {
   return {std::hypot(one.rms_grey, other.rms_grey),
-          std::hypot(one.cscope_rms_grey, other.cscope_rms_grey), std::max(one.levels, other.levels),
-          one.reached && other.reached};
+          std::hypot(one.cscope_rms_grey, other.cscope_rms_grey),
+          std::max(one.levels, other.levels), one.reached && other.reached};
 }
 
 FanSums empty_like(const FanSums& fan) {

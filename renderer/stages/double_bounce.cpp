@@ -65,8 +65,8 @@ struct StripScratch {
 class Strip {
  public:
   Strip(const World& world, const Sampling& sampling, const ElevationFan& fan,
-        const BounceTracer& tracer, const sensors::AntennaFrame& antenna,
-        const PassPlaces& places, FanSums& sums, int strip, StripScratch& scratch)
+        const BounceTracer& tracer, const sensors::AntennaFrame& antenna, const PassPlaces& places,
+        FanSums& sums, int strip, StripScratch& scratch)
       : world_(world),
         sampling_(sampling),
         fan_(fan),
@@ -201,9 +201,8 @@ class Strip {
     Share share;
     share.from_cell = (std::min(a_m, b_m) - gate.minimum_m) / gate.cell_m;
     share.to_cell = (std::max(a_m, b_m) - gate.minimum_m) / gate.cell_m;
-    share.power_W_per_rad =
-        places_.weight * echo.density_W_per_rad2 * span_rad(sent.interval) /
-        std::max(sampling_.jittered_passes, 1);
+    share.power_W_per_rad = places_.weight * echo.density_W_per_rad2 * span_rad(sent.interval) /
+                            std::max(sampling_.jittered_passes, 1);
     share.row = (display.cscope_top_rad - echo.elevation_rad) * display.cscope_rows /
                 display.cscope_span_rad;
     if (echo.range_m >= gate.minimum_m && echo.range_m < gate.maximum_m())

@@ -34,8 +34,7 @@ class DoubleBounce {
   void add(const sensors::AntennaFrame& antenna, FanSums& sums, int level = 0) const;
 
  private:
-  void add_pass(const sensors::AntennaFrame& antenna, int pass, double weight,
-                FanSums& sums) const;
+  void add_pass(const sensors::AntennaFrame& antenna, int pass, double weight, FanSums& sums) const;
 
   const World& world_;
   Sampling sampling_;

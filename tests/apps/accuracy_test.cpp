@@ -175,8 +175,8 @@ TEST_CASE("Time and accuracy together: the coarsest sampling that is accurate en
 TEST_CASE("A time budget with an accuracy is repeated by --rays-per-cell with that accuracy",
           "[accuracy]") {
   const TemporaryFolder folder;
-  const std::string words = kPictures + "--frames 120 --caster rays --accuracy 4" +
-                            narrow_sensor(folder);
+  const std::string words =
+      kPictures + "--frames 120 --caster rays --accuracy 4" + narrow_sensor(folder);
   const fs::path chosen = folder.path() / "chosen", told = folder.path() / "told";
   render(chosen, words + " --time-budget 1e6");
   const nlohmann::json budget = json_of(chosen / "run.json")["time_budget"];

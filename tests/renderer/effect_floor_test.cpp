@@ -100,9 +100,9 @@ TEST_CASE("Noise is part of the floor where the plan shows it for certain", "[pl
   facts.largest_eta_m2_per_m3 = 1e-11;
   const auto rain_dB = [&](const char* wishes, double accuracy_grey) {
     for (const core::EffectDecision& each :
-         renderer::plan(facts, accuracy_grey,
-                        *wishes == 0 ? renderer::EffectWishes{}
-                                     : renderer::parse_effect_wishes(wishes))
+         renderer::plan(
+             facts, accuracy_grey,
+             *wishes == 0 ? renderer::EffectWishes{} : renderer::parse_effect_wishes(wishes))
              .decisions)
       if (each.effect == renderer::kRainEcho) return each.bound_dB;
     return -1.0;
@@ -125,13 +125,12 @@ TEST_CASE("The largest echo of a wall across the beam is what the kernel deposit
       renderer::largest_echo({0.3, 0.0, 0.0}, renderer::whole_beam(sensor), sensor);
   const double spread_m = range_m - renderer::kSpreadCells * sensor.range.cell_m;
   CHECK(most.cell_W[100] ==
-        Approx(sensor.radar_constant_W_m2() * 0.3 *
-               sensors::two_way_width(sensor.antenna.azimuth) *
+        Approx(sensor.radar_constant_W_m2() * 0.3 * sensors::two_way_width(sensor.antenna.azimuth) *
                sensors::two_way_width(sensor.antenna.elevation) / (spread_m * spread_m)));
-  renderer::World world = tests::world(
-      sensor, tests::ground(2000.0, 500.0, [](double, double) { return 0.0; }),
-      {materials::PhongNrcs(1e-9, 0.0, 1.0), materials::PhongNrcs(0.3, 0.0, 1.0)},
-      {tests::box({-900.0, range_m + 2.0, 0.0}, {900.0, range_m + 12.0, 600.0}, 1)});
+  renderer::World world =
+      tests::world(sensor, tests::ground(2000.0, 500.0, [](double, double) { return 0.0; }),
+                   {materials::PhongNrcs(1e-9, 0.0, 1.0), materials::PhongNrcs(0.3, 0.0, 1.0)},
+                   {tests::box({-900.0, range_m + 2.0, 0.0}, {900.0, range_m + 12.0, 600.0}, 1)});
   const renderer::Frame frame =
       renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(300.0));
   double brightest_W = 0.0;

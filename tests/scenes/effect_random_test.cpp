@@ -37,8 +37,7 @@ TEST_CASE("200 random scenes: the planned picture is that with everything on to 
     const double change_grey = largest_difference_grey(planned.frame, all.frame);
     CHECK(left_out_grey(planned.plan) <= accuracy_grey / 2.0);
     CHECK(change_grey <= 1.0);
-    CHECK(change_grey <=
-          left_out_grey(planned.plan) + (other_rays ? kOtherRays_grey : 0.0) + 1e-9);
+    CHECK(change_grey <= left_out_grey(planned.plan) + (other_rays ? kOtherRays_grey : 0.0) + 1e-9);
     for (const core::EffectDecision& each : planned.plan.decisions)
       if (!each.on && each.bound_grey > 0.0) ++left_out[each.effect];
   }
