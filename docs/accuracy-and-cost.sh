@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes docs/accuracy-and-cost.md and its plots in docs/images/ from real runs of `fanbeam cost`.
-# Some ten minutes on two cores; leave the machine alone meanwhile. With --quick in one or two, and with
+# A quarter of an hour on two cores; leave the machine alone meanwhile. With --quick in one or two, and with
 # figures that mean nothing. Build first: ./dev build.
 set -euo pipefail
 
