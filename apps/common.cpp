@@ -4,6 +4,8 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <system_error>
@@ -100,12 +102,16 @@ int exit_code_of(const std::vector<core::Problem>& problems) {
 
 int run_guarded(const std::function<int()>& command) {
   try {
-    return command();
+    const int exit_code = command();
+    std::cout.flush();
+    if (!std::cout || std::fflush(stdout) != 0)
+      throw std::system_error(errno, std::generic_category(), "standard output");
+    return exit_code;
   } catch (const core::InputError& error) {
     print_problems(error.problems());
     return exit_code_of(error.problems());
-  } catch (const fs::filesystem_error& error) {
-    std::cerr << "fanbeam: " << error.what() << '\n';
+  } catch (const std::system_error& error) {  // of files, of printing to a full disk, of threads
+    std::cerr << "fanbeam: E-IO: " << error.what() << '\n';
     return kExitIo;
   } catch (const std::exception& error) {
     std::cerr << "fanbeam: internal error: " << error.what()

@@ -15,6 +15,7 @@
 #include "apps/cost/ladder.h"
 #include "apps/cost/numerics.h"
 #include "apps/cost/turns.h"
+#include "apps/frame_choice.h"
 #include "apps/render_command.h"
 #include "core/files.h"
 #include "core/machine.h"
@@ -26,15 +27,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// In the middle of each half, so that neither is the first or the last frame.
-std::vector<int> spread_frames(int count) {
-  return count < 4 ? std::vector<int>{count / 2} : std::vector<int>{count / 4, 3 * count / 4};
+// One of each half, so that neither is the first or the last.
+std::vector<int> frames_of(const CostOptions& options, int count) {
+  const std::vector<int> frames = parse_frames(options.frames, count);
+  return options.frames.empty() ? spread_over(frames, count < 4 ? 1 : 2) : frames;
 }
 
 renderer::CasterKind effects_caster(const CostOptions& options, const scenes::Scene& scene) {
   const renderer::CasterWish wish =
       options.caster.empty() ? scene.description.caster : renderer::caster_wish(options.caster);
   return wish == renderer::CasterWish::rays ? renderer::CasterKind::rays : scene.caster.chosen;
+}
+
+renderer::Sampling default_sampling(renderer::CasterKind caster) {
+  return renderer::sampling_for(caster, renderer::default_samples(caster));
 }
 
 double time_once_ms(const FrameWork& work) {
@@ -48,11 +54,10 @@ Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
   Pace pace;
   pace.build_s = scene.build_s;
   pace.frame_ms = time_once_ms(
-      {scene.world, pose, renderer::sampling_for(renderer::kDefaultRaysPerCell), effects});
+      {scene.world, pose, default_sampling(renderer::CasterKind::rays), effects});
   if (slices)
     pace.slices_ms =
-        time_once_ms({scene.world, pose,
-                      renderer::profile_sampling_for(renderer::kDefaultSlicesPerColumn), effects});
+        time_once_ms({scene.world, pose, default_sampling(renderer::CasterKind::profile), effects});
   pace.naive_ms = time_once_ms({scene.world,
                                 pose,
                                 renderer::NaiveKind::dithered,
@@ -151,12 +156,6 @@ CostFigures run(const CostBench& quiet_bench, const CostOptions& options,
   return figures;
 }
 
-renderer::Sampling effects_sampling(const CostOptions& options, const scenes::Scene& scene) {
-  return effects_caster(options, scene) == renderer::CasterKind::profile
-             ? renderer::profile_sampling_for(renderer::kDefaultSlicesPerColumn)
-             : renderer::sampling_for(renderer::kDefaultRaysPerCell);
-}
-
 CostEffort effort_of(const CostOptions& options) {
   CostEffort effort = options.quick ? quick_effort() : full_effort();
   if (options.repetitions > 0) effort.repetitions = options.repetitions;
@@ -177,9 +176,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
     build.caster = renderer::CasterWish::profile;  // refuses where there are none
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
   if (!common.quiet) print_problems(problems.all());
-  const std::vector<int> frames = options.frames.empty()
-                                      ? spread_frames(scene->frame_count())
-                                      : parse_frames(options.frames, scene->frame_count());
+  const std::vector<int> frames = frames_of(options, scene->frame_count());
   const fs::path folder = options.output.empty() ? fs::path("out") / (description.name + "-cost")
                                                  : fs::path(options.output);
   fs::create_directories(folder);  // before minutes are spent
@@ -196,7 +193,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
                         effort_of(options),
                         measure_pace(*scene, frames.front(), slices),
                         slices,
-                        effects_sampling(options, *scene),
+                        default_sampling(effects_caster(options, *scene)),
                         frames};
   write(run(bench, options, common, threads.threads()), folder);
   if (common.quiet) return kExitDone;

@@ -29,15 +29,6 @@ bool* switch_of(std::string_view effect, Effects& effects, const renderer::World
   return nullptr;
 }
 
-// Every effect as decided, but this one.
-renderer::EffectWishes all_but(const core::EffectPlan& plan, const std::string& flipped) {
-  renderer::EffectWishes wishes;
-  for (const core::EffectDecision& decision : plan.decisions)
-    (decision.on != (decision.effect == flipped) ? wishes.forced_on : wishes.forced_off)
-        .push_back(decision.effect);
-  return wishes;
-}
-
 double render_ms(const FrameRenderer& renderer, const renderer::FramePose& pose) {
   const auto begin = std::chrono::steady_clock::now();
   const renderer::Frame frame = renderer.render(pose);
@@ -97,6 +88,14 @@ EffectCost cost_of(const core::EffectDecision& decision, const scenes::Scene& sc
 
 }  // namespace
 
+renderer::EffectWishes all_but(const core::EffectPlan& plan, std::string_view flipped) {
+  renderer::EffectWishes wishes;
+  wishes.base = renderer::EffectWishes::Base::none;
+  for (const core::EffectDecision& decision : plan.decisions)
+    if (decision.on != (decision.effect == flipped)) wishes.forced_on.push_back(decision.effect);
+  return wishes;
+}
+
 std::vector<std::optional<EffectCost>> effect_costs(const scenes::Scene& scene,
                                                     const scenes::SceneDescription& description,
                                                     const CostRun& run,
@@ -125,14 +124,6 @@ double frame_ms(const scenes::Scene& scene, const CostRun& run) {
     }
   }
   return median_of(std::move(times_ms)).ms;
-}
-
-std::vector<int> spread_over(const std::vector<int>& frames, std::size_t count) {
-  std::vector<int> spread;
-  count = std::min(count, frames.size());
-  for (std::size_t i = 0; i < count; ++i)
-    spread.push_back(frames[(2 * i + 1) * frames.size() / (2 * count)]);
-  return spread;
 }
 
 }  // namespace fanbeam::apps

@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "renderer/casting/sampling.h"
@@ -20,6 +21,9 @@ struct EffectCost {
   double ms = 0.0;  // more than 0: the effect takes time
   double error_ms = 0.0;
 };
+
+// Every effect as decided, but this one.
+renderer::EffectWishes all_but(const core::EffectPlan& plan, std::string_view flipped);
 
 struct CostRun {
   std::vector<int> frames;
@@ -37,8 +41,5 @@ std::vector<std::optional<EffectCost>> effect_costs(const scenes::Scene& scene,
 
 // Median time of a frame as planned.
 double frame_ms(const scenes::Scene& scene, const CostRun& run);
-
-// Up to `count` of the frames, evenly spread.
-std::vector<int> spread_over(const std::vector<int>& frames, std::size_t count);
 
 }  // namespace fanbeam::apps

@@ -70,6 +70,7 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
       {"fanbeam:rays", std::to_string(record.rays)},
       {"fanbeam:slices", std::to_string(record.slices)},
       {"fanbeam:blanked", std::to_string(record.blanked)},
+      {"fanbeam:unprojected", std::to_string(record.unprojected)},
       {"fanbeam:events", events},
       {"fanbeam:estimated_error_grey",
        record.error ? fmt::format("{} cscope {} levels {}{}", record.error->rms_grey,
@@ -102,6 +103,7 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
     record.rays = std::stoull("0" + value_of(metadata, "fanbeam:rays"));
     record.slices = std::stoull("0" + value_of(metadata, "fanbeam:slices"));
     record.blanked = std::stoull("0" + value_of(metadata, "fanbeam:blanked"));
+    record.unprojected = std::stoull("0" + value_of(metadata, "fanbeam:unprojected"));
     record.error = error_of(value_of(metadata, "fanbeam:estimated_error_grey"));
     record.events.clear();
     const std::string events = value_of(metadata, "fanbeam:events");

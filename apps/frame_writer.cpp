@@ -5,6 +5,7 @@
 #include "apps/detection_product.h"
 #include "apps/frame_table.h"
 #include "core/files.h"
+#include "core/stop.h"
 #include "sensors/display/display.h"
 #include "sensors/display/ppi.h"
 
@@ -94,6 +95,7 @@ void FrameWriter::run() {
     }
     changed_.notify_all();
     try {
+      core::throw_if_stopped();  // what is queued can be rendered again
       write(output);
     } catch (...) {
       const std::lock_guard<std::mutex> lock(mutex_);

@@ -26,16 +26,6 @@ namespace fs = std::filesystem;
 constexpr std::array<const char*, 8> kColours = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                  "#56b4e9", "#e69f00", "#000000", "#8c6d1f"};
 
-// Single quotes keep gnuplot from reading escapes; a quote inside is doubled.
-std::string gnuplot_text(std::string_view text) {
-  std::string result = "'";
-  for (const char c : text) {
-    if (c == '\'') result += '\'';
-    result += c == '\n' ? ' ' : c;
-  }
-  return result + "'";
-}
-
 std::string axis_commands(char name, const PlotAxis& axis) {
   const auto end = [](const std::optional<double>& value) {
     return value ? core::number_text(*value) : std::string("*");
@@ -135,6 +125,16 @@ void run_gnuplot(std::string_view script, const fs::path& file) {
 
 }  // namespace
 
+// Single quotes keep gnuplot from reading escapes; a quote inside is doubled.
+std::string gnuplot_text(std::string_view text) {
+  std::string result = "'";
+  for (const char c : text) {
+    if (c == '\'') result += '\'';
+    result += c == '\n' ? ' ' : c;
+  }
+  return result + "'";
+}
+
 std::string gnuplot_script(const Plot& plot, const fs::path& output) {
   const char* terminal = output.extension() == ".svg" ? "svg" : "pngcairo";
   std::string text = fmt::format(
@@ -157,11 +157,15 @@ std::string gnuplot_script(const Plot& plot, const fs::path& output) {
 }
 
 void write_plot(const Plot& plot, const fs::path& file) {
+  write_plot([&](const fs::path& output) { return gnuplot_script(plot, output); }, file);
+}
+
+void write_plot(const std::function<std::string(const fs::path&)>& script, const fs::path& file) {
   if (file.extension() != ".svg" && file.extension() != ".png")
     core::throw_input_error(core::ErrorClass::unsupported, core::Place{file.string()}, "plot",
                             "\"" + file.extension().string() + "\"", "a name with .svg or .png");
   core::write_atomically(
-      file, [&](const fs::path& temporary) { run_gnuplot(gnuplot_script(plot, temporary), file); });
+      file, [&](const fs::path& temporary) { run_gnuplot(script(temporary), file); });
 }
 
 }  // namespace fanbeam::apps

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace fanbeam::apps {
@@ -52,5 +54,12 @@ std::string gnuplot_script(const Plot& plot, const std::filesystem::path& output
 // E-UNSUPPORTED for another ending than .svg and .png, E-IO when gnuplot is missing (the message
 // names the package) or fails.
 void write_plot(const Plot& plot, const std::filesystem::path& file);
+
+// The same for what `script` tells gnuplot to draw into the path that it is given.
+void write_plot(const std::function<std::string(const std::filesystem::path&)>& script,
+                const std::filesystem::path& file);
+
+// Text in quotes as gnuplot reads it, with nothing inside it special.
+std::string gnuplot_text(std::string_view text);
 
 }  // namespace fanbeam::apps

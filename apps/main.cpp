@@ -4,11 +4,15 @@
 #include "apps/command_line.h"
 #include "apps/compare_command.h"
 #include "apps/cost_command.h"
+#include "apps/doctor_command.h"
+#include "apps/fmcw_command.h"
 #include "apps/materials_command.h"
 #include "apps/objects_table.h"
 #include "apps/plan_command.h"
 #include "apps/render_command.h"
+#include "apps/track_command.h"
 #include "apps/validate_command.h"
+#include "apps/waveform_command.h"
 
 using namespace fanbeam::apps;
 
@@ -61,7 +65,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "fanbeam " + version_text() + " (" + commit_text() + ")");
   app.require_subcommand(1);
   app.footer(
-      "Exit codes: 0 done, 1 comparison failed, 2 usage, 3 invalid input, 4 input/output, 5 bug");
+      "Exit codes: 0 done, 1 comparison failed, 2 usage, 3 invalid input, 4 input/output, 5 bug\n"
+      "doctor: 1 something is wrong; render stopped by Ctrl-C or kill: 130 or 143, as the signal");
 
   CommonOptions common;
   RenderOptions render_options;
@@ -73,6 +78,10 @@ int main(int argc, char** argv) {
   MaterialsFitOptions materials_fit;
   AtmosphereOptions atmosphere_options;
   CostOptions cost_options;
+  DoctorOptions doctor_options;
+  WaveformOptions waveform_options;
+  FmcwOptions fmcw_options;
+  TrackOptions track_options;
   add_render_command(app, render_options, common);
   add_plan_command(app, plan_options, common);
   add_validate_command(app, validate_options, common);
@@ -80,6 +89,10 @@ int main(int argc, char** argv) {
   add_materials_command(app, materials_options, materials_plot, materials_fit, common);
   add_atmosphere_command(app, atmosphere_options, common);
   add_cost_command(app, cost_options, common);
+  add_doctor_command(app, doctor_options, common);
+  add_waveform_command(app, waveform_options, common);
+  add_fmcw_command(app, fmcw_options, common);
+  add_track_command(app, track_options, common);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -94,6 +107,10 @@ int main(int argc, char** argv) {
       return validate(validate_options.scene, validate_options.data, validate_options.sensor,
                       common);
     if (app.got_subcommand("cost")) return cost(cost_options, common);
+    if (app.got_subcommand("doctor")) return examine_scene(doctor_options, common);
+    if (app.got_subcommand("fmcw")) return fmcw(fmcw_options, common);
+    if (app.got_subcommand("track")) return track(track_options, common);
+    if (app.got_subcommand("waveform")) return waveform(waveform_options, common);
     if (app.got_subcommand("compare")) return compare(compare_options, common);
     const CLI::App& materials = *app.get_subcommand("materials");
     if (materials.got_subcommand("plot")) return plot_materials(materials_options, materials_plot);

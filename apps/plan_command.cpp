@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "apps/frame_choice.h"
 #include "apps/plan_report.h"
 #include "apps/render_command.h"
 #include "core/parallel.h"
@@ -34,10 +35,9 @@ void plan_frames(const std::vector<int>& frames, PlanReport& report) {
 
 // As fanbeam render takes it when nothing else is asked for.
 renderer::Sampling sampling_of(const scenes::Scene& scene) {
+  const renderer::CasterKind caster = scene.caster.chosen;
   const double asked = scene.description.rays_per_cell;
-  if (scene.caster.chosen == renderer::CasterKind::profile)
-    return renderer::profile_sampling_for(asked > 0.0 ? asked : renderer::kDefaultSlicesPerColumn);
-  return renderer::sampling_for(asked > 0.0 ? asked : renderer::kDefaultRaysPerCell);
+  return renderer::sampling_for(caster, asked > 0.0 ? asked : renderer::default_samples(caster));
 }
 
 CostReport measure(const scenes::Scene& scene, const scenes::SceneDescription& description,

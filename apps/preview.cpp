@@ -6,10 +6,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <thread>
 #include <vector>
 
 #include "core/errors.h"
+#include "core/stop.h"
 
 extern char** environ;
 
@@ -63,7 +66,10 @@ Preview::Preview(std::filesystem::path file, int columns, int rows, double frame
 
 Preview::~Preview() {
   if (pipe_ >= 0) close(pipe_);
-  if (process_ > 0) waitpid(process_, nullptr, 0);
+  if (process_ > 0) {  // not finished: nobody wants what it has
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+  }
   std::error_code ignored;
   std::filesystem::remove(temporary_, ignored);
 }
@@ -81,7 +87,10 @@ void Preview::finish() {
   close(pipe_);
   pipe_ = -1;
   int status = 0;
-  waitpid(process_, &status, 0);
+  while (waitpid(process_, &status, WNOHANG) == 0) {
+    core::throw_if_stopped();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
   process_ = 0;
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) refuse(file_, "ffmpeg failed");
   std::filesystem::rename(temporary_, file_);

@@ -4,21 +4,23 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <iostream>
 #include <optional>
 
 #include "apps/detection_product.h"
+#include "apps/frame_choice.h"
 #include "apps/frame_metadata.h"
 #include "apps/frame_writer.h"
 #include "apps/obstacle_product.h"
 #include "apps/preview.h"
 #include "apps/progress.h"
 #include "apps/run_record.h"
+#include "apps/stop_on_signals.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "core/stop.h"
 #include "core/units.h"
 #include "renderer/planned_frames.h"
 #include "scenes/frame_plan.h"
@@ -67,7 +69,7 @@ void print_accuracy(const RunRecord& record, double accuracy_grey) {
   for (const FrameRecord& frame : record.frames) {
     if (!frame.error) continue;
     ++estimated;
-    largest_grey = std::max({largest_grey, frame.error->rms_grey, frame.error->cscope_rms_grey});
+    largest_grey = std::max(largest_grey, frame.error->largest_grey());
     if (!frame.error->reached) ++missed;
   }
   if (estimated == 0) return;
@@ -117,6 +119,7 @@ class Run {
   core::EffectPlan plan_of(int index) const {
     return options_.plan_per_frame ? scenes::frame_plan(scene_, index) : scene_.plan;
   }
+  void remove_leftovers() const;
   FrameOutput render_frame(const renderer::FrameRenderer& frame_renderer,
                            FrameRecord& record) const;
   renderer::Products wanted() const {
@@ -138,6 +141,7 @@ class Run {
 void Run::render_frames() {
   const sensors::Sensor& sensor = scene_.description.sensor;
   const std::vector<int> frames = parse_frames(options_.frames, scene_.frame_count());
+  if (options_.resume) remove_leftovers();
   renderer::PlannedFrames renderers(scene_.world, record_.choice.sampling, wanted(), options_.seed);
   FrameWriter writer(folder_, products_, sensor);
   std::optional<Preview> preview;
@@ -148,6 +152,7 @@ void Run::render_frames() {
   Progress progress(scene_.description.name, static_cast<int>(frames.size()), common_.quiet);
   const Clock::time_point begin = Clock::now();
   for (const int index : frames) {
+    core::throw_if_stopped();
     FrameRecord record;
     record.index = index;
     record.time_s = scene_.trajectory.frame_time_s(index, sensor.scan.frame_rate_Hz);
@@ -169,6 +174,13 @@ void Run::render_frames() {
   record_.wall_s = seconds_since(begin);
 }
 
+// What a killed run was writing.
+void Run::remove_leftovers() const {
+  core::remove_abandoned_temporaries(folder_);
+  for (const std::string& product : products_)
+    core::remove_abandoned_temporaries(folder_ / product);
+}
+
 FrameOutput Run::render_frame(const renderer::FrameRenderer& frame_renderer,
                               FrameRecord& record) const {
   const Clock::time_point begin = Clock::now();
@@ -180,6 +192,7 @@ FrameOutput Run::render_frame(const renderer::FrameRenderer& frame_renderer,
   record.rays = output.frame.rays;
   record.slices = output.frame.slices;
   record.blanked = output.frame.blanked;
+  record.unprojected = output.frame.unprojected;
   record.events = output.frame.events;
   record.error = output.frame.error;
   output.metadata = frame_metadata(scene_, record_.choice.sampling, record, fingerprint_);
@@ -212,49 +225,6 @@ void Run::print_summary() const {
 
 }  // namespace
 
-std::vector<int> parse_frames(const std::string& text, int count) {
-  std::vector<int> frames;
-  std::vector<std::optional<long>> parts;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t colon = std::min(text.find(':', from), text.size());
-    const std::string part = text.substr(from, colon - from);
-    from = colon + 1;
-    long value = 0;
-    const auto [end, status] = std::from_chars(part.data(), part.data() + part.size(), value);
-    if (!part.empty() && (status != std::errc() || end != part.data() + part.size()))
-      core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"",
-                              "A:B or A:B:STEP with whole numbers");
-    parts.push_back(part.empty() ? std::nullopt : std::optional<long>(value));
-  }
-  if (parts.size() > 3)
-    core::throw_input_error(core::ErrorClass::parse, "--frames", "\"" + text + "\"",
-                            "A:B or A:B:STEP with whole numbers");
-  const long total = count;
-  const auto from_end = [&](long index) {
-    return std::clamp(index < 0 ? index + total : index, 0L, total);
-  };
-  if (parts.size() == 1 && parts[0]) {
-    const long index = *parts[0] < 0 ? *parts[0] + total : *parts[0];
-    if (index < 0 || index >= total)
-      core::throw_input_error(core::ErrorClass::range, "--frames", text,
-                              fmt::format("a frame from 0 to {}", total - 1));
-    return {static_cast<int>(index)};
-  }
-  const long step = parts.size() == 3 ? parts[2].value_or(1) : 1;
-  if (step < 1)
-    core::throw_input_error(core::ErrorClass::range, "--frames", text, "a STEP of at least 1");
-  const long begin = parts.empty() ? 0 : from_end(parts[0].value_or(0));
-  const long end = parts.size() < 2 ? total : from_end(parts[1].value_or(total));
-  for (long index = begin; index < end; index += step) {
-    frames.push_back(static_cast<int>(index));
-    if (step >= end - index) break;  // index + step may not fit
-  }
-  if (frames.empty())
-    core::throw_input_error(core::ErrorClass::range, "--frames", text,
-                            fmt::format("at least one of the {} frames", total));
-  return frames;
-}
-
 int render(const RenderOptions& options, const CommonOptions& common) {
   ProductSet products = parse_products(options.products);
   const core::ThreadLimit threads(options.threads);
@@ -277,10 +247,17 @@ int render(const RenderOptions& options, const CommonOptions& common) {
   if (!common.quiet) print_problems(problems.all());
   if (scene->trajectory.attitude_derived)
     spdlog::info("the trajectory has no full attitude: missing angles are derived from its path");
-  Run run(options, common, *scene, std::move(products), threads.threads());
-  run.render_frames();
-  run.write_records();
-  run.print_summary();
+  const StopOnSignals stop_on_signals;
+  try {
+    Run run(options, common, *scene, std::move(products), threads.threads());
+    run.render_frames();
+    run.write_records();
+    run.print_summary();
+  } catch (const core::Stopped&) {
+    if (!common.quiet)
+      fmt::print(stderr, "stopped: frames on disk are whole, --resume goes on from there\n");
+    return end_by_stop_signal();
+  }
   return kExitDone;
 }
 

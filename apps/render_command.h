@@ -45,11 +45,9 @@ struct RenderOptions {
   std::uint64_t seed = 0;
 };
 
-// Returns an exit code; throws InputError for bad input.
+// Returns an exit code; throws InputError for bad input. SIGINT and SIGTERM while frames are made
+// end the process by that signal (a shell sees 130 or 143), within a second, with whole files only
+// and without run.json.
 int render(const RenderOptions& options, const CommonOptions& common);
-
-// The frames that "A:B[:STEP]" selects of `count`, as Python's range(count)[A:B:STEP] with STEP
-// above 0; a single number is that frame. Throws InputError E-PARSE or E-RANGE.
-std::vector<int> parse_frames(const std::string& text, int count);
 
 }  // namespace fanbeam::apps

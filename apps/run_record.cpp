@@ -206,7 +206,8 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
   json["frames"] = Json::array();
   for (const FrameRecord& frame : record.frames) {
     Json entry = {{"index", frame.index}, {"time_s", frame.time_s}, {"pose", pose_json(frame.pose)},
-                  {"rays", frame.rays},   {"slices", frame.slices}, {"blanked", frame.blanked}};
+                  {"rays", frame.rays},   {"slices", frame.slices}, {"blanked", frame.blanked},
+                  {"unprojected", frame.unprojected}};
     if (frame.error) {
       entry["estimated_error_grey"] = frame.error->rms_grey;
       entry["estimated_error_cscope_grey"] = frame.error->cscope_rms_grey;

@@ -23,6 +23,7 @@ struct FrameRecord {
   std::uint64_t rays = 0;
   std::uint64_t slices = 0;
   std::uint64_t blanked = 0;
+  std::uint64_t unprojected = 0;
   std::vector<std::string> events;
   std::optional<renderer::ErrorEstimate> error;
   std::vector<std::string> left_out;  // effects of the plan that this frame did without

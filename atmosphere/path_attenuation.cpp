@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "atmosphere/air_column.h"
@@ -37,7 +38,7 @@ class PathAttenuation::Builder {
 
   void build() {
     const std::vector<double> borders = layer_borders();
-    add_outside(-HUGE_VAL, kLowest_m);
+    add_outside(std::numeric_limits<double>::lowest(), kLowest_m);
     for (std::size_t i = 0; i + 1 < borders.size(); ++i) add_layer(borders[i], borders[i + 1]);
     add_outside(kHighest_m, kHighest_m);
     result_.is_clear_ =
@@ -172,7 +173,8 @@ PathAttenuation::Location PathAttenuation::locate(double height_m) const noexcep
   const Layer* layer = layers_.data();
   const Layer* const last = layer + (layers_.size() - 1);
   while (layer != last && height_m >= (layer + 1)->start_m) ++layer;
-  // The layers outside have zero cells per metre; NaN from their infinite start becomes zero too.
+  // The layers outside have zero cells per metre; the lowest starts at the lowest finite number, as
+  // zero times an infinite height would be NaN.
   const double index = std::max(0.0, (height_m - layer->start_m) * layer->cells_per_m);
   return {layer, std::min(layer->first_cell + static_cast<std::size_t>(index), layer->last_cell)};
 }

@@ -36,22 +36,23 @@ std::string data_folder() {
   return (fs::path(FANBEAM_SOURCE_DIR) / ".." / "shared" / "data").lexically_normal().string();
 }
 
-std::unique_ptr<scenes::Scene> build(const std::string& name) {
+std::unique_ptr<scenes::Scene> build(const std::string& name,
+                                     const scenes::BuildOptions& options) {
   const fs::path shipped = FANBEAM_SOURCE_DIR;
   core::ProblemList problems;
   const scenes::SceneDescription description =
       scenes::read_scene(shipped / "scenes" / name, {shipped, {data_folder()}, {}}, problems);
-  return scenes::build_scene(description, {}, problems);
+  return scenes::build_scene(description, options, problems);
 }
 
-std::optional<BenchScene> load(const std::string& name) {
+std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptions& options) {
   fmt::print(stderr, "building {}\n", name);
   forget_peak_memory();
   const double before_bytes = process_memory_bytes("VmRSS");
   BenchScene result;
   result.name = name;
   try {
-    result.scene = build(name);
+    result.scene = build(name, options);
   } catch (const core::InputError& error) {
     const auto& problems = error.problems();
     const bool only_missing =

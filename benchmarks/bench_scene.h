@@ -28,10 +28,11 @@ struct BenchScene {
 std::string data_folder();
 
 // Reads and builds a shipped scene of the source tree. Throws core::InputError.
-std::unique_ptr<scenes::Scene> build(const std::string& name);
+std::unique_ptr<scenes::Scene> build(const std::string& name,
+                                     const scenes::BuildOptions& options = {});
 
 // The same with its memory; nothing, and a line on stderr, when its data are not there.
-std::optional<BenchScene> load(const std::string& name);
+std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptions& options = {});
 
 // One frame of the approach.
 struct View {

@@ -15,9 +15,7 @@ std::vector<double> cast_as_asked(std::vector<double> slices) {
 }  // namespace
 
 renderer::Sampling Effort::reference(std::uint64_t seed) const {
-  renderer::Sampling sampling = renderer::reference_sampling(seed);
-  sampling.jittered_passes = reference_passes;
-  return sampling;
+  return renderer::reference_sampling(seed, reference_passes);
 }
 
 Effort full_effort() {
@@ -31,6 +29,7 @@ Effort full_effort() {
   effort.turns = 11;
   effort.scaling_turns = 5;
   effort.sequence_frames = 48;
+  effort.estimate_frames = 3;
   effort.scaling_cells = {224, 707, 1225, 2236};  // 0.1, 1, 3 and 10 million triangles
   return effort;
 }
@@ -47,6 +46,7 @@ Effort quick_effort() {
   effort.naive = {1, 1, 0.0};
   effort.turns = effort.scaling_turns = 2;
   effort.sequence_frames = 4;
+  effort.estimate_frames = 1;
   effort.scaling_cells = {100, 224};
   return effort;
 }

@@ -23,12 +23,13 @@ struct Effort {
   int turns = 0;
   int scaling_turns = 0;
   int sequence_frames = 0;
+  int estimate_frames = 0;         // of each shipped scene
   std::vector<int> scaling_cells;  // of the ground along each side of the square
 
   renderer::Sampling reference(std::uint64_t seed) const;
 };
 
-// Some seven minutes on two cores.
+// Some twenty minutes on two cores.
 Effort full_effort();
 
 // A minute on two cores that exercises every part. Its figures mean nothing.

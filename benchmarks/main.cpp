@@ -97,6 +97,7 @@ Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int 
     report.scenes.push_back(measure(scene, &scene == &scenes.back(), effort, threads));
   if (const auto obstacles = load(kObstacleScene))
     report.agreement.push_back(measure_agreement(view_at(*obstacles, kDistances_m[1]), effort));
+  report.estimates = check_estimates(effort);
   return report;
 }
 

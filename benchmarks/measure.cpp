@@ -18,11 +18,6 @@ constexpr double kMostPlainRays = 5e6;  // more do not help it
 constexpr double kFewNaiveRays = 1e6;   // more take a good part of a second: one frame is enough
 constexpr int kSubColumns[] = {1, 2, 4, 8, 16};
 
-renderer::Sampling sampling_of(CasterKind caster, double fineness) {
-  return caster == CasterKind::profile ? renderer::profile_sampling_for(fineness)
-                                       : renderer::sampling_for(fineness);
-}
-
 // What an operating point is chosen from, coarsest first: rays in steps of a quarter of an octave,
 // slices one by one.
 std::vector<double> candidates(CasterKind caster) {
@@ -112,14 +107,14 @@ SamplingFigures ViewBench::finest_within(CasterKind caster, double budget_ms) co
   std::size_t high = steps.size();
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
-    const FrameClock clock(view_, sampling_of(caster, steps[middle]));
+    const FrameClock clock(view_, renderer::sampling_for(caster, steps[middle]));
     double quickest_ms = clock.frame_ms();
     for (int i = 0; i < 4; ++i) quickest_ms = std::min(quickest_ms, clock.frame_ms());
     (quickest_ms <= budget_ms ? low : high) = middle;
   }
   for (;; --low) {
     SamplingFigures figures =
-        measure(sampling_of(caster, steps[low]), steps[low], effort_.operating_point);
+        measure(renderer::sampling_for(caster, steps[low]), steps[low], effort_.operating_point);
     if (figures.frame_ms <= budget_ms || low == 0) return figures;
   }
 }
@@ -141,7 +136,7 @@ void ViewBench::measure_caster(CasterKind caster) {
   CasterFigures& figures = rays ? figures_.rays : figures_.slices;
   tell(rays ? "rays" : "slices");
   for (const double fineness : rays ? effort_.rays_per_cell : effort_.slices)
-    figures.ladder.push_back(measure(sampling_of(caster, fineness), fineness, effort_.ladder));
+    figures.ladder.push_back(measure(renderer::sampling_for(caster, fineness), fineness, effort_.ladder));
   tell(rays ? "rays at 16 Hz and 90 Hz" : "slices at 16 Hz and 90 Hz");
   figures.at_16Hz = finest_within(caster, kBudget16Hz_ms);
   figures.at_90Hz = finest_within(caster, kBudget90Hz_ms);

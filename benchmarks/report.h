@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/estimate_check.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/plan_cost.h"
 #include "benchmarks/scaling.h"
@@ -26,6 +27,7 @@ struct Report {
   double other_cores = 0.0;  // MachineLoad over the whole run
   std::vector<SceneFigures> scenes;
   std::vector<AgreementFigures> agreement;  // in scenes without figures of their own
+  std::vector<EstimateCase> estimates;
   std::vector<std::string> skipped;         // scenes without their data
   std::vector<std::string> plots;           // files, as links of the report
   std::string notes;                        // prose to end with

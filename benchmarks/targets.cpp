@@ -61,6 +61,7 @@ constexpr Target kScaling{3.0, 3.0};
 constexpr Target kPlanTime_ms{20.0, 20.0};
 constexpr Target kPlanSaving{0.3, 0.3, true};
 constexpr Target kOffOverAbsent{1.01, 1.01};
+constexpr Target kEstimatesWithin{0.95, 0.95, true};
 
 std::string target_text(const ErrorTarget& target) {
   return fmt::format("{:.1f} / {:.1f}", target.with_noise, target.noise_free);
@@ -226,6 +227,17 @@ std::string plan_rows(const PlanFigures& plan) {
   return out + absence.markdown();
 }
 
+std::string estimates_row(const std::vector<EstimateCase>& cases) {
+  TargetRow row(
+      fmt::format("all scenes, share of {} frames whose error is within a factor of 1.5 of what "
+                  "they state",
+                  cases.size()),
+      fmt::format("at least {:.2f}", kEstimatesWithin.must));
+  row.add(fmt::format("{:.2f}", share_within(cases)));
+  row.judge(share_within(cases), kEstimatesWithin);
+  return row.markdown();
+}
+
 }  // namespace
 
 std::string targets_markdown(const Report& report) {
@@ -253,6 +265,7 @@ std::string targets_markdown(const Report& report) {
     for (const SequenceFigures& sequence : scene.sequences) out += sequence_row(scene, sequence);
   }
   for (const AgreementFigures& line : report.agreement) out += agreement_rows(line.scene, {line});
+  if (!report.estimates.empty()) out += estimates_row(report.estimates);
   for (const std::string& name : report.skipped)
     out += fmt::format("| {} | | | not measured: its data were not there | |\n", name);
   return out + "\n";

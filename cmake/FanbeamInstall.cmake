@@ -5,7 +5,7 @@ set(data "${CMAKE_INSTALL_DATADIR}/fanbeam")
 set(package "${CMAKE_INSTALL_LIBDIR}/cmake/fanbeam")
 
 install(TARGETS fanbeam)
-foreach(folder core materials atmosphere terrain sensors renderer scenes)
+foreach(folder core materials atmosphere terrain sensors signal tracking renderer scenes)
   install(TARGETS fanbeam_${folder} EXPORT fanbeamTargets)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fanbeam"
           FILES_MATCHING PATTERN "*.h" PATTERN "*_private.h" EXCLUDE)

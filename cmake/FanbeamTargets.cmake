@@ -20,6 +20,12 @@ if(FANBEAM_SANITIZER STREQUAL "address")
 elseif(FANBEAM_SANITIZER STREQUAL "thread")
   target_compile_options(fanbeam_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
   target_link_options(fanbeam_options INTERFACE -fsanitize=thread)
+elseif(FANBEAM_SANITIZER STREQUAL "fuzz")
+  # As for "address", with the coverage that libFuzzer steers by and the checks of the standard library. The cast of a
+  # number beyond its integer type is no part of "undefined".
+  target_compile_options(fanbeam_options INTERFACE
+    -fsanitize=address,undefined,float-cast-overflow,fuzzer-no-link -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_definitions(fanbeam_options INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
 
 # fanbeam_library(core PUBLIC a b PRIVATE c d): sources are all .cpp files in and under the folder.

@@ -313,7 +313,7 @@ ConfigTable ConfigTable::table(std::string_view key) {
   return child;
 }
 
-std::vector<ConfigTable> ConfigTable::tables(std::string_view key) {
+std::vector<ConfigTable> ConfigTable::tables(std::string_view key, std::size_t most) {
   const auto* node = static_cast<const toml::node*>(find(key));
   std::vector<ConfigTable> children;
   if (node == nullptr) return children;
@@ -322,6 +322,10 @@ std::vector<ConfigTable> ConfigTable::tables(std::string_view key) {
                                        [](const toml::node& e) { return e.is_table(); })) {
     error(ErrorClass::parse, key, value_text(*node),
           "an array of tables, [[" + std::string(key) + "]]");
+    return children;
+  }
+  if (array->size() > most) {
+    error(ErrorClass::limit, key, value_text(*node), "at most " + std::to_string(most) + " tables");
     return children;
   }
   for (const toml::node& element : *array) {
@@ -380,6 +384,7 @@ void ConfigTable::Document::report_unknown(const toml::table& table, const std::
   for (const auto& [key, node] : table) {
     const std::string name(key.str());
     if (!known.contains(name)) {
+      if (problems->is_full()) return;
       problems->error(ErrorClass::ref, place_of(key.source(), file), prefix + name, "unknown key",
                       "a key of this table" + suggestion(name, {known.begin(), known.end()}));
       continue;

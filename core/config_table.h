@@ -3,7 +3,7 @@
 // is returned so that reading goes on. Keys that nobody asked for are errors too. Used by scenes,
 // sensors and material libraries alike.
 //
-// Limits: files up to 4 MiB, 64 levels of nesting (E-LIMIT). A syntax error is one E-PARSE: the
+// Limits: files up to 4 MiB, 64 levels of nesting, 10 000 tables in an array (E-LIMIT). A syntax error is one E-PARSE: the
 // parser stops there.
 #pragma once
 
@@ -67,8 +67,9 @@ class ConfigTable {
   // A sub-table; when the key is missing, an empty one that answers with fallbacks (its `present()`
   // is false).
   ConfigTable table(std::string_view key);
-  // An array of tables ([[runway]]); empty when the key is missing.
-  std::vector<ConfigTable> tables(std::string_view key);
+  // An array of tables ([[runway]]); empty when the key is missing. More than `most` are E-LIMIT
+  // and none is returned.
+  std::vector<ConfigTable> tables(std::string_view key, std::size_t most = 10'000);
   // Names of all keys of this table in file order; for free-form maps such as material mappings.
   std::vector<std::string> keys() const;
 

@@ -1,8 +1,10 @@
 #include "core/errors.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 
 namespace fanbeam::core {
 namespace {
@@ -54,6 +56,26 @@ std::string to_string(const Problem& problem) {
   return text;
 }
 
+namespace {
+
+// At most `most` bytes of UTF-8, and dots where some were cut off.
+void shorten(std::string& text, std::size_t most) {
+  if (text.size() <= most) return;
+  while (most > 0 && (static_cast<unsigned char>(text[most]) & 0xC0U) == 0x80U) --most;
+  text.resize(most);
+  text += "...";
+}
+
+// Names and values come from the input, which may hold megabytes of them.
+Problem shortened(Problem problem) {
+  shorten(problem.field, 300);
+  shorten(problem.value, 500);
+  shorten(problem.expected, 2000);
+  return problem;
+}
+
+}  // namespace
+
 InputError::InputError(std::vector<Problem> problems)
     : std::runtime_error(summary(problems)), problems_(std::move(problems)) {}
 
@@ -76,8 +98,8 @@ void throw_input_error(ErrorClass error_class, std::string field, std::string va
 
 void throw_input_error(ErrorClass error_class, Place place, std::string field, std::string value,
                        std::string expected) {
-  throw InputError({Problem{std::string(code(error_class)), std::move(place), std::move(field),
-                            std::move(value), std::move(expected)}});
+  throw InputError({shortened(Problem{std::string(code(error_class)), std::move(place),
+                                      std::move(field), std::move(value), std::move(expected)})});
 }
 
 void ProblemList::error(ErrorClass error_class, Place place, std::string field, std::string value,
@@ -101,14 +123,25 @@ void ProblemList::append(const std::vector<Problem>& problems) {
 }
 
 void ProblemList::add(Problem problem) {
+  problem = shortened(std::move(problem));
   if (problems_.size() < kMost) {
     problems_.push_back(std::move(problem));
-  } else if (problems_.size() == kMost) {
+    return;
+  }
+  if (problems_.size() == kMost) {
     Problem more;
     more.code = "W-MORE";
     more.expected = "further problems are not listed";
     problems_.push_back(std::move(more));
   }
+  // With more errors than have a place, all places hold errors.
+  if (!problem.is_error() || errors_ > kMost) return;
+  // Warnings make room: a refusal has to show its reason.
+  const auto warning = std::find_if(problems_.rbegin() + 1, problems_.rend(),
+                                    [](const Problem& listed) { return !listed.is_error(); });
+  if (warning == problems_.rend()) return;
+  problems_.erase(std::next(warning).base());
+  problems_.insert(problems_.end() - 1, std::move(problem));
 }
 
 void ProblemList::throw_if_errors() const {

@@ -66,8 +66,8 @@ class InternalError : public std::logic_error {
 [[noreturn]] void throw_input_error(ErrorClass error_class, Place place, std::string field,
                                     std::string value, std::string expected);
 
-// Collects what is wrong while reading goes on. Caps the list so that a hostile file cannot fill
-// memory.
+// Collects what is wrong while reading goes on. Caps the list, and the texts in it, so that a
+// hostile file cannot fill memory; when it is full, errors displace warnings.
 class ProblemList {
  public:
   static constexpr std::size_t kMost = 200;
@@ -80,6 +80,8 @@ class ProblemList {
   void append(const std::vector<Problem>& problems);
 
   bool has_errors() const { return errors_ > 0; }
+  // No further error would be listed.
+  bool is_full() const { return errors_ >= kMost; }
   const std::vector<Problem>& all() const { return problems_; }
   // Throws InputError when an error was collected.
   void throw_if_errors() const;

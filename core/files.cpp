@@ -4,9 +4,12 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <fstream>
+#include <regex>
 #include <system_error>
+#include <vector>
 
 #include "core/errors.h"
 
@@ -67,6 +70,20 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
     fs::remove(temporary, status);
     throw_io(path, reason, "a file that can be written");
   }
+}
+
+void remove_abandoned_temporaries(const fs::path& folder) {
+  static const std::regex kTemporary(R"(\..*\.([0-9]{1,9})\.[0-9]+\.tmp(\..*)?)");
+  std::error_code status;
+  std::vector<fs::path> abandoned;
+  for (fs::directory_iterator entry(folder, status), end; !status && entry != end;
+       entry.increment(status)) {
+    const std::string name = entry->path().filename().string();
+    std::smatch parts;
+    if (!std::regex_match(name, parts, kTemporary)) continue;
+    if (kill(std::stoi(parts[1]), 0) != 0 && errno == ESRCH) abandoned.push_back(entry->path());
+  }
+  for (const fs::path& path : abandoned) fs::remove(path, status);
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {

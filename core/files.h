@@ -23,6 +23,10 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
 
+// Removes what processes that live no more left in `folder` (not below it) of write_atomically:
+// files that were never finished. Does nothing where it may not, or where there is no such folder.
+void remove_abandoned_temporaries(const std::filesystem::path& folder);
+
 // `relative` resolved inside `folder`. Throws InputError E-PATH when it is absolute, holds a URI
 // scheme, or leaves the folder (".." or a symbolic link). `place` and `field` go into the message.
 std::filesystem::path path_inside(const std::filesystem::path& folder, const std::string& relative,

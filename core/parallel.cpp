@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "core/stop.h"
+
 #ifdef __SANITIZE_THREAD__
 #include <sanitizer/tsan_interface.h>
 #endif
@@ -37,6 +39,7 @@ struct BodyOrder {};
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   const auto ordered_body = [&body](std::size_t i) {
     [[maybe_unused]] const BodyOrder order;
+    throw_if_stopped();
     body(i);
   };
   [[maybe_unused]] const LoopOrder order;

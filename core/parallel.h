@@ -8,7 +8,7 @@
 namespace fanbeam::core {
 
 // Runs body(i) for every i in [0, count), on oneTBB's workers. Exceptions of the body reach the
-// caller.
+// caller; a request to stop does as Stopped (core/stop.h).
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 // Limits every parallel loop of the process while it lives. 0 means as many threads as the machine

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/errors.h"
 #include "core/random.h"
@@ -20,6 +21,21 @@
 namespace fanbeam::renderer {
 namespace {
 
+// Rays along axes that are none end the process inside the ray caster.
+void check_axes(const glm::dmat3& north_east_down) {
+  constexpr const char* kField = "north, east and down";
+  constexpr double kRounding = 1e-6;
+  for (int i = 0; i < 9; ++i)
+    if (const double part = north_east_down[i / 3][i % 3]; !std::isfinite(part))
+      core::throw_input_error(core::ErrorClass::nonfinite, kField, part, "finite components");
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (const double product = glm::dot(north_east_down[i], north_east_down[j]);
+          !(std::abs(product - (i == j ? 1.0 : 0.0)) <= kRounding))
+        core::throw_input_error(core::ErrorClass::range, kField, product,
+                                "unit vectors at right angles");
+}
+
 void check_pose(const FramePose& pose) {
   // Beyond 1000 km from the scene's origin a float inside the ray caster no longer resolves a range
   // cell.
@@ -32,6 +48,10 @@ void check_pose(const FramePose& pose) {
       core::throw_input_error(core::ErrorClass::range, "sensor position", pose.position_m[axis],
                               "within 1000 km of the scene's origin");
   }
+  check_axes(pose.north_east_down);
+  if (!std::isfinite(pose.time_s))
+    core::throw_input_error(core::ErrorClass::nonfinite, "pose time", pose.time_s,
+                            "a finite number of seconds");
 }
 
 std::unique_ptr<Caster> make_caster(const World& world, const Sampling& sampling) {
@@ -107,10 +127,10 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   frame.error = cast(antenna, elevation_resolved, sums, sight);
   if (effects_.rain_echo && world_.volume_echo)
     add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
-  if (double_bounce_ && !frame.error) double_bounce_->add(antenna, sums);
   frame.rays = sums.rays;
   frame.slices = sums.slices;
   frame.blanked = sums.blanked;
+  frame.unprojected = unprojected_targets(world_, antenna, pose.time_s);
   frame.bscope_W =
       apply_azimuth_beam(sums.range_W_per_rad, sums.cells, sums, sensor, sampling_.sub_columns);
   add_azimuth_side_lobes(sums.range_W_per_rad, sums.cells, sums, sensor, frame.bscope_W);
@@ -135,6 +155,7 @@ std::optional<ErrorEstimate> FrameRenderer::cast(const sensors::AntennaFrame& an
                                                  SightLines& sight) const {
   if (!(sampling_.target_grey > 0.0) && !sampling_.estimate_error) {
     caster_->cast(antenna, with_cscope, CastPass{}, sums, sight);
+    if (double_bounce_) double_bounce_->add(antenna, sums);
     return std::nullopt;
   }
   return Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_.thermal_noise)

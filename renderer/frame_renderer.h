@@ -52,6 +52,7 @@ struct Frame {
   std::uint64_t rays = 0;
   std::uint64_t slices = 0;
   std::uint64_t blanked = 0;           // hits nearer than the first range cell
+  std::uint64_t unprojected = 0;       // point targets abeam of, behind or at the antenna
   std::optional<ErrorEstimate> error;  // when the sampling asks for it
   // "below_terrain": the sensor is not above the ground, the picture holds noise alone.
   // "empty_view": nothing was hit.

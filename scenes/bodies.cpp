@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "scenes/file_budget.h"
 #include "scenes/objects.h"
 #include "scenes/placed_problems.h"
 #include "terrain/buildings/extrusion.h"
@@ -81,7 +82,8 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
 
 // Footprints beyond the terrain are left out with a warning.
 std::vector<terrain::Prism> prisms_of(const BuildingsDescription& buildings, const Ground& ground,
-                                      core::ProblemList& problems) {
+                                      FileBudget& budget, core::ProblemList& problems) {
+  budget.take(buildings.file);
   const std::vector<terrain::Footprint> footprints = terrain::read_footprints(
       buildings.file, {buildings.height_property, buildings.min_height_property}, problems);
   std::vector<terrain::Prism> prisms;
@@ -116,8 +118,9 @@ std::vector<terrain::Prism> prisms_of(const BuildingsDescription& buildings, con
 }
 
 void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
-                   const MaterialNames& names, core::ProblemList& problems, Bodies& bodies) {
-  const std::vector<terrain::Prism> prisms = prisms_of(buildings, ground, problems);
+                   const MaterialNames& names, FileBudget& budget, core::ProblemList& problems,
+                   Bodies& bodies) {
+  const std::vector<terrain::Prism> prisms = prisms_of(buildings, ground, budget, problems);
   terrain::Extrusion city =
       terrain::extrude(prisms, buildings.file.filename().string(),
                        {buildings.wall_material, buildings.roof_material}, problems);
@@ -125,11 +128,15 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,
-               ModelMaterials& model_materials, core::ProblemList& problems, Bodies& bodies) {
+               ModelMaterials& model_materials, FileBudget& budget, core::ProblemList& problems,
+               Bodies& bodies) {
   const auto at_m = ground.local_m(model.at);
   if (!at_m) return;
   PlacedMesh placed;
-  placed.mesh = terrain::load_gltf(model.file, model.root, problems);
+  placed.mesh = terrain::load_gltf(model.file, model.root, problems,
+                                   [&](const std::filesystem::path& file, std::uint64_t most) {
+                                     return budget.read(file, most);
+                                   });
   const glm::dvec3 base_m = ground.on_ground_m(*at_m, model.above_ground_m);
   const glm::dvec3 forward(std::sin(model.heading_rad), std::cos(model.heading_rad), 0.0);
   const glm::dvec3 right(std::cos(model.heading_rad), -std::sin(model.heading_rad), 0.0);
@@ -182,21 +189,31 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
 Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
                     ModelMaterials& model_materials, core::ProblemList& problems) {
   Bodies bodies;
+  FileBudget budget;
+  std::size_t counted = 0;  // meshes
+  std::size_t triangles = 0;
   const auto guarded = [&](const core::Place& place, const char* field, auto&& add) {
+    if (triangles > kMostBodyTriangles) return;
     try {
       add();
     } catch (const core::InputError& error) {
       append_placed(problems, error, place, field);
     }
+    for (; counted < bodies.meshes.size(); ++counted)
+      triangles += bodies.meshes[counted].mesh.triangles.size();
+    if (triangles > kMostBodyTriangles)
+      problems.error(
+          ErrorClass::limit, place, field, std::to_string(triangles) + " triangles",
+          "at most " + std::to_string(kMostBodyTriangles) + " in all boxes, buildings and models");
   };
   for (const BoxDescription& box : scene.boxes)
     guarded(box.place, "box", [&] { add_box(box, ground, names, problems, bodies); });
   for (const BuildingsDescription& buildings : scene.buildings)
     guarded(buildings.place, "buildings",
-            [&] { add_buildings(buildings, ground, names, problems, bodies); });
+            [&] { add_buildings(buildings, ground, names, budget, problems, bodies); });
   for (const ModelDescription& model : scene.models)
     guarded(model.place, "model",
-            [&] { add_model(model, ground, names, model_materials, problems, bodies); });
+            [&] { add_model(model, ground, names, model_materials, budget, problems, bodies); });
   return bodies;
 }
 

@@ -31,11 +31,6 @@ std::string local_text(glm::dvec2 position_m) {
   return whole(position_m.x) + " m east, " + whole(position_m.y) + " m north of the origin";
 }
 
-double mean_elevation_m(const std::vector<terrain::Runway>& runways, double otherwise_m) {
-  if (runways.empty()) return otherwise_m;
-  return (runways[0].ends[0].elevation_m + runways[0].ends[1].elevation_m) / 2;
-}
-
 }  // namespace
 
 terrain::MaterialId MaterialNames::id(const std::string& name, const core::Place& place,
@@ -59,6 +54,11 @@ Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame,
   for (const RunwayDescription& runway : scene.runways)
     runways_.push_back(place_runway(runway, names));
   shape(names);
+}
+
+double Ground::level_m() const {
+  if (runways_.empty()) return scene_.origin.height_m;
+  return (runways_[0].ends[0].elevation_m + runways_[0].ends[1].elevation_m) / 2;
 }
 
 double Ground::ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad,
@@ -126,8 +126,7 @@ Zone Ground::zone(glm::dvec2 position_m) const {
 }
 
 void Ground::shape(const MaterialNames& names) {
-  const NaturalGround natural(scene_.terrain, mean_elevation_m(runways_, scene_.origin.height_m),
-                              names, problems_);
+  const NaturalGround natural(scene_.terrain, level_m(), names, problems_);
   if (!natural.usable()) return;
   std::mutex guard;
   std::size_t outside = 0;

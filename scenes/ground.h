@@ -47,6 +47,8 @@ class Ground {
 
   const terrain::HeightField& field() const { return field_; }
   const std::vector<terrain::Runway>& runways() const { return runways_; }
+  // Height of a plain and mean of generated country, in the scene's datum.
+  double level_m() const;
 
   // Height above the ellipsoid (or the scene's unknown datum) of a height in the datum at a
   // position.

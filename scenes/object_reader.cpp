@@ -15,6 +15,7 @@ using core::radians;
 constexpr core::NumberRange kDistance_m{-100000.0, 100000.0};
 constexpr core::NumberRange kRcs_dBsm{-80.0, 80.0};
 constexpr core::NumberRange kHeading_deg{-360.0, 360.0};
+constexpr std::size_t kMostRunways = 64;  // each flattens its strip of the terrain
 
 double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBsm) {
   return core::power_from_dB(table.number(key, kRcs_dBsm, fallback_dBsm));
@@ -94,7 +95,10 @@ void read_open_material(ConfigTable& table, const DataSearch& search, ModelDescr
   std::filesystem::path beside = model.file;
   beside.replace_extension(".xoma");
   model.open_material_root = model.root;
-  if (std::filesystem::is_regular_file(beside))
+  if (std::filesystem::is_symlink(beside))
+    table.error(core::ErrorClass::path, "open_material", beside.filename().string() + ", a link",
+                "a file beside the model");
+  else if (std::filesystem::is_regular_file(beside))
     model.open_material = beside;
   else
     table.error(core::ErrorClass::io, "open_material", "\"auto\"",
@@ -171,7 +175,7 @@ Spot read_spot(ConfigTable& parent, std::string_view key) {
 void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& objects,
                   SceneDescription& scene) {
   std::set<std::string> ends;
-  for (ConfigTable& table : root.tables("runway")) {
+  for (ConfigTable& table : root.tables("runway", kMostRunways)) {
     scene.runways.push_back(read_runway(table));
     for (const RunwayEndDescription& end : scene.runways.back().ends)
       if (!end.name.empty() && !ends.insert(end.name).second)

@@ -22,6 +22,27 @@ using core::radians;
 
 constexpr core::NumberRange kExtent_m{10.0, 200000.0};
 
+// A scene may not open the rest of the machine to itself: its own data folders lie inside it.
+std::vector<fs::path> read_data_folders(ConfigTable& root, const fs::path& scene_folder) {
+  constexpr std::size_t kMostFolders = 64;
+  std::vector<fs::path> folders;
+  const std::vector<std::string> names = root.texts("data_folders");
+  if (names.size() > kMostFolders) {
+    root.error(core::ErrorClass::limit, "data_folders", std::to_string(names.size()),
+               "at most " + std::to_string(kMostFolders));
+    return folders;
+  }
+  for (const std::string& name : names) {
+    try {
+      folders.push_back(
+          core::path_inside(scene_folder, name, root.place("data_folders"), "data_folders"));
+    } catch (const core::InputError& error) {
+      root.problems().append(error.problems());
+    }
+  }
+  return folders;
+}
+
 void read_scene_table(ConfigTable& root, SceneDescription& scene) {
   ConfigTable table = root.table("scene");
   if (!table.present())
@@ -115,12 +136,13 @@ fs::path find_sensor(ConfigTable& table, const SceneOptions& options, const fs::
   try {
     const fs::path own = core::path_inside(folder, name, table.place("file"), table.path("file"));
     if (fs::is_regular_file(own)) return own;
+    const fs::path shipped = core::path_inside(options.shipped / "sensors", name,
+                                               table.place("file"), table.path("file"));
+    if (fs::is_regular_file(shipped)) return shipped;
   } catch (const core::InputError& error) {
     table.problems().append(error.problems());
     return {};
   }
-  if (fs::is_regular_file(options.shipped / "sensors" / name))
-    return options.shipped / "sensors" / name;
   table.error(core::ErrorClass::io, "file", "\"" + name + "\" not found",
               "a sensor file in the scene's folder or " + (options.shipped / "sensors").string());
   return {};
@@ -176,9 +198,8 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
   ConfigTable root = ConfigTable::from_file(file, problems);
   if (!root.present()) return scene;
   std::vector<fs::path> data = options.data_folders;
-  const std::vector<std::string> own = root.texts("data_folders");
-  for (auto folder = own.rbegin(); folder != own.rend(); ++folder)
-    data.insert(data.begin(), scene.folder / *folder);
+  const std::vector<fs::path> own = read_data_folders(root, scene.folder);
+  data.insert(data.begin(), own.begin(), own.end());
   const DataSearch search(scene.folder, data);
   read_scene_table(root, scene);
   read_sensor_table(root, options, scene.folder, scene);

@@ -71,13 +71,23 @@ void add_line(const LineDescription& line, const Ground& ground, core::Polarisat
 std::vector<PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
                                        core::ProblemList& problems) {
   std::vector<PointTarget> targets;
-  for (std::size_t i = 0; i < scene.runways.size(); ++i)
+  const auto full = [&](const core::Place& place, const char* field) {
+    if (targets.size() <= kMostPointTargets) return false;
+    problems.error(core::ErrorClass::limit, place, field,
+                   "the scene's point targets: more than " + std::to_string(kMostPointTargets),
+                   "at most that: wider spacings");
+    return true;
+  };
+  for (std::size_t i = 0; i < scene.runways.size(); ++i) {
     add_runway_reflectors(scene.runways[i], ground.runways()[i], ground, targets);
+    if (full(scene.runways[i].place, "runway")) return targets;
+  }
   NearField near_field(scene.sensor);
   for (const LineDescription& line : scene.lines) {
     const std::size_t before = targets.size();
     add_line(line, ground, scene.sensor.waveform.polarisation, problems, targets);
     if (targets.size() > before) near_field.look_at(targets.back().rcs, line.name, line.place);
+    if (full(line.place, "line")) return targets;
   }
   for (const TargetDescription& description : scene.targets) {
     PointTarget target{description.name,

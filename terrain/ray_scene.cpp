@@ -67,8 +67,9 @@ RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch>
   library_->scene = rtcNewScene(library_->device);
   rtcSetSceneFlags(library_->scene, robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
   rtcSetSceneBuildQuality(library_->scene, RTC_BUILD_QUALITY_HIGH);
+  if (has_terrain_) terrain_ = std::move(*terrain);
+  find_base(meshes);
   if (has_terrain_) {
-    terrain_ = std::move(*terrain);
     surface_map_ = std::make_unique<SurfaceMap>(terrain_, std::move(patches));
     add_terrain();
   }
@@ -84,6 +85,18 @@ RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch>
 
 RayScene::~RayScene() = default;
 
+// A coarse step: scenes whose heights count from the airport keep their own zero.
+void RayScene::find_base(const std::vector<PlacedMesh>& meshes) {
+  constexpr double kStep_m = 64.0;
+  double height_m = 0.0;
+  if (has_terrain_) {
+    height_m = terrain_.height_at(0.0, 0.0).value_or(terrain_.height_m.front());
+  } else if (!meshes.empty() && !meshes.front().mesh.vertices_m.empty()) {
+    height_m = meshes.front().mesh.vertices_m.front().z;
+  }
+  base_m_ = kStep_m * std::round(height_m / kStep_m);
+}
+
 void RayScene::add_terrain() {
   RTCGeometry geometry = rtcNewGeometry(library_->device, RTC_GEOMETRY_TYPE_TRIANGLE);
   const auto posts =
@@ -96,7 +109,7 @@ void RayScene::add_terrain() {
     for (int i = 0; i < terrain_.columns; ++i) {
       *vertex++ = static_cast<float>(terrain_.west_m + terrain_.spacing_m * i);
       *vertex++ = static_cast<float>(terrain_.south_m + terrain_.spacing_m * j);
-      *vertex++ = static_cast<float>(terrain_.height_m[terrain_.post(i, j)]);
+      *vertex++ = static_cast<float>(terrain_.height_m[terrain_.post(i, j)] - base_m_);
     }
   }
   for (int j = 0; j + 1 < terrain_.rows; ++j) {
@@ -121,8 +134,10 @@ void RayScene::add_mesh(const PlacedMesh& placed) {
   auto* index = new_buffer<std::uint32_t>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, 12,
                                           mesh.triangles.size());
   library_->throw_on_error();
-  for (const glm::dvec3& position : mesh.vertices_m)
-    for (int axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(position[axis]);
+  for (const glm::dvec3& position_m : mesh.vertices_m) {
+    const glm::dvec3 at_m = in_caster_m(position_m);
+    for (int axis = 0; axis < 3; ++axis) *vertex++ = static_cast<float>(at_m[axis]);
+  }
   std::vector<MaterialId> materials;
   materials.reserve(mesh.triangles.size());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -161,7 +176,7 @@ std::array<glm::dvec3, 3> RayScene::triangle(std::uint32_t geometry,
   for (std::size_t corner = 0; corner < 3; ++corner) {
     const float* const vertex =
         vertices + 3 * static_cast<std::size_t>(indices[3 * std::size_t{primitive} + corner]);
-    corners[corner] = {vertex[0], vertex[1], vertex[2]};
+    corners[corner] = in_scene_m({vertex[0], vertex[1], vertex[2]});
   }
   return corners;
 }
@@ -218,12 +233,13 @@ std::optional<SceneHit> RayScene::intersect(const glm::dvec3& origin_m, const gl
   const double length = glm::length(direction);
   if (length == 0.0) return std::nullopt;
   const glm::dvec3 unit = direction / length;
+  const glm::dvec3 start_m = in_caster_m(origin_m);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRayHit ray{};
-  ray.ray.org_x = static_cast<float>(origin_m.x);
-  ray.ray.org_y = static_cast<float>(origin_m.y);
-  ray.ray.org_z = static_cast<float>(origin_m.z);
+  ray.ray.org_x = static_cast<float>(start_m.x);
+  ray.ray.org_y = static_cast<float>(start_m.y);
+  ray.ray.org_z = static_cast<float>(start_m.z);
   ray.ray.dir_x = static_cast<float>(unit.x);
   ray.ray.dir_y = static_cast<float>(unit.y);
   ray.ray.dir_z = static_cast<float>(unit.z);
@@ -248,12 +264,13 @@ bool RayScene::occluded(const glm::dvec3& from_m, const glm::dvec3& to_m,
   if (length <= clearance_m) return false;
   const glm::dvec3 unit = path / length;
   check_ray(from_m, unit, 0.0, length);
+  const glm::dvec3 start_m = in_caster_m(from_m);
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   RTCRay ray{};
-  ray.org_x = static_cast<float>(from_m.x);
-  ray.org_y = static_cast<float>(from_m.y);
-  ray.org_z = static_cast<float>(from_m.z);
+  ray.org_x = static_cast<float>(start_m.x);
+  ray.org_y = static_cast<float>(start_m.y);
+  ray.org_z = static_cast<float>(start_m.z);
   ray.dir_x = static_cast<float>(unit.x);
   ray.dir_y = static_cast<float>(unit.y);
   ray.dir_z = static_cast<float>(unit.z);

@@ -1,10 +1,11 @@
 // All surfaces of a scene in one Embree scene: the only place that talks to the ray-casting
 // library.
 //
-// Coordinates inside the caster are floats relative to `origin_m`, which is placed near the
-// airport; with vertices and sensor within 10 km of it a range is good to 25 mm worst case and 0.15
-// mm median. The robust flag is on unless switched off to measure it: rays aimed at shared edges
-// are not lost. Instances of this class are read-only after construction and safe to use from many threads. Embree's error callback
+// Coordinates inside the caster are floats, east and north from the scene's origin, which lies near
+// the airport, up from a height near that of the ground there (`in_caster_m`): what is added to all
+// heights costs no digits. With vertices and sensor within 10 km of the origin a range is good to
+// 25 mm worst case and 0.15 mm median. The robust flag is on unless switched off to measure it:
+// rays aimed at shared edges are not lost. Instances of this class are read-only after construction and safe to use from many threads. Embree's error callback
 // turns its errors into exceptions of ours.
 #pragma once
 
@@ -85,11 +86,20 @@ class RayScene {
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
-  // Nearest hits; `active` has all bits set (-1) for lanes to cast and 0 elsewhere. Rays must be
-  // finite with near >= 0 and |coordinate| < 1e18: the packaged library ends the process otherwise.
-  // The casters build rays from checked poses; rays from elsewhere go through `is_valid_ray`.
+  // Nearest hits; `active` has all bits set (-1) for lanes to cast and 0 elsewhere. Origins are
+  // `in_caster_m`. Rays must be finite with near >= 0 and |coordinate| < 1e18: the packaged library
+  // ends the process otherwise. The casters build rays from checked poses; rays from elsewhere go
+  // through `check_ray`.
   void intersect(const int* active, RayPacket<8>& packet) const noexcept;
   void intersect(const int* active, RayPacket<16>& packet) const noexcept;
+
+  // Where a packet's ray must start for one that starts here in the scene, and the way back.
+  glm::dvec3 in_caster_m(const glm::dvec3& scene_m) const noexcept {
+    return {scene_m.x, scene_m.y, scene_m.z - base_m_};
+  }
+  glm::dvec3 in_scene_m(const glm::dvec3& caster_m) const noexcept {
+    return {caster_m.x, caster_m.y, caster_m.z + base_m_};
+  }
 
   // One ray in double precision, checked: R12's inputs are InputError E-NONFINITE or E-RANGE.
   std::optional<SceneHit> intersect(const glm::dvec3& origin_m, const glm::dvec3& direction,
@@ -131,6 +141,7 @@ class RayScene {
  private:
   static constexpr double kTopsSpacing_m = 32.0;
   struct Library;
+  void find_base(const std::vector<PlacedMesh>& meshes);
   void add_terrain();
   void add_mesh(const PlacedMesh& placed);
   void index_tops(const std::vector<PlacedMesh>& meshes);
@@ -138,6 +149,7 @@ class RayScene {
   std::unique_ptr<Library> library_;
   bool has_terrain_ = false;
   bool has_meshes_ = false;
+  double base_m_ = 0.0;  // height in the scene of the caster's zero
   HeightField terrain_;
   std::unique_ptr<SurfaceMap> surface_map_;
   std::vector<std::vector<MaterialId>>

@@ -34,9 +34,9 @@ std::string head_section(const CostFigures& figures) {
              figures.frames.size() == 1 ? "frame" : "frames", frames, figures.repetitions);
 }
 
-// "0.53", "below 0.10" where the ladder ends sooner, nothing where not even its first step fits.
-std::optional<std::string> error_text(const std::vector<LadderStep>& steps, Way way, double ms,
-                                      PickError error) {
+// The coarsest and the finest step of a way; null where it has none.
+std::pair<const LadderStep*, const LadderStep*> ends_of(const std::vector<LadderStep>& steps,
+                                                        Way way) {
   const LadderStep* first = nullptr;
   const LadderStep* last = nullptr;
   for (const LadderStep& step : steps) {
@@ -44,6 +44,13 @@ std::optional<std::string> error_text(const std::vector<LadderStep>& steps, Way 
     if (first == nullptr) first = &step;
     last = &step;
   }
+  return {first, last};
+}
+
+// "0.53", "below 0.10" where the ladder ends sooner, nothing where not even its first step fits.
+std::optional<std::string> error_text(const std::vector<LadderStep>& steps, Way way, double ms,
+                                      PickError error) {
+  const auto [first, last] = ends_of(steps, way);
   if (first == nullptr || first->time.ms > ms) return std::nullopt;
   if (const auto at = error_at_ms(steps, way, ms, error)) return fmt::format("{:.2f}", *at);
   return fmt::format("below {:.2f}", error(last->error));
@@ -97,13 +104,7 @@ std::string equal_error_text(const std::vector<LadderStep>& steps, Way way, doub
                              PickError error) {
   if (const auto ms = ms_at_error(steps, way, rms_grey, error))
     return fmt::format("{:.1f} ms", *ms);
-  const LadderStep* first = nullptr;
-  const LadderStep* last = nullptr;
-  for (const LadderStep& step : steps) {
-    if (step.way != way) continue;
-    if (first == nullptr) first = &step;
-    last = &step;
-  }
+  const auto [first, last] = ends_of(steps, way);
   if (first == nullptr) return "-";
   return error(first->error) < rms_grey ? fmt::format("under {:.1f} ms", first->time.ms)
                                         : fmt::format("over {:.1f} ms", last->time.ms);

@@ -8,6 +8,7 @@
 
 #include "apps/cost/frame_work.h"
 #include "apps/cost/turns.h"
+#include "apps/effect_cost.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -18,15 +19,6 @@ std::string_view what_of(std::string_view name) {
   for (const renderer::Effect& effect : renderer::effect_catalogue())
     if (effect.name == name) return effect.what;
   return {};
-}
-
-// The bench's plan, but for one effect.
-renderer::EffectWishes wishes_without(const core::EffectPlan& plan, std::string_view other) {
-  renderer::EffectWishes wishes;
-  wishes.base = renderer::EffectWishes::Base::none;
-  for (const core::EffectDecision& decision : plan.decisions)
-    if (decision.on != (decision.effect == other)) wishes.forced_on.push_back(decision.effect);
-  return wishes;
 }
 
 Change change_of(const std::vector<double>& a, const std::vector<double>& b) {
@@ -87,7 +79,7 @@ std::vector<EffectPrice> measure_effects(const CostBench& bench) {
     effect.bound_dB = decision.bound_dB;
     effect.frame = bench.frames.front();
     scenes::BuildOptions build = bench.build;
-    build.wishes = wishes_without(bench.scene.plan, decision.effect);
+    build.wishes = all_but(bench.scene.plan, decision.effect);
     // Planning costs nothing: whether the effect can occur is known before its scene is built. What
     // only a wish makes possible, as speckle, has its bound there.
     const core::EffectPlan other_plan =

@@ -17,9 +17,7 @@ const std::vector<double>& CostEffort::ladder(Way way) const {
 }
 
 renderer::Sampling CostEffort::reference(std::uint64_t seed) const {
-  renderer::Sampling sampling = renderer::reference_sampling(seed);
-  sampling.jittered_passes = reference_passes;
-  return sampling;
+  return renderer::reference_sampling(seed, reference_passes);
 }
 
 CostEffort full_effort() {
@@ -43,8 +41,9 @@ CostEffort quick_effort() {
 }
 
 renderer::Sampling sampling_of(Way way, double fineness) {
-  return way == Way::slices ? renderer::profile_sampling_for(fineness)
-                            : renderer::sampling_for(fineness);
+  const bool slices = way == Way::slices;
+  return renderer::sampling_for(
+      slices ? renderer::CasterKind::profile : renderer::CasterKind::rays, fineness);
 }
 
 double Pace::step_ms(Way way, double fineness) const {

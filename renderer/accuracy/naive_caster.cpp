@@ -10,20 +10,10 @@
 #include "renderer/casting/fan_layout.h"
 #include "renderer/casting/frame_path_loss.h"
 #include "renderer/casting/ray_caster.h"
+#include "renderer/casting/sub_column.h"
 #include "sensors/cells.h"
 
 namespace fanbeam::renderer {
-namespace {
-
-// Multiples of the golden ratio, shifted from sub-column to sub-column.
-double place_in(std::size_t sub_column, std::size_t index) {
-  const double value = static_cast<double>(index) * 0.6180339887498949 +
-                       static_cast<double>(sub_column) * 0.7548776662466927;
-  return value - std::floor(value);
-}
-
-}  // namespace
-
 // What all rays of a frame share.
 struct NaiveCaster::Frame {
   Frame(const World& world, const sensors::AntennaFrame& axes, bool cscope)
@@ -124,7 +114,8 @@ NaiveCaster::Counts NaiveCaster::cast_sub_column(const Frame& frame, std::size_t
   Turn azimuth{};
   for (std::size_t i = 0; i < elevations_rad_.size(); ++i) {
     if (i == 0 || kind_ == NaiveKind::dithered) {
-      const double place = kind_ == NaiveKind::plain ? 0.5 : place_in(sub_column, i);
+      const double place = kind_ == NaiveKind::plain ? 0.5 : dither(static_cast<std::uint32_t>(i),
+                                                                         static_cast<int>(sub_column), 0);
       const double azimuth_rad =
           sums.first_azimuth_rad + (static_cast<double>(sub_column) + place) * sums.step_rad;
       azimuth = {std::cos(azimuth_rad), std::sin(azimuth_rad)};

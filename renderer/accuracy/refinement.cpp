@@ -20,9 +20,10 @@ constexpr double kBeamReach = 0.75;
 
 // Of the difference between old and new samples: refinement.h.
 struct Factors {
-  double of_mean, of_old;
+  double of_old, of_first_mean, of_later_mean;
+  double of_mean(int level) const { return level == 1 ? of_first_mean : of_later_mean; }
 };
-constexpr Factors kSlices{0.45, 0.50}, kRays{0.62, 0.78};
+constexpr Factors kSlices{0.50, 0.42, 0.50}, kRays{0.78, 0.55, 0.70};
 Factors factors_of(CasterKind caster) { return caster == CasterKind::profile ? kSlices : kRays; }
 
 double rms(const std::vector<double>& squares) {
@@ -32,10 +33,6 @@ double rms(const std::vector<double>& squares) {
 
 ErrorEstimate estimate_of(const ColumnError::Squares& squares, double factor, int levels) {
   return {factor * rms(squares.bscope_grey2), factor * rms(squares.cscope_grey2), levels, true};
-}
-
-bool within(const ErrorEstimate& error, double target_grey) {
-  return std::max(error.rms_grey, error.cscope_rms_grey) <= target_grey;
 }
 
 // Of errors that have nothing to do with each other.
@@ -117,7 +114,6 @@ ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with
                                  double target_grey, FanSums& sums, SightLines& sight) const {
   const sensors::Sensor& sensor = world_.sensor;
   const ColumnError difference(sensor, sampling_.sub_columns, noise_);
-  const double factor = factors_of(sampling_.caster).of_mean;
   caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
   const TooCoarse too_coarse(sensor, sampling_.sub_columns, sums);
   std::vector<std::uint32_t> groups = groups_of(sums);
@@ -131,16 +127,17 @@ ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with
     fresh = sums;  // what is not cast again is the same in both pictures
     caster_.cast(antenna, with_cscope, CastPass{level, &groups}, fresh, none);
     const ColumnError::Squares apart = difference.between(sums, fresh);
+    const double factor = factors_of(sampling_.caster).of_mean(level);
     for (const std::size_t c : columns) {
-      error.bscope_grey2[c] = apart.bscope_grey2[c];
-      error.cscope_grey2[c] = apart.cscope_grey2[c];
+      error.bscope_grey2[c] = factor * factor * apart.bscope_grey2[c];
+      error.cscope_grey2[c] = factor * factor * apart.cscope_grey2[c];
     }
     combine_groups(fresh, 0.5, groups, 0.5, sums);
     add_counts(fresh, sums);
-    ErrorEstimate reached = estimate_of(error, factor, level + 1);
-    reached.reached = within(reached, target_grey);
+    ErrorEstimate reached = estimate_of(error, 1.0, level + 1);
+    reached.reached = reached.largest_grey() <= target_grey;
     if (reached.reached || level == kFinestLevel) return reached;
-    columns = too_coarse.columns(error, target_grey / factor);
+    columns = too_coarse.columns(error, target_grey);
     groups = too_coarse.groups(columns);
   }
 }
@@ -171,8 +168,8 @@ ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna, doub
     }
     combine_groups(fresh, 0.5, groups_of(sums), 0.5, echoes);
     add_counts(fresh, echoes);
-    ErrorEstimate reached = estimate_of(apart, kRays.of_mean, level + 1);
-    reached.reached = within(reached, target_grey);
+    ErrorEstimate reached = estimate_of(apart, kRays.of_mean(level), level + 1);
+    reached.reached = reached.largest_grey() <= target_grey;
     if (!reached.reached && level < kFinestBounces) continue;
     sums = plus(std::move(sums), echoes);
     return reached;

@@ -81,18 +81,20 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   const bool level = azimuths_are_upright(frame, surface);
   const bool cone = surface == sensors::ScanSurface::cone;
   glm::dvec2 heading = heading_at(frame, azimuth_rad, level || cone ? 0.0 : lowest_rad_, surface);
-  double drop_m = 0.0;
+  const double below_m =
+      std::abs(sensor.z - ground.height_at(sensor.x, sensor.y).value_or(sensor.z));
+  double drop_m = below_m;
   int step = 0, settling = cone ? 3 : 0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = gate.minimum_m + gate.cell_m * k;
     // The ground distance of a slant range needs the height there: the one of the step before is
-    // close enough.
-    const double distance_m = std::sqrt(std::max(range_m * range_m - drop_m * drop_m, 1.0));
+    // close enough. Nearer than the ground below there is the nadir.
+    const double distance_m = std::sqrt(std::max(range_m * range_m - drop_m * drop_m, 1e-6));
     const double x_m = sensor.x + heading.x * distance_m;
     const double y_m = sensor.y + heading.y * distance_m;
     const std::optional<double> height_m = ground.height_at(x_m, y_m);
     if (!height_m) break;
-    drop_m = std::min(std::abs(sensor.z - *height_m), range_m);
+    drop_m = std::min(std::abs(sensor.z - *height_m), std::max(range_m, below_m));
     const glm::dvec3 relative_m(x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z);
     const double elevation_rad = std::atan(slope_of(frame, relative_m, surface));
     if (settling > 0) {  // a cone's first heading needs its elevation, and the other way round

@@ -91,8 +91,9 @@ class IntervalDeposit {
     alignas(64) int first[kBlockRays], last[kBlockRays];
 
     void split(int i, int first_bin, int last_bin) {
-      const double part = (first_bin + 1.0 - from[i]) / (to[i] - from[i]);
-      share[i] = amount[i] * (part < 1.0 ? part : 1.0);
+      // All of it when the first bin reaches beyond the end, of an interval without width too.
+      const double in_first = first_bin + 1.0 - from[i], width = to[i] - from[i];
+      share[i] = amount[i] * (in_first / (in_first > width ? in_first : width));
       first[i] = first_bin;
       last[i] = last_bin;
     }

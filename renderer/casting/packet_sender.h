@@ -18,7 +18,8 @@ class PacketSender {
       : surfaces_(surfaces),
         record_(record),
         far_m_(static_cast<float>(gate.maximum_m() + 2.0 * gate.cell_m)) {
-    for (int i = 0; i < N; ++i) packet_.aim(i, antenna_m, glm::dvec3(0.0), 0.0);
+    const glm::dvec3 origin_m = surfaces.in_caster_m(antenna_m);
+    for (int i = 0; i < N; ++i) packet_.aim(i, origin_m, glm::dvec3(0.0), 0.0);
   }
 
   void cast(RayBatch& batch) {

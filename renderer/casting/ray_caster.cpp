@@ -1,6 +1,5 @@
 #include "renderer/casting/ray_caster.h"
 
-#include <cmath>
 #include <mutex>
 
 #include "core/parallel.h"
@@ -29,10 +28,10 @@ void cast_all(const RayFrame& frame, const std::vector<std::uint32_t>& groups, F
   });
 }
 
-// Halton points keep passes apart in azimuth and elevation; pass 0 is that of level 0.
+// Pass 0 is that of level 0.
 RayPlaces whole_places(int pass) {
-  return {0.0, 1.0, static_cast<std::uint32_t>(radical_inverse(pass, 2) * 0x1p32),
-          std::fmod(0.5 + radical_inverse(pass, 3), 1.0)};
+  const PassPlace place = pass_place(pass);
+  return {0.0, 1.0, place.azimuth_shift, place.elevation};
 }
 RayPlaces strip_places(int passes, int pass) {
   RayPlaces places = whole_places(passes + pass);
@@ -84,10 +83,10 @@ void RayCaster::cast_groups(const sensors::AntennaFrame& antenna, bool with_csco
   for (int strip = 1; strip < strips; ++strip) {
     lay_out_fan(world_, sampling_, with_cscope, one);
     cast_once(antenna, with_cscope, {sampling, fan, strip_places(strips, strip)}, groups, one);
-    combine_groups(one, 1.0, groups, 1.0, sums);
+    const double share = 1.0 / (strip + 1.0);  // a running mean
+    combine_groups(one, share, groups, 1.0 - share, sums);
     add_counts(one, sums);
   }
-  combine_groups(sums, 0.0, groups, 1.0 / strips, sums);
 }
 
 void RayCaster::cast_once(const sensors::AntennaFrame& antenna, bool with_cscope, const Pass& pass,

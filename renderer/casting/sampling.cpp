@@ -5,10 +5,10 @@
 
 namespace fanbeam::renderer {
 
-Sampling reference_sampling(std::uint64_t seed) {
+Sampling reference_sampling(std::uint64_t seed, int passes) {
   Sampling sampling;
   sampling.sub_columns = 16;
-  sampling.jittered_passes = 16;
+  sampling.jittered_passes = passes;
   sampling.rays_per_cell = 8.0;
   sampling.refinement_depth = 0;
   sampling.largest_step_rad = 1.0e-4;
@@ -45,6 +45,14 @@ Sampling profile_sampling_for(double slices) {
   return sampling;
 }
 
+Sampling sampling_for(CasterKind caster, double samples) {
+  return caster == CasterKind::profile ? profile_sampling_for(samples) : sampling_for(samples);
+}
+
+double default_samples(CasterKind caster) {
+  return caster == CasterKind::profile ? kDefaultSlicesPerColumn : kDefaultRaysPerCell;
+}
+
 Sampling finer_in_elevation(const Sampling& sampling, int times) {
   Sampling finer = sampling;
   finer.rays_per_cell *= times;
@@ -55,7 +63,7 @@ Sampling finer_in_elevation(const Sampling& sampling, int times) {
 }
 
 Sampling refined_sampling(CasterKind caster, double target_grey) {
-  Sampling sampling = caster == CasterKind::profile ? profile_sampling_for(4.0) : sampling_for(4.0);
+  Sampling sampling = sampling_for(caster, 4.0);
   sampling.target_grey = target_grey;
   return sampling;
 }

@@ -41,10 +41,10 @@ struct Sampling {
   bool estimate_error = false;
 };
 
-// Converged rendering as all errors are stated against: 256 jittered azimuths per column, 8 rays
-// per range cell, no interval, no refinement. `seed` offsets the jitter, for the reference's own
-// error.
-Sampling reference_sampling(std::uint64_t seed);
+// Converged rendering as all errors are stated against: 16 jittered azimuths per pass and column, 8
+// rays per range cell, no interval, no refinement. `seed` offsets the jitter, for the reference's
+// own error; fewer passes than the 16 of `--reference` make a quick look.
+Sampling reference_sampling(std::uint64_t seed, int passes = 16);
 
 inline constexpr double kDefaultRaysPerCell = 4.0;
 
@@ -55,7 +55,8 @@ Sampling sampling_for(double rays_per_cell);
 // `times` as many rays in each elevation, neighbours as much closer together.
 Sampling finer_in_elevation(const Sampling& sampling, int times);
 
-// Where refinement to `target_grey` begins: coarse, a sub-column per group's quarter of a column.
+// Where refinement to `target_grey` begins: four azimuths per column, each crossing every range cell
+// once.
 Sampling refined_sampling(CasterKind caster, double target_grey);
 
 inline constexpr double kDefaultSlicesPerColumn = 8.0;
@@ -63,5 +64,9 @@ inline constexpr double kDefaultSlicesPerColumn = 8.0;
 // `slices` azimuth slices per column through the profile caster, at least 1; each crosses every
 // range cell once.
 Sampling profile_sampling_for(double slices);
+
+// One of the two: what `--rays-per-cell` sets, rays or slices, and what it is unless set.
+Sampling sampling_for(CasterKind caster, double samples);
+double default_samples(CasterKind caster);
 
 }  // namespace fanbeam::renderer

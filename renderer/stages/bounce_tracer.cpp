@@ -23,12 +23,13 @@ struct Hit {
   double distance_m = 0.0;
   double sin_grazing = 0.0;
 
-  Hit(const Packet& packet, int i) {
+  Hit(const terrain::RayScene& surfaces, const Packet& packet, int i) {
     const glm::dvec3 along(packet.direction_x[i], packet.direction_y[i], packet.direction_z[i]);
     const glm::dvec3 origin_m(packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]);
     const double length = glm::length(along);
     direction = along / length;
-    point_m = origin_m + along * static_cast<double>(packet.distance[i]);
+    point_m =
+        surfaces.in_scene_m(origin_m + along * static_cast<double>(packet.distance[i]));
     distance_m = length * static_cast<double>(packet.distance[i]);
     normal = glm::normalize(glm::dvec3(packet.normal_x[i], packet.normal_y[i], packet.normal_z[i]));
     sin_grazing = std::min(-glm::dot(direction, normal), 1.0);
@@ -112,7 +113,7 @@ std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna, const An
     const AntennaRay& ray = rays[std::min(i, count - 1)];
     active[i] = i < count ? -1 : 0;
     packet.aim(
-        i, antenna.position_m,
+        i, world_.surfaces->in_caster_m(antenna.position_m),
         sensors::direction(antenna, ray.azimuth_rad, ray.elevation_rad, world_.sensor.scan.surface),
         far_m);
   }
@@ -126,7 +127,7 @@ std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna, const An
     const bool follow = active[i] != 0 && mirror(antenna, packet, i, lanes[i]);
     active[i] = follow ? -1 : 0;
     // B is nearer to p than the farthest range: R2 <= R1 + R3 and R1 + R2 + R3 <= 2 range.
-    mirrored.aim(i, follow ? lanes[i].start_m : antenna.position_m,
+    mirrored.aim(i, world_.surfaces->in_caster_m(follow ? lanes[i].start_m : antenna.position_m),
                  follow ? lanes[i].direction : antenna.forward, far_m);
     if (follow) ++cast;
     any = any || follow;
@@ -143,7 +144,7 @@ std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna, const An
 bool BounceTracer::mirror(const sensors::AntennaFrame& antenna, const Packet& packet, int i,
                           Lane& lane) const {
   if (packet.geometry[i] == terrain::kNoHit) return false;
-  const Hit hit(packet, i);
+  const Hit hit(*world_.surfaces, packet, i);
   if (!(hit.sin_grazing > 0.0 && hit.distance_m > 0.0)) return false;
   const terrain::MaterialId material = world_.surfaces->material(
       packet.geometry[i], packet.primitive[i], hit.point_m.x, hit.point_m.y);
@@ -172,7 +173,7 @@ bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay&
                          const Lane& lane, const Packet& packet, int i, Bounce& bounce) const {
   const sensors::Sensor& sensor = world_.sensor;
   const double boresight_rad = sensor.antenna.boresight_elevation_rad;
-  const Hit hit(packet, i);
+  const Hit hit(*world_.surfaces, packet, i);
   bounce.met = true;
   bounce.surfaces = (lane.surface << 32U) | surface_of(packet, i, hit);
   if (!(hit.sin_grazing > 0.0)) return false;

@@ -259,8 +259,8 @@ void DoubleBounce::add(const sensors::AntennaFrame& antenna, FanSums& sums, int 
 
 void DoubleBounce::add_pass(const sensors::AntennaFrame& antenna, int pass, double weight,
                             FanSums& sums) const {
-  const PassPlaces places{static_cast<std::uint32_t>(radical_inverse(pass, 2) * 0x1p32),
-                          std::fmod(0.5 + radical_inverse(pass, 3), 1.0), weight};
+  const PassPlace place = pass_place(pass);
+  const PassPlaces places{place.azimuth_shift, place.elevation, weight};
   const int strips = (sums.sub_columns + sampling_.sub_columns - 1) / sampling_.sub_columns;
   std::vector<std::vector<Share>> foreign(static_cast<std::size_t>(strips));
   std::vector<std::uint64_t> cast(foreign.size(), 0);

@@ -35,6 +35,7 @@ std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFram
   const glm::dvec3 path_m = position_m - antenna.position_m;
   const double range_m = glm::length(path_m);
   if (range_m < sensor.range.minimum_m || range_m >= sensor.range.maximum_m()) return std::nullopt;
+  if (!(range_m > 0.0)) return std::nullopt;  // at the antenna: no direction
   const glm::dvec3 direction = path_m / range_m;
   const auto angles = sensors::angles(antenna, direction, sensor.scan.surface);
   if (!angles) return std::nullopt;
@@ -59,6 +60,33 @@ std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFram
   return echo;
 }
 
+// Adds to cells of a picture. A plain sum of n powers is good to n 1.1e-16; where that is no longer
+// nothing, what each addition rounds away is kept and given back (Neumaier 1974).
+class CellSums {
+ public:
+  CellSums(std::vector<double>& cells, std::size_t powers) : cells_(cells) {
+    constexpr std::size_t kPlain = 4096;
+    if (powers > kPlain) lost_.assign(cells.size(), 0.0);
+  }
+  ~CellSums() {
+    for (std::size_t i = 0; i < lost_.size(); ++i) cells_[i] += lost_[i];
+  }
+  CellSums(const CellSums&) = delete;
+  CellSums& operator=(const CellSums&) = delete;
+
+  void add(int cell, double power) {
+    const auto i = static_cast<std::size_t>(cell);
+    const double before = cells_[i];
+    cells_[i] = before + power;
+    if (!lost_.empty())
+      lost_[i] += before >= power ? before - cells_[i] + power : power - cells_[i] + before;
+  }
+
+ private:
+  std::vector<double>& cells_;
+  std::vector<double> lost_;
+};
+
 }  // namespace
 
 std::vector<core::Echo> unobstructed_echoes(const World& world,
@@ -67,6 +95,16 @@ std::vector<core::Echo> unobstructed_echoes(const World& world,
   for (std::size_t i = 0; i < world.targets.size(); ++i)
     if (const auto echo = echo_of(world, antenna, time_s, i)) echoes.push_back(*echo);
   return echoes;
+}
+
+std::uint64_t unprojected_targets(const World& world, const sensors::AntennaFrame& antenna,
+                                  double time_s) {
+  const auto count = std::count_if(
+      world.targets.begin(), world.targets.end(), [&](const PointTarget& target) {
+        return !sensors::angles(antenna, target.position_at(time_s) - antenna.position_m,
+                                world.sensor.scan.surface);
+      });
+  return static_cast<std::uint64_t>(count);
 }
 
 SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes, double time_s) {
@@ -105,14 +143,15 @@ std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaF
 void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& sensor,
                 std::vector<double>& bscope_W, std::vector<double>& cscope_W_m3) {
   const int columns = sensor.scan.columns;
+  CellSums bscope(bscope_W, echoes.size()), cscope(cscope_W_m3, echoes.size());
   for (const core::Echo& echo : echoes) {
     const int row = cscope_W_m3.empty() ? sensors::kOutside
                                         : sensors::cscope_row(sensor.display, echo.elevation_rad);
     share_echo(echo, sensor, [&](int cell, int column, double power_W) {
-      bscope_W[static_cast<std::size_t>(cell * columns + column)] += power_W;
+      bscope.add(cell * columns + column, power_W);
       if (row != sensors::kOutside)
-        cscope_W_m3[static_cast<std::size_t>(row * columns + column)] +=
-            power_W * echo.range_m * echo.range_m * echo.range_m;
+        cscope.add(row * columns + column,
+                   power_W * echo.range_m * echo.range_m * echo.range_m);
     });
   }
 }

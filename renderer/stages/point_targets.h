@@ -7,6 +7,7 @@
 // each range cell that its paths end in. Neglected: shadow of the scatterer itself.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/echo.h"
@@ -22,6 +23,11 @@ namespace fanbeam::renderer {
 // is left at 0. Sorted as the targets are.
 std::vector<core::Echo> unobstructed_echoes(const World& world,
                                             const sensors::AntennaFrame& antenna, double time_s);
+
+// How many targets at `time_s` have no direction in the antenna's frame: abeam of it, behind it or
+// at it. They have no echo.
+std::uint64_t unprojected_targets(const World& world, const sensors::AntennaFrame& antenna,
+                                  double time_s);
 
 // Lines of sight to the targets of `echoes`, to be answered by a caster.
 SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes, double time_s);

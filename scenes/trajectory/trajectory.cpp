@@ -99,9 +99,11 @@ Trajectory::Trajectory(std::vector<core::Pose> poses) : poses_(std::move(poses))
   if (poses_.empty())
     core::throw_input_error(ErrorClass::range, "trajectory", "no pose", "at least one pose");
   ProblemList problems;
-  for (std::size_t i = 0; i < poses_.size(); ++i) check_pose(problems, poses_[i], i);
+  for (std::size_t i = 0; i < poses_.size() && !problems.is_full(); ++i)
+    check_pose(problems, poses_[i], i);
   problems.throw_if_errors();
-  for (std::size_t i = 1; i < poses_.size(); ++i) check_step(problems, poses_[i - 1], poses_[i], i);
+  for (std::size_t i = 1; i < poses_.size() && !problems.is_full(); ++i)
+    check_step(problems, poses_[i - 1], poses_[i], i);
   problems.throw_if_errors();
 }
 

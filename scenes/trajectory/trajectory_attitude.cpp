@@ -19,6 +19,8 @@ namespace {
 using core::ErrorClass;
 
 constexpr double kLongestGap_s = 60.0;
+// Two rows a day apart would make a million poses that nobody flew.
+constexpr double kMostBridged_s = 6.0 * 3600.0;
 constexpr double kVelocityHalfWindow_s = 0.5;
 constexpr double kMeanEarthRadius_m = 6371008.8;  // IUGG mean radius of WGS 84
 
@@ -218,14 +220,23 @@ void check_times(const RawTrack& track) {
                               "later than the row before");
 }
 
-void warn_of_gaps(const RawTrack& track, core::ProblemList& problems) {
+void check_gaps(const RawTrack& track, core::ProblemList& problems) {
   std::size_t gaps = 0;
   double longest_s = 0.0;
+  double all_s = 0.0;
   for (std::size_t i = 1; i < track.rows.size(); ++i) {
     const double step_s = track.rows[i].time_s - track.rows[i - 1].time_s;
-    if (step_s > kLongestGap_s) ++gaps;
+    if (step_s > kLongestGap_s) {
+      ++gaps;
+      all_s += step_s;
+    }
     longest_s = std::max(longest_s, step_s);
   }
+  if (all_s > kMostBridged_s)
+    core::throw_input_error(ErrorClass::limit, "gaps of more than 60 s, together",
+                            core::number_text(all_s) + " s",
+                            "at most " + core::number_text(kMostBridged_s) +
+                                " s to be bridged: choose a part of the flight");
   if (gaps > 0)
     problems.warning(
         "GAP", {}, "rows more than 60 s apart", std::to_string(gaps),
@@ -243,10 +254,10 @@ Trajectory trajectory_from(const RawTrack& track, const AttitudeAssumptions& ass
   if (fixed && !recorded)
     problems.warning("ATTITUDE", {}, "fixed pose", "not all angles recorded",
                      "the others are taken as 0");
+  if (!recorded) check_gaps(track, problems);
   Trajectory trajectory(recorded || fixed ? recorded_poses(track)
                                           : derived_poses(track, assumptions));
   trajectory.attitude_derived = !recorded;
-  if (!recorded) warn_of_gaps(track, problems);
   return trajectory;
 }
 

@@ -40,7 +40,7 @@ struct AttitudeAssumptions {
 // The track's heights must already count from the ellipsoid (or be the scene's own). A track of one
 // row is a fixed pose, level and facing north in the angles it lacks.
 // Throws InputError: E-RANGE or E-NONFINITE for an assumption, E-LIMIT for more than kMostTrackRows
-// derived poses, E-TIME and as Trajectory does. Adds to `problems`:
+// derived poses and for gaps of more than a minute that last six hours together, E-TIME and as Trajectory does. Adds to `problems`:
 //   W-GAP       rows more than a minute apart, bridged by a smooth curve that nobody flew
 //   W-ATTITUDE  a fixed pose without attitude
 Trajectory trajectory_from(const RawTrack& track, const AttitudeAssumptions& assumptions,

@@ -11,6 +11,7 @@
 
 #include "core/text.h"
 #include "core/units.h"
+#include "terrain/buildings/crossings_private.h"
 #include "terrain/raster/gdal_messages.h"
 
 namespace fanbeam::terrain {
@@ -81,6 +82,7 @@ class FootprintReader {
   std::vector<Footprint> footprints_;
   std::unique_ptr<OGRCoordinateTransformation> to_wgs84_;
   std::size_t feature_ = 0;
+  std::size_t crossings_left_ = kMostFileCrossings;
   std::size_t repaired_ = 0;
   std::size_t without_height_ = 0;
   std::size_t no_polygons_ = 0;
@@ -165,6 +167,15 @@ void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m
     return refuse_feature("coordinates", "beyond the Earth",
                           "longitude -540 to 540, latitude -90 to 90 deg");
   if (polygon.IsValid()) return add_valid_polygon(polygon, min_height_m, height_m);
+  const std::size_t most = std::min(kMostPolygonCrossings, crossings_left_) + 1;
+  const std::size_t found = crossings(polygon, most);
+  if (found == most)
+    return errors_.error(core::ErrorClass::limit, core::Place{file_},
+                         "feature " + std::to_string(feature_) + " outline",
+                         "crosses itself more than " + std::to_string(most - 1) + " times",
+                         "at most " + std::to_string(kMostPolygonCrossings) + " a polygon and " +
+                             std::to_string(kMostFileCrossings) + " in the file");
+  crossings_left_ -= found;
   const std::unique_ptr<OGRGeometry> repaired(polygon.MakeValid());
   std::vector<const OGRPolygon*> parts;
   if (repaired) collect_polygons(*repaired, parts);

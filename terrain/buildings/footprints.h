@@ -40,12 +40,16 @@ struct FootprintOptions {
 };
 
 inline constexpr std::uint64_t kLargestFootprintFile_bytes = 200'000'000;
+// Edges that meet where they should not. The repair of an outline that crosses itself takes time
+// with the cube of its crossings: a tangle of 12 kB took minutes.
+inline constexpr std::size_t kMostPolygonCrossings = 1000;
+inline constexpr std::size_t kMostFileCrossings = 10'000;
 
-// Throws InputError: E-IO, E-LIMIT (larger than kLargestFootprintFile_bytes), E-PARSE (no GeoJSON,
-// or damaged), E-REF (a "crs" that is not on the Earth), E-RANGE (coordinates outside the Earth;
-// heights that are no numbers or outside 0 to 1000 m), all features together. Warnings, with
-// counts: W-REPAIRED rings, W-DEFAULT heights, W-SKIPPED features that are no polygons,
-// W-DEGENERATE footprints without area or height.
+// Throws InputError: E-IO, E-LIMIT (larger than kLargestFootprintFile_bytes, more crossings than
+// above), E-PARSE (no GeoJSON, or damaged), E-REF (a "crs" that is not on the Earth), E-RANGE
+// (coordinates outside the Earth; heights that are no numbers or outside 0 to 1000 m), all features
+// together. Warnings, with counts: W-REPAIRED rings, W-DEFAULT heights, W-SKIPPED features that are
+// no polygons, W-DEGENERATE footprints without area or height.
 std::vector<Footprint> read_footprints(const std::filesystem::path& file,
                                        const FootprintOptions& options,
                                        core::ProblemList& problems);

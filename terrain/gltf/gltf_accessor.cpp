@@ -12,6 +12,10 @@ namespace {
 // A poisoned accessor may be wrong everywhere; nobody reads more than this.
 constexpr int kMostReported = 10;
 
+int size_of(int component_type) {
+  return tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type));
+}
+
 // Numbers of one kind in a buffer view, `stride` bytes apart.
 struct Elements {
   const char* first = nullptr;  // none: every number is zero
@@ -27,11 +31,27 @@ struct Elements {
     return value;
   }
 
-  glm::dvec3 position(std::size_t element) const {
+  // As the file holds it, not yet normalised.
+  glm::dvec3 position(std::size_t element, int component_type) const {
+    const int size_bytes = size_of(component_type);
     glm::dvec3 p;
-    for (int axis = 0; axis < 3; ++axis)
-      p[axis] = static_cast<double>(
-          std::bit_cast<float>(number(element, 4 * static_cast<std::size_t>(axis), 4)));
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::uint32_t bits =
+          number(element, static_cast<std::size_t>(axis * size_bytes), size_bytes);
+      switch (component_type) {
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+          p[axis] = static_cast<double>(std::bit_cast<float>(bits));
+          break;
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+          p[axis] = static_cast<std::int8_t>(bits);
+          break;
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+          p[axis] = static_cast<std::int16_t>(bits);
+          break;
+        default:
+          p[axis] = bits;
+      }
+    }
     return p;
   }
 };
@@ -42,10 +62,6 @@ Elements elements_at(const GltfModel& model, int view_index, std::size_t offset_
   const tinygltf::BufferView& view = model.parts.bufferViews[view_index];
   return {model.buffers[view.buffer].data() + view.byteOffset + offset_bytes,
           view.byteStride == 0 ? element_bytes : view.byteStride};
-}
-
-int size_of(int component_type) {
-  return tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type));
 }
 
 // Calls use(k, index) for the k-th value of a sparse accessor and the element it replaces.
@@ -95,22 +111,33 @@ void check_bounds(const GltfModel& model, const tinygltf::Accessor& accessor,
                      "ignored");
 }
 
+// Integers to -1 .. 1 or 0 .. 1: section 3.11 of the specification.
+void normalise(std::vector<glm::dvec3>& positions, int component_type) {
+  const bool is_signed = component_type == TINYGLTF_COMPONENT_TYPE_BYTE ||
+                         component_type == TINYGLTF_COMPONENT_TYPE_SHORT;
+  const int bits = 8 * size_of(component_type) - (is_signed ? 1 : 0);
+  const double largest = std::exp2(bits) - 1.0;
+  for (glm::dvec3& p : positions)
+    for (int axis = 0; axis < 3; ++axis) p[axis] = std::max(p[axis] / largest, -1.0);
+}
+
 }  // namespace
 
 std::vector<glm::dvec3> read_positions(const GltfModel& model, int accessor_index,
                                        const std::string& path, core::ProblemList& problems) {
-  constexpr std::size_t kPosition_bytes = 12;
   const tinygltf::Accessor& accessor = model.parts.accessors[accessor_index];
+  const int type = accessor.componentType;
+  const auto position_bytes = static_cast<std::size_t>(3 * size_of(type));
   const Elements elements =
-      elements_at(model, accessor.bufferView, accessor.byteOffset, kPosition_bytes);
+      elements_at(model, accessor.bufferView, accessor.byteOffset, position_bytes);
   std::vector<glm::dvec3> positions(accessor.count);
-  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = elements.position(i);
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = elements.position(i, type);
   if (accessor.sparse.isSparse) {
     const auto& source = accessor.sparse.values;
     const Elements values = elements_at(
-        model, source.bufferView, static_cast<std::size_t>(source.byteOffset), kPosition_bytes);
+        model, source.bufferView, static_cast<std::size_t>(source.byteOffset), position_bytes);
     for_sparse_values(model, accessor, path, problems, [&](std::size_t k, std::size_t index) {
-      positions[index] = values.position(k);
+      positions[index] = values.position(k, type);
     });
   }
   int reported = 0;
@@ -124,6 +151,7 @@ std::vector<glm::dvec3> read_positions(const GltfModel& model, int accessor_inde
     }
   }
   if (reported == 0) check_bounds(model, accessor, positions, path, problems);
+  if (accessor.normalized && type != TINYGLTF_COMPONENT_TYPE_FLOAT) normalise(positions, type);
   return positions;
 }
 

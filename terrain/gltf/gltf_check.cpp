@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <utility>
 
+#include "terrain/gltf/gltf_limits.h"
 #include "terrain/gltf/gltf_model_private.h"
 
 namespace fanbeam::terrain {
@@ -105,6 +107,21 @@ class AccessorCheck {
                  std::to_string(view.byteLength) + " bytes");
   }
 
+  bool can_be_positions(int component_type) const {
+    const auto& required = parts_.extensionsRequired;
+    return component_type == TINYGLTF_COMPONENT_TYPE_FLOAT ||
+           (component_type != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT &&
+            std::find(required.begin(), required.end(), kQuantizationExtension) != required.end());
+  }
+
+  void check_unbacked(int accessor_index, const std::string& path) {
+    const tinygltf::Accessor& accessor = parts_.accessors[accessor_index];
+    if (accessor.bufferView < 0 && accessor.count > kMostGltfUnbackedElements)
+      report(ErrorClass::limit, path,
+             std::to_string(accessor.count) + " elements without a buffer view",
+             "at most " + std::to_string(kMostGltfUnbackedElements));
+  }
+
   void check_primitive(const tinygltf::Primitive& primitive, const std::string& path) {
     if (primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN)
       report(ErrorClass::range, path + ".mode", std::to_string(primitive.mode), "0 to 6");
@@ -112,13 +129,16 @@ class AccessorCheck {
     if (position != primitive.attributes.end()) {
       const tinygltf::Accessor& accessor = parts_.accessors[position->second];
       const std::string position_path = path + ".attributes.POSITION";
+      check_unbacked(position->second, position_path);
       if (accessor.type != TINYGLTF_TYPE_VEC3)
         report(ErrorClass::parse, position_path, "accessor of another type", "VEC3");
-      else if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT)
+      else if (!can_be_positions(accessor.componentType))
         report(ErrorClass::unsupported, position_path,
-               "component type " + std::to_string(accessor.componentType), "5126, float");
+               "component type " + std::to_string(accessor.componentType),
+               "5126, float; or 5120 to 5123 with KHR_mesh_quantization required");
     }
     if (primitive.indices < 0) return;
+    check_unbacked(primitive.indices, path + ".indices");
     const tinygltf::Accessor& accessor = parts_.accessors[primitive.indices];
     if (accessor.type != TINYGLTF_TYPE_SCALAR || !is_unsigned_type(accessor.componentType))
       report(ErrorClass::parse, path + ".indices",

@@ -1,201 +1,18 @@
 #include "terrain/gltf/gltf_document.h"
 
 #include <algorithm>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string_view>
 #include <utility>
 
 #include "terrain/gltf/gltf_limits.h"
+#include "terrain/gltf/gltf_reducer_private.h"
 
 namespace fanbeam::terrain {
 namespace {
 
 using core::ErrorClass;
 using nlohmann::json;
-
-enum class Kind { integer, index, indices, size, flag, text, texts, numbers, object, objects };
-
-// One member that is kept of a JSON object.
-struct Member {
-  const char* key;
-  Kind kind;
-  bool required = false;
-  const char* refers_to = nullptr;    // index, indices: the root array they count in
-  std::size_t length = 0;             // numbers: how many, 0 for any
-  std::span<const Member> members{};  // object, objects
-};
-
-constexpr Member kAsset[] = {{"version", Kind::text, true}, {"minVersion", Kind::text}};
-constexpr Member kScene[] = {{"nodes", Kind::indices, false, "nodes"}};
-constexpr Member kNode[] = {{"mesh", Kind::index, false, "meshes"},
-                            {"children", Kind::indices, false, "nodes"},
-                            {"matrix", Kind::numbers, false, nullptr, 16},
-                            {"translation", Kind::numbers, false, nullptr, 3},
-                            {"rotation", Kind::numbers, false, nullptr, 4},
-                            {"scale", Kind::numbers, false, nullptr, 3}};
-constexpr Member kAttributes[] = {{"POSITION", Kind::index, false, "accessors"}};
-constexpr Member kPrimitive[] = {{"attributes", Kind::object, true, nullptr, 0, kAttributes},
-                                 {"indices", Kind::index, false, "accessors"},
-                                 {"material", Kind::index, false, "materials"},
-                                 {"mode", Kind::integer}};
-constexpr Member kMesh[] = {{"name", Kind::text},
-                            {"primitives", Kind::objects, true, nullptr, 0, kPrimitive}};
-constexpr Member kMaterial[] = {{"name", Kind::text}};
-constexpr Member kSparseIndices[] = {{"bufferView", Kind::index, true, "bufferViews"},
-                                     {"byteOffset", Kind::integer},
-                                     {"componentType", Kind::integer, true}};
-constexpr Member kSparseValues[] = {{"bufferView", Kind::index, true, "bufferViews"},
-                                    {"byteOffset", Kind::integer}};
-constexpr Member kSparse[] = {{"count", Kind::integer, true},
-                              {"indices", Kind::object, true, nullptr, 0, kSparseIndices},
-                              {"values", Kind::object, true, nullptr, 0, kSparseValues}};
-constexpr Member kAccessor[] = {{"bufferView", Kind::index, false, "bufferViews"},
-                                {"byteOffset", Kind::size},
-                                {"componentType", Kind::integer, true},
-                                {"normalized", Kind::flag},
-                                {"count", Kind::size, true},
-                                {"type", Kind::text, true},
-                                {"min", Kind::numbers},
-                                {"max", Kind::numbers},
-                                {"sparse", Kind::object, false, nullptr, 0, kSparse}};
-constexpr Member kBufferView[] = {{"buffer", Kind::index, true, "buffers"},
-                                  {"byteOffset", Kind::size},
-                                  {"byteLength", Kind::size, true},
-                                  {"byteStride", Kind::size}};
-constexpr Member kBuffer[] = {{"uri", Kind::text}, {"byteLength", Kind::size, true}};
-constexpr Member kImage[] = {{"uri", Kind::text}};
-constexpr Member kRoot[] = {{"asset", Kind::object, true, nullptr, 0, kAsset},
-                            {"extensionsRequired", Kind::texts},
-                            {"scene", Kind::index, false, "scenes"},
-                            {"scenes", Kind::objects, false, nullptr, 0, kScene},
-                            {"nodes", Kind::objects, false, nullptr, 0, kNode},
-                            {"meshes", Kind::objects, false, nullptr, 0, kMesh},
-                            {"materials", Kind::objects, false, nullptr, 0, kMaterial},
-                            {"accessors", Kind::objects, false, nullptr, 0, kAccessor},
-                            {"bufferViews", Kind::objects, false, nullptr, 0, kBufferView},
-                            {"buffers", Kind::objects, false, nullptr, 0, kBuffer},
-                            {"images", Kind::objects, false, nullptr, 0, kImage}};
-
-// As found in the file, short enough for a message.
-std::string shown(const json& value) {
-  constexpr std::size_t kMostShown = 60;
-  if (value.is_structured()) return value.is_array() ? "an array" : "an object";
-  std::string text = value.dump(-1, ' ', true);
-  if (text.size() > kMostShown) text = text.substr(0, kMostShown) + "...";
-  return text;
-}
-
-// Moves the wanted members out of the parsed text. The depth of its recursion is that of the
-// tables above, whatever the file holds.
-class Reducer {
- public:
-  Reducer(std::string file, core::ProblemList& problems)
-      : file_(std::move(file)), problems_(problems) {}
-
-  json reduce_root(json& root) {
-    for (const Member& member : kRoot)
-      if (member.kind == Kind::objects && root.contains(member.key))
-        counts_[member.key] = root[member.key].size();
-    return reduce(root, kRoot, "");
-  }
-
- private:
-  json reduce(json& object, std::span<const Member> members, const std::string& path) {
-    json kept = json::object();
-    for (const Member& member : members) {
-      const std::string member_path = path.empty() ? member.key : path + "." + member.key;
-      const auto found = object.find(member.key);
-      if (found != object.end())
-        kept[member.key] = checked(*found, member, member_path);
-      else if (member.required)
-        report(ErrorClass::parse, member_path, "missing", "it to be there");
-    }
-    return kept;
-  }
-
-  json checked(json& value, const Member& member, const std::string& path) {
-    switch (member.kind) {
-      case Kind::integer:
-      case Kind::index:
-        check_index(value, member, path);
-        break;
-      case Kind::size:
-        if (!value.is_number_integer())
-          expect(false, value, path, "a whole number");
-        else if (!value.is_number_unsigned())
-          report(ErrorClass::range, path, shown(value), "0 or more");
-        break;
-      case Kind::flag:
-        expect(value.is_boolean(), value, path, "true or false");
-        break;
-      case Kind::text:
-        expect(value.is_string(), value, path, "a string");
-        break;
-      case Kind::numbers:
-        check_numbers(value, member, path);
-        break;
-      case Kind::object:
-        if (expect(value.is_object(), value, path, "an object"))
-          return reduce(value, member.members, path);
-        break;
-      case Kind::texts:
-      case Kind::indices:
-      case Kind::objects:
-        return checked_elements(value, member, path);
-    }
-    return std::move(value);
-  }
-
-  json checked_elements(json& array, const Member& member, const std::string& path) {
-    json kept = json::array();
-    if (!expect(array.is_array(), array, path, "an array")) return kept;
-    Member element = member;
-    element.kind = member.kind == Kind::texts     ? Kind::text
-                   : member.kind == Kind::indices ? Kind::index
-                                                  : Kind::object;
-    for (std::size_t i = 0; i < array.size(); ++i)
-      kept.push_back(checked(array[i], element, path + "[" + std::to_string(i) + "]"));
-    return kept;
-  }
-
-  void check_index(const json& value, const Member& member, const std::string& path) {
-    if (!expect(value.is_number_integer(), value, path, "a whole number")) return;
-    const auto most = std::numeric_limits<std::int32_t>::max();
-    const bool fits = value.is_number_unsigned() && value.get<std::uint64_t>() <= most;
-    if (member.refers_to != nullptr) {
-      const std::size_t count = counts_.count(member.refers_to) ? counts_[member.refers_to] : 0;
-      if (!fits || value.get<std::uint64_t>() >= count)
-        report(ErrorClass::ref, path, shown(value),
-               "an index below the " + std::to_string(count) + " " + member.refers_to);
-    } else if (!fits) {
-      report(ErrorClass::range, path, shown(value), "0 to 2147483647");
-    }
-  }
-
-  void check_numbers(const json& value, const Member& member, const std::string& path) {
-    const auto is_number = [](const json& number) { return number.is_number(); };
-    const std::string count = member.length > 0 ? std::to_string(member.length) + " " : "";
-    expect(value.is_array() && (member.length == 0 || value.size() == member.length) &&
-               std::all_of(value.begin(), value.end(), is_number),
-           value, path, "an array of " + count + "numbers");
-  }
-
-  bool expect(bool condition, const json& value, const std::string& path, std::string expected) {
-    if (!condition) report(ErrorClass::parse, path, shown(value), std::move(expected));
-    return condition;
-  }
-
-  void report(ErrorClass error_class, std::string path, std::string value, std::string expected) {
-    problems_.error(error_class, core::Place{file_}, std::move(path), std::move(value),
-                    std::move(expected));
-  }
-
-  std::string file_;
-  core::ProblemList& problems_;
-  std::map<std::string, std::size_t> counts_;
-};
 
 // Line and column count from 1; a GLB gets the byte offset only.
 core::Place place_of(const GltfContainer& container, const std::string& file, std::size_t offset) {
@@ -230,6 +47,9 @@ json parsed_json(const GltfContainer& container, const std::string& file) {
   }
 }
 
+// Positions as integers; the accessors tell which.
+bool is_read(const std::string& extension) { return extension == kQuantizationExtension; }
+
 // Extensions that change how a surface looks to the eye and nothing about its shape.
 bool concerns_appearance_only(const std::string& extension) {
   constexpr std::string_view kPrefixes[] = {"KHR_materials_", "KHR_texture_", "EXT_texture_",
@@ -248,14 +68,39 @@ void check_supported(const json& root, const core::Place& place, core::ProblemLi
     problems.error(ErrorClass::unsupported, place, "asset.minVersion", oldest_reader, "2.0");
   const json required = root.value("extensionsRequired", json::array());
   for (std::size_t i = 0; i < required.size(); ++i)
-    if (!concerns_appearance_only(required[i]))
+    if (!concerns_appearance_only(required[i]) && !is_read(required[i]))
       problems.error(ErrorClass::unsupported, place,
                      "extensionsRequired[" + std::to_string(i) + "]", required[i],
-                     "core glTF 2.0 geometry");
+                     "core glTF 2.0 geometry, or " + std::string(kQuantizationExtension));
   const std::size_t nodes = root.contains("nodes") ? root["nodes"].size() : 0;
   if (nodes > kMostGltfNodes)
     problems.error(ErrorClass::limit, place, "nodes", std::to_string(nodes),
                    "at most " + std::to_string(kMostGltfNodes));
+}
+
+// The parser would take the matrix and drop the rest without a word.
+void check_transforms(const json& kept, const core::Place& place, core::ProblemList& problems) {
+  const auto nodes = kept.find("nodes");
+  for (std::size_t i = 0; nodes != kept.end() && i < nodes->size(); ++i) {
+    const json& node = (*nodes)[i];
+    const bool in_parts =
+        node.contains("translation") || node.contains("rotation") || node.contains("scale");
+    if (node.contains("matrix") && in_parts)
+      problems.error(ErrorClass::parse, place, "nodes[" + std::to_string(i) + "]",
+                     "a matrix beside translation, rotation or scale", "one or the other");
+  }
+}
+
+void hide_indices(json& kept) {
+  if (!kept.contains("meshes")) return;
+  for (json& mesh : kept["meshes"]) {
+    for (json& primitive : mesh["primitives"]) {
+      const auto indices = primitive.find("indices");
+      if (indices == primitive.end()) continue;
+      primitive["attributes"][kIndicesAttribute] = *indices;
+      primitive.erase(indices);
+    }
+  }
 }
 
 std::string uri_of(json& object) {
@@ -269,9 +114,10 @@ GltfDocument read_gltf_document(const GltfContainer& container, const std::files
   const core::Place place{file.string()};
   json root = parsed_json(container, place.file);
   core::ProblemList problems;
-  json kept = Reducer(place.file, problems).reduce_root(root);
+  json kept = reduced_gltf(root, place.file, problems);
   problems.throw_if_errors();
   check_supported(kept, place, problems);
+  check_transforms(kept, place, problems);
 
   GltfDocument document;
   for (json& buffer : kept["buffers"]) {
@@ -283,6 +129,7 @@ GltfDocument read_gltf_document(const GltfContainer& container, const std::files
   }
   for (json& image : kept["images"]) document.image_uris.push_back(uri_of(image));
   problems.throw_if_errors();
+  hide_indices(kept);
   kept.erase("buffers");
   kept.erase("images");
   document.json = kept.dump();

@@ -18,20 +18,29 @@
 
 namespace fanbeam::terrain {
 
+// The one extension to geometry that is read.
+inline constexpr const char* kQuantizationExtension = "KHR_mesh_quantization";
+
 struct GltfBufferSource {
   std::string uri;  // empty: the BIN chunk, or no data at all
   std::uint64_t byte_length = 0;
 };
 
+// The parser behind refuses indices that need no buffer view (all zero, or sparse), but attributes
+// may do without one.
+inline constexpr const char* kIndicesAttribute = "_INDICES";
+
 struct GltfDocument {
   std::string json;  // asset, scenes, nodes, meshes, materials, accessors and buffer views
+                     // with the indices of a primitive as its attribute kIndicesAttribute
   std::vector<GltfBufferSource> buffers;
   std::vector<std::string> image_uris;  // by image, empty for an image in a buffer
 };
 
 // Errors, all together: E-PARSE (not JSON, with line, column and byte offset; a member missing or
-// of another type), E-NONFINITE (a number beyond double), E-RANGE (a negative size, an empty
-// buffer), E-REF (an index of something that is not there), E-LIMIT (kMostGltfNodes).
+// of another type; a node with a matrix beside translation, rotation or scale), E-NONFINITE (a
+// number beyond double), E-RANGE (a negative size, an empty buffer), E-REF (an index of something
+// that is not there), E-LIMIT (kMostGltfNodes).
 GltfDocument read_gltf_document(const GltfContainer& container, const std::filesystem::path& file);
 
 }  // namespace fanbeam::terrain

@@ -1,10 +1,12 @@
 // Models from glTF 2.0 files (.gltf and .glb) as one triangle mesh.
 //
 // What is read: the default scene, all nodes flattened with their transforms; triangles, strips
-// and fans with positions in 32-bit floats, indexed by 8, 16 or 32 bits, sparse or not. Ignored:
+// and fans with positions in 32-bit floats, or in integers of 8 or 16 bits where the file requires
+// KHR_mesh_quantization, indexed by 8, 16 or 32 bits, sparse or not. Ignored:
 // textures and images (never opened), normals, skins, animations, morph targets, cameras, lights,
 // extensions that are not required. Points and lines are skipped with W-SKIPPED.
-// Source: Khronos Group, glTF 2.0 Specification, version 2.0.1 (2021).
+// Source: Khronos Group, glTF 2.0 Specification, version 2.0.1 (2021), and its extension
+// KHR_mesh_quantization (2020).
 //
 // Frame: glTF's +Y is up and +Z forward, in metres. The mesh has x right, y forward, z up, so
 // (x, y, z) = (-x_gltf, z_gltf, y_gltf). A transform that mirrors also turns the winding round, so
@@ -27,8 +29,8 @@ namespace fanbeam::terrain {
 // Buffers come only from inside `allowed_folder`, through `read_file`, which also reads `file`.
 // Throws InputError with all problems of the stage that found some: bytes and JSON text (E-PARSE,
 // E-LIMIT, E-UNSUPPORTED, E-REF), then buffers (E-PATH, E-IO), accessors and node tree (E-REF,
-// E-RANGE, E-NONFINITE), then the geometry itself. Limits stand in gltf_limits.h. Warnings go to
-// `problems`: W-DEGENERATE, W-BOUNDS, W-SKIPPED, and W-EMPTY for a scene without triangles.
+// E-RANGE, E-NONFINITE), then the geometry itself. Limits stand in gltf_limits.h. Warnings
+// go to `problems`: W-DEGENERATE, W-BOUNDS, W-SKIPPED, and W-EMPTY for a scene without triangles.
 TriangleMesh load_gltf(const std::filesystem::path& file,
                        const std::filesystem::path& allowed_folder, core::ProblemList& problems,
                        const FileReader& read_file = core::read_file);

@@ -26,6 +26,14 @@ GltfModel parse_gltf_model(const GltfDocument& document, std::vector<std::string
     core::throw_input_error(core::ErrorClass::parse, core::Place{model.file}, "glTF",
                             errors.substr(0, kMostShown), "a glTF 2.0 document");
   }
+  for (tinygltf::Mesh& mesh : model.parts.meshes) {
+    for (tinygltf::Primitive& primitive : mesh.primitives) {
+      const auto indices = primitive.attributes.find(kIndicesAttribute);
+      if (indices == primitive.attributes.end()) continue;
+      primitive.indices = indices->second;
+      primitive.attributes.erase(indices);
+    }
+  }
   return model;
 }
 

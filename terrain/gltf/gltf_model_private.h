@@ -27,10 +27,12 @@ GltfModel parse_gltf_model(const GltfDocument& document, std::vector<std::string
 // Every buffer view against its buffer, every accessor against its views, every primitive against
 // what this reader draws. Errors: E-REF (outside the buffer or view), E-RANGE (stride, count,
 // mode), E-PARSE (component types and element types that glTF does not have, or not there),
-// E-UNSUPPORTED (positions that are not 32-bit floats).
+// E-UNSUPPORTED (positions that are neither 32-bit floats nor, where KHR_mesh_quantization is
+// required, integers of 8 or 16 bits), E-LIMIT (kMostGltfUnbackedElements).
 void check_gltf_accessors(const GltfModel& model, core::ProblemList& problems);
 
-// The elements of a checked accessor of 32-bit float VEC3. E-NONFINITE with the element,
+// The elements of a checked accessor of VEC3, normalised where it says so. E-NONFINITE with the
+// element,
 // E-REF (a sparse index past the end); W-BOUNDS when the file's min and max are not those of the
 // elements. `path` goes into the messages.
 std::vector<glm::dvec3> read_positions(const GltfModel& model, int accessor,

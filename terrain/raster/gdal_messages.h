@@ -5,8 +5,8 @@
 
 namespace fanbeam::terrain {
 
-// While it lives, errors and warnings that GDAL raises in this thread are collected here. Also
-// registers GDAL's drivers, once per process.
+// While it lives, errors and warnings that GDAL raises in this thread are collected here, and
+// whatever GDAL wants to fetch from the network in this thread is such an error. Also registers GDAL's drivers, once per process.
 class GdalMessages {
  public:
   GdalMessages();

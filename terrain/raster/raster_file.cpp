@@ -22,6 +22,7 @@ class BandReader {
  public:
   explicit BandReader(const std::filesystem::path& path) : file_(path.string()) {
     check_readable();
+    check_side_files();
     dataset_.reset(GDALDataset::Open(file_.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY,
                                      kDrivers.data(), nullptr, nullptr));
     if (!dataset_)
@@ -46,6 +47,7 @@ class BandReader {
   }
 
   void check_readable() const;
+  void check_side_files() const;
   void check_shape() const;
   void check_kind(GDALRasterBand& band) const;
   PixelMap make_map() const;
@@ -61,6 +63,22 @@ void BandReader::check_readable() const {
   std::error_code error;
   if (!std::filesystem::is_regular_file(file_, error) || !std::ifstream(file_).good())
     refuse(core::ErrorClass::io, "raster", "no such file, or not readable", "a readable file");
+}
+
+// GDAL reads "dem.prj" and "dem.tif.aux.xml" beside "dem.tif" unasked, wherever links lead it.
+void BandReader::check_side_files() const {
+  namespace fs = std::filesystem;
+  const fs::path path = fs::absolute(file_);
+  const std::string start = path.stem().string() + ".";
+  std::error_code error;
+  const fs::path folder = fs::weakly_canonical(path.parent_path(), error);
+  for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path(), error)) {
+    if (!entry.is_symlink(error) || !entry.path().filename().string().starts_with(start)) continue;
+    const fs::path back = fs::weakly_canonical(entry.path(), error).lexically_relative(folder);
+    if (back.empty() || *back.begin() == "..")
+      refuse(core::ErrorClass::path, "side file", entry.path().filename().string(),
+             "files beside the raster that are no links out of its folder");
+  }
 }
 
 void BandReader::check_shape() const {

@@ -29,7 +29,8 @@ struct RasterBand {
 // 100 million samples: 400 MB. A one-degree cell at one arc second has 13 million.
 inline constexpr std::int64_t kMostSamples = 100'000'000;
 
-// Throws InputError: E-IO (missing or unreadable file), E-PARSE (not one of the formats, damaged,
+// Throws InputError: E-IO (missing or unreadable file), E-PATH (a file of the same name beside it,
+// such as its .prj, is a symbolic link out of the folder), E-PARSE (not one of the formats, damaged,
 // or shorter than it claims), E-LIMIT (more than kMostSamples, found before anything is allocated),
 // E-REF (no georeference), E-UNSUPPORTED (more than one band, complex numbers, heights not in
 // metres, or as PixelMap).

@@ -21,17 +21,9 @@ Result render(const fs::path& folder, const std::string& words) {
   return result;
 }
 
-// HiVision with four columns: a ladder of samplings is then quickly climbed.
-std::string narrow_sensor(const TemporaryFolder& folder) {
-  std::string sensor = bytes_of(FANBEAM_SOURCE_DIR "/sensors/hivision.toml");
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = sensor.find(from);
-    REQUIRE(at != std::string::npos);
-    sensor.replace(at, from.size(), to);
-  };
-  replace("field_of_view_deg = 41.0", "field_of_view_deg = 1.0");
-  replace("columns = 164", "columns = 4");
-  return " --sensor " + quoted(folder.write("narrow.toml", sensor)) + " ";
+// Four columns: a ladder of samplings is then quickly climbed.
+std::string narrow_view(const TemporaryFolder& folder) {
+  return " --sensor " + quoted(folder.write("narrow.toml", narrow_sensor(4))) + " ";
 }
 
 // Files of pictures with their bytes.
@@ -106,7 +98,7 @@ TEST_CASE("--accuracy leaves at most half of its error to sampling, and more of 
 
 TEST_CASE("What a time budget chose gives the same bytes by --rays-per-cell", "[accuracy]") {
   const TemporaryFolder folder;
-  const std::string sensor = narrow_sensor(folder);
+  const std::string sensor = narrow_view(folder);
   for (const std::string caster : kCasters) {
     const std::string words = kPictures + "--frames 120 --caster " + caster + sensor;
     // All the time there is, some, and next to none.
@@ -151,7 +143,7 @@ TEST_CASE("A time budget that nothing meets takes the coarsest sampling and says
 TEST_CASE("Time and accuracy together: the coarsest sampling that is accurate enough",
           "[accuracy]") {
   const TemporaryFolder folder;
-  const std::string sensor = narrow_sensor(folder);
+  const std::string sensor = narrow_view(folder);
   for (const std::string caster : kCasters) {
     double before = 0.0;
     for (const double accuracy_grey : {20.0, 1.0, 0.5}) {
@@ -176,7 +168,7 @@ TEST_CASE("A time budget with an accuracy is repeated by --rays-per-cell with th
           "[accuracy]") {
   const TemporaryFolder folder;
   const std::string words =
-      kPictures + "--frames 120 --caster rays --accuracy 4" + narrow_sensor(folder);
+      kPictures + "--frames 120 --caster rays --accuracy 4" + narrow_view(folder);
   const fs::path chosen = folder.path() / "chosen", told = folder.path() / "told";
   render(chosen, words + " --time-budget 1e6");
   const nlohmann::json budget = json_of(chosen / "run.json")["time_budget"];

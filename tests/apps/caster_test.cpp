@@ -29,16 +29,7 @@ std::string note(const fs::path& picture, const std::string& name) {
 // A truck on a plain under an antenna that is not stabilised, so that slices cannot show it; a few
 // columns, so that even a reference is quick.
 void write_tilted_scene(const TemporaryFolder& folder, const std::string& accuracy) {
-  std::string sensor = bytes_of(FANBEAM_SOURCE_DIR "/sensors/hivision.toml");
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = sensor.find(from);
-    REQUIRE(at != std::string::npos);
-    sensor.replace(at, from.size(), to);
-  };
-  replace("field_of_view_deg = 41.0", "field_of_view_deg = 0.5");
-  replace("columns = 164", "columns = 2");
-  replace("stabilised = true", "stabilised = false");
-  folder.write("few.toml", sensor);
+  folder.write("few.toml", narrow_sensor(2, false));
   fs::copy_file(FANBEAM_SOURCE_DIR "/scenes/braunschweig-26/truck.gltf",
                 folder.path() / "truck.gltf", fs::copy_options::overwrite_existing);
   folder.write("scene.toml",

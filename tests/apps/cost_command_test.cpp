@@ -61,17 +61,8 @@ std::vector<Row> timeless(std::vector<Row> rows) {
 }
 
 // A shed on a plain in light rain, and a picture of a few columns: references take no time.
-void write_scene(const TemporaryFolder& folder, const std::string& stabilised = "true") {
-  std::string sensor = bytes_of(FANBEAM_SOURCE_DIR "/sensors/hivision.toml");
-  const auto replace = [&](const std::string& from, const std::string& to) {
-    const std::size_t at = sensor.find(from);
-    REQUIRE(at != std::string::npos);
-    sensor.replace(at, from.size(), to);
-  };
-  replace("field_of_view_deg = 41.0", "field_of_view_deg = 1.0");
-  replace("columns = 164", "columns = 4");
-  replace("stabilised = true", "stabilised = " + stabilised);
-  folder.write("few.toml", sensor);
+void write_scene(const TemporaryFolder& folder, bool stabilised = true) {
+  folder.write("few.toml", narrow_sensor(4, stabilised));
   fs::copy_file(FANBEAM_SOURCE_DIR "/scenes/braunschweig-26/truck.gltf",
                 folder.path() / "truck.gltf", fs::copy_options::overwrite_existing);
   folder.write(
@@ -202,7 +193,7 @@ TEST_CASE("fanbeam cost forces on what the plan leaves out and leaves out what i
 
 TEST_CASE("fanbeam cost refuses bad input before it measures", "[cost]") {
   const TemporaryFolder folder;
-  write_scene(folder, "false");
+  write_scene(folder, false);
   CHECK(cost(folder, "out", "--parts everything").exit_code == 2);
   CHECK(cost(folder, "out", "--repetitions 0").exit_code == 2);
   CHECK(cost(folder, "out", "--frames 1").exit_code == 2);

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/render_command.h"
+#include "apps/frame_choice.h"
+#include "core/errors.h"
 
 using namespace fanbeam;
 using apps::parse_frames;

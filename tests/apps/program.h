@@ -22,10 +22,7 @@ struct Result {
   std::string output;  // standard output and error together
 };
 
-// `words` go to the shell as they are.
-inline Result run_fanbeam(const std::string& words, const std::string& before = "") {
-  const std::string command =
-      before + " '" FANBEAM_BINARY_DIR "/bin/fanbeam' " + words + " 2>&1 </dev/null";
+inline Result run_shell(const std::string& command) {
   Result result;
   FILE* pipe = popen(command.c_str(), "r");
   REQUIRE(pipe != nullptr);
@@ -37,6 +34,11 @@ inline Result run_fanbeam(const std::string& words, const std::string& before = 
   return result;
 }
 
+// `words` go to the shell as they are.
+inline Result run_fanbeam(const std::string& words, const std::string& before = "") {
+  return run_shell(before + " '" FANBEAM_BINARY_DIR "/bin/fanbeam' " + words + " 2>&1 </dev/null");
+}
+
 inline std::string quoted(const std::filesystem::path& path) {
   return std::string("'").append(path.string()).append("'");
 }
@@ -46,6 +48,20 @@ inline std::string bytes_of(const std::filesystem::path& path) {
   std::ostringstream bytes;
   bytes << stream.rdbuf();
   return bytes.str();
+}
+
+// HiVision, but for so few columns that even a reference is quick, and for what `stabilised` says.
+inline std::string narrow_sensor(int columns, bool stabilised = true) {
+  std::string sensor = bytes_of(FANBEAM_SOURCE_DIR "/sensors/hivision.toml");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    const std::size_t at = sensor.find(from);
+    REQUIRE(at != std::string::npos);
+    sensor.replace(at, from.size(), to);
+  };
+  replace("field_of_view_deg = 41.0", "field_of_view_deg = " + std::to_string(0.25 * columns));
+  replace("columns = 164", "columns = " + std::to_string(columns));
+  replace("stabilised = true", stabilised ? "stabilised = true" : "stabilised = false");
+  return sensor;
 }
 
 inline nlohmann::json json_of(const std::filesystem::path& path) {

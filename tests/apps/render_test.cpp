@@ -29,6 +29,22 @@ std::vector<std::string> keys_of(const nlohmann::json& json) {
   return keys;
 }
 
+// Words for the shell that set a locale whose decimal sign is a comma. Made here, as few machines
+// have one installed; where that fails, de_DE is asked for.
+std::string comma_locale(const TemporaryFolder& folder) {
+  folder.write("numbers",
+               "comment_char %\nescape_char /\nLC_NUMERIC\ndecimal_point \",\"\n"
+               "thousands_sep \".\"\ngrouping 3;3\nEND LC_NUMERIC\n");
+  const std::string path = folder.path().string();
+  std::system(("localedef --no-archive -c -i " + path + "/numbers -f ANSI_X3.4-1968 " + path +
+               "/comma >/dev/null 2>&1")
+                  .c_str());
+  if (run_shell("LOCPATH=" + path + " LC_ALL=comma /usr/bin/printf %.1f 1,5 2>&1").output == "1,5")
+    return "LOCPATH=" + path + " LC_ALL=comma";
+  std::cout << "[not made] a locale with a decimal comma: de_DE is used if it is installed\n";
+  return "LC_ALL=de_DE.UTF-8";
+}
+
 void check_has(const nlohmann::json& json, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {
     INFO(key);
@@ -157,6 +173,40 @@ TEST_CASE("F18 the same bytes from another working directory, time zone, locale 
                                     "cd / && TZ=Asia/Tokyo LC_ALL=de_DE.UTF-8 LANG=de_DE.UTF-8");
   CHECK(result.exit_code == 0);
   CHECK((results(odd) == results(folder.path() / "plain")));
+}
+
+TEST_CASE("F18 the same bytes of a scene in a folder with blanks and umlauts, under a decimal comma",
+          "[render]") {
+  const TemporaryFolder folder;
+  const std::string locale = comma_locale(folder);
+  const auto write_scene = [&](const std::string& name) {
+    fs::create_directories(folder.path() / name);
+    folder.write(name + "/scene.toml",
+                 "[scene]\nname = \"approach\"\n"
+                 "origin = { latitude_deg = 52.0, longitude_deg = 10.0 }\n"
+                 "vertical_datum = \"scene\"\n"
+                 "[terrain]\nhalf_extent_m = 1500.0\nspacing_m = 50.0\n"
+                 "[weather]\nvisibility_m = 350.5\nrain_rate_mm_per_h = 2.5\n"
+                 "[trajectory]\nfile = \"Flug Nº 1.csv\"\nvertical_datum = \"scene\"\n");
+    folder.write(name + "/Flug Nº 1.csv",
+                 "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg\n"
+                 "0,52.001,10.0005,60.25,0.5,-1.5,1.5\n");
+  };
+  write_scene("plain");
+  write_scene("Anflug Zürich 14 – 東");
+  const std::string words = " -q --rays-per-cell 1.5 --products bscope,cscope,power,ppi -o ../";
+  const auto render_in = [&](const std::string& scene, const std::string& out,
+                             const std::string& environment) {
+    const Result result =
+        run_shell("cd " + quoted(folder.path() / scene) + " && " + environment +
+                  " '" FANBEAM_BINARY_DIR "/bin/fanbeam' render ." + words + out + " 2>&1");
+    INFO(result.output);
+    REQUIRE(result.exit_code == 0);
+    return results(folder.path() / out);
+  };
+  const auto plain = render_in("plain", "a", "TZ=UTC LC_ALL=C");
+  CHECK(plain.size() >= 5);
+  CHECK((render_in("Anflug Zürich 14 – 東", "b", "TZ=Asia/Kathmandu " + locale) == plain));
 }
 
 TEST_CASE(

@@ -76,6 +76,35 @@ TEST_CASE("A hostile input cannot fill memory with problems, and errors past the
   CHECK_THROWS_AS(list.throw_if_errors(), InputError);
 }
 
+TEST_CASE("A refusal shows its errors, however many warnings came before", "[errors]") {
+  ProblemList list;
+  for (std::size_t i = 0; i < 2 * ProblemList::kMost; ++i)
+    list.warning("ODD", {}, "field", "", "kept");
+  list.error(ErrorClass::range, {}, "first", "1", "0");
+  list.error(ErrorClass::ref, {}, "second", "1", "0");
+  REQUIRE(list.all().size() == ProblemList::kMost + 1);
+  CHECK(list.all()[ProblemList::kMost - 2].field == "first");
+  CHECK(list.all()[ProblemList::kMost - 1].field == "second");
+  CHECK(list.all().back().code == "W-MORE");
+  CHECK_FALSE(list.is_full());
+}
+
+TEST_CASE("Megabytes of an input do not end up in a message, nor half a letter", "[errors]") {
+  const std::string megabyte(1'000'000, 'x');
+  std::string umlauts = "x";
+  while (umlauts.size() < 1000) umlauts += "\u00e4";
+  ProblemList list;
+  list.error(ErrorClass::ref, {}, megabyte, umlauts, megabyte);
+  CHECK(list.all()[0].field == std::string(300, 'x') + "...");
+  CHECK(list.all()[0].value == umlauts.substr(0, 499) + "...");
+  CHECK(to_string(list.all()[0]).size() < 3000);
+  try {
+    throw_input_error(ErrorClass::ref, Place{}, megabyte, megabyte, megabyte);
+  } catch (const InputError& error) {
+    CHECK(std::string(error.what()).size() < 3000);
+  }
+}
+
 TEST_CASE("throw_input_error carries one problem", "[errors]") {
   try {
     throw_input_error(ErrorClass::range, "rain_rate_mm_per_h", -2.5, "0 to 300");

@@ -45,13 +45,14 @@ constexpr Confined kConfined[] = {
     {"embree[0-9]*/.*", "terrain"},      {"tiny_gltf\\.h", "terrain"},
     {"GeographicLib/.*", "terrain"},     {"(gdal|ogr|cpl_|gdal/).*", "terrain"},
     {"(geos_c\\.h|geos/.*)", "terrain"}, {"proj(_.*)?\\.h", "terrain"},
-    {"OpenImageIO/.*", "core"},
+    {"OpenImageIO/.*", "core"},          {"fftw3\\.h", "signal"},
+    {"nanoflann\\.hpp", "signal"},
 };
 
 // How third-party types look when they get into a header without an include, as a forward
 // declaration.
 constexpr const char* kForeignTypes =
-    R"(\b(RTC[A-Z]\w*|GDAL\w+|OGR\w+|GEOS\w+|PJ_\w+|OIIO|GeographicLib|tinygltf|nlohmann|tbb|toml|CLI|spdlog|fmt|r123)\b)";
+    R"(\b(RTC[A-Z]\w*|GDAL\w+|OGR\w+|GEOS\w+|PJ_\w+|OIIO|GeographicLib|tinygltf|nlohmann|tbb|toml|CLI|spdlog|fmt|r123|Eigen|fftwf?_\w+|nanoflann)\b)";
 
 constexpr std::size_t kMostLines = 600;
 
@@ -245,6 +246,10 @@ TEST_CASE("The layering check notices each kind of offence", "[layering]") {
       {"core/a.cpp", "#include <geos_c.h>\n", "belongs in sources of terrain"},
       {"scenes/a.cpp", "#include <proj.h>\n", "belongs in sources of terrain"},
       {"apps/a.cpp", "#include <OpenImageIO/imageio.h>\n", "belongs in sources of core"},
+      {"renderer/a.cpp", "#include <fftw3.h>\n", "belongs in sources of signal"},
+      {"tracking/a.cpp", "#include <nanoflann.hpp>\n", "belongs in sources of signal"},
+      {"signal/a.h", "#include <Eigen/Dense>\n", "in a header"},
+      {"signal/a.h", "struct A { fftwf_plan plan; };\n", "shows the type fftwf_plan"},
       {"core/a.h", "#include <OpenImageIO/imageio.h>\n", "in a header"},
       {"terrain/a.h", "#include <embree3/rtcore.h>\n", "in a header"},
       {"scenes/a.h", "#include <toml++/toml.h>\n", "in a header"},

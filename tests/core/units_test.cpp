@@ -7,15 +7,15 @@ using namespace fanbeam::core;
 
 TEST_CASE("Aviation units are the exact international ones", "[units]") {
   CHECK(kFoot_m == 0.3048);
-  CHECK(kKnot_mps * 3600.0 == Approx(1852.0).margin(1e-12));
-  CHECK(kFootPerMinute_mps * 60.0 == Approx(kFoot_m).margin(1e-16));
+  CHECK(kKnot_mps * 3600.0 == Approx(1852.0).epsilon(0.0).margin(1e-12));
+  CHECK(kFootPerMinute_mps * 60.0 == Approx(kFoot_m).epsilon(0.0).margin(1e-16));
 }
 
 TEST_CASE("Degrees and radians agree at the cardinal angles and back", "[units]") {
   CHECK(radians(180.0) == kPi);
-  CHECK(degrees(kPi / 2.0) == Approx(90.0).margin(1e-13));
+  CHECK(degrees(kPi / 2.0) == Approx(90.0).epsilon(0.0).margin(1e-13));
   for (double angle_deg = -720.0; angle_deg <= 720.0; angle_deg += 7.3)
-    CHECK(degrees(radians(angle_deg)) == Approx(angle_deg).margin(1e-12));
+    CHECK(degrees(radians(angle_deg)) == Approx(angle_deg).epsilon(0.0).margin(1e-12));
 }
 
 TEST_CASE("wrap_360_deg stays inside the half-open circle, also just below zero", "[units]") {
@@ -33,6 +33,6 @@ TEST_CASE("wrap_pi_rad keeps the angle and stays within half a turn", "[units]")
     const double wrapped_rad = wrap_pi_rad(angle_rad);
     const double turns = (angle_rad - wrapped_rad) / (2.0 * kPi);
     CHECK(std::abs(wrapped_rad) <= kPi);
-    CHECK(turns == Approx(std::round(turns)).margin(1e-12));
+    CHECK(turns == Approx(std::round(turns)).epsilon(0.0).margin(1e-12));
   }
 }

@@ -2,9 +2,12 @@
 //   P(cell) = Pt G0^2 lambda^2 / (4 pi)^3 * phi_eff * integral over the cell of g_el(e)^2 sigma0(psi) / (R^3 cos psi) dR
 // with sin psi = h / R on a plane, e = -psi, and phi_eff the integral of the squared azimuth
 // pattern (0.60215 deg).
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "core/units.h"
+#include "renderer/accuracy/naive_caster.h"
+#include "renderer/casting/fan_layout.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "tests/renderer/test_worlds.h"
 
@@ -117,6 +120,36 @@ TEST_CASE("R08 flat ground at reference quality follows the closed form within 0
     CHECK(error.largest_dB < 0.05);
     CHECK(std::abs(error.mean_dB) < 0.02);
   }
+}
+
+TEST_CASE("R08 cells of 3 m keep their rays out to 3.7 km: 0.5 dB preview, 0.1 dB reference",
+          "[flat]") {
+  sensors::Sensor sensor = tests::hivision(2);
+  sensor.range.cell_m = 3.0;
+  sensor.range.cells = 1166;
+  const renderer::World world = tests::world(sensor, plane(), {kConstant});
+  const Error preview = compare(world, one_ray_per_cell(), kConstant);
+  CHECK(preview.empty == 0);
+  CHECK(preview.largest_dB < 0.5);
+  CHECK(std::abs(preview.mean_dB) < 0.02);
+  const Error reference = compare(world, renderer::reference_sampling(1, 4), kConstant);
+  CHECK(reference.empty == 0);
+  CHECK(reference.largest_dB < 0.1);
+  CHECK(std::abs(reference.mean_dB) < 0.02);
+
+  // 1000 rays spread evenly over 10 degrees leave most far cells empty.
+  const double span_rad = core::radians(10.0);
+  renderer::FanSums fan;
+  renderer::lay_out_fan(world, renderer::naive_sampling(renderer::NaiveKind::plain), false, fan);
+  const double top_rad = -std::asin(kHeight_m / sensor.range.maximum_m());
+  renderer::FanSums even;
+  renderer::NaiveCaster(world, renderer::NaiveKind::plain, 1000.0 * fan.sub_columns,
+                        {top_rad - span_rad, top_rad})
+      .cast({{0.0, 0.0, kHeight_m}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}, false,
+            even);
+  const auto empty = std::count(even.range_W_per_rad.begin(),
+                                even.range_W_per_rad.begin() + even.cells, 0.0);
+  CHECK(empty > even.cells / 2);
 }
 
 TEST_CASE("Curved ground follows psi = h/R - R/2Re", "[flat]") {

@@ -198,7 +198,7 @@ TEST_CASE("The plan runs the rain echo where it shows and says why not", "[rain_
   CHECK(tiny.bound_grey > 0.0);
 }
 
-TEST_CASE("Case A06: more rain never brightens a surface", "[rain_echo]") {
+TEST_CASE("A06 more rain never brightens a surface", "[rain_echo]") {
   const sensors::Sensor sensor = tests::hivision(4);
   renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 20.0, [](double, double) { return 0.0; }),

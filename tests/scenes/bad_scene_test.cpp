@@ -1,7 +1,7 @@
 // What shows only when a scene is put together: rasters, runways, objects and flights that do not
 // fit.
 #include <catch2/catch.hpp>
-#include <chrono>
+#include <ctime>
 
 #include "tests/scenes/problem_checks.h"
 
@@ -166,7 +166,7 @@ TEST_CASE("Trajectory files: problems have the file's own line", "[bad_scene]") 
 }
 
 TEST_CASE("R17 absurd sizes are E-LIMIT or E-RANGE at once, without allocating", "[bad_scene]") {
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();
   check_problems("half_extent_m = 2500.0\nspacing_m = 50.0",
                  "half_extent_m = 200000.0\nspacing_m = 0.5",
                  "6:1: E-LIMIT terrain = terrain posts: 640001600001: expected at most 64 million "
@@ -184,7 +184,8 @@ TEST_CASE("R17 absurd sizes are E-LIMIT or E-RANGE at once, without allocating",
       "22:1: E-LIMIT line = \"line\" of 199901 points: expected at most 100000: a wider spacing_m");
   check_problems("[weather]", "[accuracy]\nrays_per_cell = 1e12\n[weather]",
                  "23:1: E-RANGE accuracy.rays_per_cell = 1e+12: expected 0 to 10000");
-  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() < 5.0);
+  // Of the processor: what others do with the machine does not count. 0.1 s for each of the five.
+  CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 0.5);
 }
 
 TEST_CASE("Errors that show only when the scene is built come together too", "[bad_scene]") {

@@ -14,6 +14,7 @@
 #include "renderer/plan/effect_catalogue.h"
 #include "scenes/scene.h"
 #include "scenes/scene_reader.h"
+#include "tests/scenes/grey_difference.h"
 #include "tests/terrain/ascii_grid.h"
 
 namespace fanbeam::tests {
@@ -106,18 +107,6 @@ inline const core::EffectDecision& decision_on(const core::EffectPlan& plan,
                    [&](const core::EffectDecision& each) { return each.effect == effect; });
   REQUIRE(found != plan.decisions.end());
   return *found;
-}
-
-// Of any pixel of both pictures, in unrounded grey levels.
-inline double largest_difference_grey(const renderer::Frame& a, const renderer::Frame& b) {
-  REQUIRE(a.bscope_grey.size() == b.bscope_grey.size());
-  REQUIRE(a.cscope_grey.size() == b.cscope_grey.size());
-  double worst = 0.0;
-  for (std::size_t i = 0; i < a.bscope_grey.size(); ++i)
-    worst = std::max(worst, std::abs(a.bscope_grey[i] - b.bscope_grey[i]));
-  for (std::size_t i = 0; i < a.cscope_grey.size(); ++i)
-    worst = std::max(worst, std::abs(a.cscope_grey[i] - b.cscope_grey[i]));
-  return worst;
 }
 
 inline bool same_pictures(const renderer::Frame& a, const renderer::Frame& b) {

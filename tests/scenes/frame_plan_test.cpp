@@ -10,6 +10,7 @@
 #include "renderer/planned_frames.h"
 #include "sensors/sensor_file.h"
 #include "tests/scenes/far_approach.h"
+#include "tests/scenes/grey_difference.h"
 
 namespace fanbeam::tests {
 namespace {
@@ -23,15 +24,6 @@ bool same_stages(const core::EffectPlan& a, const core::EffectPlan& b) {
   return true;
 }
 
-double largest_difference(const renderer::Frame& a, const renderer::Frame& b) {
-  double worst = 0.0;
-  for (std::size_t i = 0; i < a.bscope_grey.size(); ++i)
-    worst = std::max(worst, std::abs(a.bscope_grey[i] - b.bscope_grey[i]));
-  for (std::size_t i = 0; i < a.cscope_grey.size(); ++i)
-    worst = std::max(worst, std::abs(a.cscope_grey[i] - b.cscope_grey[i]));
-  return worst;
-}
-
 renderer::Sampling few_rays() {
   renderer::Sampling sampling;
   sampling.sub_columns = 1;
@@ -42,7 +34,7 @@ renderer::Sampling few_rays() {
 double change_of(const scenes::Scene& scene, int frame) {
   renderer::PlannedFrames renderers(scene.world, few_rays(), {true, true}, 1);
   const renderer::FramePose pose = scene.frame_pose(frame);
-  return largest_difference(renderers.for_plan(scene.plan).render(pose),
+  return largest_difference_grey(renderers.for_plan(scene.plan).render(pose),
                             renderers.for_plan(scenes::frame_plan(scene, frame)).render(pose));
 }
 
@@ -142,7 +134,7 @@ TEST_CASE("No switch from frame to frame is seen", "[scenes][frame_plan]") {
       for (core::EffectDecision& each : without.decisions)
         if (each.effect == stage) each.on = false;
       const renderer::FramePose pose = scene->frame_pose(kAllInView);
-      CHECK(largest_difference(renderers.for_plan(scene->plan).render(pose),
+      CHECK(largest_difference_grey(renderers.for_plan(scene->plan).render(pose),
                                renderers.for_plan(without).render(pose)) > 0.0);
     }
   }

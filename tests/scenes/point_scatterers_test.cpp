@@ -103,9 +103,9 @@ TEST_CASE("A pole is a line from a place to the same place with two heights", "[
   double sum_m2 = 0.0;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const glm::dvec3 at_m = targets[i].path.front().position_m;
-    CHECK(at_m.x == Approx(targets[0].path.front().position_m.x).margin(1e-9));
+    CHECK(at_m.x == Approx(targets[0].path.front().position_m.x).epsilon(0.0).margin(1e-9));
     CHECK(at_m.z - targets[0].path.front().position_m.z ==
-          Approx(static_cast<double>(i)).margin(1e-6));
+          Approx(static_cast<double>(i)).epsilon(0.0).margin(1e-6));
     sum_m2 += std::get<materials::ConstantRcs>(targets[i].rcs).rcs_m2;
   }
   CHECK(sum_m2 == Approx(12.0 * core::power_from_dB(3.0)));
@@ -175,7 +175,7 @@ TEST_CASE("A thin wire is the same as a target and as a line, for both polarisat
     level_dBsm[vertical ? 1 : 0] = rcs_dBsm(wires[1], {0.0, -1.0, 0.0});
     // Boresight to the sky: the wire lies level.
     const auto level = std::get<materials::RoundWire>(wires[2].rcs);
-    CHECK(level.polarisation_rad == Approx(vertical ? core::kPi / 2.0 : 0.0).margin(1e-9));
+    CHECK(level.polarisation_rad == Approx(vertical ? core::kPi / 2.0 : 0.0).epsilon(0.0).margin(1e-9));
   }
   // ka = 0.11: a field across such a wire hardly sees it.
   CHECK(level_dBsm[1] - level_dBsm[0] > 20.0);

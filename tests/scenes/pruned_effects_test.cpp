@@ -10,6 +10,7 @@
 #include "core/files.h"
 #include "renderer/frame_renderer.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "tests/scenes/grey_difference.h"
 #include "tests/scenes/scene_folder.h"
 
 namespace fanbeam::tests {
@@ -109,15 +110,6 @@ Shown shown(const TemporaryFolder& folder, const std::string& effects) {
   return {frames.render(scene->frame_pose(0)), scene->plan};
 }
 
-double largest_difference(const renderer::Frame& a, const renderer::Frame& b) {
-  double worst = 0.0;
-  for (std::size_t i = 0; i < a.bscope_grey.size(); ++i)
-    worst = std::max(worst, std::abs(a.bscope_grey[i] - b.bscope_grey[i]));
-  for (std::size_t i = 0; i < a.cscope_grey.size(); ++i)
-    worst = std::max(worst, std::abs(a.cscope_grey[i] - b.cscope_grey[i]));
-  return worst;
-}
-
 double bound_of(const core::EffectPlan& plan, const std::string& effect) {
   for (const core::EffectDecision& decision : plan.decisions)
     if (decision.effect == effect) return decision.bound_grey;
@@ -141,14 +133,14 @@ std::map<std::string, double> check_bounds(const Case& c, bool among_others) {
     const auto check = [&](const Shown& from, const std::string& changed) {
       const double bound_grey = bound_of(from.plan, effect);
       INFO(effect << ", " << changed << ", bound " << bound_grey << " grey");
-      const double change = largest_difference(from.frame, shown(folder, changed).frame);
+      const double change = largest_difference_grey(from.frame, shown(folder, changed).frame);
       CHECK(change <= std::min(bound_grey, 255.0) + sampling + 1e-9);
       worst[effect] = std::max(worst[effect], change);
     };
     check(none, "none,+" + effect);
     if (among_others) check(all, "all,-" + effect);
   }
-  CHECK(largest_difference(all.frame, as_needed.frame) <= kAccuracy_grey / 2.0);
+  CHECK(largest_difference_grey(all.frame, as_needed.frame) <= kAccuracy_grey / 2.0);
   return worst;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "core/image_compare.h"
+#include "core/machine.h"
 #include "core/units.h"
 #include "scenes/scene.h"
 #include "scenes/scene_reader.h"
@@ -101,8 +102,10 @@ void check_golden(const std::string& name, const scenes::Scene& scene,
   const char* approve = std::getenv("FANBEAM_APPROVE");
   const std::filesystem::path folder =
       approve != nullptr && std::string(approve) == "1" ? golden : made;
-  core::write_exr(folder / (name + ".exr"), power, {});
-  core::write_png(folder / (name + ".png"), picture, {});
+  // Case R11: a reference names the instruction set it was made with.
+  const core::Metadata made_with{{"isa", core::instruction_level()}};
+  core::write_exr(folder / (name + ".exr"), power, made_with);
+  core::write_png(folder / (name + ".png"), picture, made_with);
   INFO("expected " << (golden / name).string() << ", got " << (made / name).string()
                    << "; look at both, then approve with FANBEAM_APPROVE=1");
   const auto compare = [&](const std::string& extension) {

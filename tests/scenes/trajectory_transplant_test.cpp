@@ -68,9 +68,9 @@ TEST_CASE("A transplanted flight is the same seen from the new runway", "[trajec
   for (std::size_t i = 0; i < flight.poses().size(); ++i) {
     const RunwayRelative was = relative_to(kDenver, flight.poses()[i].position);
     const RunwayRelative is = relative_to(kInnsbruck, moved.poses()[i].position);
-    CHECK(is.before_threshold_m == Approx(was.before_threshold_m).margin(1e-6));
-    CHECK(is.right_m == Approx(was.right_m).margin(1e-6));
-    CHECK(is.height_m == Approx(was.height_m).margin(1e-9));
+    CHECK(is.before_threshold_m == Approx(was.before_threshold_m).epsilon(0.0).margin(1e-6));
+    CHECK(is.right_m == Approx(was.right_m).epsilon(0.0).margin(1e-6));
+    CHECK(is.height_m == Approx(was.height_m).epsilon(0.0).margin(1e-9));
     CHECK(glm::length(moved.poses()[i].v_N_mps) ==
           Approx(glm::length(flight.poses()[i].v_N_mps)).epsilon(1e-12));
     const core::Attitude attitude = core::attitude_from(moved.poses()[i].q_NB);

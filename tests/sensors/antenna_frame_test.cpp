@@ -27,7 +27,7 @@ glm::dquat attitude_deg(double roll_deg, double pitch_deg, double heading_deg) {
 }
 
 void check_same(const glm::dvec3& found, const glm::dvec3& expected) {
-  for (int i = 0; i < 3; ++i) CHECK(found[i] == Approx(expected[i]).margin(1e-12));
+  for (int i = 0; i < 3; ++i) CHECK(found[i] == Approx(expected[i]).epsilon(0.0).margin(1e-12));
 }
 
 }  // namespace
@@ -99,8 +99,8 @@ TEST_CASE("angles are the inverse of direction on both scan surfaces", "[antenna
         CHECK(glm::length(d) == Approx(1.0).epsilon(1e-14));
         const auto seen = angles(frame, 3700.0 * d, surface);
         REQUIRE(seen);
-        CHECK(seen->azimuth_rad == Approx(radians(azimuth_deg)).margin(1e-14));
-        CHECK(seen->elevation_rad == Approx(radians(elevation_deg)).margin(1e-14));
+        CHECK(seen->azimuth_rad == Approx(radians(azimuth_deg)).epsilon(0.0).margin(1e-14));
+        CHECK(seen->elevation_rad == Approx(radians(elevation_deg)).epsilon(0.0).margin(1e-14));
       }
     }
   }
@@ -112,7 +112,7 @@ TEST_CASE("the surfaces differ by 0.25 deg at the corner of HiVision's picture",
   const glm::dvec3 d = direction(frame, radians(20.0), radians(-8.8), ScanSurface::plane);
   // asin(cos 8.8 deg sin 20 deg) = 19.7547 deg
   CHECK(core::degrees(angles(frame, d, ScanSurface::cone)->azimuth_rad) ==
-        Approx(19.7547).margin(1e-4));
+        Approx(19.7547).epsilon(0.0).margin(1e-4));
   // On the horizon and straight ahead they agree.
   CHECK(glm::distance(direction(frame, 0.3, 0.0, ScanSurface::plane),
                       direction(frame, 0.3, 0.0, ScanSurface::cone)) < 1e-15);

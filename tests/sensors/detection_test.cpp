@@ -77,8 +77,8 @@ TEST_CASE("Thresholds give back their false-alarm probability", "[detection]") {
 
 TEST_CASE("Published signal-to-noise ratios for a detection", "[detection]") {
   // Skolnik, Introduction to Radar Systems, 3rd edition, 2.6: 13.2 dB for 0.9 at 1e-6.
-  CHECK(dB(required_snr(Swerling::steady, 0.9, 1e-6, 1)) == Approx(13.183).margin(5e-4));
-  CHECK(dB(required_snr(Swerling::steady, 0.9, 1e-4, 1)) == Approx(11.749).margin(5e-4));
+  CHECK(dB(required_snr(Swerling::steady, 0.9, 1e-6, 1)) == Approx(13.183).epsilon(0.0).margin(5e-4));
+  CHECK(dB(required_snr(Swerling::steady, 0.9, 1e-4, 1)) == Approx(11.749).epsilon(0.0).margin(5e-4));
   CHECK(dB(required_snr(Swerling::case1, 0.9, 1e-6, 1)) == Approx(21.14).margin(5e-3));
   // B. R. Mahafza, MATLAB Simulations for Radar Systems Design, 2.9: 0.65 at 1e-9, ten pulses.
   CHECK(dB(required_snr(Swerling::steady, 0.65, 1e-9, 10)) == Approx(5.525).margin(0.02));
@@ -102,22 +102,22 @@ TEST_CASE("One look: closed forms of the Swerling cases, quadrature of Rice's de
       const double threshold = -std::log(pfa);
       const double exponential = std::pow(pfa, 1.0 / (1.0 + snr));
       CHECK(detection_probability(Swerling::case1, snr, 1, threshold) ==
-            Approx(exponential).margin(1e-12));
+            Approx(exponential).epsilon(0.0).margin(1e-12));
       CHECK(detection_probability(Swerling::case2, snr, 1, threshold) ==
-            Approx(exponential).margin(1e-12));
+            Approx(exponential).epsilon(0.0).margin(1e-12));
       const double two = 2.0 + snr;  // Meyer and Mayer, case 3, N = 1
       const double one_dominant =
           (1.0 + 2.0 * snr * threshold / (two * two)) * std::exp(-2.0 * threshold / two);
       CHECK(detection_probability(Swerling::case3, snr, 1, threshold) ==
-            Approx(one_dominant).margin(1e-12));
+            Approx(one_dominant).epsilon(0.0).margin(1e-12));
       CHECK(detection_probability(Swerling::case4, snr, 1, threshold) ==
-            Approx(one_dominant).margin(1e-12));
+            Approx(one_dominant).epsilon(0.0).margin(1e-12));
       const double a = std::sqrt(snr);
       const double from = std::sqrt(threshold);
       const double rice = simpson([&](double r) { return rice_density(r, a); }, from,
                                   std::max(a, from) + 9.0, 20000);
       CHECK(detection_probability(Swerling::steady, snr, 1, threshold) ==
-            Approx(rice).margin(2e-9));
+            Approx(rice).epsilon(0.0).margin(2e-9));
     }
 }
 
@@ -134,7 +134,7 @@ TEST_CASE("N looks: closed forms of cases 1 and 2, steady target averaged over c
       CAPTURE(looks, snr);
       CHECK(detection_probability(Swerling::case1, snr, looks, t) == Approx(case1).epsilon(1e-7));
       CHECK(detection_probability(Swerling::case2, snr, looks, t) ==
-            Approx(upper_gamma(looks, t / (1.0 + snr))).margin(1e-12));
+            Approx(upper_gamma(looks, t / (1.0 + snr))).epsilon(0.0).margin(1e-12));
       // A summed power x S / m with x gamma distributed of order m.
       for (const auto& [target, order] :
            {std::pair{Swerling::case3, 2}, std::pair{Swerling::case4, 2 * looks}}) {
@@ -144,7 +144,7 @@ TEST_CASE("N looks: closed forms of cases 1 and 2, steady target averaged over c
           return steady * poisson_probability(static_cast<int>(m) - 1, x);
         };
         const double mean = simpson(averaged, 0.0, m + 12.0 * std::sqrt(m) + 30.0, 3000);
-        CHECK(detection_probability(target, snr, looks, t) == Approx(mean).margin(1e-8));
+        CHECK(detection_probability(target, snr, looks, t) == Approx(mean).epsilon(0.0).margin(1e-8));
       }
     }
 }
@@ -163,7 +163,7 @@ TEST_CASE("N looks of a steady target: all its signal in one look, by quadrature
                                    std::max(a, edge) + 9.0, 4000);
       CAPTURE(looks, snr);
       CHECK(detection_probability(Swerling::steady, snr, looks, t) ==
-            Approx(below + above).margin(1e-7));
+            Approx(below + above).epsilon(0.0).margin(1e-7));
     }
 }
 
@@ -179,7 +179,7 @@ TEST_CASE("Detection rises with the signal up to certainty, for every case and m
         CHECK(pd <= 1.0);
         last = pd;
       }
-      CHECK(last == Approx(1.0).margin(1e-9));
+      CHECK(last == Approx(1.0).epsilon(0.0).margin(1e-9));
     }
 }
 

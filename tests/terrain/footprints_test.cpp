@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <ctime>
 #include <fstream>
 #include <iterator>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/constants.h"
 #include "core/errors.h"
 #include "core/units.h"
 #include "tests/shared_data.h"
@@ -122,6 +124,23 @@ TEST_CASE("Rings that touch or cross themselves are repaired and counted", "[foo
   CHECK(pinched_area == Approx(16e-6 - 1e-6));
   CHECK(bow_tie_area == Approx(2e-6));
   CHECK_THAT(warnings_of(problems), Contains("W-REPAIRED") && Contains("= 2"));
+}
+
+// Every edge of such a star crosses nearly every other: 12 kB kept the repair busy for minutes.
+TEST_CASE("An outline tangled beyond use is E-LIMIT at once", "[footprints]") {
+  const auto star = [](int points) {
+    std::string ring;
+    for (int i = 0; i <= points; ++i) {
+      const double angle_rad = core::kPi * (i % points) * (points - 1) / points;
+      ring += (i > 0 ? ",[" : "[") + std::to_string(11.0 + 0.001 * std::cos(angle_rad)) + "," +
+              std::to_string(47.0 + 0.001 * std::sin(angle_rad)) + "]";
+    }
+    return collection(feature(R"("render_height":5)", "Polygon", "[[" + ring + "]]"));
+  };
+  const std::clock_t begin = std::clock();
+  CHECK_THAT(refusal_of(star(501)), Contains("E-LIMIT feature 0 outline = crosses itself more"));
+  CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 2.0);
+  CHECK(refusal_of(star(21)) == "accepted");
 }
 
 TEST_CASE("Missing heights, other shapes and empty footprints are counted", "[footprints]") {

@@ -1,7 +1,6 @@
 // Files that a glTF file names, and which of them are opened.
-#include <sys/resource.h>
-
 #include "core/files.h"
+#include "tests/peak_memory.h"
 #include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {
@@ -106,12 +105,6 @@ TEST_CASE("F05 data URIs in base64 need no file", "[gltf]") {
   CHECK(has(problems("data:"), "E-UNSUPPORTED", "buffers[0].uri"));
 }
 
-long resident_peak_kB() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss;
-}
-
 TEST_CASE("F08 an image bomb is neither opened nor decoded", "[gltf]") {
   // A PNG header that claims 65535 x 65535 pixels, and nothing behind it.
   const std::string bomb =
@@ -132,12 +125,12 @@ TEST_CASE("F08 an image bomb is neither opened nor decoded", "[gltf]") {
   const fs::path file =
       folder.write("model.glb", tests::glb(tests::json_chunk(document) +
                                            tests::binary_chunk(tests::triangle_bytes() + bomb)));
-  const long before_kB = resident_peak_kB();
+  const tests::PeakMemory memory;
   const Load load(file, folder.path());
   CHECK(load.problems.empty());
   CHECK(load.triangles == 1);
   CHECK(load.opened == std::vector<fs::path>{fs::canonical(file)});
-  CHECK(resident_peak_kB() - before_kB < 64 * 1024);
+  CHECK(memory.rise_MiB() < 64.0);
 }
 
 }  // namespace

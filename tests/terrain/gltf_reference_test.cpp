@@ -93,10 +93,15 @@ TEST_CASE("F02 sparse accessors beyond their bytes are E-REF", "[gltf]") {
 TEST_CASE("F02 a scene larger than the limits is refused before it is read", "[gltf]") {
   json document = triangle_document();
   document["accessors"][0].erase("bufferView");  // legal: all zero
-  document["accessors"][0]["count"] = kMostGltfVertices + 1;
+  document["accessors"][0]["count"] = kMostGltfUnbackedElements;
+  document["scenes"][0]["nodes"] = json::array();
+  for (std::size_t i = 0; i * kMostGltfUnbackedElements <= kMostGltfVertices; ++i) {
+    document["nodes"][i]["mesh"] = 0;
+    document["scenes"][0]["nodes"].push_back(i);
+  }
   CHECK(has(problems_of(document), "E-LIMIT", "scene vertices"));
   document["accessors"][0]["count"] = kMost64;
-  CHECK(has(problems_of(document), "E-LIMIT", "scene vertices"));
+  CHECK(has(problems_of(document), "E-LIMIT", "meshes[0].primitives[0].attributes.POSITION"));
   CHECK(has(problems_of(changed("/buffers/0/byteLength", kMost64)), "E-LIMIT"));
   document = triangle_document();
   document["buffers"].push_back({{"uri", "a.bin"}, {"byteLength", kLargestGltfBuffers_bytes}});

@@ -132,6 +132,35 @@ TEST_CASE("Missing, foreign and damaged raster files are refused", "[raster_file
         Contains("E-PARSE"));
 }
 
+// GDAL opens the .prj and .aux.xml beside a raster by itself.
+TEST_CASE("F05 a side file that is a link out of the folder is never opened", "[raster_file]") {
+  const TemporaryFolder outside;
+  outside.write("other.prj", tests::kWgs84Wkt);
+  AsciiGrid grid{4, 4, 11.0, 47.0, 0.01};
+  grid.wkt = "";
+  for (const char* side : {"dem.prj", "dem.asc.aux.xml", "dem.ovr"}) {
+    const TemporaryFolder folder;
+    const auto file = grid.write(folder, "dem", [](int, int) { return std::string("10"); });
+    std::filesystem::create_symlink(outside.path() / "other.prj", folder.path() / side);
+    CHECK_THAT(refusal_of(file), Contains("E-PATH side file") && Contains(side));
+  }
+  const TemporaryFolder folder;
+  const auto file = grid.write(folder, "dem", [](int, int) { return std::string("10"); });
+  folder.write("real.prj", tests::kWgs84Wkt);
+  std::filesystem::create_symlink("real.prj", folder.path() / "dem.prj");
+  CHECK(refusal_of(file) == "accepted");
+}
+
+TEST_CASE("A GeoTIFF cut anywhere is refused", "[raster_file]") {
+  const TemporaryFolder folder;
+  const std::string whole = tiny_geotiff(true, 1);
+  REQUIRE(refusal_of(folder.write("whole.tif", whole)) == "accepted");
+  for (std::size_t length = 0; length < whole.size(); ++length) {
+    CAPTURE(length);
+    CHECK_THAT(refusal_of(folder.write("cut.tif", whole.substr(0, length))), Contains("E-"));
+  }
+}
+
 TEST_CASE("A header that claims a huge raster is refused before memory is taken", "[raster_file]") {
   const TemporaryFolder folder;
   folder.write("huge.prj", tests::kWgs84Wkt);

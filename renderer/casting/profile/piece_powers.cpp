@@ -100,7 +100,9 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void integrate(const sensors::RangeGate& gate,
     const double s2_m = s1_m + length2_m2 * per_length;
     const double border_m = minimum_m + cell_m * (c1 > c2 ? c1 : c2);
     const double to_border_m2 = border_m * border_m - p_m * p_m;
-    const double to_border_m = std::sqrt(to_border_m2 > 0.0 ? to_border_m2 : 0.0);
+    // A root of both signs: the compiler takes it before it chooses.
+    const double root_m = std::sqrt(std::abs(to_border_m2));
+    const double to_border_m = to_border_m2 > 0.0 ? root_m : 0.0;
     const double crossing_m = s1_m + s2_m > 0.0 ? to_border_m : -to_border_m;
     const double not_behind_m = crossing_m < s2_m ? crossing_m : s2_m;
     const double between_m = not_behind_m > s1_m ? not_behind_m : s1_m;

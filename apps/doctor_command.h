@@ -1,0 +1,23 @@
+// fanbeam doctor: what makes a scene numerically delicate, and what to do about it.
+#pragma once
+
+#include <string>
+
+#include "apps/common.h"
+
+namespace fanbeam::apps {
+
+struct DoctorOptions {
+  std::string scene = "braunschweig-26";
+  std::string sensor;
+  std::string data;
+  std::string json;  // file to write as well; empty for none
+  double accuracy_grey = 0.5;
+  bool measure = false;  // refine frames to see whether the accuracy can be reached
+};
+
+// Writes the findings as a table to standard output. Returns kExitDone when none is worse than
+// delicate, else kExitCompareFailed; throws InputError for bad input.
+int examine_scene(const DoctorOptions& options, const CommonOptions& common);
+
+}  // namespace fanbeam::apps

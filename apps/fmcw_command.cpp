@@ -1,0 +1,154 @@
+#include "apps/fmcw_command.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <set>
+
+#include "apps/fmcw/products.h"
+#include "apps/fmcw/record.h"
+#include "apps/frame_choice.h"
+#include "apps/progress.h"
+#include "apps/stop_on_signals.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "core/stop.h"
+#include "scenes/scene.h"
+
+namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point& begin) {
+  const Clock::time_point now = Clock::now();
+  const double ms = std::chrono::duration<double, std::milli>(now - begin).count();
+  begin = now;
+  return ms;
+}
+
+// Only samples where the waveform has no maps; asking for more is refused.
+std::set<std::string> chosen_products(const std::string& text, const FmcwRadar& radar) {
+  if (text.empty() && !radar.maps) return {"beat"};
+  if (text.empty()) return {"range-doppler", "range-azimuth", "top-view", "detections"};
+  std::vector<std::string_view> known;
+  for (const Product& product : kFmcwProducts) known.push_back(product.name);
+  std::set<std::string> products;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string name = text.substr(from, comma - from);
+    from = comma + 1;
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
+                              fmt::format("a list of {}", fmt::join(known, ", ")));
+    if (name != "beat" && !radar.maps)
+      core::throw_input_error(core::ErrorClass::unsupported, "--products", "\"" + name + "\"",
+                              "beat: maps and detections need a chirp sequence");
+    products.insert(name);
+  }
+  return products;
+}
+
+class Run {
+ public:
+  Run(const FmcwOptions& options, const CommonOptions& common, const scenes::Scene& scene,
+      int threads)
+      : options_(options),
+        common_(common),
+        scene_(scene),
+        threads_(threads),
+        frames_(parse_frames(options.frames, scene.frame_count())),
+        radar_(fmcw_radar(options, scene.description.sensor)),
+        products_(chosen_products(options.products, radar_)),
+        folder_(options.output.empty() ? fs::path("out") / (scene.description.name + "-fmcw")
+                                       : fs::path(options.output)) {}
+
+  void process() {
+    Progress progress(scene_.description.name, static_cast<int>(frames_.size()), common_.quiet);
+    for (const int index : frames_) {
+      core::throw_if_stopped();
+      process(index);
+      progress.step(static_cast<int>(records_.size()));
+    }
+    core::write_file_atomically(
+        folder_ / "run.json", fmcw_run_json(scene_, options_, radar_, azimuths_rad_, records_));
+    core::write_file_atomically(folder_ / "timing.json",
+                                fmcw_timing_json(threads_, scene_.build_s, records_));
+  }
+
+  void print_summary() const {
+    if (common_.quiet) return;
+    for (const FmcwFrameRecord& frame : records_) {
+      print_problems(frame.warnings);
+      fmt::print("frame {}: {} paths from {} rays, {} synthesis", frame.index, frame.paths,
+                 frame.rays, frame.keystone ? "keystone" : "direct");
+      if (radar_.maps)
+        fmt::print(", {} detections in {} clusters", frame.detections, frame.clusters);
+      fmt::print("; echoes {:.0f} ms, signal {:.0f} ms, files {:.0f} ms\n", frame.echoes_ms,
+                 frame.signal_ms, frame.writing_ms);
+    }
+    for (const std::string& product : products_)
+      fmt::print("{:14} {}\n", product, fs::absolute(folder_ / product).lexically_normal().string());
+    fmt::print("{:14} {}\n", "record",
+               fs::absolute(folder_ / "run.json").lexically_normal().string());
+  }
+
+ private:
+  void process(int index) {
+    Clock::time_point begin = Clock::now();
+    const FmcwPaths paths = fmcw_paths(scene_, index, options_);
+    const double echoes_ms = ms_since(begin);
+    const bool with_maps = radar_.maps && products_ != std::set<std::string>{"beat"};
+    const FmcwFrame frame = fmcw_frame(radar_, scene_.description.sensor, paths.paths, index,
+                                       options_, with_maps);
+    const double signal_ms = ms_since(begin);
+    FmcwFrameRecord record = fmcw_record(scene_, index, paths, frame);
+    write_fmcw_products(
+        folder_, products_, radar_, frame,
+        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
+    record.echoes_ms = echoes_ms;
+    record.signal_ms = signal_ms;
+    record.writing_ms = ms_since(begin);
+    azimuths_rad_ = frame.azimuths_rad;
+    records_.push_back(std::move(record));
+  }
+
+  const FmcwOptions& options_;
+  const CommonOptions& common_;
+  const scenes::Scene& scene_;
+  int threads_;
+  std::vector<int> frames_;
+  FmcwRadar radar_;
+  std::set<std::string> products_;
+  fs::path folder_;
+  std::vector<double> azimuths_rad_;
+  std::vector<FmcwFrameRecord> records_;
+};
+
+}  // namespace
+
+int fmcw(const FmcwOptions& options, const CommonOptions& common) {
+  const core::ThreadLimit threads(options.threads);
+  core::ProblemList problems;
+  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data),
+                                           options.sensor};
+  const scenes::SceneDescription description =
+      scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  const std::unique_ptr<scenes::Scene> scene =
+      scenes::build_scene(description, scenes::BuildOptions{}, problems);
+  if (!common.quiet) print_problems(problems.all());
+  const StopOnSignals stop_on_signals;
+  try {
+    Run run(options, common, *scene, threads.threads());
+    run.process();
+    run.print_summary();
+  } catch (const core::Stopped&) {
+    return end_by_stop_signal();
+  }
+  return kExitDone;
+}
+
+}  // namespace fanbeam::apps

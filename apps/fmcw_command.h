@@ -1,0 +1,49 @@
+// fanbeam fmcw: a scene at signal level, from scatterers to detections.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "apps/render_command.h"
+#include "apps/waveform_command.h"
+
+namespace fanbeam::apps {
+
+inline constexpr std::array<Product, 6> kFmcwProducts = {
+    {{"beat", "samples, NPY"},
+     {"cube", "range, speed and azimuth, complex, NPY"},
+     {"range-doppler", "map, PNG and EXR"},
+     {"range-azimuth", "map, PNG and EXR"},
+     {"top-view", "map, PNG and EXR"},
+     {"detections", "with clusters, CSV and JSON"}}};
+
+inline constexpr const char* kAutomotive = "automotive-76ghz";
+inline constexpr std::size_t kMostDirectPaths = 20'000;
+
+struct FmcwOptions {
+  std::string scene = "street-76ghz";
+  std::string output;  // default out/<scene name>-fmcw
+  std::string frames = "0";
+  std::string products;  // empty: all that the waveform has but samples and cubes
+  std::string sensor, data;
+  std::string waveform;  // a kind, or kAutomotive; empty: by the sensor's frequency
+  std::array<std::optional<double>, kWaveformNumbers.size()> numbers;
+  bool real = false;
+  int transmitters = 3, receivers = 4;
+  double false_alarm_probability = 1e-6;
+  double rays_per_cell = 1.0;
+  double dynamic_range_dB = 60.0;
+  double line_width_Hz = 0.0;  // of the oscillator; 0: no phase noise
+  int adc_bits = 0;            // 0: no quantiser
+  bool refuse_folding = false;
+  bool unfold = false;  // speeds of detections
+  int threads = 0;
+  std::uint64_t seed = 0;
+};
+
+// Returns an exit code; throws InputError for bad input. Stopped by signals as render is.
+int fmcw(const FmcwOptions& options, const CommonOptions& common);
+
+}  // namespace fanbeam::apps

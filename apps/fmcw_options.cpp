@@ -1,0 +1,101 @@
+#include <CLI/CLI.hpp>
+#include <string_view>
+
+#include "apps/command_line.h"
+#include "apps/fmcw_command.h"
+#include "apps/number_range.h"
+#include "signal/waveform/waveform.h"
+
+namespace fanbeam::apps {
+namespace {
+
+std::string products_help() {
+  std::string text = "A list of";
+  for (const Product& product : kFmcwProducts)
+    text += (text.ends_with("of") ? " " : ", ") + std::string(product.name) + " (" +
+            std::string(product.what) + ")";
+  return text + " (default: maps and detections where the waveform has them, else beat)";
+}
+
+void add_radar(CLI::App& command, FmcwOptions& options) {
+  std::vector<std::string> names = {kAutomotive};
+  for (const signal::WaveformKind kind : signal::all_waveform_kinds())
+    names.emplace_back(signal::name(kind));
+  command
+      .add_option("--waveform", options.waveform,
+                  "automotive-76ghz: chirps of 20 us, one transmitter after the other; or a kind "
+                  "of fanbeam waveform (default: automotive-76ghz for sensors of 70 to 82 GHz, "
+                  "else chirp-sequence)")
+      ->check(CLI::IsMember(names));
+  for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i) {
+    const WaveformNumber& number = kWaveformNumbers[i];
+    if (std::string_view(number.option) == "--frequency") continue;  // the sensor's
+    command.add_option(number.option, options.numbers[i], number.help)
+        ->check(number_from(number.least, number.most));
+  }
+  command.add_flag("--real", options.real, "Real samples: negative beats read as positive ones");
+  command.add_option("--transmitters", options.transmitters, "Of the array")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command.add_option("--receivers", options.receivers, "Of the array, half a wavelength apart")
+      ->check(CLI::Range(1, 64))
+      ->capture_default_str();
+  command
+      .add_option("--line-width", options.line_width_Hz,
+                  "Of the oscillator, Hz: phase noise (default 0: none)")
+      ->check(number_from(0.0, 1e6));
+  command
+      .add_option("--adc-bits", options.adc_bits,
+                  "Quantise the samples, full scale at the largest (default 0: not)")
+      ->check(CLI::Range(0, 24));
+}
+
+}  // namespace
+
+void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common) {
+  CLI::App& command = *app.add_subcommand(
+      "fmcw", "A scene at signal level: beat signals, maps of range, speed and azimuth, detections");
+  command
+      .add_option("SCENE", options.scene,
+                  "A folder with scene.toml, that file, or the name of a shipped scene")
+      ->capture_default_str();
+  command.add_option("-o,--output", options.output,
+                     "Folder to write to (default out/<scene name>-fmcw)");
+  command
+      .add_option("--frames", options.frames, "A:B[:STEP], counted like a Python slice, or one frame")
+      ->capture_default_str();
+  command.add_option("--products", options.products, products_help());
+  add_radar(command, options);
+  command
+      .add_option("--pfa", options.false_alarm_probability,
+                  "False-alarm probability of a cell of the range-Doppler map")
+      ->check(number_from(1e-12, 0.1))
+      ->capture_default_str();
+  command
+      .add_option("--rays-per-cell", options.rays_per_cell,
+                  "Scatterers per range cell and azimuth column of the sensor")
+      ->check(number_from(0.1, 1000.0))
+      ->capture_default_str();
+  command
+      .add_option("--dynamic-range", options.dynamic_range_dB,
+                  "Of the pictures' colours, dB from the noise up")
+      ->check(number_from(1.0, 300.0))
+      ->capture_default_str();
+  command.add_flag("--refuse-folding", options.refuse_folding,
+                   "A scatterer beyond the unambiguous spans is an error, not a warning");
+  command.add_flag("--unfold", options.unfold,
+                   "Tell by the array which fold a detection's speed is in: right for what is alone "
+                   "in its cell, wrong at times for clutter");
+  command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
+  command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
+  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
+      ->check(CLI::Range(0, 1024));
+  command.add_option("--data", options.data,
+                     "Folder with terrain and flight data (before FANBEAM_DATA)");
+  command.footer(
+      "Frequency, sweep and element pattern are those of the scene's sensor. Speeds are positive\n"
+      "receding, azimuths positive right. docs/fmcw.md explains every step and file.");
+  add_common_options(command, common);
+}
+
+}  // namespace fanbeam::apps

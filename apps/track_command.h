@@ -1,0 +1,26 @@
+// fanbeam track: road scenarios to measurements, tracks, errors and metrics.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/common.h"
+
+namespace fanbeam::apps {
+
+struct TrackOptions {
+  std::string file;
+  std::string scenario;  // its id; empty: all of the file
+  std::string output;    // default out/<file's name>-tracks
+  std::string scheme = "two-stage";
+  std::string association = "nearest";
+  double detection_probability = 1.0;
+  double false_per_frame = 0.0;
+  std::uint64_t seed = 0;
+  int run = 0;
+};
+
+// Returns an exit code; throws InputError for bad input.
+int track(const TrackOptions& options, const CommonOptions& common);
+
+}  // namespace fanbeam::apps

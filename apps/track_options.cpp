@@ -1,0 +1,46 @@
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line.h"
+#include "apps/number_range.h"
+#include "apps/track_command.h"
+
+namespace fanbeam::apps {
+
+void add_track_command(CLI::App& app, TrackOptions& options, CommonOptions& common) {
+  CLI::App& command = *app.add_subcommand(
+      "track", "A highway scenario to measurements, tracks, errors and metrics");
+  command.add_option("SCENARIO", options.file, "JSON file of highway scenarios")->required();
+  command.add_option("--scenario", options.scenario, "Id of one scenario (default: all)");
+  command.add_option("-o,--output", options.output,
+                     "Folder to write to (default out/<file's name>-tracks)");
+  command
+      .add_option("--waveform", options.scheme,
+                  "How beats become ranges and speeds: one triangle (all pairs, with ghosts), two "
+                  "slopes, or two stages")
+      ->check(CLI::IsMember({"triangle", "two-slopes", "two-stage"}))
+      ->capture_default_str();
+  command
+      .add_option("--association", options.association,
+                  "Measurements to tracks: best assignment, or joint probabilities")
+      ->check(CLI::IsMember({"nearest", "joint"}))
+      ->capture_default_str();
+  command
+      .add_option("--detection-probability", options.detection_probability,
+                  "Of each target in each frame")
+      ->check(number_from(0.0, 1.0))
+      ->capture_default_str();
+  command.add_option("--false-measurements", options.false_per_frame, "Mean number in a frame")
+      ->check(number_from(0.0, 100.0))
+      ->capture_default_str();
+  command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
+  command.add_option("--run", options.run, "Another draw of the same seed")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  command.footer(
+      "Writes tracks.csv and measurements.csv for each scenario, and run.json with the metrics.\n"
+      "Places are relative to the radar, x forward and y right; azimuths positive right, speeds\n"
+      "positive receding.");
+  add_common_options(command, common);
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,112 @@
+#include "benchmarks/estimate_check.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "benchmarks/bench_scene.h"
+#include "benchmarks/frame_clock.h"
+#include "renderer/accuracy/refinement.h"
+
+namespace fanbeam::benchmarks {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Way {
+  std::string name;
+  renderer::Sampling sampling;
+};
+
+std::vector<Way> ways_of(const scenes::Scene& scene) {
+  // Half of an accuracy of 0.5 is sampling's, the other half is for effects left out.
+  constexpr double kShare_grey = 0.25;
+  std::vector<renderer::CasterKind> casters = {renderer::CasterKind::rays};
+  if (scene.caster.chosen == renderer::CasterKind::profile)
+    casters.push_back(renderer::CasterKind::profile);
+  std::vector<Way> ways;
+  for (const renderer::CasterKind caster : casters) {
+    const std::string name = caster == renderer::CasterKind::rays ? "rays" : "slices";
+    renderer::Sampling sampling = renderer::sampling_for(caster, renderer::default_samples(caster));
+    sampling.estimate_error = true;
+    ways.push_back({name + ", default", sampling});
+    ways.push_back(
+        {name + ", --accuracy 0.5", renderer::refined_sampling(caster, kShare_grey)});
+  }
+  return ways;
+}
+
+void check_frame(const BenchScene& bench, int frame, const Effort& effort,
+                 std::vector<EstimateCase>& cases) {
+  const scenes::Scene& scene = *bench.scene;
+  renderer::Effects effects = renderer::effects_of(scene.plan, 1);
+  effects.speckle = effects.swerling = false;
+  const auto render = [&](const renderer::Sampling& sampling) {
+    return renderer::FrameRenderer(scene.world, sampling, {true, true}, effects)
+        .render(scene.frame_pose(frame));
+  };
+  const GreyReference reference(scene.world.sensor, power_of(render(effort.reference(1))));
+  for (const Way& way : ways_of(scene)) {
+    renderer::Frame picture = render(way.sampling);
+    EstimateCase found{bench.name, frame, way.name, picture.error->rms_grey, 0.0};
+    const PictureError error = reference.error_of(power_of(std::move(picture))).bscope;
+    found.true_grey = (effects.thermal_noise ? error.with_noise : error.noise_free).rms;
+    cases.push_back(found);
+  }
+}
+
+std::set<std::string> shipped_scenes() {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(FANBEAM_SOURCE_DIR) / "scenes"))
+    if (fs::exists(entry.path() / "scene.toml")) names.insert(entry.path().filename().string());
+  return names;
+}
+
+}  // namespace
+
+std::vector<EstimateCase> check_estimates(const Effort& effort) {
+  std::vector<EstimateCase> cases;
+  for (const std::string& name : shipped_scenes()) {
+    scenes::BuildOptions options;
+    options.caster = renderer::CasterWish::automatic;  // tells whether slices can show the scene
+    const auto bench = load(name, options);
+    if (!bench) continue;
+    const int frames = std::min(effort.estimate_frames, bench->scene->frame_count());
+    for (int i = 0; i < frames; ++i) {
+      const int frame = (2 * i + 1) * bench->scene->frame_count() / (2 * frames);
+      fmt::print(stderr, "{}: estimates of frame {}\n", name, frame);
+      check_frame(*bench, frame, effort, cases);
+    }
+  }
+  return cases;
+}
+
+double share_within(const std::vector<EstimateCase>& cases) {
+  if (cases.empty()) return 0.0;
+  const auto within = std::count_if(cases.begin(), cases.end(),
+                                    [](const EstimateCase& each) { return each.within(); });
+  return static_cast<double>(within) / static_cast<double>(cases.size());
+}
+
+std::string estimates_markdown(const std::vector<EstimateCase>& cases) {
+  if (cases.empty()) return "";
+  std::string text =
+      "## Errors that frames state of themselves\n\n"
+      "Estimated and true error of the B-scope, grey RMS, with every effect and the noise that the\n"
+      "plan of the scene has. The last column is the true error over the estimate; an error below\n"
+      "0.05 grey in both is seen by nobody and counts as right.\n\n"
+      "| scene | frame | sampling | estimated | true | ratio |\n"
+      "| --- | --- | --- | --- | --- | --- |\n";
+  for (const EstimateCase& each : cases)
+    text += fmt::format("| {} | {} | {} | {:.3f} | {:.3f} | {}{} |\n", each.scene, each.frame,
+                        each.sampling, each.estimate_grey, each.true_grey,
+                        each.invisible() ? "-" : fmt::format("{:.2f}", each.true_grey /
+                                                                           each.estimate_grey),
+                        each.within() ? "" : ", **missed**");
+  return text + fmt::format("\n{:.0f} % of {} within a factor of 1.5.\n\n",
+                            100.0 * share_within(cases), cases.size());
+}
+
+}  // namespace fanbeam::benchmarks

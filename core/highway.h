@@ -1,0 +1,92 @@
+// Road scenarios as plain data: a radar that drives straight on, targets with simple laws of
+// motion, and what the radar should see of them.
+//
+// Frame: x forward along the road, y to the right, origin at the radar at time 0; the radar moves
+// along +x at `radar_speed_mps`. Velocities are over ground. Azimuth is positive to the right.
+// Laws, t counted from 0:
+//   piecewise    velocity v0, plus the accelerations of segments, each constant between its two
+//                times; lane changes add lateral/2 (1 - cos(pi (t - t0)/(t1 - t0))) between their
+//                times and the whole of it afterwards
+//   circular     about the radar's place at time 0: (r cos a, r sin a), a = a0 + w t
+// Range, range rate and azimuth are those of the exact geometry: R = |p|, (p . v)/R, atan2(py, px)
+// with p and v relative to the radar. Accuracy: rounding.
+// Neglected: turns and height of the road.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/swerling.h"
+
+namespace fanbeam::core {
+
+enum class HighwayMotion { piecewise, circular };
+
+struct AccelerationSegment {
+  double start_s = 0.0, end_s = 0.0;
+  std::array<double, 2> acceleration_mps2{};
+};
+
+struct LaneChange {
+  double start_s = 0.0, end_s = 0.0;
+  double lateral_m = 0.0;  // to the right
+};
+
+struct HighwayTarget {
+  std::string id, kind;
+  double cross_section_m2 = 1.0;
+  Swerling fluctuation = Swerling::steady;
+  bool clutter = false;  // really there, but need not be tracked
+  HighwayMotion motion = HighwayMotion::piecewise;
+  std::array<double, 2> position_m{};
+  std::array<double, 2> velocity_mps{};
+  std::vector<AccelerationSegment> accelerations;
+  std::vector<LaneChange> lane_changes;
+  double radius_m = 0.0;
+  double azimuth_rad = 0.0;  // a0
+  double angular_rate_rad_per_s = 0.0;
+};
+
+// What a scenario states about one target at one time.
+struct HighwayTruth {
+  double time_s = 0.0;
+  double range_m = 0.0, range_rate_mps = 0.0, azimuth_rad = 0.0;
+  bool in_view = true;
+};
+
+struct HighwayScenario {
+  std::string id, title;
+  double duration_s = 0.0;
+  double radar_speed_mps = 0.0;
+  std::vector<HighwayTarget> targets;
+  std::vector<std::vector<HighwayTruth>> truth;  // of each target
+};
+
+struct HighwayRadar {
+  double centre_frequency_Hz = 76e9;
+  double bandwidth_Hz = 250e6;
+  double transmitted_W = 4e-3;
+  double transmit_gain = 1.0, receive_gain = 1.0;  // power ratios, as are the next two
+  double noise_figure = 1.0;
+  double loss = 1.0;
+  double most_range_m = 200.0;
+  double most_azimuth_rad = 1.0471975511965976;  // 60 degrees
+  int array_elements = 12;                       // virtual, in a line
+  double array_pitch_wavelengths = 0.5;
+  double frame_s = 0.05;
+};
+
+// Relative to the radar.
+struct RelativeMotion {
+  std::array<double, 2> position_m{};
+  std::array<double, 2> velocity_mps{};
+};
+RelativeMotion relative_motion(const HighwayTarget& target, double radar_speed_mps, double time_s);
+
+// `in_view`: 0 < range <= most_range_m and |azimuth| <= most_azimuth_rad. A target at the radar's
+// own place has range, rate and azimuth 0 and is out of view.
+HighwayTruth truth_at(const HighwayTarget& target, double radar_speed_mps,
+                      const HighwayRadar& radar, double time_s);
+
+}  // namespace fanbeam::core

@@ -1,0 +1,97 @@
+// The aircraft's way (T13), and the accuracy asked for.
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/doctor/parts_private.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+// Sine of the depression of the nearest cell at which an error of height is one of range a hundred
+// times as large.
+constexpr double kLowSine = 0.01;
+// RMS of what rounding to whole grey levels changes: 1 / sqrt(12).
+constexpr double kRounding_grey = 0.28867513459481287;
+
+bool inside(const terrain::Solid& solid, const glm::dvec3& point_m) {
+  if (point_m.z >= solid.top_m) return false;
+  bool odd = false;
+  for (const std::vector<glm::dvec2>& ring : solid.rings_m)
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const glm::dvec2& a = ring[i];
+      const glm::dvec2& b = ring[(i + 1) % ring.size()];
+      if ((a.y > point_m.y) == (b.y > point_m.y)) continue;
+      if (point_m.x < a.x + (point_m.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
+    }
+  return odd;
+}
+
+void check_solids(const DoctorParts& parts, Findings& findings) {
+  std::size_t frames = 0;
+  const Sight* first = nullptr;
+  for (const Sight& sight : parts.flight)
+    for (const terrain::Solid& solid : parts.scene.world.solids.prisms)
+      if (inside(solid, sight.antenna.position_m)) {
+        ++frames;
+        if (first == nullptr) first = &sight;
+        break;
+      }
+  if (first == nullptr) return;
+  findings.push_back({Severity::wrong, "flight-through-building",
+                      "the antenna is inside a building, first in frame " +
+                          std::to_string(first->frame) + ", for this many frames",
+                      place_text(parts.scene.description.trajectory.place) + ", trajectory, " +
+                          place_text(parts.scene, first->antenna.position_m),
+                      static_cast<double>(frames), "",
+                      "Walls seen from inside hide all of the scene.",
+                      "Move the building or the trajectory; check the building's height."});
+}
+
+}  // namespace
+
+void check_flight_height(const DoctorParts& parts, Findings& findings) {
+  if (parts.flight.empty()) return;
+  const auto lowest = std::min_element(
+      parts.flight.begin(), parts.flight.end(),
+      [](const Sight& a, const Sight& b) { return a.above_ground_m < b.above_ground_m; });
+  const auto below = std::count_if(parts.flight.begin(), parts.flight.end(),
+                                   [](const Sight& sight) { return sight.above_ground_m <= 0.0; });
+  const double low_m = kLowSine * parts.sensor().range.minimum_m;
+  const std::string where = place_text(parts.scene.description.trajectory.place) +
+                            ", trajectory, frame " + std::to_string(lowest->frame) + ", " +
+                            place_text(parts.scene, lowest->antenna.position_m);
+  if (below > 0)
+    findings.push_back({Severity::wrong, "antenna-below-ground",
+                        "the antenna is in the ground in " + std::to_string(below) +
+                            " frames, in the worst by this much",
+                        where, -lowest->above_ground_m, "m",
+                        "Such a frame holds noise alone, and is flagged below_terrain.",
+                        "Check the trajectory's vertical datum and the sensor's mounting offset."});
+  else if (lowest->above_ground_m < low_m)
+    findings.push_back(
+        {Severity::delicate, "antenna-near-ground",
+         "the antenna comes down to this height over the ground", where, lowest->above_ground_m,
+         "m",
+         "Below " + core::number_text(low_m) +
+             " m an error of the terrain's height moves even the nearest cell's ground a hundred "
+             "times as far.",
+         "End the trajectory earlier, or read the last frames as such."});
+  check_solids(parts, findings);
+}
+
+void check_accuracy(const DoctorParts& parts, Findings& findings) {
+  const double asked_grey = parts.scene.accuracy_grey;
+  if (!(asked_grey > 0.0) || asked_grey >= kRounding_grey) return;
+  const sensors::Display& display = parts.sensor().display;
+  const double grey_dB = (display.high_dB - display.low_dB) / 255.0;
+  findings.push_back({Severity::delicate, "accuracy-below-grey-step",
+                      "the accuracy asked for, " + core::number_text(asked_grey) +
+                          " grey levels, is finer than what rounding to whole levels alone changes",
+                      "accuracy, one grey level being " +
+                          core::number_text(std::round(1000.0 * grey_dB) / 1000.0) + " dB",
+                      kRounding_grey, "grey levels",
+                      "No picture can show it; time is spent on what rounding takes away.",
+                      "Ask for 0.3 or more, or compare the power images, which are not rounded."});
+}
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,25 @@
+// How much the files of all models and buildings of one scene may be together.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace fanbeam::scenes {
+
+// A scene may place one file thousands of times, and each time it is read.
+inline constexpr std::uint64_t kMostBodyFiles_bytes = std::uint64_t{1} << 30;
+
+class FileBudget {
+ public:
+  // The file's bytes, as core::read_file. Throws InputError E-LIMIT, before reading, when they are
+  // more than `largest_bytes` or than the budget has left.
+  std::string read(const std::filesystem::path& file, std::uint64_t largest_bytes);
+  // Counts a file that somebody else reads; throws likewise.
+  void take(const std::filesystem::path& file);
+
+ private:
+  std::uint64_t left_bytes_ = kMostBodyFiles_bytes;
+};
+
+}  // namespace fanbeam::scenes

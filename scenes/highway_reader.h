@@ -1,0 +1,35 @@
+// Highway scenarios from a JSON file ("format": "highway-scenarios", version 1).
+//
+// The file counts y and azimuth positive to the left; they are turned here, so that all of fanbeam
+// counts them positive to the right. Gains and noise figure come in decibels.
+// Motion "piecewise-acceleration" has position_m, velocity_mps and segments of two types:
+//   {"type": "acceleration", "t0_s", "t1_s", "acceleration_mps2": [x, y]}
+//   {"type": "lane-change",  "t0_s", "t1_s", "lateral_m"}           (to the left)
+// and "circular" has radius_m, azimuth0_rad, angular_rate_rad_s. Members that describe purpose,
+// waveforms, events and acceptance are not read.
+// All problems are told together, each with its path ("scenarios[1].targets[0].rcs_m2"): E-PARSE
+// for what is no JSON, a member that is missing or of the wrong type; E-NONFINITE and E-RANGE for
+// values; E-REF for truth of an unknown target and for a name given twice; E-UNSUPPORTED for
+// another format or version, or an unknown motion; E-LIMIT for more than 64 MiB, nesting deeper
+// than 64, more than 1000 scenarios, targets or segments of one owner; E-IO.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/highway.h"
+
+namespace fanbeam::scenes {
+
+struct HighwayFile {
+  core::HighwayRadar radar;
+  std::vector<core::HighwayScenario> scenarios;
+};
+
+HighwayFile read_highway_file(const std::filesystem::path& file);
+
+// The same from text; `name` stands in messages.
+HighwayFile parse_highway(const std::string& text, const std::string& name);
+
+}  // namespace fanbeam::scenes

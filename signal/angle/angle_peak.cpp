@@ -1,0 +1,142 @@
+#include "signal/angle/angle_peak.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/constants.h"
+#include "core/errors.h"
+#include "signal/waveform/array.h"
+
+namespace fanbeam::signal {
+namespace {
+
+using Snapshot = std::vector<std::complex<double>>;
+constexpr double kQuarterTurn_rad = 0.5 * core::kPi;
+
+struct Beamformer {
+  const Snapshot& snapshot;
+  const std::vector<glm::dvec3>& elements_m;
+  double wavelength_m;
+
+  double power(double azimuth_rad, double elevation_rad) const {
+    const glm::dvec3 u = direction(azimuth_rad, elevation_rad);
+    std::complex<double> sum = 0.0;
+    for (std::size_t m = 0; m < snapshot.size(); ++m)
+      sum += snapshot[m] *
+             std::polar(1.0, 2.0 * core::kPi * glm::dot(u, elements_m[m]) / wavelength_m);
+    return std::norm(sum) / static_cast<double>(snapshot.size() * snapshot.size());
+  }
+
+  // Steps over a half-turn of sines, at a quarter of the beamwidth.
+  int scan_steps() const {
+    double aperture_m = 0.0;
+    for (const glm::dvec3& a : elements_m) aperture_m = std::max(aperture_m, glm::length(a - elements_m[0]));
+    // The farthest element from the first is at least half the aperture away.
+    const double steps = std::ceil(16.0 * aperture_m / wavelength_m);
+    return static_cast<int>(std::clamp(steps, 8.0, 20000.0));
+  }
+};
+
+void check_input(const Beamformer& beam) {
+  if (beam.snapshot.empty() || beam.snapshot.size() != beam.elements_m.size())
+    core::throw_input_error(core::ErrorClass::range, "snapshot",
+                            static_cast<double>(beam.snapshot.size()), "one value per element");
+  for (const auto& value : beam.snapshot)
+    if (!std::isfinite(std::norm(value)))
+      core::throw_input_error(core::ErrorClass::nonfinite, "snapshot", std::norm(value), "finite");
+  if (!(beam.wavelength_m > 0.0 && std::isfinite(beam.wavelength_m)))
+    core::throw_input_error(core::ErrorClass::range, "wavelength_m", beam.wavelength_m, "positive");
+}
+
+// Place of the maximum of `f` between two places either side of it.
+template <typename Function>
+double climbed(const Function& f, double low, double high) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  double left = high - golden * (high - low);
+  double right = low + golden * (high - low);
+  double f_left = f(left);
+  double f_right = f(right);
+  while (high - low > 1e-10) {
+    if (f_left < f_right) {
+      low = left;
+      left = right;
+      f_left = f_right;
+      right = low + golden * (high - low);
+      f_right = f(right);
+    } else {
+      high = right;
+      right = left;
+      f_right = f_left;
+      left = high - golden * (high - low);
+      f_left = f(left);
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+double angle_of_step(int step, int steps) {
+  return std::asin(std::clamp(2.0 * step / steps - 1.0, -1.0, 1.0));
+}
+
+}  // namespace
+
+AnglePeak azimuth_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
+                       double wavelength_m, double elevation_rad) {
+  const Beamformer beam{snapshot, elements_m, wavelength_m};
+  check_input(beam);
+  const int steps = beam.scan_steps();
+  int best = 0;
+  double best_power = -1.0;
+  for (int step = 0; step <= steps; ++step) {
+    const double power = beam.power(angle_of_step(step, steps), elevation_rad);
+    if (power > best_power) {
+      best_power = power;
+      best = step;
+    }
+  }
+  AnglePeak peak;
+  peak.elevation_rad = elevation_rad;
+  peak.azimuth_rad = climbed(
+      [&](double azimuth_rad) { return beam.power(azimuth_rad, elevation_rad); },
+      angle_of_step(std::max(0, best - 1), steps), angle_of_step(std::min(steps, best + 1), steps));
+  peak.power = beam.power(peak.azimuth_rad, elevation_rad);
+  return peak;
+}
+
+AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
+                         double wavelength_m) {
+  const Beamformer beam{snapshot, elements_m, wavelength_m};
+  check_input(beam);
+  const int steps = beam.scan_steps();
+  AnglePeak peak;
+  peak.power = -1.0;
+  for (int row = 0; row <= steps; ++row)
+    for (int column = 0; column <= steps; ++column) {
+      const double azimuth_rad = angle_of_step(column, steps);
+      const double elevation_rad = angle_of_step(row, steps);
+      const double power = beam.power(azimuth_rad, elevation_rad);
+      if (power > peak.power) peak = {azimuth_rad, elevation_rad, power};
+    }
+  // In turns along each angle: the two are nearly independent for arrays that are not skew.
+  double reach_rad = 4.0 / steps;
+  for (int round = 0; round < 40 && reach_rad > 1e-10; ++round) {
+    const AnglePeak before = peak;
+    peak.azimuth_rad =
+        climbed([&](double az) { return beam.power(az, peak.elevation_rad); },
+                std::max(-kQuarterTurn_rad, peak.azimuth_rad - reach_rad),
+                std::min(kQuarterTurn_rad, peak.azimuth_rad + reach_rad));
+    peak.elevation_rad =
+        climbed([&](double el) { return beam.power(peak.azimuth_rad, el); },
+                std::max(-kQuarterTurn_rad, peak.elevation_rad - reach_rad),
+                std::min(kQuarterTurn_rad, peak.elevation_rad + reach_rad));
+    const double moved_rad = std::max(std::abs(peak.azimuth_rad - before.azimuth_rad),
+                                      std::abs(peak.elevation_rad - before.elevation_rad));
+    if (moved_rad < 1e-9) break;
+    reach_rad = std::max(2.0 * moved_rad, 1e-7);
+  }
+  peak.power = beam.power(peak.azimuth_rad, peak.elevation_rad);
+  return peak;
+}
+
+}  // namespace fanbeam::signal

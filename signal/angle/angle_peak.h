@@ -1,0 +1,36 @@
+// Direction of the one plane wave that fits a snapshot best: the maximum-likelihood estimate for a
+// single scatterer in white noise, the maximum of |sum x_m conj(a_m)|^2.
+//
+// A scan at a quarter of the beamwidth finds the lobe, golden sections climb it. For one source the
+// error follows sigma_azimuth = sqrt(6 / (rho N (N^2 - 1))) / (pi cos azimuth) for a line of N at
+// half a wavelength and signal-to-noise ratio rho per element, above the threshold of about 10 dB
+// in N rho (P. Stoica, A. Nehorai, IEEE Trans. ASSP-37, 1989). Two sources closer than a beamwidth
+// merge: see signal/angle/spatial_spectrum.h. Azimuths are searched from -pi/2 to pi/2, elevations
+// likewise.
+//
+// Inputs: as many values as elements, at least one, finite. E-RANGE, E-NONFINITE otherwise.
+// Accuracy of the climb: 1e-7 rad. Cost: 4 x aperture / wavelength + 100 sums over the elements,
+// squared for the scan of two angles.
+#pragma once
+
+#include <complex>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace fanbeam::signal {
+
+struct AnglePeak {
+  double azimuth_rad = 0.0;
+  double elevation_rad = 0.0;
+  double power = 0.0;  // |mean of the aligned channels|^2: that of a channel for a lone wave
+};
+
+AnglePeak azimuth_peak(const std::vector<std::complex<double>>& snapshot,
+                       const std::vector<glm::dvec3>& elements_m, double wavelength_m,
+                       double elevation_rad = 0.0);
+
+// Both angles; for arrays with elements at different heights.
+AnglePeak direction_peak(const std::vector<std::complex<double>>& snapshot,
+                         const std::vector<glm::dvec3>& elements_m, double wavelength_m);
+
+}  // namespace fanbeam::signal

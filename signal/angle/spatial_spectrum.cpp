@@ -1,0 +1,127 @@
+#include "signal/angle/spatial_spectrum.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "signal/fourier/peak_fit.h"
+
+namespace fanbeam::signal {
+namespace {
+
+using Matrix = Eigen::MatrixXcd;
+
+[[noreturn]] void refuse(const char* field, double value, const char* expected) {
+  core::throw_input_error(core::ErrorClass::range, field, value, expected);
+}
+
+Matrix matrix_of(const Covariance& covariance) {
+  const int n = covariance.elements;
+  if (n < 1 || covariance.values.size() != static_cast<std::size_t>(n) * static_cast<std::size_t>(n))
+    refuse("covariance.elements", n, "1 or more, with as many values as its square");
+  Matrix matrix(n, n);
+  for (int row = 0; row < n; ++row)
+    for (int column = 0; column < n; ++column) matrix(row, column) = covariance.at(row, column);
+  return matrix;
+}
+
+void check_steering(const Covariance& covariance, const Steering& steering) {
+  if (steering.elements != covariance.elements)
+    refuse("steering.elements", steering.elements, "the size of the covariance");
+}
+
+Eigen::Map<const Eigen::VectorXcd> beam_vector(const Steering& steering, int beam) {
+  return {&steering.at(beam, 0), steering.elements};
+}
+
+}  // namespace
+
+std::vector<double> fourier_spectrum(const Covariance& covariance, const Steering& steering) {
+  check_steering(covariance, steering);
+  const Matrix r = matrix_of(covariance);
+  const double scale = 1.0 / (static_cast<double>(covariance.elements) * covariance.elements);
+  std::vector<double> powers(static_cast<std::size_t>(steering.beams));
+  for (int beam = 0; beam < steering.beams; ++beam) {
+    const auto a = beam_vector(steering, beam);
+    powers[static_cast<std::size_t>(beam)] = std::max(0.0, a.dot(r * a).real() * scale);
+  }
+  return powers;
+}
+
+std::vector<double> capon_spectrum(const Covariance& covariance, const Steering& steering,
+                                   double loading) {
+  check_steering(covariance, steering);
+  if (!(loading >= 0.0)) refuse("loading", loading, "0 or more");
+  Matrix r = matrix_of(covariance);
+  const double load = loading * r.trace().real() / covariance.elements;
+  r.diagonal().array() += load;
+  std::vector<double> powers(static_cast<std::size_t>(steering.beams), 0.0);
+  const Eigen::LLT<Matrix> cholesky(r);
+  if (cholesky.info() != Eigen::Success) return powers;
+  for (int beam = 0; beam < steering.beams; ++beam) {
+    // a^H R^-1 a = |L^-1 a|^2
+    const double inverse = cholesky.matrixL().solve(beam_vector(steering, beam)).squaredNorm();
+    if (std::isfinite(inverse) && inverse > 0.0)
+      powers[static_cast<std::size_t>(beam)] = 1.0 / inverse;
+  }
+  return powers;
+}
+
+std::vector<double> music_spectrum(const Covariance& covariance, const Steering& steering,
+                                   int sources) {
+  check_steering(covariance, steering);
+  if (sources < 0 || sources >= covariance.elements)
+    refuse("sources", sources, "0 to one less than the elements");
+  // Eigenvalues rise: the noise space is at the front.
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix_of(covariance));
+  const Matrix noise = eigen.eigenvectors().leftCols(covariance.elements - sources).adjoint();
+  std::vector<double> powers(static_cast<std::size_t>(steering.beams));
+  constexpr double kLeast = 1e-30;  // a direction may lie in the signal space to the last bit
+  for (int beam = 0; beam < steering.beams; ++beam)
+    powers[static_cast<std::size_t>(beam)] =
+        1.0 / std::max(kLeast, (noise * beam_vector(steering, beam)).squaredNorm());
+  return powers;
+}
+
+int source_count(const Covariance& covariance, int snapshots) {
+  if (snapshots < 1) refuse("snapshots", snapshots, "1 or more");
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix_of(covariance),
+                                                    Eigen::EigenvaluesOnly);
+  const int n = covariance.elements;
+  const double largest = eigen.eigenvalues()(n - 1);
+  if (!(largest > 0.0)) return 0;
+  int best = 0;
+  double least = 0.0;
+  for (int k = 0; k < n; ++k) {
+    double logs = 0.0, sum = 0.0;
+    for (int i = 0; i < n - k; ++i) {
+      const double value = std::max(eigen.eigenvalues()(i), 1e-15 * largest);
+      logs += std::log(value);
+      sum += value;
+    }
+    const double log_ratio = logs - (n - k) * std::log(sum / (n - k));
+    const double length = -snapshots * log_ratio + 0.5 * k * (2.0 * n - k) * std::log(snapshots);
+    if (k == 0 || length < least) {
+      least = length;
+      best = k;
+    }
+  }
+  return best;
+}
+
+std::vector<SpectrumPeak> spectrum_peaks(const std::vector<double>& powers) {
+  std::vector<SpectrumPeak> peaks;
+  for (std::size_t i = 1; i + 1 < powers.size(); ++i) {
+    if (!(powers[i] > powers[i - 1] && powers[i] >= powers[i + 1])) continue;
+    const PeakFit fit = log_parabola_peak(powers[i - 1], powers[i], powers[i + 1]);
+    peaks.push_back({static_cast<double>(i) + fit.offset, fit.top});
+  }
+  std::stable_sort(peaks.begin(), peaks.end(),
+                   [](const SpectrumPeak& a, const SpectrumPeak& b) { return a.power > b.power; });
+  return peaks;
+}
+
+}  // namespace fanbeam::signal

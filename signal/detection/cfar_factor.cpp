@@ -1,0 +1,152 @@
+#include "signal/detection/cfar_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/random.h"
+
+namespace fanbeam::signal {
+namespace {
+
+[[noreturn]] void refuse(const char* field, double value, const char* expected) {
+  core::throw_input_error(core::ErrorClass::range, field, value, expected);
+}
+
+void check_reference(const CfarReference& reference) {
+  const std::int64_t count = std::int64_t{reference.before} + reference.after;
+  if (reference.before < 0 || reference.after < 0 || count < 1 || count > 2000000000)
+    refuse("reference cells", static_cast<double>(count), "1 to 2e9");
+  if (reference.kind == CfarKind::ordered_statistic &&
+      (reference.rank < 1 || reference.rank > count))
+    refuse("rank", reference.rank, "1 to the number of reference cells");
+  const bool halves =
+      reference.kind == CfarKind::greatest_of || reference.kind == CfarKind::smallest_of;
+  if (halves && (std::min(reference.before, reference.after) < 1 || count > 100000))
+    refuse("reference cells", static_cast<double>(count), "1e5 at most, some on both sides");
+}
+
+void check_probability(double probability) {
+  if (!(probability > 0.0 && probability < 1.0))
+    refuse("false_alarm_probability", probability, "above 0 and below 1");
+}
+
+// Part of the exceedance in which side a has the smaller mean.
+double half(int a, int b, double factor) {
+  const double r = static_cast<double>(b) / a;
+  const double rate = std::log1p(factor / a + r);
+  double log_term = -a * rate;
+  double sum = 0.0;
+  for (int j = 0; j < b; ++j) {
+    sum += std::exp(log_term);
+    log_term += std::log(static_cast<double>(a + j) / (j + 1)) + std::log(r) - rate;
+  }
+  return sum;
+}
+
+double log_false_alarm(const CfarReference& reference, double factor) {
+  const int count = reference.before + reference.after;
+  switch (reference.kind) {
+    case CfarKind::cell_averaging:
+      return -count * std::log1p(factor / count);
+    case CfarKind::ordered_statistic: {
+      double sum = 0.0;
+      for (int i = 0; i < reference.rank; ++i) sum -= std::log1p(factor / (count - i));
+      return sum;
+    }
+    case CfarKind::greatest_of:
+    case CfarKind::smallest_of: {
+      const int a = reference.before;
+      const int b = reference.after;
+      const double smallest = half(a, b, factor) + half(b, a, factor);
+      if (reference.kind == CfarKind::smallest_of) return std::log(smallest);
+      return std::log(std::exp(-a * std::log1p(factor / a)) +
+                      std::exp(-b * std::log1p(factor / b)) - smallest);
+    }
+  }
+  throw core::InternalError("unknown detector");
+}
+
+// Where `falling`, which falls without end, is 0.
+template <typename Function>
+double root(const Function& falling) {
+  double low = 0.0;
+  double high = 1.0;
+  while (falling(high) > 0.0) {
+    low = high;
+    high *= 2.0;
+    if (high > 1e300) throw core::InternalError("no threshold factor");
+  }
+  for (int step = 0; step < 200 && high - low > 1e-15 * high; ++step) {
+    const double middle = 0.5 * (low + high);
+    (falling(middle) > 0.0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
+
+std::string_view name(CfarKind kind) {
+  switch (kind) {
+    case CfarKind::cell_averaging:
+      return "CA";
+    case CfarKind::ordered_statistic:
+      return "OS";
+    case CfarKind::greatest_of:
+      return "GO";
+    case CfarKind::smallest_of:
+      return "SO";
+  }
+  throw core::InternalError("unknown detector");
+}
+
+double cfar_false_alarm_probability(const CfarReference& reference, double factor) {
+  check_reference(reference);
+  if (!(factor >= 0.0)) refuse("factor", factor, "0 or more");
+  return std::exp(log_false_alarm(reference, factor));
+}
+
+double cfar_factor(const CfarReference& reference, double false_alarm_probability) {
+  check_reference(reference);
+  check_probability(false_alarm_probability);
+  const double log_probability = std::log(false_alarm_probability);
+  if (reference.kind == CfarKind::cell_averaging) {
+    const double count = reference.before + reference.after;
+    return count * std::expm1(-log_probability / count);
+  }
+  return root([&](double factor) { return log_false_alarm(reference, factor) - log_probability; });
+}
+
+double cfar_detection_probability(const CfarReference& reference, double factor, double snr) {
+  if (!(snr >= 0.0)) refuse("snr", snr, "0 or more");
+  return cfar_false_alarm_probability(reference, factor / (1.0 + snr));
+}
+
+double amplitude_factor(int reference_cells, double false_alarm_probability) {
+  check_probability(false_alarm_probability);
+  if (reference_cells < 1 || reference_cells > 1000)
+    refuse("reference_cells", reference_cells, "1 to 1000");
+  constexpr int kBackgrounds = 200000;
+  const core::RandomKey key{.seed = 0, .stream = core::kStreamCfarCalibration};
+  std::vector<double> squares(kBackgrounds);
+  for (int i = 0; i < kBackgrounds; ++i) {
+    double sum = 0.0;
+    for (int cell = 0; cell < reference_cells; cell += 4) {
+      const auto words = core::random_words(key, static_cast<std::uint64_t>(i),
+                                            static_cast<std::uint32_t>(cell / 4));
+      for (int w = 0; w < std::min(4, reference_cells - cell); ++w)
+        sum += std::sqrt(-std::log(core::uniform_from(words[static_cast<std::size_t>(w)])));
+    }
+    squares[static_cast<std::size_t>(i)] = (sum / reference_cells) * (sum / reference_cells);
+  }
+  // Given the background, the cell exceeds it with a known probability: only that is averaged.
+  return root([&](double factor) {
+    double sum = 0.0;
+    for (const double square : squares) sum += std::exp(-factor * factor * square);
+    return sum / kBackgrounds - false_alarm_probability;
+  });
+}
+
+}  // namespace fanbeam::signal

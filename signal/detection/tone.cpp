@@ -1,0 +1,131 @@
+#include "signal/detection/tone.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/constants.h"
+#include "core/errors.h"
+#include "signal/fourier/fft.h"
+#include "signal/fourier/peak_fit.h"
+
+namespace fanbeam::signal {
+namespace {
+
+using core::kPi;
+
+void check_input(const ToneRecords& records, const std::vector<double>& weights) {
+  const std::size_t count = records.empty() ? 0 : records.front().size();
+  if (count < 2)
+    core::throw_input_error(core::ErrorClass::range, "samples", static_cast<double>(count),
+                            "2 or more");
+  if (!weights.empty() && weights.size() != count)
+    core::throw_input_error(core::ErrorClass::range, "weights",
+                            static_cast<double>(weights.size()), "none or one per sample");
+  for (const auto& record : records) {
+    if (record.size() != count)
+      core::throw_input_error(core::ErrorClass::range, "samples",
+                              static_cast<double>(record.size()), "records of one size");
+    for (const auto& value : record)
+      if (!std::isfinite(std::norm(value)))
+        core::throw_input_error(core::ErrorClass::nonfinite, "samples", std::norm(value), "finite");
+  }
+}
+
+// Power at a place and its first two derivatives by the place.
+struct Slope {
+  double power = 0.0;
+  double first = 0.0;
+  double second = 0.0;
+};
+
+Slope slope_at(const ToneRecords& records, const std::vector<double>& weights, double bin) {
+  const std::size_t count = records.front().size();
+  const double turn = -2.0 * kPi / static_cast<double>(count);
+  // Time from the middle keeps the derivatives free of the phase's steep part.
+  const double middle = 0.5 * static_cast<double>(count - 1);
+  std::vector<std::complex<double>> phasors(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const double t = static_cast<double>(n) - middle;
+    phasors[n] = std::polar(weights.empty() ? 1.0 : weights[n], turn * bin * t);
+  }
+  Slope slope;
+  for (const auto& record : records) {
+    std::complex<double> sum = 0.0, moment = 0.0, square = 0.0;
+    for (std::size_t n = 0; n < count; ++n) {
+      const double t = turn * (static_cast<double>(n) - middle);
+      const std::complex<double> value = record[n] * phasors[n];
+      sum += value;
+      moment += t * value;
+      square += t * t * value;
+    }
+    const std::complex<double> first(-moment.imag(), moment.real());  // j moment
+    slope.power += std::norm(sum);
+    slope.first += 2.0 * (std::conj(sum) * first).real();
+    slope.second += 2.0 * (std::norm(first) - (std::conj(sum) * square).real());
+  }
+  return slope;
+}
+
+}  // namespace
+
+Tone refined_tone(const ToneRecords& records, double near_bin, const std::vector<double>& weights) {
+  check_input(records, weights);
+  Tone tone;
+  tone.bin = near_bin;
+  for (int step = 0; step < 30; ++step) {
+    const Slope slope = slope_at(records, weights, tone.bin);
+    if (slope.power == 0.0) break;
+    // Outside the cap of the lobe only the direction can be trusted.
+    const double wanted =
+        slope.second < 0.0 ? -slope.first / slope.second : std::copysign(0.1, slope.first);
+    const double move = std::clamp(wanted, -0.25, 0.25);
+    tone.bin += move;
+    if (std::abs(move) < 1e-11) break;
+  }
+  const double count = static_cast<double>(records.front().size());
+  double sum = count;
+  if (!weights.empty()) {
+    sum = 0.0;
+    for (const double weight : weights) sum += weight;
+  }
+  for (const auto& record : records) {
+    std::complex<double> value = 0.0;
+    for (std::size_t n = 0; n < record.size(); ++n)
+      value += record[n] * std::polar(weights.empty() ? 1.0 : weights[n],
+                                      -2.0 * kPi * tone.bin * static_cast<double>(n) / count);
+    tone.amplitudes.push_back(value / sum);
+    tone.power += std::norm(value / sum);
+  }
+  return tone;
+}
+
+Tone strongest_tone(const std::vector<std::complex<double>>& samples,
+                    const std::vector<double>& weights) {
+  check_input({samples}, weights);
+  constexpr std::size_t kPadding = 2;
+  std::vector<std::complex<double>> padded(kPadding * samples.size());
+  for (std::size_t n = 0; n < samples.size(); ++n)
+    padded[n] = weights.empty() ? samples[n] : samples[n] * weights[n];
+  const auto lines = spectrum(std::move(padded));
+  std::size_t peak = 0;
+  for (std::size_t k = 1; k < lines.size(); ++k)
+    if (std::norm(lines[k]) > std::norm(lines[peak])) peak = k;
+  const std::size_t count = lines.size();
+  const double offset = log_parabola_peak(std::norm(lines[(peak + count - 1) % count]),
+                                          std::norm(lines[peak]),
+                                          std::norm(lines[(peak + 1) % count]))
+                            .offset;
+  return refined_tone({samples}, (static_cast<double>(peak) + offset) / kPadding, weights);
+}
+
+double two_bin_hann(std::complex<double> left, std::complex<double> centre,
+                    std::complex<double> right) {
+  if (centre == 0.0) return 0.0;
+  const bool to_right = std::norm(right) > std::norm(left);
+  const double ratio = std::abs((to_right ? right : left) / centre);
+  const double offset = (2.0 * ratio - 1.0) / (ratio + 1.0);
+  return to_right ? offset : -offset;
+}
+
+}  // namespace fanbeam::signal

@@ -1,0 +1,29 @@
+// Convolution and pulse compression through the Fourier transform, without wrapping round.
+//
+//   convolved   y[k] = sum over i of x[i] h[k - i],          k = 0 .. |x| + |h| - 2
+//   compressed  y[k] = sum over i of x[k + i] conj(pulse[i]), k = 0 .. |x| - 1
+//
+// x counts as zero outside its samples: both are padded to at least |x| + |h| - 1, so that the tail
+// of an echo in the last cell leaves the record instead of appearing in the first cells, as it does
+// with the circular convolution that a product of unpadded spectra is. An empty input gives an
+// empty result for `convolved` and zeros for `compressed`.
+//
+// Accuracy: 1e-14 of the largest output. Cost: three transforms of the padded length, which is the
+// next product of 2, 3 and 5.
+#pragma once
+
+#include <complex>
+#include <vector>
+
+namespace fanbeam::signal {
+
+std::vector<std::complex<double>> convolved(const std::vector<std::complex<double>>& x,
+                                            const std::vector<std::complex<double>>& h);
+
+std::vector<std::complex<double>> compressed(const std::vector<std::complex<double>>& x,
+                                             const std::vector<std::complex<double>>& pulse);
+
+// The smallest length of at least `least` that a Fourier transform handles quickly.
+int fast_length(int least);
+
+}  // namespace fanbeam::signal

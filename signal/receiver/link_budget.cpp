@@ -1,0 +1,54 @@
+#include "signal/receiver/link_budget.h"
+
+#include <cmath>
+
+#include "core/constants.h"
+#include "core/errors.h"
+
+namespace fanbeam::signal {
+namespace {
+
+void check_least(const char* field, double value, double least) {
+  if (!(std::isfinite(value) && value >= least))
+    core::throw_input_error(core::ErrorClass::range, field, value,
+                            core::number_text(least) + " or above");
+}
+
+void check_positive(const char* field, double value) {
+  if (!(std::isfinite(value) && value > 0.0))
+    core::throw_input_error(core::ErrorClass::range, field, value, "above 0");
+}
+
+}  // namespace
+
+double received_power_W(const Link& link, double range_m, double cross_section_m2) {
+  check_least("transmitted_W", link.transmitted_W, 0.0);
+  check_least("transmit_gain", link.transmit_gain, 0.0);
+  check_least("receive_gain", link.receive_gain, 0.0);
+  check_positive("wavelength_m", link.wavelength_m);
+  check_least("loss", link.loss, 1.0);
+  check_positive("range_m", range_m);
+  check_least("cross_section_m2", cross_section_m2, 0.0);
+  const double four_pi = 4.0 * core::kPi;
+  const double spread = link.wavelength_m / (four_pi * range_m * range_m);
+  return link.transmitted_W * link.transmit_gain * link.receive_gain * cross_section_m2 * spread *
+         spread / (four_pi * link.loss);
+}
+
+double aperture_gain(double aperture_m2, double wavelength_m) {
+  check_positive("aperture_m2", aperture_m2);
+  check_positive("wavelength_m", wavelength_m);
+  return 4.0 * core::kPi * aperture_m2 / (wavelength_m * wavelength_m);
+}
+
+double noise_density_W_per_Hz(double noise_figure) {
+  check_least("noise_figure", noise_figure, 1.0);
+  return core::kBoltzmann_J_per_K * core::kNoiseReferenceTemperature_K * noise_figure;
+}
+
+double integrated_noise_W(double noise_figure, double coherent_s) {
+  check_positive("coherent_s", coherent_s);
+  return noise_density_W_per_Hz(noise_figure) / coherent_s;
+}
+
+}  // namespace fanbeam::signal

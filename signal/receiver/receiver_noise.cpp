@@ -1,0 +1,136 @@
+#include "signal/receiver/receiver_noise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/constants.h"
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "signal/receiver/link_budget.h"
+
+namespace fanbeam::signal {
+namespace {
+
+void check_not_negative(const char* field, double value) {
+  if (!(std::isfinite(value) && value >= 0.0))
+    core::throw_input_error(core::ErrorClass::range, field, value, "0 or above");
+}
+
+void check_positive(const char* field, double value) {
+  if (!(std::isfinite(value) && value > 0.0))
+    core::throw_input_error(core::ErrorClass::range, field, value, "above 0");
+}
+
+core::RandomKey with_stream(core::RandomKey key, std::uint32_t stream) {
+  key.stream = stream;
+  return key;
+}
+
+// Runs body(channel, chirp) for every row.
+template <typename Body>
+void for_rows(const CubeShape& shape, const Body& body) {
+  const auto chirps = static_cast<std::size_t>(shape.chirps);
+  core::parallel_for(chirps * static_cast<std::size_t>(shape.channels), [&](std::size_t row) {
+    body(static_cast<int>(row / chirps), static_cast<int>(row % chirps));
+  });
+}
+
+// theta over one chirp.
+std::vector<double> phase_walk_rad(const PhaseNoise& noise, int samples, int chirp) {
+  const core::RandomKey key = with_stream(noise.key, core::kStreamPhaseNoise);
+  const double kept = std::exp(-1.0 / (noise.correlation_s * noise.sample_rate_Hz));
+  const double fresh_rad = noise.rms_rad * std::sqrt(1.0 - kept * kept);
+  std::vector<double> phase_rad;
+  double last_rad = 0.0;
+  for (int n = 0; n < samples; ++n) {
+    const std::uint64_t cell =
+        static_cast<std::uint64_t>(chirp) << 32 | static_cast<std::uint64_t>(n);
+    const double draw = core::normal_pair(key, cell, 0)[0];
+    last_rad = n == 0 ? noise.rms_rad * draw : kept * last_rad + fresh_rad * draw;
+    phase_rad.push_back(last_rad);
+  }
+  return phase_rad;
+}
+
+}  // namespace
+
+double noise_sample_W(double noise_figure, double sample_rate_Hz) {
+  check_positive("sample_rate_Hz", sample_rate_Hz);
+  return noise_density_W_per_Hz(noise_figure) * sample_rate_Hz;
+}
+
+template <typename Real>
+void add_receiver_noise(const Array& array, const ReceiverNoise& noise, Cube<Real>& cube) {
+  check_not_negative("sample_W", noise.sample_W);
+  if (cube.shape.channels != array.channels())
+    core::throw_input_error(core::ErrorClass::range, "channels", cube.shape.channels,
+                            std::to_string(array.channels()) + ", those of the array");
+  if (noise.sample_W == 0.0) return;
+  const core::RandomKey key = with_stream(noise.key, core::kStreamReceiverNoise);
+  const double part_sqrtW = std::sqrt(0.5 * noise.sample_W);
+  for_rows(cube.shape, [&](int channel, int chirp) {
+    const int source =
+        array.multiplex == Multiplex::simultaneous ? array.receiver_of(channel) : channel;
+    const std::uint64_t first = cube.index(source, chirp, 0);
+    for (int n = 0; n < cube.shape.samples; ++n) {
+      const std::array<double, 2> draw =
+          core::normal_pair(key, first + static_cast<std::uint64_t>(n), 0);
+      cube.at(channel, chirp, n) += std::complex<Real>(
+          static_cast<Real>(part_sqrtW * draw[0]),
+          noise.complex_baseband ? static_cast<Real>(part_sqrtW * draw[1]) : Real(0));
+    }
+  });
+}
+
+double phase_noise_rms_rad(double line_width_Hz, double delay_s) {
+  check_not_negative("line_width_Hz", line_width_Hz);
+  check_not_negative("delay_s", delay_s);
+  return std::sqrt(2.0 * core::kPi * line_width_Hz * delay_s);
+}
+
+template <typename Real>
+void apply_phase_noise(const PhaseNoise& noise, Cube<Real>& cube) {
+  check_not_negative("rms_rad", noise.rms_rad);
+  check_positive("correlation_s", noise.correlation_s);
+  check_positive("sample_rate_Hz", noise.sample_rate_Hz);
+  if (noise.rms_rad == 0.0) return;
+  core::parallel_for(static_cast<std::size_t>(cube.shape.chirps), [&](std::size_t chirp) {
+    const int m = static_cast<int>(chirp);
+    const std::vector<double> phase_rad = phase_walk_rad(noise, cube.shape.samples, m);
+    for (int channel = 0; channel < cube.shape.channels; ++channel)
+      for (int n = 0; n < cube.shape.samples; ++n) {
+        const std::complex<double> turn = std::polar(1.0, phase_rad[static_cast<std::size_t>(n)]);
+        const std::complex<double> value = std::complex<double>(cube.at(channel, m, n)) * turn;
+        cube.at(channel, m, n) = {static_cast<Real>(value.real()), static_cast<Real>(value.imag())};
+      }
+  });
+}
+
+template <typename Real>
+std::size_t quantise(const Quantiser& quantiser, Cube<Real>& cube) {
+  if (quantiser.bits < 1 || quantiser.bits > 24)
+    core::throw_input_error(core::ErrorClass::range, "bits", quantiser.bits, "1 to 24");
+  check_positive("full_scale_sqrtW", quantiser.full_scale_sqrtW);
+  const double half_steps = std::ldexp(1.0, quantiser.bits - 1);
+  const double step = quantiser.full_scale_sqrtW / half_steps;
+  std::size_t clipped = 0;
+  const auto part = [&](Real value) {
+    const double steps = std::nearbyint(static_cast<double>(value) / step);
+    const double kept = std::clamp(steps, -half_steps, half_steps - 1.0);
+    clipped += kept != steps ? 1 : 0;
+    return static_cast<Real>(kept * step);
+  };
+  for (std::complex<Real>& value : cube.values) value = {part(value.real()), part(value.imag())};
+  return clipped;
+}
+
+template void add_receiver_noise(const Array&, const ReceiverNoise&, FloatCube&);
+template void add_receiver_noise(const Array&, const ReceiverNoise&, DoubleCube&);
+template void apply_phase_noise(const PhaseNoise&, FloatCube&);
+template void apply_phase_noise(const PhaseNoise&, DoubleCube&);
+template std::size_t quantise(const Quantiser&, FloatCube&);
+template std::size_t quantise(const Quantiser&, DoubleCube&);
+
+}  // namespace fanbeam::signal

@@ -1,0 +1,115 @@
+#include "signal/synthesis/keystone_synthesis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/constants.h"
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "signal/fourier/fft.h"
+#include "signal/synthesis/beat_phase.h"
+#include "signal/synthesis/keystone_transform_private.h"
+
+namespace fanbeam::signal {
+namespace {
+
+constexpr double kMostCells = 4e8;
+
+void check_frame(const Frame& frame) {
+  if (!frame.uniform)
+    core::throw_input_error(core::ErrorClass::unsupported, "waveform",
+                            std::string(name(frame.waveform.kind)), "a chirp sequence");
+  for (const auto* elements : {&frame.array.transmitters_m, &frame.array.receivers_m})
+    for (const glm::dvec3& element_at_m : *elements)
+      if (element_at_m.x != 0.0 || element_at_m.z != 0.0)
+        core::throw_input_error(core::ErrorClass::unsupported, "array element",
+                                element_at_m.x != 0.0 ? element_at_m.x : element_at_m.z,
+                                "elements on the axis to the right");
+}
+
+double mid_frame_s(const Frame& frame) {
+  return 0.5 * (frame.segments.front().start_s + frame.segments.back().start_s) +
+         (frame.shape.samples / 2) / frame.sample_rate_Hz;
+}
+
+std::vector<WavePoint> points_of(const KeystoneAxes& axes, const std::vector<KeystonePath>& paths) {
+  std::vector<WavePoint> points;
+  points.reserve(paths.size());
+  for (const KeystonePath& path : paths)
+    points.push_back({axes.rate.cell(path.rate), axes.sine_s_per_m.cell(path.sine_s_per_m),
+                      path.delay_turns_per_sample * axes.delays, path.value});
+  return points;
+}
+
+// Every row from delays to samples, in place: real parts first, imaginary parts after them.
+void transform_delays(const SpreadingKernel& kernel, int samples, WaveGrid& grid) {
+  const int delays = grid.delays();
+  std::vector<float> scales;
+  for (int n = 0; n < samples; ++n)
+    scales.push_back(
+        static_cast<float>(1.0 / kernel.transform(static_cast<double>(n - samples / 2) / delays)));
+  const Fft<float> fft({delays, 1, 1, delays}, FftDirection::inverse);
+  core::parallel_for(static_cast<std::size_t>(grid.rates()), [&](std::size_t rate) {
+    std::vector<std::complex<float>> spectrum(static_cast<std::size_t>(delays));
+    for (int sine = 0; sine < grid.sines(); ++sine) {
+      std::complex<float>* row = grid.row(static_cast<int>(rate), sine);
+      std::copy(row, row + delays, spectrum.begin());
+      fft.run(spectrum.data());
+      auto* parts = reinterpret_cast<float*>(row);
+      for (int n = 0; n < samples; ++n) {
+        const int k = n - samples / 2;
+        const std::complex<float> value =
+            spectrum[static_cast<std::size_t>(k < 0 ? k + delays : k)];
+        parts[n] = value.real() * scales[static_cast<std::size_t>(n)];
+        parts[delays + n] = value.imag() * scales[static_cast<std::size_t>(n)];
+      }
+    }
+  });
+}
+
+// |kernel error| of three axes, each of what the width gives.
+double kernel_error_of(int width) {
+  return 3.0 * (width <= 4 ? 8.2e-4 : width <= 6 ? 7.5e-6 : 1.0e-6);
+}
+
+}  // namespace
+
+KeystoneBeat keystone_beat(const Waveform& waveform, int stage, const Array& array,
+                           const std::vector<ScatterPath>& paths, const KeystoneOptions& options) {
+  if (!(options.kernel_error >= 1e-5 && options.kernel_error <= 1e-2))
+    core::throw_input_error(core::ErrorClass::range, "kernel_error", options.kernel_error,
+                            "1e-5 to 1e-2");
+  const Frame frame = make_frame(waveform, stage, array);
+  check_frame(frame);
+  check(waveform, paths);
+  KeystoneBeat beat;
+  beat.cube = FloatCube(frame.shape);
+  if (paths.empty()) return beat;
+
+  const SpreadingKernel kernel(std::min(8, kernel_width(options.kernel_error)));
+  const std::vector<KeystonePath> seen = keystone_paths(frame, mid_frame_s(frame), paths);
+  const KeystoneAxes axes = keystone_axes(frame, seen, kernel.width(), mid_frame_s(frame));
+  const double cells = static_cast<double>(axes.rate.cells) * axes.sine_s_per_m.cells * axes.delays;
+  if (cells > kMostCells)
+    core::throw_input_error(core::ErrorClass::limit, "grid cells", cells,
+                            "at most 4e8: a narrower span of speeds, or synthesise_beat");
+  double power = 0.0, missed = 0.0;
+  for (const KeystonePath& path : seen) {
+    power += std::norm(path.value);
+    missed += std::norm(path.value) * path.error_rad * path.error_rad;
+    beat.largest_path_error_rad = std::max(beat.largest_path_error_rad, path.error_rad);
+  }
+  if (power > 0.0)
+    beat.estimated_error = std::sqrt(missed / power) + kernel_error_of(kernel.width());
+
+  WaveGrid grid(kernel, axes.rate.cells, axes.sine_s_per_m.cells, axes.delays);
+  grid.spread(points_of(axes, seen));
+  transform_delays(kernel, frame.shape.samples, grid);
+  transform_rates_and_sines(frame, axes, kernel, grid, beat.cube);
+  if (!waveform.complex_baseband)
+    for (std::complex<float>& value : beat.cube.values) value = std::sqrt(2.0f) * value.real();
+  return beat;
+}
+
+}  // namespace fanbeam::signal

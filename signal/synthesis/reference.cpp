@@ -1,0 +1,60 @@
+#include "signal/synthesis/reference.h"
+
+#include <cmath>
+
+#include "core/constants.h"
+#include "core/parallel.h"
+#include "signal/synthesis/beat_phase.h"
+#include "signal/synthesis/frame.h"
+
+namespace fanbeam::signal {
+namespace {
+
+bool has_echo(const Waveform& waveform, double in_segment_s, double delay_s) {
+  if (waveform.kind != WaveformKind::pulsed) return true;
+  const double since_s = in_segment_s - delay_s;
+  return since_s >= 0.0 && since_s < waveform.pulse_width_s;
+}
+
+void add_row(const Frame& frame, int channel, int chirp, const std::vector<ScatterPath>& paths,
+             DoubleCube& cube) {
+  const Segment& segment = frame.segment(channel, chirp);
+  const glm::dvec3& transmitter_m =
+      frame.array.transmitters_m[static_cast<std::size_t>(frame.array.transmitter_of(channel))];
+  const glm::dvec3& receiver_m =
+      frame.array.receivers_m[static_cast<std::size_t>(frame.array.receiver_of(channel))];
+  for (const ScatterPath& path : paths) {
+    const PathGeometry geometry(path, transmitter_m, receiver_m);
+    for (int n = 0; n < frame.shape.samples; ++n) {
+      const double in_segment_s = n / frame.sample_rate_Hz;
+      const double delay_s =
+          geometry.at(segment.start_s + in_segment_s).length_m / core::kSpeedOfLight_mps;
+      if (!has_echo(frame.waveform, in_segment_s, delay_s)) continue;
+      const double turns = beat_turns(frame.waveform, segment, in_segment_s, delay_s);
+      const double phase_rad = 2.0 * core::kPi * (turns - std::round(turns));
+      cube.at(channel, chirp, n) +=
+          path.amplitude_sqrtW * std::complex<double>(std::cos(phase_rad), std::sin(phase_rad));
+    }
+  }
+}
+
+}  // namespace
+
+DoubleCube reference_beat(const Waveform& waveform, int stage, const Array& array,
+                          const std::vector<ScatterPath>& paths) {
+  const Frame frame = make_frame(waveform, stage, array);
+  check(waveform, paths);
+  DoubleCube cube(frame.shape);
+  const auto chirps = static_cast<std::size_t>(frame.shape.chirps);
+  core::parallel_for(chirps * static_cast<std::size_t>(frame.shape.channels), [&](std::size_t row) {
+    const int channel = static_cast<int>(row / chirps);
+    const int chirp = static_cast<int>(row % chirps);
+    add_row(frame, channel, chirp, paths, cube);
+    if (waveform.complex_baseband) return;
+    for (int n = 0; n < frame.shape.samples; ++n)
+      cube.at(channel, chirp, n) = std::sqrt(2.0) * cube.at(channel, chirp, n).real();
+  });
+  return cube;
+}
+
+}  // namespace fanbeam::signal

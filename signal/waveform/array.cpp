@@ -1,0 +1,75 @@
+#include "signal/waveform/array.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/constants.h"
+#include "core/errors.h"
+
+namespace fanbeam::signal {
+namespace {
+
+constexpr int kMostOnOneSide = 256;
+constexpr int kMostChannels = 4096;
+
+void check_count(const char* field, std::size_t count) {
+  if (count < 1 || count > kMostOnOneSide)
+    core::throw_input_error(core::ErrorClass::range, field, static_cast<double>(count),
+                            "1 to " + std::to_string(kMostOnOneSide));
+}
+
+void check_positions(const char* field, const std::vector<glm::dvec3>& positions_m) {
+  check_count(field, positions_m.size());
+  for (const glm::dvec3& position_m : positions_m)
+    for (int axis = 0; axis < 3; ++axis)
+      if (!std::isfinite(position_m[axis]))
+        core::throw_input_error(core::ErrorClass::nonfinite, field, position_m[axis],
+                                "finite positions in metres");
+}
+
+}  // namespace
+
+Array line_array(int transmitters, int receivers, double pitch_m) {
+  check_count("transmitters", static_cast<std::size_t>(std::max(transmitters, 0)));
+  check_count("receivers", static_cast<std::size_t>(std::max(receivers, 0)));
+  if (!(std::isfinite(pitch_m) && pitch_m > 0.0))
+    core::throw_input_error(core::ErrorClass::range, "pitch_m", pitch_m, "above 0");
+  Array array;
+  array.transmitters_m.clear();
+  array.receivers_m.clear();
+  for (int i = 0; i < transmitters; ++i)
+    array.transmitters_m.emplace_back(0.0, (i - 0.5 * (transmitters - 1)) * receivers * pitch_m,
+                                      0.0);
+  for (int i = 0; i < receivers; ++i)
+    array.receivers_m.emplace_back(0.0, (i - 0.5 * (receivers - 1)) * pitch_m, 0.0);
+  check(array);
+  return array;
+}
+
+std::vector<glm::dvec3> virtual_elements_m(const Array& array) {
+  std::vector<glm::dvec3> elements_m;
+  for (const glm::dvec3& transmitter_m : array.transmitters_m)
+    for (const glm::dvec3& receiver_m : array.receivers_m)
+      elements_m.push_back(transmitter_m + receiver_m);
+  return elements_m;
+}
+
+void check(const Array& array) {
+  check_positions("transmitters_m", array.transmitters_m);
+  check_positions("receivers_m", array.receivers_m);
+  if (array.channels() > kMostChannels)
+    core::throw_input_error(core::ErrorClass::limit, "channels", array.channels(),
+                            "at most " + std::to_string(kMostChannels));
+}
+
+glm::dvec3 direction(double azimuth_rad, double elevation_rad) {
+  const double level = std::cos(elevation_rad);
+  return {level * std::cos(azimuth_rad), level * std::sin(azimuth_rad), std::sin(elevation_rad)};
+}
+
+double slot_phase_rad(double radial_speed_mps, double slot_period_s, double wavelength_m) {
+  return 4.0 * core::kPi * radial_speed_mps * slot_period_s / wavelength_m;
+}
+
+}  // namespace fanbeam::signal

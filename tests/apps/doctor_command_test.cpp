@@ -1,0 +1,81 @@
+// fanbeam doctor as a user meets it: table, JSON, exit codes.
+#include <algorithm>
+
+#include "tests/apps/program.h"
+
+using namespace fanbeam::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kPlain = R"([scene]
+name = "plain"
+origin = { latitude_deg = 52.0, longitude_deg = 10.0, height_m = 0.0 }
+vertical_datum = "scene"
+[terrain]
+half_extent_m = 3000.0
+spacing_m = 100.0
+[trajectory.fixed]
+at = { latitude_deg = 52.0, longitude_deg = 10.0 }
+above_ground_m = 60.0
+)";
+const std::string kBuried = R"([[target]]
+name = "buried"
+at = { latitude_deg = 52.01, longitude_deg = 10.0 }
+above_ground_m = -3.0
+rcs = { shape = "constant", rcs_dBsm = 0.0 }
+)";
+
+}  // namespace
+
+TEST_CASE("doctor tells the worst first, at most 100 columns wide, and writes the same as JSON",
+          "[doctor]") {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", kPlain + kBuried);
+  const fs::path file = folder.path() / "findings.json";
+  const Result result =
+      run_fanbeam("doctor " + quoted(folder.path()) + " --accuracy 0.1 --json " + quoted(file));
+  INFO(result.output);
+  CHECK(result.exit_code == 1);  // something is wrong
+  CHECK(result.output.starts_with("wrong     target-below-ground: 3 m\n"));
+  CHECK(result.output.find("plain: 1 wrong, 2 delicate, 0 to note") != std::string::npos);
+  std::istringstream lines(result.output);
+  for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 100);
+
+  const nlohmann::json json = json_of(file);
+  CHECK(json["scene"] == "plain");
+  CHECK(json["accuracy_grey"] == 0.1);
+  std::vector<std::string> found;
+  for (const nlohmann::json& finding : json["findings"]) {
+    found.push_back(finding["severity"].get<std::string>() + " " +
+                    finding["check"].get<std::string>());
+    for (const char* key : {"what", "where", "why", "do"})
+      CHECK_FALSE(finding[key].get<std::string>().empty());
+    CHECK(finding["figure"].is_number());
+  }
+  CHECK(found == std::vector<std::string>{"wrong target-below-ground", "delicate beyond-terrain",
+                                          "delicate accuracy-below-grey-step"});
+  CHECK(json["findings"][0]["figure"].get<double>() == Approx(3.0));
+  CHECK(json["findings"][0]["unit"] == "m");
+}
+
+TEST_CASE("doctor exits with 0 when nothing is worse than delicate, with 3 for bad input",
+          "[doctor]") {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", kPlain);
+  const Result delicate = run_fanbeam("doctor " + quoted(folder.path()));
+  INFO(delicate.output);
+  CHECK(delicate.exit_code == 0);
+  CHECK(delicate.output.find("delicate  beyond-terrain") != std::string::npos);
+  CHECK(run_fanbeam("doctor flat-grass").output == "flat-grass: 0 wrong, 0 delicate, 0 to note\n");
+  folder.write("scene.toml", kPlain + "nonsense = 1\n");
+  CHECK(run_fanbeam("doctor " + quoted(folder.path())).exit_code == 3);
+  CHECK(run_fanbeam("doctor flat-grass --accuracy no").exit_code == 2);
+}
+
+TEST_CASE("doctor --measure finds no fault in an accuracy that can be reached", "[doctor]") {
+  const Result result = run_fanbeam("doctor flat-grass --measure --accuracy 4");
+  INFO(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(result.output.find("accuracy-not-reached") == std::string::npos);
+}

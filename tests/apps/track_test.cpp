@@ -1,0 +1,72 @@
+// fanbeam track: a scenario file to tables and metrics, the same bytes again; what it refuses.
+#include <algorithm>
+
+#include "tests/apps/program.h"
+
+using namespace fanbeam;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kScenario = R"({"format": "highway-scenarios", "version": 1,
+  "radar": {"center_frequency_hz": 76e9, "sweep_bandwidth_hz": 250e6, "tx_power_w": 0.004,
+    "tx_gain_db": 32, "rx_gain_db": 27, "noise_figure_db": 4.5, "system_loss_db": 0,
+    "max_range_m": 200, "virtual_ula_elements": 12, "virtual_ula_spacing_wavelengths": 0.5,
+    "frame_period_s": 0.05},
+  "scenarios": [{"id": "X1", "title": "two cars", "duration_s": 1.0, "ego_speed_mps": 20,
+    "targets": [
+      {"id": "A", "kind": "car", "swerling": 0, "rcs_m2": 10, "motion": "piecewise-acceleration",
+       "position_m": [50, 3], "velocity_mps": [22, 0], "segments": []},
+      {"id": "B", "kind": "car", "swerling": 0, "rcs_m2": 10, "motion": "piecewise-acceleration",
+       "position_m": [90, -3], "velocity_mps": [10, 0], "segments": []}]}]})";
+
+}  // namespace
+
+TEST_CASE("track writes tables and metrics, the same bytes again", "[track]") {
+  const tests::TemporaryFolder folder;
+  folder.write("two.json", kScenario);
+  const auto run = [&](const char* name, const std::string& words) {
+    const fs::path out = folder.path() / name;
+    const auto result = tests::run_fanbeam("track " + tests::quoted(folder.path() / "two.json") +
+                                           " --quiet " + words + " -o " + tests::quoted(out));
+    INFO(result.output);
+    REQUIRE(result.exit_code == 0);
+    return tests::contents(out);
+  };
+  const auto first = run("a", "");
+  CHECK(first.at("X1/tracks.csv").starts_with("time_s,track,confirmed,x_m,y_m"));
+  // 21 frames of two measurements.
+  const std::string& measured = first.at("X1/measurements.csv");
+  CHECK(std::count(measured.begin(), measured.end(), '\n') == 1 + 21 * 2);
+  const auto record = nlohmann::json::parse(first.at("run.json"));
+  CHECK(record["scenarios"][0]["confirmed_tracks"] == 2);
+  CHECK(record["scenarios"][0]["switches"] == 0);
+  CHECK(record["scenarios"][0]["range_rmse_m"] < 0.01);
+  CHECK(run("b", "") == first);
+  CHECK(run("c", "--seed 7").at("X1/tracks.csv") != first.at("X1/tracks.csv"));
+  CHECK(run("d", "--run 1").at("X1/tracks.csv") != first.at("X1/tracks.csv"));
+  CHECK(run("e", "--association joint --waveform two-slopes --false-measurements 3")
+            .count("X1/tracks.csv") == 1);
+}
+
+TEST_CASE("track refuses what it cannot use", "[track]") {
+  const tests::TemporaryFolder folder;
+  folder.write("two.json", kScenario);
+  const auto code = [&](const std::string& words) {
+    return tests::run_fanbeam("track " + words + " -o " + tests::quoted(folder.path() / "out"))
+        .exit_code;
+  };
+  const std::string file = tests::quoted(folder.path() / "two.json");
+  CHECK(code("") == 2);
+  CHECK(code(file + " --scenario X9") == 2);
+  CHECK(code(file + " --waveform sawtooth") == 2);
+  CHECK(code(file + " --detection-probability 1.5") == 2);
+  CHECK(code(tests::quoted(folder.path() / "none.json")) == 4);
+  std::string hostile = kScenario;
+  hostile.replace(hostile.find("\"X1\""), 4, "\"../../X1\"");
+  folder.write("two.json", hostile);
+  CHECK(code(file) == 3);
+  folder.write("two.json", "{");
+  CHECK(code(file) == 3);
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+}

@@ -1,0 +1,89 @@
+// Hard cases M02 and S05: ground that returns nothing, and targets that no angle points at.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/renderer/test_worlds.h"
+
+namespace {
+
+using namespace fanbeam;
+
+const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
+const materials::PhongNrcs kDark;
+
+renderer::PointTarget reflector(const glm::dvec3& position_m) {
+  renderer::PointTarget target;
+  target.rcs = materials::ConstantRcs{100.0};
+  target.path = {{0.0, position_m}};
+  return target;
+}
+
+}  // namespace
+
+TEST_CASE("M02 the dark half of a scene is the noise-only picture, or the floor, exactly",
+          "[dark_and_unseen][M02]") {
+  constexpr int kColumns = 40;
+  // The beam is 1.25 deg wide on either side: five columns of 0.25 deg mix both halves.
+  constexpr int kMixed = 6;
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  terrain::HeightField field = tests::ground(4000.0, 40.0, [](double x, double y) {
+    return 8.0 * std::sin(x / 170.0) * std::cos(y / 230.0);
+  });
+  for (int row = 0; row + 1 < field.rows; ++row)
+    for (int column = 0; column + 1 < field.columns; ++column)
+      field.cell_material[field.cell(column, row)] = field.west_m + 40.0 * column >= 0.0 ? 1 : 0;
+  const renderer::World half = tests::world(sensor, std::move(field), {kGrass, kDark});
+  const renderer::World nothing = tests::world(sensor, std::nullopt, {kGrass, kDark});
+
+  for (const renderer::Sampling& sampling :
+       {renderer::sampling_for(4.0), renderer::profile_sampling_for(8.0)})
+    for (const bool noise : {true, false}) {
+      const renderer::Effects effects{.thermal_noise = noise};
+      const renderer::Frame seen =
+          renderer::FrameRenderer(half, sampling, {}, effects).render(tests::level_pose(80.0));
+      const renderer::Frame floor =
+          renderer::FrameRenderer(nothing, {}, {}, effects).render(tests::level_pose(80.0));
+      double lit_grey = 0.0;
+      for (std::size_t i = 0; i < seen.bscope_grey.size(); ++i) {
+        const int column = static_cast<int>(i) % kColumns;
+        if (column >= kColumns / 2 + kMixed) {
+          REQUIRE(seen.bscope_grey[i] == floor.bscope_grey[i]);
+          REQUIRE(seen.cscope_grey[i] == floor.cscope_grey[i]);
+          if (!noise) REQUIRE(seen.bscope_grey[i] == 0.0);
+        } else if (column < kColumns / 2 - kMixed) {
+          lit_grey = std::max(lit_grey, seen.bscope_grey[i] - floor.bscope_grey[i]);
+        }
+      }
+      CHECK(lit_grey > 50.0);
+    }
+}
+
+TEST_CASE("S05 targets abeam, behind and at the antenna are not drawn, and are counted",
+          "[dark_and_unseen][S05]") {
+  sensors::Sensor sensor = tests::hivision();
+  sensor.range.minimum_m = 0.0;  // zero distance is inside the gate
+  constexpr double kHeight_m = 60.0;
+  renderer::World world = tests::world(sensor, std::nullopt, {});
+  world.targets = {reflector({20.0, 900.0, 0.0})};
+  const auto frame_of = [&world] {
+    return renderer::FrameRenderer(world, {}, {}, {}).render(tests::level_pose(kHeight_m));
+  };
+  const renderer::Frame alone = frame_of();
+  CHECK(alone.unprojected == 0);
+  CHECK(*std::max_element(alone.bscope_W.begin(), alone.bscope_W.end()) > 0.0);
+
+  const std::vector<glm::dvec3> unseen_m = {
+      {500.0, 0.0, kHeight_m},       // on the lateral plane
+      {0.0, 0.0, kHeight_m - 400.0},  // and on it straight below
+      {0.0, -900.0, kHeight_m},      // behind, where a ratio of coordinates says straight ahead
+      {-20.0, -900.0, 120.0},        // the visible one mirrored at the antenna
+      {0.0, 0.0, kHeight_m}};        // at the antenna
+  for (const glm::dvec3& position_m : unseen_m) world.targets.push_back(reflector(position_m));
+  const renderer::Frame all = frame_of();
+  CHECK(all.unprojected == unseen_m.size());
+  CHECK(all.bscope_W == alone.bscope_W);
+  CHECK(all.cscope_W_m3 == alone.cscope_W_m3);
+  CHECK(all.bscope_grey == alone.bscope_grey);
+  CHECK(all.cscope_grey == alone.cscope_grey);
+}

@@ -1,0 +1,96 @@
+// T07, T12, T13: coplanar surfaces, one huge triangle, a sensor in the ground.
+#include <catch2/catch.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/random.h"
+#include "tests/renderer/test_worlds.h"
+
+namespace {
+
+using namespace fanbeam;
+
+const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
+
+}  // namespace
+
+TEST_CASE("T13 a sensor in or on the ground sees noise alone and is flagged", "[robust]") {
+  const renderer::World world =
+      tests::world(tests::hivision(8),
+                   tests::ground(4000.0, 100.0, [](double, double) { return 0.0; }), {kGrass});
+  const renderer::FrameRenderer frames(world, {}, {}, {.thermal_noise = true});
+  const renderer::World nothing = tests::world(tests::hivision(8), std::nullopt, {kGrass});
+  const renderer::Frame noise = renderer::FrameRenderer(nothing, {}, {}, {.thermal_noise = true})
+                                    .render(tests::level_pose(60.0));
+  CHECK(frames.render(tests::level_pose(1e-3)).events.empty());
+  for (const double height_m : {-1.0, 0.0, -0.0, -1e-300}) {
+    const renderer::Frame frame = frames.render(tests::level_pose(height_m));
+    CHECK(frame.events == std::vector<std::string>{"below_terrain"});
+    for (const double power_W : frame.bscope_W) CHECK(power_W == 0.0);
+    for (const double power_W_m3 : frame.cscope_W_m3) CHECK(power_W_m3 == 0.0);
+    CHECK(frame.bscope_grey == noise.bscope_grey);
+    CHECK(frame.cscope_grey == noise.cscope_grey);
+  }
+}
+
+TEST_CASE("T07 a runway coplanar with sloping terrain wins every ray, whatever the order",
+          "[robust]") {
+  // Posts every 17.3 m on one plane, a runway of 2000 m x 45 m painted on it.
+  terrain::HeightField field = tests::ground(
+      17.3 * 120, 17.3, [](double x, double y) { return 0.011 * x + 0.0037 * y + 581.3; });
+  const terrain::SurfacePatch runway =
+      terrain::rectangle_patch({0.0, 0.0}, {0.0, 1.0}, 2000.0, 45.0, 7);
+  const terrain::SurfacePatch under =
+      terrain::rectangle_patch({0.0, 0.0}, {0.0, 1.0}, 2100.0, 60.0, 3);
+  const terrain::RayScene bare(field, {}, {});
+  const glm::dvec3 sensor(3.0, -1900.0, 581.3 - 0.0037 * 1900.0 + 90.0);
+  // Alone, and over a wider strip that was loaded before it.
+  for (const std::vector<terrain::SurfacePatch>& patches :
+       {std::vector<terrain::SurfacePatch>{runway}, {under, runway}}) {
+    const terrain::RayScene scene(field, patches, {});
+    int wrong = 0;
+    double lift_m = 0.0, worst_m = 0.0;
+    for (std::uint64_t i = 0; i < 30'000; ++i) {
+      const auto words = core::random_words({7, 300, 0}, i, 0);
+      const double x = (core::uniform_from(words[0]) - 0.5) * 44.9;
+      const double y = (core::uniform_from(words[1]) - 0.5) * 1999.9;
+      const glm::dvec3 target(x, y, 0.011 * x + 0.0037 * y + 581.3);
+      const auto hit = scene.intersect(sensor, target - sensor, 5000.0);
+      const auto ground = bare.intersect(sensor, target - sensor, 5000.0);
+      REQUIRE(hit);
+      REQUIRE(ground);
+      if (hit->material != 7) ++wrong;
+      lift_m = std::max(lift_m, std::abs(hit->distance_m - ground->distance_m));
+      worst_m = std::max(worst_m, std::abs(hit->distance_m - glm::length(target - sensor)));
+    }
+    // The patch has no height of its own, so no range changes; what rounding does to the plane
+    // itself is the caster's float error.
+    CHECK(wrong == 0);
+    CHECK(lift_m == 0.0);
+    CHECK(worst_m < 0.02);
+  }
+}
+
+TEST_CASE("T12 ranges on a huge triangle beside tiny ones stay within 5 mm", "[robust]") {
+  terrain::PlacedMesh mesh;
+  mesh.mesh.vertices_m = {{-10000.0, -10000.0, 0.0}, {10000.0, -10000.0, 0.0},
+                          {10000.0, 10000.0, 0.0},   {-10000.0, 10000.0, 0.0},
+                          {5000.0, 5000.0, 0.001},   {5000.001, 5000.0, 0.001},
+                          {5000.0, 5000.001, 0.001}};
+  mesh.mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 5, 6}};
+  mesh.mesh.triangle_material = {0, 0, 0};
+  mesh.mesh.material_names = {"ground"};
+  mesh.material_of_name = {0};
+  const terrain::RayScene scene(std::nullopt, {}, {mesh});
+  double worst_m = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const double range_m = 200.0 * std::pow(4500.0 / 200.0, i / 1999.0);
+    const double sine = 60.0 / range_m;
+    const double azimuth = 0.7 * i;
+    const glm::dvec3 direction(std::sqrt(1.0 - sine * sine) * std::sin(azimuth),
+                               std::sqrt(1.0 - sine * sine) * std::cos(azimuth), -sine);
+    const auto hit = scene.intersect({0.0, 0.0, 60.0}, direction, 6000.0);
+    REQUIRE(hit);
+    worst_m = std::max(worst_m, std::abs(hit->distance_m - range_m));
+  }
+  CHECK(worst_m < 0.005);
+}

@@ -1,0 +1,86 @@
+// R11: the same picture from every instruction set that the ray caster can be limited to.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "tests/renderer/test_worlds.h"
+
+namespace {
+
+using namespace fanbeam;
+
+bool machine_has(const std::string& set) {
+#if defined(__x86_64__)
+  if (set == "sse4.2") return __builtin_cpu_supports("sse4.2") != 0;
+  if (set == "avx") return __builtin_cpu_supports("avx") != 0;
+  if (set == "avx2")
+    return __builtin_cpu_supports("avx2") != 0 && __builtin_cpu_supports("fma") != 0;
+  if (set == "avx512")
+    return __builtin_cpu_supports("avx512f") != 0 && __builtin_cpu_supports("avx512cd") != 0 &&
+           __builtin_cpu_supports("avx512dq") != 0 && __builtin_cpu_supports("avx512bw") != 0 &&
+           __builtin_cpu_supports("avx512vl") != 0;
+#endif
+  return false;
+}
+
+// Rolling ground with houses: silhouettes, walls and seams everywhere.
+renderer::World village(const std::string& instruction_set) {
+  const auto height_m = [](double x_m, double y_m) {
+    return 8.0 * std::sin(x_m / 170.0) * std::cos(y_m / 230.0);
+  };
+  std::vector<terrain::PlacedMesh> houses;
+  for (int i = 0; i < 120; ++i) {
+    const double x_m = -600.0 + 97.0 * (i % 12), y_m = 500.0 + 260.0 * (i / 12) + 13.0 * (i % 5);
+    houses.push_back(tests::box({x_m, y_m, -20.0}, {x_m + 14.0, y_m + 11.0, 15.0}, 1).mesh);
+  }
+  renderer::World world =
+      tests::world(tests::hivision(), std::nullopt,
+                   {materials::PhongNrcs(0.0325, 0.136, 1.99), materials::PhongNrcs(0.3, 0.5, 3.0)});
+  world.surfaces = std::make_unique<terrain::RayScene>(
+      tests::ground(4000.0, 40.0, height_m), std::vector<terrain::SurfacePatch>{},
+      std::move(houses), instruction_set);
+  return world;
+}
+
+}  // namespace
+
+TEST_CASE("R11: pictures of SSE4.2, AVX, AVX2 and AVX-512 are statistically one", "[isa]") {
+  std::vector<double> first_W;
+  int sets = 0;
+  for (const char* set : {"sse4.2", "avx", "avx2", "avx512"}) {
+    if (!machine_has(set)) {
+      WARN("this machine has no " << set);
+      continue;
+    }
+    ++sets;
+    const renderer::World world = village(set);
+    CHECK(world.surfaces->native_packet() == (std::string(set) == "avx512" ? 16 : 8));
+    const std::vector<double> power_W =
+        renderer::FrameRenderer(world, renderer::sampling_for(4.0), {true, false}, {})
+            .render(tests::level_pose(90.0))
+            .bscope_W;
+    if (first_W.empty()) first_W = power_W;
+    REQUIRE(power_W.size() == first_W.size());
+    double sum_dB = 0.0;
+    std::size_t lit = 0, differ = 0;
+    for (std::size_t i = 0; i < power_W.size(); ++i) {
+      if (power_W[i] == 0.0 && first_W[i] == 0.0) continue;
+      ++lit;
+      if (!(power_W[i] > 0.0 && first_W[i] > 0.0)) {
+        ++differ;
+        continue;
+      }
+      const double difference_dB = 10.0 * std::log10(power_W[i] / first_W[i]);
+      sum_dB += difference_dB;
+      differ += std::abs(difference_dB) > 0.1 ? 1 : 0;
+    }
+    INFO(set << ": mean " << sum_dB / static_cast<double>(lit) << " dB, " << differ << " of "
+             << lit << " cells by more than 0.1 dB");
+    CHECK(lit > power_W.size() / 2);
+    CHECK(std::abs(sum_dB / static_cast<double>(lit)) <= 0.001);
+    CHECK(static_cast<double>(differ) <= 1e-4 * static_cast<double>(power_W.size()));
+  }
+  CHECK(sets >= 1);
+}

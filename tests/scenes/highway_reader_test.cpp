@@ -1,0 +1,123 @@
+// Highway scenario files: the shared one in full, and small ones with everything wrong.
+#include "scenes/highway_reader.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/decibel.h"
+#include "core/errors.h"
+#include "tests/shared_data.h"
+
+using namespace fanbeam;
+
+namespace {
+
+// With the given members of a target in place of the usual ones.
+std::string file_with(const std::string& target, const std::string& rcs = "10.0") {
+  return R"({"format": "highway-scenarios", "version": 1,
+    "radar": {"center_frequency_hz": 76e9, "sweep_bandwidth_hz": 250e6, "tx_power_w": 0.004,
+      "tx_gain_db": 32, "rx_gain_db": 27, "noise_figure_db": 4.5, "system_loss_db": 0,
+      "max_range_m": 200, "virtual_ula_elements": 12, "virtual_ula_spacing_wavelengths": 0.5,
+      "frame_period_s": 0.05},
+    "scenarios": [{"id": "X", "title": "test", "duration_s": 3, "ego_speed_mps": 20, "targets": [
+      {"id": "A", "kind": "car", "swerling": 0, "rcs_m2": )" +
+         rcs + ", " + target + "}]}]}";
+}
+
+const std::string kStraight =
+    R"("motion": "piecewise-acceleration", "position_m": [50, 3], "velocity_mps": [22, 1],
+       "segments": [])";
+
+core::InputError refusal(const std::string& text) {
+  try {
+    scenes::parse_highway(text, "test.json");
+  } catch (const core::InputError& error) {
+    return error;
+  }
+  FAIL("accepted");
+  return core::InputError({});
+}
+
+}  // namespace
+
+TEST_CASE("Every truth row of the shared scenarios follows from the motion laws", "[highway]") {
+  const auto path = tests::shared_data("../reference/highway-scenarios.json");
+  if (!path) return;
+  const scenes::HighwayFile file = scenes::read_highway_file(*path);
+  CHECK(core::dB_from_power(file.radar.transmit_gain, -300.0) == Approx(32.0));
+  CHECK(core::dB_from_power(file.radar.noise_figure, -300.0) == Approx(4.5));
+  REQUIRE(file.scenarios.size() == 4);
+  int rows = 0;
+  for (const core::HighwayScenario& scenario : file.scenarios)
+    for (std::size_t i = 0; i < scenario.targets.size(); ++i) {
+      REQUIRE_FALSE(scenario.truth[i].empty());
+      for (const core::HighwayTruth& row : scenario.truth[i]) {
+        INFO(scenario.id << " " << scenario.targets[i].id << " at " << row.time_s << " s");
+        const core::HighwayTruth truth =
+            core::truth_at(scenario.targets[i], scenario.radar_speed_mps, file.radar, row.time_s);
+        CHECK(truth.range_m == Approx(row.range_m).margin(1e-6));
+        CHECK(truth.range_rate_mps == Approx(row.range_rate_mps).margin(1e-6));
+        CHECK(truth.azimuth_rad == Approx(row.azimuth_rad).margin(1e-6));
+        CHECK(truth.in_view == row.in_view);
+        ++rows;
+      }
+    }
+  CHECK(rows == 7 + 6 * 13 + 2 * 25 + 3 * 10);
+}
+
+TEST_CASE("Left in a scenario file is negative here", "[highway]") {
+  const auto straight = scenes::parse_highway(file_with(kStraight), "test.json");
+  const core::HighwayTarget& target = straight.scenarios[0].targets[0];
+  CHECK(target.position_m == std::array<double, 2>{50.0, -3.0});
+  CHECK(target.velocity_mps == std::array<double, 2>{22.0, -1.0});
+  const auto bent =
+      scenes::parse_highway(file_with(R"("motion": "piecewise-acceleration", "position_m": [50, 3],
+        "velocity_mps": [22, 1], "segments": [
+          {"type": "acceleration", "t0_s": 0, "t1_s": 1, "acceleration_mps2": [2, 0.5]},
+          {"type": "lane-change", "t0_s": 1, "t1_s": 3, "lateral_m": 3.5}])"),
+                            "test.json");
+  CHECK(bent.scenarios[0].targets[0].accelerations[0].acceleration_mps2 ==
+        std::array<double, 2>{2.0, -0.5});
+  CHECK(bent.scenarios[0].targets[0].lane_changes[0].lateral_m == -3.5);
+  const auto ring = scenes::parse_highway(
+      file_with(R"("motion": "circular", "radius_m": 50, "azimuth0_rad": -0.69,
+        "angular_rate_rad_s": 0.3)"),
+      "test.json");
+  CHECK(ring.scenarios[0].targets[0].azimuth_rad == 0.69);
+  CHECK(ring.scenarios[0].targets[0].angular_rate_rad_per_s == -0.3);
+}
+
+TEST_CASE("All that is wrong with a scenario file is told together, with its path", "[highway]") {
+  const core::InputError error = refusal(file_with(
+      R"("motion": "piecewise-acceleration", "position_m": [50], "velocity_mps": [22, "x"],
+        "segments": [{"type": "loop", "t0_s": 2, "t1_s": 1}])",
+      "-3"));
+  CHECK(error.has(core::ErrorClass::range));
+  CHECK(error.has(core::ErrorClass::parse));
+  CHECK(error.has(core::ErrorClass::unsupported));
+  for (const char* field :
+       {"scenarios[0].targets[0].rcs_m2", "scenarios[0].targets[0].position_m",
+        "scenarios[0].targets[0].velocity_mps[1]", "scenarios[0].targets[0].segments[0].t1_s",
+        "scenarios[0].targets[0].segments[0].type"}) {
+    INFO(field);
+    CHECK(std::any_of(error.problems().begin(), error.problems().end(),
+                      [&](const core::Problem& one) { return one.field == field; }));
+  }
+}
+
+TEST_CASE("Hostile scenario files are refused before they cost anything", "[highway]") {
+  CHECK(refusal(std::string(100000, '[')).has(core::ErrorClass::limit));
+  CHECK(refusal("{").has(core::ErrorClass::parse));
+  CHECK(refusal("").has(core::ErrorClass::parse));
+  CHECK(refusal("[1, 2]").has(core::ErrorClass::parse));
+  CHECK(refusal(R"({"format": "other", "version": 1})").has(core::ErrorClass::unsupported));
+  CHECK(refusal(file_with(R"("motion": "jump")")).has(core::ErrorClass::unsupported));
+  CHECK(refusal(file_with(kStraight, "1e999")).has(core::ErrorClass::parse));
+  CHECK(refusal(file_with(kStraight, "\"\\ud800\"")).has(core::ErrorClass::parse));
+  std::string many = "0";
+  for (int i = 0; i < 2000; ++i) many += ",0";
+  CHECK(refusal(file_with(R"("motion": "piecewise-acceleration", "position_m": [)" + many +
+                          R"(], "velocity_mps": [1, 1], "segments": [])"))
+            .has(core::ErrorClass::limit));
+}

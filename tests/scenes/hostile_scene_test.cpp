@@ -1,0 +1,189 @@
+// Scenes that want too much: files outside their folder, more objects than there is memory for,
+// texts that keep a reader busy. docs/scene-format.md, "Limits".
+#include <catch2/catch.hpp>
+#include <ctime>
+
+#include "scenes/file_budget.h"
+#include "scenes/objects.h"
+#include "tests/peak_memory.h"
+#include "tests/scenes/problem_checks.h"
+
+using namespace fanbeam;
+using tests::check_problems;
+using tests::TemporaryFolder;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Time limits count the processor's time, which other programs do not lengthen; a sanitizer does.
+double processor_time_s() {
+  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
+}
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kSlowdown = 10.0;
+#else
+constexpr double kSlowdown = 1.0;
+#endif
+
+constexpr std::size_t kLargestScene_bytes = std::size_t{4} << 20;
+
+// As many of `part` as a scene file may hold, numbered where it has a '#'.
+std::string filled(const std::string& before, const std::string& part, const std::string& behind) {
+  std::string text = before;
+  for (std::size_t i = 0; text.size() + part.size() + behind.size() + 10 < kLargestScene_bytes;
+       ++i) {
+    const std::size_t number = part.find('#');
+    text += part.substr(0, number);
+    if (number != std::string::npos) text += std::to_string(i) + part.substr(number + 1);
+  }
+  return text + behind;
+}
+
+std::string codes_of(const std::vector<core::Problem>& problems) {
+  std::string codes;
+  for (const core::Problem& problem : problems) codes += problem.code + " " + problem.field + "; ";
+  return codes;
+}
+
+std::string repeated(const std::string& text, int times) {
+  std::string result;
+  for (int i = 0; i < times; ++i) result += text;
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("F05 a scene's own data folders lie inside it", "[hostile_scene][F05]") {
+  for (const auto& [name, reason] : std::vector<std::pair<std::string, std::string>>{
+           {"..", "it leaves the folder"},
+           {"more/../../other", "it leaves the folder"},
+           {"/etc", "it is absolute"},
+           {"link", "it leaves the folder"},
+           {"http://host/data", "it names a URI scheme"}}) {
+    const TemporaryFolder folder;
+    fs::create_symlink("/etc", folder.path() / "link");
+    INFO(name);
+    check_problems(folder, "data_folders = [\"" + name + "\"]\n" + tests::kSmallScene,
+                   {"@/scene.toml:1:1: E-PATH data_folders = \"" + name +
+                    "\": expected a path inside @ (" + reason + ")"});
+  }
+  const TemporaryFolder folder;
+  fs::create_directories(folder.path() / "more data");
+  folder.write("more data/flight.csv",
+               "time_s,latitude_deg,longitude_deg,height_m\n0,52,10,200\n1,52.001,10,200\n");
+  const std::string text = "data_folders = [\"none\", \"more data\"]\n" +
+                           tests::file_trajectory("vertical_datum = \"scene\"\n");
+  CHECK(tests::build_text(folder, text).scene != nullptr);
+  check_problems(folder, "data_folders = [" + repeated("\"a\",", 65) + "]\n" + tests::kSmallScene,
+                 {"@/scene.toml:1:1: E-LIMIT data_folders = 65: expected at most 64"});
+}
+
+TEST_CASE("F05 a material asset beside a model is no link", "[hostile_scene][F05]") {
+  const TemporaryFolder folder;
+  folder.write("cube.gltf", R"({"asset": {"version": "2.0"}})");
+  fs::create_symlink("/etc/hostname", folder.path() / "cube.xoma");
+  check_problems(folder,
+                 tests::replaced(tests::kSmallScene, "[weather]",
+                                 "[[model]]\nfile = \"cube.gltf\"\nopen_material = \"auto\"\nat = "
+                                 "{ runway = \"36\", behind_threshold_m = 0.0 }\n[weather]"),
+                 {"@/scene.toml:24:1: E-PATH model[0].open_material = cube.xoma, a link: expected "
+                  "a file beside the model"});
+}
+
+TEST_CASE("R17 more objects than a scene may have are E-LIMIT before any is made",
+          "[hostile_scene][R17]") {
+  const TemporaryFolder folder;
+  check_problems(
+      folder, tests::kSmallScene + repeated("[[target]]\n", 10'001),
+      {"@/scene.toml:28:3: E-LIMIT target = an array of 10001: expected at most 10000 tables"});
+  check_problems(
+      folder, tests::kSmallScene + repeated("[[runway]]\n", 64),
+      {"@/scene.toml:11:3: E-LIMIT runway = an array of 65: expected at most 64 tables"});
+}
+
+TEST_CASE("R17 lines of a million points in all are E-LIMIT", "[hostile_scene][R17]") {
+  const std::string line =
+      "[[line]]\nfrom = { runway = \"36\", behind_threshold_m = 0.0 }\nto = { runway = \"36\", "
+      "behind_threshold_m = 999.0 }\nspacing_m = 0.01\n";
+  const TemporaryFolder folder;
+  const double begin_s = processor_time_s();
+  const tests::PeakMemory memory;
+  const tests::Outcome outcome =
+      tests::build_text(folder, tests::kSmallScene + repeated(line, 5000));
+  INFO(codes_of(outcome.problems));
+  REQUIRE(outcome.problems.size() == 1);
+  CHECK(outcome.problems[0].code == "E-LIMIT");
+  CHECK(outcome.problems[0].place.line == 28 + 4 * 10);  // the line behind ten of 99 900 points
+  CHECK(memory.rise_MiB() < 1500.0);
+  CHECK(processor_time_s() - begin_s < 5.0 * kSlowdown);
+}
+
+TEST_CASE("R17 models and buildings are counted by the bytes of their files",
+          "[hostile_scene][R17]") {
+  const TemporaryFolder folder;
+  folder.write("large.bin", "");
+  fs::resize_file(folder.path() / "large.bin", scenes::kMostBodyFiles_bytes / 2 + 1);
+  scenes::FileBudget budget;
+  budget.take(folder.path() / "large.bin");
+  CHECK_THROWS_WITH(budget.take(folder.path() / "large.bin"),
+                    Catch::Matchers::Contains("E-LIMIT files of all models and buildings"));
+  CHECK_NOTHROW(budget.read(folder.write("small.bin", "x"), 10));
+}
+
+// A model of a square metre of 2 x 100 x 100 triangles, placed until there are too many.
+TEST_CASE("R17 triangles of all models together are E-LIMIT", "[hostile_scene][R17]") {
+  const TemporaryFolder folder;
+  folder.write("none.gltf",
+               R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)"
+               R"({"attributes":{"POSITION":0}}]}],"accessors":[{"componentType":5126,"count":3,)"
+               R"("type":"VEC3","bufferView":0}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
+               R"("buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAA)"
+               R"(AAAAAAAAgD8AAAAA"}]})");
+  std::string text = tests::kSmallScene;
+  const std::string model =
+      "[[model]]\nfile = \"none.gltf\"\nat = { runway = \"36\", behind_threshold_m = 0.0 }\n";
+  // One triangle a model: far below the limit, and every file is read again.
+  const tests::Outcome outcome = tests::build_text(folder, text + repeated(model, 100));
+  INFO(codes_of(outcome.problems));
+  CHECK(outcome.scene != nullptr);
+}
+
+TEST_CASE("Scene files of 4 MiB of anything are answered in seconds", "[hostile_scene]") {
+  struct Case {
+    const char* what;
+    std::string text;
+    const char* code;
+  };
+  const Case cases[] = {
+      {"keys", filled("", "k#=1\n", ""), "E-REF"},
+      {"tables", filled("", "[t#]\n", ""), "E-REF"},
+      {"dotted keys", filled("", "a.b.c.d.e.f.g.h#=1\n", ""), "E-REF"},
+      {"boxes", filled("", "[[box]]\n", ""), "E-LIMIT"},
+      {"models", filled("", "[[model]]\nfile=\"a\"\n", ""), "E-LIMIT"},
+      {"data folders", filled("data_folders=[", "\"a\",", "]\n"), "E-LIMIT"},
+      {"arrays", filled("a=[", "[],", "]\n"), "E-REF"},
+      {"land cover", filled("[terrain]\nland_cover={file=\"x\",classes={", "#=\"a\",", "1=\"b\"}}"),
+       "E-PARSE"},
+      {"a long text", filled("[scene]\nname=\"", "xxxxxxxx", "\"\n"), "E-REF"},
+      {"a long key", filled("", "kkkkkkkk", "=1\n"), "E-REF"},
+      {"a long path", filled("object_library=\"", "kkkkkkkk", "\"\n"), "E-"},
+      {"quotes", filled("a=\"\"\"", "\"a", "\"\"\"\n"), "E-REF"},
+      {"depth", filled("a=", "[", ""), "E-LIMIT"},
+      {"a long number", filled("[terrain]\nspacing_m=1", "00000000", "\n"), "E-"},
+      {"no UTF-8", filled("[scene]\nname=\"", "\xff", "\"\n"), "E-PARSE"},
+      {"nothing", filled("", "\n", ""), "E-REF"}};
+  for (const Case& c : cases) {
+    const TemporaryFolder folder;
+    INFO(c.what);
+    const double begin_s = processor_time_s();
+    const tests::PeakMemory memory;
+    const tests::Outcome outcome = tests::build_text(folder, c.text);
+    REQUIRE_FALSE(outcome.problems.empty());
+    CHECK(codes_of(outcome.problems).find(c.code) != std::string::npos);
+    for (const core::Problem& problem : outcome.problems)
+      CHECK(core::to_string(problem).size() < 4000);
+    CHECK(memory.rise_MiB() < 512.0 * kSlowdown);
+    CHECK(processor_time_s() - begin_s < 5.0 * kSlowdown);
+  }
+}

@@ -1,0 +1,268 @@
+// Arrays: beamwidth, the angle's bound, motion between transmit slots, top view.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <glm/vec3.hpp>
+
+#include "core/constants.h"
+#include "core/errors.h"
+#include "core/units.h"
+#include "signal/angle/angle_peak.h"
+#include "signal/angle/steering.h"
+#include "signal/transform/angle_transform.h"
+#include "signal/transform/slot_compensation.h"
+#include "signal/transform/top_view.h"
+#include "signal/waveform/array.h"
+#include "tests/signal/test_tones.h"
+
+using namespace fanbeam;
+using namespace fanbeam::signal;
+using core::kPi;
+using core::radians;
+
+namespace {
+
+const double kWavelength_m = core::kSpeedOfLight_mps / 76e9;
+constexpr double kSlot_s = 20e-6;
+
+double degrees(double angle_rad) { return angle_rad * 180.0 / kPi; }
+
+Array half_wave_line(int transmitters, int receivers) {
+  return line_array(transmitters, receivers, 0.5 * kWavelength_m);
+}
+
+// What an array sees of a plane wave of amplitude 1.
+std::vector<std::complex<double>> plane_wave(const Array& array, double azimuth_rad,
+                                             double elevation_rad = 0.0) {
+  return steering_vectors(virtual_elements_m(array), kWavelength_m,
+                          {{azimuth_rad}, {elevation_rad}})
+      .values;
+}
+
+// Adds what motion does between the slots.
+void move(std::vector<std::complex<double>>& snapshot, const Array& array, double speed_mps) {
+  for (int c = 0; c < array.channels(); ++c)
+    snapshot[static_cast<std::size_t>(c)] *=
+        std::polar(1.0, array.transmitter_of(c) * slot_phase_rad(speed_mps, kSlot_s, kWavelength_m));
+}
+
+double doppler_Hz(double speed_mps) { return 2.0 * speed_mps / kWavelength_m; }
+
+}  // namespace
+
+TEST_CASE("the half-power beamwidths of uniform lines are the textbook's", "[angle]") {
+  // 0.8859 wavelength / (N d) rad, the sine read as the angle.
+  const std::pair<int, double> kWidths[] = {{4, 25.38}, {8, 12.69}, {12, 8.460}, {16, 6.345}};
+  for (const auto& row : kWidths) {
+    // A line's array factor in sin(azimuth) narrows to the limit of many elements: sample it
+    // finely.
+    const int count = row.first;
+    const auto factor = [count](double sine) {
+      std::complex<double> sum = 0.0;
+      // Elements split into 64 parts each: the limit that the figure stands for.
+      for (int i = 0; i < 64 * count; ++i) sum += std::polar(1.0, kPi * sine * (i + 0.5) / 64.0);
+      return std::norm(sum) / (4096.0 * count * count);
+    };
+    double low = 0.0;
+    double high = 1.9 / count;
+    for (int step = 0; step < 60; ++step) {
+      const double middle = 0.5 * (low + high);
+      (factor(middle) > 0.5 ? low : high) = middle;
+    }
+    CHECK(degrees(2.0 * low) == Approx(row.second).epsilon(3e-4));
+  }
+  // And a real line of 12 is as wide to a few parts in a thousand.
+  const Array line = half_wave_line(1, 12);
+  const auto wave = plane_wave(line, 0.0);
+  const auto power = [&](double azimuth_rad) {
+    const auto a = plane_wave(line, azimuth_rad);
+    std::complex<double> sum = 0.0;
+    for (std::size_t m = 0; m < a.size(); ++m) sum += wave[m] * std::conj(a[m]);
+    return std::norm(sum) / 144.0;
+  };
+  CHECK(power(radians(8.460 / 2)) == Approx(0.5).epsilon(0.01));
+}
+
+TEST_CASE("beams find a wave on the side it comes from and keep its power", "[angle]") {
+  const Array line = half_wave_line(3, 4);
+  const std::vector<double> azimuths =
+      angle_cell_azimuths_rad(64, 0.5 * kWavelength_m, kWavelength_m);
+  CHECK(azimuths[32] == 0.0);
+  CHECK(azimuths[48] == Approx(radians(30.0)));
+  DoubleCube cube({5, 3, 12});
+  const auto wave = plane_wave(line, radians(30.0));
+  for (int c = 0; c < 12; ++c) cube.at(c, 1, 2) = 2.0 * wave[static_cast<std::size_t>(c)];
+
+  DoubleCube beams;
+  for (const WindowKind kind : {WindowKind::rectangular, WindowKind::hann}) {
+    angle_transform(cube, {.kind = kind}, 64, beams);
+    REQUIRE(beams.shape == CubeShape{5, 3, 64});
+    CHECK(std::norm(beams.at(48, 1, 2)) == Approx(4.0).epsilon(1e-12));
+    CHECK(std::norm(beams.at(16, 1, 2)) < 0.3);
+    CHECK(beams.at(48, 0, 0) == 0.0);
+  }
+  // The same by sums over a grid of directions.
+  angle_transform(cube, {}, 64, beams);
+  DoubleCube summed;
+  beam_transform(cube, virtual_elements_m(line), kWavelength_m, {azimuths}, {}, summed);
+  for (int beam = 0; beam < 64; ++beam)
+    REQUIRE(std::norm(summed.at(beam, 1, 2)) ==
+            Approx(std::norm(beams.at(beam, 1, 2))).margin(1e-12));
+}
+
+TEST_CASE("an array with elements at two heights gives elevation too", "[angle]") {
+  Array array = half_wave_line(1, 8);
+  const double half_m = 0.5 * kWavelength_m;
+  array.transmitters_m = {glm::dvec3(0.0), glm::dvec3(0.0, 0.0, half_m),
+                          glm::dvec3(0.0, 0.0, 2.0 * half_m)};
+  const auto wave = plane_wave(array, radians(-20.0), radians(7.0));
+  const AnglePeak peak = direction_peak(wave, virtual_elements_m(array), kWavelength_m);
+  CHECK(degrees(peak.azimuth_rad) == Approx(-20.0).margin(1e-5));
+  CHECK(degrees(peak.elevation_rad) == Approx(7.0).margin(1e-5));
+  CHECK(peak.power == Approx(1.0).epsilon(1e-9));
+
+  FloatCube cube({1, 1, 24});
+  for (int c = 0; c < 24; ++c)
+    cube.at(c, 0, 0) = static_cast<std::complex<float>>(wave[static_cast<std::size_t>(c)]);
+  FloatCube beams;
+  const BeamGrid grid{{radians(-20.0), 0.0}, {radians(-7.0), radians(7.0)}};
+  beam_transform(cube, virtual_elements_m(array), kWavelength_m, grid, {}, beams);
+  CHECK(std::norm(beams.at(1 * 2 + 0, 0, 0)) == Approx(1.0).epsilon(1e-5));
+  CHECK(std::norm(beams.at(0 * 2 + 0, 0, 0)) < 0.9F);
+}
+
+TEST_CASE("the angle of one wave reaches the Cramer-Rao bound", "[angle][statistics]") {
+  const Array line = half_wave_line(3, 4);
+  const auto elements_m = virtual_elements_m(line);
+  const double n = 12.0;
+  for (const double azimuth_deg : {0.0, 13.0, 40.0})
+    for (const double snr_dB : {10.0, 20.0, 30.0}) {
+      const double snr = std::pow(10.0, snr_dB / 10.0);
+      const double azimuth_rad = radians(azimuth_deg);
+      const double bound_deg = degrees(std::sqrt(6.0 / (snr * n * (n * n - 1.0))) /
+                                       (kPi * std::cos(azimuth_rad)));
+      constexpr int kTrials = 3000;
+      double squares = 0.0;
+      for (int trial = 0; trial < kTrials; ++trial) {
+        auto snapshot = plane_wave(line, azimuth_rad);
+        for (std::size_t m = 0; m < snapshot.size(); ++m)
+          snapshot[m] += tests::noise(1.0 / snr, m + 100 * static_cast<std::uint64_t>(trial), 11);
+        const double error_deg =
+            degrees(azimuth_peak(snapshot, elements_m, kWavelength_m).azimuth_rad) - azimuth_deg;
+        squares += error_deg * error_deg;
+      }
+      INFO(azimuth_deg << " deg, " << snr_dB << " dB, bound " << bound_deg);
+      const double ratio = std::sqrt(squares / kTrials) / bound_deg;
+      CHECK(ratio < 1.10);
+      // 3 sigma of an RMSE over 3000 trials is 4 %: below the bound it would be the bound that is
+      // wrong.
+      CHECK(ratio > 0.95);
+    }
+  CHECK(degrees(std::sqrt(6.0 / (1.0 * 12.0 * 143.0)) / kPi) == Approx(1.0784).margin(0.002));
+}
+
+TEST_CASE("motion between slots moves the angle when it is left in, and not when it is taken off",
+          "[angle][slots]") {
+  const Array line = half_wave_line(3, 4);
+  const auto elements_m = virtual_elements_m(line);
+  CHECK(degrees(slot_phase_rad(1.0, kSlot_s, kWavelength_m)) == Approx(3.6505).margin(5e-5));
+  CHECK(degrees(slot_phase_rad(100.0 / 3.6, kSlot_s, kWavelength_m)) == Approx(101.40).margin(5e-3));
+  // 2.91 and 8.10 deg if the phase grew evenly over the 12 elements. It grows in three steps of
+  // four elements, whose best straight line has 0.895 of that slope: cov / var = (8/3) / (143/12)
+  // per element instead of 1/4.
+  const double kStaircase = (8.0 / 3.0) / (143.0 / 12.0) / 0.25;
+  const std::pair<double, double> kShifts[] = {{10.0, 2.91}, {100.0 / 3.6, 8.10}};
+  for (const auto& row : kShifts) {
+    auto snapshot = plane_wave(line, 0.0);
+    move(snapshot, line, row.first);
+    const double raw_deg =
+        degrees(azimuth_peak(snapshot, elements_m, kWavelength_m).azimuth_rad);
+    CHECK(std::abs(raw_deg) == Approx(kStaircase * row.second).epsilon(0.01));
+    compensate_slots(snapshot, line, doppler_Hz(row.first), kSlot_s);
+    const double left_deg =
+        degrees(azimuth_peak(snapshot, elements_m, kWavelength_m).azimuth_rad);
+    CHECK(std::abs(left_deg) < 0.02);
+  }
+}
+
+TEST_CASE("the fold of a Doppler beyond its limit is told by the array", "[angle][slots]") {
+  const Array line = half_wave_line(3, 4);
+  // Unambiguous within +-16.44 m/s for three slots of 20 us.
+  const double limit_Hz = 1.0 / (3.0 * kSlot_s);
+  int wrong = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const double speed_mps = -48.0 + 0.48 * trial;
+    auto snapshot = plane_wave(line, radians(-60.0 + 0.6 * trial));
+    move(snapshot, line, speed_mps);
+    for (std::size_t m = 0; m < snapshot.size(); ++m)
+      snapshot[m] += tests::noise(0.05, m + 100 * static_cast<std::uint64_t>(trial), 12);
+    const double folded_Hz = std::remainder(doppler_Hz(speed_mps), limit_Hz);
+    const int fold = doppler_fold(snapshot, line, folded_Hz, kSlot_s, kWavelength_m);
+    const double found_mps = 0.5 * kWavelength_m * (folded_Hz + fold * limit_Hz);
+    if (std::abs(found_mps - speed_mps) > 1e-6) ++wrong;
+  }
+  CHECK(wrong == 0);
+}
+
+TEST_CASE("compensation of a whole cube leaves half a Doppler cell's phase at most",
+          "[angle][slots]") {
+  const Array line = half_wave_line(3, 4);
+  DoubleCube cube({2, 256, 12});
+  for (auto& value : cube.values) value = 1.0;
+  compensate_slots(cube, line);
+  for (int c = 0; c < 12; ++c) CHECK(cube.at(c, 128, 0) == 1.0);
+  // A scatterer in the centre of cell 200: 72 / 256 of a turn over three slots.
+  for (int t = 0; t < 3; ++t)
+    CHECK(std::abs(cube.at(4 * t, 200, 1) *
+                       std::polar(1.0, 2.0 * kPi * 72.0 / 256.0 * t / 3.0) -
+                   1.0) < 1e-12);
+  Array together = line;
+  together.multiplex = Multiplex::simultaneous;
+  DoubleCube same({2, 256, 12});
+  for (auto& value : same.values) value = 1.0;
+  compensate_slots(same, together);
+  for (const auto& value : same.values) REQUIRE(value == 1.0);
+}
+
+TEST_CASE("the top view keeps what lies on its own cells and nothing beyond the map", "[top_view]") {
+  // Ranges 0, 1, ... 20 m; azimuths -45 to 45 deg by 15.
+  std::vector<double> azimuths;
+  for (int i = -3; i <= 3; ++i) azimuths.push_back(radians(15.0 * i));
+  PowerMap map(7, 21);
+  map.at(3, 10) = 5.0;  // 10 m ahead
+  map.at(6, 14) = 2.0;  // 14 m at 45 deg right
+  const PowerMap view =
+      top_view(map, azimuths, 1.0, {.nearest_m = 0.0, .leftmost_m = -20.0, .step_m = 1.0, .rows = 21, .columns = 41});
+  CHECK(view.at(10, 20) == Approx(5.0));
+  CHECK(view.at(20, 0) == 0.0);  // 28 m away
+  double right = 0.0;
+  double left = 0.0;
+  for (int row = 0; row < 21; ++row)
+    for (int column = 0; column < 41; ++column) {
+      const double power = view.at(row, column);
+      REQUIRE(power >= 0.0);
+      REQUIRE(power <= 5.0);
+      if (row < 1) CHECK((power == 0.0 || column == 20));
+      if (std::abs(row - 10) <= 1 && std::abs(column - 30) <= 1) right += power;
+      if (std::abs(row - 10) <= 1 && std::abs(column - 10) <= 1) left += power;
+    }
+  CHECK(right > 0.0);
+  CHECK(left == 0.0);
+  CHECK_THROWS_AS(top_view(map, {0.0}, 1.0, {.rows = 1, .columns = 1}), core::InputError);
+}
+
+TEST_CASE("arrays, snapshots and grids that do not fit are refused", "[angle]") {
+  const Array line = half_wave_line(1, 4);
+  const auto elements_m = virtual_elements_m(line);
+  CHECK_THROWS_AS(azimuth_peak({1.0, 1.0}, elements_m, kWavelength_m), core::InputError);
+  CHECK_THROWS_AS(azimuth_peak({1.0, 1.0, std::nan(""), 1.0}, elements_m, kWavelength_m),
+                  core::InputError);
+  CHECK_THROWS_AS(steering_vectors(elements_m, 0.0, {{0.0}}), core::InputError);
+  CHECK_THROWS_AS(steering_vectors(elements_m, kWavelength_m, {}), core::InputError);
+  FloatCube cube({1, 1, 3});
+  FloatCube result;
+  CHECK_THROWS_AS(angle_transform(cube, {}, 2, result), core::InputError);
+  CHECK_THROWS_AS(beam_transform(cube, elements_m, kWavelength_m, {{0.0}}, {}, result),
+                  core::InputError);
+  CHECK_THROWS_AS(compensate_slots(cube, line), core::InputError);
+  CHECK_THROWS_AS(angle_cell_azimuths_rad(0, 1.0, 1.0), core::InputError);
+}

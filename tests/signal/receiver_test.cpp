@@ -1,0 +1,167 @@
+// Link budget, two rays, noise and quantisation of the reference radar.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/constants.h"
+#include "core/errors.h"
+#include "signal/receiver/link_budget.h"
+#include "signal/receiver/receiver_noise.h"
+#include "signal/receiver/two_ray.h"
+
+using namespace fanbeam;
+using namespace fanbeam::signal;
+
+namespace {
+
+constexpr double kWavelength_m = core::kSpeedOfLight_mps / 76e9;
+
+double dB(double ratio) { return 10.0 * std::log10(ratio); }
+double ratio(double level_dB) { return std::pow(10.0, 0.1 * level_dB); }
+double dBm(double power_W) { return dB(power_W / 1e-3); }
+
+double mean_power(const DoubleCube& cube) {
+  double sum = 0.0;
+  for (const std::complex<double>& value : cube.values) sum += std::norm(value);
+  return sum / static_cast<double>(cube.values.size());
+}
+
+}  // namespace
+
+TEST_CASE("Link budget of the reference radar to 0.01 dB", "[receiver]") {
+  const Link link{4e-3, ratio(32.0), ratio(27.0), kWavelength_m, 1.0};
+  const double figure = ratio(4.5);
+  CHECK(dBm(noise_density_W_per_Hz(figure)) == Approx(-169.4752).margin(1e-4));
+  const double ramps_s[] = {22.0 / 3.0 * 1e-6, 2e-3, 20e-3};
+  const double noises_dBm[] = {-118.128, -142.485, -152.485};
+  struct Row {
+    double range_m, sigma_m2, power_dBm, snr_dB[3];
+  };
+  const Row rows[] = {{50, 10, -73.994, {44.134, 68.491, 78.491}},
+                      {100, 10, -86.036, {32.093, 56.450, 66.450}},
+                      {200, 10, -98.077, {20.051, 44.409, 54.409}},
+                      {100, 1, -96.036, {22.093, 46.450, 56.450}},
+                      {200, 1, -108.077, {10.051, 34.409, 44.409}}};
+  for (const Row& row : rows) {
+    const double power_W = received_power_W(link, row.range_m, row.sigma_m2);
+    CHECK(dBm(power_W) == Approx(row.power_dBm).margin(0.01));
+    for (int i = 0; i < 3; ++i) {
+      const double noise_W = integrated_noise_W(figure, ramps_s[i]);
+      CHECK(dBm(noise_W) == Approx(noises_dBm[i]).margin(0.01));
+      CHECK(dB(power_W / noise_W) == Approx(row.snr_dB[i]).margin(0.01));
+    }
+  }
+  CHECK(dB(aperture_gain(6e-4, kWavelength_m)) == Approx(26.853).margin(0.001));
+  CHECK_THROWS_AS(received_power_W(link, 0.0, 1.0), core::InputError);
+  CHECK_THROWS_AS(received_power_W(link, std::nan(""), 1.0), core::InputError);
+  CHECK_THROWS_AS(noise_density_W_per_Hz(0.5), core::InputError);
+}
+
+TEST_CASE("Two rays over a road", "[receiver]") {
+  struct Row {
+    double range_m, smooth_dB, rough_dB;
+  };
+  for (const Row& row : {Row{60, -6.402, -7.432}, Row{80, 11.423, 8.620}, Row{100, 6.925, 4.316},
+                         Row{150, -1.154, -3.062}}) {
+    const auto echo_dB = [&](double reflection) {
+      return 2.0 * dB(two_ray_factor(0.5, 0.5, row.range_m, kWavelength_m, reflection));
+    };
+    CHECK(echo_dB(-1.0) == Approx(row.smooth_dB).margin(0.01));
+    CHECK(echo_dB(-0.7) == Approx(row.rough_dB).margin(0.01));
+  }
+  CHECK(two_ray_factor(0.5, 0.5, 100.0, kWavelength_m, 0.0) == 1.0);
+}
+
+TEST_CASE("G02: path difference over a plane without cancellation", "[receiver]") {
+  CHECK(std::abs(path_difference_m(60.0, 2.0, 3000.0) - 0.0799839870383) < 1e-12);
+  CHECK(path_difference_m(60.0, 0.0, 3000.0) == 0.0);
+}
+
+TEST_CASE("Receiver noise has the power of k T F fs, white in time", "[receiver]") {
+  const double sample_W = noise_sample_W(ratio(4.5), 20e6);
+  const Array array = line_array(1, 4, 2e-3);
+  DoubleCube cube({400, 64, 4});
+  add_receiver_noise(array, {sample_W, true, {11, 0, 3}}, cube);
+  // 102400 samples: 0.1 dB is seven standard deviations.
+  CHECK(dB(mean_power(cube) / sample_W) == Approx(0.0).margin(0.1));
+  // One bin of a ramp of 20 us: k T F / T.
+  double bin_W = 0.0;
+  std::complex<double> lag = 0.0;
+  for (int channel = 0; channel < 4; ++channel)
+    for (int chirp = 0; chirp < 64; ++chirp) {
+      for (int bin = 0; bin < 20; ++bin) {
+        std::complex<double> sum = 0.0;
+        for (int n = 0; n < 400; ++n)
+          sum += cube.at(channel, chirp, n) *
+                 std::polar(1.0, -2.0 * core::kPi * ((bin * n) % 400) / 400.0);
+        bin_W += std::norm(sum / 400.0) / (4 * 64 * 20);
+      }
+      for (int n = 1; n < 400; ++n)
+        lag += cube.at(channel, chirp, n) * std::conj(cube.at(channel, chirp, n - 1)) /
+               (4.0 * 64 * 399 * sample_W);
+    }
+  CHECK(dB(bin_W / integrated_noise_W(ratio(4.5), 20e-6)) == Approx(0.0).margin(0.25));
+  CHECK(std::abs(lag) < 4.0 / std::sqrt(4.0 * 64 * 399));
+}
+
+TEST_CASE("Virtual channels of one receiver share noise when they are simultaneous", "[receiver]") {
+  Array array = line_array(3, 4, 2e-3);
+  const auto correlation = [&](int a, int b) {
+    DoubleCube cube({256, 16, 12});
+    add_receiver_noise(array, {1.0, true, {5, 0, 0}}, cube);
+    std::complex<double> sum = 0.0;
+    for (int chirp = 0; chirp < 16; ++chirp)
+      for (int n = 0; n < 256; ++n)
+        sum += cube.at(a, chirp, n) * std::conj(cube.at(b, chirp, n)) / (16.0 * 256);
+    return std::abs(sum);
+  };
+  array.multiplex = Multiplex::simultaneous;
+  CHECK(correlation(0, 4) == Approx(correlation(0, 0)));
+  CHECK(correlation(0, 1) < 0.07);
+  array.multiplex = Multiplex::time_division;
+  CHECK(correlation(0, 4) < 0.07);
+}
+
+TEST_CASE("Noise of nothing changes nothing, and one seed gives one noise", "[receiver]") {
+  const Array array;
+  DoubleCube cube({16, 4, 1});
+  cube.at(0, 1, 2) = {1.0, 2.0};
+  const std::vector<std::complex<double>> before = cube.values;
+  add_receiver_noise(array, {0.0, true, {1, 0, 0}}, cube);
+  apply_phase_noise({0.0, 1e-6, 20e6, {1, 0, 0}}, cube);
+  CHECK(cube.values == before);
+  DoubleCube again = cube;
+  add_receiver_noise(array, {1.0, true, {1, 0, 7}}, cube);
+  add_receiver_noise(array, {1.0, true, {1, 0, 7}}, again);
+  CHECK(cube.values == again.values);
+  add_receiver_noise(array, {1.0, true, {1, 0, 8}}, again);
+  CHECK(cube.values != again.values);
+  CHECK_THROWS_AS(add_receiver_noise(line_array(1, 4, 2e-3), {1.0, true, {}}, cube),
+                  core::InputError);
+}
+
+TEST_CASE("Phase noise has its variance and correlation time and keeps power", "[receiver]") {
+  DoubleCube cube({200, 400, 1});
+  for (std::complex<double>& value : cube.values) value = 1.0;
+  apply_phase_noise({0.1, 0.5e-6, 20e6, {3, 0, 0}}, cube);
+  double variance = 0.0, lagged = 0.0;
+  for (int chirp = 0; chirp < 400; ++chirp)
+    for (int n = 10; n < 200; ++n) {
+      const double now = std::arg(cube.at(0, chirp, n)), then = std::arg(cube.at(0, chirp, n - 10));
+      variance += now * now / (400.0 * 190);
+      lagged += now * then / (400.0 * 190);
+    }
+  CHECK(std::sqrt(variance) == Approx(0.1).epsilon(0.03));
+  CHECK(lagged / variance == Approx(std::exp(-1.0)).margin(0.04));
+  CHECK(mean_power(cube) == Approx(1.0).epsilon(1e-12));
+  CHECK(phase_noise_rms_rad(1e3, 6.671e-7) == Approx(0.06474).epsilon(1e-3));
+}
+
+TEST_CASE("The quantiser rounds to its steps, clips and counts", "[receiver]") {
+  DoubleCube cube({4, 1, 1});
+  cube.values = {{0.26, -0.24}, {0.99, -1.5}, {0.0, 0.124}, {-1.0, 0.75}};
+  CHECK(quantise(Quantiser{3, 1.0}, cube) == 2);
+  CHECK(cube.values ==
+        std::vector<std::complex<double>>{{0.25, -0.25}, {0.75, -1.0}, {0.0, 0.0}, {-1.0, 0.75}});
+  CHECK_THROWS_AS(quantise(Quantiser{0, 1.0}, cube), core::InputError);
+  CHECK_THROWS_AS(quantise(Quantiser{8, 0.0}, cube), core::InputError);
+}

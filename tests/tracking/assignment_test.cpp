@@ -1,0 +1,140 @@
+#include "tracking/association/assignment.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "core/errors.h"
+#include "tests/tracking/simulated.h"
+#include "tracking/association/joint_probabilities.h"
+
+using namespace fanbeam;
+using namespace fanbeam::tracking;
+using tests::run_key;
+
+namespace {
+
+constexpr double kForbidden = std::numeric_limits<double>::infinity();
+
+double uniform(int run, int row, int column) {
+  return core::uniform_from(core::random_words(run_key(run, 1003), static_cast<std::uint64_t>(row),
+                                               static_cast<std::uint32_t>(column))[0]);
+}
+
+// Calls `event` for every way to give rows distinct columns, or none (-1).
+void every_event(int rows, int columns, std::vector<int>& chosen,
+                 const std::function<void(const std::vector<int>&)>& event) {
+  if (static_cast<int>(chosen.size()) == rows) return event(chosen);
+  for (int column = -1; column < columns; ++column) {
+    if (column >= 0 && std::count(chosen.begin(), chosen.end(), column) > 0) continue;
+    chosen.push_back(column);
+    every_event(rows, columns, chosen, event);
+    chosen.pop_back();
+  }
+}
+
+struct Problem {
+  CostMatrix costs;
+  std::vector<double> miss;
+};
+
+Problem random_problem(int run) {
+  const int rows = 1 + static_cast<int>(5.0 * uniform(run, 90, 0));
+  const int columns = static_cast<int>(6.0 * uniform(run, 91, 0));
+  Problem problem{CostMatrix(rows, columns, 0.0), {}};
+  for (int row = 0; row < rows; ++row) {
+    problem.miss.push_back(10.0 * uniform(run, row, 50) - 2.0);
+    for (int column = 0; column < columns; ++column)
+      problem.costs.at(row, column) = uniform(run, row, column + 20) < 0.2
+                                          ? kForbidden
+                                          : 14.0 * uniform(run, row, column) - 4.0;
+  }
+  return problem;
+}
+
+}  // namespace
+
+TEST_CASE("The assignment is the cheapest of all", "[association]") {
+  for (int run = 0; run < 400; ++run) {
+    const Problem problem = random_problem(run);
+    double least = kForbidden;
+    std::vector<int> chosen;
+    every_event(problem.costs.rows, problem.costs.columns, chosen, [&](const auto& columns) {
+      double sum = 0.0;
+      for (std::size_t row = 0; row < columns.size(); ++row)
+        sum += columns[row] < 0 ? problem.miss[row]
+                                : problem.costs.at(static_cast<int>(row), columns[row]);
+      least = std::min(least, sum);
+    });
+    const Assignment found = assign(problem.costs, problem.miss);
+    REQUIRE(found.cost == Approx(least).margin(1e-12));
+    for (const int column : found.column_of)
+      if (column >= 0)
+        CHECK(std::count(found.column_of.begin(), found.column_of.end(), column) == 1);
+  }
+}
+
+TEST_CASE("The nearest pair alone is not the best assignment", "[association]") {
+  // Greedy takes 1 and is left with 10: 11 instead of 4.
+  CostMatrix costs(2, 2, 0.0);
+  costs.cost = {1.0, 2.0, 2.0, 10.0};
+  const Assignment found = assign(costs, {20.0, 20.0});
+  CHECK(found.cost == Approx(4.0));
+  CHECK(found.column_of == std::vector<int>{1, 0});
+}
+
+TEST_CASE("Assignments without pairs, and wrong ones", "[association]") {
+  CHECK(assign(CostMatrix(0, 3, 0.0), {}).column_of.empty());
+  const Assignment none = assign(CostMatrix(2, 2, kForbidden), {1.0, 2.0});
+  CHECK(none.column_of == std::vector<int>{-1, -1});
+  CHECK(none.cost == Approx(3.0));
+  CHECK_THROWS_AS(assign(CostMatrix(1, 1, std::nan("")), {1.0}), core::InputError);
+  CHECK_THROWS_AS(assign(CostMatrix(1, 1, 0.0), {kForbidden}), core::InputError);
+  CHECK_THROWS_AS(assign(CostMatrix(1, 1, 0.0), {}), core::InputError);
+}
+
+TEST_CASE("Joint probabilities are those of all events added up", "[association]") {
+  const JointSettings settings{0.9, 0.99, 0.2};
+  for (int run = 0; run < 200; ++run) {
+    Problem problem = random_problem(run);
+    for (double& value : problem.costs.cost) value = std::isinf(value) ? 0.0 : std::exp(-value);
+    std::vector<double> existence;
+    for (int row = 0; row < problem.costs.rows; ++row) existence.push_back(uniform(run, row, 70));
+    CostMatrix belongs(problem.costs.rows, problem.costs.columns, 0.0);
+    double total = 0.0;
+    std::vector<int> chosen;
+    every_event(problem.costs.rows, problem.costs.columns, chosen, [&](const auto& columns) {
+      double weight = 1.0;
+      for (std::size_t row = 0; row < columns.size(); ++row)
+        weight *= columns[row] < 0 ? 1.0 - 0.9 * 0.99 * existence[row]
+                                   : 0.9 * existence[row] / 0.2 *
+                                         problem.costs.at(static_cast<int>(row), columns[row]);
+      total += weight;
+      for (std::size_t row = 0; row < columns.size(); ++row)
+        if (columns[row] >= 0) belongs.at(static_cast<int>(row), columns[row]) += weight;
+    });
+    const JointProbabilities found = joint_probabilities(problem.costs, existence, settings);
+    for (std::size_t i = 0; i < belongs.cost.size(); ++i)
+      REQUIRE(found.belongs.cost[i] == Approx(belongs.cost[i] / total).margin(1e-12));
+    for (int row = 0; row < problem.costs.rows; ++row) {
+      double sum = found.missed[static_cast<std::size_t>(row)];
+      for (int column = 0; column < problem.costs.columns; ++column)
+        sum += found.belongs.at(row, column);
+      CHECK(sum == Approx(1.0).epsilon(1e-12));
+    }
+  }
+}
+
+TEST_CASE("A track that is not seen becomes less likely to exist, as Bayes has it",
+          "[association]") {
+  const JointSettings settings{0.9, 1.0, 1e-3};
+  const auto unseen = joint_probabilities(CostMatrix(1, 0, 0.0), {0.8}, settings);
+  CHECK(unseen.existence[0] == Approx(0.8 * 0.1 / (0.8 * 0.1 + 0.2)).epsilon(1e-12));
+  const auto seen = joint_probabilities(CostMatrix(1, 1, 2.0), {0.8}, settings);
+  const double there = 0.8 * (0.1 + 0.9 * 2.0 / 1e-3);
+  CHECK(seen.existence[0] == Approx(there / (there + 0.2)).epsilon(1e-12));
+  CHECK_THROWS_AS(joint_probabilities(CostMatrix(1, 17, 1.0), {0.8}, settings), core::InputError);
+  CHECK_THROWS_AS(joint_probabilities(CostMatrix(1, 1, -1.0), {0.8}, settings), core::InputError);
+}

@@ -1,0 +1,52 @@
+// What a radar measures of a road scenario, on the level of frequencies: targets become beats with
+// noise, beats that are too close merge, and a pairing makes ranges and speeds of them again.
+// Misses, ghosts of pairing and false measurements come out as they would of a radar, at no cost.
+//
+// For every target in view, with the signal-to-noise ratio e of one ramp of the fine triangle (link
+// budget, two ways):
+//   beats      of signal/pairing/triangle.h, normal errors sqrt(6/e) / (2 pi T); those of one ramp
+//              closer than 1.2 bins become one at their mean, weighted with power
+//   azimuth    normal error sqrt(6/(r N (N^2-1))) / (2 pi d/lambda cos azimuth), r = e / N
+//   coarse     (two stages) range and speed with errors of 0.3 m and 0.3 m/s; targets that share
+//              the cells of range and speed (1.2 wide each) and the beam (0.886 lambda / N d)
+//              become one, weighted with power
+// Schemes: one triangle with all pairs, two slopes, two stages (signal/pairing/ghost_free.h). The
+// azimuth of a pair is the mean of those of its two beats. Ranges belong to the turnaround of the
+// (first) triangle, which is the time of the frame. A target is seen with `detection_probability`;
+// false measurements are Poisson, uniform in range, speed and azimuth.
+// Fluctuation: cases 1 and 2 anew in every frame, chi-square of 2 degrees, 3 and 4 of 4.
+// Source: rates of misses and ghosts as in tests/signal/pairing_rates_test.cpp; bounds as in
+// measurement_bound.h.
+// Neglected: side lobes and masking (all targets in view are detected alike), side lobes of the
+// array, thresholds below 15 dB. The stated standard deviations know nothing of merging.
+// Every draw is a function of seed, run, frame and target.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/highway.h"
+#include "tracking/filters/observation.h"
+#include "tracking/simulation/measurement_bound.h"
+
+namespace fanbeam::tracking {
+
+enum class Scheme { triangle, two_slopes, two_stage };
+
+struct SimulationSettings {
+  Scheme scheme = Scheme::two_stage;
+  double detection_probability = 1.0;
+  double false_per_frame = 0.0;
+  double merge_bins = 1.2;
+  double coarse_range_sigma_m = 0.3, coarse_speed_sigma_mps = 0.3;
+  double most_speed_mps = 70.0;
+};
+
+// Order: as the pairing gives them, false ones last. Refuses (E-RANGE) probabilities outside
+// [0, 1], negative rates, and what the link budget refuses.
+std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scenario,
+                                              const core::HighwayRadar& radar,
+                                              const SimulationSettings& settings,
+                                              std::uint64_t seed, std::uint32_t run, int frame);
+
+}  // namespace fanbeam::tracking

@@ -1,0 +1,105 @@
+#include "tracking/simulation/scenario_run.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.h"
+#include "tracking/tracker/track_geometry.h"
+
+namespace fanbeam::tracking {
+namespace {
+
+constexpr double kGate_m = 3.0;
+constexpr double kMostFrames = 1e6;
+
+Place place_of(const core::RelativeMotion& motion) {
+  return {motion.position_m[0], motion.position_m[1]};
+}
+
+std::vector<Place> places(const std::vector<NamedPlace>& named) {
+  std::vector<Place> result;
+  for (const NamedPlace& one : named) result.push_back(one.place);
+  return result;
+}
+
+}  // namespace
+
+TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps) {
+  TrackerSettings settings;
+  MotionModel straight, turn;
+  straight.acceleration_mps2 = 0.5;
+  turn.kind = MotionKind::coordinated_turn;
+  turn.acceleration_mps2 = 0.3;
+  turn.turn_density_rad2_per_s3 = 1e-4;
+  turn.radar_velocity_mps = {radar_speed_mps, 0.0};
+  settings.motion = {{straight, turn}, 20.0};
+  settings.most_range_m = radar.most_range_m;
+  settings.most_azimuth_rad = radar.most_azimuth_rad;
+  return settings;
+}
+
+std::vector<NamedPlace> ScenarioFrame::targets(const core::HighwayScenario& scenario) const {
+  std::vector<NamedPlace> result;
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    if (truth[i].in_view && !scenario.targets[i].clutter)
+      result.push_back({static_cast<int>(i), place_of(motion[i])});
+  return result;
+}
+
+std::vector<NamedPlace> ScenarioFrame::confirmed(const core::HighwayScenario& scenario) const {
+  std::vector<NamedPlace> result;
+  for (const Track& track : tracker->tracks()) {
+    if (!track.confirmed) continue;
+    const Gaussian state = combined(track.state);
+    const Place place{state.mean[0], state.mean[1]};
+    bool at_clutter = false;
+    for (std::size_t i = 0; i < motion.size(); ++i)
+      at_clutter = at_clutter || (scenario.targets[i].clutter &&
+                                  distance_m(place, place_of(motion[i])) <= kGate_m);
+    if (!at_clutter) result.push_back({track.id, place});
+  }
+  return result;
+}
+
+void ScenarioScore::add(const core::HighwayScenario& scenario, const ScenarioFrame& frame) {
+  const std::vector<NamedPlace> targets = frame.targets(scenario);
+  const std::vector<NamedPlace> confirmed = frame.confirmed(scenario);
+  mot.add_frame(targets, confirmed);
+  gospa_m.add(gospa(places(targets), places(confirmed), {}).total_m);
+  ospa_m.add(tracking::ospa_m(places(targets), places(confirmed), {}));
+  for (const NamedPlace& one : confirmed) tracks.insert(one.id);
+  for (const auto& [target, id] : mot.current_match())
+    for (const Track& track : frame.tracker->tracks()) {
+      if (track.id != id) continue;
+      const PolarPlace place = polar(track.state);
+      const core::HighwayTruth& truth = frame.truth[static_cast<std::size_t>(target)];
+      range_m.add(place.range_m - truth.range_m);
+      range_rate_mps.add(place.range_rate_mps - truth.range_rate_mps);
+    }
+}
+
+void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
+                  const SimulationSettings& simulation, const TrackerSettings& settings,
+                  std::uint64_t seed, std::uint32_t run,
+                  const std::function<void(const ScenarioFrame&)>& each) {
+  // The last frame counts where the duration is a whole number of frames but for rounding.
+  const double steps = std::floor(scenario.duration_s / radar.frame_s + 1e-9);
+  if (!(steps >= 0.0 && steps <= kMostFrames))
+    core::throw_input_error(core::ErrorClass::limit, "duration_s", scenario.duration_s,
+                            "at most a million frames");
+  Tracker tracker(settings);
+  for (int i = 0; i <= static_cast<int>(steps); ++i) {
+    ScenarioFrame frame;
+    frame.time_s = i * radar.frame_s;
+    frame.measurements = simulated_frame(scenario, radar, simulation, seed, run, i);
+    tracker.update(frame.time_s, frame.measurements);
+    for (const core::HighwayTarget& target : scenario.targets) {
+      frame.truth.push_back(truth_at(target, scenario.radar_speed_mps, radar, frame.time_s));
+      frame.motion.push_back(relative_motion(target, scenario.radar_speed_mps, frame.time_s));
+    }
+    frame.tracker = &tracker;
+    each(frame);
+  }
+}
+
+}  // namespace fanbeam::tracking

@@ -1,0 +1,52 @@
+// A tracker on a road scenario, frame after frame, with the truth beside it, and its score.
+//
+// Score over all frames: mean GOSPA and OSPA (p 2, c 5 m, alpha 2), CLEAR-MOT within 3 m, errors of
+// range and range rate of matched tracks. Targets that are marked as clutter need not be tracked:
+// they are no targets, and a track within 3 m of one is no false track.
+#pragma once
+
+#include <functional>
+#include <set>
+
+#include "tracking/metrics/clear_mot.h"
+#include "tracking/metrics/error_statistics.h"
+#include "tracking/simulation/measurement_simulator.h"
+#include "tracking/tracker/tracker.h"
+
+namespace fanbeam::tracking {
+
+// Straight on with 0.5 m/s2 of unknown acceleration, or a turn with 0.3 m/s2, each kept for 20 s on
+// average: a turning target that is not seen for a second goes on turning. Field of view of the
+// radar.
+TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps);
+
+struct ScenarioFrame {
+  double time_s = 0.0;
+  std::vector<core::HighwayTruth> truth;  // of every target
+  std::vector<core::RelativeMotion> motion;
+  std::vector<RadarMeasurement> measurements;
+  const Tracker* tracker = nullptr;
+
+  // In view, named by their place in the scenario.
+  std::vector<NamedPlace> targets(const core::HighwayScenario& scenario) const;
+  // Confirmed tracks, less those at clutter.
+  std::vector<NamedPlace> confirmed(const core::HighwayScenario& scenario) const;
+};
+
+struct ScenarioScore {
+  ClearMot mot{3.0};
+  MeanSquare gospa_m, ospa_m;
+  MeanSquare range_m, range_rate_mps;
+  std::set<int> tracks;  // ever confirmed
+
+  void add(const core::HighwayScenario& scenario, const ScenarioFrame& frame);
+};
+
+// Calls `each` after every frame, from time 0 to the duration. Errors as of simulated_frame and
+// Tracker.
+void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
+                  const SimulationSettings& simulation, const TrackerSettings& settings,
+                  std::uint64_t seed, std::uint32_t run,
+                  const std::function<void(const ScenarioFrame&)>& each);
+
+}  // namespace fanbeam::tracking
