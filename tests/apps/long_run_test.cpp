@@ -41,14 +41,16 @@ Held held_by_this_process() {
   return held;
 }
 
-// F19 allows 1 %. A page more or less in each thread's arena is no growth: 0.5 MB of some 100 MB. A
-// leak of one picture of 20 x 20 doubles a frame would be 60 MB.
+// F19 allows 1 %. What the allocators of two threads hold back besides varies by some 2 MB of 150. A
+// leak of one picture of 20 x 20 doubles a frame would be 60 MB after 19 000 frames.
+constexpr double kNoise_kB = 2048.0;
+
 void check_flat(const Held& early, const Held& late) {
   CHECK(late.descriptors <= early.descriptors);
   CHECK(late.threads <= early.threads);
   if (kMemoryCounts)
     CHECK(static_cast<double>(late.resident_kB) <=
-          1.01 * static_cast<double>(early.resident_kB) + 512.0);
+          1.01 * static_cast<double>(early.resident_kB) + kNoise_kB);
 }
 
 // The busy scene through a renderer of its own, `count` times, with as few rays as it takes.
@@ -92,9 +94,9 @@ TEST_CASE("F19 twenty thousand frames in one process hold no more than the first
   check_frames("-side-lobes,-double-bounce,-rain-echo,-range-response", kFrames);
 }
 
-TEST_CASE("F19 five hundred frames with every effect hold no more than the first two hundred",
+TEST_CASE("F19 a thousand frames with every effect hold no more than the first two hundred",
           "[long_run][F19]") {
-  check_frames("", std::max(kFrames / 40, 250));
+  check_frames("", std::max(kFrames / 20, 250));
 }
 
 TEST_CASE("F19 a render of hundreds of pictures holds no more than at its start",
@@ -132,6 +134,6 @@ TEST_CASE("F19 a render of hundreds of pictures holds no more than at its start"
   CHECK(late.threads <= early.threads);
   if (kMemoryCounts)
     CHECK(static_cast<double>(late.resident_kB) <=
-          1.01 * static_cast<double>(early.resident_kB) + 512.0);
+          1.01 * static_cast<double>(early.resident_kB) + kNoise_kB);
   CHECK(child.wait() == 0);
 }
