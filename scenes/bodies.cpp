@@ -187,13 +187,14 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
 }
 
 Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
-                    ModelMaterials& model_materials, core::ProblemList& problems) {
+                    ModelMaterials& model_materials, core::ProblemList& problems,
+                    std::size_t most_triangles) {
   Bodies bodies;
   FileBudget budget;
   std::size_t counted = 0;  // meshes
   std::size_t triangles = 0;
   const auto guarded = [&](const core::Place& place, const char* field, auto&& add) {
-    if (triangles > kMostBodyTriangles) return;
+    if (triangles > most_triangles) return;
     try {
       add();
     } catch (const core::InputError& error) {
@@ -201,10 +202,10 @@ Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const M
     }
     for (; counted < bodies.meshes.size(); ++counted)
       triangles += bodies.meshes[counted].mesh.triangles.size();
-    if (triangles > kMostBodyTriangles)
+    if (triangles > most_triangles)
       problems.error(
           ErrorClass::limit, place, field, std::to_string(triangles) + " triangles",
-          "at most " + std::to_string(kMostBodyTriangles) + " in all boxes, buildings and models");
+          "at most " + std::to_string(most_triangles) + " in all boxes, buildings and models");
   };
   for (const BoxDescription& box : scene.boxes)
     guarded(box.place, "box", [&] { add_box(box, ground, names, problems, bodies); });

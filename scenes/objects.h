@@ -31,9 +31,10 @@ inline constexpr std::size_t kMostBodyTriangles = 20'000'000;
 // Of lines, runway lights, fences and targets together.
 inline constexpr std::size_t kMostPointTargets = 1'000'000;
 
-// E-LIMIT beyond kMostBodyTriangles and for files beyond file_budget.h.
+// E-LIMIT beyond `most_triangles` and for files beyond file_budget.h.
 Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
-                    ModelMaterials& model_materials, core::ProblemList& problems);
+                    ModelMaterials& model_materials, core::ProblemList& problems,
+                    std::size_t most_triangles = kMostBodyTriangles);
 
 // E-LIMIT for a line of more than 100000 points and beyond kMostPointTargets; W-NEAR-FIELD, see near_field.h.
 std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene,

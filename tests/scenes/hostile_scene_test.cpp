@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "scenes/file_budget.h"
+#include "scenes/model_materials.h"
 #include "scenes/objects.h"
 #include "tests/peak_memory.h"
 #include "tests/scenes/problem_checks.h"
@@ -131,22 +132,42 @@ TEST_CASE("R17 models and buildings are counted by the bytes of their files",
   CHECK_NOTHROW(budget.read(folder.write("small.bin", "x"), 10));
 }
 
-// A model of a square metre of 2 x 100 x 100 triangles, placed until there are too many.
-TEST_CASE("R17 triangles of all models together are E-LIMIT", "[hostile_scene][R17]") {
+TEST_CASE("R17 triangles of all boxes and models together are E-LIMIT, and no more is read",
+          "[hostile_scene][R17]") {
   const TemporaryFolder folder;
-  folder.write("none.gltf",
+  folder.write("one.gltf",
                R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[)"
                R"({"attributes":{"POSITION":0}}]}],"accessors":[{"componentType":5126,"count":3,)"
                R"("type":"VEC3","bufferView":0}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
                R"("buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAA)"
                R"(AAAAAAAAgD8AAAAA"}]})");
-  std::string text = tests::kSmallScene;
   const std::string model =
-      "[[model]]\nfile = \"none.gltf\"\nat = { runway = \"36\", behind_threshold_m = 0.0 }\n";
-  // One triangle a model: far below the limit, and every file is read again.
-  const tests::Outcome outcome = tests::build_text(folder, text + repeated(model, 100));
-  INFO(codes_of(outcome.problems));
-  CHECK(outcome.scene != nullptr);
+      "[[model]]\nfile = \"one.gltf\"\nat = { runway = \"36\", behind_threshold_m = 0.0 }\n";
+  folder.write("scene.toml", tests::kSmallScene + repeated(model, 100));
+  core::ProblemList problems;
+  const scenes::SceneDescription scene =
+      scenes::read_scene(folder.path(), {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+  const auto library = materials::MaterialLibrary::from_file(scene.material_library, problems);
+  const scenes::MaterialNames names(library, problems);
+  const terrain::LocalFrame frame(scene.origin, scene.earth);
+  const scenes::Ground ground(scene, frame, names, problems);
+  scenes::ModelMaterials model_materials(scene, library.size(), problems);
+  const auto triangles = [&](std::size_t most) {
+    std::size_t sum = 0;
+    for (const terrain::PlacedMesh& mesh :
+         scenes::build_bodies(scene, ground, names, model_materials, problems, most).meshes)
+      sum += mesh.mesh.triangles.size();
+    return sum;
+  };
+  const std::size_t all = triangles(1000);
+  CHECK_FALSE(problems.has_errors());
+  REQUIRE(all > 100);  // the hangar's, and one for each model
+  CHECK(triangles(all) == all);
+  CHECK_FALSE(problems.has_errors());
+  CHECK(triangles(50) == 51);
+  REQUIRE(problems.all().size() == 1);
+  CHECK(problems.all()[0].code == "E-LIMIT");
+  CHECK(problems.all()[0].place.line == static_cast<int>(28 + 3 * (50 - (all - 100))));
 }
 
 TEST_CASE("Scene files of 4 MiB of anything are answered in seconds", "[hostile_scene]") {
