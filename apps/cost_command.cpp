@@ -53,8 +53,8 @@ Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
   const renderer::Effects effects = without_draws(renderer::effects_of(scene.plan, 0));
   Pace pace;
   pace.build_s = scene.build_s;
-  pace.frame_ms = time_once_ms(
-      {scene.world, pose, default_sampling(renderer::CasterKind::rays), effects});
+  pace.frame_ms =
+      time_once_ms({scene.world, pose, default_sampling(renderer::CasterKind::rays), effects});
   if (slices)
     pace.slices_ms =
         time_once_ms({scene.world, pose, default_sampling(renderer::CasterKind::profile), effects});

@@ -73,8 +73,8 @@ class Run {
       process(index);
       progress.step(static_cast<int>(records_.size()));
     }
-    core::write_file_atomically(
-        folder_ / "run.json", fmcw_run_json(scene_, options_, radar_, azimuths_rad_, records_));
+    core::write_file_atomically(folder_ / "run.json",
+                                fmcw_run_json(scene_, options_, radar_, azimuths_rad_, records_));
     core::write_file_atomically(folder_ / "timing.json",
                                 fmcw_timing_json(threads_, scene_.build_s, records_));
   }
@@ -91,7 +91,8 @@ class Run {
                  frame.signal_ms, frame.writing_ms);
     }
     for (const std::string& product : products_)
-      fmt::print("{:14} {}\n", product, fs::absolute(folder_ / product).lexically_normal().string());
+      fmt::print("{:14} {}\n", product,
+                 fs::absolute(folder_ / product).lexically_normal().string());
     fmt::print("{:14} {}\n", "record",
                fs::absolute(folder_ / "run.json").lexically_normal().string());
   }
@@ -102,13 +103,12 @@ class Run {
     const FmcwPaths paths = fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
     const bool with_maps = radar_.maps && products_ != std::set<std::string>{"beat"};
-    const FmcwFrame frame = fmcw_frame(radar_, scene_.description.sensor, paths.paths, index,
-                                       options_, with_maps);
+    const FmcwFrame frame =
+        fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, with_maps);
     const double signal_ms = ms_since(begin);
     FmcwFrameRecord record = fmcw_record(scene_, index, paths, frame);
-    write_fmcw_products(
-        folder_, products_, radar_, frame,
-        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
+    write_fmcw_products(folder_, products_, radar_, frame,
+                        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
     record.echoes_ms = echoes_ms;
     record.signal_ms = signal_ms;
     record.writing_ms = ms_since(begin);

@@ -54,7 +54,8 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
 
 void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common) {
   CLI::App& command = *app.add_subcommand(
-      "fmcw", "A scene at signal level: beat signals, maps of range, speed and azimuth, detections");
+      "fmcw",
+      "A scene at signal level: beat signals, maps of range, speed and azimuth, detections");
   command
       .add_option("SCENE", options.scene,
                   "A folder with scene.toml, that file, or the name of a shipped scene")
@@ -62,7 +63,8 @@ void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common
   command.add_option("-o,--output", options.output,
                      "Folder to write to (default out/<scene name>-fmcw)");
   command
-      .add_option("--frames", options.frames, "A:B[:STEP], counted like a Python slice, or one frame")
+      .add_option("--frames", options.frames,
+                  "A:B[:STEP], counted like a Python slice, or one frame")
       ->capture_default_str();
   command.add_option("--products", options.products, products_help());
   add_radar(command, options);
@@ -83,9 +85,10 @@ void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common
       ->capture_default_str();
   command.add_flag("--refuse-folding", options.refuse_folding,
                    "A scatterer beyond the unambiguous spans is an error, not a warning");
-  command.add_flag("--unfold", options.unfold,
-                   "Tell by the array which fold a detection's speed is in: right for what is alone "
-                   "in its cell, wrong at times for clutter");
+  command.add_flag(
+      "--unfold", options.unfold,
+      "Tell by the array which fold a detection's speed is in: right for what is alone "
+      "in its cell, wrong at times for clutter");
   command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
   command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")

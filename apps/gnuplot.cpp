@@ -164,8 +164,8 @@ void write_plot(const std::function<std::string(const fs::path&)>& script, const
   if (file.extension() != ".svg" && file.extension() != ".png")
     core::throw_input_error(core::ErrorClass::unsupported, core::Place{file.string()}, "plot",
                             "\"" + file.extension().string() + "\"", "a name with .svg or .png");
-  core::write_atomically(
-      file, [&](const fs::path& temporary) { run_gnuplot(script(temporary), file); });
+  core::write_atomically(file,
+                         [&](const fs::path& temporary) { run_gnuplot(script(temporary), file); });
 }
 
 }  // namespace fanbeam::apps

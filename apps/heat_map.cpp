@@ -48,8 +48,8 @@ std::string gnuplot_script(const HeatMap& map, const std::filesystem::path& outp
       const double value =
           map.values[static_cast<std::size_t>(row) * static_cast<std::size_t>(map.x.cells) +
                      static_cast<std::size_t>(column)];
-      text += fmt::format("{:.2f} ", std::isfinite(value) ? std::clamp(value, map.low, map.high)
-                                                          : map.low);
+      text += fmt::format("{:.2f} ",
+                          std::isfinite(value) ? std::clamp(value, map.low, map.high) : map.low);
     }
     text += '\n';
   }

@@ -23,7 +23,7 @@ struct HeatMap {
   double low = 0.0, high = 1.0;  // of the colours; what lies outside takes the end's
   std::vector<double> values;    // y * x.cells + x
   std::vector<std::pair<double, double>> marks{};  // circles at (x, y)
-  bool equal_scales = false;     // as long to the right as upwards
+  bool equal_scales = false;                       // as long to the right as upwards
   int width_px = 800, height_px = 560;
 };
 

@@ -205,8 +205,12 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
   if (record.choice.budget_ms > 0.0) json["time_budget"] = budget_json(record.choice);
   json["frames"] = Json::array();
   for (const FrameRecord& frame : record.frames) {
-    Json entry = {{"index", frame.index}, {"time_s", frame.time_s}, {"pose", pose_json(frame.pose)},
-                  {"rays", frame.rays},   {"slices", frame.slices}, {"blanked", frame.blanked},
+    Json entry = {{"index", frame.index},
+                  {"time_s", frame.time_s},
+                  {"pose", pose_json(frame.pose)},
+                  {"rays", frame.rays},
+                  {"slices", frame.slices},
+                  {"blanked", frame.blanked},
                   {"unprojected", frame.unprojected}};
     if (frame.error) {
       entry["estimated_error_grey"] = frame.error->rms_grey;

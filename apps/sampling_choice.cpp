@@ -22,7 +22,10 @@ class Trial {
  public:
   Trial(const RenderOptions& options, const scenes::Scene& scene,
         const renderer::Products& products, const std::vector<int>& frames)
-      : options_(options), scene_(scene), products_(products), frames_(spread_over(frames, kFramesTimed)) {}
+      : options_(options),
+        scene_(scene),
+        products_(products),
+        frames_(spread_over(frames, kFramesTimed)) {}
 
   // Median time of the slowest frame.
   double slowest_ms(const renderer::Sampling& sampling) const {
@@ -42,8 +45,8 @@ class Trial {
     const renderer::FrameRenderer frame_renderer = renderer_of(sampling);
     double largest_grey = 0.0;
     for (const int frame : frames_)
-      largest_grey =
-          std::max(largest_grey, frame_renderer.render(scene_.frame_pose(frame)).error->largest_grey());
+      largest_grey = std::max(
+          largest_grey, frame_renderer.render(scene_.frame_pose(frame)).error->largest_grey());
     return largest_grey;
   }
 

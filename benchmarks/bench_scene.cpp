@@ -36,8 +36,7 @@ std::string data_folder() {
   return (fs::path(FANBEAM_SOURCE_DIR) / ".." / "shared" / "data").lexically_normal().string();
 }
 
-std::unique_ptr<scenes::Scene> build(const std::string& name,
-                                     const scenes::BuildOptions& options) {
+std::unique_ptr<scenes::Scene> build(const std::string& name, const scenes::BuildOptions& options) {
   const fs::path shipped = FANBEAM_SOURCE_DIR;
   core::ProblemList problems;
   const scenes::SceneDescription description =

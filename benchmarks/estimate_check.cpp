@@ -32,8 +32,7 @@ std::vector<Way> ways_of(const scenes::Scene& scene) {
     renderer::Sampling sampling = renderer::sampling_for(caster, renderer::default_samples(caster));
     sampling.estimate_error = true;
     ways.push_back({name + ", default", sampling});
-    ways.push_back(
-        {name + ", --accuracy 0.5", renderer::refined_sampling(caster, kShare_grey)});
+    ways.push_back({name + ", --accuracy 0.5", renderer::refined_sampling(caster, kShare_grey)});
   }
   return ways;
 }
@@ -94,17 +93,18 @@ std::string estimates_markdown(const std::vector<EstimateCase>& cases) {
   if (cases.empty()) return "";
   std::string text =
       "## Errors that frames state of themselves\n\n"
-      "Estimated and true error of the B-scope, grey RMS, with every effect and the noise that the\n"
+      "Estimated and true error of the B-scope, grey RMS, with every effect and the noise that "
+      "the\n"
       "plan of the scene has. The last column is the true error over the estimate; an error below\n"
       "0.05 grey in both is seen by nobody and counts as right.\n\n"
       "| scene | frame | sampling | estimated | true | ratio |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
   for (const EstimateCase& each : cases)
-    text += fmt::format("| {} | {} | {} | {:.3f} | {:.3f} | {}{} |\n", each.scene, each.frame,
-                        each.sampling, each.estimate_grey, each.true_grey,
-                        each.invisible() ? "-" : fmt::format("{:.2f}", each.true_grey /
-                                                                           each.estimate_grey),
-                        each.within() ? "" : ", **missed**");
+    text += fmt::format(
+        "| {} | {} | {} | {:.3f} | {:.3f} | {}{} |\n", each.scene, each.frame, each.sampling,
+        each.estimate_grey, each.true_grey,
+        each.invisible() ? "-" : fmt::format("{:.2f}", each.true_grey / each.estimate_grey),
+        each.within() ? "" : ", **missed**");
   return text + fmt::format("\n{:.0f} % of {} within a factor of 1.5.\n\n",
                             100.0 * share_within(cases), cases.size());
 }

@@ -136,7 +136,8 @@ void ViewBench::measure_caster(CasterKind caster) {
   CasterFigures& figures = rays ? figures_.rays : figures_.slices;
   tell(rays ? "rays" : "slices");
   for (const double fineness : rays ? effort_.rays_per_cell : effort_.slices)
-    figures.ladder.push_back(measure(renderer::sampling_for(caster, fineness), fineness, effort_.ladder));
+    figures.ladder.push_back(
+        measure(renderer::sampling_for(caster, fineness), fineness, effort_.ladder));
   tell(rays ? "rays at 16 Hz and 90 Hz" : "slices at 16 Hz and 90 Hz");
   figures.at_16Hz = finest_within(caster, kBudget16Hz_ms);
   figures.at_90Hz = finest_within(caster, kBudget90Hz_ms);

@@ -28,9 +28,9 @@ struct Report {
   std::vector<SceneFigures> scenes;
   std::vector<AgreementFigures> agreement;  // in scenes without figures of their own
   std::vector<EstimateCase> estimates;
-  std::vector<std::string> skipped;         // scenes without their data
-  std::vector<std::string> plots;           // files, as links of the report
-  std::string notes;                        // prose to end with
+  std::vector<std::string> skipped;  // scenes without their data
+  std::vector<std::string> plots;    // files, as links of the report
+  std::string notes;                 // prose to end with
 };
 
 std::string markdown(const Report& report);

@@ -37,10 +37,10 @@ void range_doppler(benchmark::State& state) {
 void bare_transforms(benchmark::State& state) {
   const FloatCube beat = filled_cube();
   FloatCube result(kShape);
-  const Fft<float> range(
-      {kShape.samples, 1, kShape.chirps * kShape.channels, kShape.samples}, FftDirection::forward);
-  const Fft<float> doppler(
-      {kShape.chirps, 1, kShape.samples * kShape.channels, kShape.chirps}, FftDirection::forward);
+  const Fft<float> range({kShape.samples, 1, kShape.chirps * kShape.channels, kShape.samples},
+                         FftDirection::forward);
+  const Fft<float> doppler({kShape.chirps, 1, kShape.samples * kShape.channels, kShape.chirps},
+                           FftDirection::forward);
   FloatCube again(kShape);
   for ([[maybe_unused]] const auto& iteration : state) {
     range.run(beat.values.data(), result.values.data());

@@ -26,7 +26,7 @@ inline constexpr std::uint32_t kStreamTarget = 6;  // phases and fluctuation
 inline constexpr std::uint32_t kStreamReceiverNoise = 7;
 inline constexpr std::uint32_t kStreamPhaseNoise = 8;
 inline constexpr std::uint32_t kStreamCfarCalibration = 9;
-inline constexpr std::uint32_t kStreamHighway = 20;  // measurements of road scenarios
+inline constexpr std::uint32_t kStreamHighway = 20;    // measurements of road scenarios
 inline constexpr std::uint32_t kStreamFrameEcho = 10;  // places and phases of scatterers
 
 std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter,

@@ -42,8 +42,8 @@ CostEffort quick_effort() {
 
 renderer::Sampling sampling_of(Way way, double fineness) {
   const bool slices = way == Way::slices;
-  return renderer::sampling_for(
-      slices ? renderer::CasterKind::profile : renderer::CasterKind::rays, fineness);
+  return renderer::sampling_for(slices ? renderer::CasterKind::profile : renderer::CasterKind::rays,
+                                fineness);
 }
 
 double Pace::step_ms(Way way, double fineness) const {

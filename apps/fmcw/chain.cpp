@@ -22,14 +22,13 @@ namespace {
 constexpr double kMostProducts = 1e11;
 
 void check_work(const signal::Frame& frame, std::size_t paths) {
-  const double products =
-      static_cast<double>(frame.shape.count()) * static_cast<double>(paths);
+  const double products = static_cast<double>(frame.shape.count()) * static_cast<double>(paths);
   if (!frame.uniform && products > kMostProducts)
-    core::throw_input_error(core::ErrorClass::limit, "--waveform",
-                            fmt::format("{} with {} paths x {} samples",
-                                        signal::name(frame.waveform.kind), paths,
-                                        frame.shape.count()),
-                            "at most 1e11 products: fewer --rays-per-cell, samples or receivers");
+    core::throw_input_error(
+        core::ErrorClass::limit, "--waveform",
+        fmt::format("{} with {} paths x {} samples", signal::name(frame.waveform.kind), paths,
+                    frame.shape.count()),
+        "at most 1e11 products: fewer --rays-per-cell, samples or receivers");
 }
 
 signal::FloatCube synthesise(const FmcwRadar& radar, int stage,
@@ -83,8 +82,7 @@ void receive(const FmcwRadar& radar, const sensors::Sensor& sensor, int stage, i
 }
 
 signal::TopViewGrid grid_of(const FmcwRadar& radar) {
-  const double reach_m =
-      radar.axes.range_step_m * (radar.detection.transform.kept_range_cells - 1);
+  const double reach_m = radar.axes.range_step_m * (radar.detection.transform.kept_range_cells - 1);
   signal::TopViewGrid grid;
   grid.step_m = reach_m / 240.0;
   grid.rows = 241;
@@ -100,14 +98,13 @@ void make_maps(const FmcwRadar& radar, FmcwFrame& frame) {
   signal::compensate_slots(range_speed, radar.array);
   const int cells = std::max(kAngleCells, range_speed.shape.channels);
   signal::angle_transform(range_speed, {.kind = signal::WindowKind::taylor}, cells, frame.cube);
-  frame.azimuths_rad = signal::angle_cell_azimuths_rad(cells, radar.pitch_m,
-                                                       radar.waveform.wavelength_m());
+  frame.azimuths_rad =
+      signal::angle_cell_azimuths_rad(cells, radar.pitch_m, radar.waveform.wavelength_m());
   frame.range_azimuth = signal::range_azimuth_map(frame.cube, signal::Projection::max);
   frame.grid = grid_of(radar);
   frame.top_view = signal::top_view(frame.range_azimuth, frame.azimuths_rad,
                                     radar.axes.range_step_m, frame.grid);
-  frame.detections =
-      signal::detect(frame.beats[0], radar.array, radar.timing, radar.detection);
+  frame.detections = signal::detect(frame.beats[0], radar.array, radar.timing, radar.detection);
   frame.clusters = signal::detection_clusters(frame.detections, {});
 }
 
@@ -119,8 +116,7 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
   FmcwFrame frame;
   const auto policy =
       options.refuse_folding ? signal::FoldingPolicy::refuse : signal::FoldingPolicy::count;
-  frame.warnings =
-      signal::folding_warnings(signal::count_folding(radar.waveform, paths, policy));
+  frame.warnings = signal::folding_warnings(signal::count_folding(radar.waveform, paths, policy));
   if (options.line_width_Hz > 0.0)
     frame.phase_noise_rad =
         signal::phase_noise_rms_rad(options.line_width_Hz, strongest_delay_s(paths));

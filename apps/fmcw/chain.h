@@ -16,19 +16,19 @@ namespace fanbeam::apps {
 struct FmcwFrame {
   std::vector<signal::FloatCube> beats;  // of every stage
   // Where the waveform has maps.
-  signal::FloatCube cube;                 // azimuth, speed, range
-  std::vector<double> azimuths_rad;       // of the cube's cells, rising
-  signal::PowerMap range_doppler;         // sum over channels
-  signal::PowerMap range_azimuth;         // largest over speeds
+  signal::FloatCube cube;            // azimuth, speed, range
+  std::vector<double> azimuths_rad;  // of the cube's cells, rising
+  signal::PowerMap range_doppler;    // sum over channels
+  signal::PowerMap range_azimuth;    // largest over speeds
   signal::TopViewGrid grid;
   signal::PowerMap top_view;
   std::vector<signal::RadarDetection> detections;
-  std::vector<int> clusters;              // of each detection, or signal::kNoCluster
-  std::vector<core::Problem> warnings;    // of folding
-  bool keystone = false;                  // how stage 0 was synthesised
-  double synthesis_error = 0.0;           // relative, estimated or asked for
+  std::vector<int> clusters;            // of each detection, or signal::kNoCluster
+  std::vector<core::Problem> warnings;  // of folding
+  bool keystone = false;                // how stage 0 was synthesised
+  double synthesis_error = 0.0;         // relative, estimated or asked for
   double phase_noise_rad = 0.0;
-  std::size_t clipped = 0;                // parts of samples, by the quantiser
+  std::size_t clipped = 0;  // parts of samples, by the quantiser
 };
 
 // The default radar's twelve elements make beams 8.5 deg wide: five cells each.

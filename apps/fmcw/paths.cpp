@@ -22,8 +22,7 @@ double half_fan_rad(const sensors::Sensor& sensor) {
 }  // namespace
 
 double element_gain(const sensors::Sensor& sensor, double azimuth_rad) {
-  if (scans(sensor))
-    return std::abs(azimuth_rad) <= sensor.scan.field_of_view_rad / 2 ? 1.0 : 0.0;
+  if (scans(sensor)) return std::abs(azimuth_rad) <= sensor.scan.field_of_view_rad / 2 ? 1.0 : 0.0;
   return sensors::one_way_gain_with_side_lobes(sensor.antenna.azimuth, azimuth_rad);
 }
 

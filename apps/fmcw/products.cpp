@@ -47,10 +47,10 @@ class Writer {
   }
   void cube(const char* product, const signal::FloatCube& values, const std::string& part) const {
     const auto length = [](int count) { return static_cast<std::size_t>(count); };
-    core::write_npy(file(product, part + ".npy"),
-                    {length(values.shape.channels), length(values.shape.chirps),
-                     length(values.shape.samples)},
-                    values.values);
+    core::write_npy(
+        file(product, part + ".npy"),
+        {length(values.shape.channels), length(values.shape.chirps), length(values.shape.samples)},
+        values.values);
   }
   HeatMapAxis range_axis() const {
     return {"range, m", 0.0, radar_.axes.range_step_m, frame_.range_doppler.columns, {}};
@@ -84,14 +84,16 @@ void Writer::range_doppler() const {
   HeatMap picture;
   picture.title = title("sum over channels");
   picture.x = range_axis();
-  picture.y = {"radial speed, m/s (receding is up)", radar_.axes.speed_mps(0.0),
+  picture.y = {"radial speed, m/s (receding is up)",
+               radar_.axes.speed_mps(0.0),
                radar_.axes.speed_mps(1.0) - radar_.axes.speed_mps(0.0),
-               frame_.range_doppler.rows, {}};
+               frame_.range_doppler.rows,
+               {}};
   for (const signal::RadarDetection& found : frame_.detections)
     picture.marks.emplace_back(found.range_cell * radar_.axes.range_step_m,
                                radar_.axes.speed_mps(found.doppler_cell));
-  map("range-doppler", frame_.range_doppler,
-      radar_.noise_cell_W * radar_.array.channels(), std::move(picture));
+  map("range-doppler", frame_.range_doppler, radar_.noise_cell_W * radar_.array.channels(),
+      std::move(picture));
 }
 
 void Writer::range_azimuth() const {
@@ -103,13 +105,12 @@ void Writer::range_azimuth() const {
   // Cells are even in the sine of azimuth; the labels are degrees.
   picture.y = {"azimuth, deg (right is up)", -(cells / 2) * step, step, cells, {}};
   for (const int azimuth_deg : {-75, -60, -45, -30, -15, 0, 15, 30, 45, 60, 75})
-    picture.y.ticks.emplace_back(std::to_string(azimuth_deg),
-                                 std::sin(core::radians(azimuth_deg)));
+    picture.y.ticks.emplace_back(std::to_string(azimuth_deg), std::sin(core::radians(azimuth_deg)));
   for (const signal::RadarDetection& found : frame_.detections)
     picture.marks.emplace_back(found.range_cell * radar_.axes.range_step_m,
                                std::sin(found.azimuth_rad));
-  map("range-azimuth", frame_.range_azimuth, radar_.noise_cell_W / radar_.array.channels() * kLargestOverMean,
-      std::move(picture));
+  map("range-azimuth", frame_.range_azimuth,
+      radar_.noise_cell_W / radar_.array.channels() * kLargestOverMean, std::move(picture));
 }
 
 void Writer::top_view() const {
@@ -136,10 +137,11 @@ void Writer::detections() const {
     const double forward_m = found.range_m * std::cos(found.azimuth_rad);
     const double right_m = found.range_m * std::sin(found.azimuth_rad);
     const double snr_dB = 10.0 * std::log10(std::max(found.snr, 1e-30));
-    table += fmt::format("{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4e},{:.2f},{:.3f},{:.3f},{}\n",
-                         stamp_.frame, stamp_.time_s, i, found.range_m, found.radial_speed_mps,
-                         core::degrees(found.azimuth_rad), core::degrees(found.elevation_rad),
-                         found.power_W, snr_dB, forward_m, right_m, frame_.clusters[i]);
+    table +=
+        fmt::format("{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4e},{:.2f},{:.3f},{:.3f},{}\n",
+                    stamp_.frame, stamp_.time_s, i, found.range_m, found.radial_speed_mps,
+                    core::degrees(found.azimuth_rad), core::degrees(found.elevation_rad),
+                    found.power_W, snr_dB, forward_m, right_m, frame_.clusters[i]);
     list.push_back({{"range_m", found.range_m},
                     {"radial_speed_mps", found.radial_speed_mps},
                     {"azimuth_rad", found.azimuth_rad},

@@ -74,8 +74,7 @@ signal::Array array_of(const FmcwOptions& options, const signal::Waveform& wavef
                        double pitch_m) {
   signal::Array array = signal::line_array(options.transmitters, options.receivers, pitch_m);
   const int slots = signal::slots(signal::stage_segments(waveform, 0));
-  array.multiplex =
-      slots == 1 ? signal::Multiplex::simultaneous : signal::Multiplex::time_division;
+  array.multiplex = slots == 1 ? signal::Multiplex::simultaneous : signal::Multiplex::time_division;
   if (slots != 1 && slots != options.transmitters)
     core::throw_input_error(core::ErrorClass::unsupported, "--slots", slots,
                             "1, or as many as --transmitters");
@@ -101,8 +100,8 @@ void prepare_maps(const FmcwOptions& options, const sensors::Sensor& sensor, Fmc
   settings.transform.kept_range_cells = std::clamp(
       static_cast<int>(std::ceil(sensor.range.maximum_m() / radar.axes.range_step_m)), 2, whole);
   // Echoes of a street span more than the 35 dB of the usual Taylor window.
-  settings.transform.range_window = settings.transform.doppler_window = {
-      .kind = signal::WindowKind::chebyshev, .level_dB = 60.0};
+  settings.transform.range_window =
+      settings.transform.doppler_window = {.kind = signal::WindowKind::chebyshev, .level_dB = 60.0};
   settings.refinement = signal::Refinement::windowed;
   settings.unfold = options.unfold && slots > 1;
   settings.cfar = {.kind = signal::CfarKind::ordered_statistic,

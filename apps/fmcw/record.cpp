@@ -63,8 +63,7 @@ Json axes_json(const FmcwRadar& radar, const std::vector<double>& azimuths_rad) 
           {"speed_first_mps", axes.speed_mps(0.0)},
           {"speed_step_mps", axes.speed_mps(1.0) - axes.speed_mps(0.0)},
           {"speed_cells", axes.doppler_cells},
-          {"range_read_long_m_per_mps",
-           axes.range_per_Doppler_m_s * 2.0 / axes.wavelength_m},
+          {"range_read_long_m_per_mps", axes.range_per_Doppler_m_s * 2.0 / axes.wavelength_m},
           {"azimuths_rad", azimuths_rad},
           {"noise_cell_W", radar.noise_cell_W}};
 }
@@ -100,8 +99,7 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
                             const FmcwFrame& frame) {
   FmcwFrameRecord record;
   record.index = index;
-  record.time_s =
-      scene.trajectory.frame_time_s(index, scene.description.sensor.scan.frame_rate_Hz);
+  record.time_s = scene.trajectory.frame_time_s(index, scene.description.sensor.scan.frame_rate_Hz);
   record.rays = paths.echoes.rays;
   record.paths = paths.paths.size();
   for (const signal::ScatterPath& path : paths.paths)

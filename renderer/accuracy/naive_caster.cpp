@@ -114,8 +114,9 @@ NaiveCaster::Counts NaiveCaster::cast_sub_column(const Frame& frame, std::size_t
   Turn azimuth{};
   for (std::size_t i = 0; i < elevations_rad_.size(); ++i) {
     if (i == 0 || kind_ == NaiveKind::dithered) {
-      const double place = kind_ == NaiveKind::plain ? 0.5 : dither(static_cast<std::uint32_t>(i),
-                                                                         static_cast<int>(sub_column), 0);
+      const double place = kind_ == NaiveKind::plain ? 0.5
+                                                     : dither(static_cast<std::uint32_t>(i),
+                                                              static_cast<int>(sub_column), 0);
       const double azimuth_rad =
           sums.first_azimuth_rad + (static_cast<double>(sub_column) + place) * sums.step_rad;
       azimuth = {std::cos(azimuth_rad), std::sin(azimuth_rad)};

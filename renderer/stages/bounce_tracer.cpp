@@ -28,8 +28,7 @@ struct Hit {
     const glm::dvec3 origin_m(packet.origin_x[i], packet.origin_y[i], packet.origin_z[i]);
     const double length = glm::length(along);
     direction = along / length;
-    point_m =
-        surfaces.in_scene_m(origin_m + along * static_cast<double>(packet.distance[i]));
+    point_m = surfaces.in_scene_m(origin_m + along * static_cast<double>(packet.distance[i]));
     distance_m = length * static_cast<double>(packet.distance[i]);
     normal = glm::normalize(glm::dvec3(packet.normal_x[i], packet.normal_y[i], packet.normal_z[i]));
     sin_grazing = std::min(-glm::dot(direction, normal), 1.0);

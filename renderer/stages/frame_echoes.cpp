@@ -34,8 +34,7 @@ void check(const FrameEchoSettings& settings) {
   if (settings.passes < 1 || settings.passes > 64)
     core::throw_input_error(core::ErrorClass::range, "passes", settings.passes, "1 to 64");
   if (!(settings.half_fan_rad >= 0.0 && settings.half_fan_rad <= core::kPi))
-    core::throw_input_error(core::ErrorClass::range, "half fan", settings.half_fan_rad,
-                            "0 to pi");
+    core::throw_input_error(core::ErrorClass::range, "half fan", settings.half_fan_rad, "0 to pi");
 }
 
 // The sub-columns of a frame, as those of the picture where they overlap.
@@ -124,8 +123,8 @@ class SurfaceCaster {
     const auto words = core::random_words(key_, cell, static_cast<std::uint32_t>(row));
     const double height_rad = edges[row + 1] - edges[row];
     batch.elevation_rad[lane] = edges[row] + core::uniform_from(words[1]) * height_rad;
-    batch.gain[lane] = elevation_gain_(batch.elevation_rad[lane] -
-                                       world_.sensor.antenna.boresight_elevation_rad);
+    batch.gain[lane] =
+        elevation_gain_(batch.elevation_rad[lane] - world_.sensor.antenna.boresight_elevation_rad);
     batch.offset_rad[lane] = column.offset_rad(core::uniform_from(words[0]));
     return {height_rad * column.step_rad / settings_.passes,
             2.0 * core::kPi * core::uniform_from(words[2])};
@@ -140,8 +139,8 @@ class SurfaceCaster {
     echo.range_m = static_cast<double>(chain.range_m[i]);
     if (!(echo.range_m > 0.0) || echo.range_m < gate.minimum_m || echo.range_m >= gate.maximum_m())
       return;
-    const glm::dvec3 direction = glm::normalize(glm::dvec3(
-        batch.direction_x[lane], batch.direction_y[lane], batch.direction_z[lane]));
+    const glm::dvec3 direction = glm::normalize(
+        glm::dvec3(batch.direction_x[lane], batch.direction_y[lane], batch.direction_z[lane]));
     const auto angles = sensors::angles(antenna_, direction, world_.sensor.scan.surface);
     if (!angles) return;
     const glm::dvec3 hit_m = antenna_.position_m + echo.range_m * direction;
@@ -151,8 +150,8 @@ class SurfaceCaster {
     echo.power_W = static_cast<double>(chain.density_W_per_rad2[i]) * draw.solid_rad2;
     if (world_.rain_cells)
       echo.power_W *= world_.rain_cells->two_way_power_factor(antenna_.position_m, hit_m);
-    echo.material_id = world_.surfaces->material(batch.geometry[lane], batch.primitive[lane],
-                                                 hit_m.x, hit_m.y);
+    echo.material_id =
+        world_.surfaces->material(batch.geometry[lane], batch.primitive[lane], hit_m.x, hit_m.y);
     echo.object_id = batch.geometry[lane];
     found.echoes.push_back(echo);
     found.phase_rad.push_back(draw.phase_rad);
@@ -176,9 +175,8 @@ void add_targets(const World& world, const sensors::AntennaFrame& antenna, const
   for (core::Echo echo : point_echoes(world, antenna, pose.time_s, settings.multipath)) {
     const PointTarget& target = world.targets[echo.object_id];
     const glm::dvec3 line_m = target.position_at(pose.time_s) - antenna.position_m;
-    echo.radial_speed_mps =
-        glm::dot(glm::normalize(line_m),
-                 velocity_mps(target, pose.time_s) - settings.own_velocity_mps);
+    echo.radial_speed_mps = glm::dot(glm::normalize(line_m),
+                                     velocity_mps(target, pose.time_s) - settings.own_velocity_mps);
     if (settings.swerling)
       echo.power_W *= target_factor(target.swerling, fluctuation, echo.object_id, 0, 0);
     // All echoes of a target by way of the ground share its phase.

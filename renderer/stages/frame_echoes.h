@@ -38,11 +38,11 @@ namespace fanbeam::renderer {
 struct FrameEchoSettings {
   // Used of it: sub_columns, rays_per_cell, largest_step_rad, largest_step_rows.
   Sampling sampling;
-  int passes = 1;              // rays in each cut, 1 to 64
-  double half_fan_rad = 0.0;   // to either side of boresight; 0: all that the picture's beam reaches
-  glm::dvec3 own_velocity_mps{0.0};         // of the antenna, in scene axes
-  Multipath multipath = Multipath::none;    // of point targets
-  bool swerling = false;                    // targets fluctuate, from frame to frame
+  int passes = 1;             // rays in each cut, 1 to 64
+  double half_fan_rad = 0.0;  // to either side of boresight; 0: all that the picture's beam reaches
+  glm::dvec3 own_velocity_mps{0.0};       // of the antenna, in scene axes
+  Multipath multipath = Multipath::none;  // of point targets
+  bool swerling = false;                  // targets fluctuate, from frame to frame
   std::uint64_t seed = 0;
 };
 

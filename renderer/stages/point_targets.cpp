@@ -99,8 +99,8 @@ std::vector<core::Echo> unobstructed_echoes(const World& world,
 
 std::uint64_t unprojected_targets(const World& world, const sensors::AntennaFrame& antenna,
                                   double time_s) {
-  const auto count = std::count_if(
-      world.targets.begin(), world.targets.end(), [&](const PointTarget& target) {
+  const auto count =
+      std::count_if(world.targets.begin(), world.targets.end(), [&](const PointTarget& target) {
         return !sensors::angles(antenna, target.position_at(time_s) - antenna.position_m,
                                 world.sensor.scan.surface);
       });
@@ -150,8 +150,7 @@ void add_echoes(const std::vector<core::Echo>& echoes, const sensors::Sensor& se
     share_echo(echo, sensor, [&](int cell, int column, double power_W) {
       bscope.add(cell * columns + column, power_W);
       if (row != sensors::kOutside)
-        cscope.add(row * columns + column,
-                   power_W * echo.range_m * echo.range_m * echo.range_m);
+        cscope.add(row * columns + column, power_W * echo.range_m * echo.range_m * echo.range_m);
     });
   }
 }

@@ -31,7 +31,8 @@ struct Beamformer {
   // Steps over a half-turn of sines, at a quarter of the beamwidth.
   int scan_steps() const {
     double aperture_m = 0.0;
-    for (const glm::dvec3& a : elements_m) aperture_m = std::max(aperture_m, glm::length(a - elements_m[0]));
+    for (const glm::dvec3& a : elements_m)
+      aperture_m = std::max(aperture_m, glm::length(a - elements_m[0]));
     // The farthest element from the first is at least half the aperture away.
     const double steps = std::ceil(16.0 * aperture_m / wavelength_m);
     return static_cast<int>(std::clamp(steps, 8.0, 20000.0));
@@ -122,14 +123,12 @@ AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>
   double reach_rad = 4.0 / steps;
   for (int round = 0; round < 40 && reach_rad > 1e-10; ++round) {
     const AnglePeak before = peak;
-    peak.azimuth_rad =
-        climbed([&](double az) { return beam.power(az, peak.elevation_rad); },
-                std::max(-kQuarterTurn_rad, peak.azimuth_rad - reach_rad),
-                std::min(kQuarterTurn_rad, peak.azimuth_rad + reach_rad));
-    peak.elevation_rad =
-        climbed([&](double el) { return beam.power(peak.azimuth_rad, el); },
-                std::max(-kQuarterTurn_rad, peak.elevation_rad - reach_rad),
-                std::min(kQuarterTurn_rad, peak.elevation_rad + reach_rad));
+    peak.azimuth_rad = climbed([&](double az) { return beam.power(az, peak.elevation_rad); },
+                               std::max(-kQuarterTurn_rad, peak.azimuth_rad - reach_rad),
+                               std::min(kQuarterTurn_rad, peak.azimuth_rad + reach_rad));
+    peak.elevation_rad = climbed([&](double el) { return beam.power(peak.azimuth_rad, el); },
+                                 std::max(-kQuarterTurn_rad, peak.elevation_rad - reach_rad),
+                                 std::min(kQuarterTurn_rad, peak.elevation_rad + reach_rad));
     const double moved_rad = std::max(std::abs(peak.azimuth_rad - before.azimuth_rad),
                                       std::abs(peak.elevation_rad - before.elevation_rad));
     if (moved_rad < 1e-9) break;

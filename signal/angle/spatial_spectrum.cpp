@@ -20,7 +20,8 @@ using Matrix = Eigen::MatrixXcd;
 
 Matrix matrix_of(const Covariance& covariance) {
   const int n = covariance.elements;
-  if (n < 1 || covariance.values.size() != static_cast<std::size_t>(n) * static_cast<std::size_t>(n))
+  if (n < 1 ||
+      covariance.values.size() != static_cast<std::size_t>(n) * static_cast<std::size_t>(n))
     refuse("covariance.elements", n, "1 or more, with as many values as its square");
   Matrix matrix(n, n);
   for (int row = 0; row < n; ++row)
@@ -88,8 +89,7 @@ std::vector<double> music_spectrum(const Covariance& covariance, const Steering&
 
 int source_count(const Covariance& covariance, int snapshots) {
   if (snapshots < 1) refuse("snapshots", snapshots, "1 or more");
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix_of(covariance),
-                                                    Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix_of(covariance), Eigen::EigenvaluesOnly);
   const int n = covariance.elements;
   const double largest = eigen.eigenvalues()(n - 1);
   if (!(largest > 0.0)) return 0;

@@ -80,8 +80,7 @@ class RowDetector {
       const double power_W = map_.at(row, column);
       // Ranks are only sorted out for what is reported: as many cells below the threshold as the
       // rank says is the same decision.
-      if (reference.kind == CfarKind::ordered_statistic &&
-          below(power_W, factor) < reference.rank)
+      if (reference.kind == CfarKind::ordered_statistic && below(power_W, factor) < reference.rank)
         continue;
       const double background_W = estimate(reference);
       if (power_W > factor * background_W)
@@ -142,7 +141,8 @@ class RowDetector {
 };
 
 void check_map(const PowerMap& map, const CfarSettings& settings) {
-  if (map.values_W.size() != static_cast<std::size_t>(map.rows) * static_cast<std::size_t>(map.columns))
+  if (map.values_W.size() !=
+      static_cast<std::size_t>(map.rows) * static_cast<std::size_t>(map.columns))
     refuse("map.values_W", static_cast<double>(map.values_W.size()), "rows x columns");
   for (const double value_W : map.values_W) {
     if (!std::isfinite(value_W))

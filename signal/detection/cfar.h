@@ -38,7 +38,7 @@ struct CfarReach {
 struct CfarSettings {
   CfarKind kind = CfarKind::cell_averaging;
   double design_probability = 1e-4;
-  CfarReach along_columns = {};                                       // range
+  CfarReach along_columns = {};                                        // range
   CfarReach along_rows = {.guard = 0, .reference = 0, .wraps = true};  // Doppler or angle
   double rank_fraction = 0.75;  // ordered statistic, in (0, 1]
 };

@@ -31,10 +31,10 @@ class Lags {
   std::complex<double> at(int lag) {
     if (weights_.empty()) return lag == 0 ? 1.0 : 0.0;
     const auto found = known_.find(std::abs(lag));
-    const std::complex<double> value =
-        found != known_.end()
-            ? found->second
-            : known_[std::abs(lag)] = cell_correlation(weights_, length_, std::abs(lag));
+    const std::complex<double> value = found != known_.end()
+                                           ? found->second
+                                           : known_[std::abs(lag)] =
+                                                 cell_correlation(weights_, length_, std::abs(lag));
     return lag < 0 ? std::conj(value) : value;
   }
 
@@ -69,7 +69,8 @@ double factor_for(const std::function<double(double)>& rate, double wanted) {
   while (rate(high) > wanted) {
     low = high;
     high *= 2.0;
-    if (high > 1e12) refuse("design_probability", wanted, "one that these reference cells can keep");
+    if (high > 1e12)
+      refuse("design_probability", wanted, "one that these reference cells can keep");
   }
   for (int step = 0; step < 60 && high - low > 1e-12 * high; ++step) {
     const double middle = 0.5 * (low + high);
@@ -145,8 +146,8 @@ class BackgroundDraw {
     Eigen::VectorXd inverse(n);
     for (Eigen::Index i = 0; i < n; ++i)
       inverse(i) = values(i) > 1e-9 * values(n - 1) ? 1.0 / values(i) : 0.0;
-    prediction_ = eigen.eigenvectors() * inverse.asDiagonal() *
-                  (eigen.eigenvectors().adjoint() * cross);
+    prediction_ =
+        eigen.eigenvectors() * inverse.asDiagonal() * (eigen.eigenvectors().adjoint() * cross);
     variance_ = std::max(1e-9, 1.0 - prediction_.dot(cross).real());
   }
 
@@ -160,13 +161,15 @@ class BackgroundDraw {
     double predicted = 0.0;
     for (int look = 0; look < looks_; ++look) {
       for (Eigen::Index i = 0; i < n; ++i) {
-        const auto pair = core::normal_pair(
-            key, index, static_cast<std::uint32_t>(look) * static_cast<std::uint32_t>(n) +
-                            static_cast<std::uint32_t>(i));
+        const auto pair =
+            core::normal_pair(key, index,
+                              static_cast<std::uint32_t>(look) * static_cast<std::uint32_t>(n) +
+                                  static_cast<std::uint32_t>(i));
         white(i) = std::complex<double>(pair[0], pair[1]) * std::sqrt(0.5);
       }
       const Vector cells = colouring_ * white;
-      for (Eigen::Index i = 0; i < n; ++i) powers[static_cast<std::size_t>(i)] += std::norm(cells(i));
+      for (Eigen::Index i = 0; i < n; ++i)
+        powers[static_cast<std::size_t>(i)] += std::norm(cells(i));
       predicted += std::norm(prediction_.dot(cells));
     }
     double sum = 0.0;
@@ -209,8 +212,7 @@ class BackgroundDraw {
 // exceedance falls as exp(-tilt sum of the references) at first order. For a known background the
 // exceedance of t = factor x looks is the gamma tail, whose rate of fall is density / tail.
 double useful_tilt(int looks, double references, double probability) {
-  const double t =
-      factor_for([&](double at) { return exceedance(0.0, looks, at); }, probability);
+  const double t = factor_for([&](double at) { return exceedance(0.0, looks, at); }, probability);
   double density = std::exp(-t);
   for (int i = 1; i < looks; ++i) density *= t / i;
   // Beyond 1/2 the weights' variance is infinite.
@@ -218,8 +220,8 @@ double useful_tilt(int looks, double references, double probability) {
 }
 
 CfarCalibration drawn_calibration(const CfarSettings& settings,
-                                  const std::vector<CfarOffset>& offsets,
-                                  const Matrix& correlation, int looks) {
+                                  const std::vector<CfarOffset>& offsets, const Matrix& correlation,
+                                  int looks) {
   const double n = static_cast<double>(offsets.size());
   const double tilt = useful_tilt(looks, n, settings.design_probability);
   const BackgroundDraw drawer(settings, offsets, correlation, looks, tilt);
@@ -235,9 +237,9 @@ CfarCalibration drawn_calibration(const CfarSettings& settings,
     double sum = 0.0;
     squares = 0.0;
     for (const Background& background : backgrounds) {
-      const double one = std::exp(background.log_weight) *
-                         exceedance(background.snr, looks,
-                                    factor * background.estimate / drawer.variance());
+      const double one =
+          std::exp(background.log_weight) *
+          exceedance(background.snr, looks, factor * background.estimate / drawer.variance());
       sum += one;
       squares += one * one;
     }
@@ -247,8 +249,7 @@ CfarCalibration drawn_calibration(const CfarSettings& settings,
   found.factor = factor_for(rate, settings.design_probability);
   const double mean = rate(found.factor);
   const double count = static_cast<double>(backgrounds.size());
-  found.relative_error =
-      std::sqrt(std::max(0.0, squares / count - mean * mean) / count) / mean;
+  found.relative_error = std::sqrt(std::max(0.0, squares / count - mean * mean) / count) / mean;
   return found;
 }
 

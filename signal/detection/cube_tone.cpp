@@ -89,9 +89,11 @@ CubeTone refined_in_cube(const Cube<Real>& beat, double range_bin, double dopple
   CubeTone tone{range_bin, doppler_bin, {}};
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
-    const auto fast = slow_time_summed(beat, phasors(shape.chirps, tone.doppler_bin, weights.chirps));
+    const auto fast =
+        slow_time_summed(beat, phasors(shape.chirps, tone.doppler_bin, weights.chirps));
     tone.range_bin = refined_tone(fast, tone.range_bin, weights.samples).bin;
-    const auto slow = fast_time_summed(beat, phasors(shape.samples, tone.range_bin, weights.samples));
+    const auto slow =
+        fast_time_summed(beat, phasors(shape.samples, tone.range_bin, weights.samples));
     tone.doppler_bin = refined_tone(slow, tone.doppler_bin, weights.chirps).bin;
     if (round + 1 < kRounds) continue;
     const Line over_chirps = phasors(shape.chirps, tone.doppler_bin, weights.chirps);

@@ -71,9 +71,9 @@ RadarDetection measured(Place place, double snr, const RangeDopplerAxes& axes, c
   detection.doppler_cell = place.doppler_cell;
   double doppler_Hz = axes.doppler_Hz(place.doppler_cell);
   if (settings.unfold)
-    doppler_Hz += doppler_fold(place.snapshot, array, doppler_Hz, timing.slot_period_s,
-                               timing.wavelength_m) /
-                  (array.slots() * timing.slot_period_s);
+    doppler_Hz +=
+        doppler_fold(place.snapshot, array, doppler_Hz, timing.slot_period_s, timing.wavelength_m) /
+        (array.slots() * timing.slot_period_s);
   compensate_slots(place.snapshot, array, doppler_Hz, timing.slot_period_s);
   const auto elements_m = virtual_elements_m(array);
   const AnglePeak angle = settings.elevation
@@ -102,14 +102,14 @@ std::vector<RadarDetection> detect(const Cube<Real>& beat, const Array& array,
                             "the channels of the array");
   Cube<Real> transformed;
   range_doppler(beat, settings.transform, transformed);
-  const int range_length = settings.transform.range_length == 0 ? beat.shape.samples
-                                                                : settings.transform.range_length;
+  const int range_length =
+      settings.transform.range_length == 0 ? beat.shape.samples : settings.transform.range_length;
   const RangeDopplerAxes axes = range_doppler_axes(
       timing.sample_rate_Hz, timing.slope_Hz_per_s, array.slots() * timing.slot_period_s,
       timing.wavelength_m, range_length, transformed.shape.chirps);
   const PowerMap map = range_doppler_map(transformed, Projection::sum);
-  const auto peaks = map_peaks(map, cfar_detections(map, settings.cfar),
-                               settings.cfar.along_rows.wraps);
+  const auto peaks =
+      map_peaks(map, cfar_detections(map, settings.cfar), settings.cfar.along_rows.wraps);
   const Refiner<Real> refiner(beat, transformed, settings, range_length);
   std::vector<RadarDetection> detections;
   for (const MapPeak& peak : peaks) {

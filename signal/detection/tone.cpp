@@ -20,8 +20,8 @@ void check_input(const ToneRecords& records, const std::vector<double>& weights)
     core::throw_input_error(core::ErrorClass::range, "samples", static_cast<double>(count),
                             "2 or more");
   if (!weights.empty() && weights.size() != count)
-    core::throw_input_error(core::ErrorClass::range, "weights",
-                            static_cast<double>(weights.size()), "none or one per sample");
+    core::throw_input_error(core::ErrorClass::range, "weights", static_cast<double>(weights.size()),
+                            "none or one per sample");
   for (const auto& record : records) {
     if (record.size() != count)
       core::throw_input_error(core::ErrorClass::range, "samples",
@@ -112,10 +112,10 @@ Tone strongest_tone(const std::vector<std::complex<double>>& samples,
   for (std::size_t k = 1; k < lines.size(); ++k)
     if (std::norm(lines[k]) > std::norm(lines[peak])) peak = k;
   const std::size_t count = lines.size();
-  const double offset = log_parabola_peak(std::norm(lines[(peak + count - 1) % count]),
-                                          std::norm(lines[peak]),
-                                          std::norm(lines[(peak + 1) % count]))
-                            .offset;
+  const double offset =
+      log_parabola_peak(std::norm(lines[(peak + count - 1) % count]), std::norm(lines[peak]),
+                        std::norm(lines[(peak + 1) % count]))
+          .offset;
   return refined_tone({samples}, (static_cast<double>(peak) + offset) / kPadding, weights);
 }
 

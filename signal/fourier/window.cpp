@@ -90,7 +90,7 @@ std::vector<double> chebyshev(double level_dB, int length) {
   std::vector<double> weights(static_cast<std::size_t>(length));
   for (int n = 0; n < length; ++n) {
     // Odd: the centre is point 0. Even: points 0 and 1 are its two neighbours.
-    const int from_centre = points % 2 == 1 ? std::abs(n - length / 2)
+    const int from_centre = points % 2 == 1  ? std::abs(n - length / 2)
                             : n < points / 2 ? points / 2 - n
                                              : n - points / 2 + 1;
     weights[static_cast<std::size_t>(n)] = centred_at(from_centre);

@@ -78,8 +78,7 @@ void range_doppler(const Cube<Real>& beat, const RangeDopplerSettings& settings,
                    Cube<Real>& result) {
   check_input(beat);
   const CubeShape& shape = beat.shape;
-  const int range_length =
-      transform_length("range_length", settings.range_length, shape.samples);
+  const int range_length = transform_length("range_length", settings.range_length, shape.samples);
   const int doppler_length =
       transform_length("doppler_length", settings.doppler_length, shape.chirps);
   const int kept = settings.kept_range_cells == 0 ? range_length : settings.kept_range_cells;

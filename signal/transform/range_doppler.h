@@ -30,7 +30,7 @@ namespace fanbeam::signal {
 struct RangeDopplerSettings {
   Window range_window{.kind = WindowKind::taylor};
   Window doppler_window{.kind = WindowKind::taylor};
-  int range_length = 0;      // of the transforms; 0: no padding
+  int range_length = 0;  // of the transforms; 0: no padding
   int doppler_length = 0;
   int kept_range_cells = 0;  // the nearest ones; 0: all
 };
@@ -44,9 +44,9 @@ double noise_gain(const std::vector<double>& weights);
 
 // What the cells of a transformed cube mean.
 struct RangeDopplerAxes {
-  double range_step_m = 0.0;         // c fs / (2 S N)
-  double doppler_step_Hz = 0.0;      // 1 / (M T)
-  double wavelength_m = 0.0;         // at the centre of the sweep
+  double range_step_m = 0.0;           // c fs / (2 S N)
+  double doppler_step_Hz = 0.0;        // 1 / (M T)
+  double wavelength_m = 0.0;           // at the centre of the sweep
   double range_per_Doppler_m_s = 0.0;  // c / (2 S): metres read too long per hertz of Doppler
   int doppler_cells = 0;
 

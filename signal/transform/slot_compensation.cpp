@@ -53,8 +53,8 @@ void compensate_slots(std::vector<std::complex<double>>& snapshot, const Array& 
   check_channels(snapshot.size(), array);
   for (int channel = 0; channel < array.channels(); ++channel)
     snapshot[static_cast<std::size_t>(channel)] *= std::polar(
-        1.0, -2.0 * core::kPi * std::remainder(doppler_Hz * slot_period_s * slot_of(array, channel),
-                                               1.0));
+        1.0, -2.0 * core::kPi *
+                 std::remainder(doppler_Hz * slot_period_s * slot_of(array, channel), 1.0));
 }
 
 int doppler_fold(const std::vector<std::complex<double>>& snapshot, const Array& array,

@@ -35,8 +35,8 @@ double power_at(const PowerMap& map, const std::vector<double>& azimuths_rad, do
       range_cell > map.columns - 1)
     return 0.0;
   const auto above = std::upper_bound(azimuths_rad.begin(), azimuths_rad.end(), azimuth_rad);
-  const int high = std::min(static_cast<int>(std::distance(azimuths_rad.begin(), above)),
-                            map.rows - 1);
+  const int high =
+      std::min(static_cast<int>(std::distance(azimuths_rad.begin(), above)), map.rows - 1);
   const int low = std::max(0, high - 1);
   const double low_rad = azimuths_rad[static_cast<std::size_t>(low)];
   const double high_rad = azimuths_rad[static_cast<std::size_t>(high)];
@@ -59,9 +59,8 @@ PowerMap top_view(const PowerMap& range_azimuth, const std::vector<double>& azim
     const double forward_m = grid.nearest_m + row * grid.step_m;
     for (int column = 0; column < grid.columns; ++column) {
       const double right_m = grid.leftmost_m + column * grid.step_m;
-      view.at(row, column) =
-          power_at(range_azimuth, azimuths_rad, std::atan2(right_m, forward_m),
-                   std::hypot(right_m, forward_m) / range_step_m);
+      view.at(row, column) = power_at(range_azimuth, azimuths_rad, std::atan2(right_m, forward_m),
+                                      std::hypot(right_m, forward_m) / range_step_m);
     }
   });
   return view;

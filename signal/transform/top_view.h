@@ -13,7 +13,7 @@
 namespace fanbeam::signal {
 
 struct TopViewGrid {
-  double nearest_m = 0.0;  // forward, centre of the first row
+  double nearest_m = 0.0;   // forward, centre of the first row
   double leftmost_m = 0.0;  // right, centre of the first column
   double step_m = 1.0;
   int rows = 0;     // away from the radar

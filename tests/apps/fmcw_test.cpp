@@ -64,8 +64,8 @@ struct Peak {
 Peak cube_peak(const fs::path& file) {
   const std::string bytes = tests::bytes_of(file);
   REQUIRE(bytes.substr(0, 8) == std::string("\x93NUMPY\x01\x00", 8));
-  const std::size_t header = 10 + static_cast<unsigned char>(bytes[8]) +
-                             256U * static_cast<unsigned char>(bytes[9]);
+  const std::size_t header =
+      10 + static_cast<unsigned char>(bytes[8]) + 256U * static_cast<unsigned char>(bytes[9]);
   Peak peak;
   const std::size_t tuple = bytes.find("'shape': (") + 10;
   std::istringstream numbers(bytes.substr(tuple, bytes.find(')', tuple) - tuple));
@@ -79,8 +79,8 @@ Peak cube_peak(const fs::path& file) {
       std::max_element(values.begin(), values.end(),
                        [](const auto& a, const auto& b) { return std::norm(a) < std::norm(b); }) -
       values.begin());
-  peak.place = {largest / (peak.shape[1] * peak.shape[2]),
-                largest / peak.shape[2] % peak.shape[1], largest % peak.shape[2]};
+  peak.place = {largest / (peak.shape[1] * peak.shape[2]), largest / peak.shape[2] % peak.shape[1],
+                largest % peak.shape[2]};
   return peak;
 }
 
@@ -101,9 +101,9 @@ TEST_CASE("A lone target stands at its cell of map, cube and list", "[fmcw]") {
   const tests::TemporaryFolder folder;
   folder.write("scene.toml", kLoneTarget);
   const fs::path out = folder.path() / "out";
-  const auto run = tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) + kQuick +
-                                      "--products beat,cube,range-doppler,detections -o " +
-                                      tests::quoted(out));
+  const auto run =
+      tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) + kQuick +
+                         "--products beat,cube,range-doppler,detections -o " + tests::quoted(out));
   INFO(run.output);
   REQUIRE(run.exit_code == 0);
   const nlohmann::json record = tests::json_of(out / "run.json");

@@ -75,7 +75,8 @@ Result render_onto_disk(const fs::path& scratch, std::size_t kilobytes, const fs
       << "mount -t tmpfs -o size=" << kilobytes << "k none " << quoted(disk) << " || exit 99\n"
       << (before.empty() ? "" : "cp -a " + quoted(before / ".") + " " + quoted(disk) + "\n")
       << (read_only ? "mount -o remount,ro " + quoted(disk) + "\n" : "")
-      << "'" FANBEAM_BINARY_DIR "/bin/fanbeam' " << kRender << "-o " << quoted(disk) << "\ncode=$?\n"
+      << "'" FANBEAM_BINARY_DIR "/bin/fanbeam' " << kRender << "-o " << quoted(disk)
+      << "\ncode=$?\n"
       << "cp -a " << quoted(disk) << " " << quoted(copy) << "\nexit $code\n";
   const Result result =
       run_shell(kOwnMounts + "\". " + (scratch / "on_disk.sh").string() + "\" 2>&1");
@@ -91,8 +92,7 @@ TEST_CASE("F17 a disk that fills up: E-IO, and only complete files, new or old",
   const Files whole = rendered(folder.path() / "whole");
   Files found;
   // Room for some of the pictures.
-  const Result full =
-      render_onto_disk(folder.path(), size_of(whole) / 2048 + 40, {}, false, found);
+  const Result full = render_onto_disk(folder.path(), size_of(whole) / 2048 + 40, {}, false, found);
   INFO(full.output);
   CHECK(full.exit_code == 4);
   CHECK(full.output.find("E-IO") != std::string::npos);
@@ -157,13 +157,14 @@ TEST_CASE("F17 a program stopped while it writes leaves complete files, and can 
   const TemporaryFolder folder;
   const Files whole = rendered(folder.path() / "whole");
   const fs::path out = folder.path() / "out";
-  const std::string program = "'" FANBEAM_BINARY_DIR "/bin/fanbeam' " + kRender + "--resume -o " +
-                              quoted(out) + " 2>&1";
+  const std::string program =
+      "'" FANBEAM_BINARY_DIR "/bin/fanbeam' " + kRender + "--resume -o " + quoted(out) + " 2>&1";
   // The system ends a program that writes beyond this size, in blocks of 512 bytes: in the middle
   // of the first table of ranges and before it of the first plan view.
   for (const char* blocks : {"100", "16", "2"}) {
     fs::remove_all(out);
-    const Result stopped = run_shell(std::string("ulimit -c 0; ulimit -f ") + blocks + "; " + program);
+    const Result stopped =
+        run_shell(std::string("ulimit -c 0; ulimit -f ") + blocks + "; " + program);
     INFO(stopped.output);
     CHECK(stopped.exit_code != 0);
     const Files found = finished(results(out));
@@ -181,12 +182,11 @@ TEST_CASE("F17 a program stopped while it writes leaves complete files, and can 
 
 TEST_CASE("F17 what cannot be printed is E-IO too", "[no_room]") {
   const TemporaryFolder folder;
-  for (const char* words :
-       {"plan flat-grass", "plan flat-grass --json", "materials", "atmosphere", "validate flat-grass",
-        "render flat-grass -o out"}) {
-    const Result result = run_shell("cd " + quoted(folder.path()) +
-                                    " && '" FANBEAM_BINARY_DIR "/bin/fanbeam' " + words +
-                                    " 2>&1 >/dev/full");
+  for (const char* words : {"plan flat-grass", "plan flat-grass --json", "materials", "atmosphere",
+                            "validate flat-grass", "render flat-grass -o out"}) {
+    const Result result =
+        run_shell("cd " + quoted(folder.path()) + " && '" FANBEAM_BINARY_DIR "/bin/fanbeam' " +
+                  words + " 2>&1 >/dev/full");
     INFO(words << ": " << result.output);
     CHECK(result.exit_code == 4);
     CHECK(result.output.find("E-IO") != std::string::npos);

@@ -175,8 +175,9 @@ TEST_CASE("F18 the same bytes from another working directory, time zone, locale 
   CHECK((results(odd) == results(folder.path() / "plain")));
 }
 
-TEST_CASE("F18 the same bytes of a scene in a folder with blanks and umlauts, under a decimal comma",
-          "[render]") {
+TEST_CASE(
+    "F18 the same bytes of a scene in a folder with blanks and umlauts, under a decimal comma",
+    "[render]") {
   const TemporaryFolder folder;
   const std::string locale = comma_locale(folder);
   const auto write_scene = [&](const std::string& name) {

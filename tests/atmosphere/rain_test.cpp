@@ -38,8 +38,8 @@ TEST_CASE("Rain meets the ITU's P.838-3 examples", "[rain]") {
     CHECK(found.k == Approx(row.number("k")).epsilon(0.0).margin(6e-9));
     CHECK(found.alpha == Approx(row.number("alpha")).epsilon(0.0).margin(6e-9));
     CHECK(rain_attenuation_dB_per_km(RainLaw::itu_p838, row.number("rain_mm_h"), frequency_Hz,
-                                     elevation_rad,
-                                     tilt_rad) == Approx(row.number("gamma_dB_km")).epsilon(0.0).margin(6e-9));
+                                     elevation_rad, tilt_rad) ==
+          Approx(row.number("gamma_dB_km")).epsilon(0.0).margin(6e-9));
   }
 }
 

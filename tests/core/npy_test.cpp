@@ -14,8 +14,9 @@ using fanbeam::tests::TemporaryFolder;
 TEST_CASE("A NumPy file has the header that numpy writes and the values behind it", "[npy]") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "cube.npy";
-  write_npy(file, {2, 3}, std::vector<std::complex<float>>{{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10},
-                                                           {-0.5F, 0.25F}});
+  write_npy(
+      file, {2, 3},
+      std::vector<std::complex<float>>{{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}, {-0.5F, 0.25F}});
   const std::string bytes = bytes_of(file);
   // numpy 1.24's own header for this array, padded to a multiple of 64 bytes.
   const std::string text = "{'descr': '<c8', 'fortran_order': False, 'shape': (2, 3), }";

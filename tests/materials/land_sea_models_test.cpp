@@ -71,11 +71,15 @@ TEST_CASE("NRL sea model deviates from Nathanson's tables as its authors publish
 }
 
 TEST_CASE("Constant gamma grows by 5 dB per decade of frequency", "[materials][models]") {
-  REQUIRE(level_dB(gamma_at(GammaTerrain::flatland, 10e9)) == Approx(-20.0).epsilon(0.0).margin(1e-9));
-  REQUIRE(level_dB(gamma_at(GammaTerrain::metropolitan, 100e9)) == Approx(5.0).epsilon(0.0).margin(1e-9));
+  REQUIRE(level_dB(gamma_at(GammaTerrain::flatland, 10e9)) ==
+          Approx(-20.0).epsilon(0.0).margin(1e-9));
+  REQUIRE(level_dB(gamma_at(GammaTerrain::metropolitan, 100e9)) ==
+          Approx(5.0).epsilon(0.0).margin(1e-9));
   // 5 log10(3.5) = 2.720 dB, 5 log10(9.4) = 4.866 dB.
-  REQUIRE(level_dB(gamma_at(GammaTerrain::farmland, 35e9)) == Approx(-12.2797).epsilon(0.0).margin(1e-4));
-  REQUIRE(level_dB(gamma_at(GammaTerrain::sea_state_3, 94e9)) == Approx(-35.1344).epsilon(0.0).margin(1e-4));
+  REQUIRE(level_dB(gamma_at(GammaTerrain::farmland, 35e9)) ==
+          Approx(-12.2797).epsilon(0.0).margin(1e-4));
+  REQUIRE(level_dB(gamma_at(GammaTerrain::sea_state_3, 94e9)) ==
+          Approx(-35.1344).epsilon(0.0).margin(1e-4));
 }
 
 TEST_CASE("Grass of GIT and gamma farmland agree within 2.3 dB from 3 to 30 degrees",

@@ -35,7 +35,8 @@ TEST_CASE("Permittivities and normal reflectivities equal the check values at 35
     // Half a unit of the last printed digit.
     REQUIRE(eps.real == Approx(row.number("permittivity_real")).epsilon(0.0).margin(6e-5));
     REQUIRE(eps.loss == Approx(row.number("permittivity_loss")).epsilon(0.0).margin(6e-5));
-    REQUIRE(normal_reflectivity(eps) == Approx(row.number("normal_reflectivity")).epsilon(0.0).margin(6e-6));
+    REQUIRE(normal_reflectivity(eps) ==
+            Approx(row.number("normal_reflectivity")).epsilon(0.0).margin(6e-6));
   }
 }
 

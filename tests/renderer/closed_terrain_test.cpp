@@ -54,8 +54,7 @@ TEST_CASE("T02: pictures do not depend on what is added to every height", "[clos
 
 TEST_CASE("T08: the picture of a mesh with rubbish in it is that of the clean one",
           "[closed_terrain]") {
-  const terrain::PlacedMesh clean =
-      tests::box({-40.0, 900.0, 0.0}, {40.0, 930.0, 25.0}, 0).mesh;
+  const terrain::PlacedMesh clean = tests::box({-40.0, 900.0, 0.0}, {40.0, 930.0, 25.0}, 0).mesh;
   terrain::PlacedMesh dirty = clean;
   terrain::TriangleMesh& mesh = dirty.mesh;
   const auto count = static_cast<std::uint32_t>(mesh.vertices_m.size());
@@ -64,8 +63,8 @@ TEST_CASE("T08: the picture of a mesh with rubbish in it is that of the clean on
   const std::vector<glm::uvec3> of_clean = mesh.triangles;
   mesh.triangles.insert(mesh.triangles.begin() + 1, of_clean.begin(), of_clean.end());
   mesh.triangles.insert(mesh.triangles.end(),
-                        {{0, 0, 1},                         // repeated index
-                         {2, 2, 2},                         // all equal
+                        {{0, 0, 1},                        // repeated index
+                         {2, 2, 2},                        // all equal
                          {count, count + 1, count + 2}});  // on one line, before the box
   mesh.triangle_material.resize(mesh.triangles.size(), mesh.triangle_material.front());
   core::ProblemList problems;
@@ -118,8 +117,7 @@ TEST_CASE("R05: slices see the ground of a ball to its horizon at 31 927.474 m, 
   REQUIRE(std::abs(tests::slice_azimuth_rad(sums, ahead)) < 1e-9);
   for (int k = 0; k < sensor.range.cells; ++k) {
     INFO("cell " << k);
-    const double power_W =
-        sums.range_W_per_rad[static_cast<std::size_t>(ahead * sums.cells + k)];
+    const double power_W = sums.range_W_per_rad[static_cast<std::size_t>(ahead * sums.cells + k)];
     if (k < 19) CHECK(power_W > 0.0);
     if (k > 21) CHECK(power_W == 0.0);
   }
@@ -129,10 +127,11 @@ TEST_CASE("R13: closed ground shows no sky below the horizon, whatever the rays 
           "[closed_terrain]") {
   // Every post at a height of its own, too low to throw a shadow on the next.
   std::uint64_t post = 0;
-  const renderer::World world = tests::world(
-      tests::hivision(24),
-      tests::ground(4000.0, 10.0, [&](double, double) { return 0.02 * tests::uniform(13, ++post); }),
-      {kGrass});
+  const renderer::World world =
+      tests::world(tests::hivision(24),
+                   tests::ground(4000.0, 10.0,
+                                 [&](double, double) { return 0.02 * tests::uniform(13, ++post); }),
+                   {kGrass});
   const sensors::Sensor& sensor = world.sensor;
   const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   const sensors::Display& display = sensor.display;
@@ -142,7 +141,8 @@ TEST_CASE("R13: closed ground shows no sky below the horizon, whatever the rays 
       renderer::FramePose pose = tests::level_pose(height_m);
       pose.position_m.x = 5.0;  // along a diagonal's and a column's posts
       const renderer::Frame frame =
-          renderer::FrameRenderer(world, renderer::sampling_for(rays_per_cell), {}, {}).render(pose);
+          renderer::FrameRenderer(world, renderer::sampling_for(rays_per_cell), {}, {})
+              .render(pose);
       int sky = 0;
       for (const double power_W : frame.bscope_W) sky += power_W > 0.0 ? 0 : 1;
       // Rows between the first range cell and the last.

@@ -68,8 +68,8 @@ class FlatClutter {
     sampling.jittered_passes = independent ? rays : 1;
     sampling.rays_per_cell = independent ? 1.0 : rays;
     renderer::FanSums sums;
-    renderer::RayCaster(world_, sampling).cast(tests::level_antenna({0.0, 0.0, kHeight_m}), false,
-                                               sums);
+    renderer::RayCaster(world_, sampling)
+        .cast(tests::level_antenna({0.0, 0.0, kHeight_m}), false, sums);
     return sums;
   }
 
@@ -98,7 +98,8 @@ TEST_CASE("R18: independent rays converge with slope -0.5 to the closed form, wi
   const Ladder ladder = FlatClutter().ladder(true);
   INFO("rms " << ladder.rms.front() << " to " << ladder.rms.back());
   CHECK(slope(ladder.rms) == Approx(-0.5).margin(0.07).epsilon(0.0));
-  CHECK(slope(ladder.rms, 6) == Approx(-0.5).margin(0.07).epsilon(0.0));  // the last decade and a half
+  CHECK(slope(ladder.rms, 6) ==
+        Approx(-0.5).margin(0.07).epsilon(0.0));  // the last decade and a half
   for (std::size_t i = 0; i < kSteps; ++i) {
     INFO((1 << i) << " rays per cell: bias " << ladder.mean[i] << " +- " << ladder.deviation[i]);
     CHECK(std::abs(ladder.mean[i]) <= 4.0 * ladder.deviation[i]);
@@ -110,7 +111,8 @@ TEST_CASE("R18: stratified rays converge at least as fast", "[convergence]") {
   INFO("rms " << ladder.rms.front() << " to " << ladder.rms.back());
   CHECK(slope(ladder.rms) <= -0.5);
   for (std::size_t i = 1; i < kSteps; ++i) {
-    INFO((1 << i) << " rays per cell: " << ladder.rms[i] << ", bias " << ladder.mean[i] << " +- " << ladder.deviation[i]);
+    INFO((1 << i) << " rays per cell: " << ladder.rms[i] << ", bias " << ladder.mean[i] << " +- "
+                  << ladder.deviation[i]);
     // Not below the step before: a ray whose range is rounded over a cell's edge weighs 1 / rays.
     CHECK(ladder.rms[i] <= ladder.rms[0] * std::sqrt(1.0 / (1 << i)));
     CHECK(std::abs(ladder.mean[i]) <= 4.0 * ladder.deviation[i]);

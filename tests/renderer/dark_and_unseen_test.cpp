@@ -74,11 +74,11 @@ TEST_CASE("S05 targets abeam, behind and at the antenna are not drawn, and are c
   CHECK(*std::max_element(alone.bscope_W.begin(), alone.bscope_W.end()) > 0.0);
 
   const std::vector<glm::dvec3> unseen_m = {
-      {500.0, 0.0, kHeight_m},       // on the lateral plane
+      {500.0, 0.0, kHeight_m},        // on the lateral plane
       {0.0, 0.0, kHeight_m - 400.0},  // and on it straight below
-      {0.0, -900.0, kHeight_m},      // behind, where a ratio of coordinates says straight ahead
-      {-20.0, -900.0, 120.0},        // the visible one mirrored at the antenna
-      {0.0, 0.0, kHeight_m}};        // at the antenna
+      {0.0, -900.0, kHeight_m},       // behind, where a ratio of coordinates says straight ahead
+      {-20.0, -900.0, 120.0},         // the visible one mirrored at the antenna
+      {0.0, 0.0, kHeight_m}};         // at the antenna
   for (const glm::dvec3& position_m : unseen_m) world.targets.push_back(reflector(position_m));
   const renderer::Frame all = frame_of();
   CHECK(all.unprojected == unseen_m.size());

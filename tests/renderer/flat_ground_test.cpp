@@ -147,8 +147,8 @@ TEST_CASE("R08 cells of 3 m keep their rays out to 3.7 km: 0.5 dB preview, 0.1 d
                         {top_rad - span_rad, top_rad})
       .cast({{0.0, 0.0, kHeight_m}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}}, false,
             even);
-  const auto empty = std::count(even.range_W_per_rad.begin(),
-                                even.range_W_per_rad.begin() + even.cells, 0.0);
+  const auto empty =
+      std::count(even.range_W_per_rad.begin(), even.range_W_per_rad.begin() + even.cells, 0.0);
   CHECK(empty > even.cells / 2);
 }
 

@@ -141,9 +141,8 @@ TEST_CASE("Radial speeds of echoes are those of kinematics", "[frame_echoes]") {
   double worst_mps = 0.0;
   for (std::size_t i = 0; i < found.first_target; ++i) {
     const core::Echo& echo = found.echoes[i];
-    const double expected_mps =
-        -70.0 * std::cos(echo.elevation_rad) * std::cos(echo.azimuth_rad) +
-        3.0 * std::sin(echo.elevation_rad);
+    const double expected_mps = -70.0 * std::cos(echo.elevation_rad) * std::cos(echo.azimuth_rad) +
+                                3.0 * std::sin(echo.elevation_rad);
     worst_mps = std::max(worst_mps, std::abs(echo.radial_speed_mps - expected_mps));
   }
   CHECK(found.first_target > 10'000);

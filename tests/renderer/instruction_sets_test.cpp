@@ -35,12 +35,12 @@ renderer::World village(const std::string& instruction_set) {
     const double x_m = -600.0 + 97.0 * (i % 12), y_m = 500.0 + 260.0 * (i / 12) + 13.0 * (i % 5);
     houses.push_back(tests::box({x_m, y_m, -20.0}, {x_m + 14.0, y_m + 11.0, 15.0}, 1).mesh);
   }
-  renderer::World world =
-      tests::world(tests::hivision(), std::nullopt,
-                   {materials::PhongNrcs(0.0325, 0.136, 1.99), materials::PhongNrcs(0.3, 0.5, 3.0)});
-  world.surfaces = std::make_unique<terrain::RayScene>(
-      tests::ground(4000.0, 40.0, height_m), std::vector<terrain::SurfacePatch>{},
-      std::move(houses), instruction_set);
+  renderer::World world = tests::world(
+      tests::hivision(), std::nullopt,
+      {materials::PhongNrcs(0.0325, 0.136, 1.99), materials::PhongNrcs(0.3, 0.5, 3.0)});
+  world.surfaces = std::make_unique<terrain::RayScene>(tests::ground(4000.0, 40.0, height_m),
+                                                       std::vector<terrain::SurfacePatch>{},
+                                                       std::move(houses), instruction_set);
   return world;
 }
 
@@ -76,8 +76,8 @@ TEST_CASE("R11: pictures of SSE4.2, AVX, AVX2 and AVX-512 are statistically one"
       sum_dB += difference_dB;
       differ += std::abs(difference_dB) > 0.1 ? 1 : 0;
     }
-    INFO(set << ": mean " << sum_dB / static_cast<double>(lit) << " dB, " << differ << " of "
-             << lit << " cells by more than 0.1 dB");
+    INFO(set << ": mean " << sum_dB / static_cast<double>(lit) << " dB, " << differ << " of " << lit
+             << " cells by more than 0.1 dB");
     CHECK(lit > power_W.size() / 2);
     CHECK(std::abs(sum_dB / static_cast<double>(lit)) <= 0.001);
     CHECK(static_cast<double>(differ) <= 1e-4 * static_cast<double>(power_W.size()));

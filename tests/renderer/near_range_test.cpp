@@ -26,17 +26,16 @@ renderer::RayChain chain_over_ground(const std::vector<float>& near_m, bool near
   chain.append(count);
   for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
     const bool near = i < near_m.size();
-    const double range_m =
-        near ? 0.0 : 205.0 + 5.0 * static_cast<double>(i - near_m.size());
+    const double range_m = near ? 0.0 : 205.0 + 5.0 * static_cast<double>(i - near_m.size());
     chain.elevation_rad[i] =
         near ? -0.4 + 0.01 * static_cast<double>(i) : -std::asin(60.0 / range_m);
     const bool hit = near_is_hit || !near;
     chain.range_m[i] = near ? (hit ? near_m[i] : 0.0F) : static_cast<float>(range_m);
     // A facet straight across the ray but for a hair: its piece stays where it is.
-    chain.range_slope[i] = near ? 1e-9F : static_cast<float>(std::sqrt(range_m * range_m / 3600.0 - 1.0));
-    const double square_m2 = std::max(static_cast<double>(chain.range_m[i]) *
-                                          static_cast<double>(chain.range_m[i]),
-                                      1e-30);
+    chain.range_slope[i] =
+        near ? 1e-9F : static_cast<float>(std::sqrt(range_m * range_m / 3600.0 - 1.0));
+    const double square_m2 = std::max(
+        static_cast<double>(chain.range_m[i]) * static_cast<double>(chain.range_m[i]), 1e-30);
     chain.density_W_per_rad2[i] = hit ? static_cast<float>(0.01 / square_m2) : 0.0F;
     chain.surface[i] = !hit ? terrain::kNoHit : near ? 100U + static_cast<std::uint32_t>(i) : 2U;
     chain.azimuth[i] = 0;
@@ -66,8 +65,8 @@ Deposited deposited(const renderer::RayChain& chain, const sensors::Sensor& sens
 // A sheet across the way of every ray, 10 m to each side of `centre_m`; `up`: level, else facing
 // the sensor in the south.
 terrain::PlacedMesh sheet(const glm::dvec3& centre_m, bool up) {
-  const glm::dvec3 right(10.0, 0.0, 0.0), other = up ? glm::dvec3(0.0, 10.0, 0.0)
-                                                     : glm::dvec3(0.0, 0.0, 10.0);
+  const glm::dvec3 right(10.0, 0.0, 0.0),
+      other = up ? glm::dvec3(0.0, 10.0, 0.0) : glm::dvec3(0.0, 0.0, 10.0);
   terrain::PlacedMesh placed;
   placed.mesh.vertices_m = {centre_m - right - other, centre_m + right - other,
                             centre_m + right + other, centre_m - right + other};
@@ -80,8 +79,7 @@ terrain::PlacedMesh sheet(const glm::dvec3& centre_m, bool up) {
 
 renderer::Frame frame_of(const sensors::Sensor& sensor, std::vector<tests::Body> bodies,
                          const renderer::Sampling& sampling, double height_m) {
-  const renderer::World world =
-      tests::world(sensor, std::nullopt, {kGrass}, std::move(bodies));
+  const renderer::World world = tests::world(sensor, std::nullopt, {kGrass}, std::move(bodies));
   return renderer::FrameRenderer(world, sampling, {}, {.thermal_noise = true})
       .render(tests::level_pose(height_m));
 }
@@ -148,10 +146,8 @@ TEST_CASE("R02: a sensor on a sheet, a hair above one, and before a wall in the 
 TEST_CASE("R02: a point target in the blind range has no echo", "[near_range]") {
   renderer::World world = tests::world(tests::hivision(8), std::nullopt, {});
   const auto total_W = [&](double range_m) {
-    world.targets = {{"post",
-                      materials::ConstantRcs{1.0},
-                      {{0.0, {0.0, range_m, kHeight_m}}},
-                      glm::dmat3(1.0)}};
+    world.targets = {
+        {"post", materials::ConstantRcs{1.0}, {{0.0, {0.0, range_m, kHeight_m}}}, glm::dmat3(1.0)}};
     const renderer::Frame frame =
         renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(kHeight_m));
     double sum_W = 0.0;
@@ -199,8 +195,8 @@ TEST_CASE("R03: the patch straight down is phi (R2^2 - max(R1, h)^2) / 2, by sli
       const double near_m = sensor.range.minimum_m + sensor.range.cell_m * k;
       const double far_m = near_m + sensor.range.cell_m;
       // dA / R^4 back to dA, exactly for a cell that lies behind the ground's nearest point.
-      const double area_m2 = cells_W[k] / (sensor.radar_constant_W_m2() * 0.01) *
-                             (near_m * near_m) * (far_m * far_m);
+      const double area_m2 =
+          cells_W[k] / (sensor.radar_constant_W_m2() * 0.01) * (near_m * near_m) * (far_m * far_m);
       (k < sums.cells / 2 ? first_m2 : second_m2) += area_m2;
     }
     INFO((slices ? "slices " : "rays ") << first_m2 << " and " << second_m2 << " m^2 per radian");
@@ -236,9 +232,9 @@ TEST_CASE("R03: nothing diverges at depressions of 89, 89.9, 89.99 and 90 degree
   for (std::size_t i = 0; i < 4; ++i) {
     // K sigma0 / (sin(psi) R^2) with R = h / sin(psi).
     const double sine = std::sin(core::radians(depressions_deg[i]));
-    CHECK(static_cast<double>(chain.density_W_per_rad2[i]) ==
-          Approx(sensor.radar_constant_W_m2() * 0.01 * sine / (kHeight_m * kHeight_m))
-              .epsilon(1e-5));
+    CHECK(
+        static_cast<double>(chain.density_W_per_rad2[i]) ==
+        Approx(sensor.radar_constant_W_m2() * 0.01 * sine / (kHeight_m * kHeight_m)).epsilon(1e-5));
   }
   // A whole beam of it, with cells as the case has them: [57, 60) and [60, 63). No more than the
   // beam's footprint: phi R wide and 19.2 m long.
@@ -249,6 +245,7 @@ TEST_CASE("R03: nothing diverges at depressions of 89, 89.9, 89.99 and 90 degree
     const double* const cells_W = sums.range_W_per_rad.data() + 2 * sub;
     CHECK(cells_W[1] > 0.0);
     CHECK(cells_W[0] <= 0.01 * cells_W[1]);
-    CHECK(cells_W[1] <= sensor.radar_constant_W_m2() * 0.01 * footprint_m2 / std::pow(kHeight_m, 4));
+    CHECK(cells_W[1] <=
+          sensor.radar_constant_W_m2() * 0.01 * footprint_m2 / std::pow(kHeight_m, 4));
   }
 }

@@ -60,7 +60,8 @@ void check_cut(const terrain::HeightField& field, const glm::dvec2& origin_m,
                                      glm::dvec2(field.west_m, field.south_m) + kInwards_m,
                                      glm::dvec2(field.east_m(), field.north_m()) - kInwards_m);
     REQUIRE(field.height_at(at.x, at.y).has_value());
-    REQUIRE(cut.height_m[i] + 100.0 == Approx(*field.height_at(at.x, at.y)).epsilon(0.0).margin(1e-9));
+    REQUIRE(cut.height_m[i] + 100.0 ==
+            Approx(*field.height_at(at.x, at.y)).epsilon(0.0).margin(1e-9));
   }
   for (std::size_t i = 0; i < cut.pieces; ++i) {
     REQUIRE(cut.distance_m[i + 1] > cut.distance_m[i]);

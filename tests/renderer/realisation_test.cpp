@@ -72,7 +72,8 @@ TEST_CASE("Speckle and Swerling run when a realisation is asked for, and say why
 
   const core::EffectDecision on = decision(facts(true, false), renderer::kSpeckle);
   CHECK(on.on);
-  CHECK(on.bound_dB == Approx(330.0 * std::log10(2.0)).epsilon(0.0).margin(1e-4));  // of the smallest u, 2^-33
+  CHECK(on.bound_dB ==
+        Approx(330.0 * std::log10(2.0)).epsilon(0.0).margin(1e-4));  // of the smallest u, 2^-33
   CHECK_FALSE(decision(facts(true, false), renderer::kSwerling).on);
   CHECK(decision(facts(true, true), renderer::kSwerling).on);
 

@@ -19,9 +19,8 @@ atmosphere::Weather rain(double rate_mm_per_h) {
 }
 
 renderer::World grass(const sensors::Sensor& sensor, double half_extent_m) {
-  return tests::world(sensor,
-                      tests::ground(half_extent_m, 100.0, [](double, double) { return 0.0; }),
-                      {kGrass});
+  return tests::world(
+      sensor, tests::ground(half_extent_m, 100.0, [](double, double) { return 0.0; }), {kGrass});
 }
 
 renderer::Frame frame_of(const renderer::World& world, double height_m,

@@ -77,8 +77,7 @@ TEST_CASE("T06 scene values outside their domain, each class by its name", "[bad
                  "23:1: E-RANGE weather.visibility_m = -3: expected 10 to 100000");
 }
 
-TEST_CASE("A02 impossible rain is refused by class with the range that is allowed",
-          "[bad_input]") {
+TEST_CASE("A02 impossible rain is refused by class with the range that is allowed", "[bad_input]") {
   for (const auto& [rate, found] : std::vector<std::pair<std::string, std::string>>{
            {"-1", "E-RANGE weather.rain_rate_mm_per_h = -1"},
            {"1e6", "E-RANGE weather.rain_rate_mm_per_h = 1000000"},

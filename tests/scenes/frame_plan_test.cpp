@@ -35,7 +35,7 @@ double change_of(const scenes::Scene& scene, int frame) {
   renderer::PlannedFrames renderers(scene.world, few_rays(), {true, true}, 1);
   const renderer::FramePose pose = scene.frame_pose(frame);
   return largest_difference_grey(renderers.for_plan(scene.plan).render(pose),
-                            renderers.for_plan(scenes::frame_plan(scene, frame)).render(pose));
+                                 renderers.for_plan(scenes::frame_plan(scene, frame)).render(pose));
 }
 
 const core::EffectDecision& decision(const core::EffectPlan& plan, std::string_view effect) {
@@ -135,7 +135,7 @@ TEST_CASE("No switch from frame to frame is seen", "[scenes][frame_plan]") {
         if (each.effect == stage) each.on = false;
       const renderer::FramePose pose = scene->frame_pose(kAllInView);
       CHECK(largest_difference_grey(renderers.for_plan(scene->plan).render(pose),
-                               renderers.for_plan(without).render(pose)) > 0.0);
+                                    renderers.for_plan(without).render(pose)) > 0.0);
     }
   }
 }

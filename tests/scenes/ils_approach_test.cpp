@@ -97,7 +97,8 @@ TEST_CASE("On a plane Earth the path is straight in the scene's frame", "[ils]")
     const glm::dvec3 from_m = frame.to_local_m(pose.position) - threshold_m;
     const double to_go_m = -glm::dot(from_m, ahead);
     if (to_go_m < 50.0) break;
-    REQUIRE(from_m.z == Approx(15.0 + to_go_m * std::tan(core::radians(3.5))).epsilon(0.0).margin(1e-6));
+    REQUIRE(from_m.z ==
+            Approx(15.0 + to_go_m * std::tan(core::radians(3.5))).epsilon(0.0).margin(1e-6));
     REQUIRE(glm::length(glm::cross(from_m + to_go_m * ahead, glm::dvec3(0, 0, 1))) < 1e-6);
     REQUIRE(heading_deg(pose) == Approx(264.74).epsilon(0.0).margin(1e-5));
   }

@@ -175,7 +175,8 @@ TEST_CASE("A thin wire is the same as a target and as a line, for both polarisat
     level_dBsm[vertical ? 1 : 0] = rcs_dBsm(wires[1], {0.0, -1.0, 0.0});
     // Boresight to the sky: the wire lies level.
     const auto level = std::get<materials::RoundWire>(wires[2].rcs);
-    CHECK(level.polarisation_rad == Approx(vertical ? core::kPi / 2.0 : 0.0).epsilon(0.0).margin(1e-9));
+    CHECK(level.polarisation_rad ==
+          Approx(vertical ? core::kPi / 2.0 : 0.0).epsilon(0.0).margin(1e-9));
   }
   // ka = 0.11: a field across such a wire hardly sees it.
   CHECK(level_dBsm[1] - level_dBsm[0] > 20.0);

@@ -239,7 +239,8 @@ TEST_CASE("Real flight: the airliner to Denver descends at 3 degrees", "[traject
     const core::Attitude attitude = core::attitude_from(pose.q_NB);
     CHECK(core::degrees(attitude.heading_rad) == Approx(270.6).margin(1.5));
     CHECK(std::abs(core::degrees(attitude.roll_rad)) < 5.0);
-    CHECK(core::degrees(attitude.pitch_rad) == Approx(path_angle_deg(pose) + 4.0).epsilon(0.0).margin(1e-6));
+    CHECK(core::degrees(attitude.pitch_rad) ==
+          Approx(path_angle_deg(pose) + 4.0).epsilon(0.0).margin(1e-6));
   }
   const Statistics angle = statistics_of(angles_deg);
   CAPTURE(angle.mean, angle.deviation);

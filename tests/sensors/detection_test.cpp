@@ -77,8 +77,10 @@ TEST_CASE("Thresholds give back their false-alarm probability", "[detection]") {
 
 TEST_CASE("Published signal-to-noise ratios for a detection", "[detection]") {
   // Skolnik, Introduction to Radar Systems, 3rd edition, 2.6: 13.2 dB for 0.9 at 1e-6.
-  CHECK(dB(required_snr(Swerling::steady, 0.9, 1e-6, 1)) == Approx(13.183).epsilon(0.0).margin(5e-4));
-  CHECK(dB(required_snr(Swerling::steady, 0.9, 1e-4, 1)) == Approx(11.749).epsilon(0.0).margin(5e-4));
+  CHECK(dB(required_snr(Swerling::steady, 0.9, 1e-6, 1)) ==
+        Approx(13.183).epsilon(0.0).margin(5e-4));
+  CHECK(dB(required_snr(Swerling::steady, 0.9, 1e-4, 1)) ==
+        Approx(11.749).epsilon(0.0).margin(5e-4));
   CHECK(dB(required_snr(Swerling::case1, 0.9, 1e-6, 1)) == Approx(21.14).margin(5e-3));
   // B. R. Mahafza, MATLAB Simulations for Radar Systems Design, 2.9: 0.65 at 1e-9, ten pulses.
   CHECK(dB(required_snr(Swerling::steady, 0.65, 1e-9, 10)) == Approx(5.525).margin(0.02));
@@ -144,7 +146,8 @@ TEST_CASE("N looks: closed forms of cases 1 and 2, steady target averaged over c
           return steady * poisson_probability(static_cast<int>(m) - 1, x);
         };
         const double mean = simpson(averaged, 0.0, m + 12.0 * std::sqrt(m) + 30.0, 3000);
-        CHECK(detection_probability(target, snr, looks, t) == Approx(mean).epsilon(0.0).margin(1e-8));
+        CHECK(detection_probability(target, snr, looks, t) ==
+              Approx(mean).epsilon(0.0).margin(1e-8));
       }
     }
 }

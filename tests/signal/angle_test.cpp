@@ -41,8 +41,8 @@ std::vector<std::complex<double>> plane_wave(const Array& array, double azimuth_
 // Adds what motion does between the slots.
 void move(std::vector<std::complex<double>>& snapshot, const Array& array, double speed_mps) {
   for (int c = 0; c < array.channels(); ++c)
-    snapshot[static_cast<std::size_t>(c)] *=
-        std::polar(1.0, array.transmitter_of(c) * slot_phase_rad(speed_mps, kSlot_s, kWavelength_m));
+    snapshot[static_cast<std::size_t>(c)] *= std::polar(
+        1.0, array.transmitter_of(c) * slot_phase_rad(speed_mps, kSlot_s, kWavelength_m));
 }
 
 double doppler_Hz(double speed_mps) { return 2.0 * speed_mps / kWavelength_m; }
@@ -138,8 +138,8 @@ TEST_CASE("the angle of one wave reaches the Cramer-Rao bound", "[angle][statist
     for (const double snr_dB : {10.0, 20.0, 30.0}) {
       const double snr = std::pow(10.0, snr_dB / 10.0);
       const double azimuth_rad = radians(azimuth_deg);
-      const double bound_deg = degrees(std::sqrt(6.0 / (snr * n * (n * n - 1.0))) /
-                                       (kPi * std::cos(azimuth_rad)));
+      const double bound_deg =
+          degrees(std::sqrt(6.0 / (snr * n * (n * n - 1.0))) / (kPi * std::cos(azimuth_rad)));
       constexpr int kTrials = 3000;
       double squares = 0.0;
       for (int trial = 0; trial < kTrials; ++trial) {
@@ -165,7 +165,8 @@ TEST_CASE("motion between slots moves the angle when it is left in, and not when
   const Array line = half_wave_line(3, 4);
   const auto elements_m = virtual_elements_m(line);
   CHECK(degrees(slot_phase_rad(1.0, kSlot_s, kWavelength_m)) == Approx(3.6505).margin(5e-5));
-  CHECK(degrees(slot_phase_rad(100.0 / 3.6, kSlot_s, kWavelength_m)) == Approx(101.40).margin(5e-3));
+  CHECK(degrees(slot_phase_rad(100.0 / 3.6, kSlot_s, kWavelength_m)) ==
+        Approx(101.40).margin(5e-3));
   // 2.91 and 8.10 deg if the phase grew evenly over the 12 elements. It grows in three steps of
   // four elements, whose best straight line has 0.895 of that slope: cov / var = (8/3) / (143/12)
   // per element instead of 1/4.
@@ -174,12 +175,10 @@ TEST_CASE("motion between slots moves the angle when it is left in, and not when
   for (const auto& row : kShifts) {
     auto snapshot = plane_wave(line, 0.0);
     move(snapshot, line, row.first);
-    const double raw_deg =
-        degrees(azimuth_peak(snapshot, elements_m, kWavelength_m).azimuth_rad);
+    const double raw_deg = degrees(azimuth_peak(snapshot, elements_m, kWavelength_m).azimuth_rad);
     CHECK(std::abs(raw_deg) == Approx(kStaircase * row.second).epsilon(0.01));
     compensate_slots(snapshot, line, doppler_Hz(row.first), kSlot_s);
-    const double left_deg =
-        degrees(azimuth_peak(snapshot, elements_m, kWavelength_m).azimuth_rad);
+    const double left_deg = degrees(azimuth_peak(snapshot, elements_m, kWavelength_m).azimuth_rad);
     CHECK(std::abs(left_deg) < 0.02);
   }
 }
@@ -212,8 +211,7 @@ TEST_CASE("compensation of a whole cube leaves half a Doppler cell's phase at mo
   for (int c = 0; c < 12; ++c) CHECK(cube.at(c, 128, 0) == 1.0);
   // A scatterer in the centre of cell 200: 72 / 256 of a turn over three slots.
   for (int t = 0; t < 3; ++t)
-    CHECK(std::abs(cube.at(4 * t, 200, 1) *
-                       std::polar(1.0, 2.0 * kPi * 72.0 / 256.0 * t / 3.0) -
+    CHECK(std::abs(cube.at(4 * t, 200, 1) * std::polar(1.0, 2.0 * kPi * 72.0 / 256.0 * t / 3.0) -
                    1.0) < 1e-12);
   Array together = line;
   together.multiplex = Multiplex::simultaneous;
@@ -223,7 +221,8 @@ TEST_CASE("compensation of a whole cube leaves half a Doppler cell's phase at mo
   for (const auto& value : same.values) REQUIRE(value == 1.0);
 }
 
-TEST_CASE("the top view keeps what lies on its own cells and nothing beyond the map", "[top_view]") {
+TEST_CASE("the top view keeps what lies on its own cells and nothing beyond the map",
+          "[top_view]") {
   // Ranges 0, 1, ... 20 m; azimuths -45 to 45 deg by 15.
   std::vector<double> azimuths;
   for (int i = -3; i <= 3; ++i) azimuths.push_back(radians(15.0 * i));
@@ -231,7 +230,8 @@ TEST_CASE("the top view keeps what lies on its own cells and nothing beyond the 
   map.at(3, 10) = 5.0;  // 10 m ahead
   map.at(6, 14) = 2.0;  // 14 m at 45 deg right
   const PowerMap view =
-      top_view(map, azimuths, 1.0, {.nearest_m = 0.0, .leftmost_m = -20.0, .step_m = 1.0, .rows = 21, .columns = 41});
+      top_view(map, azimuths, 1.0,
+               {.nearest_m = 0.0, .leftmost_m = -20.0, .step_m = 1.0, .rows = 21, .columns = 41});
   CHECK(view.at(10, 20) == Approx(5.0));
   CHECK(view.at(20, 0) == 0.0);  // 28 m away
   double right = 0.0;

@@ -44,8 +44,8 @@ double rate(const PowerMap& map, const CfarSettings& settings) {
 
 // Detections in correlated cells come in groups: fewer independent ones.
 double three_sigma(double probability, std::size_t cells, double noise_bandwidth) {
-  return 3.0 *
-         std::sqrt((1.0 - probability) * noise_bandwidth / (probability * static_cast<double>(cells)));
+  return 3.0 * std::sqrt((1.0 - probability) * noise_bandwidth /
+                         (probability * static_cast<double>(cells)));
 }
 
 }  // namespace
@@ -56,9 +56,8 @@ TEST_CASE("detectors keep their false-alarm rate, under windows when they are ca
     Window window;
     double uncalibrated;  // of cell averaging at a design of 1e-3
   };
-  const Case kCases[] = {{{}, 1e-3},
-                         {{.kind = WindowKind::hann}, 2.16e-3},
-                         {{WindowKind::taylor, 5, 35.0}, 1.67e-3}};
+  const Case kCases[] = {
+      {{}, 1e-3}, {{.kind = WindowKind::hann}, 2.16e-3}, {{WindowKind::taylor, 5, 35.0}, 1.67e-3}};
   std::uint32_t trial = 100;
   for (const Case& test : kCases) {
     const auto weights = window_weights(test.window, kLine);
@@ -72,8 +71,7 @@ TEST_CASE("detectors keep their false-alarm rate, under windows when they are ca
                                 CfarKind::greatest_of, CfarKind::smallest_of}) {
       CfarSettings settings = plain;
       settings.kind = kind;
-      const CfarCalibration calibration =
-          calibrated_cfar(settings, {weights, kLine, {}, 0});
+      const CfarCalibration calibration = calibrated_cfar(settings, {weights, kLine, {}, 0});
       settings.design_probability = calibration.design_probability;
       const double found = rate(map, settings);
       INFO(name(kind) << " window " << static_cast<int>(test.window.kind) << ": " << found
@@ -175,8 +173,9 @@ TEST_CASE("the ordered statistic finds a target beside another, cell averaging l
       auto line = tests::tone(kLine, 100.0, 10.0);
       const auto other = tests::tone(kLine, 103.0, std::pow(10.0, neighbour_dB / 20.0));
       for (std::size_t n = 0; n < line.size(); ++n)
-        line[n] = weights[n] * ((line[n] + std::polar(1.0, 2.4 * trial) * other[n]) / sum +
-                                tests::noise(1.0 / squares, n, 400 + static_cast<std::uint32_t>(trial)));
+        line[n] =
+            weights[n] * ((line[n] + std::polar(1.0, 2.4 * trial) * other[n]) / sum +
+                          tests::noise(1.0 / squares, n, 400 + static_cast<std::uint32_t>(trial)));
       fft.run(line.data());
       PowerMap map(1, kLine);
       for (int k = 0; k < kLine; ++k) map.at(0, k) = std::norm(line[static_cast<std::size_t>(k)]);

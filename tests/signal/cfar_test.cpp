@@ -17,7 +17,9 @@ using namespace fanbeam::signal;
 
 namespace {
 
-CfarReference averaging(int count) { return {CfarKind::cell_averaging, count / 2, count - count / 2}; }
+CfarReference averaging(int count) {
+  return {CfarKind::cell_averaging, count / 2, count - count / 2};
+}
 CfarReference ordered(int count, int rank) {
   return {CfarKind::ordered_statistic, count / 2, count - count / 2, rank};
 }
@@ -27,7 +29,8 @@ void check_factors(const CfarReference& reference, std::vector<double> expected)
   for (std::size_t i = 0; i < 4; ++i) {
     if (expected[i] == 0.0) continue;
     // The table's last digit.
-    CHECK(cfar_factor(reference, kProbabilities[i]) == Approx(expected[i]).margin(6e-7).epsilon(1e-7));
+    CHECK(cfar_factor(reference, kProbabilities[i]) ==
+          Approx(expected[i]).margin(6e-7).epsilon(1e-7));
     CHECK(cfar_false_alarm_probability(reference, cfar_factor(reference, kProbabilities[i])) ==
           Approx(kProbabilities[i]).epsilon(1e-8));
   }

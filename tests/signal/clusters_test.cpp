@@ -17,7 +17,8 @@ namespace {
 std::vector<std::vector<double>> random_points(int count) {
   std::vector<std::vector<double>> points;
   for (int i = 0; i < count; ++i) {
-    const auto pair = core::normal_pair({.seed = 5, .stream = 1001}, static_cast<std::uint64_t>(i), 0);
+    const auto pair =
+        core::normal_pair({.seed = 5, .stream = 1001}, static_cast<std::uint64_t>(i), 0);
     // Three heaps and some stray points.
     const double centre = i % 10 == 0 ? 20.0 * pair[0] : 12.0 * (i % 3);
     points.push_back({centre + pair[0], 2.0 * pair[1]});
@@ -110,10 +111,10 @@ TEST_CASE("detections of one car are one cluster, of two lanes or speeds two", "
     detection.radial_speed_mps = speed_mps;
     return detection;
   };
-  const auto labels = detection_clusters(
-      {at(50.0, 0.0, -5.0), at(51.0, 0.01, -5.2), at(50.5, 0.07, -5.0), at(50.2, 0.0, 3.0),
-       at(50.9, 0.068, -5.1)},
-      {});
+  const auto labels =
+      detection_clusters({at(50.0, 0.0, -5.0), at(51.0, 0.01, -5.2), at(50.5, 0.07, -5.0),
+                          at(50.2, 0.0, 3.0), at(50.9, 0.068, -5.1)},
+                         {});
   CHECK(labels == std::vector<int>{0, 0, 1, kNoCluster, 1});
 }
 

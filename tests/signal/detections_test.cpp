@@ -48,12 +48,11 @@ DetectionSettings settings_for(const CubeShape& shape) {
                    .along_columns = {2, 4, false},
                    .along_rows = {2, 2, true}};
   settings.cfar.design_probability =
-      calibrated_cfar(settings.cfar,
-                      {window_weights(settings.transform.range_window, shape.samples),
-                       shape.samples,
-                       window_weights(settings.transform.doppler_window, shape.chirps),
-                       shape.chirps},
-                      shape.channels)
+      calibrated_cfar(
+          settings.cfar,
+          {window_weights(settings.transform.range_window, shape.samples), shape.samples,
+           window_weights(settings.transform.doppler_window, shape.chirps), shape.chirps},
+          shape.channels)
           .design_probability;
   settings.unfold = true;
   return settings;
@@ -85,8 +84,7 @@ TEST_CASE("synthesised paths come out as detections at their place", "[detection
   for (const ScatterPath& truth : paths) {
     const RadarDetection* nearest = &found[0];
     for (const RadarDetection& detection : found)
-      if (std::abs(detection.range_m - truth.range_m) <
-          std::abs(nearest->range_m - truth.range_m))
+      if (std::abs(detection.range_m - truth.range_m) < std::abs(nearest->range_m - truth.range_m))
         nearest = &detection;
     INFO("path at " << truth.range_m << " m: " << nearest->range_m << " m, "
                     << nearest->radial_speed_mps << " m/s, "
@@ -113,8 +111,8 @@ TEST_CASE("compensation leaves less than 0.02 deg at 100 km/h without noise",
   const Radar radar;
   const DetectionSettings settings = settings_for({256, 64, 12});
   for (const double azimuth_deg : {0.0, 13.0, -35.0}) {
-    const auto beat =
-        reference_beat(radar.waveform, 0, radar.array, {path(60.0, -100.0 / 3.6, azimuth_deg, 1.0)});
+    const auto beat = reference_beat(radar.waveform, 0, radar.array,
+                                     {path(60.0, -100.0 / 3.6, azimuth_deg, 1.0)});
     DoubleCube noisy = beat;
     tests::add_noise(noisy, 1e-9, 32);  // the detector needs a background
     const auto found = detect(noisy, radar.array, radar.timing, settings);

@@ -24,8 +24,7 @@ Values direct_convolution(const Values& x, const Values& h) {
 // A chirp of `count` samples.
 Values chirp(int count) {
   Values pulse;
-  for (int n = 0; n < count; ++n)
-    pulse.push_back(std::polar(1.0, core::kPi * n * n / count));
+  for (int n = 0; n < count; ++n) pulse.push_back(std::polar(1.0, core::kPi * n * n / count));
   return pulse;
 }
 
@@ -44,7 +43,8 @@ TEST_CASE("G07 convolution agrees with the direct sum at any length", "[convolut
     const auto fast = convolved(x, h);
     const auto direct = direct_convolution(x, h);
     REQUIRE(fast.size() == direct.size());
-    for (std::size_t k = 0; k < fast.size(); ++k) REQUIRE(std::abs(fast[k] - direct[k]) < 1e-12 * 40);
+    for (std::size_t k = 0; k < fast.size(); ++k)
+      REQUIRE(std::abs(fast[k] - direct[k]) < 1e-12 * 40);
   }
 }
 

@@ -133,9 +133,9 @@ TEST_CASE("batches along any axis are the single transforms", "[fft]") {
         one.push_back(all[static_cast<std::size_t>(b * layout.distance + n * layout.stride)]);
       single.run(one.data());
       for (int k = 0; k < length; ++k)
-        REQUIRE(std::abs(together[static_cast<std::size_t>(b * layout.distance +
-                                                           k * layout.stride)] -
-                         one[static_cast<std::size_t>(k)]) < 2e-5F);
+        REQUIRE(
+            std::abs(together[static_cast<std::size_t>(b * layout.distance + k * layout.stride)] -
+                     one[static_cast<std::size_t>(k)]) < 2e-5F);
     }
   }
 }
@@ -155,7 +155,8 @@ TEST_CASE("many threads that need new plans get the same spectra", "[fft]") {
   std::vector<std::thread> threads;
   for (auto& mine : found)
     threads.emplace_back([&mine] {
-      for (int length = 300; length < 340; ++length) mine.push_back(spectrum(random_values<double>(length)));
+      for (int length = 300; length < 340; ++length)
+        mine.push_back(spectrum(random_values<double>(length)));
     });
   for (std::thread& thread : threads) thread.join();
   for (const auto& other : found) CHECK(other == found[0]);

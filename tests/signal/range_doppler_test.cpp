@@ -32,10 +32,10 @@ std::complex<double> direct_cell(const Cube<Real>& beat, const RangeDopplerSetti
     for (int n = 0; n < beat.shape.samples; ++n)
       sum += w[static_cast<std::size_t>(n)] * u[static_cast<std::size_t>(m)] *
              std::complex<double>(beat.at(channel, m, n)) *
-             std::polar(1.0, -2.0 * core::kPi *
-                                 (static_cast<double>(range) * n / range_length +
-                                  static_cast<double>(doppler - doppler_length / 2) * m /
-                                      doppler_length));
+             std::polar(
+                 1.0, -2.0 * core::kPi *
+                          (static_cast<double>(range) * n / range_length +
+                           static_cast<double>(doppler - doppler_length / 2) * m / doppler_length));
   return sum / (scale_w * scale_u);
 }
 

@@ -96,9 +96,15 @@ TEST_CASE("Capon and MUSIC separate two sources at the reference rates", "[angle
   constexpr int kElements = 12;
   constexpr int kTrials = 300;
   const Steering grid = grid_for(kElements);
-  const Method fourier = [&](const Snapshots& s) { return fourier_spectrum(sample_covariance(s), grid); };
-  const Method capon = [&](const Snapshots& s) { return capon_spectrum(sample_covariance(s), grid); };
-  const Method music = [&](const Snapshots& s) { return music_spectrum(sample_covariance(s), grid, 2); };
+  const Method fourier = [&](const Snapshots& s) {
+    return fourier_spectrum(sample_covariance(s), grid);
+  };
+  const Method capon = [&](const Snapshots& s) {
+    return capon_spectrum(sample_covariance(s), grid);
+  };
+  const Method music = [&](const Snapshots& s) {
+    return music_spectrum(sample_covariance(s), grid, 2);
+  };
   struct Case {
     double separation_deg, snr_dB, capon, rmse_deg;
   };
@@ -123,18 +129,22 @@ TEST_CASE("smoothing separates two sources in one snapshot at the reference rate
   constexpr int kTrials = 500;
   const Steering whole = grid_for(12);
   const Steering grid = grid_for(8);
-  const Method fourier = [&](const Snapshots& s) { return fourier_spectrum(sample_covariance(s), whole); };
+  const Method fourier = [&](const Snapshots& s) {
+    return fourier_spectrum(sample_covariance(s), whole);
+  };
   const Method capon = [&](const Snapshots& s) {
     return capon_spectrum(smoothed_covariance(s, 8), grid, 1e-3);
   };
-  const Method music = [&](const Snapshots& s) { return music_spectrum(smoothed_covariance(s, 8), grid, 2); };
+  const Method music = [&](const Snapshots& s) {
+    return music_spectrum(smoothed_covariance(s, 8), grid, 2);
+  };
   const double by_fourier = separated(fourier, 12, 1, 6.0, 20.0, kTrials).share;
   const double by_capon = separated(capon, 12, 1, 6.0, 20.0, kTrials).share;
   const Rate music20 = separated(music, 12, 1, 6.0, 20.0, kTrials);
   const Rate music30 = separated(music, 12, 1, 6.0, 30.0, kTrials);
   INFO("Fourier " << by_fourier << ", Capon " << by_capon << ", MUSIC " << music20.share << " ("
-                  << music20.rmse_deg << "), at 30 dB " << music30.share << " ("
-                  << music30.rmse_deg << ")");
+                  << music20.rmse_deg << "), at 30 dB " << music30.share << " (" << music30.rmse_deg
+                  << ")");
   CHECK(by_fourier == Approx(0.19).margin(binomial(0.19, kTrials)));
   CHECK(by_capon >= 0.94 - binomial(0.94, kTrials));
   CHECK(music20.share == Approx(0.98).margin(binomial(0.98, kTrials)));
@@ -178,7 +188,8 @@ TEST_CASE("smoothing is the mean over shifted sub-arrays, forwards and backwards
     for (int column = 0; column < 3; ++column) {
       CHECK(std::abs(smoothed.at(row, column) - std::conj(smoothed.at(column, row))) < 1e-12);
       // Persymmetric: J conj(R) J = R.
-      CHECK(std::abs(smoothed.at(row, column) - std::conj(smoothed.at(2 - row, 2 - column))) < 1e-12);
+      CHECK(std::abs(smoothed.at(row, column) - std::conj(smoothed.at(2 - row, 2 - column))) <
+            1e-12);
     }
 }
 

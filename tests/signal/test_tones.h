@@ -37,9 +37,10 @@ void add_tone(signal::Cube<Real>& cube, double range_bin, double doppler_bin, do
   for (int c = 0; c < cube.shape.channels; ++c)
     for (int m = 0; m < cube.shape.chirps; ++m)
       for (int n = 0; n < cube.shape.samples; ++n) {
-        const double phase = 2.0 * core::kPi * (range_bin * n / cube.shape.samples +
-                                                doppler_bin * m / cube.shape.chirps) +
-                             channel_phase_rad * c;
+        const double phase =
+            2.0 * core::kPi *
+                (range_bin * n / cube.shape.samples + doppler_bin * m / cube.shape.chirps) +
+            channel_phase_rad * c;
         cube.at(c, m, n) += static_cast<std::complex<Real>>(std::polar(amplitude, phase));
       }
 }

@@ -56,8 +56,8 @@ TEST_CASE("the frequency of a tone reaches the Cramer-Rao bound from 15 to 60 dB
     double squares = 0.0;
     for (int trial = 0; trial < kTrials; ++trial) {
       const double bin = 60.0 + trial / static_cast<double>(kTrials);
-      const auto samples = tests::tone(kCount, bin, 1.0, kCount / eta,
-                                       static_cast<std::uint32_t>(1000 + trial));
+      const auto samples =
+          tests::tone(kCount, bin, 1.0, kCount / eta, static_cast<std::uint32_t>(1000 + trial));
       const double error = strongest_tone(samples).bin - bin;
       squares += error * error;
     }

@@ -74,9 +74,12 @@ TEST_CASE("An SRTM cell as .hgt and DTED 1 and 0 holds the same heights", "[elev
   CHECK(wrong == 0);
   // Samples are points: the first is at 48 N 9 E, the last at 47 N 10 E.
   for (const ElevationRaster* raster : {&hgt, &dted1, &dted0}) {
-    CHECK(height_deg(*raster, 48.0, 9.0) == Approx(*hgt.post_height_m(0, 0)).epsilon(0.0).margin(1e-6));
-    CHECK(height_deg(*raster, 47.0, 10.0) == Approx(*hgt.post_height_m(1200, 1200)).epsilon(0.0).margin(1e-6));
-    CHECK(height_deg(*raster, 47.5, 9.5) == Approx(*hgt.post_height_m(600, 600)).epsilon(0.0).margin(1e-6));
+    CHECK(height_deg(*raster, 48.0, 9.0) ==
+          Approx(*hgt.post_height_m(0, 0)).epsilon(0.0).margin(1e-6));
+    CHECK(height_deg(*raster, 47.0, 10.0) ==
+          Approx(*hgt.post_height_m(1200, 1200)).epsilon(0.0).margin(1e-6));
+    CHECK(height_deg(*raster, 47.5, 9.5) ==
+          Approx(*hgt.post_height_m(600, 600)).epsilon(0.0).margin(1e-6));
   }
 }
 

@@ -118,8 +118,8 @@ TEST_CASE("T01: planet-sized coordinates cost 5 cm of range at most, and 1 um in
   const LocalFrame frame(kCentre);
   for (const double spacing_m : {10.0, 30.0}) {
     const RayScene scene(patch(frame, spacing_m), {}, {});
-    const glm::dvec3 sensor_m = frame.to_local_m(
-        geodetic_from_ecef(ecef_of_plane_m(frame, 0.0, 0.0, kSensor_m)));
+    const glm::dvec3 sensor_m =
+        frame.to_local_m(geodetic_from_ecef(ecef_of_plane_m(frame, 0.0, 0.0, kSensor_m)));
     const RangeErrors errors = range_errors(scene, sensor_m, glm::dmat3(1.0));
     INFO("posts " << spacing_m << " m apart: median " << errors.median_m << " m, largest "
                   << errors.largest_m << " m, in double " << errors.largest_refined_m << " m");

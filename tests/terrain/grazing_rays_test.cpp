@@ -19,9 +19,9 @@ glm::dvec3 direction(double azimuth_rad, double depression_rad) {
 // Level ground to 10 km, as terrain of many posts or as two triangles.
 std::vector<std::unique_ptr<RayScene>> level_grounds() {
   std::vector<std::unique_ptr<RayScene>> grounds;
-  grounds.push_back(std::make_unique<RayScene>(
-      make_height_field(-10000.0, -10000.0, 10000.0, 10000.0, 40.0), std::vector<SurfacePatch>{},
-      std::vector<PlacedMesh>{}));
+  grounds.push_back(
+      std::make_unique<RayScene>(make_height_field(-10000.0, -10000.0, 10000.0, 10000.0, 40.0),
+                                 std::vector<SurfacePatch>{}, std::vector<PlacedMesh>{}));
   PlacedMesh sheet;
   sheet.mesh.vertices_m = {{-10000.0, -10000.0, 0.0},
                            {10000.0, -10000.0, 0.0},
@@ -48,13 +48,11 @@ TEST_CASE("R04: ranges at vanishing grazing angles are within float rounding, or
         const double range_m = sine > 0.0 ? height_m / sine : HUGE_VAL;
         int wrong = 0;
         for (int i = 0; i < 1000; ++i) {
-          const auto hit =
-              ground->intersect({0.0, 0.0, height_m},
-                                direction(0.7 * i, core::radians(depression_deg)), kFar_m);
+          const auto hit = ground->intersect(
+              {0.0, 0.0, height_m}, direction(0.7 * i, core::radians(depression_deg)), kFar_m);
           const double allowed_m = 4.0 * 0x1p-24 * range_m / sine;
-          const bool right = range_m > kFar_m
-                                 ? !hit
-                                 : hit && std::abs(hit->distance_m - range_m) <= allowed_m;
+          const bool right =
+              range_m > kFar_m ? !hit : hit && std::abs(hit->distance_m - range_m) <= allowed_m;
           wrong += right ? 0 : 1;
         }
         INFO("height " << height_m << " m, depression " << depression_deg << " deg");

@@ -27,7 +27,8 @@ std::vector<glm::dvec3> lost_rays(const RayScene& scene, const glm::dvec3& senso
     for (int i = 0; i < N; ++i) {
       const std::size_t ray = first + static_cast<std::size_t>(i);
       active[i] = ray < directions.size() ? -1 : 0;
-      packet.aim(i, scene.in_caster_m(sensor_m), directions[std::min(ray, directions.size() - 1)], 2.0e4);
+      packet.aim(i, scene.in_caster_m(sensor_m), directions[std::min(ray, directions.size() - 1)],
+                 2.0e4);
     }
     scene.intersect(active, packet);
     for (int i = 0; i < N; ++i)
@@ -124,8 +125,7 @@ SeamRays seam_rays(const TriangleMesh& mesh, const glm::dvec3& sensor_m) {
     constexpr std::uint32_t kNeighbour[] = {1, kPosts, kPosts + 1};
     const glm::dvec3& from_m = mesh.vertices_m[post];
     const glm::dvec3& to_m = mesh.vertices_m[post + kNeighbour[i % 3]];
-    rays.to_edges.push_back(
-        glm::normalize(from_m + (to_m - from_m) * uniform(i, 1, 2) - sensor_m));
+    rays.to_edges.push_back(glm::normalize(from_m + (to_m - from_m) * uniform(i, 1, 2) - sensor_m));
   }
   return rays;
 }
@@ -148,8 +148,8 @@ TEST_CASE("T11: no ray along the seam of two tiles is lost, none jumps by more t
     if (!hit) {
       ++lost;
     } else {
-      farthest_jump = std::max(farthest_jump,
-                               std::abs(hit->distance_m - range_m) / (kOff_m * range_m / 60.0));
+      farthest_jump =
+          std::max(farthest_jump, std::abs(hit->distance_m - range_m) / (kOff_m * range_m / 60.0));
     }
     lost_in_tiles += tiles.intersect(sensor_m, path_m, 1.0e4) ? 0 : 1;
   }
