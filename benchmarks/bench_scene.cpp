@@ -90,9 +90,7 @@ View view_at(const BenchScene& scene, double distance_m) {
   }
   view.distance_m = ground_distance_m(view.pose);
   view.height_m = view.pose.position_m.z;
-  view.antenna =
-      sensors::antenna_frame(view.pose.position_m, view.pose.north_east_down, view.pose.q_NB,
-                             view.sensor().mounting, view.sensor().scan.stabilised);
+  view.antenna = renderer::antenna_of(view.sensor(), view.pose);
   return view;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 
 #include "core/errors.h"
 #include "core/random.h"
@@ -20,39 +19,6 @@
 
 namespace fanbeam::renderer {
 namespace {
-
-// Rays along axes that are none end the process inside the ray caster.
-void check_axes(const glm::dmat3& north_east_down) {
-  constexpr const char* kField = "north, east and down";
-  constexpr double kRounding = 1e-6;
-  for (int i = 0; i < 9; ++i)
-    if (const double part = north_east_down[i / 3][i % 3]; !std::isfinite(part))
-      core::throw_input_error(core::ErrorClass::nonfinite, kField, part, "finite components");
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (const double product = glm::dot(north_east_down[i], north_east_down[j]);
-          !(std::abs(product - (i == j ? 1.0 : 0.0)) <= kRounding))
-        core::throw_input_error(core::ErrorClass::range, kField, product,
-                                "unit vectors at right angles");
-}
-
-void check_pose(const FramePose& pose) {
-  // Beyond 1000 km from the scene's origin a float inside the ray caster no longer resolves a range
-  // cell.
-  constexpr double kFarthest_m = 1.0e6;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!std::isfinite(pose.position_m[axis]))
-      core::throw_input_error(core::ErrorClass::nonfinite, "sensor position", pose.position_m[axis],
-                              "a finite coordinate");
-    if (std::abs(pose.position_m[axis]) > kFarthest_m)
-      core::throw_input_error(core::ErrorClass::range, "sensor position", pose.position_m[axis],
-                              "within 1000 km of the scene's origin");
-  }
-  check_axes(pose.north_east_down);
-  if (!std::isfinite(pose.time_s))
-    core::throw_input_error(core::ErrorClass::nonfinite, "pose time", pose.time_s,
-                            "a finite number of seconds");
-}
 
 std::unique_ptr<Caster> make_caster(const World& world, const Sampling& sampling) {
   if (sampling.caster == CasterKind::profile)
@@ -96,10 +62,9 @@ FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const
       threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {}
 
 Frame FrameRenderer::render(const FramePose& pose) const {
-  check_pose(pose);
+  check(pose);
   const sensors::Sensor& sensor = world_.sensor;
-  const sensors::AntennaFrame antenna = sensors::antenna_frame(
-      pose.position_m, pose.north_east_down, pose.q_NB, sensor.mounting, sensor.scan.stabilised);
+  const sensors::AntennaFrame antenna = antenna_of(sensor, pose);
   const bool elevation_resolved =
       products_.cscope &&
       sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
@@ -122,15 +87,15 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   }
   // Kept by the calling thread: fresh pages for megabytes of sums would cost a tenth of a frame.
   thread_local FanSums sums;
-  const std::vector<core::Echo> targets = unobstructed_echoes(world_, antenna, pose.time_s);
-  SightLines sight = sight_lines(world_, targets, pose.time_s);
+  const TargetEchoes targets = unobstructed_echoes(world_, antenna, pose.time_s);
+  SightLines sight = sight_lines(world_, targets.echoes, pose.time_s);
   frame.error = cast(antenna, elevation_resolved, sums, sight);
   if (effects_.rain_echo && world_.volume_echo)
     add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
   frame.rays = sums.rays;
   frame.slices = sums.slices;
   frame.blanked = sums.blanked;
-  frame.unprojected = unprojected_targets(world_, antenna, pose.time_s);
+  frame.unprojected = targets.unprojected;
   frame.bscope_W =
       apply_azimuth_beam(sums.range_W_per_rad, sums.cells, sums, sensor, sampling_.sub_columns);
   add_azimuth_side_lobes(sums.range_W_per_rad, sums.cells, sums, sensor, frame.bscope_W);
@@ -143,7 +108,8 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   const Multipath multipath = !effects_.multipath ? Multipath::none
                               : effects_.speckle  ? Multipath::coherent
                                                   : Multipath::mean;
-  const std::vector<core::Echo> echoes = seen_echoes(world_, antenna, targets, sight, multipath);
+  const std::vector<core::Echo> echoes =
+      seen_echoes(world_, antenna, targets.echoes, sight, multipath);
   receive(echoes, pose.frame_index, frame);
   if (sums.hits == 0 && echoes.empty()) frame.events.emplace_back("empty_view");
   display(height_above_ground_m, frame);

@@ -11,6 +11,7 @@
 #include "renderer/accuracy/refinement.h"
 #include "renderer/casting/caster.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/frame_pose.h"
 #include "renderer/plan/effects.h"
 #include "renderer/stages/double_bounce.h"
 #include "renderer/stages/range_response.h"
@@ -27,15 +28,6 @@ struct Products {
   bool cscope = true;
   bool detections = false;
   bool obstacles = false;
-};
-
-// The aircraft at one instant in scene axes.
-struct FramePose {
-  double time_s = 0.0;
-  std::uint32_t frame_index = 0;  // keys what is random in the frame
-  glm::dvec3 position_m{0.0};
-  glm::dmat3 north_east_down{1.0};  // columns: unit vectors at the aircraft
-  glm::dquat q_NB{1.0, 0.0, 0.0, 0.0};
 };
 
 // Arrays are row-major [row][column]; B-scope row 0 is the nearest range cell, C-scope row 0 the

@@ -35,6 +35,8 @@ struct PointTarget {
   core::Swerling swerling = core::Swerling::steady;
 
   glm::dvec3 position_at(double time_s) const;
+  // Of the leg that it is on, m/s; 0 before the first waypoint and from the last one.
+  glm::dvec3 velocity_at(double time_s) const;
 };
 
 struct World {

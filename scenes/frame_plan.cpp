@@ -51,8 +51,7 @@ renderer::SceneFacts frame_facts(const Scene& scene, int frame_index) {
   if (!scene.sight) throw core::InternalError("frame plans of a scene that was built without them");
   const sensors::Sensor& sensor = scene.description.sensor;
   const renderer::FramePose pose = scene.frame_pose(frame_index);
-  const sensors::AntennaFrame antenna = sensors::antenna_frame(
-      pose.position_m, pose.north_east_down, pose.q_NB, sensor.mounting, sensor.scan.stabilised);
+  const sensors::AntennaFrame antenna = renderer::antenna_of(sensor, pose);
   const SightMap::Seen seen = scene.sight->seen_from(antenna, sensor);
   renderer::FrameSight sight;
   sight.lowest_m = std::min(seen.lowest_ground_m, antenna.position_m.z);
@@ -60,7 +59,9 @@ renderer::SceneFacts frame_facts(const Scene& scene, int frame_index) {
   sight.mirrors = seen.mirrors;
   sight.mirrored_rays_end = seen.mirrored_rays_end;
   sight.ground_mirrors = seen.ground_mirrors;
-  for (const core::Echo& echo : renderer::unobstructed_echoes(scene.world, antenna, pose.time_s)) {
+  const renderer::TargetEchoes targets =
+      renderer::unobstructed_echoes(scene.world, antenna, pose.time_s);
+  for (const core::Echo& echo : targets.echoes) {
     const double height_m = scene.world.targets[echo.object_id].position_at(pose.time_s).z;
     sight.point_targets = true;
     sight.lowest_m = std::min(sight.lowest_m, height_m);

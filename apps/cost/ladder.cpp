@@ -28,9 +28,7 @@ void measure_frame(const CostBench& bench, int frame, const renderer::GreyRefere
                    std::vector<LadderStep>& ladder) {
   const renderer::World& world = bench.scene.world;
   const renderer::FramePose pose = bench.scene.frame_pose(frame);
-  const sensors::AntennaFrame antenna =
-      sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB,
-                             world.sensor.mounting, world.sensor.scan.stabilised);
+  const sensors::AntennaFrame antenna = renderer::antenna_of(world.sensor, pose);
   const renderer::ElevationSpan span = renderer::elevation_span(world, antenna);
   std::vector<FrameWork> works;
   const std::size_t first = ladder.size();

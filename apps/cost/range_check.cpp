@@ -47,9 +47,7 @@ double double_range_m(const terrain::RayScene& surfaces, const glm::dvec3& anten
 RangeCheck::RangeCheck(const renderer::World& world, const renderer::FramePose& pose,
                        const renderer::Sampling& sampling)
     : world_(world) {
-  const sensors::AntennaFrame antenna =
-      sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB,
-                             world.sensor.mounting, world.sensor.scan.stabilised);
+  const sensors::AntennaFrame antenna = renderer::antenna_of(world.sensor, pose);
   antenna_m_ = antenna.position_m;
   packets_ = renderer::RayCaster(world, sampling).packets(antenna);
 }

@@ -176,7 +176,7 @@ void add_targets(const World& world, const sensors::AntennaFrame& antenna, const
     const PointTarget& target = world.targets[echo.object_id];
     const glm::dvec3 line_m = target.position_at(pose.time_s) - antenna.position_m;
     echo.radial_speed_mps = glm::dot(glm::normalize(line_m),
-                                     velocity_mps(target, pose.time_s) - settings.own_velocity_mps);
+                                     target.velocity_at(pose.time_s) - settings.own_velocity_mps);
     if (settings.swerling)
       echo.power_W *= target_factor(target.swerling, fluctuation, echo.object_id, 0, 0);
     // All echoes of a target by way of the ground share its phase.
@@ -188,23 +188,12 @@ void add_targets(const World& world, const sensors::AntennaFrame& antenna, const
 
 }  // namespace
 
-glm::dvec3 velocity_mps(const PointTarget& target, double time_s) {
-  for (std::size_t i = 0; i + 1 < target.path.size(); ++i) {
-    const PointTarget::Waypoint& from = target.path[i];
-    const PointTarget::Waypoint& to = target.path[i + 1];
-    if (time_s >= from.time_s && time_s < to.time_s)
-      return (to.position_m - from.position_m) / (to.time_s - from.time_s);
-  }
-  return glm::dvec3(0.0);
-}
-
 FrameEchoes frame_echoes(const World& world, const FramePose& pose,
                          const FrameEchoSettings& settings) {
   check(settings);
-  const sensors::Sensor& sensor = world.sensor;
-  const sensors::AntennaFrame antenna = sensors::antenna_frame(
-      pose.position_m, pose.north_east_down, pose.q_NB, sensor.mounting, sensor.scan.stabilised);
-  const Columns columns = columns_of(sensor, settings);
+  check(pose);
+  const sensors::AntennaFrame antenna = antenna_of(world.sensor, pose);
+  const Columns columns = columns_of(world.sensor, settings);
   const SurfaceCaster caster(world, antenna, settings, pose.frame_index);
   std::vector<Scatterers> found(static_cast<std::size_t>(columns.count));
   core::parallel_for(found.size(), [&](std::size_t i) {

@@ -18,7 +18,7 @@
 // the fan, acceleration within a frame, rotation of the antenna (its lever arm), coherence from
 // frame to frame, refraction. Rays that see the back of a facet bring nothing.
 // Accuracy: with n rays in a cell the cell's power scatters by about 1/sqrt(n) of what varies
-// inside it; ranges are those of the ray caster (floats, 15 mm at most within 10 km): a phase must
+// inside it; ranges are those of the ray caster (ray_scene.h: floats, 25 mm at most within 10 km): a phase must
 // not be worked out from them between rays, which is why it is drawn.
 // Cost: about 1 us a ray on one thread. Same result for any number of threads.
 #pragma once
@@ -29,7 +29,7 @@
 
 #include "core/echo.h"
 #include "renderer/casting/sampling.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame_pose.h"
 #include "renderer/stages/ground_multipath.h"
 #include "renderer/world.h"
 
@@ -56,11 +56,9 @@ struct FrameEchoes {
 };
 
 // Echoes inside the sensor's range gate with power above 0. Throws InputError: E-NONFINITE for a
-// velocity that is not finite, E-RANGE for passes and a half fan (0 to pi) out of range.
+// velocity that is not finite, E-RANGE for passes and a half fan (0 to pi) out of range, and what
+// check(FramePose) throws.
 FrameEchoes frame_echoes(const World& world, const FramePose& pose,
                          const FrameEchoSettings& settings);
-
-// Of the leg that the target is on at `time_s`; 0 before the first waypoint and from the last one.
-glm::dvec3 velocity_mps(const PointTarget& target, double time_s);
 
 }  // namespace fanbeam::renderer

@@ -12,33 +12,48 @@
 #include "sensors/cells.h"
 
 namespace fanbeam::renderer {
+namespace {
+
+// The waypoint that ends the leg at a time between the first and the last waypoint.
+auto end_of_leg(const std::vector<PointTarget::Waypoint>& path, double time_s) {
+  return std::upper_bound(path.begin(), path.end(), time_s,
+                          [](double time, const auto& waypoint) { return time < waypoint.time_s; });
+}
+
+}  // namespace
+
 glm::dvec3 PointTarget::position_at(double time_s) const {
   if (time_s <= path.front().time_s) return path.front().position_m;
   if (time_s >= path.back().time_s) return path.back().position_m;
-  const auto after = std::upper_bound(
-      path.begin(), path.end(), time_s,
-      [](double time, const Waypoint& waypoint) { return time < waypoint.time_s; });
-  const Waypoint& a = *(after - 1);
-  const Waypoint& b = *after;
-  return a.position_m +
-         (b.position_m - a.position_m) * ((time_s - a.time_s) / (b.time_s - a.time_s));
+  const auto b = end_of_leg(path, time_s), a = b - 1;
+  return a->position_m +
+         (b->position_m - a->position_m) * ((time_s - a->time_s) / (b->time_s - a->time_s));
+}
+
+glm::dvec3 PointTarget::velocity_at(double time_s) const {
+  if (time_s < path.front().time_s || time_s >= path.back().time_s) return glm::dvec3(0.0);
+  const auto b = end_of_leg(path, time_s), a = b - 1;
+  return (b->position_m - a->position_m) / (b->time_s - a->time_s);
 }
 
 namespace {
 
+// Counts a target that has no direction.
 std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFrame& antenna,
-                                  double time_s, std::size_t index) {
+                                  double time_s, std::size_t index, std::uint64_t& unprojected) {
   const sensors::Sensor& sensor = world.sensor;
   const sensors::Antenna& beams = sensor.antenna;
   const PointTarget& target = world.targets[index];
   const glm::dvec3 position_m = target.position_at(time_s);
   const glm::dvec3 path_m = position_m - antenna.position_m;
+  const auto angles = sensors::angles(antenna, path_m, sensor.scan.surface);
+  if (!angles) {
+    ++unprojected;
+    return std::nullopt;
+  }
   const double range_m = glm::length(path_m);
   if (range_m < sensor.range.minimum_m || range_m >= sensor.range.maximum_m()) return std::nullopt;
-  if (!(range_m > 0.0)) return std::nullopt;  // at the antenna: no direction
   const glm::dvec3 direction = path_m / range_m;
-  const auto angles = sensors::angles(antenna, direction, sensor.scan.surface);
-  if (!angles) return std::nullopt;
   const double reach_rad = sensor.scan.field_of_view_rad / 2 + sensors::reach_rad(beams.azimuth);
   if (std::abs(angles->azimuth_rad) > reach_rad) return std::nullopt;
   const double elevation_gain = sensors::two_way_gain_with_side_lobes(
@@ -89,22 +104,13 @@ class CellSums {
 
 }  // namespace
 
-std::vector<core::Echo> unobstructed_echoes(const World& world,
-                                            const sensors::AntennaFrame& antenna, double time_s) {
-  std::vector<core::Echo> echoes;
+TargetEchoes unobstructed_echoes(const World& world, const sensors::AntennaFrame& antenna,
+                                 double time_s) {
+  TargetEchoes found;
   for (std::size_t i = 0; i < world.targets.size(); ++i)
-    if (const auto echo = echo_of(world, antenna, time_s, i)) echoes.push_back(*echo);
-  return echoes;
-}
-
-std::uint64_t unprojected_targets(const World& world, const sensors::AntennaFrame& antenna,
-                                  double time_s) {
-  const auto count =
-      std::count_if(world.targets.begin(), world.targets.end(), [&](const PointTarget& target) {
-        return !sensors::angles(antenna, target.position_at(time_s) - antenna.position_m,
-                                world.sensor.scan.surface);
-      });
-  return static_cast<std::uint64_t>(count);
+    if (const auto echo = echo_of(world, antenna, time_s, i, found.unprojected))
+      found.echoes.push_back(*echo);
+  return found;
 }
 
 SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes, double time_s) {
@@ -133,7 +139,7 @@ std::vector<core::Echo> seen_echoes(const World& world, const sensors::AntennaFr
 
 std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaFrame& antenna,
                                      double time_s, Multipath multipath) {
-  const std::vector<core::Echo> echoes = unobstructed_echoes(world, antenna, time_s);
+  const std::vector<core::Echo> echoes = unobstructed_echoes(world, antenna, time_s).echoes;
   SightLines sight = sight_lines(world, echoes, time_s);
   sight.clear.assign(sight.to_m.size(), kAskRays);
   look_along_rays(*world.surfaces, antenna.position_m, sight);

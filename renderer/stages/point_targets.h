@@ -18,16 +18,18 @@
 
 namespace fanbeam::renderer {
 
-// Echoes of all targets at `time_s` in front of the antenna and inside the range gate as if nothing
-// stood between, with power at azimuth gain 1; `object_id` is the target's index; the radial speed
-// is left at 0. Sorted as the targets are.
-std::vector<core::Echo> unobstructed_echoes(const World& world,
-                                            const sensors::AntennaFrame& antenna, double time_s);
+struct TargetEchoes {
+  // With power at azimuth gain 1; `object_id` is the target's index; the radial speed is left at 0.
+  // Sorted as the targets are.
+  std::vector<core::Echo> echoes;
+  // Targets without a direction in the antenna's frame: abeam of it, behind it or at it.
+  std::uint64_t unprojected = 0;
+};
 
-// How many targets at `time_s` have no direction in the antenna's frame: abeam of it, behind it or
-// at it. They have no echo.
-std::uint64_t unprojected_targets(const World& world, const sensors::AntennaFrame& antenna,
-                                  double time_s);
+// Of all targets at `time_s` in front of the antenna and inside the range gate, as if nothing stood
+// between.
+TargetEchoes unobstructed_echoes(const World& world, const sensors::AntennaFrame& antenna,
+                                 double time_s);
 
 // Lines of sight to the targets of `echoes`, to be answered by a caster.
 SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes, double time_s);

@@ -42,11 +42,7 @@ std::vector<Sight> flight_of(const Scene& scene, const Ground& ground) {
   const sensors::Sensor& sensor = scene.description.sensor;
   std::vector<Sight> flight;
   for (int frame = 0; frame < scene.frame_count(); ++frame) {
-    const renderer::FramePose pose = scene.frame_pose(frame);
-    Sight sight{frame,
-                sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB,
-                                       sensor.mounting, sensor.scan.stabilised),
-                0.0};
+    Sight sight{frame, renderer::antenna_of(sensor, scene.frame_pose(frame)), 0.0};
     const glm::dvec3& at_m = sight.antenna.position_m;
     sight.above_ground_m = at_m.z - ground.field().height_at(at_m.x, at_m.y).value_or(at_m.z);
     flight.push_back(std::move(sight));

@@ -153,9 +153,9 @@ TEST_CASE("Radial speeds of echoes are those of kinematics", "[frame_echoes]") {
   // (10, 10, 0) less (0, 70, -3) along (0, 1000, -10).
   CHECK(found.echoes.back().radial_speed_mps ==
         Approx((-60.0 * 1000.0 + 3.0 * -10.0) / range_m).epsilon(1e-12));
-  CHECK(renderer::velocity_mps(world.targets[0], 4.999) == glm::dvec3(10.0, 10.0, 0.0));
-  CHECK(renderer::velocity_mps(world.targets[0], 5.0) == glm::dvec3(0.0));
-  CHECK(renderer::velocity_mps(world.targets[0], -0.001) == glm::dvec3(0.0));
+  CHECK(world.targets[0].velocity_at(4.999) == glm::dvec3(10.0, 10.0, 0.0));
+  CHECK(world.targets[0].velocity_at(5.0) == glm::dvec3(0.0));
+  CHECK(world.targets[0].velocity_at(-0.001) == glm::dvec3(0.0));
 }
 
 TEST_CASE("Echoes of a frame do not depend on threads, and differ from frame to frame",
