@@ -13,6 +13,8 @@
 #include "apps/cost/effect_prices.h"
 #include "apps/cost/frame_work.h"
 #include "apps/cost/ladder.h"
+#include "apps/cost/levels.h"
+#include "apps/cost/levels_report.h"
 #include "apps/cost/numerics.h"
 #include "apps/cost/turns.h"
 #include "apps/frame_choice.h"
@@ -83,22 +85,25 @@ void write(const CostFigures& figures, const fs::path& folder) {
     core::write_file_atomically(folder / "effects.csv", effects_csv(figures));
   if (!figures.numerics.variants.empty())
     core::write_file_atomically(folder / "numerics.csv", numerics_csv(figures));
+  if (!figures.levels.empty())
+    core::write_file_atomically(folder / "levels.csv", levels_csv(figures));
   if (!figures.ladder.empty()) {
     write_plots(ladder_plot(figures, false), folder, "ladder");
     write_plots(ladder_plot(figures, true), folder, "ladder-cscope");
   }
   if (!figures.effects.empty()) write_plots(effects_plot(figures), folder, "effects");
+  if (!figures.levels.empty()) write_plots(levels_plot(figures), folder, "levels");
 }
 
 struct Parts {
-  bool ladder, effects, numerics;
+  bool ladder, effects, numerics, levels;
 };
 
 Parts parts_of(const CostOptions& options) {
   const auto asked = [&](const char* part) {
     return std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
   };
-  return {asked("ladder"), asked("effects"), asked("numerics")};
+  return {asked("ladder"), asked("effects"), asked("numerics"), asked("levels")};
 }
 
 double expected_s(const CostBench& bench, const Parts& parts) {
@@ -109,6 +114,7 @@ double expected_s(const CostBench& bench, const Parts& parts) {
   if (parts.ladder) total_s += frames * bench.pace.ladder_s(bench.effort);
   if (parts.effects) total_s += effects_s(bench);
   if (parts.numerics) total_s += numerics_s(bench);
+  if (parts.levels && why_no_levels(bench).empty()) total_s += levels_s(bench);
   return total_s;
 }
 
@@ -119,6 +125,9 @@ void measure(const CostBench& bench, const Parts& parts, CostFigures& figures) {
     if (parts.numerics) figures.numerics = measure_numerics(bench, references);
   }
   if (parts.effects) figures.effects = measure_effects(bench);
+  if (!parts.levels) return;
+  figures.why_no_levels = why_no_levels(bench);
+  if (figures.why_no_levels.empty()) figures.levels = measure_levels(bench);
 }
 
 CostFigures head_of(const CostBench& bench, const CostOptions& options, int threads) {
@@ -167,9 +176,7 @@ CostEffort effort_of(const CostOptions& options) {
 int cost(const CostOptions& options, const CommonOptions& common) {
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
-  const scenes::SceneDescription description =
-      scenes::read_scene(find_scene(options.scene),
-                         {shipped_folder(), data_folders(options.data), options.sensor}, problems);
+  const scenes::SceneDescription description = read_chosen_scene(options, problems);
   scenes::BuildOptions build;
   build.caster = renderer::CasterWish::automatic;  // tells whether there are slices
   if (options.caster == renderer::name_of(renderer::CasterWish::profile))
@@ -187,8 +194,17 @@ int cost(const CostOptions& options, const CommonOptions& common) {
     core::ProblemList known;
     return scenes::build_scene(description, other, known);
   };
+  const auto with_sensor = [&](const sensors::Sensor& sensor) {
+    core::ProblemList known;
+    scenes::SceneDescription other = description;
+    other.sensor = sensor;
+    scenes::BuildOptions rays;
+    rays.caster = renderer::CasterWish::rays;
+    return scenes::build_scene(other, rays, known);
+  };
   const CostBench bench{*scene,
                         rebuild,
+                        with_sensor,
                         build,
                         effort_of(options),
                         measure_pace(*scene, frames.front(), slices),

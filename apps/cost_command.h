@@ -5,22 +5,21 @@
 #include <vector>
 
 #include "apps/common.h"
+#include "apps/scene_choice.h"
 
 namespace fanbeam::apps {
 
-struct CostOptions {
-  std::string scene = "braunschweig-26";
+struct CostOptions : SceneChoice {
   std::string output;  // default out/<scene name>-cost
   std::string frames;  // as RenderOptions::frames; empty: two, spread over the trajectory
-  std::vector<std::string> parts = {"ladder", "effects", "numerics"};
-  std::string caster;  // of the effects' frames; empty: the scene's
-  std::string sensor, data;
+  std::vector<std::string> parts = {"ladder", "effects", "numerics", "levels"};
+  std::string caster;   // of the effects' frames; empty: the scene's
   int repetitions = 0;  // 0: 20, or 3 with `quick`
   int threads = 0;
   bool quick = false;
 };
 
-// Writes ladder.csv, equal_error.csv, effects.csv, numerics.csv, plots as SVG and PNG, and cost.md.
+// Writes ladder.csv, equal_error.csv, effects.csv, numerics.csv, levels.csv, plots as SVG and PNG, and cost.md.
 // Returns an exit code; throws InputError for bad input.
 int cost(const CostOptions& options, const CommonOptions& common);
 

@@ -13,22 +13,20 @@ void add_cost_command(CLI::App& app, CostOptions& options, CommonOptions& common
       "Takes minutes: converged pictures come first, some 10 s each on two cores. Leave the "
       "machine "
       "alone meanwhile.");
-  command
-      .add_option("SCENE", options.scene,
-                  "A folder with scene.toml, that file, or the name of a shipped scene")
-      ->capture_default_str();
+  add_scene_choice(command, options);
   command.add_option("-o,--output", options.output,
                      "Folder to write to (default out/<scene name>-cost)");
   command.add_option("--frames", options.frames,
                      "A:B[:STEP], counted like a Python slice, or one frame (default: two, at a "
                      "quarter and at three quarters of the approach)");
   command
-      .add_option("--parts", options.parts,
-                  "What to measure: ladder (error against time of every way of sampling), effects "
-                  "(each left out or forced on), numerics (range in float or double, robust flag, "
-                  "sub-columns of the beam)")
+      .add_option(
+          "--parts", options.parts,
+          "What to measure: ladder (error against time of every way of sampling), effects "
+          "(each left out or forced on), numerics (range in float or double, robust flag, "
+          "sub-columns of the beam), levels (the B-scope from powers and from beat signals)")
       ->delimiter(',')
-      ->check(CLI::IsMember({"ladder", "effects", "numerics"}))
+      ->check(CLI::IsMember({"ladder", "effects", "numerics", "levels"}))
       ->capture_default_str();
   command
       .add_option("--repetitions", options.repetitions,
@@ -42,11 +40,8 @@ void add_cost_command(CLI::App& app, CostOptions& options, CommonOptions& common
                   "Way to sample the frames in which effects are measured (default: the scene's, "
                   "else rays)")
       ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
-  command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(0, 1024));
-  command.add_option("--data", options.data,
-                     "Folder with terrain and flight data (before FANBEAM_DATA)");
   add_common_options(command, common);
 }
 

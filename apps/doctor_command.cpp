@@ -100,10 +100,7 @@ void add_unreached(const scenes::Scene& scene, Findings& findings) {
 
 int examine_scene(const DoctorOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
-  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data),
-                                           options.sensor};
-  const scenes::SceneDescription description =
-      scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  const scenes::SceneDescription description = read_chosen_scene(options, problems);
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);

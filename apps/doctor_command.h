@@ -4,13 +4,11 @@
 #include <string>
 
 #include "apps/common.h"
+#include "apps/scene_choice.h"
 
 namespace fanbeam::apps {
 
-struct DoctorOptions {
-  std::string scene = "braunschweig-26";
-  std::string sensor;
-  std::string data;
+struct DoctorOptions : SceneChoice {
   std::string json;  // file to write as well; empty for none
   double accuracy_grey = 0.5;
   bool measure = false;  // refine frames to see whether the accuracy can be reached

@@ -9,10 +9,7 @@ namespace fanbeam::apps {
 void add_doctor_command(CLI::App& app, DoctorOptions& options, CommonOptions& common) {
   CLI::App& command = *app.add_subcommand(
       "doctor", "Tell what makes a scene numerically delicate, why it matters and what to do");
-  command
-      .add_option("SCENE", options.scene,
-                  "A folder with scene.toml, that file, or the name of a shipped scene")
-      ->capture_default_str();
+  add_scene_choice(command, options);
   command.add_option("--json", options.json, "Write the findings to this file as well");
   command
       .add_option("--accuracy", options.accuracy_grey,
@@ -22,9 +19,6 @@ void add_doctor_command(CLI::App& app, DoctorOptions& options, CommonOptions& co
   command.add_flag("--measure", options.measure,
                    "Refine three frames to the accuracy as well and tell where it is not reached; "
                    "takes up to minutes");
-  command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
-  command.add_option("--data", options.data,
-                     "Folder with terrain and flight data (before FANBEAM_DATA)");
   add_common_options(command, common);
   command.footer(
       "Exit codes: 0 nothing worse than delicate, 1 something is wrong, 3 invalid input");

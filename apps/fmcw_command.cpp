@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "apps/fmcw/bscope_product.h"
 #include "apps/fmcw/products.h"
 #include "apps/fmcw/record.h"
 #include "apps/frame_choice.h"
@@ -30,6 +31,9 @@ double ms_since(Clock::time_point& begin) {
   return ms;
 }
 
+// The product that has its own sweeps, one a column, and needs nothing of the radar's chain.
+constexpr const char* kScan = "bscope";
+
 // Only samples where the waveform has no maps; asking for more is refused.
 std::set<std::string> chosen_products(const std::string& text, const FmcwRadar& radar) {
   if (text.empty() && !radar.maps) return {"beat"};
@@ -44,9 +48,9 @@ std::set<std::string> chosen_products(const std::string& text, const FmcwRadar& 
     if (std::find(known.begin(), known.end(), name) == known.end())
       core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
                               fmt::format("a list of {}", fmt::join(known, ", ")));
-    if (name != "beat" && !radar.maps)
+    if (name != "beat" && name != kScan && !radar.maps)
       core::throw_input_error(core::ErrorClass::unsupported, "--products", "\"" + name + "\"",
-                              "beat: maps and detections need a chirp sequence");
+                              "beat or bscope: maps and detections need a chirp sequence");
     products.insert(name);
   }
   return products;
@@ -61,7 +65,8 @@ class Run {
         scene_(scene),
         threads_(threads),
         frames_(parse_frames(options.frames, scene.frame_count())),
-        radar_(fmcw_radar(options, scene.description.sensor)),
+        radar_(options.products == kScan ? FmcwRadar{}
+                                         : fmcw_radar(options, scene.description.sensor)),
         products_(chosen_products(options.products, radar_)),
         folder_(options.output.empty() ? fs::path("out") / (scene.description.name + "-fmcw")
                                        : fs::path(options.output)) {}
@@ -74,7 +79,7 @@ class Run {
       progress.step(static_cast<int>(records_.size()));
     }
     core::write_file_atomically(folder_ / "run.json",
-                                fmcw_run_json(scene_, options_, radar_, azimuths_rad_, records_));
+                                fmcw_run_json(scene_, options_, radar_, records_));
     core::write_file_atomically(folder_ / "timing.json",
                                 fmcw_timing_json(threads_, scene_.build_s, records_));
   }
@@ -83,10 +88,16 @@ class Run {
     if (common_.quiet) return;
     for (const FmcwFrameRecord& frame : records_) {
       print_problems(frame.warnings);
+      if (frame.scan)
+        fmt::print("frame {}: B-scope of {} {}, {} scatterers from {} rays; {:.0f} ms\n",
+                   frame.index, frame.scan->looks, frame.scan->looks == 1 ? "look" : "looks",
+                   frame.scan->scatterers, frame.scan->rays, frame.scan->ms);
+      if (!runs_chain()) continue;
       fmt::print("frame {}: {} paths from {} rays, {} synthesis", frame.index, frame.paths,
                  frame.rays, frame.keystone ? "keystone" : "direct");
-      if (radar_.maps)
-        fmt::print(", {} detections in {} clusters", frame.detections, frame.clusters);
+      if (frame.found)
+        fmt::print(", {} detections in {} clusters", frame.found->detections,
+                   frame.found->clusters);
       fmt::print("; echoes {:.0f} ms, signal {:.0f} ms, files {:.0f} ms\n", frame.echoes_ms,
                  frame.signal_ms, frame.writing_ms);
     }
@@ -98,13 +109,33 @@ class Run {
   }
 
  private:
+  bool runs_chain() const { return products_ != std::set<std::string>{kScan}; }
+
   void process(int index) {
+    FmcwFrameRecord record;
+    if (runs_chain()) record = chain(index);
+    record.index = index;
+    record.time_s =
+        scene_.trajectory.frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
+    if (products_.contains(kScan)) record.scan = scan(index);
+    records_.push_back(std::move(record));
+  }
+
+  FmcwScanCounts scan(int index) const {
+    Clock::time_point begin = Clock::now();
+    const SignalBscope bscope = fmcw_bscope(scene_, index, options_);
+    const double ms = ms_since(begin);
+    write_bscope(folder_, scene_.description.sensor, index, bscope);
+    return {bscope.looks,           bscope.rays,    bscope.scatterers,
+            bscope.phase_noise_rad, bscope.clipped, ms};
+  }
+
+  FmcwFrameRecord chain(int index) const {
     Clock::time_point begin = Clock::now();
     const FmcwPaths paths = fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
-    const bool with_maps = radar_.maps && products_ != std::set<std::string>{"beat"};
     const FmcwFrame frame =
-        fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, with_maps);
+        fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, products_);
     const double signal_ms = ms_since(begin);
     FmcwFrameRecord record = fmcw_record(scene_, index, paths, frame);
     write_fmcw_products(folder_, products_, radar_, frame,
@@ -112,8 +143,7 @@ class Run {
     record.echoes_ms = echoes_ms;
     record.signal_ms = signal_ms;
     record.writing_ms = ms_since(begin);
-    azimuths_rad_ = frame.azimuths_rad;
-    records_.push_back(std::move(record));
+    return record;
   }
 
   const FmcwOptions& options_;
@@ -124,7 +154,6 @@ class Run {
   FmcwRadar radar_;
   std::set<std::string> products_;
   fs::path folder_;
-  std::vector<double> azimuths_rad_;
   std::vector<FmcwFrameRecord> records_;
 };
 

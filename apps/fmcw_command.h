@@ -11,13 +11,15 @@
 
 namespace fanbeam::apps {
 
-inline constexpr std::array<Product, 6> kFmcwProducts = {
+inline constexpr std::array<Product, 8> kFmcwProducts = {
     {{"beat", "samples, NPY"},
+     {"spectrum", "power against range of one receiver, PNG and CSV"},
      {"cube", "range, speed and azimuth, complex, NPY"},
      {"range-doppler", "map, PNG and EXR"},
      {"range-azimuth", "map, PNG and EXR"},
      {"top-view", "map, PNG and EXR"},
-     {"detections", "with clusters, CSV and JSON"}}};
+     {"detections", "with clusters, CSV and JSON"},
+     {"bscope", "the sensor's picture from one sweep a column, PNG and EXR"}}};
 
 inline constexpr const char* kAutomotive = "automotive-76ghz";
 inline constexpr std::size_t kMostDirectPaths = 20'000;
@@ -34,6 +36,7 @@ struct FmcwOptions {
   int transmitters = 3, receivers = 4;
   double false_alarm_probability = 1e-6;
   double rays_per_cell = 1.0;
+  int looks = 0;  // of the B-scope; 0: the sensor's
   double dynamic_range_dB = 60.0;
   double line_width_Hz = 0.0;  // of the oscillator; 0: no phase noise
   int adc_bits = 0;            // 0: no quantiser

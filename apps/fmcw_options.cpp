@@ -79,6 +79,10 @@ void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common
       ->check(number_from(0.1, 1000.0))
       ->capture_default_str();
   command
+      .add_option("--looks", options.looks,
+                  "Sweeps per column of the B-scope, their powers averaged (default: the sensor's)")
+      ->check(CLI::Range(1, 100000));
+  command
       .add_option("--dynamic-range", options.dynamic_range_dB,
                   "Of the pictures' colours, dB from the noise up")
       ->check(number_from(1.0, 300.0))

@@ -14,7 +14,8 @@ namespace {
 
 constexpr int kPpiSize_px = 700;
 
-// Rows of a B-scope array [cell][column] turned so that the farthest range is on top.
+}  // namespace
+
 std::vector<double> farthest_on_top(const std::vector<double>& values, int columns) {
   std::vector<double> turned;
   turned.reserve(values.size());
@@ -24,8 +25,6 @@ std::vector<double> farthest_on_top(const std::vector<double>& values, int colum
   }
   return turned;
 }
-
-}  // namespace
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,
                                  int index) {

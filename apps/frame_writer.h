@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "core/image.h"
 #include "renderer/frame_renderer.h"
@@ -34,6 +35,9 @@ using ProductSet = std::set<std::string>;
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,
                                  int index);
+
+// Rows of a B-scope array [cell][column] turned so that the farthest range is on top.
+std::vector<double> farthest_on_top(const std::vector<double>& values, int columns);
 
 // The B-scope and the C-scope side by side, each pixel doubled in width.
 core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& right);

@@ -66,7 +66,9 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 1 comparison failed, 2 usage, 3 invalid input, 4 input/output, 5 bug\n"
-      "doctor: 1 something is wrong; render stopped by Ctrl-C or kill: 130 or 143, as the signal");
+      "doctor: 1 something is wrong; render and fmcw stopped by Ctrl-C or kill: 130 or 143, as "
+      "the\n"
+      "signal");
 
   CommonOptions common;
   RenderOptions render_options;

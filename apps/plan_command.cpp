@@ -61,10 +61,7 @@ int explain_plan(const PlanOptions& options, const CommonOptions& common) {
   build.accuracy_grey = options.accuracy_grey;
   build.frame_plans = options.per_frame;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
-  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data),
-                                           options.sensor};
-  const scenes::SceneDescription description =
-      scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  const scenes::SceneDescription description = read_chosen_scene(options, problems);
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
   if (!common.quiet) print_problems(problems.all());
   const std::vector<int> frames = parse_frames(options.frames, scene->frame_count());

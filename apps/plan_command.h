@@ -4,14 +4,12 @@
 #include <string>
 
 #include "apps/common.h"
+#include "apps/scene_choice.h"
 
 namespace fanbeam::apps {
 
-struct PlanOptions {
-  std::string scene = "braunschweig-26";
+struct PlanOptions : SceneChoice {
   std::string frames;  // as of fanbeam render; those looked at with per_frame and measure
-  std::string sensor;
-  std::string data;
   std::string effects;
   double accuracy_grey = 0.5;
   int threads = 0;

@@ -9,10 +9,7 @@ namespace fanbeam::apps {
 void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common) {
   CLI::App& command = *app.add_subcommand(
       "plan", "Tell which effects a scene calls for, why, how much each can change, and its cost");
-  command
-      .add_option("SCENE", options.scene,
-                  "A folder with scene.toml, that file, or the name of a shipped scene")
-      ->capture_default_str();
+  add_scene_choice(command, options);
   command.add_flag("--json", options.json, "The same as JSON (docs/plan.md has its keys)");
   command
       .add_option("--accuracy", options.accuracy_grey,
@@ -33,9 +30,6 @@ void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common
                   "Frames for --per-frame and --measure: A:B[:STEP], counted like a Python slice, "
                   "or one frame")
       ->default_str("all");
-  command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
-  command.add_option("--data", options.data,
-                     "Folder with terrain and flight data (before FANBEAM_DATA)");
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(0, 1024));
   command.add_option("--repetitions", options.repetitions, "Of each measured frame")

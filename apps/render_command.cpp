@@ -229,10 +229,7 @@ int render(const RenderOptions& options, const CommonOptions& common) {
   ProductSet products = parse_products(options.products);
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
-  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data),
-                                           options.sensor};
-  scenes::SceneDescription description =
-      scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  scenes::SceneDescription description = read_chosen_scene(options, problems);
   if (!options.realisation.empty()) description.sample = options.realisation == "sample";
   scenes::BuildOptions build;
   build.frame_plans = options.plan_per_frame;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "apps/common.h"
+#include "apps/scene_choice.h"
 
 namespace fanbeam::apps {
 
@@ -23,13 +24,10 @@ inline constexpr std::array<Product, 9> kProducts = {{{"bscope", "range over azi
                                                       {"obstacles", "CSV, heights from shadows"},
                                                       {"preview", "video"}}};
 
-struct RenderOptions {
-  std::string scene = "braunschweig-26";
+struct RenderOptions : SceneChoice {
   std::string output;  // default out/<scene name>
   std::string frames;  // "A:B[:STEP]", like a Python slice
   std::string products = "bscope,cscope";
-  std::string sensor;
-  std::string data;
   std::string effects;
   std::string realisation;  // "mean" or "sample"; empty: the scene's
   std::string preview_format = "mp4";

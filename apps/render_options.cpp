@@ -91,16 +91,12 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
 void add_render_command(CLI::App& app, RenderOptions& options, CommonOptions& common) {
   CLI::App& command =
       *app.add_subcommand("render", "Render a scene's approach to B-scope and C-scope pictures");
-  command
-      .add_option("SCENE", options.scene,
-                  "A folder with scene.toml, that file, or the name of a shipped scene")
-      ->capture_default_str();
+  add_scene_choice(command, options);
   command.add_option("-o,--output", options.output,
                      "Folder to write to (default out/<scene name>)");
   command.add_option("--frames", options.frames,
                      "A:B[:STEP], counted like a Python slice, or one frame");
   command.add_option("--products", options.products, products_help())->capture_default_str();
-  command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
       ->check(CLI::Range(0, 1024));
   add_sampling(command, options);
@@ -113,8 +109,6 @@ void add_render_command(CLI::App& app, RenderOptions& options, CommonOptions& co
   command.add_option("--preview-format", options.preview_format, "Form of the preview")
       ->check(CLI::IsMember({"mp4", "gif", "apng"}))
       ->capture_default_str();
-  command.add_option("--data", options.data,
-                     "Folder with terrain and flight data (before FANBEAM_DATA)");
   add_common_options(command, common);
 }
 

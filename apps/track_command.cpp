@@ -6,8 +6,12 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "apps/track/plots.h"
+#include "apps/track/study.h"
+#include "core/decibel.h"
 #include "core/files.h"
 #include "scenes/highway_reader.h"
+#include "tracking/simulation/sampled_frame.h"
 #include "tracking/simulation/scenario_run.h"
 #include "tracking/tracker/track_geometry.h"
 
@@ -18,9 +22,11 @@ namespace fs = std::filesystem;
 
 tracking::SimulationSettings simulation_of(const TrackOptions& options) {
   tracking::SimulationSettings settings;
-  settings.scheme = options.scheme == "triangle"     ? tracking::Scheme::triangle
-                    : options.scheme == "two-slopes" ? tracking::Scheme::two_slopes
-                                                     : tracking::Scheme::two_stage;
+  settings.scheme = options.scheme == "triangle"          ? tracking::Scheme::triangle
+                    : options.scheme == "sorted-triangle" ? tracking::Scheme::sorted_triangle
+                    : options.scheme == "two-slopes"      ? tracking::Scheme::two_slopes
+                    : options.scheme == "coded"           ? tracking::Scheme::coded
+                                                          : tracking::Scheme::two_stage;
   settings.detection_probability = options.detection_probability;
   settings.false_per_frame = options.false_per_frame;
   return settings;
@@ -32,11 +38,11 @@ tracking::TrackerSettings tracker_of(const TrackOptions& options,
   tracking::TrackerSettings settings = tracking::road_tracker(radar, radar_speed_mps);
   if (options.association == "joint") settings.association = tracking::Association::joint;
   // Never certain, so that a miss does not cost infinitely much.
-  settings.joint.detection_probability = std::clamp(options.detection_probability, 0.05, 0.98);
-  const double space =
-      radar.most_range_m * 2.0 * simulation.most_speed_mps * 2.0 * radar.most_azimuth_rad;
-  settings.joint.clutter_density =
-      std::max(settings.joint.clutter_density, options.false_per_frame / space);
+  settings.detection.detection_probability = std::clamp(options.detection_probability, 0.05, 0.98);
+  const double angles = settings.motion.axes() == 1 ? 1.0 : 2.0 * radar.most_azimuth_rad;
+  const double space = radar.most_range_m * 2.0 * simulation.most_speed_mps * angles;
+  settings.detection.clutter_density =
+      std::max(settings.detection.clutter_density, options.false_per_frame / space);
   return settings;
 }
 
@@ -51,35 +57,106 @@ void check_id(const std::string& id) {
                             "1 to 64 letters, digits, - and _");
 }
 
-struct Tables {
+struct Outcome {
+  tracking::ScenarioScore score;
+  TrackHistory history;
   std::string tracks =
       "time_s,track,confirmed,x_m,y_m,vx_mps,vy_mps,range_m,range_rate_mps,azimuth_rad,moving,"
       "identity_probability,target\n";
   std::string measurements = "time_s,range_m,range_rate_mps,azimuth_rad\n";
+  // Of the last frame.
+  tracking::ScenarioFrame last;
+  std::vector<tracking::Track> tracks_at_end;
+  std::vector<tracking::Crossing> crossings;
+  int skipped_updates = 0;
+  double measuring_s = 0.0, tracking_s = 0.0;
 };
 
+// Of a track along one axis: all of it lies ahead.
+std::array<double, 4> on_the_road(const tracking::Track& track) {
+  const tracking::Gaussian state = combined(track.state);
+  if (track.state.axes == 1) return {state.mean[0], 0.0, state.mean[1], 0.0};
+  return {state.mean[0], state.mean[1], state.mean[2], state.mean[3]};
+}
+
+// The target that a track follows; -1 for none.
+int target_of(const tracking::ScenarioScore& score, int track) {
+  for (const auto& [index, id] : score.mot.current_match())
+    if (id == track) return index;
+  return -1;
+}
+
 void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFrame& frame,
-              const tracking::ScenarioScore& score, Tables& tables) {
+              Outcome& outcome) {
   for (const tracking::RadarMeasurement& one : frame.measurements)
-    tables.measurements += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", frame.time_s, one.range_m,
-                                       one.range_rate_mps, one.azimuth_rad);
+    outcome.measurements += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", frame.time_s, one.range_m,
+                                        one.range_rate_mps, one.azimuth_rad);
   for (const tracking::Track& track : frame.tracker->tracks()) {
-    const tracking::Gaussian state = combined(track.state);
+    const auto state = on_the_road(track);
     const tracking::PolarPlace place = polar(track.state);
-    std::string target;
-    for (const auto& [index, id] : score.mot.current_match())
-      if (id == track.id) target = scenario.targets[static_cast<std::size_t>(index)].id;
-    tables.tracks +=
-        fmt::format("{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g},{}\n",
-                    frame.time_s, track.id, track.confirmed ? 1 : 0, state.mean[0], state.mean[1],
-                    state.mean[2], state.mean[3], place.range_m, place.range_rate_mps,
-                    place.azimuth_rad, is_moving(track, {scenario.radar_speed_mps, 0.0}) ? 1 : 0,
-                    track.identity_probability, target);
+    const int target = target_of(outcome.score, track.id);
+    outcome.tracks += fmt::format(
+        "{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g},{}\n",
+        frame.time_s, track.id, track.confirmed ? 1 : 0, state[0], state[1], state[2], state[3],
+        place.range_m, place.range_rate_mps, place.azimuth_rad,
+        is_moving(track, {scenario.radar_speed_mps, 0.0}) ? 1 : 0, track.identity_probability,
+        target < 0 ? std::string() : scenario.targets[static_cast<std::size_t>(target)].id);
   }
 }
 
-nlohmann::ordered_json json_of(const core::HighwayScenario& scenario,
-                               const tracking::ScenarioScore& score) {
+Outcome run_one(const TrackOptions& options, const core::HighwayScenario& scenario,
+                const core::HighwayRadar& radar) {
+  Outcome outcome;
+  const tracking::SimulationSettings simulation = simulation_of(options);
+  const auto run = static_cast<std::uint32_t>(options.run);
+  std::optional<tracking::SampledRadar> sampled;
+  if (options.samples) sampled.emplace(radar);
+  tracking::run_scenario(
+      scenario, radar, tracker_of(options, simulation, radar, scenario.radar_speed_mps),
+      [&](int frame) {
+        return sampled ? sampled->measure(scenario, options.seed, run, frame)
+                       : simulated_frame(scenario, radar, simulation, options.seed, run, frame);
+      },
+      [&](const tracking::ScenarioFrame& frame) {
+        outcome.score.add(scenario, frame);
+        outcome.history.add(scenario, frame, outcome.score);
+        add_rows(scenario, frame, outcome);
+        outcome.measuring_s += frame.measuring_s;
+        outcome.tracking_s += frame.tracking_s;
+        outcome.tracks_at_end = frame.tracker->tracks();
+        outcome.crossings = frame.tracker->crossings();
+        outcome.skipped_updates = frame.tracker->skipped_updates();
+        outcome.last = frame;
+        outcome.last.tracker = nullptr;
+      });
+  return outcome;
+}
+
+// Where each confirmed track ended, where its target is, and how sure its name is.
+nlohmann::ordered_json json_of_tracks(const core::HighwayScenario& scenario,
+                                      const Outcome& outcome) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const tracking::Track& track : outcome.tracks_at_end) {
+    if (!track.confirmed) continue;
+    const tracking::PolarPlace place = polar(track.state);
+    nlohmann::ordered_json one = {{"track", track.id},
+                                  {"range_m", place.range_m},
+                                  {"range_rate_mps", place.range_rate_mps},
+                                  {"identity_probability", track.identity_probability}};
+    if (const int target = target_of(outcome.score, track.id); target >= 0) {
+      const auto i = static_cast<std::size_t>(target);
+      one["target"] = scenario.targets[i].id;
+      one["kind"] = scenario.targets[i].kind;
+      one["target_range_m"] = outcome.last.truth[i].range_m;
+      one["target_range_rate_mps"] = outcome.last.truth[i].range_rate_mps;
+    }
+    json.push_back(one);
+  }
+  return json;
+}
+
+nlohmann::ordered_json json_of(const core::HighwayScenario& scenario, const Outcome& outcome) {
+  const tracking::ScenarioScore& score = outcome.score;
   nlohmann::ordered_json json = {{"id", scenario.id},
                                  {"title", scenario.title},
                                  {"frames", score.gospa_m.count()},
@@ -94,30 +171,56 @@ nlohmann::ordered_json json_of(const core::HighwayScenario& scenario,
   json["range_rmse_m"] = score.range_m.rms();
   json["range_error_largest_m"] = score.range_m.largest();
   json["range_rate_rmse_mps"] = score.range_rate_mps.rms();
+  json["skipped_updates"] = outcome.skipped_updates;
+  json["crossings"] = nlohmann::ordered_json::array();
+  for (const tracking::Crossing& one : outcome.crossings)
+    json["crossings"].push_back({{"time_s", one.time_s},
+                                 {"tracks", {one.first, one.second}},
+                                 {"swap_probability", one.swap_probability}});
+  json["tracks_at_end"] = json_of_tracks(scenario, outcome);
   return json;
 }
 
-nlohmann::ordered_json run_one(const TrackOptions& options, const CommonOptions& common,
-                               const core::HighwayScenario& scenario,
-                               const core::HighwayRadar& radar, const fs::path& folder) {
-  const tracking::SimulationSettings simulation = simulation_of(options);
-  tracking::ScenarioScore score;
-  Tables tables;
-  run_scenario(scenario, radar, simulation,
-               tracker_of(options, simulation, radar, scenario.radar_speed_mps), options.seed,
-               static_cast<std::uint32_t>(options.run), [&](const tracking::ScenarioFrame& frame) {
-                 score.add(scenario, frame);
-                 add_rows(scenario, frame, score, tables);
-               });
-  core::write_file_atomically(folder / scenario.id / "tracks.csv", tables.tracks);
-  core::write_file_atomically(folder / scenario.id / "measurements.csv", tables.measurements);
-  if (!common.quiet)
+void print(const core::HighwayScenario& scenario, const Outcome& outcome) {
+  const tracking::ScenarioScore& score = outcome.score;
+  fmt::print(
+      "{:<4} {:>2} tracks of {} targets, GOSPA {:.3f} m, MOTA {:.4f}, {} switches, "
+      "range {:.4g} m rms, speed {:.4g} m/s rms\n",
+      scenario.id, score.tracks.size(), scenario.targets.size(), score.gospa_m.mean(),
+      score.mot.mota(), score.mot.switches(), score.range_m.rms(), score.range_rate_mps.rms());
+  for (const tracking::Crossing& one : outcome.crossings)
+    fmt::print("     tracks {} and {} parted at {:.2f} s, exchanged with probability {:.2g}\n",
+               one.first, one.second, one.time_s, one.swap_probability);
+  for (const tracking::Track& track : outcome.tracks_at_end) {
+    if (!track.confirmed) continue;
+    const int target = target_of(score, track.id);
+    const std::string truth =
+        target < 0
+            ? std::string("no target there")
+            : fmt::format("{} at {:.3f} m", scenario.targets[static_cast<std::size_t>(target)].id,
+                          outcome.last.truth[static_cast<std::size_t>(target)].range_m);
     fmt::print(
-        "{:<4} {:>2} tracks of {} targets, GOSPA {:.3f} m, MOTA {:.4f}, {} switches, "
-        "range {:.4g} m rms, speed {:.4g} m/s rms\n",
-        scenario.id, score.tracks.size(), scenario.targets.size(), score.gospa_m.mean(),
-        score.mot.mota(), score.mot.switches(), score.range_m.rms(), score.range_rate_mps.rms());
-  return json_of(scenario, score);
+        "     track {} ends at {:.3f} m, {}; its identity is right with probability {:.6g}\n",
+        track.id, polar(track.state).range_m, truth, track.identity_probability);
+  }
+}
+
+void write(const TrackOptions& options, const core::HighwayScenario& scenario,
+           const Outcome& outcome, const fs::path& folder) {
+  core::write_file_atomically(folder / "tracks.csv", outcome.tracks);
+  core::write_file_atomically(folder / "measurements.csv", outcome.measurements);
+  if (!options.plots) return;
+  for (const char* ending : {".svg", ".png"}) {
+    write_plot(outcome.history.ranges(scenario), folder / (std::string("ranges") + ending));
+    write_plot(outcome.history.errors(scenario), folder / (std::string("errors") + ending));
+  }
+}
+
+// The file's radar, as the options change it.
+core::HighwayRadar radar_of(const TrackOptions& options, core::HighwayRadar radar) {
+  if (options.range_only) radar.array_elements = 1;
+  if (options.noise_figure_dB) radar.noise_figure = core::power_from_dB(*options.noise_figure_dB);
+  return radar;
 }
 
 }  // namespace
@@ -138,18 +241,33 @@ int track(const TrackOptions& options, const CommonOptions& common) {
       options.output.empty()
           ? fs::path("out") / (fs::path(options.file).stem().string() + "-tracks")
           : fs::path(options.output);
+  const core::HighwayRadar radar = radar_of(options, file.radar);
+  if (options.study) return track_study(chosen, radar, options.seed, folder, common);
   nlohmann::ordered_json json = {{"version", version_text()},
                                  {"commit", commit_text()},
                                  {"seed", options.seed},
                                  {"run", options.run},
                                  {"waveform", options.scheme},
                                  {"association", options.association},
+                                 {"from_samples", options.samples},
+                                 {"range_only", radar.array_elements < 2},
+                                 {"noise_figure", radar.noise_figure},
                                  {"detection_probability", options.detection_probability},
                                  {"false_measurements", options.false_per_frame},
                                  {"scenarios", nlohmann::ordered_json::array()}};
-  for (const core::HighwayScenario* scenario : chosen)
-    json["scenarios"].push_back(run_one(options, common, *scenario, file.radar, folder));
+  nlohmann::ordered_json timing = nlohmann::ordered_json::array();
+  for (const core::HighwayScenario* scenario : chosen) {
+    const Outcome outcome = run_one(options, *scenario, radar);
+    write(options, *scenario, outcome, folder / scenario->id);
+    if (!common.quiet) print(*scenario, outcome);
+    json["scenarios"].push_back(json_of(*scenario, outcome));
+    const double frames = outcome.score.gospa_m.count();
+    timing.push_back({{"id", scenario->id},
+                      {"measuring_ms_per_scan", 1e3 * outcome.measuring_s / frames},
+                      {"tracking_ms_per_scan", 1e3 * outcome.tracking_s / frames}});
+  }
   core::write_file_atomically(folder / "run.json", json.dump(2) + "\n");
+  core::write_file_atomically(folder / "timing.json", timing.dump(2) + "\n");
   if (!common.quiet)
     fmt::print("record {}\n", fs::absolute(folder / "run.json").lexically_normal().string());
   return kExitDone;

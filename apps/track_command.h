@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "apps/common.h"
@@ -16,6 +17,11 @@ struct TrackOptions {
   std::string association = "nearest";
   double detection_probability = 1.0;
   double false_per_frame = 0.0;
+  std::optional<double> noise_figure_dB{};  // instead of the file's
+  bool range_only = false;
+  bool samples = false;
+  bool plots = false;
+  bool study = false;
   std::uint64_t seed = 0;
   int run = 0;
 };

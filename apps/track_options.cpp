@@ -15,9 +15,9 @@ void add_track_command(CLI::App& app, TrackOptions& options, CommonOptions& comm
                      "Folder to write to (default out/<file's name>-tracks)");
   command
       .add_option("--waveform", options.scheme,
-                  "How beats become ranges and speeds: one triangle (all pairs, with ghosts), two "
-                  "slopes, or two stages")
-      ->check(CLI::IsMember({"triangle", "two-slopes", "two-stage"}))
+                  "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
+                  "pairs in order), two slopes, two stages, or a coded stretch between two ramps")
+      ->check(CLI::IsMember({"triangle", "sorted-triangle", "two-slopes", "two-stage", "coded"}))
       ->capture_default_str();
   command
       .add_option("--association", options.association,
@@ -32,12 +32,27 @@ void add_track_command(CLI::App& app, TrackOptions& options, CommonOptions& comm
   command.add_option("--false-measurements", options.false_per_frame, "Mean number in a frame")
       ->check(number_from(0.0, 100.0))
       ->capture_default_str();
+  command.add_option("--noise-figure", options.noise_figure_dB, "dB, instead of the file's")
+      ->check(number_from(0.0, 60.0));
+  command.add_flag("--range-only", options.range_only,
+                   "One receiver without azimuth: tracks of range and range rate alone");
+  CLI::Option* samples = command.add_flag(
+      "--samples", options.samples,
+      "Measure from beat samples and noise (two stages) instead of from frequencies");
+  samples->excludes("--waveform")->excludes("--detection-probability");
+  samples->excludes("--false-measurements")->excludes("--range-only");
+  command.add_flag("--plots", options.plots, "Draw range and errors over time too (needs gnuplot)");
+  command.add_flag("--study", options.study,
+                   "What accuracy costs: buffer, noise figure, waveform and association against "
+                   "error and time, as tables and plots (one minute; needs gnuplot)");
   command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
   command.add_option("--run", options.run, "Another draw of the same seed")
       ->check(CLI::Range(0, 1000000))
       ->capture_default_str();
   command.footer(
-      "Writes tracks.csv and measurements.csv for each scenario, and run.json with the metrics.\n"
+      "Writes tracks.csv and measurements.csv for each scenario, run.json with the metrics and\n"
+      "timing.json; with --study instead study.md and its plots. Prints where each track ended,\n"
+      "where its target is, and how likely the track is still on the target it began with.\n"
       "Places are relative to the radar, x forward and y right; azimuths positive right, speeds\n"
       "positive receding.");
   add_common_options(command, common);

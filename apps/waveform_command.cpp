@@ -5,40 +5,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/waveform_choice.h"
+#include "apps/waveform_figures.h"
 #include "signal/waveform/doppler.h"
-#include "signal/waveform/figures.h"
 #include "signal/waveform/folding.h"
 
 namespace fanbeam::apps {
 namespace {
-
-// One figure of a stage, as it is printed and as JSON names it.
-struct Figure {
-  const char* text;
-  const char* unit;
-  const char* key;
-  std::optional<double> value;
-};
-
-std::vector<Figure> figures_of(const signal::StageFigures& stage) {
-  const bool ramps = stage.slope_Hz_per_s != 0.0;
-  const auto of_ramps = [&](double value) {
-    return ramps ? std::optional<double>(value) : std::nullopt;
-  };
-  return {{"segments", "", "segments", stage.segments},
-          {"duration of each", "s", "segment_s", stage.segment_s},
-          {"samples in each", "", "samples", stage.samples},
-          {"slope", "Hz/s", "slope_Hz_per_s", of_ramps(stage.slope_Hz_per_s)},
-          {"frequency bin 1/T", "Hz", "frequency_bin_Hz", stage.frequency_bin_Hz},
-          {"beat per metre", "Hz/m", "beat_Hz_per_m", of_ramps(stage.beat_Hz_per_m)},
-          {"range read per speed", "m/(m/s)", "coupling_m_per_mps", stage.coupling_m_per_mps},
-          {"range cell", "m", "range_cell_m", stage.range_cell_m},
-          {"half-power width, no window", "m", "rectangular_width_m", stage.rectangular_width_m},
-          {"half-power width, Taylor", "m", "taylor_width_m", stage.taylor_width_m},
-          {"unambiguous range", "m", "unambiguous_range_m", stage.unambiguous_range_m},
-          {"speed cell", "m/s", "speed_cell_mps", stage.speed_cell_mps},
-          {"unambiguous speed, +-", "m/s", "unambiguous_speed_mps", stage.unambiguous_speed_mps}};
-}
 
 struct Beat {
   int stage;
@@ -77,20 +49,8 @@ std::optional<Target> target_of(const WaveformOptions& options, const signal::Wa
 }
 
 nlohmann::ordered_json json_of(const signal::Waveform& waveform,
-                               const std::vector<signal::StageFigures>& stages,
                                const std::optional<Target>& target) {
-  nlohmann::ordered_json json = {{"kind", std::string(signal::name(waveform.kind))},
-                                 {"centre_frequency_Hz", waveform.centre_frequency_Hz},
-                                 {"wavelength_m", waveform.wavelength_m()},
-                                 {"bandwidth_Hz", waveform.bandwidth_Hz},
-                                 {"duration_s", waveform.duration_s()},
-                                 {"complex_baseband", waveform.complex_baseband}};
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    nlohmann::ordered_json entry = {{"sample_rate_Hz", waveform.sample_rate_Hz[i]}};
-    for (const Figure& figure : figures_of(stages[i]))
-      if (figure.value) entry[figure.key] = *figure.value;
-    json["stages"].push_back(entry);
-  }
+  nlohmann::ordered_json json = waveform_json(waveform);
   if (!target) return json;
   nlohmann::ordered_json beats = nlohmann::ordered_json::array();
   for (const Beat& beat : target->beats)
@@ -106,15 +66,15 @@ nlohmann::ordered_json json_of(const signal::Waveform& waveform,
   return json;
 }
 
-void print_tables(const signal::Waveform& waveform,
-                  const std::vector<signal::StageFigures>& stages) {
+void print_tables(const signal::Waveform& waveform) {
+  const std::vector<signal::StageFigures> stages = signal::figures(waveform);
   fmt::print("{}: {:.6g} GHz, wavelength {:.6g} mm, bandwidth {:.6g} MHz, {:.6g} ms, {} samples\n",
              signal::name(waveform.kind), waveform.centre_frequency_Hz * 1e-9,
              waveform.wavelength_m() * 1e3, waveform.bandwidth_Hz * 1e-6,
              waveform.duration_s() * 1e3, waveform.complex_baseband ? "complex" : "real");
   for (std::size_t i = 0; i < stages.size(); ++i) {
     fmt::print("\nstage {}, sampled at {:.6g} MHz\n", i, waveform.sample_rate_Hz[i] * 1e-6);
-    for (const Figure& figure : figures_of(stages[i]))
+    for (const WaveformFigure& figure : waveform_figures(stages[i]))
       if (figure.value)
         fmt::print("  {:<30} {:>14.8g} {}\n", figure.text, *figure.value, figure.unit);
   }
@@ -152,12 +112,11 @@ core::Problem in_words_of_options(core::Problem problem) {
 int waveform(const WaveformOptions& options, const CommonOptions& common) {
   try {
     const signal::Waveform made = chosen_waveform(options);
-    const std::vector<signal::StageFigures> stages = signal::figures(made);
     const std::optional<Target> target = target_of(options, made);
     if (options.json) {
-      fmt::print("{}\n", json_of(made, stages, target).dump(2));
+      fmt::print("{}\n", json_of(made, target).dump(2));
     } else {
-      print_tables(made, stages);
+      print_tables(made);
       if (target) print_target(*target);
       if (target && !common.quiet) print_problems(target->warnings);
     }

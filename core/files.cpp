@@ -25,8 +25,8 @@ namespace fs = std::filesystem;
 
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
-  fs::path name = "." + path.stem().string() + "." + std::to_string(getpid()) + "." +
-                  std::to_string(counter++) + ".tmp";
+  fs::path name = std::string(".").append(path.stem().string()) + "." + std::to_string(getpid()) +
+                  "." + std::to_string(counter++) + ".tmp";
   name += path.extension();
   return path.parent_path() / name;
 }
@@ -97,6 +97,16 @@ void write_file_atomically(const fs::path& path, std::string_view bytes) {
   });
 }
 
+bool lies_inside(const fs::path& folder, const fs::path& path) {
+  std::error_code status;
+  const fs::path root = fs::weakly_canonical(folder, status);
+  if (status) return false;
+  const fs::path full = fs::weakly_canonical(path, status);
+  if (status) return false;
+  const fs::path back = full.lexically_relative(root);
+  return !back.empty() && *back.begin() != "..";
+}
+
 fs::path path_inside(const fs::path& folder, const std::string& relative, const Place& place,
                      const std::string& field) {
   const auto refuse = [&](const std::string& why) {
@@ -113,8 +123,7 @@ fs::path path_inside(const fs::path& folder, const std::string& relative, const 
   const fs::path root = fs::weakly_canonical(folder, status);
   const fs::path full = fs::weakly_canonical(root / asked, status);
   if (status) refuse(status.message());
-  const fs::path back = full.lexically_relative(root);
-  if (back.empty() || *back.begin() == "..") refuse("it leaves the folder");
+  if (!lies_inside(root, full)) refuse("it leaves the folder");
   return full;
 }
 

@@ -27,6 +27,10 @@ void write_atomically(const std::filesystem::path& path,
 // files that were never finished. Does nothing where it may not, or where there is no such folder.
 void remove_abandoned_temporaries(const std::filesystem::path& folder);
 
+// Whether `path` lies in `folder` or is it, symbolic links of both followed. What is not there
+// lies where its name says. False too where the system does not answer.
+bool lies_inside(const std::filesystem::path& folder, const std::filesystem::path& path);
+
 // `relative` resolved inside `folder`. Throws InputError E-PATH when it is absolute, holds a URI
 // scheme, or leaves the folder (".." or a symbolic link). `place` and `field` go into the message.
 std::filesystem::path path_inside(const std::filesystem::path& folder, const std::string& relative,

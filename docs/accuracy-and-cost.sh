@@ -37,7 +37,8 @@ for line in "${scenes[@]}"; do
     continue
   fi
   "$fanbeam" cost "${words[@]}" -o "$work/$scene" "${options[@]}"
-  for plot in ladder ladder-cscope effects; do
+  for plot in ladder ladder-cscope effects levels; do
+    [[ -f $work/$scene/$plot.svg ]] || continue  # no signal level
     for ending in svg png; do
       install -m 644 -- "$work/$scene/$plot.$ending" "docs/images/cost-$scene-$plot.$ending"
     done

@@ -33,10 +33,8 @@ fs::path DataSearch::find(core::ConfigTable& table, std::string_view key) const 
 }
 
 fs::path DataSearch::root_of(const fs::path& file) const {
-  for (const fs::path& folder : folders_) {
-    const fs::path back = file.lexically_relative(fs::weakly_canonical(folder));
-    if (!back.empty() && *back.begin() != "..") return fs::weakly_canonical(folder);
-  }
+  for (const fs::path& folder : folders_)
+    if (core::lies_inside(folder, file)) return fs::weakly_canonical(folder);
   return file.parent_path();
 }
 

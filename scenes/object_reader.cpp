@@ -3,6 +3,7 @@
 #include <set>
 
 #include "core/decibel.h"
+#include "core/files.h"
 #include "core/units.h"
 #include "scenes/target_reader.h"
 
@@ -95,9 +96,9 @@ void read_open_material(ConfigTable& table, const DataSearch& search, ModelDescr
   std::filesystem::path beside = model.file;
   beside.replace_extension(".xoma");
   model.open_material_root = model.root;
-  if (std::filesystem::is_symlink(beside))
-    table.error(core::ErrorClass::path, "open_material", beside.filename().string() + ", a link",
-                "a file beside the model");
+  if (!core::lies_inside(model.root, beside))
+    table.error(core::ErrorClass::path, "open_material", beside.filename().string(),
+                "a file beside the model, and no link out of its folder");
   else if (std::filesystem::is_regular_file(beside))
     model.open_material = beside;
   else

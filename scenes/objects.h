@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "renderer/world.h"
@@ -36,8 +37,24 @@ Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const M
                     ModelMaterials& model_materials, core::ProblemList& problems,
                     std::size_t most_triangles = kMostBodyTriangles);
 
-// E-LIMIT for a line of more than 100000 points and beyond kMostPointTargets; W-NEAR-FIELD, see near_field.h.
-std::vector<renderer::PointTarget> build_targets(const SceneDescription& scene,
-                                                 const Ground& ground, core::ProblemList& problems);
+// The points of one line, of one target, or of the lights or the fence of one runway.
+struct PointGroup {
+  std::string name;
+  core::Place place;
+  bool is_line = false;
+  std::size_t begin = 0, end = 0;  // among all points of the scene
+};
+
+struct PointTargets {
+  std::vector<renderer::PointTarget> points;
+  std::vector<PointGroup> groups;  // side by side, without gaps; none is empty
+};
+
+// Runways, lines and targets, each in file order. E-LIMIT for a line of more than 100000 points and
+// beyond `most_points`: then the last object is the one that exceeds it. W-NEAR-FIELD, see
+// near_field.h.
+PointTargets build_targets(const SceneDescription& scene, const Ground& ground,
+                           core::ProblemList& problems,
+                           std::size_t most_points = kMostPointTargets);
 
 }  // namespace fanbeam::scenes

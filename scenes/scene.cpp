@@ -168,7 +168,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names);
   ModelMaterials model_materials(description, library.size(), problems);
   Bodies bodies = build_bodies(description, ground, names, model_materials, problems);
-  std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems);
+  std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems).points;
   const atmosphere::Weather weather = placed_weather(description, ground);
   std::optional<Trajectory> trajectory;
   if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);

@@ -21,19 +21,29 @@ glm::dmat3 target_axes(double heading_rad, double tilt_rad) {
   return {x, glm::cross(z, x), z};
 }
 
+// Of the points added since the last one.
+void close_group(const std::string& name, const core::Place& place, PointTargets& targets,
+                 bool is_line = false) {
+  const std::size_t begin = targets.groups.empty() ? 0 : targets.groups.back().end;
+  if (targets.points.size() > begin)
+    targets.groups.push_back({name, place, is_line, begin, targets.points.size()});
+}
+
 void add_constant(const std::string& name, const glm::dvec3& position_m, double rcs_m2,
-                  std::vector<PointTarget>& targets) {
-  targets.push_back({name, materials::ConstantRcs{rcs_m2}, {{0.0, position_m}}, glm::dmat3(1.0)});
+                  PointTargets& targets) {
+  targets.points.push_back(
+      {name, materials::ConstantRcs{rcs_m2}, {{0.0, position_m}}, glm::dmat3(1.0)});
 }
 
 void add_runway_reflectors(const RunwayDescription& description, const terrain::Runway& runway,
-                           const Ground& ground, std::vector<PointTarget>& targets) {
+                           const Ground& ground, PointTargets& targets) {
   const auto add_sites = [&](const std::vector<terrain::ReflectorSite>& sites, const char* name,
                              double rcs_m2) {
     for (const terrain::ReflectorSite& site : sites)
       if (ground.field().height_at(site.position_m.x, site.position_m.y))
         add_constant(name, ground.on_ground_m(site.position_m, site.above_ground_m), rcs_m2,
                      targets);
+    close_group(name, description.place, targets);
   };
   if (description.edge_lights)
     add_sites(terrain::edge_light_sites(runway), "runway light", description.light_rcs_m2);
@@ -50,7 +60,7 @@ void add_runway_reflectors(const RunwayDescription& description, const terrain::
 }
 
 void add_line(const LineDescription& line, const Ground& ground, core::Polarisation polarisation,
-              core::ProblemList& problems, std::vector<PointTarget>& targets) {
+              core::ProblemList& problems, PointTargets& targets) {
   const auto from = ground.local_m(line.from);
   const auto to = ground.local_m(line.to);
   if (!from || !to) return;
@@ -63,18 +73,34 @@ void add_line(const LineDescription& line, const Ground& ground, core::Polarisat
                    "at most " + std::to_string(kMostLinePoints) + ": a wider spacing_m");
     return;
   }
-  add_line_points(line, begin_m, end_m, polarisation, targets);
+  add_line_points(line, begin_m, end_m, polarisation, targets.points);
+  close_group(line.name, line.place, targets, true);
+}
+
+void add_target(const TargetDescription& description, const Ground& ground, PointTargets& targets) {
+  PointTarget target{description.name,
+                     description.rcs,
+                     {},
+                     target_axes(description.heading_rad, description.tilt_rad),
+                     description.swerling};
+  for (const TargetDescription::Waypoint& waypoint : description.path) {
+    if (const auto at_m = ground.local_m(waypoint.at))
+      target.path.push_back({waypoint.time_s, ground.on_ground_m(*at_m, waypoint.above_ground_m)});
+  }
+  if (target.path.empty()) return;
+  targets.points.push_back(std::move(target));
+  close_group(description.name, description.place, targets);
 }
 
 }  // namespace
 
-std::vector<PointTarget> build_targets(const SceneDescription& scene, const Ground& ground,
-                                       core::ProblemList& problems) {
-  std::vector<PointTarget> targets;
+PointTargets build_targets(const SceneDescription& scene, const Ground& ground,
+                           core::ProblemList& problems, std::size_t most_points) {
+  PointTargets targets;
   const auto full = [&](const core::Place& place, const char* field) {
-    if (targets.size() <= kMostPointTargets) return false;
+    if (targets.points.size() <= most_points) return false;
     problems.error(core::ErrorClass::limit, place, field,
-                   "the scene's point targets: more than " + std::to_string(kMostPointTargets),
+                   "the scene's point targets: more than " + std::to_string(most_points),
                    "at most that: wider spacings");
     return true;
   };
@@ -84,24 +110,16 @@ std::vector<PointTarget> build_targets(const SceneDescription& scene, const Grou
   }
   NearField near_field(scene.sensor);
   for (const LineDescription& line : scene.lines) {
-    const std::size_t before = targets.size();
+    const std::size_t before = targets.points.size();
     add_line(line, ground, scene.sensor.waveform.polarisation, problems, targets);
-    if (targets.size() > before) near_field.look_at(targets.back().rcs, line.name, line.place);
+    if (targets.points.size() > before)
+      near_field.look_at(targets.points.back().rcs, line.name, line.place);
     if (full(line.place, "line")) return targets;
   }
-  for (const TargetDescription& description : scene.targets) {
-    PointTarget target{description.name,
-                       description.rcs,
-                       {},
-                       target_axes(description.heading_rad, description.tilt_rad),
-                       description.swerling};
-    for (const TargetDescription::Waypoint& waypoint : description.path) {
-      if (const auto at_m = ground.local_m(waypoint.at))
-        target.path.push_back(
-            {waypoint.time_s, ground.on_ground_m(*at_m, waypoint.above_ground_m)});
-    }
-    near_field.look_at(target.rcs, target.name, description.place);
-    if (!target.path.empty()) targets.push_back(std::move(target));
+  for (const TargetDescription& target : scene.targets) {
+    near_field.look_at(target.rcs, target.name, target.place);
+    add_target(target, ground, targets);
+    if (full(target.place, "target")) return targets;
   }
   near_field.report(problems);
   return targets;

@@ -80,7 +80,9 @@ RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch>
   native_packet_ =
       rtcGetDeviceProperty(library_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0 ? 16
                                                                                               : 8;
-  index_tops(meshes);
+  std::vector<const TriangleMesh*> bodies;
+  for (const PlacedMesh& placed : meshes) bodies.push_back(&placed.mesh);
+  tops_ = MeshTops(bodies);
 }
 
 RayScene::~RayScene() = default;
@@ -179,42 +181,6 @@ std::array<glm::dvec3, 3> RayScene::triangle(std::uint32_t geometry,
     corners[corner] = in_scene_m({vertex[0], vertex[1], vertex[2]});
   }
   return corners;
-}
-
-void RayScene::index_tops(const std::vector<PlacedMesh>& meshes) {
-  glm::dvec3 low(1e300);
-  glm::dvec3 high(-1e300);
-  for (const PlacedMesh& placed : meshes) {
-    for (const glm::dvec3& position : placed.mesh.vertices_m) {
-      low = glm::min(low, position);
-      high = glm::max(high, position);
-    }
-  }
-  if (low.x > high.x) return;
-  tops_west_m_ = low.x;
-  tops_south_m_ = low.y;
-  tops_columns_ = static_cast<int>((high.x - low.x) / kTopsSpacing_m) + 1;
-  tops_rows_ = static_cast<int>((high.y - low.y) / kTopsSpacing_m) + 1;
-  tops_m_.assign(static_cast<std::size_t>(tops_columns_) * static_cast<std::size_t>(tops_rows_),
-                 -1e30F);
-  for (const PlacedMesh& placed : meshes) {
-    for (const glm::uvec3& triangle : placed.mesh.triangles) {
-      const glm::dvec3& a = placed.mesh.vertices_m[triangle.x];
-      const glm::dvec3& b = placed.mesh.vertices_m[triangle.y];
-      const glm::dvec3& c = placed.mesh.vertices_m[triangle.z];
-      const glm::dvec3 from = glm::min(a, glm::min(b, c));
-      const glm::dvec3 to = glm::max(a, glm::max(b, c));
-      for (int j = static_cast<int>((from.y - low.y) / kTopsSpacing_m);
-           j <= static_cast<int>((to.y - low.y) / kTopsSpacing_m); ++j)
-        for (int i = static_cast<int>((from.x - low.x) / kTopsSpacing_m);
-             i <= static_cast<int>((to.x - low.x) / kTopsSpacing_m); ++i) {
-          float& top =
-              tops_m_[static_cast<std::size_t>(j) * static_cast<std::size_t>(tops_columns_) +
-                      static_cast<std::size_t>(i)];
-          top = std::max(top, static_cast<float>(to.z));
-        }
-    }
-  }
 }
 
 void RayScene::intersect(const int* active, RayPacket<8>& packet) const noexcept {

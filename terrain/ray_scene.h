@@ -20,6 +20,7 @@
 
 #include "terrain/height_field.h"
 #include "terrain/mesh.h"
+#include "terrain/mesh_tops.h"
 #include "terrain/surface_map.h"
 
 namespace fanbeam::terrain {
@@ -126,25 +127,15 @@ class RayScene {
   // Widest packet that the library runs natively here: 16 with AVX-512, 8 otherwise.
   int native_packet() const { return native_packet_; }
 
-  // Upper bound of the height of mesh geometry over the square of `tops_spacing_m` that holds the
-  // point; -infinity where there is none. Guides the elevation fan.
-  double mesh_top_m(double x_m, double y_m) const noexcept {
-    const double u = (x_m - tops_west_m_) / kTopsSpacing_m;
-    const double v = (y_m - tops_south_m_) / kTopsSpacing_m;
-    if (!(u >= 0.0 && v >= 0.0 && u < tops_columns_ && v < tops_rows_)) return -1e30;
-    return static_cast<double>(
-        tops_m_[static_cast<std::size_t>(v) * static_cast<std::size_t>(tops_columns_) +
-                static_cast<std::size_t>(u)]);
-  }
-  double tops_spacing_m() const { return kTopsSpacing_m; }
+  // Upper bound of the height of mesh geometry (terrain/mesh_tops.h). Guides the elevation fan.
+  double mesh_top_m(double x_m, double y_m) const noexcept { return tops_.top_m(x_m, y_m); }
+  double tops_spacing_m() const { return MeshTops::kSpacing_m; }
 
  private:
-  static constexpr double kTopsSpacing_m = 32.0;
   struct Library;
   void find_base(const std::vector<PlacedMesh>& meshes);
   void add_terrain();
   void add_mesh(const PlacedMesh& placed);
-  void index_tops(const std::vector<PlacedMesh>& meshes);
 
   std::unique_ptr<Library> library_;
   bool has_terrain_ = false;
@@ -156,9 +147,7 @@ class RayScene {
       mesh_material_;  // [geometry][triangle]; empty for the terrain
   std::size_t triangle_count_ = 0;
   int native_packet_ = 8;
-  double tops_west_m_ = 0.0, tops_south_m_ = 0.0;
-  int tops_columns_ = 0, tops_rows_ = 0;
-  std::vector<float> tops_m_;
+  MeshTops tops_;
 };
 
 // Throws InputError E-NONFINITE or E-RANGE for a ray that the library must not see.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrain/polygon.h"
+
 namespace fanbeam::terrain {
 
 SurfacePatch rectangle_patch(glm::dvec2 centre_m, glm::dvec2 along, double length_m, double width_m,
@@ -81,15 +83,7 @@ SurfaceMap::SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patch
 bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m,
                         double y_m) const noexcept {
   if (x_m < box.west_m || x_m > box.east_m || y_m < box.south_m || y_m > box.north_m) return false;
-  bool odd = false;
-  const auto& outline = patch.outline_m;
-  for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
-    const glm::dvec2& a = outline[i];
-    const glm::dvec2& b = outline[j];
-    if ((a.y > y_m) != (b.y > y_m) && x_m < (b.x - a.x) * (y_m - a.y) / (b.y - a.y) + a.x)
-      odd = !odd;
-  }
-  return odd;
+  return crosses_odd(patch.outline_m, x_m, y_m);
 }
 
 MaterialId SurfaceMap::patched_material(std::size_t cell, double x_m, double y_m) const noexcept {

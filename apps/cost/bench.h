@@ -19,6 +19,8 @@ struct CostBench {
   const scenes::Scene& scene;
   // The same with other wishes, or without the robust flag.
   std::function<std::unique_ptr<scenes::Scene>(const scenes::BuildOptions&)> rebuild;
+  // The same with another sensor.
+  std::function<std::unique_ptr<scenes::Scene>(const sensors::Sensor&)> with_sensor;
   scenes::BuildOptions build;  // that `scene` was built with
   CostEffort effort;
   Pace pace;

@@ -8,6 +8,7 @@
 
 #include "apps/cost/cost_csv.h"
 #include "apps/cost/ladder.h"
+#include "apps/cost/levels_report.h"
 #include "core/errors.h"
 
 namespace fanbeam::apps {
@@ -202,7 +203,7 @@ std::string method_section() {
 
 std::string cost_markdown(const CostFigures& figures) {
   return head_section(figures) + ladder_section(figures) + effects_section(figures) +
-         numerics_section(figures) + method_section();
+         numerics_section(figures) + levels_section(figures) + method_section();
 }
 
 }  // namespace fanbeam::apps

@@ -26,6 +26,7 @@ CostEffort full_effort() {
   effort.slices = {1, 2, 4, 8, 12, 16, 24, 32, 64};
   effort.plain_rays = {2, 12, 36};
   effort.dithered_rays = {2, 6, 12, 24, 60};
+  effort.looks = {1, 5, 20};
   return effort;
 }
 
@@ -37,6 +38,7 @@ CostEffort quick_effort() {
   effort.slices = {1, 8, 32};
   effort.plain_rays = {2, 12};
   effort.dithered_rays = {2, 12, 36};
+  effort.looks = {1, 4};
   return effort;
 }
 

@@ -16,6 +16,7 @@ struct CostEffort {
   std::vector<double> rays;                       // per range cell and column
   std::vector<double> slices;                     // per column
   std::vector<double> plain_rays, dithered_rays;  // of the naive renderers, as `rays`
+  std::vector<int> looks;                         // at signal level
 
   const std::vector<double>& ladder(Way way) const;
   renderer::Sampling reference(std::uint64_t seed) const;

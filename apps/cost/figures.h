@@ -104,6 +104,15 @@ struct NumericFigures {
   std::vector<RobustFigures> robust;
 };
 
+// One of two ways to the same B-scope: from powers, or from beat signals.
+struct LevelStep {
+  int frame = 0;
+  std::string level;      // "picture" or "signal"
+  double fineness = 0.0;  // rays per range cell and column, or looks
+  MedianTime time;
+  double rms_grey = 0.0;  // of the B-scope, with noise
+};
+
 struct Machine {
   std::string processor, level;
   int threads = 0;
@@ -124,6 +133,8 @@ struct CostFigures {
   std::vector<LadderStep> ladder;
   std::vector<EffectPrice> effects;
   NumericFigures numerics;
+  std::vector<LevelStep> levels;
+  std::string why_no_levels;  // where they were asked for and the sensor has no signal level
 };
 
 }  // namespace fanbeam::apps

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
+#include "apps/fmcw/receive.h"
 #include "core/constants.h"
 #include "signal/detection/clusters.h"
 #include "signal/receiver/receiver_noise.h"
@@ -56,31 +59,6 @@ double strongest_delay_s(const std::vector<signal::ScatterPath>& paths) {
   return strongest == paths.end() ? 0.0 : 2.0 * strongest->range_m / core::kSpeedOfLight_mps;
 }
 
-// The converter's range is set to the frame's largest sample.
-std::size_t convert(int bits, signal::FloatCube& beat) {
-  float largest = 0.0F;
-  for (const std::complex<float>& sample : beat.values)
-    largest = std::max({largest, std::abs(sample.real()), std::abs(sample.imag())});
-  if (!(largest > 0.0F)) return 0;
-  return signal::quantise(signal::Quantiser{bits, static_cast<double>(largest)}, beat);
-}
-
-void receive(const FmcwRadar& radar, const sensors::Sensor& sensor, int stage, int number,
-             const FmcwOptions& options, FmcwFrame& frame, signal::FloatCube& beat) {
-  const double fs_Hz = radar.waveform.sample_rate_Hz[static_cast<std::size_t>(stage)];
-  // A stage more is another stretch of time: draws of its own.
-  const core::RandomKey key{options.seed + static_cast<std::uint64_t>(stage), 0,
-                            static_cast<std::uint32_t>(number)};
-  if (frame.phase_noise_rad > 0.0)
-    signal::apply_phase_noise(
-        signal::PhaseNoise{.rms_rad = frame.phase_noise_rad, .sample_rate_Hz = fs_Hz, .key = key},
-        beat);
-  signal::add_receiver_noise(
-      radar.array,
-      {signal::noise_sample_W(sensor.receiver.noise_figure, fs_Hz), !options.real, key}, beat);
-  if (options.adc_bits > 0) frame.clipped += convert(options.adc_bits, beat);
-}
-
 signal::TopViewGrid grid_of(const FmcwRadar& radar) {
   const double reach_m = radar.axes.range_step_m * (radar.detection.transform.kept_range_cells - 1);
   signal::TopViewGrid grid;
@@ -91,28 +69,41 @@ signal::TopViewGrid grid_of(const FmcwRadar& radar) {
   return grid;
 }
 
-void make_maps(const FmcwRadar& radar, FmcwFrame& frame) {
+void make_maps(const FmcwRadar& radar, const std::set<std::string>& products, FmcwFrame& frame) {
+  const auto wants = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return products.contains(name); });
+  };
+  const bool detections = wants({"range-doppler", "range-azimuth", "top-view", "detections"});
+  const bool angles = wants({"cube", "range-azimuth", "top-view"});
+  if (!radar.maps || !(detections || angles)) return;
   signal::FloatCube range_speed;
   signal::range_doppler(frame.beats[0], radar.detection.transform, range_speed);
-  frame.range_doppler = signal::range_doppler_map(range_speed, signal::Projection::sum);
+  if (detections) {
+    frame.range_doppler = signal::range_doppler_map(range_speed, signal::Projection::sum);
+    FmcwDetections found;
+    found.detections = signal::detect(frame.beats[0], frame.range_doppler, radar.array,
+                                      radar.timing, radar.detection);
+    found.clusters = signal::detection_clusters(found.detections, {});
+    frame.found = std::move(found);
+  }
+  if (!angles) return;
   signal::compensate_slots(range_speed, radar.array);
-  const int cells = std::max(kAngleCells, range_speed.shape.channels);
-  signal::angle_transform(range_speed, {.kind = signal::WindowKind::taylor}, cells, frame.cube);
-  frame.azimuths_rad =
-      signal::angle_cell_azimuths_rad(cells, radar.pitch_m, radar.waveform.wavelength_m());
+  signal::angle_transform(range_speed, {.kind = signal::WindowKind::taylor},
+                          static_cast<int>(radar.azimuths_rad.size()), frame.cube);
+  if (!wants({"range-azimuth", "top-view"})) return;
   frame.range_azimuth = signal::range_azimuth_map(frame.cube, signal::Projection::max);
+  if (!wants({"top-view"})) return;
   frame.grid = grid_of(radar);
-  frame.top_view = signal::top_view(frame.range_azimuth, frame.azimuths_rad,
+  frame.top_view = signal::top_view(frame.range_azimuth, radar.azimuths_rad,
                                     radar.axes.range_step_m, frame.grid);
-  frame.detections = signal::detect(frame.beats[0], radar.array, radar.timing, radar.detection);
-  frame.clusters = signal::detection_clusters(frame.detections, {});
 }
 
 }  // namespace
 
 FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const std::vector<signal::ScatterPath>& paths, int frame_number,
-                     const FmcwOptions& options, bool with_maps) {
+                     const FmcwOptions& options, const std::set<std::string>& products) {
   FmcwFrame frame;
   const auto policy =
       options.refuse_folding ? signal::FoldingPolicy::refuse : signal::FoldingPolicy::count;
@@ -122,9 +113,17 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
         signal::phase_noise_rms_rad(options.line_width_Hz, strongest_delay_s(paths));
   for (int stage = 0; stage < radar.waveform.stages(); ++stage) {
     frame.beats.push_back(synthesise(radar, stage, paths, frame));
-    receive(radar, sensor, stage, frame_number, options, frame, frame.beats.back());
+    const auto number = static_cast<std::uint32_t>(frame_number * radar.waveform.stages() + stage);
+    const FmcwReceiver receiver{
+        .noise_figure = sensor.receiver.noise_figure,
+        .sample_rate_Hz = radar.waveform.sample_rate_Hz[static_cast<std::size_t>(stage)],
+        .complex_baseband = !options.real,
+        .phase_noise_rad = frame.phase_noise_rad,
+        .adc_bits = options.adc_bits};
+    // A stage more is another stretch of time: draws of its own.
+    frame.clipped += receive(radar.array, receiver, {options.seed, 0, number}, frame.beats.back());
   }
-  if (with_maps) make_maps(radar, frame);
+  make_maps(radar, products, frame);
   return frame;
 }
 

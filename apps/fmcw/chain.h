@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include "apps/fmcw/paths.h"
@@ -13,17 +16,20 @@
 
 namespace fanbeam::apps {
 
+struct FmcwDetections {
+  std::vector<signal::RadarDetection> detections;
+  std::vector<int> clusters;  // of each, or signal::kNoCluster
+};
+
 struct FmcwFrame {
   std::vector<signal::FloatCube> beats;  // of every stage
-  // Where the waveform has maps.
-  signal::FloatCube cube;            // azimuth, speed, range
-  std::vector<double> azimuths_rad;  // of the cube's cells, rising
-  signal::PowerMap range_doppler;    // sum over channels
-  signal::PowerMap range_azimuth;    // largest over speeds
+  // What the products need of these; the rest stays empty.
+  std::optional<FmcwDetections> found;
+  signal::FloatCube cube;          // azimuth, speed, range
+  signal::PowerMap range_doppler;  // sum over channels
+  signal::PowerMap range_azimuth;  // largest over speeds
   signal::TopViewGrid grid;
   signal::PowerMap top_view;
-  std::vector<signal::RadarDetection> detections;
-  std::vector<int> clusters;            // of each detection, or signal::kNoCluster
   std::vector<core::Problem> warnings;  // of folding
   bool keystone = false;                // how stage 0 was synthesised
   double synthesis_error = 0.0;         // relative, estimated or asked for
@@ -31,12 +37,10 @@ struct FmcwFrame {
   std::size_t clipped = 0;  // parts of samples, by the quantiser
 };
 
-// The default radar's twelve elements make beams 8.5 deg wide: five cells each.
-inline constexpr int kAngleCells = 64;
-
-// `with_maps`: everything beyond the samples. The draws are keyed by the options' seed and `frame`.
+// Does what the names of `products` need (kFmcwProducts; maps mark the detections). The draws are
+// keyed by the options' seed, `frame` and the stage.
 FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const std::vector<signal::ScatterPath>& paths, int frame,
-                     const FmcwOptions& options, bool with_maps);
+                     const FmcwOptions& options, const std::set<std::string>& products);
 
 }  // namespace fanbeam::apps

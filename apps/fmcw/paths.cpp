@@ -5,6 +5,7 @@
 
 #include "core/constants.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "renderer/stages/frame_echoes.h"
 #include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::apps {
@@ -41,19 +42,17 @@ FmcwPaths fmcw_paths(const scenes::Scene& scene, int frame, const FmcwOptions& o
   settings.seed = options.seed;
   const renderer::FrameEchoes all = renderer::frame_echoes(scene.world, frame_pose, settings);
   FmcwPaths result;
-  result.echoes.rays = all.rays;
+  result.rays = all.rays;
+  result.paths.reserve(all.echoes.size());
   for (std::size_t i = 0; i < all.echoes.size(); ++i) {
     const core::Echo& echo = all.echoes[i];
-    if (i == all.first_target) result.echoes.first_target = result.paths.size();
     const double gain = element_gain(sensor, echo.azimuth_rad);
     if (!(gain > 0.0)) continue;
-    result.echoes.echoes.push_back(echo);
-    result.echoes.phase_rad.push_back(all.phase_rad[i]);
+    if (i >= all.first_target) result.targets.push_back(echo);
     result.paths.push_back({echo.range_m, echo.radial_speed_mps, echo.azimuth_rad,
                             echo.elevation_rad,
                             std::polar(gain * std::sqrt(echo.power_W), all.phase_rad[i])});
   }
-  if (all.first_target == all.echoes.size()) result.echoes.first_target = result.paths.size();
   return result;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/fmcw/spectrum.h"
+#include "apps/gnuplot.h"
 #include "apps/heat_map.h"
 #include "core/files.h"
 #include "core/image.h"
@@ -31,6 +33,11 @@ class Writer {
   void beats() const {
     for (std::size_t stage = 0; stage < frame_.beats.size(); ++stage)
       cube("beat", frame_.beats[stage], stage == 0 ? "" : "-stage" + std::to_string(stage));
+  }
+  void spectrum() const {
+    const BeatSpectrum found = beat_spectrum(radar_, frame_.beats[0]);
+    core::write_file_atomically(file("spectrum", ".csv"), spectrum_csv(found));
+    write_plot(spectrum_plot(found, title("beat spectrum")), file("spectrum", ".png"));
   }
   void rad_cube() const { cube("cube", frame_.cube, ""); }
   void range_doppler() const;
@@ -89,7 +96,7 @@ void Writer::range_doppler() const {
                radar_.axes.speed_mps(1.0) - radar_.axes.speed_mps(0.0),
                frame_.range_doppler.rows,
                {}};
-  for (const signal::RadarDetection& found : frame_.detections)
+  for (const signal::RadarDetection& found : frame_.found->detections)
     picture.marks.emplace_back(found.range_cell * radar_.axes.range_step_m,
                                radar_.axes.speed_mps(found.doppler_cell));
   map("range-doppler", frame_.range_doppler, radar_.noise_cell_W * radar_.array.channels(),
@@ -106,7 +113,7 @@ void Writer::range_azimuth() const {
   picture.y = {"azimuth, deg (right is up)", -(cells / 2) * step, step, cells, {}};
   for (const int azimuth_deg : {-75, -60, -45, -30, -15, 0, 15, 30, 45, 60, 75})
     picture.y.ticks.emplace_back(std::to_string(azimuth_deg), std::sin(core::radians(azimuth_deg)));
-  for (const signal::RadarDetection& found : frame_.detections)
+  for (const signal::RadarDetection& found : frame_.found->detections)
     picture.marks.emplace_back(found.range_cell * radar_.axes.range_step_m,
                                std::sin(found.azimuth_rad));
   map("range-azimuth", frame_.range_azimuth,
@@ -120,7 +127,7 @@ void Writer::top_view() const {
   picture.x = {"right, m", grid.leftmost_m, grid.step_m, grid.columns, {}};
   picture.y = {"forward, m", grid.nearest_m, grid.step_m, grid.rows, {}};
   picture.equal_scales = true;
-  for (const signal::RadarDetection& found : frame_.detections)
+  for (const signal::RadarDetection& found : frame_.found->detections)
     picture.marks.emplace_back(found.range_m * std::sin(found.azimuth_rad),
                                found.range_m * std::cos(found.azimuth_rad));
   map("top-view", frame_.top_view, radar_.noise_cell_W / radar_.array.channels() * kLargestOverMean,
@@ -132,8 +139,8 @@ void Writer::detections() const {
       "frame,time_s,detection,range_m,radial_speed_mps,azimuth_deg,elevation_deg,power_W,snr_dB,"
       "forward_m,right_m,cluster\n";
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (std::size_t i = 0; i < frame_.detections.size(); ++i) {
-    const signal::RadarDetection& found = frame_.detections[i];
+  for (std::size_t i = 0; i < frame_.found->detections.size(); ++i) {
+    const signal::RadarDetection& found = frame_.found->detections[i];
     const double forward_m = found.range_m * std::cos(found.azimuth_rad);
     const double right_m = found.range_m * std::sin(found.azimuth_rad);
     const double snr_dB = 10.0 * std::log10(std::max(found.snr, 1e-30));
@@ -141,7 +148,7 @@ void Writer::detections() const {
         fmt::format("{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4e},{:.2f},{:.3f},{:.3f},{}\n",
                     stamp_.frame, stamp_.time_s, i, found.range_m, found.radial_speed_mps,
                     core::degrees(found.azimuth_rad), core::degrees(found.elevation_rad),
-                    found.power_W, snr_dB, forward_m, right_m, frame_.clusters[i]);
+                    found.power_W, snr_dB, forward_m, right_m, frame_.found->clusters[i]);
     list.push_back({{"range_m", found.range_m},
                     {"radial_speed_mps", found.radial_speed_mps},
                     {"azimuth_rad", found.azimuth_rad},
@@ -150,7 +157,7 @@ void Writer::detections() const {
                     {"snr_dB", snr_dB},
                     {"forward_m", forward_m},
                     {"right_m", right_m},
-                    {"cluster", frame_.clusters[i]}});
+                    {"cluster", frame_.found->clusters[i]}});
   }
   core::write_file_atomically(file("detections", ".csv"), table);
   const nlohmann::ordered_json json = {
@@ -165,6 +172,7 @@ void write_fmcw_products(const fs::path& folder, const std::set<std::string>& pr
   const Writer writer(folder, radar, frame, stamp);
   if (products.contains("beat")) writer.beats();
   if (!radar.maps) return;
+  if (products.contains("spectrum")) writer.spectrum();
   if (products.contains("cube")) writer.rad_cube();
   if (products.contains("range-doppler")) writer.range_doppler();
   if (products.contains("range-azimuth")) writer.range_azimuth();

@@ -8,11 +8,15 @@
 #include "core/errors.h"
 #include "signal/detection/cfar_calibration.h"
 #include "signal/receiver/receiver_noise.h"
+#include "signal/transform/angle_transform.h"
 
 namespace fanbeam::apps {
 namespace {
 
 using signal::WaveformKind;
+
+// The default radar's twelve elements make beams 8.5 deg wide: five cells each.
+constexpr int kAngleCells = 64;
 
 constexpr double kAutomotiveFrom_Hz = 70e9, kAutomotiveTo_Hz = 82e9;
 
@@ -94,6 +98,8 @@ void prepare_maps(const FmcwOptions& options, const sensors::Sensor& sensor, Fmc
   radar.axes = signal::range_doppler_axes(fs_Hz, radar.timing.slope_Hz_per_s,
                                           slots * radar.timing.slot_period_s,
                                           radar.timing.wavelength_m, samples, chirps);
+  radar.azimuths_rad = signal::angle_cell_azimuths_rad(
+      std::max(kAngleCells, radar.array.channels()), radar.pitch_m, radar.waveform.wavelength_m());
   signal::DetectionSettings& settings = radar.detection;
   // Real samples hold every range twice.
   const int whole = options.real ? samples / 2 : samples;

@@ -22,7 +22,8 @@ struct FmcwRadar {
   signal::CubeTiming timing;
   signal::RangeDopplerAxes axes;
   signal::DetectionSettings detection;
-  double noise_cell_W = 0.0;  // mean, in a cell of one transformed channel
+  std::vector<double> azimuths_rad;  // of the cube's cells, rising
+  double noise_cell_W = 0.0;         // mean, in a cell of one transformed channel
 };
 
 // Which kind of waveform the options mean for this sensor: "automotive-76ghz" from 70 to 82 GHz,

@@ -3,42 +3,20 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/fmcw/signal_bscope.h"
+#include "apps/waveform_figures.h"
 #include "core/machine.h"
-#include "signal/waveform/figures.h"
+#include "sensors/receiver/point_response.h"
+#include "signal/scan/column_sweep.h"
 
 namespace fanbeam::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json waveform_json(const FmcwRadar& radar) {
-  const signal::Waveform& waveform = radar.waveform;
-  Json json = {{"name", radar.waveform_name},
-               {"kind", std::string(signal::name(waveform.kind))},
-               {"centre_frequency_Hz", waveform.centre_frequency_Hz},
-               {"wavelength_m", waveform.wavelength_m()},
-               {"bandwidth_Hz", waveform.bandwidth_Hz},
-               {"duration_s", waveform.duration_s()},
-               {"complex_baseband", waveform.complex_baseband}};
-  const auto stages = signal::figures(waveform);
-  for (std::size_t i = 0; i < stages.size(); ++i) {
-    const signal::StageFigures& stage = stages[i];
-    Json entry = {{"sample_rate_Hz", waveform.sample_rate_Hz[i]},
-                  {"segments", stage.segments},
-                  {"segment_s", stage.segment_s},
-                  {"samples", stage.samples},
-                  {"slope_Hz_per_s", stage.slope_Hz_per_s}};
-    const auto put = [&](const char* key, const std::optional<double>& value) {
-      if (value) entry[key] = *value;
-    };
-    put("range_cell_m", stage.range_cell_m);
-    put("taylor_width_m", stage.taylor_width_m);
-    put("unambiguous_range_m", stage.unambiguous_range_m);
-    put("speed_cell_mps", stage.speed_cell_mps);
-    put("unambiguous_speed_mps", stage.unambiguous_speed_mps);
-    put("coupling_m_per_mps", stage.coupling_m_per_mps);
-    json["stages"].push_back(entry);
-  }
+Json named_waveform_json(const FmcwRadar& radar) {
+  Json json = {{"name", radar.waveform_name}};
+  json.update(waveform_json(radar.waveform));
   return json;
 }
 
@@ -55,7 +33,7 @@ Json array_json(const FmcwRadar& radar) {
 }
 
 // How the cells of maps and cube are numbered.
-Json axes_json(const FmcwRadar& radar, const std::vector<double>& azimuths_rad) {
+Json axes_json(const FmcwRadar& radar) {
   const signal::RangeDopplerAxes& axes = radar.axes;
   return {{"cube", {"azimuth", "radial_speed", "range"}},
           {"range_step_m", axes.range_step_m},
@@ -64,11 +42,29 @@ Json axes_json(const FmcwRadar& radar, const std::vector<double>& azimuths_rad) 
           {"speed_step_mps", axes.speed_mps(1.0) - axes.speed_mps(0.0)},
           {"speed_cells", axes.doppler_cells},
           {"range_read_long_m_per_mps", axes.range_per_Doppler_m_s * 2.0 / axes.wavelength_m},
-          {"azimuths_rad", azimuths_rad},
+          {"azimuths_rad", radar.azimuths_rad},
           {"noise_cell_W", radar.noise_cell_W}};
 }
 
+// What the B-scope's columns are swept with: the same in all but its frequency.
+Json scan_json(const sensors::Sensor& sensor) {
+  return {{"sweep", waveform_json(signal::column_sweep(sensor, 0))},
+          {"window_assumed", sensor.waveform.window == sensors::Waveform::Window::none},
+          {"window_cosines", sensors::window_coefficients(with_sweep_window(sensor).waveform)},
+          {"doppler_compensated", sensor.waveform.doppler_compensated}};
+}
+
+Json scan_json(const FmcwScanCounts& scan) {
+  return {{"looks", scan.looks},
+          {"rays", scan.rays},
+          {"scatterers", scan.scatterers},
+          {"phase_noise_rad", scan.phase_noise_rad},
+          {"clipped", scan.clipped}};
+}
+
 Json frame_json(const FmcwFrameRecord& frame) {
+  if (!frame.chain)
+    return {{"index", frame.index}, {"time_s", frame.time_s}, {"bscope", scan_json(*frame.scan)}};
   Json targets = Json::array(), warnings = Json::array();
   for (const FmcwTruth& truth : frame.targets)
     targets.push_back({{"name", truth.name},
@@ -78,19 +74,23 @@ Json frame_json(const FmcwFrameRecord& frame) {
                        {"elevation_rad", truth.echo.elevation_rad},
                        {"power_W", truth.echo.power_W}});
   for (const core::Problem& warning : frame.warnings) warnings.push_back(to_string(warning));
-  return {{"index", frame.index},
-          {"time_s", frame.time_s},
-          {"rays", frame.rays},
-          {"paths", frame.paths},
-          {"received_W", frame.received_W},
-          {"synthesis", frame.keystone ? "keystone" : "direct"},
-          {"synthesis_error", frame.synthesis_error},
-          {"phase_noise_rad", frame.phase_noise_rad},
-          {"clipped", frame.clipped},
-          {"detections", frame.detections},
-          {"clusters", frame.clusters},
-          {"warnings", warnings},
-          {"targets", targets}};
+  Json json = {{"index", frame.index},
+               {"time_s", frame.time_s},
+               {"rays", frame.rays},
+               {"paths", frame.paths},
+               {"received_W", frame.received_W},
+               {"synthesis", frame.keystone ? "keystone" : "direct"},
+               {"synthesis_error", frame.synthesis_error},
+               {"phase_noise_rad", frame.phase_noise_rad},
+               {"clipped", frame.clipped}};
+  if (frame.found) {
+    json["detections"] = frame.found->detections;
+    json["clusters"] = frame.found->clusters;
+  }
+  if (frame.scan) json["bscope"] = scan_json(*frame.scan);
+  json["warnings"] = warnings;
+  json["targets"] = targets;
+  return json;
 }
 
 }  // namespace
@@ -98,18 +98,20 @@ Json frame_json(const FmcwFrameRecord& frame) {
 FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPaths& paths,
                             const FmcwFrame& frame) {
   FmcwFrameRecord record;
+  record.chain = true;
   record.index = index;
   record.time_s = scene.trajectory.frame_time_s(index, scene.description.sensor.scan.frame_rate_Hz);
-  record.rays = paths.echoes.rays;
+  record.rays = paths.rays;
   record.paths = paths.paths.size();
   for (const signal::ScatterPath& path : paths.paths)
     record.received_W += std::norm(path.amplitude_sqrtW);
-  for (std::size_t i = paths.echoes.first_target; i < paths.echoes.echoes.size(); ++i) {
-    const core::Echo& echo = paths.echoes.echoes[i];
+  for (const core::Echo& echo : paths.targets)
     record.targets.push_back({scene.world.targets[echo.object_id].name, echo});
+  if (frame.found) {
+    record.found = FmcwCounts{frame.found->detections.size(), 0};
+    for (const int cluster : frame.found->clusters)
+      record.found->clusters = std::max(record.found->clusters, cluster + 1);
   }
-  record.detections = frame.detections.size();
-  for (const int cluster : frame.clusters) record.clusters = std::max(record.clusters, cluster + 1);
   record.warnings = frame.warnings;
   record.keystone = frame.keystone;
   record.synthesis_error = frame.synthesis_error;
@@ -119,25 +121,27 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
 }
 
 std::string fmcw_run_json(const scenes::Scene& scene, const FmcwOptions& options,
-                          const FmcwRadar& radar, const std::vector<double>& azimuths_rad,
-                          const std::vector<FmcwFrameRecord>& frames) {
+                          const FmcwRadar& radar, const std::vector<FmcwFrameRecord>& frames) {
   Json json = {{"version", version_text()},
                {"commit", commit_text()},
                {"scene", scene.description.name},
                {"sensor", scene.description.sensor.name},
                {"seed", options.seed},
                {"rays_per_cell", options.rays_per_cell},
-               {"waveform", waveform_json(radar)},
-               {"array", array_json(radar)},
                {"noise_figure", scene.description.sensor.receiver.noise_figure},
                {"line_width_Hz", options.line_width_Hz},
                {"adc_bits", options.adc_bits}};
+  if (!radar.waveform.segments.empty()) {  // the chain ran
+    json["waveform"] = named_waveform_json(radar);
+    json["array"] = array_json(radar);
+  }
   if (radar.maps) {
-    json["axes"] = axes_json(radar, azimuths_rad);
+    json["axes"] = axes_json(radar);
     json["cfar"] = {{"kind", std::string(signal::name(radar.detection.cfar.kind))},
                     {"false_alarm_probability", options.false_alarm_probability},
                     {"design_probability", radar.detection.cfar.design_probability}};
   }
+  if (!frames.empty() && frames.front().scan) json["bscope"] = scan_json(scene.description.sensor);
   Json input = Json::object();
   for (const auto& [path, value] : scene.description.resolved)
     std::visit([&, &key = path](const auto& v) { input[key] = v; }, value);
@@ -154,11 +158,15 @@ std::string fmcw_timing_json(int threads, double scene_build_s,
                {"machine", core::processor_name()},
                {"scene_build_s", scene_build_s},
                {"frames", Json::array()}};
-  for (const FmcwFrameRecord& frame : frames)
-    json["frames"].push_back({{"index", frame.index},
-                              {"echoes_ms", frame.echoes_ms},
-                              {"signal_ms", frame.signal_ms},
-                              {"writing_ms", frame.writing_ms}});
+  for (const FmcwFrameRecord& frame : frames) {
+    Json entry = {{"index", frame.index}};
+    if (frame.scan) entry["bscope_ms"] = frame.scan->ms;
+    if (frame.chain)
+      entry.update(Json{{"echoes_ms", frame.echoes_ms},
+                        {"signal_ms", frame.signal_ms},
+                        {"writing_ms", frame.writing_ms}});
+    json["frames"].push_back(entry);
+  }
   return json.dump(1) + "\n";
 }
 

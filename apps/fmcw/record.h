@@ -1,6 +1,7 @@
 // run.json and timing.json of fanbeam fmcw.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,15 +15,29 @@ struct FmcwTruth {  // a point target that the frame sees
   core::Echo echo;
 };
 
+struct FmcwCounts {
+  std::size_t detections = 0;
+  int clusters = 0;
+};
+
+struct FmcwScanCounts {  // of product bscope
+  int looks = 0;
+  std::uint64_t rays = 0, scatterers = 0;
+  double phase_noise_rad = 0.0;
+  std::size_t clipped = 0;
+  double ms = 0.0;  // for timing.json
+};
+
 struct FmcwFrameRecord {
   int index = 0;
   double time_s = 0.0;
+  std::optional<FmcwScanCounts> scan;
+  bool chain = false;  // what follows is known
   std::uint64_t rays = 0;
   std::size_t paths = 0;
   double received_W = 0.0;  // sum over paths, at one receiver's port
   std::vector<FmcwTruth> targets;
-  std::size_t detections = 0;
-  int clusters = 0;
+  std::optional<FmcwCounts> found;  // where detections were looked for
   std::vector<core::Problem> warnings;
   bool keystone = false;
   double synthesis_error = 0.0, phase_noise_rad = 0.0;
@@ -31,13 +46,12 @@ struct FmcwFrameRecord {
   double echoes_ms = 0.0, signal_ms = 0.0, writing_ms = 0.0;
 };
 
-// Everything but `paths`, the echoes' powers and times.
+// Everything but the times.
 FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPaths& paths,
                             const FmcwFrame& frame);
 
 std::string fmcw_run_json(const scenes::Scene& scene, const FmcwOptions& options,
-                          const FmcwRadar& radar, const std::vector<double>& azimuths_rad,
-                          const std::vector<FmcwFrameRecord>& frames);
+                          const FmcwRadar& radar, const std::vector<FmcwFrameRecord>& frames);
 std::string fmcw_timing_json(int threads, double scene_build_s,
                              const std::vector<FmcwFrameRecord>& frames);
 

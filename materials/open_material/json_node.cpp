@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "core/files.h"
+#include "core/json_size.h"
 #include "materials/open_material/json_node_private.h"
 
 namespace fanbeam::materials {
@@ -17,25 +18,18 @@ core::Place place_of(const std::string& file, const std::string& text, std::size
   return {file, 1 + static_cast<int>(line), 1 + static_cast<int>(end - line_start)};
 }
 
-// Where brackets and braces outside of strings first go deeper than allowed, else npos. Found
-// before parsing, so that no parser and no destructor sees the depth.
-std::size_t too_deep_at(const std::string& text) {
-  int level = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quoted) {
-      if (c == '\\') ++i;
-      if (c == '"') quoted = false;
-    } else if (c == '"') {
-      quoted = true;
-    } else if (c == '[' || c == '{') {
-      if (++level > kMostJsonLevels) return i;
-    } else if (c == ']' || c == '}') {
-      --level;
-    }
-  }
-  return std::string::npos;
+// Before parsing, so that no parser and no destructor sees the text.
+void check_size(const std::string& file, const std::string& text) {
+  const auto excess = core::json_excess(text, {kMostJsonLevels, kMostJsonValues});
+  if (!excess) return;
+  const core::Place place = place_of(file, text, excess->offset);
+  if (excess->of == core::JsonExcess::Of::levels)
+    core::throw_input_error(ErrorClass::limit, place, "nesting",
+                            "deeper than " + std::to_string(kMostJsonLevels) + " levels",
+                            "at most " + std::to_string(kMostJsonLevels));
+  core::throw_input_error(ErrorClass::limit, place, "values",
+                          "more than " + std::to_string(kMostJsonValues),
+                          "at most " + std::to_string(kMostJsonValues));
 }
 
 // As found in the file, short enough for a message.
@@ -81,11 +75,7 @@ std::optional<JsonFile> read_json_file(const std::filesystem::path& path,
   JsonFile file{{}, path.string()};
   try {
     const std::string text = core::read_file(path, largest_bytes);
-    const std::size_t deep = too_deep_at(text);
-    if (deep != std::string::npos)
-      core::throw_input_error(ErrorClass::limit, place_of(file.name, text, deep), "nesting",
-                              "deeper than " + std::to_string(kMostJsonLevels) + " levels",
-                              "at most " + std::to_string(kMostJsonLevels));
+    check_size(file.name, text);
     file.root = parsed(text, file.name);
     if (!file.root.is_object())
       core::throw_input_error(ErrorClass::parse, core::Place{file.name}, "JSON text",

@@ -21,8 +21,9 @@ struct JsonFile {
 };
 
 inline constexpr int kMostJsonLevels = 32;
+inline constexpr std::size_t kMostJsonValues = 4'000'000;
 
-// Nothing after reporting: E-IO, E-LIMIT (bytes, levels of nesting), E-PARSE with line and column,
+// Nothing after reporting: E-IO, E-LIMIT (bytes, levels of nesting, values), E-PARSE with line and column,
 // E-NONFINITE (a number beyond double).
 std::optional<JsonFile> read_json_file(const std::filesystem::path& path,
                                        std::uint64_t largest_bytes, core::ProblemList& problems);

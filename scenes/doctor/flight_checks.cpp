@@ -1,8 +1,10 @@
 // The aircraft's way (T13), and the accuracy asked for.
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 
 #include "scenes/doctor/parts_private.h"
+#include "terrain/polygon.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -13,35 +15,59 @@ constexpr double kLowSine = 0.01;
 // RMS of what rounding to whole grey levels changes: 1 / sqrt(12).
 constexpr double kRounding_grey = 0.28867513459481287;
 
+// Where the antenna comes, from above.
+struct Extent {
+  glm::dvec2 low_m{1e300}, high_m{-1e300};
+
+  void hold(const glm::dvec2& point_m) {
+    low_m = glm::min(low_m, point_m);
+    high_m = glm::max(high_m, point_m);
+  }
+  bool meets(const Extent& other) const {
+    return low_m.x <= other.high_m.x && other.low_m.x <= high_m.x && low_m.y <= other.high_m.y &&
+           other.low_m.y <= high_m.y;
+  }
+  bool holds(const glm::dvec2& point_m) const { return meets({point_m, point_m}); }
+};
+
 bool inside(const terrain::Solid& solid, const glm::dvec3& point_m) {
   if (point_m.z >= solid.top_m) return false;
   bool odd = false;
-  for (const std::vector<glm::dvec2>& ring : solid.rings_m)
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const glm::dvec2& a = ring[i];
-      const glm::dvec2& b = ring[(i + 1) % ring.size()];
-      if ((a.y > point_m.y) == (b.y > point_m.y)) continue;
-      if (point_m.x < a.x + (point_m.y - a.y) / (b.y - a.y) * (b.x - a.x)) odd = !odd;
-    }
+  for (const std::vector<glm::dvec2>& ring_m : solid.rings_m)
+    if (terrain::crosses_odd(ring_m, point_m.x, point_m.y)) odd = !odd;
   return odd;
 }
 
+// By frame, whether a building holds the antenna. Most buildings of a town lie nowhere near the
+// flight and cost one look at their outline.
+std::vector<bool> frames_inside(const DoctorParts& parts) {
+  std::vector<bool> within(parts.flight.size(), false);
+  Extent flight;
+  for (const Sight& sight : parts.flight) flight.hold(glm::dvec2(sight.antenna.position_m));
+  for (const terrain::Solid& solid : parts.scene.world.solids.prisms) {
+    Extent outline;
+    for (const std::vector<glm::dvec2>& ring_m : solid.rings_m)
+      for (const glm::dvec2& corner_m : ring_m) outline.hold(corner_m);
+    if (!outline.meets(flight)) continue;
+    for (std::size_t i = 0; i < parts.flight.size(); ++i) {
+      const glm::dvec3& at_m = parts.flight[i].antenna.position_m;
+      if (!within[i] && outline.holds(glm::dvec2(at_m))) within[i] = inside(solid, at_m);
+    }
+  }
+  return within;
+}
+
 void check_solids(const DoctorParts& parts, Findings& findings) {
-  std::size_t frames = 0;
-  const Sight* first = nullptr;
-  for (const Sight& sight : parts.flight)
-    for (const terrain::Solid& solid : parts.scene.world.solids.prisms)
-      if (inside(solid, sight.antenna.position_m)) {
-        ++frames;
-        if (first == nullptr) first = &sight;
-        break;
-      }
-  if (first == nullptr) return;
+  const std::vector<bool> within = frames_inside(parts);
+  const auto frames = std::count(within.begin(), within.end(), true);
+  if (frames == 0) return;
+  const auto first_index = std::find(within.begin(), within.end(), true) - within.begin();
+  const Sight& first = parts.flight[static_cast<std::size_t>(first_index)];
   findings.push_back({Severity::wrong, "flight-through-building",
                       "the antenna is inside a building, first in frame " +
-                          std::to_string(first->frame) + ", for this many frames",
+                          std::to_string(first.frame) + ", for this many frames",
                       place_text(parts.scene.description.trajectory.place) + ", trajectory, " +
-                          place_text(parts.scene, first->antenna.position_m),
+                          place_text(parts.scene, first.antenna.position_m),
                       static_cast<double>(frames), "",
                       "Walls seen from inside hide all of the scene.",
                       "Move the building or the trajectory; check the building's height."});

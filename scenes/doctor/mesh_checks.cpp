@@ -1,12 +1,10 @@
-// Triangles: T01, T08, T12 of the hard cases.
+// How far coordinates and how thin or unequal triangles may be: T01, T12 of the hard cases.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
-#include <optional>
 
 #include "scenes/doctor/parts_private.h"
+#include "scenes/doctor/triangles_private.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -18,16 +16,6 @@ constexpr double kLooseNormal_rad = 0.0175;
 // Beyond it less than three bits of a float remain for the small triangle.
 constexpr double kLargestRatio = 1048576.0;
 
-using Corners = std::array<glm::dvec3, 3>;
-
-template <class Use>
-void for_triangles(const terrain::TriangleMesh& mesh, const Use& use) {
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const glm::uvec3& t = mesh.triangles[i];
-    use(i, Corners{mesh.vertices_m[t.x], mesh.vertices_m[t.y], mesh.vertices_m[t.z]});
-  }
-}
-
 double longest_m(const Corners& c) {
   return std::max(
       {glm::distance(c[0], c[1]), glm::distance(c[1], c[2]), glm::distance(c[2], c[0])});
@@ -37,15 +25,11 @@ double shortest_m(const Corners& c) {
       {glm::distance(c[0], c[1]), glm::distance(c[1], c[2]), glm::distance(c[2], c[0])});
 }
 
-double largest_coordinate_m(const glm::dvec3& point_m) {
-  return std::max({std::abs(point_m.x), std::abs(point_m.y), std::abs(point_m.z)});
-}
-
 // As the ray caster keeps it.
-Corners in_floats(const Corners& corners) {
-  Corners rounded = corners;
-  for (glm::dvec3& corner : rounded) corner = glm::dvec3(glm::vec3(corner));
-  return rounded;
+Corners as_kept(const DoctorParts& parts, const Corners& corners) {
+  Corners kept = corners;
+  for (glm::dvec3& corner : kept) corner = glm::dvec3(glm::vec3(parts.in_caster_m(corner)));
+  return kept;
 }
 
 double area_m2(const Corners& c) { return glm::length(glm::cross(c[1] - c[0], c[2] - c[0])) / 2.0; }
@@ -57,15 +41,15 @@ struct Loose {
 };
 
 // Triangles so thin that rounding their corners to floats turns them.
-Loose loose_triangles(const terrain::TriangleMesh& mesh) {
+Loose loose_triangles(const DoctorParts& parts, const terrain::TriangleMesh& mesh) {
   Loose loose;
   for_triangles(mesh, [&](std::size_t, const Corners& corners) {
     const double step_m =
-        float_step_m(std::max({largest_coordinate_m(corners[0]), largest_coordinate_m(corners[1]),
-                               largest_coordinate_m(corners[2])}));
+        std::max({float_step_m(parts, corners[0]), float_step_m(parts, corners[1]),
+                  float_step_m(parts, corners[2])});
     const double whole_m2 = area_m2(corners);
     loose.mesh_area_m2 += whole_m2;
-    const double height_m = 2.0 * area_m2(in_floats(corners)) / longest_m(corners);
+    const double height_m = 2.0 * area_m2(as_kept(parts, corners)) / longest_m(corners);
     if (height_m * kLooseNormal_rad >= step_m) return;
     ++loose.count;
     loose.area_m2 += whole_m2;
@@ -82,9 +66,12 @@ Loose loose_triangles(const terrain::TriangleMesh& mesh) {
 
 void check_coordinates(const DoctorParts& parts, Findings& findings) {
   glm::dvec3 farthest_m(0.0);
+  double step_m = 0.0;
   std::string what = "terrain";
   const auto look = [&](const glm::dvec3& point_m, const std::string& name) {
-    if (largest_coordinate_m(point_m) <= largest_coordinate_m(farthest_m)) return;
+    const double step_there_m = float_step_m(parts, point_m);
+    if (step_there_m <= step_m) return;
+    step_m = step_there_m;
     farthest_m = point_m;
     what = name;
   };
@@ -95,7 +82,7 @@ void check_coordinates(const DoctorParts& parts, Findings& findings) {
   for (const Body& body : parts.bodies)
     for (const glm::dvec3& vertex : body.placed.mesh.vertices_m) look(vertex, body.name);
   for (const Sight& sight : parts.flight) look(sight.antenna.position_m, "trajectory");
-  const double error_m = float_step_m(largest_coordinate_m(farthest_m)) / parts.far_sine;
+  const double error_m = step_m / parts.far_sine;
   const double cell_m = parts.sensor().range.cell_m;
   if (error_m < kCellPart * cell_m) return;
   findings.push_back(
@@ -138,7 +125,7 @@ void check_triangle_sizes(const DoctorParts& parts, Findings& findings) {
            "eighth of the smallest.",
            "Cut the huge triangle into pieces of about the size of the scene's terrain posts, or "
            "leave out detail that no range cell resolves."});
-    const Loose loose = loose_triangles(body.placed.mesh);
+    const Loose loose = loose_triangles(parts, body.placed.mesh);
     if (loose.count > 0)
       findings.push_back(
           {loose.area_m2 > 1e-3 * loose.mesh_area_m2 ? Severity::delicate : Severity::note,
@@ -150,60 +137,6 @@ void check_triangle_sizes(const DoctorParts& parts, Findings& findings) {
            "more than a degree.",
            "Remove needles and detail below a centimetre from the model."});
   }
-}
-
-void check_duplicates(const DoctorParts& parts, Findings& findings) {
-  for (const core::Problem& problem : parts.warnings)
-    if (problem.code == "W-DEGENERATE")
-      findings.push_back(
-          {Severity::note, "degenerate-triangles",
-           "removed on loading: " + problem.value + ", " + problem.field, place_text(problem.place),
-           std::strtod(problem.value.c_str(), nullptr), "",
-           "They have no direction or lie in each other; left in, they would make NaN or chance.",
-           "Nothing has to be done; clean the model if the number is a surprise."});
-
-  using Key = std::array<std::array<float, 3>, 3>;
-  struct First {
-    std::size_t body = 0, count = 0;
-    terrain::MaterialId material = 0;
-  };
-  std::map<Key, First> seen;
-  // By the two bodies: triangles shared, those of other material, and one place.
-  struct Shared {
-    std::size_t count = 0, differing = 0;
-    glm::dvec3 where_m{0.0};
-  };
-  std::map<std::pair<std::size_t, std::size_t>, Shared> shared;
-  for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
-    const terrain::PlacedMesh& placed = parts.bodies[b].placed;
-    for_triangles(placed.mesh, [&](std::size_t i, const Corners& corners) {
-      Key key{};
-      for (std::size_t c = 0; c < 3; ++c)
-        key[c] = {static_cast<float>(corners[c].x), static_cast<float>(corners[c].y),
-                  static_cast<float>(corners[c].z)};
-      std::sort(key.begin(), key.end());
-      const terrain::MaterialId material =
-          placed.material_of_name.at(placed.mesh.triangle_material[i]);
-      const auto [at, is_new] = seen.try_emplace(key, First{b, 0, material});
-      if (is_new || at->second.body == b) return;  // two sides of a sheet share their corners
-      Shared& pair = shared[{at->second.body, b}];
-      if (pair.count++ == 0) pair.where_m = corners[0];
-      if (at->second.material != material) ++pair.differing;
-    });
-  }
-  for (const auto& [pair, found] : shared)
-    findings.push_back(
-        {found.differing > 0 ? Severity::wrong : Severity::note, "duplicate-triangles",
-         std::to_string(found.count) + " triangles lie exactly in those of " +
-             parts.bodies[pair.first].name +
-             (found.differing > 0
-                  ? ", " + std::to_string(found.differing) + " with another material"
-                  : ", all of the same material"),
-         parts.bodies[pair.second].name + ", " + place_text(parts.scene, found.where_m),
-         static_cast<double>(found.count), "",
-         found.differing > 0 ? "Which of the two a ray meets is chance, and with it the material."
-                             : "The picture is the same, each ray just takes longer.",
-         "Remove one of the two objects."});
 }
 
 }  // namespace fanbeam::scenes

@@ -1,13 +1,11 @@
-// What lies in or just over the ground (T07), is thinner than a ray (R09), or below the ground.
+// What lies in or just over the ground (T07), or is thinner than a ray (R09).
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 
 #include "renderer/casting/sampling.h"
 #include "scenes/doctor/parts_private.h"
-#include "scenes/line_points.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -17,7 +15,6 @@ constexpr double kParallel = 0.985;      // cosine of 10 deg
 constexpr double kCoplanarSteps = 16.0;  // float steps within which either surface may win
 constexpr double kSmallOverlay_m2 = 10.0;
 constexpr double kSmallShare = 0.01;  // of an object: a few sunken roofs of a town
-constexpr double kBelow_m = 0.01;
 
 struct Overlay {
   double all_m2 = 0.0, coplanar_m2 = 0.0, crossing_m2 = 0.0, gap_m = 0.0;
@@ -32,8 +29,9 @@ glm::dvec3 ground_normal(const terrain::HeightField& field, double x_m, double y
                                    height_m(x_m, y_m - d_m) - height_m(x_m, y_m + d_m), 2.0 * d_m));
 }
 
-void look_at_triangle(const terrain::HeightField& field, const std::array<glm::dvec3, 3>& c,
+void look_at_triangle(const DoctorParts& parts, const std::array<glm::dvec3, 3>& c,
                       Overlay& overlay) {
+  const terrain::HeightField& field = parts.ground.field();
   const glm::dvec3 cross = glm::cross(c[1] - c[0], c[2] - c[0]);
   const double area_m2 = glm::length(cross) / 2.0;
   overlay.all_m2 += area_m2;
@@ -51,9 +49,7 @@ void look_at_triangle(const terrain::HeightField& field, const std::array<glm::d
       kParallel)
     return;
   const double gap_m = std::max(std::abs(lowest_m), std::abs(highest_m));
-  const double step_m =
-      float_step_m(std::max({std::abs(middle.x), std::abs(middle.y), std::abs(middle.z)}));
-  const bool coplanar = gap_m <= kCoplanarSteps * step_m;
+  const bool coplanar = gap_m <= kCoplanarSteps * float_step_m(parts, middle);
   if (!coplanar && !(lowest_m < 0.0 && highest_m > 0.0)) return;
   (coplanar ? overlay.coplanar_m2 : overlay.crossing_m2) += area_m2;
   if (gap_m >= overlay.gap_m) {
@@ -97,8 +93,8 @@ void check_overlays(const DoctorParts& parts, Findings& findings) {
     Overlay overlay;
     const terrain::TriangleMesh& mesh = body.placed.mesh;
     for (const glm::uvec3& t : mesh.triangles)
-      look_at_triangle(parts.ground.field(),
-                       {mesh.vertices_m[t.x], mesh.vertices_m[t.y], mesh.vertices_m[t.z]}, overlay);
+      look_at_triangle(parts, {mesh.vertices_m[t.x], mesh.vertices_m[t.y], mesh.vertices_m[t.z]},
+                       overlay);
     const bool coplanar = overlay.coplanar_m2 > 0.0;
     const double found_m2 = coplanar ? overlay.coplanar_m2 : overlay.crossing_m2;
     if (!(found_m2 > 0.0)) continue;
@@ -154,88 +150,6 @@ void check_thin_bodies(const DoctorParts& parts, Findings& findings) {
          "Rays meet it by luck, so that it flickers from frame to frame.",
          best < 1.0 ? "Describe it as [[line]] or [[target]]: points cannot be missed."
                     : "Ask for more --rays-per-cell or an --accuracy if it matters that far out."});
-  }
-}
-
-void check_targets(const DoctorParts& parts, Findings& findings) {
-  struct Group {
-    std::size_t points = 0, below = 0;
-    double deepest_m = 0.0;
-    glm::dvec3 where_m{0.0};
-  };
-  std::map<std::string, Group> groups;
-  for (const renderer::PointTarget& target : parts.scene.world.targets) {
-    Group& group = groups[target.name];
-    ++group.points;
-    double deepest_m = 0.0, shallowest_m = 1e300;
-    glm::dvec3 where_m(0.0);
-    constexpr int kParts = 8;
-    const auto look = [&](const glm::dvec3& at_m) {
-      const auto ground_m = parts.ground.field().height_at(at_m.x, at_m.y);
-      const double below_m = ground_m ? *ground_m - at_m.z : 0.0;
-      shallowest_m = std::min(shallowest_m, below_m);
-      if (below_m <= deepest_m) return;
-      deepest_m = below_m;
-      where_m = at_m;
-    };
-    for (std::size_t i = 0; i < target.path.size(); ++i) {
-      look(target.path[i].position_m);
-      if (i + 1 < target.path.size())
-        for (int k = 1; k < kParts; ++k)
-          look(glm::mix(target.path[i].position_m, target.path[i + 1].position_m,
-                        static_cast<double>(k) / kParts));
-    }
-    if (deepest_m <= kBelow_m) continue;
-    if (shallowest_m > kBelow_m) ++group.below;
-    if (deepest_m <= group.deepest_m) continue;
-    group.deepest_m = deepest_m;
-    group.where_m = where_m;
-  }
-  for (const auto& [name, group] : groups) {
-    if (!(group.deepest_m > 0.0)) continue;
-    const bool all = group.below == group.points;
-    findings.push_back(
-        {all ? Severity::wrong : Severity::delicate, "target-below-ground",
-         (all ? "every point of it lies"
-              : "of " + std::to_string(group.points) + " points " + std::to_string(group.below) +
-                    " lie always, others on a part of their way,") +
-             std::string(" below the ground, the deepest by this much"),
-         "\"" + name + "\", " + place_text(parts.scene, group.where_m), group.deepest_m, "m",
-         "The ground hides it, and a straight line between two ends does not follow a hill.",
-         "Raise it with above_ground_m, or put more waypoints or shorter lines over the hill."});
-  }
-}
-
-void check_wires(const DoctorParts& parts, Findings& findings) {
-  const double wavelength_m = parts.sensor().wavelength_m();
-  for (const LineDescription& line : parts.scene.description.lines) {
-    if (!line.wire) continue;
-    double nearest_m = 1e300, limit_m = 0.0;
-    glm::dvec3 where_m(0.0);
-    for (const renderer::PointTarget& target : parts.scene.world.targets) {
-      const auto* wire = std::get_if<materials::RoundWire>(&target.rcs);
-      if (wire == nullptr || target.name != line.name) continue;
-      const double coherence_m =
-          wire->coherence_length_m > 0.0 ? wire->coherence_length_m : wire->length_m;
-      limit_m = std::max(limit_m, 2.0 * coherence_m * wire->length_m / wavelength_m);
-      for (const Sight& sight : parts.sights) {
-        const double range_m = range_in_view_m(parts, sight, target.path.front().position_m);
-        if (!(range_m > 0.0) || range_m >= nearest_m) continue;
-        nearest_m = range_m;
-        where_m = target.path.front().position_m;
-      }
-    }
-    if (!(nearest_m < limit_m)) continue;
-    findings.push_back(
-        {Severity::delicate, "wire-pieces-too-long",
-         "its pieces are steady only beyond this range, and it is seen from " +
-             core::number_text(std::round(nearest_m)) + " m",
-         place_text(line.place) + ", line \"" + line.name + "\", " +
-             place_text(parts.scene, where_m),
-         limit_m, "m",
-         "Nearer, the flash of a piece is narrower than the angle between two pieces, and the wire "
-         "flickers.",
-         "Take a smaller spacing_m: the range is 2 coherence_length_m spacing_m / wavelength."});
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "scenes/doctor/finding.h"
 #include "scenes/natural_ground.h"
+#include "scenes/objects.h"
 #include "scenes/scene.h"
 #include "sensors/antenna/antenna_frame.h"
 #include "terrain/ray_scene.h"
@@ -34,10 +35,15 @@ struct DoctorParts {
   const Ground& ground;
   const NaturalGround& natural;
   std::vector<Body> bodies;
-  std::vector<Sight> flight;  // every frame
-  std::vector<Sight> sights;  // at most kMostSights of them
+  std::vector<PointGroup> point_groups;  // of scene.world.targets
+  std::vector<Sight> flight;             // every frame
+  std::vector<Sight> sights;             // at most kMostSights of them
 
   const sensors::Sensor& sensor() const { return scene.description.sensor; }
+  // Where the ray caster sees a point: it counts heights from near the ground, and keeps floats.
+  glm::dvec3 in_caster_m(const glm::dvec3& point_m) const {
+    return scene.world.surfaces->in_caster_m(point_m);
+  }
   // Sine of the depression at the farthest range, from the flight's median height.
   double far_sine = 0.01;
 };
@@ -47,8 +53,8 @@ std::string place_text(const Scene& scene, const glm::dvec3& position_m);
 // "scene.toml:30"
 std::string place_text(const core::Place& place);
 
-// Spacing of floats at this coordinate, at most.
-double float_step_m(double coordinate_m);
+// Spacing of floats at the point's largest coordinate in the caster, at most.
+double float_step_m(const DoctorParts& parts, const glm::dvec3& point_m);
 
 // The point's range where the antenna's field of view and range window hold it, else 0.
 double range_in_view_m(const DoctorParts& parts, const Sight& sight, const glm::dvec3& point_m);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "core/units.h"
@@ -81,8 +82,10 @@ std::string place_text(const Scene& scene, const glm::dvec3& position_m) {
          rounded(core::degrees(at.longitude_rad), 1e5) + ")";
 }
 
-double float_step_m(double coordinate_m) {
-  return std::abs(coordinate_m) * static_cast<double>(std::numeric_limits<float>::epsilon());
+double float_step_m(const DoctorParts& parts, const glm::dvec3& point_m) {
+  const glm::dvec3 at_m = glm::abs(parts.in_caster_m(point_m));
+  return std::max({at_m.x, at_m.y, at_m.z}) *
+         static_cast<double>(std::numeric_limits<float>::epsilon());
 }
 
 double range_in_view_m(const DoctorParts& parts, const Sight& sight, const glm::dvec3& point_m) {
@@ -105,8 +108,9 @@ Findings examine(const Scene& scene, const std::vector<core::Problem>& warnings)
   const Ground ground(description, scene.frame, names, problems);
   const NaturalGround natural(description.terrain, ground.level_m(), names, problems);
   ModelMaterials model_materials(description, library.size(), problems);
-  DoctorParts parts{scene, warnings, ground, natural, {}, {}, {}};
+  DoctorParts parts{scene, warnings, ground, natural, {}, {}, {}, {}};
   parts.bodies = bodies_of(description, ground, names, model_materials, problems);
+  parts.point_groups = build_targets(description, ground, problems).groups;
   problems.throw_if_errors();
   parts.flight = flight_of(scene, ground);
   parts.sights = spread(parts.flight);

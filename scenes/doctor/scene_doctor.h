@@ -1,8 +1,8 @@
 // Looks for what makes a scene numerically delicate. A pure function of the built scene: it casts no
 // rays, and asks geometry alone.
 //
-// The meshes and the ground before the runways were laid are built once more from the description,
-// since a Scene keeps neither. The flight is looked at in every frame for its height above the
+// The meshes, the points and the ground before the runways were laid are built once more from the description,
+// since a Scene keeps none of them by object. The flight is looked at in every frame for its height above the
 // ground, in at most kMostSights of them, evenly spread, for what is in view.
 // Every check, its threshold and the reason for it: docs/doctor.md.
 // Neglected: hiding (what stands behind a hill counts as in view), buildings of [[buildings]] that

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
 #include "signal/waveform/array.h"
 
 namespace fanbeam::signal {
@@ -28,7 +28,7 @@ struct Beamformer {
     return std::norm(sum) / static_cast<double>(snapshot.size() * snapshot.size());
   }
 
-  // Steps over a half-turn of sines, at a quarter of the beamwidth.
+  // Steps over a half-turn of sines, at most a quarter of the beamwidth each.
   int scan_steps() const {
     double aperture_m = 0.0;
     for (const glm::dvec3& a : elements_m)
@@ -41,13 +41,9 @@ struct Beamformer {
 
 void check_input(const Beamformer& beam) {
   if (beam.snapshot.empty() || beam.snapshot.size() != beam.elements_m.size())
-    core::throw_input_error(core::ErrorClass::range, "snapshot",
-                            static_cast<double>(beam.snapshot.size()), "one value per element");
-  for (const auto& value : beam.snapshot)
-    if (!std::isfinite(std::norm(value)))
-      core::throw_input_error(core::ErrorClass::nonfinite, "snapshot", std::norm(value), "finite");
-  if (!(beam.wavelength_m > 0.0 && std::isfinite(beam.wavelength_m)))
-    core::throw_input_error(core::ErrorClass::range, "wavelength_m", beam.wavelength_m, "positive");
+    refuse("snapshot", static_cast<double>(beam.snapshot.size()), "one value per element");
+  check_finite("snapshot", beam.snapshot);
+  check_positive("wavelength_m", beam.wavelength_m);
 }
 
 // Place of the maximum of `f` between two places either side of it.

@@ -1,24 +1,17 @@
 #include "signal/angle/covariance.h"
 
-#include <cmath>
-
-#include "core/errors.h"
+#include "signal/checks_private.h"
 
 namespace fanbeam::signal {
 namespace {
 
 int checked_elements(const Snapshots& snapshots) {
   if (snapshots.empty() || snapshots.front().empty())
-    core::throw_input_error(core::ErrorClass::range, "snapshots",
-                            static_cast<double>(snapshots.size()), "at least one, not empty");
+    refuse("snapshots", static_cast<double>(snapshots.size()), "at least one, not empty");
   for (const auto& snapshot : snapshots) {
     if (snapshot.size() != snapshots.front().size())
-      core::throw_input_error(core::ErrorClass::range, "snapshots",
-                              static_cast<double>(snapshot.size()), "all of one size");
-    for (const auto& value : snapshot)
-      if (!std::isfinite(std::norm(value)))
-        core::throw_input_error(core::ErrorClass::nonfinite, "snapshots", std::norm(value),
-                                "finite");
+      refuse("snapshots", static_cast<double>(snapshot.size()), "all of one size");
+    check_finite("snapshots", snapshot);
   }
   return static_cast<int>(snapshots.front().size());
 }
@@ -42,9 +35,7 @@ Covariance sample_covariance(const Snapshots& snapshots) {
 Covariance smoothed_covariance(const Snapshots& snapshots, int subarray_elements) {
   const int n = checked_elements(snapshots);
   const int k = subarray_elements;
-  if (k < 1 || k > n)
-    core::throw_input_error(core::ErrorClass::range, "subarray_elements", k,
-                            "1 to the number of elements");
+  if (k < 1 || k > n) refuse("subarray_elements", k, "1 to the number of elements");
   Snapshots shifted;
   shifted.reserve(2 * snapshots.size() * static_cast<std::size_t>(n - k + 1));
   for (const auto& x : snapshots)

@@ -6,17 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/errors.h"
+#include "signal/checks_private.h"
 #include "signal/fourier/peak_fit.h"
 
 namespace fanbeam::signal {
 namespace {
 
 using Matrix = Eigen::MatrixXcd;
-
-[[noreturn]] void refuse(const char* field, double value, const char* expected) {
-  core::throw_input_error(core::ErrorClass::range, field, value, expected);
-}
 
 Matrix matrix_of(const Covariance& covariance) {
   const int n = covariance.elements;

@@ -1,10 +1,9 @@
 #include "signal/angle/steering.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
+#include "signal/unit_phasor_private.h"
 #include "signal/waveform/array.h"
 
 namespace fanbeam::signal {
@@ -13,10 +12,8 @@ Steering steering_vectors(const std::vector<glm::dvec3>& elements_m, double wave
                           const BeamGrid& grid) {
   const std::size_t beams = grid.azimuths_rad.size() * grid.elevations_rad.size();
   if (elements_m.empty() || beams == 0)
-    core::throw_input_error(core::ErrorClass::range, "steering", 0.0,
-                            "at least one element and one direction");
-  if (!(wavelength_m > 0.0 && std::isfinite(wavelength_m)))
-    core::throw_input_error(core::ErrorClass::range, "wavelength_m", wavelength_m, "positive");
+    refuse("steering", 0.0, "at least one element and one direction");
+  check_positive("wavelength_m", wavelength_m);
   Steering steering;
   steering.beams = static_cast<int>(beams);
   steering.elements = static_cast<int>(elements_m.size());
@@ -29,7 +26,7 @@ Steering steering_vectors(const std::vector<glm::dvec3>& elements_m, double wave
         if (!std::isfinite(turns))
           core::throw_input_error(core::ErrorClass::nonfinite, "steering", turns,
                                   "finite places and directions");
-        steering.values.push_back(std::polar(1.0, -2.0 * core::kPi * std::remainder(turns, 1.0)));
+        steering.values.push_back(unit_phasor(-turns));
       }
     }
   return steering;

@@ -5,23 +5,19 @@
 #include <cstddef>
 #include <map>
 #include <mutex>
+#include <span>
 #include <utility>
 
-#include "core/errors.h"
 #include "core/parallel.h"
+#include "signal/checks_private.h"
 #include "signal/detection/cfar_window_private.h"
 
 namespace fanbeam::signal {
 namespace {
 
-[[noreturn]] void refuse(const char* field, double value, const char* expected) {
-  core::throw_input_error(core::ErrorClass::range, field, value, expected);
-}
-
 void check_reach(const CfarReach& reach) {
-  if (reach.guard < 0 || reach.guard > 10000) refuse("cfar.guard", reach.guard, "0 to 10000");
-  if (reach.reference < 0 || reach.reference > 10000)
-    refuse("cfar.reference", reach.reference, "0 to 10000");
+  check_count("cfar.guard", reach.guard, 0, 10000);
+  check_count("cfar.reference", reach.reference, 0, 10000);
 }
 
 // Factors for every number of cells before and after that a map brings, made when first met.
@@ -32,10 +28,8 @@ class Factors {
   double of(const CfarReference& reference) {
     const std::lock_guard<std::mutex> lock(mutex_);
     // Only the detectors of halves care how the cells are split.
-    const bool halves =
-        reference.kind == CfarKind::greatest_of || reference.kind == CfarKind::smallest_of;
-    const auto key = halves ? std::pair(reference.before, reference.after)
-                            : std::pair(reference.before + reference.after, 0);
+    const auto key = has_halves(reference.kind) ? std::pair(reference.before, reference.after)
+                                                : std::pair(reference.before + reference.after, 0);
     const auto found = factors_.find(key);
     if (found != factors_.end()) return found->second;
     return factors_[key] = cfar_factor(reference, settings_.design_probability);
@@ -47,7 +41,7 @@ class Factors {
   std::map<std::pair<int, int>, double> factors_;
 };
 
-double mean(const std::vector<double>& values) {
+double mean(std::span<const double> values) {
   double sum = 0.0;
   for (const double value : values) sum += value;
   return sum / static_cast<double>(values.size());
@@ -60,8 +54,8 @@ class RowDetector {
               const std::vector<CfarOffset>& offsets, Factors& factors)
       : map_(map), settings_(settings), offsets_(offsets), factors_(factors) {
     for (const CfarOffset& offset : offsets) {
-      (offset.after ? steps_after_ : steps_before_)
-          .push_back(static_cast<std::ptrdiff_t>(offset.row) * map.columns + offset.column);
+      steps_.push_back(static_cast<std::ptrdiff_t>(offset.row) * map.columns + offset.column);
+      all_before_ += offset.after ? 0 : 1;
       row_reach_ = std::max(row_reach_, std::abs(offset.row));
       column_reach_ = std::max(column_reach_, std::abs(offset.column));
     }
@@ -71,10 +65,10 @@ class RowDetector {
     CfarReference last{.before = -1};
     double factor = 0.0;
     for (int column = 0; column < map_.columns; ++column) {
-      gather(row, column);
-      if (before_.empty() && after_.empty()) continue;
-      const CfarReference reference = reference_of(settings_, static_cast<int>(before_.size()),
-                                                   static_cast<int>(after_.size()));
+      const int before = gather(row, column);
+      if (cells_.empty()) continue;
+      const CfarReference reference =
+          reference_of(settings_, before, static_cast<int>(cells_.size()) - before);
       if (!(reference == last)) factor = factors_.of(reference);
       last = reference;
       const double power_W = map_.at(row, column);
@@ -82,7 +76,7 @@ class RowDetector {
       // rank says is the same decision.
       if (reference.kind == CfarKind::ordered_statistic && below(power_W, factor) < reference.rank)
         continue;
-      const double background_W = estimate(reference);
+      const double background_W = cfar_background(reference, cells_);
       if (power_W > factor * background_W)
         found.push_back({row, column, power_W, background_W, power_W / (factor * background_W)});
     }
@@ -95,47 +89,40 @@ class RowDetector {
     return (place % count + count) % count;
   }
 
-  void gather(int row, int column) {
-    before_.clear();
-    after_.clear();
+  // Returns how many of the cells come before the cell under test; they are the first.
+  int gather(int row, int column) {
+    cells_.clear();
     if (row >= row_reach_ && row + row_reach_ < map_.rows && column >= column_reach_ &&
         column + column_reach_ < map_.columns) {
       const double* const cell = map_.values_W.data() + map_.index(row, column);
-      for (const std::ptrdiff_t step : steps_before_) before_.push_back(cell[step]);
-      for (const std::ptrdiff_t step : steps_after_) after_.push_back(cell[step]);
-      return;
+      for (const std::ptrdiff_t step : steps_) cells_.push_back(cell[step]);
+      return all_before_;
     }
+    int before = 0;
     for (const CfarOffset& offset : offsets_) {
       const int r = wrapped(row + offset.row, map_.rows, settings_.along_rows.wraps);
       const int c = wrapped(column + offset.column, map_.columns, settings_.along_columns.wraps);
-      if (r >= 0 && c >= 0) (offset.after ? after_ : before_).push_back(map_.at(r, c));
+      if (r < 0 || c < 0) continue;
+      cells_.push_back(map_.at(r, c));
+      before += offset.after ? 0 : 1;
     }
+    return before;
   }
 
   int below(double power_W, double factor) const {
     int count = 0;
-    for (const double value_W : before_) count += factor * value_W < power_W ? 1 : 0;
-    for (const double value_W : after_) count += factor * value_W < power_W ? 1 : 0;
+    for (const double value_W : cells_) count += factor * value_W < power_W ? 1 : 0;
     return count;
-  }
-
-  double estimate(const CfarReference& reference) {
-    if (reference.kind == CfarKind::greatest_of) return std::max(mean(before_), mean(after_));
-    if (reference.kind == CfarKind::smallest_of) return std::min(mean(before_), mean(after_));
-    before_.insert(before_.end(), after_.begin(), after_.end());
-    if (reference.kind == CfarKind::cell_averaging) return mean(before_);
-    const auto ranked = before_.begin() + (reference.rank - 1);
-    std::nth_element(before_.begin(), ranked, before_.end());
-    return *ranked;
   }
 
   const PowerMap& map_;
   const CfarSettings& settings_;
   const std::vector<CfarOffset>& offsets_;
   Factors& factors_;
-  std::vector<double> before_, after_;
+  std::vector<double> cells_;  // the reference cells of the cell under test
   // The window as steps through the map, for cells that it does not leave.
-  std::vector<std::ptrdiff_t> steps_before_, steps_after_;
+  std::vector<std::ptrdiff_t> steps_;
+  int all_before_ = 0;
   int row_reach_ = 0;
   int column_reach_ = 0;
 };
@@ -183,10 +170,22 @@ CfarReference reference_of(const CfarSettings& settings, int before, int after) 
   if (settings.kind == CfarKind::ordered_statistic)
     reference.rank = std::clamp(static_cast<int>(std::lround(settings.rank_fraction * count)), 1,
                                 std::max(1, count));
-  const bool halves =
-      settings.kind == CfarKind::greatest_of || settings.kind == CfarKind::smallest_of;
-  if (halves && std::min(before, after) == 0) reference.kind = CfarKind::cell_averaging;
+  if (has_halves(settings.kind) && std::min(before, after) == 0)
+    reference.kind = CfarKind::cell_averaging;
   return reference;
+}
+
+double cfar_background(const CfarReference& reference, std::span<double> cells) {
+  if (reference.kind == CfarKind::cell_averaging) return mean(cells);
+  if (has_halves(reference.kind)) {
+    const auto count = static_cast<std::size_t>(reference.before);
+    const double before = mean(cells.first(count)), after = mean(cells.subspan(count));
+    return reference.kind == CfarKind::greatest_of ? std::max(before, after)
+                                                   : std::min(before, after);
+  }
+  const auto ranked = cells.begin() + (reference.rank - 1);
+  std::nth_element(cells.begin(), ranked, cells.end());
+  return *ranked;
 }
 
 CfarReference cfar_reference(const CfarSettings& settings) {

@@ -5,24 +5,20 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <map>
 
-#include "core/constants.h"
-#include "core/errors.h"
 #include "core/parallel.h"
 #include "core/random.h"
+#include "signal/checks_private.h"
 #include "signal/detection/cfar_window_private.h"
+#include "signal/detection/falling_root_private.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 namespace {
 
 using Matrix = Eigen::MatrixXcd;
 using Vector = Eigen::VectorXcd;
-
-[[noreturn]] void refuse(const char* field, double value, const char* expected) {
-  core::throw_input_error(core::ErrorClass::range, field, value, expected);
-}
 
 // Correlations by lag along one axis, each computed once.
 class Lags {
@@ -62,21 +58,13 @@ Matrix correlation_matrix(const std::vector<CfarOffset>& offsets,
   return matrix;
 }
 
-// Falls with the factor; where it meets `wanted`.
-double factor_for(const std::function<double(double)>& rate, double wanted) {
-  double low = 0.0;
-  double high = 1.0;
-  while (rate(high) > wanted) {
-    low = high;
-    high *= 2.0;
-    if (high > 1e12)
-      refuse("design_probability", wanted, "one that these reference cells can keep");
-  }
-  for (int step = 0; step < 60 && high - low > 1e-12 * high; ++step) {
-    const double middle = 0.5 * (low + high);
-    (rate(middle) > wanted ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+// Where `rate`, which falls with the factor, meets `wanted`.
+template <typename Rate>
+double factor_for(const Rate& rate, double wanted) {
+  const double factor = falling_root([&](double at) { return rate(at) - wanted; }, 1e12, 1e-12);
+  if (!std::isfinite(factor))
+    refuse("design_probability", wanted, "one that these reference cells can keep");
+  return factor;
 }
 
 double averaging_rate(const Matrix& root, double factor) {
@@ -134,7 +122,10 @@ class BackgroundDraw {
  public:
   BackgroundDraw(const CfarSettings& settings, const std::vector<CfarOffset>& offsets,
                  const Matrix& correlation, int looks, double tilt)
-      : settings_(settings), offsets_(offsets), looks_(looks), tilt_(tilt) {
+      : looks_(looks), tilt_(tilt) {
+    const auto before = static_cast<int>(std::count_if(
+        offsets.begin(), offsets.end(), [](const CfarOffset& offset) { return !offset.after; }));
+    reference_ = reference_of(settings, before, static_cast<int>(offsets.size()) - before);
     const Eigen::Index n = correlation.rows() - 1;
     const Eigen::SelfAdjointEigenSolver<Matrix> eigen(correlation.bottomRightCorner(n, n));
     const Eigen::VectorXd values = eigen.eigenvalues().cwiseMax(0.0);
@@ -174,32 +165,11 @@ class BackgroundDraw {
     }
     double sum = 0.0;
     for (const double power : powers) sum += power;
-    return {estimate(powers), predicted / variance_, log_scale_ + tilt_ * sum};
+    return {cfar_background(reference_, powers), predicted / variance_, log_scale_ + tilt_ * sum};
   }
 
  private:
-  double estimate(std::vector<double>& powers) const {
-    double before = 0.0, after = 0.0;
-    int cells_before = 0;
-    for (std::size_t i = 0; i < powers.size(); ++i) {
-      (offsets_[i].after ? after : before) += powers[i];
-      cells_before += offsets_[i].after ? 0 : 1;
-    }
-    const int cells_after = static_cast<int>(powers.size()) - cells_before;
-    const CfarReference reference = reference_of(settings_, cells_before, cells_after);
-    if (reference.kind == CfarKind::cell_averaging)
-      return (before + after) / static_cast<double>(powers.size());
-    if (reference.kind == CfarKind::greatest_of)
-      return std::max(before / cells_before, after / cells_after);
-    if (reference.kind == CfarKind::smallest_of)
-      return std::min(before / cells_before, after / cells_after);
-    const auto ranked = powers.begin() + (reference.rank - 1);
-    std::nth_element(powers.begin(), ranked, powers.end());
-    return *ranked;
-  }
-
-  const CfarSettings& settings_;
-  const std::vector<CfarOffset>& offsets_;
+  CfarReference reference_;
   int looks_;
   double tilt_;
   Matrix colouring_;
@@ -261,9 +231,8 @@ std::complex<double> cell_correlation(const std::vector<double>& weights, int le
   std::complex<double> sum = 0.0;
   double squares = 0.0;
   for (std::size_t n = 0; n < weights.size(); ++n) {
-    const double turns =
-        std::remainder(static_cast<double>(lag) * static_cast<double>(n) / length, 1.0);
-    sum += weights[n] * weights[n] * std::polar(1.0, 2.0 * core::kPi * turns);
+    sum += weights[n] * weights[n] *
+           unit_phasor(static_cast<double>(lag) * static_cast<double>(n) / length);
     squares += weights[n] * weights[n];
   }
   return sum / squares;
@@ -271,7 +240,7 @@ std::complex<double> cell_correlation(const std::vector<double>& weights, int le
 
 CfarCalibration calibrated_cfar(const CfarSettings& settings, const CellCorrelation& correlation,
                                 int looks) {
-  if (looks < 1 || looks > 256) refuse("looks", looks, "1 to 256");
+  check_count("looks", looks, 1, 256);
   const std::vector<CfarOffset> offsets = cfar_offsets(settings);
   if (offsets.size() > 2000)
     refuse("reference cells", static_cast<double>(offsets.size()), "2000 at most");

@@ -5,15 +5,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/errors.h"
 #include "core/random.h"
+#include "signal/checks_private.h"
+#include "signal/detection/cfar_window_private.h"
+#include "signal/detection/falling_root_private.h"
 
 namespace fanbeam::signal {
 namespace {
-
-[[noreturn]] void refuse(const char* field, double value, const char* expected) {
-  core::throw_input_error(core::ErrorClass::range, field, value, expected);
-}
 
 void check_reference(const CfarReference& reference) {
   const std::int64_t count = std::int64_t{reference.before} + reference.after;
@@ -22,9 +20,8 @@ void check_reference(const CfarReference& reference) {
   if (reference.kind == CfarKind::ordered_statistic &&
       (reference.rank < 1 || reference.rank > count))
     refuse("rank", reference.rank, "1 to the number of reference cells");
-  const bool halves =
-      reference.kind == CfarKind::greatest_of || reference.kind == CfarKind::smallest_of;
-  if (halves && (std::min(reference.before, reference.after) < 1 || count > 100000))
+  if (has_halves(reference.kind) &&
+      (std::min(reference.before, reference.after) < 1 || count > 100000))
     refuse("reference cells", static_cast<double>(count), "1e5 at most, some on both sides");
 }
 
@@ -69,21 +66,11 @@ double log_false_alarm(const CfarReference& reference, double factor) {
   throw core::InternalError("unknown detector");
 }
 
-// Where `falling`, which falls without end, is 0.
 template <typename Function>
-double root(const Function& falling) {
-  double low = 0.0;
-  double high = 1.0;
-  while (falling(high) > 0.0) {
-    low = high;
-    high *= 2.0;
-    if (high > 1e300) throw core::InternalError("no threshold factor");
-  }
-  for (int step = 0; step < 200 && high - low > 1e-15 * high; ++step) {
-    const double middle = 0.5 * (low + high);
-    (falling(middle) > 0.0 ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
+double factor_root(const Function& falling) {
+  const double factor = falling_root(falling, 1e300, 1e-15);
+  if (!std::isfinite(factor)) throw core::InternalError("no threshold factor");
+  return factor;
 }
 
 }  // namespace
@@ -116,7 +103,8 @@ double cfar_factor(const CfarReference& reference, double false_alarm_probabilit
     const double count = reference.before + reference.after;
     return count * std::expm1(-log_probability / count);
   }
-  return root([&](double factor) { return log_false_alarm(reference, factor) - log_probability; });
+  return factor_root(
+      [&](double factor) { return log_false_alarm(reference, factor) - log_probability; });
 }
 
 double cfar_detection_probability(const CfarReference& reference, double factor, double snr) {
@@ -142,7 +130,7 @@ double amplitude_factor(int reference_cells, double false_alarm_probability) {
     squares[static_cast<std::size_t>(i)] = (sum / reference_cells) * (sum / reference_cells);
   }
   // Given the background, the cell exceeds it with a known probability: only that is averaged.
-  return root([&](double factor) {
+  return factor_root([&](double factor) {
     double sum = 0.0;
     for (const double square : squares) sum += std::exp(-factor * factor * square);
     return sum / kBackgrounds - false_alarm_probability;

@@ -1,28 +1,17 @@
 #include "signal/detection/cube_tone.h"
 
-#include <cmath>
 #include <cstddef>
 
-#include "core/constants.h"
-#include "core/errors.h"
 #include "core/parallel.h"
+#include "signal/checks_private.h"
 #include "signal/detection/tone.h"
+#include "signal/detection/tone_phasors_private.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 namespace {
 
 using Line = std::vector<std::complex<double>>;
-
-// w[n] exp(-j 2 pi bin (n - middle) / N)
-Line phasors(int count, double bin, const std::vector<double>& weights) {
-  Line line(static_cast<std::size_t>(count));
-  const double middle = 0.5 * (count - 1);
-  for (int n = 0; n < count; ++n)
-    line[static_cast<std::size_t>(n)] =
-        std::polar(weights.empty() ? 1.0 : weights[static_cast<std::size_t>(n)],
-                   -2.0 * core::kPi * bin * (n - middle) / count);
-  return line;
-}
 
 // a += b c, without the library's check for infinities.
 inline void add_product(std::complex<double>& a, std::complex<double> b, std::complex<double> c) {
@@ -64,13 +53,6 @@ ToneRecords fast_time_summed(const Cube<Real>& beat, const Line& over_samples) {
   return lines;
 }
 
-double sum_of(const std::vector<double>& weights, int count) {
-  if (weights.empty()) return count;
-  double sum = 0.0;
-  for (const double weight : weights) sum += weight;
-  return sum;
-}
-
 }  // namespace
 
 template <typename Real>
@@ -83,28 +65,25 @@ CubeTone refined_in_cube(const Cube<Real>& beat, double range_bin, double dopple
   if (shape.samples < 2 || shape.chirps < 2 || shape.channels < 1 ||
       beat.values.size() != shape.count() || !fits(weights.samples, shape.samples) ||
       !fits(weights.chirps, shape.chirps))
-    core::throw_input_error(core::ErrorClass::range, "cube.shape",
-                            static_cast<double>(shape.count()),
-                            "two samples and chirps or more, with weights of their number");
+    refuse("cube.shape", static_cast<double>(shape.count()),
+           "two samples and chirps or more, with weights of their number");
+  const auto samples = static_cast<std::size_t>(shape.samples);
+  const auto chirps = static_cast<std::size_t>(shape.chirps);
   CubeTone tone{range_bin, doppler_bin, {}};
   constexpr int kRounds = 2;
   for (int round = 0; round < kRounds; ++round) {
     const auto fast =
-        slow_time_summed(beat, phasors(shape.chirps, tone.doppler_bin, weights.chirps));
+        slow_time_summed(beat, tone_phasors(chirps, tone.doppler_bin, weights.chirps));
     tone.range_bin = refined_tone(fast, tone.range_bin, weights.samples).bin;
     const auto slow =
-        fast_time_summed(beat, phasors(shape.samples, tone.range_bin, weights.samples));
-    tone.doppler_bin = refined_tone(slow, tone.doppler_bin, weights.chirps).bin;
-    if (round + 1 < kRounds) continue;
-    const Line over_chirps = phasors(shape.chirps, tone.doppler_bin, weights.chirps);
-    const double scale =
-        1.0 / (sum_of(weights.samples, shape.samples) * sum_of(weights.chirps, shape.chirps));
-    for (const Line& line : slow) {
-      std::complex<double> value = 0.0;
-      for (std::size_t m = 0; m < line.size(); ++m) add_product(value, line[m], over_chirps[m]);
-      tone.snapshot.push_back(value * scale);
-    }
+        fast_time_summed(beat, tone_phasors(samples, tone.range_bin, weights.samples));
+    Tone over_chirps = refined_tone(slow, tone.doppler_bin, weights.chirps);
+    tone.doppler_bin = over_chirps.bin;
+    tone.snapshot = std::move(over_chirps.amplitudes);
   }
+  const std::complex<double> to_middle = unit_phasor(middle_turns(chirps, tone.doppler_bin));
+  const double sum = sum_of_weights(samples, weights.samples);
+  for (std::complex<double>& value : tone.snapshot) value *= to_middle / sum;
   return tone;
 }
 

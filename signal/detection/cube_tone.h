@@ -14,7 +14,7 @@
 // Inputs: a cube with two samples and two chirps or more; start within half a bin (bins of unpadded
 // transforms, Doppler from 0 at rest, negative closing). E-RANGE otherwise. Neglected: migration
 // through range cells within the frame; the range found is that at the middle of the frame.
-// Cost: four passes over the cube (20 ms for 512 x 256 x 16).
+// Cost: four passes over the cube, 15 ms of one thread for 512 x 256 x 16.
 #pragma once
 
 #include <complex>

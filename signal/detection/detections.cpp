@@ -7,11 +7,10 @@
 #include <limits>
 
 #include "core/constants.h"
-#include "core/errors.h"
 #include "signal/angle/angle_peak.h"
+#include "signal/checks_private.h"
 #include "signal/detection/cube_tone.h"
 #include "signal/detection/map_peaks.h"
-#include "signal/transform/cube_maps.h"
 #include "signal/transform/slot_compensation.h"
 
 namespace fanbeam::signal {
@@ -27,58 +26,49 @@ struct Place {
 template <typename Real>
 class Refiner {
  public:
-  Refiner(const Cube<Real>& beat, const Cube<Real>& transformed, const DetectionSettings& settings,
-          int range_length)
+  Refiner(const Cube<Real>& beat, const DetectionSettings& settings, int range_length,
+          int doppler_length)
       : beat_(beat),
-        transformed_(transformed),
-        refinement_(settings.refinement),
+        rest_cell_(doppler_length / 2),
         range_padding_(static_cast<double>(range_length) / beat.shape.samples),
-        doppler_padding_(static_cast<double>(transformed.shape.chirps) / beat.shape.chirps) {
-    if (refinement_ == Refinement::windowed)
+        doppler_padding_(static_cast<double>(doppler_length) / beat.shape.chirps) {
+    if (settings.refinement == Refinement::windowed)
       weights_ = {window_weights(settings.transform.range_window, beat.shape.samples),
                   window_weights(settings.transform.doppler_window, beat.shape.chirps)};
   }
 
   Place run(const MapPeak& peak) const {
-    const int rest = transformed_.shape.chirps / 2;
-    if (refinement_ == Refinement::parabola) {
-      Place place{peak.column, peak.row, {}};
-      for (int channel = 0; channel < transformed_.shape.channels; ++channel)
-        place.snapshot.push_back(static_cast<std::complex<double>>(
-            transformed_.at(channel, peak.cell.row, peak.cell.column)));
-      return place;
-    }
     const CubeTone tone = refined_in_cube(beat_, peak.column / range_padding_,
-                                          (peak.row - rest) / doppler_padding_, weights_);
-    return {tone.range_bin * range_padding_, tone.doppler_bin * doppler_padding_ + rest,
+                                          (peak.row - rest_cell_) / doppler_padding_, weights_);
+    return {tone.range_bin * range_padding_, tone.doppler_bin * doppler_padding_ + rest_cell_,
             tone.snapshot};
   }
 
  private:
   const Cube<Real>& beat_;
-  const Cube<Real>& transformed_;
-  Refinement refinement_;
+  int rest_cell_;
   double range_padding_;
   double doppler_padding_;
   ToneWeights weights_;
 };
 
 RadarDetection measured(Place place, double snr, const RangeDopplerAxes& axes, const Array& array,
-                        const CubeTiming& timing, const DetectionSettings& settings) {
+                        const CubeTiming& timing, bool unfold) {
   RadarDetection detection;
   detection.snr = snr;
   detection.range_cell = place.range_cell;
   detection.doppler_cell = place.doppler_cell;
   double doppler_Hz = axes.doppler_Hz(place.doppler_cell);
-  if (settings.unfold)
-    doppler_Hz +=
-        doppler_fold(place.snapshot, array, doppler_Hz, timing.slot_period_s, timing.wavelength_m) /
-        (array.slots() * timing.slot_period_s);
-  compensate_slots(place.snapshot, array, doppler_Hz, timing.slot_period_s);
-  const auto elements_m = virtual_elements_m(array);
-  const AnglePeak angle = settings.elevation
-                              ? direction_peak(place.snapshot, elements_m, timing.wavelength_m)
-                              : azimuth_peak(place.snapshot, elements_m, timing.wavelength_m);
+  AnglePeak angle;
+  if (unfold) {
+    const DopplerFold found =
+        doppler_fold(place.snapshot, array, doppler_Hz, timing.slot_period_s, timing.wavelength_m);
+    doppler_Hz += found.fold / (array.slots() * timing.slot_period_s);
+    angle = found.direction;
+  } else {
+    compensate_slots(place.snapshot, array, doppler_Hz, timing.slot_period_s);
+    angle = azimuth_peak(place.snapshot, virtual_elements_m(array), timing.wavelength_m);
+  }
   detection.azimuth_rad = angle.azimuth_rad;
   detection.elevation_rad = angle.elevation_rad;
   detection.power_W = angle.power;
@@ -95,32 +85,44 @@ RadarDetection measured(Place place, double snr, const RangeDopplerAxes& axes, c
 }  // namespace
 
 template <typename Real>
-std::vector<RadarDetection> detect(const Cube<Real>& beat, const Array& array,
+std::vector<RadarDetection> detect(const Cube<Real>& beat, const PowerMap& map, const Array& array,
                                    const CubeTiming& timing, const DetectionSettings& settings) {
   if (beat.shape.channels != array.channels())
-    core::throw_input_error(core::ErrorClass::range, "cube.channels", beat.shape.channels,
-                            "the channels of the array");
-  Cube<Real> transformed;
-  range_doppler(beat, settings.transform, transformed);
+    refuse("cube.channels", beat.shape.channels, "the channels of the array");
+  const CubeShape shape = range_doppler_shape(beat.shape, settings.transform);
+  if (map.rows != shape.chirps) refuse("map.rows", map.rows, "the Doppler cells of the transform");
+  if (map.columns != shape.samples)
+    refuse("map.columns", map.columns, "the range cells of the transform");
   const int range_length =
       settings.transform.range_length == 0 ? beat.shape.samples : settings.transform.range_length;
-  const RangeDopplerAxes axes = range_doppler_axes(
-      timing.sample_rate_Hz, timing.slope_Hz_per_s, array.slots() * timing.slot_period_s,
-      timing.wavelength_m, range_length, transformed.shape.chirps);
-  const PowerMap map = range_doppler_map(transformed, Projection::sum);
+  const RangeDopplerAxes axes = range_doppler_axes(timing.sample_rate_Hz, timing.slope_Hz_per_s,
+                                                   array.slots() * timing.slot_period_s,
+                                                   timing.wavelength_m, range_length, map.rows);
   const auto peaks =
       map_peaks(map, cfar_detections(map, settings.cfar), settings.cfar.along_rows.wraps);
-  const Refiner<Real> refiner(beat, transformed, settings, range_length);
+  const Refiner<Real> refiner(beat, settings, range_length, map.rows);
   std::vector<RadarDetection> detections;
   for (const MapPeak& peak : peaks) {
     const double snr = peak.cell.background_W > 0.0
                            ? std::max(0.0, peak.cell.power_W / peak.cell.background_W - 1.0)
                            : std::numeric_limits<double>::infinity();
-    detections.push_back(measured(refiner.run(peak), snr, axes, array, timing, settings));
+    detections.push_back(measured(refiner.run(peak), snr, axes, array, timing, settings.unfold));
   }
   return detections;
 }
 
+template <typename Real>
+std::vector<RadarDetection> detect(const Cube<Real>& beat, const Array& array,
+                                   const CubeTiming& timing, const DetectionSettings& settings) {
+  Cube<Real> transformed;
+  range_doppler(beat, settings.transform, transformed);
+  return detect(beat, range_doppler_map(transformed, Projection::sum), array, timing, settings);
+}
+
+template std::vector<RadarDetection> detect(const FloatCube&, const PowerMap&, const Array&,
+                                            const CubeTiming&, const DetectionSettings&);
+template std::vector<RadarDetection> detect(const DoubleCube&, const PowerMap&, const Array&,
+                                            const CubeTiming&, const DetectionSettings&);
 template std::vector<RadarDetection> detect(const FloatCube&, const Array&, const CubeTiming&,
                                             const DetectionSettings&);
 template std::vector<RadarDetection> detect(const DoubleCube&, const Array&, const CubeTiming&,

@@ -3,7 +3,6 @@
 // The range-Doppler map (sum over channels) goes through the detector, its local maxima are
 // refined, the phases between transmit slots are taken off, and one direction is fitted to each
 // snapshot. Refinement:
-//   parabola            from the windowed map: fast, biased by some hundredths of a cell
 //   maximum_likelihood  from the beat cube (signal/detection/cube_tone.h): to the Cramer-Rao bound
 //                       for a scatterer that is alone within some ten cells, pulled by neighbours
 //   windowed            the same under the transform's windows: not pulled, at the windows' variance
@@ -20,6 +19,7 @@
 
 #include "signal/cube.h"
 #include "signal/detection/cfar.h"
+#include "signal/transform/cube_maps.h"
 #include "signal/transform/range_doppler.h"
 #include "signal/waveform/array.h"
 
@@ -36,13 +36,12 @@ struct RadarDetection {
   double doppler_cell = 0.0;
 };
 
-enum class Refinement { parabola, maximum_likelihood, windowed };
+enum class Refinement { maximum_likelihood, windowed };
 
 struct DetectionSettings {
   RangeDopplerSettings transform;
   CfarSettings cfar;
   Refinement refinement = Refinement::maximum_likelihood;
-  bool elevation = false;  // fit elevation too; the array must have elements at two heights
   bool unfold = false;
 };
 
@@ -58,6 +57,12 @@ struct CubeTiming {
 // channels are not the array's.
 template <typename Real>
 std::vector<RadarDetection> detect(const Cube<Real>& beat, const Array& array,
+                                   const CubeTiming& timing, const DetectionSettings& settings);
+
+// The same from a range-Doppler map that is at hand already: of the cube transformed by
+// `settings.transform`, Projection::sum. E-RANGE for a map of another size.
+template <typename Real>
+std::vector<RadarDetection> detect(const Cube<Real>& beat, const PowerMap& map, const Array& array,
                                    const CubeTiming& timing, const DetectionSettings& settings);
 
 }  // namespace fanbeam::signal

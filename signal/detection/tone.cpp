@@ -5,30 +5,24 @@
 #include <cstddef>
 
 #include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
+#include "signal/detection/tone_phasors_private.h"
 #include "signal/fourier/fft.h"
 #include "signal/fourier/peak_fit.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 namespace {
 
-using core::kPi;
-
 void check_input(const ToneRecords& records, const std::vector<double>& weights) {
   const std::size_t count = records.empty() ? 0 : records.front().size();
-  if (count < 2)
-    core::throw_input_error(core::ErrorClass::range, "samples", static_cast<double>(count),
-                            "2 or more");
+  if (count < 2) refuse("samples", static_cast<double>(count), "2 or more");
   if (!weights.empty() && weights.size() != count)
-    core::throw_input_error(core::ErrorClass::range, "weights", static_cast<double>(weights.size()),
-                            "none or one per sample");
+    refuse("weights", static_cast<double>(weights.size()), "none or one per sample");
   for (const auto& record : records) {
     if (record.size() != count)
-      core::throw_input_error(core::ErrorClass::range, "samples",
-                              static_cast<double>(record.size()), "records of one size");
-    for (const auto& value : record)
-      if (!std::isfinite(std::norm(value)))
-        core::throw_input_error(core::ErrorClass::nonfinite, "samples", std::norm(value), "finite");
+      refuse("samples", static_cast<double>(record.size()), "records of one size");
+    check_finite("samples", record);
   }
 }
 
@@ -41,14 +35,9 @@ struct Slope {
 
 Slope slope_at(const ToneRecords& records, const std::vector<double>& weights, double bin) {
   const std::size_t count = records.front().size();
-  const double turn = -2.0 * kPi / static_cast<double>(count);
-  // Time from the middle keeps the derivatives free of the phase's steep part.
+  const double turn = -2.0 * core::kPi / static_cast<double>(count);
   const double middle = 0.5 * static_cast<double>(count - 1);
-  std::vector<std::complex<double>> phasors(count);
-  for (std::size_t n = 0; n < count; ++n) {
-    const double t = static_cast<double>(n) - middle;
-    phasors[n] = std::polar(weights.empty() ? 1.0 : weights[n], turn * bin * t);
-  }
+  const std::vector<std::complex<double>> phasors = tone_phasors(count, bin, weights);
   Slope slope;
   for (const auto& record : records) {
     std::complex<double> sum = 0.0, moment = 0.0, square = 0.0;
@@ -83,18 +72,14 @@ Tone refined_tone(const ToneRecords& records, double near_bin, const std::vector
     tone.bin += move;
     if (std::abs(move) < 1e-11) break;
   }
-  const double count = static_cast<double>(records.front().size());
-  double sum = count;
-  if (!weights.empty()) {
-    sum = 0.0;
-    for (const double weight : weights) sum += weight;
-  }
+  const std::size_t count = records.front().size();
+  const std::vector<std::complex<double>> phasors = tone_phasors(count, tone.bin, weights);
+  const double sum = sum_of_weights(count, weights);
+  const std::complex<double> to_first = unit_phasor(-middle_turns(count, tone.bin));
   for (const auto& record : records) {
     std::complex<double> value = 0.0;
-    for (std::size_t n = 0; n < record.size(); ++n)
-      value += record[n] * std::polar(weights.empty() ? 1.0 : weights[n],
-                                      -2.0 * kPi * tone.bin * static_cast<double>(n) / count);
-    tone.amplitudes.push_back(value / sum);
+    for (std::size_t n = 0; n < count; ++n) value += record[n] * phasors[n];
+    tone.amplitudes.push_back(value * to_first / sum);
     tone.power += std::norm(value / sum);
   }
   return tone;

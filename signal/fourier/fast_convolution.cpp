@@ -1,20 +1,10 @@
 #include "signal/fourier/fast_convolution.h"
 
-#include <algorithm>
 #include <cstddef>
 
 #include "signal/fourier/fft.h"
 
 namespace fanbeam::signal {
-
-int fast_length(int least) {
-  for (int length = std::max(1, least);; ++length) {
-    int rest = length;
-    for (const int factor : {2, 3, 5})
-      while (rest % factor == 0) rest /= factor;
-    if (rest == 1) return length;
-  }
-}
 
 std::vector<std::complex<double>> convolved(const std::vector<std::complex<double>>& x,
                                             const std::vector<std::complex<double>>& h) {

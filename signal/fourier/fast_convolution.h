@@ -8,8 +8,8 @@
 // with the circular convolution that a product of unpadded spectra is. An empty input gives an
 // empty result for `convolved` and zeros for `compressed`.
 //
-// Accuracy: 1e-14 of the largest output. Cost: three transforms of the padded length, which is the
-// next product of 2, 3 and 5.
+// Accuracy: 1e-14 of the largest output. Cost: three transforms of the padded length, a
+// product of 2, 3 and 5.
 #pragma once
 
 #include <complex>
@@ -22,8 +22,5 @@ std::vector<std::complex<double>> convolved(const std::vector<std::complex<doubl
 
 std::vector<std::complex<double>> compressed(const std::vector<std::complex<double>>& x,
                                              const std::vector<std::complex<double>>& pulse);
-
-// The smallest length of at least `least` that a Fourier transform handles quickly.
-int fast_length(int least);
 
 }  // namespace fanbeam::signal

@@ -2,6 +2,7 @@
 
 #include <fftw3.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -9,7 +10,7 @@
 #include <mutex>
 #include <utility>
 
-#include "core/errors.h"
+#include "signal/checks_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -55,7 +56,7 @@ std::mutex& planner_mutex() {
 
 void check_layout(const FftLayout& layout) {
   const auto at_least_one = [](const char* field, int value) {
-    if (value < 1) core::throw_input_error(core::ErrorClass::range, field, value, "1 or more");
+    if (value < 1) refuse(field, value, "1 or more");
   };
   at_least_one("fft.length", layout.length);
   at_least_one("fft.stride", layout.stride);
@@ -135,6 +136,15 @@ void Fft<Real>::run(const std::complex<Real>* in, std::complex<Real>* out) const
 
 template class Fft<float>;
 template class Fft<double>;
+
+int fast_length(int least) {
+  for (int length = std::max(1, least);; ++length) {
+    int rest = length;
+    for (const int factor : {2, 3, 5})
+      while (rest % factor == 0) rest /= factor;
+    if (rest == 1) return length;
+  }
+}
 
 std::vector<std::complex<double>> spectrum(std::vector<std::complex<double>> values) {
   if (values.empty()) return values;

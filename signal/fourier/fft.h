@@ -56,6 +56,9 @@ class Fft {
 extern template class Fft<float>;
 extern template class Fft<double>;
 
+// The smallest product of 2, 3 and 5 that is not below `least`: a length that is transformed fast.
+int fast_length(int least);
+
 // One whole array, for where speed does not matter. The inverse is scaled by 1/N here.
 std::vector<std::complex<double>> spectrum(std::vector<std::complex<double>> values);
 std::vector<std::complex<double>> inverse_spectrum(std::vector<std::complex<double>> values);

@@ -7,7 +7,7 @@
 #include <initializer_list>
 
 #include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
 #include "signal/fourier/fft.h"
 
 namespace fanbeam::signal {
@@ -17,8 +17,7 @@ using core::kPi;
 
 void check_range(const char* field, double value, double least, double most, const char* expected) {
   // Written so that NaN fails too.
-  if (!(value >= least && value <= most))
-    core::throw_input_error(core::ErrorClass::range, field, value, expected);
+  if (!(value >= least && value <= most)) refuse(field, value, expected);
 }
 
 // a0 - a1 cos 2 pi u + a2 cos 4 pi u - ...
@@ -115,8 +114,7 @@ std::vector<double> kaiser(double beta, int length) {
 }  // namespace
 
 std::vector<double> window_weights(const Window& window, int length) {
-  if (length < 1)
-    core::throw_input_error(core::ErrorClass::range, "window.length", length, "1 or more");
+  if (length < 1) refuse("window.length", length, "1 or more");
   if (length == 1) return {1.0};
   switch (window.kind) {
     case WindowKind::rectangular:

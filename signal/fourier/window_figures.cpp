@@ -6,7 +6,7 @@
 #include <cstddef>
 
 #include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
 #include "signal/fourier/fft.h"
 #include "signal/fourier/peak_fit.h"
 
@@ -81,8 +81,7 @@ WindowFigures window_figures(const std::vector<double>& weights) {
     plain_moment += t * t;
   }
   if (weights.size() < 3 || !(sum > 0.0))
-    core::throw_input_error(core::ErrorClass::range, "window.weights", count,
-                            "three or more weights with a positive sum");
+    refuse("window.weights", count, "three or more weights with a positive sum");
   WindowFigures figures;
   figures.half_power_width_bins = half_power_width(weights);
   figures.peak_side_lobe_dB = 10.0 * std::log10(peak_side_lobe(weights));
@@ -94,8 +93,7 @@ WindowFigures window_figures(const std::vector<double>& weights) {
 }
 
 double tone_bias_bins(const std::vector<double>& weights, int padding) {
-  if (padding < 1)
-    core::throw_input_error(core::ErrorClass::range, "padding", padding, "1 or more");
+  if (padding < 1) refuse("padding", padding, "1 or more");
   constexpr int kPlaces = 50;
   double worst = 0.0;
   for (int i = 0; i <= kPlaces; ++i) {

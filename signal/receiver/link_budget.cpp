@@ -3,20 +3,14 @@
 #include <cmath>
 
 #include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
 
 namespace fanbeam::signal {
 namespace {
 
 void check_least(const char* field, double value, double least) {
   if (!(std::isfinite(value) && value >= least))
-    core::throw_input_error(core::ErrorClass::range, field, value,
-                            core::number_text(least) + " or above");
-}
-
-void check_positive(const char* field, double value) {
-  if (!(std::isfinite(value) && value > 0.0))
-    core::throw_input_error(core::ErrorClass::range, field, value, "above 0");
+    refuse(field, value, core::number_text(least) + " or above");
 }
 
 }  // namespace

@@ -6,22 +6,12 @@
 #include <vector>
 
 #include "core/constants.h"
-#include "core/errors.h"
 #include "core/parallel.h"
+#include "signal/checks_private.h"
 #include "signal/receiver/link_budget.h"
 
 namespace fanbeam::signal {
 namespace {
-
-void check_not_negative(const char* field, double value) {
-  if (!(std::isfinite(value) && value >= 0.0))
-    core::throw_input_error(core::ErrorClass::range, field, value, "0 or above");
-}
-
-void check_positive(const char* field, double value) {
-  if (!(std::isfinite(value) && value > 0.0))
-    core::throw_input_error(core::ErrorClass::range, field, value, "above 0");
-}
 
 core::RandomKey with_stream(core::RandomKey key, std::uint32_t stream) {
   key.stream = stream;
@@ -65,8 +55,8 @@ template <typename Real>
 void add_receiver_noise(const Array& array, const ReceiverNoise& noise, Cube<Real>& cube) {
   check_not_negative("sample_W", noise.sample_W);
   if (cube.shape.channels != array.channels())
-    core::throw_input_error(core::ErrorClass::range, "channels", cube.shape.channels,
-                            std::to_string(array.channels()) + ", those of the array");
+    refuse("channels", cube.shape.channels,
+           std::to_string(array.channels()) + ", those of the array");
   if (noise.sample_W == 0.0) return;
   const core::RandomKey key = with_stream(noise.key, core::kStreamReceiverNoise);
   const double part_sqrtW = std::sqrt(0.5 * noise.sample_W);
@@ -98,11 +88,13 @@ void apply_phase_noise(const PhaseNoise& noise, Cube<Real>& cube) {
   if (noise.rms_rad == 0.0) return;
   core::parallel_for(static_cast<std::size_t>(cube.shape.chirps), [&](std::size_t chirp) {
     const int m = static_cast<int>(chirp);
-    const std::vector<double> phase_rad = phase_walk_rad(noise, cube.shape.samples, m);
+    std::vector<std::complex<double>> turns;
+    for (const double phase_rad : phase_walk_rad(noise, cube.shape.samples, m))
+      turns.push_back(std::polar(1.0, phase_rad));
     for (int channel = 0; channel < cube.shape.channels; ++channel)
       for (int n = 0; n < cube.shape.samples; ++n) {
-        const std::complex<double> turn = std::polar(1.0, phase_rad[static_cast<std::size_t>(n)]);
-        const std::complex<double> value = std::complex<double>(cube.at(channel, m, n)) * turn;
+        const std::complex<double> value =
+            std::complex<double>(cube.at(channel, m, n)) * turns[static_cast<std::size_t>(n)];
         cube.at(channel, m, n) = {static_cast<Real>(value.real()), static_cast<Real>(value.imag())};
       }
   });
@@ -110,8 +102,7 @@ void apply_phase_noise(const PhaseNoise& noise, Cube<Real>& cube) {
 
 template <typename Real>
 std::size_t quantise(const Quantiser& quantiser, Cube<Real>& cube) {
-  if (quantiser.bits < 1 || quantiser.bits > 24)
-    core::throw_input_error(core::ErrorClass::range, "bits", quantiser.bits, "1 to 24");
+  check_count("bits", quantiser.bits, 1, 24);
   check_positive("full_scale_sqrtW", quantiser.full_scale_sqrtW);
   const double half_steps = std::ldexp(1.0, quantiser.bits - 1);
   const double step = quantiser.full_scale_sqrtW / half_steps;

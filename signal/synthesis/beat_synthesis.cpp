@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "core/constants.h"
-#include "core/errors.h"
 #include "core/parallel.h"
+#include "signal/checks_private.h"
 #include "signal/fourier/fft.h"
 #include "signal/synthesis/direct_private.h"
 #include "signal/synthesis/path_run_private.h"
@@ -16,9 +17,10 @@ namespace fanbeam::signal {
 namespace {
 
 constexpr int kMostOrders = 4;
-constexpr int kBlock = 32;     // chirps side by side on a grid: fits the second-level cache
-constexpr int kLeastJobs = 8;  // channels are cut until there are so many pieces of work
-constexpr int kFewPaths = 16;  // for which the transforms alone would cost more
+constexpr int kBlock = 32;           // chirps side by side on a grid: fits the second-level cache
+constexpr int kLeastJobs = 8;        // channels are cut until there are so many pieces of work
+constexpr int kFewPaths = 16;        // for which the transforms alone would cost more
+constexpr std::size_t kChunk = 256;  // paths that are classified as one piece of work
 constexpr double kFloatLimit = 1e-5;
 
 // exp(j 2 pi p k^2) over |k| <= N/2 is exp(j alpha / 2) exp(j alpha q), q = (2 k / N)^2 - 1/2.
@@ -39,8 +41,11 @@ int orders_for(double alpha_rad, double error) {
 struct Plan {
   SpreadingKernel kernel;
   int cells = 0;
-  int orders = 1;
-  std::vector<ScatterPath> spread, direct;
+  int orders = 1;     // grids
+  bool bent = false;  // the bend to first order on a single grid
+  std::vector<std::size_t> spread;
+  std::vector<ScatterPath> direct;
+  std::vector<PathRun> runs;  // of path i in channel c, at [c * paths + i]
   std::vector<double> scales;
 };
 
@@ -57,38 +62,61 @@ std::vector<double> sample_scales(const Plan& plan, int samples) {
   return scales;
 }
 
+// Fills the path's runs in all channels. Returns the terms that its bend takes, 0 where the path
+// cannot be spread.
+int terms_of(const Frame& frame, const std::vector<ScatterPath>& paths, std::size_t index,
+             double error, Plan& plan) {
+  int terms = 1;
+  for (int channel = 0; channel < frame.shape.channels; ++channel) {
+    const PathRun run = path_run(frame, channel, paths[index]);
+    terms = std::max(terms, orders_for(bend_rad(run.per_sample2, frame.shape.samples), error));
+    if (!(run.error_rad <= error) || terms > kMostOrders ||
+        !(std::abs(run.per_sample_chirp) * plan.cells < 1.0))
+      return 0;
+    plan.runs[static_cast<std::size_t>(channel) * paths.size() + index] = run;
+  }
+  return terms;
+}
+
 Plan plan_of(const Frame& frame, const std::vector<ScatterPath>& paths, double error) {
-  Plan plan{SpreadingKernel(kernel_width(error)), 0, 1, {}, {}, {}};
-  plan.cells = even_fast_length(std::max(2 * frame.shape.samples, 2 * plan.kernel.width()));
+  Plan plan{SpreadingKernel(kernel_width(error)), 0, 1, false, {}, {}, {}, {}};
+  const int samples = frame.shape.samples;
+  plan.cells = 2 * fast_length(std::max(samples, plan.kernel.width()));
   if (!frame.uniform || static_cast<int>(paths.size()) <= kFewPaths) {
     plan.direct = paths;
     return plan;
   }
-  for (const ScatterPath& path : paths) {
-    int orders = 1;
-    bool runs = true;
-    for (int channel = 0; channel < frame.shape.channels && runs; ++channel) {
-      const PathRun run = path_run(frame, channel, path);
-      orders =
-          std::max(orders, orders_for(bend_rad(run.per_sample2, frame.shape.samples), 0.1 * error));
-      runs = run.error_rad <= 0.1 * error && orders <= kMostOrders &&
-             std::abs(run.per_sample_chirp) * plan.cells < 1.0;
-    }
-    if (runs) plan.orders = std::max(plan.orders, orders);
-    (runs ? plan.spread : plan.direct).push_back(path);
+  plan.runs.resize(static_cast<std::size_t>(frame.shape.channels) * paths.size());
+  std::vector<int> terms(paths.size());
+  core::parallel_for((paths.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t end = std::min(paths.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i)
+      terms[i] = terms_of(frame, paths, i, 0.1 * error, plan);
+  });
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    plan.orders = std::max(plan.orders, terms[i]);
+    if (terms[i] > 0)
+      plan.spread.push_back(i);
+    else
+      plan.direct.push_back(paths[i]);
   }
-  plan.scales = sample_scales(plan, frame.shape.samples);
+  if (plan.orders == 2) {
+    plan.orders = 1;
+    plan.bent = true;
+  }
+  plan.scales = sample_scales(plan, samples);
   return plan;
 }
 
-std::vector<GridPath> grid_paths(const Frame& frame, const Plan& plan, int channel, int chirp) {
+std::vector<GridPath> grid_paths(const Frame& frame, const std::vector<ScatterPath>& all,
+                                 const Plan& plan, int channel, int chirp) {
   std::vector<GridPath> paths;
   paths.reserve(plan.spread.size());
-  for (const ScatterPath& path : plan.spread) {
-    PathRun run = path_run(frame, channel, path);
+  for (const std::size_t i : plan.spread) {
+    PathRun run = plan.runs[static_cast<std::size_t>(channel) * all.size() + i];
     const double alpha_rad = bend_rad(run.per_sample2, frame.shape.samples);
     run.middle.constant += alpha_rad / (4.0 * core::kPi);
-    paths.push_back({PhaseRun(run.middle, chirp, path.amplitude_sqrtW),
+    paths.push_back({PhaseRun(run.middle, chirp, all[i].amplitude_sqrtW),
                      (run.per_sample + run.per_sample_chirp * chirp) * plan.cells,
                      run.per_sample_chirp * plan.cells, alpha_rad});
   }
@@ -156,25 +184,32 @@ class RowMaker {
   std::vector<Real> scales_;
 };
 
+// A stretch of one channel's chirps.
+struct Part {
+  int channel, begin, end;
+};
+
 template <typename Real>
-void spread_part(const Frame& frame, const Plan& plan, int channel, int begin, int end,
-                 Cube<Real>& cube) {
-  const int block = std::min(kBlock, (end - begin + kLanes - 1) / kLanes * kLanes);
-  RangeGrid<Real> grid(plan.kernel, plan.cells, block, plan.orders);
+void spread_part(const Frame& frame, const std::vector<ScatterPath>& all, const Plan& plan,
+                 const Part& part, Cube<Real>& cube) {
+  const int block = std::min(kBlock, (part.end - part.begin + kLanes - 1) / kLanes * kLanes);
+  const double cells_per_turn = plan.cells / (core::kPi * frame.shape.samples);
+  RangeGrid<Real> grid(plan.kernel, {plan.cells, block, plan.orders,
+                                     plan.bent ? -cells_per_turn * cells_per_turn : 0.0});
   RowMaker<Real> rows(plan, frame.shape.samples);
-  std::vector<GridPath> paths = grid_paths(frame, plan, channel, begin);
-  for (int chirp = begin; chirp < end; chirp += block) {
+  std::vector<GridPath> paths = grid_paths(frame, all, plan, part.channel, part.begin);
+  for (int chirp = part.begin; chirp < part.end; chirp += block) {
     grid.clear();
     for (GridPath& path : paths) grid.spread(path, block);
     grid.close();
-    for (int first = 0; first < block && chirp + first < end; first += kLanes)
-      rows.add(grid, first, std::min(kLanes, end - chirp - first),
-               &cube.at(channel, chirp + first, 0));
+    for (int first = 0; first < block && chirp + first < part.end; first += kLanes)
+      rows.add(grid, first, std::min(kLanes, part.end - chirp - first),
+               &cube.at(part.channel, chirp + first, 0));
   }
 }
 
 template <typename Real>
-Cube<Real> spread_all(const Frame& frame, const Plan& plan) {
+Cube<Real> spread_all(const Frame& frame, const std::vector<ScatterPath>& all, const Plan& plan) {
   Cube<Real> cube(frame.shape);
   if (plan.spread.empty()) return cube;
   const int channels = frame.shape.channels;
@@ -182,37 +217,40 @@ Cube<Real> spread_all(const Frame& frame, const Plan& plan) {
   const int chirps = frame.shape.chirps;
   const int part = ((chirps + parts - 1) / parts + kLanes - 1) / kLanes * kLanes;
   core::parallel_for(static_cast<std::size_t>(channels * parts), [&](std::size_t job) {
-    const int channel = static_cast<int>(job) / parts;
     const int begin = static_cast<int>(job) % parts * part;
     const int end = std::min(chirps, begin + part);
-    if (begin < end) spread_part(frame, plan, channel, begin, end, cube);
+    if (begin < end)
+      spread_part(frame, all, plan, {static_cast<int>(job) / parts, begin, end}, cube);
   });
   return cube;
 }
 
 template <typename Out, typename In>
-Cube<Out> converted(const Cube<In>& cube) {
-  Cube<Out> out(cube.shape);
-  std::transform(cube.values.begin(), cube.values.end(), out.values.begin(),
-                 [](const std::complex<In>& value) {
-                   return std::complex<Out>(static_cast<Out>(value.real()),
-                                            static_cast<Out>(value.imag()));
-                 });
-  return out;
+Cube<Out> converted(Cube<In> cube) {
+  if constexpr (std::is_same_v<Out, In>) {
+    return cube;
+  } else {
+    Cube<Out> out(cube.shape);
+    std::transform(cube.values.begin(), cube.values.end(), out.values.begin(),
+                   [](const std::complex<In>& value) {
+                     return std::complex<Out>(static_cast<Out>(value.real()),
+                                              static_cast<Out>(value.imag()));
+                   });
+    return out;
+  }
 }
 
 template <typename Real>
 Cube<Real> synthesise(const Waveform& waveform, int stage, const Array& array,
                       const std::vector<ScatterPath>& paths, double error) {
-  if (!(error >= 1e-10 && error <= 1e-2))
-    core::throw_input_error(core::ErrorClass::range, "relative_error", error, "1e-10 to 1e-2");
+  if (!(error >= 1e-10 && error <= 1e-2)) refuse("relative_error", error, "1e-10 to 1e-2");
   const Frame frame = make_frame(waveform, stage, array);
   check(waveform, paths);
   if (waveform.kind == WaveformKind::sinusoidal || waveform.kind == WaveformKind::pulsed)
     return converted<Real>(reference_beat(waveform, stage, array, paths));
   const Plan plan = plan_of(frame, paths, error);
-  Cube<Real> cube = error >= kFloatLimit ? converted<Real>(spread_all<float>(frame, plan))
-                                         : converted<Real>(spread_all<double>(frame, plan));
+  Cube<Real> cube = error >= kFloatLimit ? converted<Real>(spread_all<float>(frame, paths, plan))
+                                         : converted<Real>(spread_all<double>(frame, paths, plan));
   add_direct(frame, plan.direct, cube);
   if (!waveform.complex_baseband)
     for (std::complex<Real>& value : cube.values)

@@ -9,7 +9,8 @@
 
 namespace fanbeam::signal {
 
-// Adds the paths to every row of the cube. About 1.5 cycles per sample and path.
+// Adds the paths to every row of the cube. About 4 ns per sample and path for ramps of
+// 400 samples, on one thread.
 template <typename Real>
 void add_direct(const Frame& frame, const std::vector<ScatterPath>& paths, Cube<Real>& cube);
 

@@ -3,7 +3,9 @@
 
 #include "core/constants.h"
 #include "core/parallel.h"
+#include "signal/fourier/fft.h"
 #include "signal/synthesis/keystone_private.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -45,9 +47,7 @@ KeystonePath keystone_path(const Frame& frame, double reference_s, const NearFie
   seen.sine_s_per_m = sine * scale / c_mps;
   seen.delay_turns_per_sample = sweep_Hz / frame.sample_rate_Hz;
   const double turns = (middle_Hz - 0.5 * sweep_Hz) * delay_s + bulge_per_m2 * near_m2.mean_m2;
-  const double phase_rad = 2.0 * core::kPi * (turns - std::nearbyint(turns));
-  seen.value =
-      path.amplitude_sqrtW * std::complex<double>(std::cos(phase_rad), std::sin(phase_rad));
+  seen.value = path.amplitude_sqrtW * unit_phasor(turns);
 
   const double half_s = 0.5 * frame.interval_s * frame.shape.chirps;
   const double moved = rate * half_s;
@@ -115,7 +115,7 @@ KeystoneAxes keystone_axes(const Frame& frame, const std::vector<KeystonePath>& 
   axes.rate = axis(least.rate, most.rate, 0.25 / (highest_Hz * half_s), width);
   axes.sine_s_per_m =
       axis(least.sine_s_per_m, most.sine_s_per_m, 0.25 / (highest_Hz * farthest_m), width);
-  axes.delays = even_fast_length(std::max(2 * frame.shape.samples, 16));
+  axes.delays = 2 * fast_length(std::max(frame.shape.samples, 8));
   axes.reference_s = reference_s;
   return axes;
 }

@@ -68,10 +68,8 @@ void transform_delays(const SpreadingKernel& kernel, int samples, WaveGrid& grid
   });
 }
 
-// |kernel error| of three axes, each of what the width gives.
-double kernel_error_of(int width) {
-  return 3.0 * (width <= 4 ? 8.2e-4 : width <= 6 ? 7.5e-6 : 1.0e-6);
-}
+// Of three axes, each with what the width gives, but not below the rounding of sums in float.
+double kernel_error_of(int width) { return 3.0 * std::max(1e-6, spreading_error(width)); }
 
 }  // namespace
 
@@ -98,7 +96,6 @@ KeystoneBeat keystone_beat(const Waveform& waveform, int stage, const Array& arr
   for (const KeystonePath& path : seen) {
     power += std::norm(path.value);
     missed += std::norm(path.value) * path.error_rad * path.error_rad;
-    beat.largest_path_error_rad = std::max(beat.largest_path_error_rad, path.error_rad);
   }
   if (power > 0.0)
     beat.estimated_error = std::sqrt(missed / power) + kernel_error_of(kernel.width());

@@ -12,14 +12,15 @@
 // Source of 3: L. R. Rabiner, R. W. Schafer, C. M. Rader, Bell Syst. Tech. J. 48, 1969; the scale
 // is that of the keystone transform, R. P. Perry et al., IEEE Trans. AES 35, 1999.
 //
-// Neglected, and estimated in `path_error_rad`: the near field beyond first order,
+// Neglected, and estimated for every path: the near field beyond first order,
 // 2 pi q (1 - u^2) / (2 lambda R) with q = p_t^2 + p_r^2 (2.8 mrad at 20 m for the default array);
 // (tau - its value at mid frame)^2; the change of k over the ramp. Speeds are taken at mid frame.
 // Error: relative L2 against reference_beat, for paths of independent phases, at most
-// `estimated_error`: the root mean square of `path_error_rad` over the power, plus that of the
-// kernel.
+// `estimated_error`: the root mean square of those estimates over the power, plus three times that
+// of the kernel, once for each axis.
 // Cost: W^3 cells per path, plus transforms that depend on the span of speeds and angles. One
-// million paths into 400 x 256 x 12 take about a second of processor time. Same bits for any number
+// million paths into 400 x 256 x 12 take about a second of processor time, shared by all threads
+// (docs/fmcw.md). Same bits for any number
 // of threads.
 #pragma once
 
@@ -39,7 +40,6 @@ struct KeystoneOptions {
 struct KeystoneBeat {
   FloatCube cube;
   double estimated_error = 0.0;
-  double largest_path_error_rad = 0.0;
 };
 
 // E-UNSUPPORTED: a frame that is not uniform, elements off the line.

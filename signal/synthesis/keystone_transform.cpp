@@ -2,11 +2,11 @@
 #include <array>
 #include <cmath>
 
-#include "core/constants.h"
 #include "core/dispatch.h"
 #include "core/parallel.h"
 #include "signal/synthesis/keystone_transform_private.h"
 #include "signal/synthesis/scaled_transform_private.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -32,9 +32,9 @@ class LaneChirp {
 
  private:
   static void set(ComplexLanes<double>& lanes, std::size_t lane, double turns) {
-    const double phase_rad = 2.0 * core::kPi * (turns - std::nearbyint(turns));
-    lanes.re[lane] = std::cos(phase_rad);
-    lanes.im[lane] = std::sin(phase_rad);
+    const std::complex<double> value = unit_phasor(turns);
+    lanes.re[lane] = value.real();
+    lanes.im[lane] = value.imag();
   }
   ComplexLanes<double> steps_, turn_;
 };
@@ -84,11 +84,10 @@ std::vector<float> steering(const Block& block, const WaveAxis& sines,
     const double per_unit = block.frequency_Hz[lane] * at_m;
     const double scale = inverse.at(per_unit * sines.step);
     for (int i = 0; i < sines.cells; ++i) {
-      const double turns = -per_unit * (sines.first + sines.step * i);
-      const double phase_rad = 2.0 * core::kPi * (turns - std::nearbyint(turns));
+      const std::complex<double> turn = unit_phasor(-per_unit * (sines.first + sines.step * i));
       const std::size_t at = static_cast<std::size_t>(2 * kLanes * i) + lane;
-      factors[at] = static_cast<float>(scale * std::cos(phase_rad));
-      factors[at + kLanes] = static_cast<float>(scale * std::sin(phase_rad));
+      factors[at] = static_cast<float>(scale * turn.real());
+      factors[at + kLanes] = static_cast<float>(scale * turn.imag());
     }
   }
   return factors;

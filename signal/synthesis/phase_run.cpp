@@ -1,15 +1,8 @@
-#include <cmath>
-
-#include "core/constants.h"
 #include "signal/synthesis/phase_run_private.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 namespace {
-
-std::complex<double> unit(double turns) {
-  const double phase_rad = 2.0 * core::kPi * (turns - std::nearbyint(turns));
-  return {std::cos(phase_rad), std::sin(phase_rad)};
-}
 
 // The library's product checks for infinities; there are none here.
 std::complex<double> product(std::complex<double> a, std::complex<double> b) {
@@ -19,9 +12,9 @@ std::complex<double> product(std::complex<double> a, std::complex<double> b) {
 }  // namespace
 
 PhaseRun::PhaseRun(const QuadraticTurns& turns, double first, std::complex<double> amplitude) {
-  std::complex<double> value = product(amplitude, unit(turns.at(first)));
-  std::complex<double> step = unit(turns.linear + turns.quadratic * (2.0 * first + 1.0));
-  const std::complex<double> curl = unit(2.0 * turns.quadratic);
+  std::complex<double> value = product(amplitude, unit_phasor(turns.at(first)));
+  std::complex<double> step = unit_phasor(turns.linear + turns.quadratic * (2.0 * first + 1.0));
+  const std::complex<double> curl = unit_phasor(2.0 * turns.quadratic);
   std::complex<double> eight = 1.0;  // from a value to the one eight later
   for (int lane = 0; lane < kLanes; ++lane) {
     values.re[lane] = value.real();

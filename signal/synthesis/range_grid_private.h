@@ -17,15 +17,24 @@ struct GridPath {
   PhaseRun phase;
   double cell = 0.0;  // of the next chirp, on the grid of G cells; any real number
   double cells_per_chirp = 0.0;
-  double bend_rad = 0.0;  // weight of the orders above 0: alpha
+  double bend_rad = 0.0;  // alpha
+};
+
+struct GridLayout {
+  int cells = 0;
+  int chirps = 0;  // a multiple of 8
+  int orders = 1;  // grids, 1 to 4; order i is weighted with alpha^i / i!
+  // Not 0: a single grid takes the factor 1 + j alpha ((2 k / N)^2 - 1/2). The second derivative of
+  // the kernel by cells times this, -(G / (pi N))^2, is the kernel of (2 k / N)^2.
+  double derivative_scale = 0.0;
+
+  bool bends() const { return derivative_scale != 0.0; }
 };
 
 template <typename Real>
 class RangeGrid {
  public:
-  // `chirps` is a multiple of 8; `orders` 1 to 4: as many grids, order i weighted with
-  // alpha^i / i!.
-  RangeGrid(const SpreadingKernel& kernel, int cells, int chirps, int orders);
+  RangeGrid(const SpreadingKernel& kernel, const GridLayout& layout);
 
   void clear();
   // Spreads the path over `chirps` chirps (a multiple of 8, at most the grid's) and moves it on.
@@ -33,7 +42,6 @@ class RangeGrid {
   // Adds what lies beyond the last cell to the first ones: the grid is a circle.
   void close();
 
-  int cells() const { return cells_; }
   // Values of one cell, all chirps of the block.
   const Real* re(int order, int cell) const { return values_.data() + place(order, 0, cell); }
   const Real* im(int order, int cell) const { return values_.data() + place(order, 1, cell); }
@@ -41,13 +49,15 @@ class RangeGrid {
  private:
   std::size_t place(int order, int part, int cell) const {
     return ((static_cast<std::size_t>(order) * 2 + static_cast<std::size_t>(part)) *
-                static_cast<std::size_t>(cells_ + width_) +
+                static_cast<std::size_t>(layout_.cells + width_) +
             static_cast<std::size_t>(cell)) *
-           static_cast<std::size_t>(chirps_);
+           static_cast<std::size_t>(layout_.chirps);
   }
 
-  int width_, cells_, chirps_, orders_;
-  std::vector<Real> taps_;  // even and odd powers of the first half of the taps
+  int width_;
+  GridLayout layout_;
+  // Even and odd powers of the first half of the taps; those of the derivative after each tap.
+  std::vector<Real> taps_;
   std::vector<Real> values_;
 };
 

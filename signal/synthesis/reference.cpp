@@ -6,6 +6,8 @@
 #include "core/parallel.h"
 #include "signal/synthesis/beat_phase.h"
 #include "signal/synthesis/frame.h"
+#include "signal/synthesis/path_run_private.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -19,21 +21,15 @@ bool has_echo(const Waveform& waveform, double in_segment_s, double delay_s) {
 void add_row(const Frame& frame, int channel, int chirp, const std::vector<ScatterPath>& paths,
              DoubleCube& cube) {
   const Segment& segment = frame.segment(channel, chirp);
-  const glm::dvec3& transmitter_m =
-      frame.array.transmitters_m[static_cast<std::size_t>(frame.array.transmitter_of(channel))];
-  const glm::dvec3& receiver_m =
-      frame.array.receivers_m[static_cast<std::size_t>(frame.array.receiver_of(channel))];
   for (const ScatterPath& path : paths) {
-    const PathGeometry geometry(path, transmitter_m, receiver_m);
+    const PathGeometry geometry = geometry_of(frame, channel, path);
     for (int n = 0; n < frame.shape.samples; ++n) {
       const double in_segment_s = n / frame.sample_rate_Hz;
       const double delay_s =
           geometry.at(segment.start_s + in_segment_s).length_m / core::kSpeedOfLight_mps;
       if (!has_echo(frame.waveform, in_segment_s, delay_s)) continue;
       const double turns = beat_turns(frame.waveform, segment, in_segment_s, delay_s);
-      const double phase_rad = 2.0 * core::kPi * (turns - std::round(turns));
-      cube.at(channel, chirp, n) +=
-          path.amplitude_sqrtW * std::complex<double>(std::cos(phase_rad), std::sin(phase_rad));
+      cube.at(channel, chirp, n) += path.amplitude_sqrtW * unit_phasor(turns);
     }
   }
 }

@@ -4,7 +4,7 @@
 // A sample is the sum over paths of amplitude x exp(j phi), phi of beat_phase.h at the sample's own
 // time. Real baseband: sqrt(2) times the real part, so that the mean square keeps the power.
 // Pulsed: the echo is there while the delayed pulse is, without filter.
-// Cost: about 50 ns per sample and path, on all threads; sums in the order of the paths, so the
+// Cost: about 50 ns of processor time per sample and path; runs on all threads. Sums in the order of the paths, so the
 // same bits for any number of threads.
 #pragma once
 

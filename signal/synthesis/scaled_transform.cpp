@@ -1,15 +1,13 @@
 #include <algorithm>
-#include <cmath>
 
-#include "core/constants.h"
 #include "signal/synthesis/scaled_transform_private.h"
-#include "signal/synthesis/spreading_kernel.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 
 ScaledTransform::ScaledTransform(int inputs, int outputs,
                                  const std::array<double, kLanes>& turns_per_step)
-    : length_(even_fast_length(inputs + outputs)),
+    : length_(2 * fast_length((inputs + outputs + 1) / 2)),
       forward_({length_, 1, kLanes, length_}, FftDirection::forward),
       inverse_({length_, 1, kLanes, length_}, FftDirection::inverse),
       chirps_(static_cast<std::size_t>(kLanes * length_)),
@@ -17,9 +15,9 @@ ScaledTransform::ScaledTransform(int inputs, int outputs,
   for (int lane = 0; lane < kLanes; ++lane)
     for (int i = 0; i < std::max(inputs, outputs); ++i) {
       const double turns = -0.5 * turns_per_step[static_cast<std::size_t>(lane)] * i * i;
-      const double phase_rad = 2.0 * core::kPi * (turns - std::nearbyint(turns));
-      const std::complex<float> value(static_cast<float>(std::cos(phase_rad) / length_),
-                                      static_cast<float>(std::sin(phase_rad) / length_));
+      const std::complex<double> exact = unit_phasor(turns);
+      const std::complex<float> value(static_cast<float>(exact.real() / length_),
+                                      static_cast<float>(exact.imag() / length_));
       if (i < outputs) chirps_[at(lane, i)] = value;
       if (i > 0 && i < inputs) chirps_[at(lane, length_ - i)] = value;
     }

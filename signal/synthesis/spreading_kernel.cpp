@@ -1,10 +1,9 @@
 #include "signal/synthesis/spreading_kernel.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -39,8 +38,7 @@ std::vector<double> power_coefficients(const std::vector<double>& at_nodes) {
 }  // namespace
 
 SpreadingKernel::SpreadingKernel(int width) : width_(width), beta_(kBetaPerCell * width) {
-  if (width < 2 || width > 16)
-    core::throw_input_error(core::ErrorClass::range, "kernel width", width, "2 to 16");
+  check_count("kernel width", width, 2, 16);
   const int count = degree() + 1;
   for (int tap = 0; tap < width; ++tap) {
     std::vector<double> at_nodes;
@@ -74,24 +72,18 @@ double SpreadingKernel::transform(double turns_per_cell) const {
   return sum;
 }
 
-int kernel_width(double relative_error) {
-  struct Step {
-    int width;
-    double error;
-  };
-  constexpr Step kSteps[] = {{4, 8.2e-4}, {6, 7.5e-6}, {8, 1.1e-7}, {10, 1.5e-9}};
-  for (const Step& step : kSteps)
-    if (step.error <= 0.25 * relative_error) return step.width;
-  return 12;
+double spreading_error(int width) {
+  check_count("kernel width", width, kSpreadingErrors.front().width, 16);
+  double relative = 0.0;
+  for (const SpreadingError& error : kSpreadingErrors)
+    if (error.width <= width) relative = error.relative;
+  return relative;
 }
 
-int even_fast_length(int least) {
-  for (int length = std::max(2, least + least % 2);; length += 2) {
-    int rest = length;
-    for (const int factor : {2, 3, 5})
-      while (rest % factor == 0) rest /= factor;
-    if (rest == 1) return length;
-  }
+int kernel_width(double relative_error) {
+  for (const SpreadingError& error : kSpreadingErrors)
+    if (error.width % 2 == 0 && error.relative <= 0.25 * relative_error) return error.width;
+  return kSpreadingErrors.back().width;
 }
 
 }  // namespace fanbeam::signal

@@ -6,15 +6,22 @@
 // |t| <= w / 2, beta = 2.30 w.
 // Source: A. H. Barnett, J. Magland, L. af Klinteberg, "A parallel nonuniform fast Fourier
 // transform library based on an exponential of semicircle kernel", SIAM J. Sci. Comput. 41, 2019.
-// Relative L2 error with G = 2 N: w = 4 8.2e-4, 5 7.6e-5, 6 7.5e-6, 7 8.4e-7, 8 1.1e-7, 10 1.5e-9,
-// 12 1.5e-11.
+// Relative L2 error with G = 2 N: `spreading_error`.
 // A tap as a function of the place between cells is a polynomial of degree w + 3; two taps that
 // mirror each other share its even and odd part.
 #pragma once
 
+#include <array>
 #include <vector>
 
 namespace fanbeam::signal {
+
+struct SpreadingError {
+  int width;
+  double relative;
+};
+inline constexpr std::array<SpreadingError, 7> kSpreadingErrors = {
+    {{4, 8.2e-4}, {5, 7.6e-5}, {6, 7.5e-6}, {7, 8.4e-7}, {8, 1.1e-7}, {10, 1.5e-9}, {12, 1.5e-11}}};
 
 class SpreadingKernel {
  public:
@@ -39,10 +46,10 @@ class SpreadingKernel {
   std::vector<double> nodes_, weights_;  // of the transform
 };
 
+// Of the next narrower width in the table; E-RANGE below 4.
+double spreading_error(int width);
+
 // The least width whose error stays below a quarter of `relative_error`: 4, 6, 8, 10 or 12.
 int kernel_width(double relative_error);
-
-// Least length of the form 2^a 3^b 5^c, even, that is not below `least`.
-int even_fast_length(int least);
 
 }  // namespace fanbeam::signal

@@ -6,18 +6,13 @@
 #include <cstddef>
 #include <numeric>
 
-#include "core/constants.h"
-#include "core/errors.h"
 #include "core/parallel.h"
 #include "signal/angle/steering.h"
+#include "signal/checks_private.h"
 #include "signal/transform/tiles_private.h"
 
 namespace fanbeam::signal {
 namespace {
-
-[[noreturn]] void refuse(const char* field, double value, const char* expected) {
-  core::throw_input_error(core::ErrorClass::range, field, value, expected);
-}
 
 template <typename Real>
 void check_input(const Cube<Real>& cube) {
@@ -55,9 +50,8 @@ template void angle_transform(const DoubleCube&, const Window&, int, DoubleCube&
 
 std::vector<double> angle_cell_azimuths_rad(int angle_cells, double pitch_m, double wavelength_m) {
   if (angle_cells < 1) refuse("angle_cells", angle_cells, "1 or more");
-  if (!(pitch_m > 0.0 && std::isfinite(pitch_m))) refuse("pitch_m", pitch_m, "positive");
-  if (!(wavelength_m > 0.0 && std::isfinite(wavelength_m)))
-    refuse("wavelength_m", wavelength_m, "positive");
+  check_positive("pitch_m", pitch_m);
+  check_positive("wavelength_m", wavelength_m);
   std::vector<double> azimuths_rad(static_cast<std::size_t>(angle_cells));
   for (int a = 0; a < angle_cells; ++a) {
     const double turns = static_cast<double>(a - angle_cells / 2) / angle_cells;

@@ -1,22 +1,17 @@
 #include "signal/transform/range_doppler.h"
 
 #include <algorithm>
-#include <cmath>
 #include <complex>
 #include <numeric>
 
 #include "core/constants.h"
-#include "core/errors.h"
 #include "core/parallel.h"
+#include "signal/checks_private.h"
 #include "signal/fourier/fft.h"
 #include "signal/transform/tiles_private.h"
 
 namespace fanbeam::signal {
 namespace {
-
-[[noreturn]] void refuse(const char* field, double value, const char* expected) {
-  core::throw_input_error(core::ErrorClass::range, field, value, expected);
-}
 
 int transform_length(const char* field, int asked, int input) {
   if (asked == 0) return input;
@@ -61,29 +56,31 @@ class RowTransform {
   Fft<Real> fft_;
 };
 
-template <typename Real>
-void check_input(const Cube<Real>& beat) {
-  const CubeShape& shape = beat.shape;
-  if (std::min({shape.samples, shape.chirps, shape.channels}) < 1)
-    refuse("cube.shape", std::min({shape.samples, shape.chirps, shape.channels}),
-           "one or more along every axis");
-  if (beat.values.size() != shape.count())
-    refuse("cube.values", static_cast<double>(beat.values.size()), "as many as the shape says");
-}
-
 }  // namespace
+
+CubeShape range_doppler_shape(const CubeShape& beat, const RangeDopplerSettings& settings) {
+  if (std::min({beat.samples, beat.chirps, beat.channels}) < 1)
+    refuse("cube.shape", std::min({beat.samples, beat.chirps, beat.channels}),
+           "one or more along every axis");
+  const int range_length = transform_length("range_length", settings.range_length, beat.samples);
+  const int doppler_length =
+      transform_length("doppler_length", settings.doppler_length, beat.chirps);
+  const int kept = settings.kept_range_cells == 0 ? range_length : settings.kept_range_cells;
+  if (kept < 1 || kept > range_length)
+    refuse("kept_range_cells", kept, "0 or up to the length of the range transform");
+  return {kept, doppler_length, beat.channels};
+}
 
 template <typename Real>
 void range_doppler(const Cube<Real>& beat, const RangeDopplerSettings& settings,
                    Cube<Real>& result) {
-  check_input(beat);
   const CubeShape& shape = beat.shape;
-  const int range_length = transform_length("range_length", settings.range_length, shape.samples);
-  const int doppler_length =
-      transform_length("doppler_length", settings.doppler_length, shape.chirps);
-  const int kept = settings.kept_range_cells == 0 ? range_length : settings.kept_range_cells;
-  if (kept < 1 || kept > range_length)
-    refuse("kept_range_cells", kept, "0 or up to the length of the range transform");
+  const CubeShape transformed = range_doppler_shape(shape, settings);
+  if (beat.values.size() != shape.count())
+    refuse("cube.values", static_cast<double>(beat.values.size()), "as many as the shape says");
+  const int range_length = settings.range_length == 0 ? shape.samples : settings.range_length;
+  const int kept = transformed.samples;
+  const int doppler_length = transformed.chirps;
 
   const std::vector<double> fast = window_weights(settings.range_window, shape.samples);
   std::vector<double> slow = window_weights(settings.doppler_window, shape.chirps);
@@ -93,7 +90,7 @@ void range_doppler(const Cube<Real>& beat, const RangeDopplerSettings& settings,
   const ColumnTransform<Real> columns(slow, doppler_length, doppler_length / 2,
                                       FftDirection::forward);
 
-  result.shape = {kept, doppler_length, shape.channels};
+  result.shape = transformed;
   result.values.resize(result.shape.count());
   const auto chirps = static_cast<std::size_t>(shape.chirps);
   const auto width = static_cast<std::size_t>(kept);
@@ -118,15 +115,12 @@ double noise_gain(const std::vector<double>& weights) {
 RangeDopplerAxes range_doppler_axes(double sample_rate_Hz, double slope_Hz_per_s,
                                     double repetition_s, double wavelength_m, int range_length,
                                     int doppler_length) {
-  const auto positive = [](const char* field, double value) {
-    if (!(value > 0.0 && std::isfinite(value))) refuse(field, value, "positive and finite");
-  };
-  positive("sample_rate_Hz", sample_rate_Hz);
-  positive("slope_Hz_per_s", slope_Hz_per_s);
-  positive("repetition_s", repetition_s);
-  positive("wavelength_m", wavelength_m);
-  positive("range_length", range_length);
-  positive("doppler_length", doppler_length);
+  check_positive("sample_rate_Hz", sample_rate_Hz);
+  check_positive("slope_Hz_per_s", slope_Hz_per_s);
+  check_positive("repetition_s", repetition_s);
+  check_positive("wavelength_m", wavelength_m);
+  check_positive("range_length", range_length);
+  check_positive("doppler_length", doppler_length);
   RangeDopplerAxes axes;
   const double metres_per_Hz = core::kSpeedOfLight_mps / (2.0 * slope_Hz_per_s);
   axes.range_step_m = metres_per_Hz * sample_rate_Hz / range_length;

@@ -14,8 +14,8 @@
 // otherwise. Neglected: range migration within the frame, and the shift of the beat by Doppler, fc
 // v / S in range, which the reader of a cell knows from its Doppler (`RangeDopplerAxes::range_m`).
 // Accuracy: relative 1e-6 (float), 1e-14 (double) of the largest value. Cost: one pass over the
-// cube for each axis, channel by channel so that both find it in the cache: 1.1 to 1.4 times the
-// bare transforms of as many neighbouring values (benchmarks/signal_cube.cpp). Channels run on the
+// cube for each axis, channel by channel so that both find it in the cache: 1.4 times the
+// bare transforms of as many neighbouring values (benchmarks/signal_cube.cpp, docs/fmcw.md). Channels run on the
 // loop of core/parallel.h, and the bits do not depend on the threads. `result` keeps its memory
 // between calls of one shape.
 #pragma once
@@ -34,6 +34,9 @@ struct RangeDopplerSettings {
   int doppler_length = 0;
   int kept_range_cells = 0;  // the nearest ones; 0: all
 };
+
+// Of the transformed cube.
+CubeShape range_doppler_shape(const CubeShape& beat, const RangeDopplerSettings& settings);
 
 template <typename Real>
 void range_doppler(const Cube<Real>& beat, const RangeDopplerSettings& settings,

@@ -1,12 +1,10 @@
 #include "signal/transform/slot_compensation.h"
 
-#include <cmath>
 #include <cstddef>
 
-#include "core/constants.h"
-#include "core/errors.h"
 #include "core/parallel.h"
-#include "signal/angle/angle_peak.h"
+#include "signal/checks_private.h"
+#include "signal/unit_phasor_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -17,8 +15,8 @@ int slot_of(const Array& array, int channel) {
 
 void check_channels(std::size_t found, const Array& array) {
   if (found != static_cast<std::size_t>(array.channels()))
-    core::throw_input_error(core::ErrorClass::range, "channels", static_cast<double>(found),
-                            "as many as the array has: " + std::to_string(array.channels()));
+    refuse("channels", static_cast<double>(found),
+           "as many as the array has: " + std::to_string(array.channels()));
 }
 
 }  // namespace
@@ -36,7 +34,7 @@ void compensate_slots(Cube<Real>& range_doppler, const Array& array) {
       // f Ts = (cell - M/2) / (M S)
       const double turns = static_cast<double>(slot) * (cell - shape.chirps / 2) /
                            (static_cast<double>(shape.chirps) * array.slots());
-      const auto turn = static_cast<std::complex<Real>>(std::polar(1.0, -2.0 * core::kPi * turns));
+      const auto turn = static_cast<std::complex<Real>>(unit_phasor(-turns));
       std::complex<Real>* const row = &range_doppler.at(channel, cell, 0);
       for (int i = 0; i < shape.samples; ++i)
         row[i] = {row[i].real() * turn.real() - row[i].imag() * turn.imag(),
@@ -52,27 +50,23 @@ void compensate_slots(std::vector<std::complex<double>>& snapshot, const Array& 
                       double doppler_Hz, double slot_period_s) {
   check_channels(snapshot.size(), array);
   for (int channel = 0; channel < array.channels(); ++channel)
-    snapshot[static_cast<std::size_t>(channel)] *= std::polar(
-        1.0, -2.0 * core::kPi *
-                 std::remainder(doppler_Hz * slot_period_s * slot_of(array, channel), 1.0));
+    snapshot[static_cast<std::size_t>(channel)] *=
+        unit_phasor(-doppler_Hz * slot_period_s * slot_of(array, channel));
 }
 
-int doppler_fold(const std::vector<std::complex<double>>& snapshot, const Array& array,
-                 double doppler_Hz, double slot_period_s, double wavelength_m) {
+DopplerFold doppler_fold(const std::vector<std::complex<double>>& snapshot, const Array& array,
+                         double doppler_Hz, double slot_period_s, double wavelength_m) {
   check_channels(snapshot.size(), array);
   const int slots = array.slots();
   const auto elements_m = virtual_elements_m(array);
-  int best = 0;
-  double best_power = -1.0;
+  DopplerFold best;
+  best.direction.power = -1.0;
   for (int fold = -(slots / 2); fold < slots - slots / 2; ++fold) {
     auto compensated = snapshot;
     compensate_slots(compensated, array, doppler_Hz + fold / (slots * slot_period_s),
                      slot_period_s);
-    const double power = azimuth_peak(compensated, elements_m, wavelength_m).power;
-    if (power > best_power) {
-      best_power = power;
-      best = fold;
-    }
+    const AnglePeak direction = azimuth_peak(compensated, elements_m, wavelength_m);
+    if (direction.power > best.direction.power) best = {fold, direction};
   }
   return best;
 }

@@ -20,6 +20,7 @@
 #include <complex>
 #include <vector>
 
+#include "signal/angle/angle_peak.h"
 #include "signal/cube.h"
 #include "signal/waveform/array.h"
 
@@ -33,8 +34,12 @@ void compensate_slots(Cube<Real>& range_doppler, const Array& array);
 void compensate_slots(std::vector<std::complex<double>>& snapshot, const Array& array,
                       double doppler_Hz, double slot_period_s);
 
-// k such that the true Doppler is doppler_Hz + k / (slots Ts), from -slots/2 up, upper half open.
-int doppler_fold(const std::vector<std::complex<double>>& snapshot, const Array& array,
-                 double doppler_Hz, double slot_period_s, double wavelength_m);
+struct DopplerFold {
+  int fold = 0;         // the true Doppler is doppler_Hz + fold / (slots Ts); from -slots/2 up
+  AnglePeak direction;  // of the snapshot, compensated for that Doppler
+};
+
+DopplerFold doppler_fold(const std::vector<std::complex<double>>& snapshot, const Array& array,
+                         double doppler_Hz, double slot_period_s, double wavelength_m);
 
 }  // namespace fanbeam::signal

@@ -126,7 +126,11 @@ ColumnTransform<Real>::ColumnTransform(const std::vector<double>& weights, int t
     : weights_(as<Real>(weights)),
       rows_(static_cast<std::size_t>(transform_rows)),
       shift_(static_cast<std::size_t>(shift)),
-      fft_({.length = transform_rows}, direction) {}
+      column_({.length = transform_rows}, direction),
+      strip_({.length = transform_rows,
+              .batches = static_cast<int>(kStrip<Real>),
+              .distance = static_cast<int>(tile_pitch(rows_))},
+             direction) {}
 
 template <typename Real>
 void ColumnTransform<Real>::run(const std::complex<Real>* in, std::complex<Real>* out,
@@ -141,8 +145,11 @@ void ColumnTransform<Real>::run(const std::complex<Real>* in, std::complex<Real>
     gather_strip({const_cast<std::complex<Real>*>(in) + column, columns, weights_.size(),
                   gathered.data(), pitch},
                  width, weights_.data());
-    for (std::size_t c = 0; c < width; ++c)
-      fft_.run(gathered.data() + c * pitch, lines.data() + c * pitch);
+    if (width == kStrip<Real>)
+      strip_.run(gathered.data(), lines.data());
+    else
+      for (std::size_t c = 0; c < width; ++c)
+        column_.run(gathered.data() + c * pitch, lines.data() + c * pitch);
     scatter_strip({out + shift_ * columns + column, columns, upper, lines.data(), pitch}, width);
     scatter_strip({out + column, columns, shift_, lines.data() + upper, pitch}, width);
   }

@@ -43,7 +43,7 @@ class ColumnTransform {
   std::vector<Real> weights_;
   std::size_t rows_;
   std::size_t shift_;
-  Fft<Real> fft_;
+  Fft<Real> column_, strip_;  // one, and as many as are gathered together
 };
 
 extern template class ColumnTransform<float>;

@@ -4,15 +4,11 @@
 #include <cmath>
 #include <iterator>
 
-#include "core/errors.h"
 #include "core/parallel.h"
+#include "signal/checks_private.h"
 
 namespace fanbeam::signal {
 namespace {
-
-[[noreturn]] void refuse(const char* field, double value, const char* expected) {
-  core::throw_input_error(core::ErrorClass::range, field, value, expected);
-}
 
 void check_input(const PowerMap& map, const std::vector<double>& azimuths_rad, double range_step_m,
                  const TopViewGrid& grid) {
@@ -21,8 +17,8 @@ void check_input(const PowerMap& map, const std::vector<double>& azimuths_rad, d
   for (std::size_t i = 1; i < azimuths_rad.size(); ++i)
     if (!(azimuths_rad[i] > azimuths_rad[i - 1]))
       refuse("azimuths_rad", azimuths_rad[i], "increasing values");
-  if (!(range_step_m > 0.0)) refuse("range_step_m", range_step_m, "positive");
-  if (!(grid.step_m > 0.0)) refuse("step_m", grid.step_m, "positive");
+  check_positive("range_step_m", range_step_m);
+  check_positive("step_m", grid.step_m);
   if (grid.rows < 1 || grid.columns < 1)
     refuse("grid", std::min(grid.rows, grid.columns), "at least one row and column");
 }

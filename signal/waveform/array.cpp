@@ -1,11 +1,10 @@
 #include "signal/waveform/array.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -13,14 +12,8 @@ namespace {
 constexpr int kMostOnOneSide = 256;
 constexpr int kMostChannels = 4096;
 
-void check_count(const char* field, std::size_t count) {
-  if (count < 1 || count > kMostOnOneSide)
-    core::throw_input_error(core::ErrorClass::range, field, static_cast<double>(count),
-                            "1 to " + std::to_string(kMostOnOneSide));
-}
-
 void check_positions(const char* field, const std::vector<glm::dvec3>& positions_m) {
-  check_count(field, positions_m.size());
+  check_count(field, static_cast<double>(positions_m.size()), 1, kMostOnOneSide);
   for (const glm::dvec3& position_m : positions_m)
     for (int axis = 0; axis < 3; ++axis)
       if (!std::isfinite(position_m[axis]))
@@ -31,10 +24,9 @@ void check_positions(const char* field, const std::vector<glm::dvec3>& positions
 }  // namespace
 
 Array line_array(int transmitters, int receivers, double pitch_m) {
-  check_count("transmitters", static_cast<std::size_t>(std::max(transmitters, 0)));
-  check_count("receivers", static_cast<std::size_t>(std::max(receivers, 0)));
-  if (!(std::isfinite(pitch_m) && pitch_m > 0.0))
-    core::throw_input_error(core::ErrorClass::range, "pitch_m", pitch_m, "above 0");
+  check_count("transmitters", transmitters, 1, kMostOnOneSide);
+  check_count("receivers", receivers, 1, kMostOnOneSide);
+  check_positive("pitch_m", pitch_m);
   Array array;
   array.transmitters_m.clear();
   array.receivers_m.clear();

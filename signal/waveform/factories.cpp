@@ -2,28 +2,15 @@
 
 #include <cmath>
 
-#include "core/errors.h"
+#include "signal/checks_private.h"
 #include "signal/waveform/m_sequence.h"
 
 namespace fanbeam::signal {
 namespace {
 
-void check_positive(const char* field, double value) {
-  if (!(std::isfinite(value) && value > 0.0))
-    core::throw_input_error(core::ErrorClass::range, field, value, "above 0");
-}
-
 void check_below(const char* field, double value, double limit) {
   check_positive(field, value);
-  if (value >= limit)
-    core::throw_input_error(core::ErrorClass::range, field, value,
-                            "below " + core::number_text(limit));
-}
-
-void check_count(const char* field, int count, int least, int most) {
-  if (count < least || count > most)
-    core::throw_input_error(core::ErrorClass::range, field, count,
-                            std::to_string(least) + " to " + std::to_string(most));
+  if (value >= limit) refuse(field, value, "below " + core::number_text(limit));
 }
 
 void check_ramps(const TriangleParameters& parameters) {
@@ -59,8 +46,8 @@ void add_chirps(const ChirpSequenceParameters& parameters, double start_s,
   check_positive("ramp_s", parameters.ramp_s);
   check_positive("interval_s", parameters.interval_s);
   if (parameters.interval_s < parameters.ramp_s)
-    core::throw_input_error(core::ErrorClass::range, "interval_s", parameters.interval_s,
-                            "at least ramp_s = " + core::number_text(parameters.ramp_s));
+    refuse("interval_s", parameters.interval_s,
+           "at least ramp_s = " + core::number_text(parameters.ramp_s));
   check_positive("sample_rate_Hz", parameters.sample_rate_Hz);
   check_count("chirps", parameters.chirps, 1, 65536);
   check_count("slots", parameters.slots, 1, 256);
@@ -145,8 +132,7 @@ Waveform two_slopes(const TwoSlopesParameters& parameters) {
   check_ramps(parameters.first);
   check_positive("second_ramp_s", parameters.second_ramp_s);
   if (parameters.second_ramp_s == parameters.first.ramp_s)
-    core::throw_input_error(core::ErrorClass::range, "second_ramp_s", parameters.second_ramp_s,
-                            "another time than ramp_s");
+    refuse("second_ramp_s", parameters.second_ramp_s, "another time than ramp_s");
   Waveform waveform = base(WaveformKind::two_slopes, parameters.first.frequency_Hz,
                            parameters.first.bandwidth_Hz, parameters.first.complex_baseband);
   add_triangle(parameters.first, 0.0, parameters.first.ramp_s, 0, waveform.segments);
@@ -159,11 +145,9 @@ Waveform two_slopes(const TwoSlopesParameters& parameters) {
 Waveform two_stage(const TwoStageParameters& parameters) {
   check_ramps(parameters.fine);
   if (parameters.coarse.frequency_Hz != parameters.fine.frequency_Hz)
-    core::throw_input_error(core::ErrorClass::range, "fine.frequency_Hz",
-                            parameters.fine.frequency_Hz, "that of the coarse stage");
+    refuse("fine.frequency_Hz", parameters.fine.frequency_Hz, "that of the coarse stage");
   if (parameters.coarse.complex_baseband != parameters.fine.complex_baseband)
-    core::throw_input_error(core::ErrorClass::range, "fine.complex_baseband",
-                            parameters.fine.complex_baseband, "as in the coarse stage");
+    refuse("fine.complex_baseband", parameters.fine.complex_baseband, "as in the coarse stage");
   const double coarse_s =
       parameters.coarse.interval_s * parameters.coarse.chirps * parameters.coarse.slots;
   Waveform waveform = base(WaveformKind::two_stage, parameters.fine.frequency_Hz,

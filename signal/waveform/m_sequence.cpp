@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/errors.h"
+#include "signal/checks_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -16,8 +16,8 @@ constexpr std::array<std::uint32_t, 10> kPolynomials = {0x6,  0xC,   0x14,  0x30
 }  // namespace
 
 std::vector<int> m_sequence(int degree) {
-  if (degree < kLeastDegree || degree >= kLeastDegree + static_cast<int>(kPolynomials.size()))
-    core::throw_input_error(core::ErrorClass::range, "code degree", degree, "3 to 12");
+  check_count("code degree", degree, kLeastDegree,
+              kLeastDegree + static_cast<int>(kPolynomials.size()) - 1);
   const std::uint32_t polynomial = kPolynomials[static_cast<std::size_t>(degree - kLeastDegree)];
   std::vector<int> chips;
   std::uint32_t state = 1;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/constants.h"
-#include "core/errors.h"
+#include "signal/checks_private.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -30,16 +30,6 @@ constexpr std::array kNames = {
 constexpr std::size_t kMostSegments = 1000000;
 constexpr double kMostSamples = 1e8;
 
-void check_positive(const char* field, double value) {
-  if (!(std::isfinite(value) && value > 0.0))
-    core::throw_input_error(core::ErrorClass::range, field, value, "above 0");
-}
-
-void check_not_negative(const char* field, double value) {
-  if (!(std::isfinite(value) && value >= 0.0))
-    core::throw_input_error(core::ErrorClass::range, field, value, "0 or above");
-}
-
 void check_segment(const Segment& segment) {
   check_positive("segment.duration_s", segment.duration_s);
   check_positive("segment.start_frequency_Hz", segment.start_frequency_Hz);
@@ -48,8 +38,7 @@ void check_segment(const Segment& segment) {
   if (!std::isfinite(segment.start_s))
     core::throw_input_error(core::ErrorClass::nonfinite, "segment.start_s", segment.start_s,
                             "finite");
-  if (segment.slot < 0)
-    core::throw_input_error(core::ErrorClass::range, "segment.slot", segment.slot, "0 or above");
+  check_not_negative("segment.slot", segment.slot);
 }
 
 void check_order(const std::vector<Segment>& segments) {
@@ -61,8 +50,7 @@ void check_order(const std::vector<Segment>& segments) {
       core::throw_input_error(core::ErrorClass::time, "segment.start_s", segment.start_s,
                               "not before the end of the segment before");
     if (segment.stage < before.stage || segment.stage > before.stage + 1)
-      core::throw_input_error(core::ErrorClass::range, "segment.stage", segment.stage,
-                              "stages in order, counted from 0");
+      refuse("segment.stage", segment.stage, "stages in order, counted from 0");
   }
 }
 
@@ -77,18 +65,14 @@ double check_stage(const Waveform& waveform, int stage) {
   const int in_turn = slots(segments);
   for (std::size_t i = 0; i < segments.size(); ++i) {
     if (std::abs(segments[i].duration_s - segments[0].duration_s) > 1e-12 * segments[0].duration_s)
-      core::throw_input_error(core::ErrorClass::range, "segment.duration_s", segments[i].duration_s,
-                              "equal to the others of its stage");
+      refuse("segment.duration_s", segments[i].duration_s, "equal to the others of its stage");
     if (segments[i].slot != static_cast<int>(i) % in_turn || segments.size() % in_turn != 0)
-      core::throw_input_error(core::ErrorClass::range, "segment.slot", segments[i].slot,
-                              "slots 0, 1, ... in turn, every round complete");
+      refuse("segment.slot", segments[i].slot, "slots 0, 1, ... in turn, every round complete");
   }
   const double rate_Hz = waveform.sample_rate_Hz[static_cast<std::size_t>(stage)];
   check_positive("sample_rate_Hz", rate_Hz);
   const double samples = whole_samples(segments[0].duration_s, rate_Hz);
-  if (samples < 1.0)
-    core::throw_input_error(core::ErrorClass::range, "sample_rate_Hz", rate_Hz,
-                            "at least one sample in a segment");
+  if (samples < 1.0) refuse("sample_rate_Hz", rate_Hz, "at least one sample in a segment");
   return samples * static_cast<double>(segments.size());
 }
 
@@ -142,8 +126,7 @@ int samples_per_segment(const Waveform& waveform, int stage) {
     if (segment.stage == stage)
       return static_cast<int>(whole_samples(
           segment.duration_s, waveform.sample_rate_Hz[static_cast<std::size_t>(stage)]));
-  core::throw_input_error(core::ErrorClass::range, "stage", stage,
-                          "0 to " + std::to_string(waveform.stages() - 1));
+  refuse("stage", stage, "0 to " + std::to_string(waveform.stages() - 1));
 }
 
 void check(const Waveform& waveform) {
@@ -160,13 +143,11 @@ void check(const Waveform& waveform) {
   }
   for (const Segment& segment : waveform.segments) check_segment(segment);
   if (waveform.segments.front().stage != 0)
-    core::throw_input_error(core::ErrorClass::range, "segment.stage",
-                            waveform.segments.front().stage, "stages counted from 0");
+    refuse("segment.stage", waveform.segments.front().stage, "stages counted from 0");
   check_order(waveform.segments);
   if (static_cast<int>(waveform.sample_rate_Hz.size()) != waveform.stages())
-    core::throw_input_error(core::ErrorClass::range, "sample_rate_Hz",
-                            static_cast<double>(waveform.sample_rate_Hz.size()),
-                            "one rate for every stage");
+    refuse("sample_rate_Hz", static_cast<double>(waveform.sample_rate_Hz.size()),
+           "one rate for every stage");
   double samples = 0.0;
   for (int stage = 0; stage < waveform.stages(); ++stage) samples += check_stage(waveform, stage);
   if (samples > kMostSamples)

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/errors.h"
+#include "core/json_size.h"
 #include "terrain/gltf/gltf_limits.h"
 
 namespace fanbeam::terrain {
@@ -104,28 +105,15 @@ GltfContainer open_gltf_container(std::string_view bytes, const std::filesystem:
 }
 
 void check_json_size(const GltfContainer& container, const std::filesystem::path& file) {
-  int depth = 0;
-  std::size_t values = 0;
-  bool in_string = false;
-  for (std::size_t i = 0; i < container.json.size(); ++i) {
-    const char c = container.json[i];
-    if (in_string) {
-      if (c == '\\') ++i;
-      in_string = c != '"';
-      continue;
-    }
-    in_string = c == '"';
-    if (c == '[' || c == '{') ++depth;
-    if (c == ']' || c == '}') --depth;
-    if (c == '[' || c == '{' || c == ',') ++values;
-    const auto refuse = [&](const std::string& field, const std::string& most) {
-      const auto offset = static_cast<std::int64_t>(container.json_offset + i);
-      core::throw_input_error(ErrorClass::limit, core::Place{file.string(), 0, 0, offset}, field,
-                              "more than " + most, "at most " + most);
-    };
-    if (depth > kDeepestGltfJson) refuse("JSON nesting", std::to_string(kDeepestGltfJson));
-    if (values > kMostGltfJsonValues) refuse("JSON values", std::to_string(kMostGltfJsonValues));
-  }
+  const auto excess = core::json_excess(container.json, {kDeepestGltfJson, kMostGltfJsonValues});
+  if (!excess) return;
+  const bool deep = excess->of == core::JsonExcess::Of::levels;
+  const std::string most =
+      std::to_string(deep ? static_cast<std::size_t>(kDeepestGltfJson) : kMostGltfJsonValues);
+  const auto offset = static_cast<std::int64_t>(container.json_offset + excess->offset);
+  core::throw_input_error(ErrorClass::limit, core::Place{file.string(), 0, 0, offset},
+                          deep ? "JSON nesting" : "JSON values", "more than " + most,
+                          "at most " + most);
 }
 
 }  // namespace fanbeam::terrain

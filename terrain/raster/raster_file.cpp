@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "core/errors.h"
+#include "core/files.h"
 #include "terrain/raster/gdal_messages.h"
 
 namespace fanbeam::terrain {
@@ -69,14 +70,13 @@ void BandReader::check_readable() const {
 void BandReader::check_side_files() const {
   namespace fs = std::filesystem;
   const fs::path path = fs::absolute(file_);
+  const fs::path folder = path.parent_path();
   const std::string start = path.stem().string() + ".";
   std::error_code error;
-  const fs::path folder = fs::weakly_canonical(path.parent_path(), error);
-  for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path(), error)) {
-    if (!entry.is_symlink(error) || !entry.path().filename().string().starts_with(start)) continue;
-    const fs::path back = fs::weakly_canonical(entry.path(), error).lexically_relative(folder);
-    if (back.empty() || *back.begin() == "..")
-      refuse(core::ErrorClass::path, "side file", entry.path().filename().string(),
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(start) && !core::lies_inside(folder, entry.path()))
+      refuse(core::ErrorClass::path, "side file", name,
              "files beside the raster that are no links out of its folder");
   }
 }

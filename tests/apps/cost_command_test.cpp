@@ -103,10 +103,10 @@ TEST_CASE("fanbeam cost writes tables, plots and a page, and its errors fall alo
     INFO(name);
     CHECK(bytes.size() > 100);
   }
-  CHECK(names == std::vector<std::string>{"cost.md", "effects.csv", "effects.png", "effects.svg",
-                                          "equal_error.csv", "ladder-cscope.png",
-                                          "ladder-cscope.svg", "ladder.csv", "ladder.png",
-                                          "ladder.svg", "numerics.csv"});
+  CHECK(names == std::vector<std::string>{
+                     "cost.md", "effects.csv", "effects.png", "effects.svg", "equal_error.csv",
+                     "ladder-cscope.png", "ladder-cscope.svg", "ladder.csv", "ladder.png",
+                     "ladder.svg", "levels.csv", "levels.png", "levels.svg", "numerics.csv"});
 
   const std::vector<Row> ladder = rows_of(one / "ladder.csv");
   for (const std::string way : {"slices", "rays", "naive_dithered"}) {
@@ -122,6 +122,16 @@ TEST_CASE("fanbeam cost writes tables, plots and a page, and its errors fall alo
     CHECK(number(steps[0], "frame_ms") > 0.0);
     CHECK(number(steps[0], "repetitions") == 2.0);
   }
+  // More looks at signal level come closer, and take longer; powers are ahead of both.
+  const std::vector<Row> levels = rows_of(one / "levels.csv");
+  REQUIRE(levels.size() == 5);
+  const auto level_error = [&](std::size_t i) {
+    return number(levels[i], "bscope_with_noise_rms_grey");
+  };
+  CHECK(levels[3].at("level") == "signal");
+  CHECK(level_error(4) < 0.7 * level_error(3));
+  CHECK(number(levels[4], "frame_ms") > 2.0 * number(levels[3], "frame_ms"));
+  CHECK(level_error(2) < level_error(4));
   // Where they go counts: 16 rays per cell that follow the cells beat 36 at uniform angles.
   const auto last_of = [&](const std::string& way) {
     return number(*std::find_if(ladder.rbegin(), ladder.rend(),
@@ -135,7 +145,7 @@ TEST_CASE("fanbeam cost writes tables, plots and a page, and its errors fall alo
   const Result second = cost(folder, "two", "-q --quick --repetitions 1 --threads 1");
   REQUIRE(second.exit_code == 0);
   CHECK(second.output.empty());
-  for (const std::string file : {"ladder.csv", "effects.csv"}) {
+  for (const std::string file : {"ladder.csv", "effects.csv", "levels.csv"}) {
     INFO(file);
     auto a = timeless(rows_of(one / file)), b = timeless(rows_of(folder.path() / "two" / file));
     for (auto* rows : {&a, &b})

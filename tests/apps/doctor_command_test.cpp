@@ -1,7 +1,7 @@
 // fanbeam doctor as a user meets it: table, JSON, exit codes.
 #include <algorithm>
 
-#include "tests/apps/program.h"
+#include "tests/apps/busy_scene.h"
 
 using namespace fanbeam::tests;
 namespace fs = std::filesystem;
@@ -73,9 +73,43 @@ TEST_CASE("doctor exits with 0 when nothing is worse than delicate, with 3 for b
   CHECK(run_fanbeam("doctor flat-grass --accuracy no").exit_code == 2);
 }
 
-TEST_CASE("doctor --measure finds no fault in an accuracy that can be reached", "[doctor]") {
-  const Result result = run_fanbeam("doctor flat-grass --measure --accuracy 4");
-  INFO(result.output);
-  CHECK(result.exit_code == 0);
-  CHECK(result.output.find("accuracy-not-reached") == std::string::npos);
+TEST_CASE("doctor --measure tells the error that render reaches, where it is too large",
+          "[doctor]") {
+  const TemporaryFolder folder;
+  write_busy_scene(folder, 20);
+  const fs::path file = folder.path() / "findings.json";
+  const auto not_reached = [&](const std::string& accuracy_grey) {
+    const Result result = run_fanbeam("doctor " + quoted(folder.path()) + " --measure --accuracy " +
+                                      accuracy_grey + " --json " + quoted(file));
+    INFO(result.output);
+    CHECK(result.exit_code == 0);
+    nlohmann::json found;
+    const nlohmann::json told = json_of(file);
+    for (const nlohmann::json& finding : told["findings"])
+      if (finding["check"] == "accuracy-not-reached") found = finding;
+    return found;
+  };
+  const nlohmann::json finding = not_reached("0.01");
+  REQUIRE(finding.is_object());
+  CHECK(finding["severity"] == "delicate");
+  CHECK(finding["unit"] == "grey levels");
+  // Half of the accuracy is for sampling.
+  CHECK(finding["what"].get<std::string>().find("of 3 frames miss the 0.005 grey levels") !=
+        std::string::npos);
+  CHECK(finding["figure"].get<double>() > 0.005);
+  const std::string where = finding["where"];
+  REQUIRE(where.starts_with("frame "));
+  const auto rendered_grey = [&](const std::string& accuracy_grey) {
+    const fs::path out = folder.path() / ("out" + accuracy_grey);
+    const Result result =
+        run_fanbeam("render " + quoted(folder.path()) + " -q -o " + quoted(out) + " --frames " +
+                    where.substr(6) + " --accuracy " + accuracy_grey);
+    INFO(result.output);
+    REQUIRE(result.exit_code == 0);
+    return json_of(out / "run.json")["frames"][0]["estimated_error_grey"].get<double>();
+  };
+  CHECK(rendered_grey("0.01") == Approx(finding["figure"].get<double>()).epsilon(1e-9));
+
+  CHECK(not_reached("4").is_null());
+  CHECK(rendered_grey("4") <= 2.0);
 }

@@ -166,6 +166,25 @@ TEST_CASE("fmcw gives the same bytes again, for any number of threads", "[fmcw]"
   CHECK(render("d", "--seed 7").at("cube/00000.npy") != first.at("cube/00000.npy"));
 }
 
+TEST_CASE("Samples alone are recorded with the cube's azimuths and without detections", "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  folder.write("scene.toml", kLoneTarget);
+  const fs::path out = folder.path() / "out";
+  const auto run = tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) +
+                                      " --chirps 16 --products beat -o " + tests::quoted(out));
+  INFO(run.output);
+  REQUIRE(run.exit_code == 0);
+  const nlohmann::json record = tests::json_of(out / "run.json");
+  // Cells of azimuth are 1/32 in its sine.
+  const nlohmann::json& azimuths_rad = record["axes"]["azimuths_rad"];
+  REQUIRE(azimuths_rad.size() == 64);
+  CHECK(std::sin(azimuths_rad[40].get<double>()) == Approx(0.25).epsilon(1e-12));
+  // None were looked for: to tell 0 of them would be wrong.
+  CHECK(run.output.find("detections") == std::string::npos);
+  CHECK_FALSE(record["frames"][0].contains("detections"));
+  CHECK_FALSE(record["frames"][0].contains("clusters"));
+}
+
 TEST_CASE("fmcw refuses what it cannot use", "[fmcw]") {
   const tests::TemporaryFolder folder;
   folder.write("scene.toml", kLoneTarget);

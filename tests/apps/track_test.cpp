@@ -31,7 +31,7 @@ TEST_CASE("track writes tables and metrics, the same bytes again", "[track]") {
                                            " --quiet " + words + " -o " + tests::quoted(out));
     INFO(result.output);
     REQUIRE(result.exit_code == 0);
-    return tests::contents(out);
+    return tests::results(out);
   };
   const auto first = run("a", "");
   CHECK(first.at("X1/tracks.csv").starts_with("time_s,track,confirmed,x_m,y_m"));
@@ -42,6 +42,15 @@ TEST_CASE("track writes tables and metrics, the same bytes again", "[track]") {
   CHECK(record["scenarios"][0]["confirmed_tracks"] == 2);
   CHECK(record["scenarios"][0]["switches"] == 0);
   CHECK(record["scenarios"][0]["range_rmse_m"] < 0.01);
+  const auto& scenario = record["scenarios"][0];
+  CHECK(scenario["skipped_updates"] == 0);
+  CHECK(scenario["crossings"].empty());
+  REQUIRE(scenario["tracks_at_end"].size() == 2);
+  for (const auto& track : scenario["tracks_at_end"]) {
+    CHECK(track["identity_probability"] == 1.0);
+    CHECK(track["kind"] == "car");
+    CHECK(std::abs(track["range_m"].get<double>() - track["target_range_m"].get<double>()) < 0.01);
+  }
   CHECK(run("b", "") == first);
   CHECK(run("c", "--seed 7").at("X1/tracks.csv") != first.at("X1/tracks.csv"));
   CHECK(run("d", "--run 1").at("X1/tracks.csv") != first.at("X1/tracks.csv"));
@@ -69,4 +78,54 @@ TEST_CASE("track refuses what it cannot use", "[track]") {
   folder.write("two.json", "{");
   CHECK(code(file) == 3);
   CHECK_FALSE(fs::exists(folder.path() / "out"));
+}
+
+TEST_CASE("track prints the probability of a swap after a crossing, and where each car is",
+          "[track]") {
+  const tests::TemporaryFolder folder;
+  std::string crossing = kScenario;
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    crossing.replace(crossing.find(from), from.size(), to);
+  };
+  // 3 m apart, 1 m/s difference: together after 3 s, apart again after 5.
+  replace("\"duration_s\": 1.0", "\"duration_s\": 6.0");
+  replace("[50, 3], \"velocity_mps\": [22, 0]", "[50, 0], \"velocity_mps\": [20.5, 0]");
+  replace("[90, -3], \"velocity_mps\": [10, 0]", "[53, 0], \"velocity_mps\": [19.5, 0]");
+  folder.write("two.json", crossing);
+  const fs::path out = folder.path() / "out";
+  const auto result =
+      tests::run_fanbeam("track " + tests::quoted(folder.path() / "two.json") +
+                         " --range-only --noise-figure 10 -o " + tests::quoted(out));
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("exchanged with probability") != std::string::npos);
+  CHECK(result.output.find("its identity is right with probability") != std::string::npos);
+  const auto record = nlohmann::json::parse(tests::results(out).at("run.json"));
+  CHECK(record["range_only"] == true);
+  CHECK(record["noise_figure"].get<double>() == Approx(10.0));
+  const auto& scenario = record["scenarios"][0];
+  REQUIRE(scenario["crossings"].size() == 1);
+  const double swap = scenario["crossings"][0]["swap_probability"];
+  CHECK(swap >= 0.0);
+  CHECK(swap < 0.05);
+  for (const auto& track : scenario["tracks_at_end"])
+    CHECK(track["identity_probability"].get<double>() == Approx(1.0 - swap).epsilon(1e-12));
+}
+
+TEST_CASE("track measures from samples, and refuses what does not go with it", "[track]") {
+  const tests::TemporaryFolder folder;
+  std::string shorter = kScenario;
+  shorter.replace(shorter.find("\"duration_s\": 1.0"), 17, "\"duration_s\": 0.2");
+  folder.write("two.json", shorter);
+  const std::string words = "track " + tests::quoted(folder.path() / "two.json") +
+                            " --samples -o " + tests::quoted(folder.path() / "out");
+  const auto result = tests::run_fanbeam(words);
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  const auto record = nlohmann::json::parse(tests::results(folder.path() / "out").at("run.json"));
+  CHECK(record["from_samples"] == true);
+  CHECK(record["scenarios"][0]["confirmed_tracks"] == 2);
+  CHECK(record["scenarios"][0]["range_rmse_m"] < 0.01);
+  CHECK(tests::run_fanbeam(words + " --waveform two-slopes").exit_code == 2);
+  CHECK(tests::run_fanbeam(words + " --range-only").exit_code == 2);
 }

@@ -126,6 +126,29 @@ TEST_CASE("F05 paths inside the folder resolve, with detours that come back", "[
         root / "models/truck.glb");
 }
 
+TEST_CASE("F05 what lies in a folder is told with all links followed", "[files][F05]") {
+  const Scratch scratch;
+  fs::create_directories(scratch / "scene/models");
+  fs::create_directories(scratch / "scene-secrets");
+  write_file_atomically(scratch / "scene/dem.tif", "x");
+  fs::create_symlink("/etc/hostname", scratch / "scene/dem.prj");
+  fs::create_symlink("dem.tif", scratch / "scene/same.tif");
+  fs::create_symlink("../scene-secrets", scratch / "scene/neighbour");
+  fs::create_symlink("loop", scratch / "scene/loop");
+  fs::create_symlink("scene", scratch / "other-name");
+  const fs::path scene = scratch / "scene";
+  for (const char* name : {"", "dem.tif", "same.tif", "models/none.glb", "models/../dem.tif"}) {
+    INFO(name);
+    CHECK(lies_inside(scene, scene / name));
+    CHECK(lies_inside(scratch / "other-name", scene / name));
+  }
+  for (const char* name :
+       {"dem.prj", "neighbour", "neighbour/key", "..", "../scene-secrets", "loop"}) {
+    INFO(name);
+    CHECK_FALSE(lies_inside(scene, scene / name));
+  }
+}
+
 TEST_CASE("F05 paths outside the folder are refused with place and field", "[files][F05]") {
   const Scratch scratch;
   const fs::path scene = scratch / "scene";

@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cfenv>
 #include <cmath>
 
 #include "core/decibel.h"
 #include "core/errors.h"
+#include "tests/scenes/scene_folder.h"
 #include "tests/shared_data.h"
 
 using namespace fanbeam;
+using tests::replaced;
 
 namespace {
 
@@ -39,6 +42,21 @@ core::InputError refusal(const std::string& text) {
   return core::InputError({});
 }
 
+void check_refused(const std::string& text, core::ErrorClass kind, const std::string& field) {
+  INFO(field);
+  const core::InputError error = refusal(text);
+  CHECK(error.has(kind));
+  CHECK(std::any_of(error.problems().begin(), error.problems().end(),
+                    [&](const core::Problem& one) { return one.field == field; }));
+}
+
+// The straight target with this truth.
+std::string file_with_truth(const std::string& tables) {
+  return replaced(file_with(kStraight), "]}]}", "]}], \"truth\": [" + tables + "]}");
+}
+
+const std::string kTable = R"({"id": "A", "rows": [[0, 50.1, 2, 0.06]], "in_view": [true]})";
+
 }  // namespace
 
 TEST_CASE("Every truth row of the shared scenarios follows from the motion laws", "[highway]") {
@@ -56,9 +74,9 @@ TEST_CASE("Every truth row of the shared scenarios follows from the motion laws"
         INFO(scenario.id << " " << scenario.targets[i].id << " at " << row.time_s << " s");
         const core::HighwayTruth truth =
             core::truth_at(scenario.targets[i], scenario.radar_speed_mps, file.radar, row.time_s);
-        CHECK(truth.range_m == Approx(row.range_m).margin(1e-6));
-        CHECK(truth.range_rate_mps == Approx(row.range_rate_mps).margin(1e-6));
-        CHECK(truth.azimuth_rad == Approx(row.azimuth_rad).margin(1e-6));
+        CHECK(truth.range_m == Approx(row.range_m).epsilon(0.0).margin(1e-6));
+        CHECK(truth.range_rate_mps == Approx(row.range_rate_mps).epsilon(0.0).margin(1e-6));
+        CHECK(truth.azimuth_rad == Approx(row.azimuth_rad).epsilon(0.0).margin(1e-6));
         CHECK(truth.in_view == row.in_view);
         ++rows;
       }
@@ -115,9 +133,70 @@ TEST_CASE("Hostile scenario files are refused before they cost anything", "[high
   CHECK(refusal(file_with(R"("motion": "jump")")).has(core::ErrorClass::unsupported));
   CHECK(refusal(file_with(kStraight, "1e999")).has(core::ErrorClass::parse));
   CHECK(refusal(file_with(kStraight, "\"\\ud800\"")).has(core::ErrorClass::parse));
+  // A million and more values, in members that nobody reads.
+  std::string values = "0";
+  for (int i = 0; i < 1'000'000; ++i) values += ",0";
+  CHECK(refusal(replaced(file_with(kStraight), "\"version\"",
+                         "\"notes\": [" + values + "], \"version\""))
+            .has(core::ErrorClass::limit));
   std::string many = "0";
   for (int i = 0; i < 2000; ++i) many += ",0";
   CHECK(refusal(file_with(R"("motion": "piecewise-acceleration", "position_m": [)" + many +
                           R"(], "velocity_mps": [1, 1], "segments": [])"))
             .has(core::ErrorClass::limit));
+}
+
+TEST_CASE("A lane is not changed in no time, which has no finite rate", "[highway]") {
+  check_refused(file_with(R"("motion": "piecewise-acceleration", "position_m": [50, 3],
+        "velocity_mps": [22, 1], "segments": [
+          {"type": "lane-change", "t0_s": -1e-320, "t1_s": 1e-320, "lateral_m": 3.5}])"),
+                core::ErrorClass::range, "scenarios[0].targets[0].segments[0].t1_s");
+}
+
+TEST_CASE("Whole numbers are whole, and none is cut or cast out of its range", "[highway]") {
+  const std::string elements = "\"virtual_ula_elements\": 12";
+  const auto with_elements = [&](const std::string& number) {
+    return replaced(file_with(kStraight), elements, "\"virtual_ula_elements\": " + number);
+  };
+  CHECK(scenes::parse_highway(with_elements("7.0"), "test.json").radar.array_elements == 7);
+  for (const char* number : {"12.7", "0", "0.5", "-3", "1e300", "-1e300", "2147483648"}) {
+    INFO(number);
+    check_refused(with_elements(number), core::ErrorClass::range, "radar.virtual_ula_elements");
+  }
+  for (const char* number : {"2.5", "-1", "5", "1e300"}) {
+    INFO(number);
+    check_refused(
+        replaced(file_with(kStraight), "\"swerling\": 0", "\"swerling\": " + std::string(number)),
+        core::ErrorClass::range, "scenarios[0].targets[0].swerling");
+  }
+  // The processor tells of a double that no int holds.
+  const std::string far = with_elements("1e300");
+  std::feclearexcept(FE_INVALID);
+  refusal(far);
+  CHECK(std::fetestexcept(FE_INVALID) == 0);
+}
+
+TEST_CASE("True and false are those words, not what stands in their place", "[highway]") {
+  for (const char* clutter : {"1", "\"true\"", "null", "[]"}) {
+    INFO(clutter);
+    check_refused(file_with("\"clutter\": " + std::string(clutter) + ", " + kStraight),
+                  core::ErrorClass::parse, "scenarios[0].targets[0].clutter");
+  }
+  const auto marked = scenes::parse_highway(file_with("\"clutter\": true, " + kStraight), "x.json");
+  CHECK(marked.scenarios[0].targets[0].clutter);
+  CHECK(scenes::parse_highway(file_with_truth(kTable), "x.json").scenarios[0].truth[0][0].in_view);
+  check_refused(file_with_truth(replaced(kTable, "[true]", "[1]")), core::ErrorClass::parse,
+                "scenarios[0].truth[0].in_view[0]");
+}
+
+TEST_CASE("No scenario, target or truth table replaces another of its name", "[highway]") {
+  check_refused(file_with_truth(kTable + ", " + kTable), core::ErrorClass::ref,
+                "scenarios[0].truth[1].id");
+  check_refused(file_with_truth(replaced(kTable, "\"A\"", "\"B\"")), core::ErrorClass::ref,
+                "scenarios[0].truth[0].id");
+  const std::string file = file_with(kStraight);
+  const std::size_t first = file.find("{\"id\": \"X\"");
+  const std::string scenario = file.substr(first, file.size() - 2 - first);
+  check_refused(replaced(file, scenario, scenario + ", " + scenario), core::ErrorClass::ref,
+                "scenarios[1].id");
 }

@@ -80,7 +80,7 @@ TEST_CASE("The glide path is a straight line in space through the crossing heigh
     const glm::dvec3 local_m = frame.to_local_m(pose.position);
     const double line_m = 15.0 + std::hypot(local_m.x, local_m.y) * std::tan(core::radians(3.5));
     REQUIRE(local_m.z == Approx(line_m).margin(2e-3).epsilon(0.0));
-    REQUIRE(relative.right_m == Approx(0.0).margin(1e-5));
+    REQUIRE(relative.right_m == Approx(0.0).epsilon(0.0).margin(1e-5));
   }
 }
 
@@ -130,11 +130,11 @@ TEST_CASE("Flare and roll-out: height and sink rate are continuous", "[ils]") {
     }
   }
   CHECK(rolling);
-  CHECK(touchdown_sink_mps == Approx(0.6).margin(0.05));
+  CHECK(touchdown_sink_mps == Approx(0.6).epsilon(0.0).margin(0.05));
   // (4.42 + 0.6) m/s shed within 2 * 12 m / (4.42 + 0.6 m/s) = 4.8 s.
   CHECK(largest_load_mps2 < 0.9);
   CHECK(glm::length(poses[poses.size() - 2].v_N_mps) < 0.1);
-  CHECK(pitch_deg(poses.back()) == Approx(0.0).margin(1e-6));
+  CHECK(pitch_deg(poses.back()) == Approx(0.0).epsilon(0.0).margin(1e-6));
 }
 
 TEST_CASE("The stop is where the deceleration puts it", "[ils]") {
@@ -146,12 +146,12 @@ TEST_CASE("The stop is where the deceleration puts it", "[ils]") {
       terrain::geodesic_between(landed.poses().back().position, whole.poses().back().position)
           .length_m;
   // v^2 / 2a, and up to one step before touchdown.
-  CHECK(roll_m == Approx(70.0 * 70.0 / (2.0 * 1.8)).margin(1.5));
+  CHECK(roll_m == Approx(70.0 * 70.0 / (2.0 * 1.8)).epsilon(0.0).margin(1.5));
   approach.end = ApproachEnd::decision_height;
   const Trajectory decided = fly(approach);
   const double height_m =
       relative_to(runway_of(approach), decided.poses().back().position).height_m;
-  CHECK(height_m == Approx(200.0 * 0.3048).margin(0.1));
+  CHECK(height_m == Approx(200.0 * 0.3048).epsilon(0.0).margin(0.1));
 }
 
 TEST_CASE("An offset localiser is followed to where it meets the centre line", "[ils]") {
@@ -165,18 +165,19 @@ TEST_CASE("An offset localiser is followed to where it meets the centre line", "
     largest_bank_deg = std::max(largest_bank_deg, std::abs(roll_deg(pose)));
     if (at.before_threshold_m > 2800.0) {
       // The localiser's line, 5.04 deg off, through the centre line 2500 m out.
-      REQUIRE(at.right_m ==
-              Approx(-(at.before_threshold_m - 2500.0) * std::tan(offset_rad)).margin(0.01));
-      REQUIRE(heading_deg(pose) == Approx(256.0).margin(0.1));
+      REQUIRE(at.right_m == Approx(-(at.before_threshold_m - 2500.0) * std::tan(offset_rad))
+                                .epsilon(0.0)
+                                .margin(0.01));
+      REQUIRE(heading_deg(pose) == Approx(256.0).epsilon(0.0).margin(0.1));
     }
     if (at.before_threshold_m < 2300.0) {
       on_centre_line = true;
       REQUIRE(std::abs(at.right_m) < 1e-4);
-      REQUIRE(heading_deg(pose) == Approx(261.04).margin(0.05));
+      REQUIRE(heading_deg(pose) == Approx(261.04).epsilon(0.0).margin(0.05));
     }
   }
   CHECK(on_centre_line);
-  CHECK(largest_bank_deg == Approx(15.0).margin(0.1));
+  CHECK(largest_bank_deg == Approx(15.0).epsilon(0.0).margin(0.1));
 }
 
 TEST_CASE("By default the turn lies where the glide path has the decision height", "[ils]") {
@@ -189,7 +190,7 @@ TEST_CASE("By default the turn lies where the glide path has the decision height
       flight.poses().begin(), flight.poses().end(),
       [](const core::Pose& a, const core::Pose& b) { return roll_deg(a) < roll_deg(b); });
   CHECK(relative_to(runway_of(approach), turning->position).before_threshold_m ==
-        Approx(1431.0).margin(5.0));
+        Approx(1431.0).epsilon(0.0).margin(5.0));
 }
 
 TEST_CASE("Wind makes crab and changes ground speed", "[ils]") {
@@ -200,19 +201,21 @@ TEST_CASE("Wind makes crab and changes ground speed", "[ils]") {
   const Trajectory crossed = fly(approach);
   const core::Pose early = crossed.at(30.0);
   // asin(10 / 70) = 8.213 deg into the wind, ground speed 70 cos of it = 69.282 m/s.
-  CHECK(heading_deg(early) == Approx(264.74 + 8.213).margin(0.12));  // meridians: 0.1 deg at 8 km
-  CHECK(std::hypot(early.v_N_mps.x, early.v_N_mps.y) == Approx(69.282).margin(0.01));
-  CHECK(heading_deg(crossed.poses().back()) == Approx(264.74).margin(0.02));
+  CHECK(heading_deg(early) ==
+        Approx(264.74 + 8.213).epsilon(0.0).margin(0.12));  // meridians: 0.1 deg at 8 km
+  CHECK(std::hypot(early.v_N_mps.x, early.v_N_mps.y) == Approx(69.282).epsilon(0.0).margin(0.01));
+  CHECK(heading_deg(crossed.poses().back()) == Approx(264.74).epsilon(0.0).margin(0.02));
 
   approach.wind_from_rad = approach.runway_bearing_rad;  // head wind
   const core::Pose headed = fly(approach).at(30.0);
-  CHECK(std::hypot(headed.v_N_mps.x, headed.v_N_mps.y) == Approx(60.0).margin(0.01));
+  CHECK(std::hypot(headed.v_N_mps.x, headed.v_N_mps.y) == Approx(60.0).epsilon(0.0).margin(0.01));
   // Through the air the path is flatter: atan(60 tan 3.5 / 70) = 3.001 deg, plus 4 deg.
-  CHECK(pitch_deg(headed) == Approx(4.0 - 3.001).margin(0.08));  // the beam's angle grows by s / R
+  CHECK(pitch_deg(headed) ==
+        Approx(4.0 - 3.001).epsilon(0.0).margin(0.08));  // the beam's angle grows by s / R
 
   approach.speed_kind = SpeedKind::ground;
   const core::Pose asked = fly(approach).at(30.0);
-  CHECK(std::hypot(asked.v_N_mps.x, asked.v_N_mps.y) == Approx(70.0).margin(0.01));
+  CHECK(std::hypot(asked.v_N_mps.x, asked.v_N_mps.y) == Approx(70.0).epsilon(0.0).margin(0.01));
 }
 
 TEST_CASE("Turbulence shakes the approach, repeats with its seed and ends calm", "[ils]") {

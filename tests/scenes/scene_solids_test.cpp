@@ -100,7 +100,7 @@ void check_rays_from_above(const Scene& scene, const glm::dvec2& middle_m, doubl
       if (!top_m) continue;
       const double seen_m = tests::seen_from_above(scene, point).up_m;
       INFO(point.x << " m east, " << point.y << " m north");
-      REQUIRE(seen_m == Approx(*top_m).margin(0.01));
+      REQUIRE(seen_m == Approx(*top_m).epsilon(0.0).margin(0.01));
       if (*top_m > tests::ground_m(scene, point)) ++on_roofs;
     }
   CHECK(on_roofs >= at_least_on_roofs);
@@ -117,7 +117,8 @@ TEST_CASE("A box is a solid with its top and materials, and no ray disagrees", "
   CHECK(scene->world.solids.others.empty());
   const Solid& hangar = scene->world.solids.prisms.front();
   CHECK(area_m2(hangar.rings_m) == Approx(40.0 * 30.0).epsilon(1e-9));
-  CHECK(hangar.top_m == Approx(tests::ground_m(*scene, {-200.0, 300.0}) + 12.0).margin(1e-3));
+  CHECK(hangar.top_m ==
+        Approx(tests::ground_m(*scene, {-200.0, 300.0}) + 12.0).epsilon(0.0).margin(1e-3));
   CHECK(scene->world.material_names.at(hangar.wall) == "brick");
   CHECK(scene->world.material_names.at(hangar.roof) == "roof");
   check_rays_from_above(*scene, {-200.0, 300.0}, 30.0, 15);
@@ -150,9 +151,10 @@ TEST_CASE("A storey over a hall is a solid, a canopy is a box and is counted", "
   const Box_m& canopy = solids.others.front();
   const glm::dvec2 middle_m = tests::local_m(*scene, 52.0101, 10.02015);
   CHECK(is_over(canopy, middle_m));
-  CHECK(canopy.low.z == Approx(tests::ground_m(*scene, middle_m) + 5.0).margin(0.1));
+  CHECK(canopy.low.z == Approx(tests::ground_m(*scene, middle_m) + 5.0).epsilon(0.0).margin(0.1));
   CHECK(canopy.high.z == Approx(canopy.low.z + 1.0).epsilon(0.0).margin(1e-9));
-  CHECK(tests::seen_from_above(*scene, middle_m).up_m == Approx(canopy.high.z).margin(0.01));
+  CHECK(tests::seen_from_above(*scene, middle_m).up_m ==
+        Approx(canopy.high.z).epsilon(0.0).margin(0.01));
 }
 
 TEST_CASE("Braunschweig's truck is a box around it, its buildings are solids", "[scene_solids]") {

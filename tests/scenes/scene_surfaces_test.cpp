@@ -79,17 +79,18 @@ TEST_CASE("A wet scene shows the wet rows, and says so", "[scenes][surfaces]") {
   CHECK_FALSE(dry->plan.runs("surface-state"));
   CHECK(wet->plan.runs("surface-state"));
   CHECK(level_dB(*wet, "short_grass", 3.0) - level_dB(*dry, "short_grass", 3.0) ==
-        Approx(2.0).margin(0.01));
+        Approx(2.0).epsilon(0.0).margin(0.01));
   // Only the grass is in use: its 2 dB are the bound, 8.5 grey levels of 60 / 255 dB.
   for (const core::EffectDecision& decision : wet->plan.decisions)
-    if (decision.effect == "surface-state") CHECK(decision.bound_dB == Approx(2.0).margin(0.01));
+    if (decision.effect == "surface-state")
+      CHECK(decision.bound_dB == Approx(2.0).epsilon(0.0).margin(0.01));
   REQUIRE(wet->surfaces.size() == 1);
   CHECK(wet->surfaces[0].material == "short_grass");
   CHECK(wet->surfaces[0].shown_as == "short_grass_wet");
   CHECK(wet->surfaces[0].model == "phong");
   CHECK(core::degrees(wet->surfaces[0].grazing_rad.high) == Approx(60.0));
   const auto snow = built(folder, plain("short_grass", "[weather]\nsurface = \"dry-snow\"\n"));
-  CHECK(level_dB(*snow, "short_grass", 3.0) == Approx(-17.8).margin(0.1));
+  CHECK(level_dB(*snow, "short_grass", 3.0) == Approx(-17.8).epsilon(0.0).margin(0.1));
   const auto off =
       built(folder, plain("short_grass", "[weather]\nsurface = \"wet\"\n"), "-surface-state");
   CHECK(off->surfaces[0].shown_as == "short_grass");
@@ -185,8 +186,8 @@ TEST_CASE("The sensor's polarisation picks the reflectivity and the tilt of the 
   const auto vertical = built(folder, plain("pavement", sensor, top));
   const auto horizontal = built(folder, plain("pavement", "", top));
   // Oh's model for this concrete at 20 deg: -32.2 dB VV, -38.3 dB HH.
-  CHECK(level_dB(*vertical, "pavement", 20.0) == Approx(-32.2).margin(0.1));
-  CHECK(level_dB(*horizontal, "pavement", 20.0) == Approx(-38.3).margin(0.1));
+  CHECK(level_dB(*vertical, "pavement", 20.0) == Approx(-32.2).epsilon(0.0).margin(0.1));
+  CHECK(level_dB(*horizontal, "pavement", 20.0) == Approx(-38.3).epsilon(0.0).margin(0.1));
   CHECK(vertical->description.weather.polarisation_tilt_rad == Approx(core::kPi / 2.0));
   CHECK(horizontal->description.weather.polarisation_tilt_rad == 0.0);
   const auto told =

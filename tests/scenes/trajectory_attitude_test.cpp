@@ -93,9 +93,9 @@ TEST_CASE("A parabola comes through the smoother unchanged", "[trajectory_attitu
   }
   const std::vector<SmoothPoint> points = smoothed(times_s, values, 40.0, 1e-6);
   // The weak assumption of rest before the first sample is worth 1e-5 of the speed.
-  CHECK(points[30].value == Approx(values[30]).margin(0.2));
-  CHECK(points[30].rate_per_s == Approx(70.0 - 0.3 * times_s[30]).margin(2e-2));
-  CHECK(points[30].acceleration_per_s2 == Approx(-0.3).margin(2e-3));
+  CHECK(points[30].value == Approx(values[30]).epsilon(0.0).margin(0.2));
+  CHECK(points[30].rate_per_s == Approx(70.0 - 0.3 * times_s[30]).epsilon(0.0).margin(2e-2));
+  CHECK(points[30].acceleration_per_s2 == Approx(-0.3).epsilon(0.0).margin(2e-3));
 }
 
 TEST_CASE("Between two smoothed points runs the quintic through both", "[trajectory_attitude]") {
@@ -120,7 +120,7 @@ TEST_CASE("Smoothing keeps a descent's rate through 25 ft steps", "[trajectory_a
   }
   const std::vector<SmoothPoint> points = smoothed(times_s, heights_m, 5.0, 0.02);
   for (int i = 20; i < 180; ++i)
-    CHECK(points[static_cast<std::size_t>(i)].rate_per_s == Approx(-3.7).margin(0.4));
+    CHECK(points[static_cast<std::size_t>(i)].rate_per_s == Approx(-3.7).epsilon(0.0).margin(0.4));
 }
 
 TEST_CASE("A steady circle gets the bank of a coordinated turn", "[trajectory_attitude]") {
@@ -140,7 +140,7 @@ TEST_CASE("A steady circle gets the bank of a coordinated turn", "[trajectory_at
     const core::Attitude attitude = core::attitude_from(trajectory.at(t).q_NB);
     // The smoother flattens a circle of this period by its noise bandwidth, here by under 2 %.
     CHECK(core::degrees(attitude.roll_rad) == Approx(roll_deg).epsilon(0.03));
-    CHECK(core::degrees(attitude.pitch_rad) == Approx(4.0).margin(0.05));
+    CHECK(core::degrees(attitude.pitch_rad) == Approx(4.0).epsilon(0.0).margin(0.05));
     const double tangent_rad = turn_rad_per_s * t + direction * core::kPi / 2.0;
     CHECK(std::abs(core::degrees(core::wrap_pi_rad(attitude.heading_rad - tangent_rad))) < 0.5);
   }
@@ -157,8 +157,10 @@ TEST_CASE("A derived path crosses the pole and the date line", "[trajectory_atti
   const Trajectory trajectory = without_problems(track_of(times_s, positions));
   CHECK(trajectory.ground_length_m() == Approx(70.0 * 160.0).epsilon(1e-3));
   const core::Pose end = trajectory.at(140.0);
-  CHECK(core::degrees(core::attitude_from(end.q_NB).heading_rad) == Approx(180.0).margin(0.05));
-  CHECK(core::degrees(core::attitude_from(end.q_NB).roll_rad) == Approx(0.0).margin(0.1));
+  CHECK(core::degrees(core::attitude_from(end.q_NB).heading_rad) ==
+        Approx(180.0).epsilon(0.0).margin(0.05));
+  CHECK(core::degrees(core::attitude_from(end.q_NB).roll_rad) ==
+        Approx(0.0).epsilon(0.0).margin(0.1));
 }
 
 TEST_CASE("An aircraft that stops keeps its heading, one that starts has it before",
@@ -174,9 +176,9 @@ TEST_CASE("An aircraft that stops keeps its heading, one that starts has it befo
   const Trajectory trajectory = without_problems(track_of(times_s, positions));
   for (const double t : {0.0, 60.0, 120.0})
     CHECK(core::degrees(core::attitude_from(trajectory.at(t).q_NB).heading_rad) ==
-          Approx(75.0).margin(0.1));
+          Approx(75.0).epsilon(0.0).margin(0.1));
   CHECK(core::degrees(core::attitude_from(trajectory.at(0.0).q_NB).pitch_rad) ==
-        Approx(4.0).margin(0.01));
+        Approx(4.0).epsilon(0.0).margin(0.01));
 }
 
 TEST_CASE("Angles that were recorded are kept, through north too", "[trajectory_attitude]") {
@@ -237,7 +239,7 @@ TEST_CASE("Real flight: the airliner to Denver descends at 3 degrees", "[traject
     const core::Pose pose = trajectory.at(t);
     angles_deg.push_back(path_angle_deg(pose));
     const core::Attitude attitude = core::attitude_from(pose.q_NB);
-    CHECK(core::degrees(attitude.heading_rad) == Approx(270.6).margin(1.5));
+    CHECK(core::degrees(attitude.heading_rad) == Approx(270.6).epsilon(0.0).margin(1.5));
     CHECK(std::abs(core::degrees(attitude.roll_rad)) < 5.0);
     CHECK(core::degrees(attitude.pitch_rad) ==
           Approx(path_angle_deg(pose) + 4.0).epsilon(0.0).margin(1e-6));
@@ -245,7 +247,7 @@ TEST_CASE("Real flight: the airliner to Denver descends at 3 degrees", "[traject
   const Statistics angle = statistics_of(angles_deg);
   CAPTURE(angle.mean, angle.deviation);
   // The beam's 3.0 deg at the runway are 3.1 deg against the horizon 11 km before it, the middle.
-  CHECK(angle.mean == Approx(-3.1).margin(0.1));
+  CHECK(angle.mean == Approx(-3.1).epsilon(0.0).margin(0.1));
   CHECK(angle.deviation < 0.4);
   // The path stays with what was recorded: within the noise assumed.
   for (const TrackRow& row : track.rows) {
@@ -270,15 +272,16 @@ TEST_CASE("Real flight: the calibration aircraft at Munich flies down runway 08L
   for (double t = 1551741140.0; t < 1551741250.0; t += 1.0) {
     const core::Pose pose = trajectory.at(t);
     angles_deg.push_back(path_angle_deg(pose));
-    CHECK(core::degrees(core::attitude_from(pose.q_NB).heading_rad) == Approx(83.45).margin(1.5));
+    CHECK(core::degrees(core::attitude_from(pose.q_NB).heading_rad) ==
+          Approx(83.45).epsilon(0.0).margin(1.5));
     CHECK(std::abs(core::degrees(core::attitude_from(pose.q_NB).roll_rad)) < 5.0);
   }
   // Glide path 3.0 deg; recorded ground speed and vertical rate give the same within their steps.
-  CHECK(statistics_of(angles_deg).mean == Approx(-3.0).margin(0.3));
+  CHECK(statistics_of(angles_deg).mean == Approx(-3.0).epsilon(0.0).margin(0.3));
   // Recorded ground speeds are 175 to 190 kt, 90 to 98 m/s.
   for (double t = 1551741140.0; t < 1551741250.0; t += 1.0) {
     const glm::dvec3 v = trajectory.at(t).v_N_mps;
-    CHECK(std::hypot(v.x, v.y) == Approx(95.0).margin(15.0));
+    CHECK(std::hypot(v.x, v.y) == Approx(95.0).epsilon(0.0).margin(15.0));
   }
 }
 
@@ -305,9 +308,9 @@ TEST_CASE("Real flight: the simulator's own attitude is taken as it is", "[traje
   // Velocity is not read; the simulator wrote its own in the row of 60.258333 s, in ft/s. The mean
   // over a second differs from it by what it changes in a second.
   const glm::dvec3 v_N_mps = trajectory.at(60.258333).v_N_mps;
-  CHECK(v_N_mps.x == Approx(0.109266 * 0.3048).margin(0.05));
-  CHECK(v_N_mps.y == Approx(132.809856 * 0.3048).margin(0.05));
-  CHECK(v_N_mps.z == Approx(6.932083 * 0.3048).margin(0.05));
+  CHECK(v_N_mps.x == Approx(0.109266 * 0.3048).epsilon(0.0).margin(0.05));
+  CHECK(v_N_mps.y == Approx(132.809856 * 0.3048).epsilon(0.0).margin(0.05));
+  CHECK(v_N_mps.z == Approx(6.932083 * 0.3048).epsilon(0.0).margin(0.05));
 }
 
 }  // namespace fanbeam::scenes

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "signal/fourier/fft.h"
 #include "tests/signal/test_tones.h"
 
 using namespace fanbeam;

@@ -18,14 +18,15 @@ TEST_CASE("a lone tone without noise is found exactly, wherever it lies", "[tone
   for (const int count : {2, 3, 64, 1000})
     for (const double bin : {0.0, 0.3, 0.5, 0.999}) {
       const Tone found = strongest_tone(tests::tone(count, bin, 2.0));
-      CHECK(std::remainder(found.bin - bin, count) == Approx(0.0).margin(1e-9));
+      CHECK(std::remainder(found.bin - bin, count) == Approx(0.0).margin(1e-9).epsilon(0.0));
       CHECK(found.power == Approx(4.0).epsilon(1e-9));
-      CHECK(std::arg(found.amplitudes[0]) == Approx(0.3).margin(1e-8));
+      CHECK(std::arg(found.amplitudes[0]) == Approx(0.3).margin(1e-8).epsilon(0.0));
     }
   const Tone negative = strongest_tone(tests::tone(64, -3.25, 1.0));
-  CHECK(std::remainder(negative.bin + 3.25, 64.0) == Approx(0.0).margin(1e-9));
+  CHECK(std::remainder(negative.bin + 3.25, 64.0) == Approx(0.0).margin(1e-9).epsilon(0.0));
   const auto hann = window_weights({.kind = WindowKind::hann}, 64);
-  CHECK(strongest_tone(tests::tone(64, 20.4, 1.0), hann).bin == Approx(20.4).margin(1e-9));
+  CHECK(strongest_tone(tests::tone(64, 20.4, 1.0), hann).bin ==
+        Approx(20.4).margin(1e-9).epsilon(0.0));
   CHECK(strongest_tone(std::vector<std::complex<double>>(8)).power == 0.0);
 }
 
@@ -36,14 +37,6 @@ TEST_CASE("a window keeps a neighbour from pulling a tone", "[tone]") {
   const auto weights = window_weights({.kind = WindowKind::blackman_harris}, 256);
   CHECK(std::abs(refined_tone({samples}, 40.3).bin - 40.3) > 0.01);
   CHECK(std::abs(refined_tone({samples}, 40.3, weights).bin - 40.3) < 0.001);
-}
-
-TEST_CASE("the bound in bins is the table's", "[tone]") {
-  const std::pair<double, double> kRows[] = {
-      {13.0, 0.08728}, {20.0, 0.038985}, {30.0, 0.012328}, {40.0, 0.0038985}};
-  for (const auto& row : kRows)
-    CHECK(std::sqrt(6.0 / std::pow(10.0, row.first / 10.0)) / (2.0 * kPi) ==
-          Approx(row.second).epsilon(1e-4));
 }
 
 TEST_CASE("the frequency of a tone reaches the Cramer-Rao bound from 15 to 60 dB",
@@ -89,7 +82,6 @@ TEST_CASE("independent ramps average as 1 / sqrt(n)", "[tone][statistics]") {
   // 100 m, 10 m2: 56.45 dB per 2 ms ramp of 250 MHz gives 0.352 mm.
   const double cell_m = core::kSpeedOfLight_mps / (2.0 * 250e6);
   const double eta = std::pow(10.0, 5.645);
-  CHECK(cell_m * std::sqrt(6.0 / eta) / (2.0 * kPi) == Approx(0.352e-3).epsilon(2e-3));
   constexpr int kCount = 64;
   constexpr int kTrials = 400;
   for (const int ramps : {1, 4, 16}) {
@@ -139,8 +131,8 @@ TEST_CASE("the snapshot of a scatterer is that of the cube's middle", "[cube_ton
   FloatCube cube({32, 16, 4});
   tests::add_tone(cube, 7.25, 3.6, 2.0, -0.4);
   const CubeTone found = refined_in_cube(cube, 7.0, 4.0);
-  CHECK(found.range_bin == Approx(7.25).margin(1e-5));
-  CHECK(found.doppler_bin == Approx(3.6).margin(1e-5));
+  CHECK(found.range_bin == Approx(7.25).margin(1e-5).epsilon(0.0));
+  CHECK(found.doppler_bin == Approx(3.6).margin(1e-5).epsilon(0.0));
   const double middle = 2.0 * kPi * (7.25 * 15.5 / 32.0 + 3.6 * 7.5 / 16.0);
   for (int c = 0; c < 4; ++c)
     CHECK(std::abs(found.snapshot[static_cast<std::size_t>(c)] -

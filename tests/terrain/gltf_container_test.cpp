@@ -2,6 +2,7 @@
 #include "terrain/gltf/gltf_container.h"
 
 #include "terrain/gltf/gltf_limits.h"
+#include "tests/processor_time.h"
 #include "tests/terrain/gltf_test_files.h"
 
 namespace fanbeam::terrain {

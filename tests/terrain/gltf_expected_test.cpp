@@ -6,6 +6,7 @@
 
 #include "tests/data_rows.h"
 #include "tests/peak_memory.h"
+#include "tests/processor_time.h"
 #include "tests/shared_data.h"
 #include "tests/terrain/gltf_test_files.h"
 

@@ -6,7 +6,6 @@
 #include <bit>
 #include <catch2/catch.hpp>
 #include <cstdint>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -93,16 +92,6 @@ inline std::string triangle_glb() {
   document["buffers"][0].erase("uri");
   return glb(json_chunk(document) + binary_chunk(triangle_bytes()));
 }
-
-// Time limits count the processor's time, which other programs do not lengthen; a sanitizer does.
-inline double processor_time_s() {
-  return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
-}
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr double kSanitizerSlowdown = 10.0;
-#else
-inline constexpr double kSanitizerSlowdown = 1.0;
-#endif
 
 // The problems of a load that must fail; nothing when it succeeds.
 inline std::vector<core::Problem> problems_of(const std::filesystem::path& file,

@@ -69,7 +69,7 @@ TEST_CASE("The assignment is the cheapest of all", "[association]") {
       least = std::min(least, sum);
     });
     const Assignment found = assign(problem.costs, problem.miss);
-    REQUIRE(found.cost == Approx(least).margin(1e-12));
+    REQUIRE(found.cost == Approx(least).epsilon(0.0).margin(1e-12));
     for (const int column : found.column_of)
       if (column >= 0)
         CHECK(std::count(found.column_of.begin(), found.column_of.end(), column) == 1);
@@ -117,7 +117,7 @@ TEST_CASE("Joint probabilities are those of all events added up", "[association]
     });
     const JointProbabilities found = joint_probabilities(problem.costs, existence, settings);
     for (std::size_t i = 0; i < belongs.cost.size(); ++i)
-      REQUIRE(found.belongs.cost[i] == Approx(belongs.cost[i] / total).margin(1e-12));
+      REQUIRE(found.belongs.cost[i] == Approx(belongs.cost[i] / total).epsilon(0.0).margin(1e-12));
     for (int row = 0; row < problem.costs.rows; ++row) {
       double sum = found.missed[static_cast<std::size_t>(row)];
       for (int column = 0; column < problem.costs.columns; ++column)

@@ -16,6 +16,15 @@ namespace {
 
 constexpr double kDifference_mps = 3.0 / 3.6;
 
+// Q(x), the upper tail of the normal law.
+double normal_tail(double x) { return 0.5 * std::erfc(x / std::sqrt(2.0)); }
+
+// A decision by the order of speeds, before and after each known to `sigma`.
+double swap_probability(double difference_mps, double sigma_mps) {
+  const double p = normal_tail(std::abs(difference_mps) / (std::sqrt(2.0) * sigma_mps));
+  return 2.0 * p * (1.0 - p);
+}
+
 // Tracks at one place that know nothing but their speeds.
 ImmState track(double speed_mps, double sigma_mps) {
   Gaussian state;
@@ -38,19 +47,45 @@ TEST_CASE("P(swap) at 3 km/h is that of the table", "[crossing]") {
   CHECK(swap_probability(kDifference_mps, 0.2) == Approx(3.2e-3).epsilon(0.02));
   CHECK(swap_probability(kDifference_mps, 0.3) == Approx(4.83e-2).epsilon(0.01));
   CHECK(swap_probability(-kDifference_mps, 0.5) == Approx(0.210).epsilon(0.005));
-  CHECK_THROWS_AS(swap_probability(1.0, 0.0), core::InputError);
 }
 
-TEST_CASE("Hypotheses of speed alone have the closed odds", "[crossing]") {
-  const double sigma = 0.4;
-  const double kept =
-      kept_probability(track(0.5, sigma), track(-0.3, sigma), Measured::range_and_rate,
-                       seen(0.6, sigma), seen(-0.1, sigma));
-  const double odds = std::exp(0.8 * 0.7 / (2.0 * sigma * sigma));
-  CHECK(kept == Approx(odds / (1.0 + odds)).epsilon(1e-9));
-  CHECK(kept_probability(-HUGE_VAL, -HUGE_VAL, 0.7) == 0.7);
-  CHECK(kept_probability(-1e6, 0.0) == 0.0);
-  CHECK(kept_probability(0.0, -1e6) == 1.0);
+TEST_CASE("Tracks that differ in speed alone are told apart by speed alone", "[crossing]") {
+  const double sigma = 0.4, variance = 2.0 * sigma * sigma;
+  for (const double after_mps : {0.7, -0.7}) {
+    const double kept =
+        kept_probability(track(0.5, sigma), track(-0.3, sigma), Measured::range_and_rate,
+                         seen(after_mps - 0.1, sigma), seen(-0.1, sigma));
+    CHECK(kept == Approx(kept_by_difference(0.8, variance, after_mps, variance)).epsilon(1e-9));
+    CHECK((kept > 0.5) == (after_mps > 0.0));
+  }
+  CHECK(kept_by_difference(2.0, 1e-4, 2.0, 1e-4) == 1.0);
+  CHECK(kept_by_difference(2.0, 1e-4, -2.0, 1e-4) < 1e-300);
+  CHECK(kept_by_difference(0.0, 1.0, 0.0, 1.0) == 0.5);
+  CHECK_THROWS_AS(kept_by_difference(1.0, 0.0, 1.0, 1.0), core::InputError);
+  CHECK_THROWS_AS(kept_by_difference(1.0, 1.0, std::nan(""), 1.0), core::InputError);
+}
+
+TEST_CASE("What tells a pair apart is the axis on which it differs, and neither name comes first",
+          "[crossing]") {
+  // Of one speed, but 0.06 rad apart, known to 0.001.
+  ImmState left = track(0.0, 0.3), right = track(0.0, 0.3);
+  left.states[0].mean[1] = -1.8;
+  right.states[0].mean[1] = 1.8;
+  RadarMeasurement c = seen(0.0, 0.3), d = c;
+  c.azimuth_rad = -0.03;
+  d.azimuth_rad = 0.03;
+  c.azimuth_sigma_rad = d.azimuth_sigma_rad = 0.001;
+  constexpr Measured kAll = Measured::range_rate_and_azimuth;
+  CHECK(kept_probability(left, right, kAll, c, d) > 1.0 - 1e-12);
+  CHECK(kept_probability(left, right, kAll, d, c) < 1e-12);
+  // The same for range and rate alone: nothing tells them apart.
+  CHECK(kept_probability(left, right, Measured::range_and_rate, c, d) == Approx(0.5));
+  const ImmState slow = track(-0.2, 0.3), fast = track(0.3, 0.2);
+  const double kept = kept_probability(slow, fast, kAll, seen(-0.1, 0.3), seen(0.5, 0.2));
+  CHECK(kept_probability(fast, slow, kAll, seen(0.5, 0.2), seen(-0.1, 0.3)) ==
+        Approx(kept).epsilon(1e-12));
+  CHECK(kept_probability(fast, slow, kAll, seen(-0.1, 0.3), seen(0.5, 0.2)) ==
+        Approx(1.0 - kept).epsilon(1e-9));
 }
 
 TEST_CASE("Told probabilities are those with which swaps happen", "[crossing][statistics]") {
@@ -62,40 +97,18 @@ TEST_CASE("Told probabilities are those with which swaps happen", "[crossing][st
       const auto before = core::normal_pair(run_key(run, 1004), 0, 0);
       const auto after = core::normal_pair(run_key(run, 1004), 0, 1);
       const double variance = 2.0 * sigma * sigma;
-      const double kept = kept_by_speed(kDifference_mps + sigma * (before[0] - before[1]), variance,
-                                        kDifference_mps + sigma * (after[0] - after[1]), variance);
+      const double kept =
+          kept_by_difference(kDifference_mps + sigma * (before[0] - before[1]), variance,
+                             kDifference_mps + sigma * (after[0] - after[1]), variance);
       swaps += kept < 0.5;
       told += std::min(kept, 1.0 - kept) / kRuns;
     }
     const double rate = static_cast<double>(swaps) / kRuns;
     INFO("sigma " << sigma << ": rate " << rate << ", told " << told);
-    CHECK(rate == Approx(swap_probability(kDifference_mps, sigma)).margin(0.012));
-    CHECK(told == Approx(rate).margin(0.03));
-    CHECK(told == Approx(swap_probability(kDifference_mps, sigma)).margin(0.03));
-  }
-}
-
-TEST_CASE("Among decisions told with the same probability that part is right",
-          "[crossing][statistics]") {
-  // Speeds differ by a random amount: the calibration over a flat prior.
-  constexpr int kRuns = 40000;
-  double right[5] = {}, count[5] = {}, told[5] = {};
-  for (int run = 0; run < kRuns; ++run) {
-    const auto key = run_key(run, 1005);
-    const double difference = 6.0 * (core::uniform_from(core::random_words(key, 1, 0)[0]) - 0.5);
-    const auto before = core::normal_pair(key, 0, 0), after = core::normal_pair(key, 0, 1);
-    const double kept =
-        kept_probability(track(difference + 0.3 * before[0], 0.3), track(0.3 * before[1], 0.3),
-                         Measured::range_and_rate, seen(difference + 0.3 * after[0], 0.3),
-                         seen(0.3 * after[1], 0.3));
-    const int bin = std::min(4, static_cast<int>(10.0 * (std::max(kept, 1.0 - kept) - 0.5)));
-    ++count[bin];
-    told[bin] += std::max(kept, 1.0 - kept);
-    right[bin] += kept > 0.5;
-  }
-  for (int bin = 0; bin < 5; ++bin) {
-    INFO("bin " << bin << " of " << count[bin]);
-    const double sigma = 0.5 / std::sqrt(count[bin]);
-    CHECK(right[bin] / count[bin] == Approx(told[bin] / count[bin]).margin(4.0 * sigma));
+    CHECK(rate ==
+          Approx(swap_probability(kDifference_mps, sigma)).epsilon(0.0).epsilon(0.0).margin(0.012));
+    CHECK(told == Approx(rate).epsilon(0.0).margin(0.03));
+    CHECK(told ==
+          Approx(swap_probability(kDifference_mps, sigma)).epsilon(0.0).epsilon(0.0).margin(0.03));
   }
 }

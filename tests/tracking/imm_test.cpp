@@ -65,8 +65,8 @@ TEST_CASE("A coordinated turn follows the circle, its Jacobian the differences",
       x += (4.0 * std::cos(angle) - 15.0 * std::sin(angle) - 3.0) * 5e-4;
       y += (4.0 * std::sin(angle) + 15.0 * std::cos(angle) + 2.0) * 5e-4;
     }
-    CHECK(state.mean[0] == Approx(x).margin(1e-6));
-    CHECK(state.mean[1] == Approx(y).margin(1e-6));
+    CHECK(state.mean[0] == Approx(x).epsilon(0.0).margin(1e-6));
+    CHECK(state.mean[1] == Approx(y).epsilon(0.0).margin(1e-6));
     CHECK(std::hypot(state.mean[2] + 3.0, state.mean[3] - 2.0) ==
           Approx(std::hypot(4.0, 15.0)).epsilon(1e-12));
     // A variance of the turn rate alone moves along d(state)/d(rate).
@@ -81,7 +81,8 @@ TEST_CASE("A coordinated turn follows the circle, its Jacobian the differences",
     predict(model, 0.5, below);
     for (int i = 0; i < 4; ++i) {
       const auto k = static_cast<std::size_t>(i);
-      CHECK(certain.variance(i, 4) == Approx((above.mean[k] - below.mean[k]) / 2e-5).margin(1e-5));
+      CHECK(certain.variance(i, 4) ==
+            Approx((above.mean[k] - below.mean[k]) / 2e-5).epsilon(0.0).margin(1e-5));
     }
   }
 }

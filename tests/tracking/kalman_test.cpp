@@ -31,6 +31,18 @@ Observation scalar(double value, double predicted, double variance) {
   return one;
 }
 
+// Steady state of a filter of constant velocity that measures position alone. L = sa T^2 / sR,
+//   r = (4 + L - sqrt(8 L + L^2)) / 4, alpha = 1 - r^2, beta = 2 (2 - alpha) - 4 sqrt(1 - alpha)
+// (P. R. Kalata, "The tracking index", IEEE Trans. AES-20, 1984).
+struct AlphaBeta {
+  double alpha = 0.0, beta = 0.0;
+};
+AlphaBeta steady_alpha_beta(double index) {
+  const double root = (4.0 + index - std::sqrt(8.0 * index + index * index)) / 4.0;
+  const double alpha = 1.0 - root * root;
+  return {alpha, 2.0 * (2.0 - alpha) - 4.0 * root};
+}
+
 Update steady(Measured measured, double range_sigma_m, double rate_sigma_mps, Gaussian& state) {
   state = line_state(10.0, 10.0);
   Update last;
@@ -189,49 +201,50 @@ TEST_CASE("K05 a bearing across the border differs by 0.2 degrees", "[kalman]") 
   RadarMeasurement behind = seen(50.0, 0.0, 0.1, 0.1);
   behind.azimuth_rad = -179.9 * kDegree;
   const Observation one = observe(state, 2, Measured::range_rate_and_azimuth, behind);
-  CHECK(one.residual[2] / kDegree == Approx(0.2).margin(1e-9));
+  CHECK(one.residual[2] / kDegree == Approx(0.2).epsilon(0.0).margin(1e-9));
 }
 
 TEST_CASE("Gains tend to those of alpha-beta filters", "[kalman]") {
   // T 0.05 s, sa 1 m/s2, sR 0.02 m: tracking index 0.125.
-  const AlphaBeta closed = steady_alpha_beta(1.0, kStep_s, 0.02);
-  CHECK(closed.alpha == Approx(0.392685).margin(1e-6));
-  CHECK(closed.beta / kStep_s == Approx(1.948261).margin(1e-6));
+  const AlphaBeta closed = steady_alpha_beta(0.125);
+  CHECK(closed.alpha == Approx(0.392685).epsilon(0.0).margin(1e-6));
+  CHECK(closed.beta / kStep_s == Approx(1.948261).epsilon(0.0).margin(1e-6));
   Gaussian state;
   const Update told = steady(Measured::range, 0.02, 0.0, state);
-  CHECK(gain(told, 0, 0) == Approx(closed.alpha).margin(1e-6));
-  CHECK(gain(told, 1, 0) == Approx(closed.beta / kStep_s).margin(1e-6));
+  CHECK(gain(told, 0, 0) == Approx(closed.alpha).epsilon(0.0).margin(1e-6));
+  CHECK(gain(told, 1, 0) == Approx(closed.beta / kStep_s).epsilon(0.0).margin(1e-6));
 }
 
 TEST_CASE("Gains of range and range rate together tend to the published ones", "[kalman]") {
   Gaussian state;
   Update told = steady(Measured::range_and_rate, 0.02, 0.02, state);
-  CHECK(gain(told, 0, 0) == Approx(0.048116).margin(1e-6));
-  CHECK(gain(told, 0, 1) == Approx(0.026544).margin(1e-6));
-  CHECK(gain(told, 1, 0) == Approx(0.026544).margin(1e-6));
-  CHECK(gain(told, 1, 1) == Approx(0.876201).margin(1e-6));
-  CHECK(std::sqrt(state.variance(0, 0)) == Approx(4.387e-3).margin(1e-6));
-  CHECK(std::sqrt(state.variance(1, 1)) == Approx(18.72e-3).margin(1e-5));
+  CHECK(gain(told, 0, 0) == Approx(0.048116).epsilon(0.0).margin(1e-6));
+  CHECK(gain(told, 0, 1) == Approx(0.026544).epsilon(0.0).margin(1e-6));
+  CHECK(gain(told, 1, 0) == Approx(0.026544).epsilon(0.0).margin(1e-6));
+  CHECK(gain(told, 1, 1) == Approx(0.876201).epsilon(0.0).margin(1e-6));
+  CHECK(std::sqrt(state.variance(0, 0)) == Approx(4.387e-3).epsilon(0.0).margin(1e-6));
+  CHECK(std::sqrt(state.variance(1, 1)) == Approx(18.72e-3).epsilon(0.0).margin(1e-5));
   told = steady(Measured::range_and_rate, 0.1, 0.1, state);
-  CHECK(gain(told, 0, 0) == Approx(0.047770).margin(1e-6));
-  CHECK(gain(told, 0, 1) == Approx(0.035621).margin(1e-6));
-  CHECK(gain(told, 1, 0) == Approx(0.035621).margin(1e-6));
-  CHECK(gain(told, 1, 1) == Approx(0.388266).margin(1e-6));
-  CHECK(std::sqrt(state.variance(0, 0)) == Approx(21.86e-3).margin(1e-5));
-  CHECK(std::sqrt(state.variance(1, 1)) == Approx(62.31e-3).margin(1e-5));
+  CHECK(gain(told, 0, 0) == Approx(0.047770).epsilon(0.0).margin(1e-6));
+  CHECK(gain(told, 0, 1) == Approx(0.035621).epsilon(0.0).margin(1e-6));
+  CHECK(gain(told, 1, 0) == Approx(0.035621).epsilon(0.0).margin(1e-6));
+  CHECK(gain(told, 1, 1) == Approx(0.388266).epsilon(0.0).margin(1e-6));
+  CHECK(std::sqrt(state.variance(0, 0)) == Approx(21.86e-3).epsilon(0.0).margin(1e-5));
+  CHECK(std::sqrt(state.variance(1, 1)) == Approx(62.31e-3).epsilon(0.0).margin(1e-5));
 }
 
 TEST_CASE("Gates and intervals are those of the chi-square law", "[kalman]") {
   constexpr double kGates[] = {6.6349, 9.2103, 11.3449, 13.2767};
   for (int k = 1; k <= 4; ++k) {
-    CHECK(chi_square_quantile(0.99, k) == Approx(kGates[k - 1]).margin(5e-5));
-    CHECK(chi_square_probability(chi_square_quantile(0.99, k), k) == Approx(0.99).margin(1e-12));
+    CHECK(chi_square_quantile(0.99, k) == Approx(kGates[k - 1]).epsilon(0.0).margin(5e-5));
+    CHECK(chi_square_probability(chi_square_quantile(0.99, k), k) ==
+          Approx(0.99).epsilon(0.0).margin(1e-12));
   }
   CHECK(chi_square_quantile(0.9, 2) == Approx(-2.0 * std::log(0.1)).epsilon(1e-12));
   const auto check = [](int degrees, int runs, double low, double high) {
     const Interval interval = mean_interval(degrees, runs);
-    CHECK(interval.low == Approx(low).margin(6e-4));
-    CHECK(interval.high == Approx(high).margin(6e-4));
+    CHECK(interval.low == Approx(low).epsilon(0.0).margin(6e-4));
+    CHECK(interval.high == Approx(high).epsilon(0.0).margin(6e-4));
   };
   check(2, 50, 1.484, 2.591);
   check(2, 100, 1.627, 2.411);

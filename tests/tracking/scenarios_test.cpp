@@ -33,10 +33,14 @@ TEST_CASE("S1 a single car: errors within 1.15 of the bound, no false track",
   MeanSquare range, rate;
   MeanSquare range_in_bounds, rate_in_bounds;
   int tracks = 0, detected = 0, frames = 0;
+  double least_mota = 1.0;
   for (int run = 0; run < 200; ++run) {
     std::set<int> ids;
-    track_scene(one_stopped_car(), simulation, settings_for(), run, [&](const Frame& frame) {
+    ScenarioScore score;
+    const core::HighwayScenario scenario = one_stopped_car();
+    track_scene(scenario, simulation, settings_for(), run, [&](const Frame& frame) {
       ++frames;
+      score.add(scenario, frame);
       detected += !frame.measurements.empty();
       for (const Track& track : frame.tracker->tracks()) {
         if (!track.confirmed) continue;
@@ -52,17 +56,64 @@ TEST_CASE("S1 a single car: errors within 1.15 of the bound, no false track",
       }
     });
     tracks += static_cast<int>(ids.size());
+    least_mota = std::min(least_mota, score.mot.mota());
   }
   INFO("S1: range " << range.rms() << " m (" << range_in_bounds.rms() << " bounds), largest "
-                    << range.largest() << ", speed " << rate.rms() << " m/s ("
-                    << rate_in_bounds.rms() << ")");
+                    << range.largest() << " m, least MOTA " << least_mota << ", speed "
+                    << rate.rms() << " m/s (" << rate_in_bounds.rms() << ")");
   CHECK(tracks == 200);
+  CHECK(least_mota >= 0.98);
   CHECK(detected >= 0.999 * frames);
   CHECK(range.largest() < 1.0);
   CHECK(range.rms() <= 0.01);
   CHECK(rate.rms() <= 0.01);
   CHECK(range_in_bounds.rms() <= 1.15);
   CHECK(rate_in_bounds.rms() <= 1.15);
+}
+
+TEST_CASE("S1 tracks of a point target err by at most 1.15 of the posterior bound",
+          "[tracker][statistics]") {
+  // J' = (Q + F J^-1 F^T)^-1 + R^-1 along the line of sight, for range and speed as measured and the
+  // unknown acceleration of 0.5 m/s2 that the tracker assumes (P. Tichavsky, C. H. Muravchik, A.
+  // Nehorai, IEEE Trans. SP-46, 1998). The car has none, so the bound is not one for these runs
+  // alone; it is what any filter of that model must expect. The tracker is told that the target is a
+  // point: its floors of 5 mm and 5 mm/s, which cars and merged beats need, cost 1.44 in range.
+  TrackerSettings settings = settings_for();
+  settings.range_floor_m = settings.range_rate_floor_mps = 0.0;
+  constexpr double kStep = 0.05, kVariance = 0.25;
+  MeanSquare range, rate;
+  for (int run = 0; run < 200; ++run) {
+    double p = 0.0, c = 0.0, v = 0.0;  // covariance of range and speed
+    track_scene(one_stopped_car(), {}, settings, run, [&](const Frame& frame) {
+      const auto& truth = frame.truth[0];
+      const MeasurementBound bound = measurement_bound(highway_radar(), 10.0, truth.range_m, 0.0);
+      const double r = std::pow(bound.range_sigma_m, 2);
+      const double s = std::pow(bound.range_rate_sigma_mps, 2);
+      if (frame.time_s == 0.0) {
+        p = r;
+        v = s;
+        return;
+      }
+      p += 2.0 * kStep * c + kStep * kStep * v + kVariance * std::pow(kStep, 4) / 4.0;
+      c += kStep * v + kVariance * std::pow(kStep, 3) / 2.0;
+      v += kVariance * kStep * kStep;
+      const double before = p * v - c * c;
+      const double a = v / before + 1.0 / r, b = -c / before, d = p / before + 1.0 / s;
+      const double after = a * d - b * b;
+      p = d / after;
+      c = -b / after;
+      v = a / after;
+      for (const Track& track : frame.tracker->tracks()) {
+        if (!track.confirmed || frame.time_s < 0.5) continue;
+        const PolarPlace place = polar(track.state);
+        range.add((place.range_m - truth.range_m) / std::sqrt(p));
+        rate.add((place.range_rate_mps - truth.range_rate_mps) / std::sqrt(v));
+      }
+    });
+  }
+  INFO("S1 over the posterior bound: range " << range.rms() << ", speed " << rate.rms());
+  CHECK(range.rms() <= 1.15);
+  CHECK(rate.rms() <= 1.15);
 }
 
 TEST_CASE("S2 six vehicles: no ghost track, no switch, GOSPA below 0.5 m",
@@ -151,7 +202,7 @@ TEST_CASE("S3 two cars that cross at 3 km/h keep their identity", "[tracker][sta
     CHECK(range_rms.rms() <= 0.1);
     CHECK(largest_m <= 1.0);
     CHECK(brier <= 0.02);
-    CHECK(told == Approx(static_cast<double>(kept) / kRuns).margin(0.03));
+    CHECK(told == Approx(static_cast<double>(kept) / kRuns).epsilon(0.0).margin(0.03));
   }
 }
 
@@ -161,6 +212,7 @@ TEST_CASE("S4 beaming targets show their speed in the angle alone", "[tracker][s
   const core::HighwayScenario scenario = beaming();
   MeanSquare speed_a, speed_b, rate_a;
   int moving = 0, seen_a = 0, kept = 0;
+  double least_mota = 1.0;
   constexpr int kRuns = 100;
   for (int run = 0; run < kRuns; ++run) {
     ClearMot metric(3.0);
@@ -188,15 +240,18 @@ TEST_CASE("S4 beaming targets show their speed in the angle alone", "[tracker][s
     const auto last = metric.last_match();
     kept += last.count(0) && last.count(2) && last.at(0) == first[0] && last.at(2) == first[2] &&
             metric.switches() == 0;
+    least_mota = std::min(least_mota, metric.mota());
   }
-  INFO("S4: tangential " << speed_a.rms() << " and " << speed_b.rms() << " m/s, range rate mean "
-                         << rate_a.mean() << " m/s, moving " << moving / double(seen_a) << ", kept "
-                         << kept << " of " << kRuns);
+  INFO("S4: least MOTA " << least_mota << ", tangential " << speed_a.rms() << " and "
+                         << speed_b.rms() << " m/s, range rate mean " << rate_a.mean()
+                         << " m/s, moving " << moving / double(seen_a) << ", kept " << kept
+                         << " of " << kRuns);
   CHECK(speed_a.rms() <= 0.75);
   CHECK(speed_b.rms() <= 1.0);
   CHECK(std::abs(rate_a.mean()) <= 0.02);
   CHECK(moving >= 0.95 * seen_a);
   CHECK(kept >= 0.98 * kRuns);
+  CHECK(least_mota >= 0.98);
 }
 
 TEST_CASE("Missed and false measurements neither break tracks nor make any",
@@ -207,9 +262,9 @@ TEST_CASE("Missed and false measurements neither break tracks nor make any",
     simulation.false_per_frame = 5.0;
     TrackerSettings settings = settings_for();
     settings.association = association;
-    settings.joint.detection_probability = 0.9;
+    settings.detection.detection_probability = 0.9;
     // Of 200 m x 140 m/s x 2.09 rad.
-    settings.joint.clutter_density = 5.0 / (200.0 * 140.0 * 2.09);
+    settings.detection.clutter_density = 5.0 / (200.0 * 140.0 * 2.09);
     double least_mota = 1.0;
     int switches = 0, further = 0;
     MeanSquare gospa_m;

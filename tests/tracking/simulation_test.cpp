@@ -26,9 +26,9 @@ void check_rows(const core::HighwayScenario& scenario, const std::vector<Row>& r
     const core::HighwayTruth truth =
         truth_at(scenario.targets[static_cast<std::size_t>(row.target)], scenario.radar_speed_mps,
                  highway_radar(), row.time_s);
-    CHECK(truth.range_m == Approx(row.range_m).margin(1e-6));
-    CHECK(truth.range_rate_mps == Approx(row.rate_mps).margin(1e-6));
-    CHECK(truth.azimuth_rad == Approx(row.azimuth_rad).margin(1e-6));
+    CHECK(truth.range_m == Approx(row.range_m).epsilon(0.0).margin(1e-6));
+    CHECK(truth.range_rate_mps == Approx(row.rate_mps).epsilon(0.0).margin(1e-6));
+    CHECK(truth.azimuth_rad == Approx(row.azimuth_rad).epsilon(0.0).margin(1e-6));
     CHECK(truth.in_view == row.in_view);
   }
 }
@@ -70,7 +70,7 @@ TEST_CASE("Accelerations and lane changes are the integrals of each other", "[hi
     const auto now = relative_motion(target, 5.0, t_s);
     for (std::size_t axis = 0; axis < 2; ++axis)
       CHECK((after.position_m[axis] - before.position_m[axis]) / 2e-4 ==
-            Approx(now.velocity_mps[axis]).margin(1e-3));
+            Approx(now.velocity_mps[axis]).epsilon(0.0).margin(1e-3));
   }
   CHECK_FALSE(truth_at(car("B", 0.0, 0.0, 0.0), 0.0, highway_radar(), 0.0).in_view);
 }
@@ -78,9 +78,9 @@ TEST_CASE("Accelerations and lane changes are the integrals of each other", "[hi
 TEST_CASE("Signal-to-noise ratios and bounds are those of the link budget", "[highway]") {
   // dB at the start of the scenarios; the bounds at 56.45 dB are published with the formulas.
   CHECK(core::dB_from_power(measurement_bound(highway_radar(), 10.0, 150.0, 0.0).signal_to_noise,
-                            -300.0) == Approx(49.406).margin(1e-3));
+                            -300.0) == Approx(49.406).epsilon(0.0).margin(1e-3));
   CHECK(core::dB_from_power(measurement_bound(highway_radar(), 1.5, 58.117897, 0.0).signal_to_noise,
-                            -300.0) == Approx(57.638).margin(1e-3));
+                            -300.0) == Approx(57.638).epsilon(0.0).margin(1e-3));
   const MeasurementBound bound = measurement_bound(highway_radar(), 10.0, 100.0, 0.0);
   CHECK(bound.range_sigma_m == Approx(0.2487e-3).epsilon(1e-3));
   CHECK(bound.range_rate_sigma_mps == Approx(0.4091e-3).epsilon(1e-3));
@@ -102,8 +102,8 @@ TEST_CASE("A lone car is measured as well as the bound allows", "[highway][stati
         rate.add((seen[0].range_rate_mps - truth.range_rate_mps) / seen[0].range_rate_sigma_mps);
       }
     // 1400 normal values: 1.9 % in the root mean square.
-    CHECK(range.rms() == Approx(1.0).margin(0.06));
-    CHECK(rate.rms() == Approx(1.0).margin(0.06));
+    CHECK(range.rms() == Approx(1.0).epsilon(0.0).margin(0.06));
+    CHECK(rate.rms() == Approx(1.0).epsilon(0.0).margin(0.06));
     CHECK(range.rms() <= 1.15);
     CHECK(rate.rms() <= 1.15);
   }
@@ -165,8 +165,8 @@ TEST_CASE("Missed and false measurements come at their rates, the same in every 
     }
   }
   // Four standard deviations.
-  CHECK(real / double{kFrames} == Approx(0.8).margin(0.026));
-  CHECK((all - real) / double{kFrames} == Approx(2.5).margin(0.1));
+  CHECK(real / double{kFrames} == Approx(0.8).epsilon(0.0).margin(0.026));
+  CHECK((all - real) / double{kFrames} == Approx(2.5).epsilon(0.0).margin(0.1));
   settings.detection_probability = 1.5;
   CHECK_THROWS_AS(simulated_frame(one_stopped_car(), highway_radar(), settings, 3, 0, 0),
                   core::InputError);

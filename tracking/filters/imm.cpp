@@ -9,16 +9,14 @@
 namespace fanbeam::tracking {
 namespace {
 
-constexpr int kKinematic = 4;
-constexpr int kPlanarAxes = 2;
-
-// The state of model `from` in the shape of model `to`: what `from` lacks comes from `to` itself.
-Gaussian in_shape_of(const Gaussian& from, const Gaussian& to) {
+// The state of model `from` in the shape of model `to`: what `from` lacks beyond the first `common`
+// components comes from `to` itself.
+Gaussian in_shape_of(const Gaussian& from, const Gaussian& to, int common) {
   Gaussian result = to;
-  for (int row = 0; row < kKinematic; ++row) {
+  for (int row = 0; row < common; ++row) {
     result.mean[static_cast<std::size_t>(row)] = from.mean[static_cast<std::size_t>(row)];
     for (int column = 0; column < to.size; ++column) {
-      const double value = column < kKinematic ? from.variance(row, column) : 0.0;
+      const double value = column < common ? from.variance(row, column) : 0.0;
       result.variance(row, column) = result.variance(column, row) = value;
     }
   }
@@ -37,12 +35,35 @@ ImmState mixed(const ImmModel& model, double step_s, const ImmState& state) {
     for (std::size_t from = 0; from < count; ++from) {
       const double weight = (from == to ? 1.0 - leave : other) * state.probabilities[from];
       total += weight;
-      parts.push_back({weight, from == to ? state.states[from]
-                                          : in_shape_of(state.states[from], state.states[to])});
+      parts.push_back(
+          {weight, from == to ? state.states[from]
+                              : in_shape_of(state.states[from], state.states[to], 2 * state.axes)});
     }
     if (total > 0.0) result.states[to] = moments(parts);
     result.probabilities[to] = total;
   }
+  return result;
+}
+
+// The mixture's update from those of its models. `probabilities` become those after it, unless no
+// model's was applied.
+Update mixture_of(const std::vector<Update>& told, std::vector<double>& probabilities) {
+  double best = -std::numeric_limits<double>::infinity();
+  Update result;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    const double weight = std::log(std::max(probabilities[i], 1e-300));
+    if (!told[i].applied || told[i].log_likelihood + weight <= best) continue;
+    best = told[i].log_likelihood + weight;
+    result = told[i];
+  }
+  if (!result.applied) return result;
+  double total = 0.0;
+  for (std::size_t i = 0; i < told.size(); ++i) {
+    probabilities[i] *= told[i].applied ? std::exp(told[i].log_likelihood - best) : 0.0;
+    total += probabilities[i];
+  }
+  for (double& probability : probabilities) probability /= total;
+  result.log_likelihood = best + std::log(total);
   return result;
 }
 
@@ -53,18 +74,21 @@ ImmState start_imm(const ImmModel& model, const Gaussian& kinematic, const ImmSt
     core::throw_input_error(core::ErrorClass::range, "imm.motions",
                             static_cast<double>(model.motions.size()),
                             "at least one, and a sojourn above 0 s");
-  if (kinematic.size != kKinematic)
-    core::throw_input_error(core::ErrorClass::range, "imm.state.size", kinematic.size, "4");
   ImmState result;
+  result.axes = model.axes();
+  const int common = 2 * result.axes;
+  if (kinematic.size != common)
+    core::throw_input_error(core::ErrorClass::range, "imm.state.size", kinematic.size,
+                            core::number_text(common));
   for (const MotionModel& motion : model.motions) {
-    if (motion.axes != kPlanarAxes)
-      core::throw_input_error(core::ErrorClass::range, "imm.motion.axes", motion.axes, "2");
+    const bool turn = motion.kind == MotionKind::coordinated_turn;
+    if (motion.axes != result.axes || (turn && result.axes != 2))
+      core::throw_input_error(core::ErrorClass::range, "imm.motion.axes", motion.axes,
+                              "the same for all models, 2 for a turn");
     Gaussian state = kinematic;
     state.size = states(motion);
-    const double sigma = motion.kind == MotionKind::coordinated_turn
-                             ? start.turn_sigma_rad_per_s
-                             : start.acceleration_sigma_mps2;
-    for (int extra = kKinematic; extra < state.size; ++extra)
+    const double sigma = turn ? start.turn_sigma_rad_per_s : start.acceleration_sigma_mps2;
+    for (int extra = common; extra < state.size; ++extra)
       state.variance(extra, extra) = sigma * sigma;
     result.states.push_back(state);
     result.probabilities.push_back(1.0 / static_cast<double>(model.motions.size()));
@@ -87,37 +111,25 @@ void predict(const ImmModel& model, double step_s, ImmState& state) {
 Update update(ImmState& state, Measured measured, const RadarMeasurement& measurement) {
   ImmState next = state;
   std::vector<Update> told;
-  double best = -std::numeric_limits<double>::infinity();
-  Update result;
-  for (std::size_t i = 0; i < next.states.size(); ++i) {
-    told.push_back(
-        update(next.states[i], observe(next.states[i], kPlanarAxes, measured, measurement)));
-    const double weight = std::log(std::max(state.probabilities[i], 1e-300));
-    if (!told[i].applied || told[i].log_likelihood + weight <= best) continue;
-    best = told[i].log_likelihood + weight;
-    result = told[i];
-  }
-  if (!result.applied) return result;
-  double total = 0.0;
-  for (std::size_t i = 0; i < next.states.size(); ++i) {
-    next.probabilities[i] *= told[i].applied ? std::exp(told[i].log_likelihood - best) : 0.0;
-    total += next.probabilities[i];
-  }
-  for (double& probability : next.probabilities) probability /= total;
-  result.log_likelihood = best + std::log(total);
-  state = std::move(next);
+  for (Gaussian& one : next.states)
+    told.push_back(update(one, observe(one, state.axes, measured, measurement)));
+  const Update result = mixture_of(told, next.probabilities);
+  if (result.applied) state = std::move(next);
   return result;
 }
 
 Update innovation(const ImmState& state, Measured measured, const RadarMeasurement& measurement) {
-  ImmState copy = state;
-  return update(copy, measured, measurement);
+  std::vector<Update> told;
+  for (const Gaussian& one : state.states)
+    told.push_back(innovation(one, observe(one, state.axes, measured, measurement)));
+  std::vector<double> probabilities = state.probabilities;
+  return mixture_of(told, probabilities);
 }
 
 Gaussian combined(const ImmState& state) {
   std::vector<WeightedGaussian> parts;
   for (std::size_t i = 0; i < state.states.size(); ++i)
-    parts.push_back({state.probabilities[i], marginal(state.states[i], kKinematic)});
+    parts.push_back({state.probabilities[i], marginal(state.states[i], 2 * state.axes)});
   return moments(parts);
 }
 

@@ -22,18 +22,22 @@
 namespace fanbeam::tracking {
 
 struct ImmModel {
-  std::vector<MotionModel> motions;  // at least one; all planar
+  std::vector<MotionModel> motions;  // at least one; all of the same axes
   double sojourn_s = 2.0;            // above 0
+
+  int axes() const { return motions.front().axes; }
 };
 
 struct ImmState {
   std::vector<Gaussian> states;       // of each model
   std::vector<double> probabilities;  // sum 1
+  int axes = 2;
   bool operator==(const ImmState&) const = default;
 };
 
 // Starts every model from position and velocity. Accelerations and turn rates start at 0 with these
-// standard deviations. E-RANGE for no model, one that is not planar, or a state that is not of 4.
+// standard deviations. E-RANGE for no model, one of other axes than the first (a turn has two), or a state
+// that is not of two components for each axis.
 struct ImmStart {
   double acceleration_sigma_mps2 = 3.0;
   double turn_sigma_rad_per_s = 0.3;
@@ -45,10 +49,10 @@ void predict(const ImmModel& model, double step_s, ImmState& state);
 // `applied` where at least one filter's innovation could be inverted. The normalised innovation is
 // that of the likeliest model, the likelihood that of the mixture.
 Update update(ImmState& state, Measured measured, const RadarMeasurement& measurement);
-// What the update would tell.
+// What the update would tell, without changing or copying the state; the gain is left empty.
 Update innovation(const ImmState& state, Measured measured, const RadarMeasurement& measurement);
 
-// Position and velocity of the mixture: x, y, vx, vy.
+// Position and velocity of the mixture: x, y, vx, vy; r, v on one axis.
 Gaussian combined(const ImmState& state);
 
 }  // namespace fanbeam::tracking

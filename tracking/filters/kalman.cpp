@@ -37,17 +37,17 @@ bool factor(const Gaussian& state, const Observation& observation, Innovation& p
   const Eigen::LLT<Matrix> root(Matrix(scale.asDiagonal() * covariance * scale.asDiagonal()));
   if (root.info() != Eigen::Success) return false;
   const Matrix lower = root.matrixL();
-  told.log_determinant = 0.0;
+  double log_determinant = 0.0;
   for (int i = 0; i < n; ++i) {
     if (lower(i, i) * lower(i, i) < kLeastPivot) return false;
-    told.log_determinant += 2.0 * std::log(lower(i, i) / scale(i));
+    log_determinant += 2.0 * std::log(lower(i, i) / scale(i));
   }
   const Matrix identity = Matrix::Identity(n, n);
   parts.covariance_inverse = scale.asDiagonal() * root.solve(identity) * scale.asDiagonal();
   told.normalised_innovation_squared =
       parts.residual.dot(parts.covariance_inverse * parts.residual);
-  told.log_likelihood = -0.5 * (told.normalised_innovation_squared + told.log_determinant +
-                                n * std::log(2.0 * core::kPi));
+  told.log_likelihood =
+      -0.5 * (told.normalised_innovation_squared + log_determinant + n * std::log(2.0 * core::kPi));
   told.applied = std::isfinite(told.log_likelihood);
   return told.applied;
 }
@@ -91,17 +91,6 @@ Update update(Gaussian& state, const Observation& observation) {
   store(Matrix(0.5 * (posterior + posterior.transpose())), state.covariance);
   store(gain, told.gain);
   return told;
-}
-
-AlphaBeta steady_alpha_beta(double acceleration_mps2, double step_s, double position_sigma_m) {
-  for (const double value : {acceleration_mps2, step_s, position_sigma_m})
-    if (!(value > 0.0) || !std::isfinite(value))
-      core::throw_input_error(core::ErrorClass::range, "steady_alpha_beta", value,
-                              "finite, above 0");
-  const double index = acceleration_mps2 * step_s * step_s / position_sigma_m;
-  const double root = (4.0 + index - std::sqrt(8.0 * index + index * index)) / 4.0;
-  const double alpha = 1.0 - root * root;
-  return {alpha, 2.0 * (2.0 - alpha) - 4.0 * root};
 }
 
 }  // namespace fanbeam::tracking

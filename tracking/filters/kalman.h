@@ -20,23 +20,11 @@ struct Update {
   bool applied = false;
   double normalised_innovation_squared = 0.0;  // nu^T S^-1 nu, chi-square of the dimension
   double log_likelihood = 0.0;                 // of nu under N(0, S)
-  double log_determinant = 0.0;                // of S
   StateMatrix gain{};                          // K, `size` columns
 };
 
 // What the update would tell, without changing the state.
 Update innovation(const Gaussian& state, const Observation& observation);
 Update update(Gaussian& state, const Observation& observation);
-
-// Steady state of a filter of constant velocity on one axis that measures position alone, with
-// white acceleration constant inside a step. L = sa T^2 / sR,
-//   r = (4 + L - sqrt(8 L + L^2)) / 4, alpha = 1 - r^2, beta = 2 (2 - alpha) - 4 sqrt(1 - alpha);
-// the Kalman gain tends to (alpha, beta / T).
-// Source: P. R. Kalata, "The tracking index", IEEE Trans. AES-20, 1984.
-struct AlphaBeta {
-  double alpha = 0.0, beta = 0.0;
-};
-// All above 0; E-RANGE otherwise.
-AlphaBeta steady_alpha_beta(double acceleration_mps2, double step_s, double position_sigma_m);
 
 }  // namespace fanbeam::tracking

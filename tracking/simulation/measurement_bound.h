@@ -13,10 +13,15 @@
 
 namespace fanbeam::tracking {
 
+inline constexpr double kFineRamp_s = 2e-3;
+
 struct MeasurementBound {
   double signal_to_noise = 0.0;
   double range_sigma_m = 0.0, range_rate_sigma_mps = 0.0, azimuth_sigma_rad = 0.0;
 };
+// At a ratio e that is known.
+MeasurementBound bound_at(const core::HighwayRadar& radar, double signal_to_noise,
+                          double azimuth_rad);
 MeasurementBound measurement_bound(const core::HighwayRadar& radar, double cross_section_m2,
                                    double range_m, double azimuth_rad);
 

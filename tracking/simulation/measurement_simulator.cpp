@@ -5,44 +5,14 @@
 
 #include "core/constants.h"
 #include "core/errors.h"
-#include "core/random.h"
 #include "signal/pairing/ghost_free.h"
 #include "signal/waveform/factories.h"
+#include "tracking/simulation/simulation_private.h"
 
 namespace fanbeam::tracking {
 namespace {
 
-constexpr double kRamp_s = 2e-3, kSecondRamp_s = 3e-3;
-constexpr double kBeamwidth = 0.8859;
-constexpr double kCoarseFrame_s = 256 * 20e-6;
-
-struct Seen {
-  double range_m = 0.0, rate_mps = 0.0, azimuth_rad = 0.0, power = 0.0;  // azimuth with its noise
-  MeasurementBound bound;
-};
-
-// Beats of one ramp that the radar sees, with the direction they come from.
-struct Peaks {
-  std::vector<double> Hz, azimuth_rad, power;
-};
-
-// All draws of one frame.
-class Draws {
- public:
-  Draws(std::uint64_t seed, std::uint32_t run, int frame)
-      : key_{seed, core::kStreamHighway, static_cast<std::uint32_t>(frame)}, run_(run) {}
-  std::array<double, 2> normal(std::size_t cell, std::uint32_t draw) const {
-    return core::normal_pair(key_, at(cell), draw);
-  }
-  double uniform(std::size_t cell, std::uint32_t draw, std::size_t word = 0) const {
-    return core::uniform_from(core::random_words(key_, at(cell), draw)[word]);
-  }
-
- private:
-  std::uint64_t at(std::size_t cell) const { return (std::uint64_t{run_} << 32U) + cell; }
-  core::RandomKey key_;
-  std::uint32_t run_;
-};
+constexpr double kSecondRamp_s = 3e-3;
 
 constexpr std::size_t kFalseCells = 1U << 20U;  // beyond any target's number
 
@@ -98,10 +68,6 @@ Peaks merged(const Peaks& beats, double closer_than_Hz) {
   return peaks;
 }
 
-struct RampPeaks {
-  Peaks up, down;
-};
-
 // `later_s`: from the frame's time to the triangle's turnaround.
 RampPeaks peaks_of(const signal::TriangleModel& model, double later_s,
                    const std::vector<Seen>& targets, double merge_bins, const Draws& draws,
@@ -111,7 +77,7 @@ RampPeaks peaks_of(const signal::TriangleModel& model, double later_s,
     const Seen& target = targets[i];
     const signal::BeatPair pair =
         signal::predict(model, {target.range_m + target.rate_mps * later_s, target.rate_mps});
-    const double ratio = target.bound.signal_to_noise * model.ramp_s / kRamp_s;
+    const double ratio = target.bound.signal_to_noise * model.ramp_s / kFineRamp_s;
     const double sigma_Hz = std::sqrt(6.0 / ratio) / (2.0 * core::kPi * model.ramp_s);
     const auto noise = draws.normal(i, draw);
     const double beat_Hz[] = {pair.up_Hz + sigma_Hz * noise[0], pair.down_Hz + sigma_Hz * noise[1]};
@@ -132,12 +98,6 @@ std::size_t nearest(const std::vector<double>& values, double to) {
   return best;
 }
 
-RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad,
-                             const MeasurementBound& bound) {
-  return {place.range_m,       place.radial_speed_mps,     azimuth_rad,
-          bound.range_sigma_m, bound.range_rate_sigma_mps, bound.azimuth_sigma_rad};
-}
-
 // Direction and strength of a pair are those of the beats that it explains.
 RadarMeasurement measured_pair(const signal::TriangleModel& model, const RampPeaks& peaks,
                                const signal::RangeSpeed& place, const core::HighwayRadar& radar) {
@@ -152,56 +112,6 @@ RadarMeasurement measured_pair(const signal::TriangleModel& model, const RampPea
   return with_sigmas(
       place, azimuth_rad,
       measurement_bound(radar, ratio / unit, std::max(place.range_m, 1e-3), azimuth_rad));
-}
-
-// Targets that the chirp sequence cannot tell apart become one.
-std::vector<Seen> coarse_targets(std::vector<Seen> targets, const core::HighwayRadar& radar,
-                                 const SimulationSettings& settings) {
-  const double wavelength_m = core::kSpeedOfLight_mps / radar.centre_frequency_Hz;
-  const double cell_m = core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz);
-  const double cell_mps = wavelength_m / (2.0 * kCoarseFrame_s);
-  const double beam_rad = kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths);
-  const auto together = [&](const Seen& a, const Seen& b) {
-    return std::abs(a.range_m - b.range_m) < settings.merge_bins * cell_m &&
-           std::abs(a.rate_mps - b.rate_mps) < settings.merge_bins * cell_mps &&
-           std::abs(std::sin(a.azimuth_rad) - std::sin(b.azimuth_rad)) < beam_rad;
-  };
-  for (std::size_t i = 0; i < targets.size(); ++i)
-    for (std::size_t j = i + 1; j < targets.size();) {
-      Seen &a = targets[i], &b = targets[j];
-      if (!together(a, b)) {
-        ++j;
-        continue;
-      }
-      const double share = a.power / (a.power + b.power);
-      a.range_m = share * a.range_m + (1.0 - share) * b.range_m;
-      a.rate_mps = share * a.rate_mps + (1.0 - share) * b.rate_mps;
-      a.azimuth_rad = share * a.azimuth_rad + (1.0 - share) * b.azimuth_rad;
-      a.power += b.power;
-      targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(j));
-    }
-  return targets;
-}
-
-std::vector<RadarMeasurement> two_stage_frame(
-    const signal::TriangleModel& fine, const RampPeaks& peaks, const std::vector<Seen>& targets,
-    const core::HighwayRadar& radar, const SimulationSettings& settings, const Draws& draws) {
-  const std::vector<Seen> coarse = coarse_targets(targets, radar, settings);
-  std::vector<signal::RangeSpeed> places;
-  for (std::size_t i = 0; i < coarse.size(); ++i) {
-    const auto noise = draws.normal(i, 3);
-    places.push_back({coarse[i].range_m + settings.coarse_range_sigma_m * noise[0],
-                      coarse[i].rate_mps + settings.coarse_speed_sigma_mps * noise[1]});
-  }
-  signal::TwoStageOptions options;
-  options.coarse_range_sigma_m = settings.coarse_range_sigma_m;
-  options.coarse_speed_sigma_mps = settings.coarse_speed_sigma_mps;
-  const auto refined =
-      signal::refine_two_stage(places, {fine, peaks.up.Hz, peaks.down.Hz}, options);
-  std::vector<RadarMeasurement> result;
-  for (std::size_t i = 0; i < refined.size(); ++i)
-    result.push_back(with_sigmas(refined[i], coarse[i].azimuth_rad, coarse[i].bound));
-  return result;
 }
 
 void add_false(const core::HighwayRadar& radar, const SimulationSettings& settings,
@@ -234,6 +144,12 @@ void check(const SimulationSettings& settings) {
 
 }  // namespace
 
+RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad,
+                             const MeasurementBound& bound) {
+  return {place.range_m,       place.radial_speed_mps,     azimuth_rad,
+          bound.range_sigma_m, bound.range_rate_sigma_mps, bound.azimuth_sigma_rad};
+}
+
 std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scenario,
                                               const core::HighwayRadar& radar,
                                               const SimulationSettings& settings,
@@ -244,19 +160,21 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
   signal::TwoSlopesParameters parameters;
   parameters.first.frequency_Hz = radar.centre_frequency_Hz;
   parameters.first.bandwidth_Hz = radar.bandwidth_Hz;
-  parameters.first.ramp_s = kRamp_s;
+  parameters.first.ramp_s = kFineRamp_s;
   parameters.second_ramp_s = kSecondRamp_s;
   const signal::Waveform waveform = signal::two_slopes(parameters);
   const signal::TriangleModel first = signal::triangle_model(waveform, 0);
   const signal::PairingLimits limits{0.0, 1.1 * radar.most_range_m, settings.most_speed_mps};
   const RampPeaks peaks = peaks_of(first, 0.0, targets, settings.merge_bins, draws, 1);
   std::vector<RadarMeasurement> result;
-  if (settings.scheme == Scheme::two_stage) {
-    result = two_stage_frame(first, peaks, targets, radar, settings, draws);
+  if (settings.scheme == Scheme::two_stage || settings.scheme == Scheme::coded) {
+    result = coarse_to_fine(first, peaks, targets, radar, settings, draws);
   } else {
     std::vector<signal::RangeSpeed> places;
     if (settings.scheme == Scheme::triangle) {
       places = signal::pair_all(first, peaks.up.Hz, peaks.down.Hz, limits);
+    } else if (settings.scheme == Scheme::sorted_triangle) {
+      places = signal::pair_sorted(first, peaks.up.Hz, peaks.down.Hz, limits);
     } else {
       const signal::TriangleModel second = signal::triangle_model(waveform, 1);
       const double between_s = second.turnaround_s - first.turnaround_s;

@@ -10,15 +10,20 @@
 //   coarse     (two stages) range and speed with errors of 0.3 m and 0.3 m/s; targets that share
 //              the cells of range and speed (1.2 wide each) and the beam (0.886 lambda / N d)
 //              become one, weighted with power
-// Schemes: one triangle with all pairs, two slopes, two stages (signal/pairing/ghost_free.h). The
-// azimuth of a pair is the mean of those of its two beats. Ranges belong to the turnaround of the
+//   coarse     (coded) speed from a flat stretch of 2 ms, range from the phase between its two
+//              tones 700 kHz apart, both with the errors of their bounds, c / (4 pi df) sqrt(2 / e)
+//              in range; targets that share the cell of speed and the beam become one
+// Schemes: one triangle with all pairs, or with pairs in the order of range, two slopes, two
+// stages, and a coded stretch between the ramps of one triangle, both refined as of
+// signal/pairing/ghost_free.h. The azimuth of a pair is the mean of those of its two beats, and
+// means nothing for an array of one element. Ranges belong to the turnaround of the
 // (first) triangle, which is the time of the frame. A target is seen with `detection_probability`;
 // false measurements are Poisson, uniform in range, speed and azimuth.
 // Fluctuation: cases 1 and 2 anew in every frame, chi-square of 2 degrees, 3 and 4 of 4.
 // Source: rates of misses and ghosts as in tests/signal/pairing_rates_test.cpp; bounds as in
 // measurement_bound.h.
 // Neglected: side lobes and masking (all targets in view are detected alike), side lobes of the
-// array, thresholds below 15 dB. The stated standard deviations know nothing of merging.
+// array, the ambiguity of the code beyond 214 m, thresholds below 15 dB. The stated standard deviations know nothing of merging.
 // Every draw is a function of seed, run, frame and target.
 #pragma once
 
@@ -31,7 +36,7 @@
 
 namespace fanbeam::tracking {
 
-enum class Scheme { triangle, two_slopes, two_stage };
+enum class Scheme { triangle, sorted_triangle, two_slopes, two_stage, coded };
 
 struct SimulationSettings {
   Scheme scheme = Scheme::two_stage;

@@ -1,6 +1,7 @@
 #include "tracking/simulation/scenario_run.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "core/errors.h"
@@ -9,11 +10,12 @@
 namespace fanbeam::tracking {
 namespace {
 
-constexpr double kGate_m = 3.0;
 constexpr double kMostFrames = 1e6;
 
-Place place_of(const core::RelativeMotion& motion) {
-  return {motion.position_m[0], motion.position_m[1]};
+// On the road, or along the line of sight where that is all that is tracked.
+Place place_of(const core::RelativeMotion& motion, int axes) {
+  const auto [x_m, y_m] = motion.position_m;
+  return axes == 1 ? Place{std::hypot(x_m, y_m), 0.0} : Place{x_m, y_m};
 }
 
 std::vector<Place> places(const std::vector<NamedPlace>& named) {
@@ -26,6 +28,16 @@ std::vector<Place> places(const std::vector<NamedPlace>& named) {
 
 TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps) {
   TrackerSettings settings;
+  settings.most_range_m = radar.most_range_m;
+  settings.most_azimuth_rad = radar.most_azimuth_rad;
+  if (radar.array_elements < 2) {
+    MotionModel along;
+    along.axes = 1;
+    along.acceleration_mps2 = 0.5;
+    settings.motion.motions = {along};
+    settings.detection.clutter_density *= 2.0 * radar.most_azimuth_rad;
+    return settings;
+  }
   MotionModel straight, turn;
   straight.acceleration_mps2 = 0.5;
   turn.kind = MotionKind::coordinated_turn;
@@ -33,8 +45,6 @@ TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed
   turn.turn_density_rad2_per_s3 = 1e-4;
   turn.radar_velocity_mps = {radar_speed_mps, 0.0};
   settings.motion = {{straight, turn}, 20.0};
-  settings.most_range_m = radar.most_range_m;
-  settings.most_azimuth_rad = radar.most_azimuth_rad;
   return settings;
 }
 
@@ -42,7 +52,7 @@ std::vector<NamedPlace> ScenarioFrame::targets(const core::HighwayScenario& scen
   std::vector<NamedPlace> result;
   for (std::size_t i = 0; i < truth.size(); ++i)
     if (truth[i].in_view && !scenario.targets[i].clutter)
-      result.push_back({static_cast<int>(i), place_of(motion[i])});
+      result.push_back({static_cast<int>(i), place_of(motion[i], axes)});
   return result;
 }
 
@@ -51,11 +61,11 @@ std::vector<NamedPlace> ScenarioFrame::confirmed(const core::HighwayScenario& sc
   for (const Track& track : tracker->tracks()) {
     if (!track.confirmed) continue;
     const Gaussian state = combined(track.state);
-    const Place place{state.mean[0], state.mean[1]};
+    const Place place{state.mean[0], axes == 1 ? 0.0 : state.mean[1]};
     bool at_clutter = false;
     for (std::size_t i = 0; i < motion.size(); ++i)
       at_clutter = at_clutter || (scenario.targets[i].clutter &&
-                                  distance_m(place, place_of(motion[i])) <= kGate_m);
+                                  distance_m(place, place_of(motion[i], axes)) <= kMatch_m);
     if (!at_clutter) result.push_back({track.id, place});
   }
   return result;
@@ -79,8 +89,7 @@ void ScenarioScore::add(const core::HighwayScenario& scenario, const ScenarioFra
 }
 
 void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
-                  const SimulationSettings& simulation, const TrackerSettings& settings,
-                  std::uint64_t seed, std::uint32_t run,
+                  const TrackerSettings& settings, const MeasureFrame& measure,
                   const std::function<void(const ScenarioFrame&)>& each) {
   // The last frame counts where the duration is a whole number of frames but for rounding.
   const double steps = std::floor(scenario.duration_s / radar.frame_s + 1e-9);
@@ -91,15 +100,31 @@ void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRada
   for (int i = 0; i <= static_cast<int>(steps); ++i) {
     ScenarioFrame frame;
     frame.time_s = i * radar.frame_s;
-    frame.measurements = simulated_frame(scenario, radar, simulation, seed, run, i);
+    const auto start = std::chrono::steady_clock::now();
+    frame.measurements = measure(i);
+    const auto measured = std::chrono::steady_clock::now();
     tracker.update(frame.time_s, frame.measurements);
+    const auto tracked = std::chrono::steady_clock::now();
+    frame.measuring_s = std::chrono::duration<double>(measured - start).count();
+    frame.tracking_s = std::chrono::duration<double>(tracked - measured).count();
     for (const core::HighwayTarget& target : scenario.targets) {
       frame.truth.push_back(truth_at(target, scenario.radar_speed_mps, radar, frame.time_s));
       frame.motion.push_back(relative_motion(target, scenario.radar_speed_mps, frame.time_s));
     }
     frame.tracker = &tracker;
+    frame.axes = settings.motion.axes();
     each(frame);
   }
+}
+
+void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
+                  const SimulationSettings& simulation, const TrackerSettings& settings,
+                  std::uint64_t seed, std::uint32_t run,
+                  const std::function<void(const ScenarioFrame&)>& each) {
+  run_scenario(
+      scenario, radar, settings,
+      [&](int frame) { return simulated_frame(scenario, radar, simulation, seed, run, frame); },
+      each);
 }
 
 }  // namespace fanbeam::tracking

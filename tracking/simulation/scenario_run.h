@@ -1,7 +1,7 @@
 // A tracker on a road scenario, frame after frame, with the truth beside it, and its score.
 //
 // Score over all frames: mean GOSPA and OSPA (p 2, c 5 m, alpha 2), CLEAR-MOT within 3 m, errors of
-// range and range rate of matched tracks. Targets that are marked as clutter need not be tracked:
+// range and range rate of matched tracks. Without azimuth, places are ranges. Targets that are marked as clutter need not be tracked:
 // they are no targets, and a track within 3 m of one is no false track.
 #pragma once
 
@@ -15,9 +15,12 @@
 
 namespace fanbeam::tracking {
 
+inline constexpr double kMatch_m = 3.0;
+
 // Straight on with 0.5 m/s2 of unknown acceleration, or a turn with 0.3 m/s2, each kept for 20 s on
-// average: a turning target that is not seen for a second goes on turning. Field of view of the
-// radar.
+// average: a turning target that is not seen for a second goes on turning. A radar of one element
+// tells no azimuth: then range alone is tracked, at constant speed with 0.5 m/s2, which loses what
+// passes close by. Field of view of the radar.
 TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps);
 
 struct ScenarioFrame {
@@ -26,6 +29,9 @@ struct ScenarioFrame {
   std::vector<core::RelativeMotion> motion;
   std::vector<RadarMeasurement> measurements;
   const Tracker* tracker = nullptr;
+  int axes = 2;  // that are tracked
+  // How long it took, on this machine.
+  double measuring_s = 0.0, tracking_s = 0.0;
 
   // In view, named by their place in the scenario.
   std::vector<NamedPlace> targets(const core::HighwayScenario& scenario) const;
@@ -34,7 +40,7 @@ struct ScenarioFrame {
 };
 
 struct ScenarioScore {
-  ClearMot mot{3.0};
+  ClearMot mot{kMatch_m};
   MeanSquare gospa_m, ospa_m;
   MeanSquare range_m, range_rate_mps;
   std::set<int> tracks;  // ever confirmed
@@ -42,8 +48,14 @@ struct ScenarioScore {
   void add(const core::HighwayScenario& scenario, const ScenarioFrame& frame);
 };
 
-// Calls `each` after every frame, from time 0 to the duration. Errors as of simulated_frame and
-// Tracker.
+using MeasureFrame = std::function<std::vector<RadarMeasurement>(int frame)>;
+
+// Calls `each` after every frame, from time 0 to the duration. Errors as of `measure` and Tracker.
+void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
+                  const TrackerSettings& settings, const MeasureFrame& measure,
+                  const std::function<void(const ScenarioFrame&)>& each);
+
+// With measurements of simulated_frame.
 void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
                   const SimulationSettings& simulation, const TrackerSettings& settings,
                   std::uint64_t seed, std::uint32_t run,

@@ -1,11 +1,10 @@
-// Tracks and measurements on the axes that a radar resolves: range, range rate, azimuth.
+// Tracks and measurements on the axes that a radar resolves: range, range rate, azimuth (0 without
+// one).
 #pragma once
 
 #include "tracking/filters/imm.h"
 
 namespace fanbeam::tracking {
-
-struct TrackerSettings;
 
 struct PolarPlace {
   double range_m = 0.0, range_rate_mps = 0.0, azimuth_rad = 0.0;
@@ -13,13 +12,33 @@ struct PolarPlace {
 PolarPlace polar(const ImmState& state);
 PolarPlace polar(const RadarMeasurement& measurement);
 
-// Closer than the resolution on all three axes.
-bool unresolved(const PolarPlace& a, const PolarPlace& b, const TrackerSettings& settings);
+struct Resolution {
+  double range_m = 1.3, range_rate_mps = 1.2, azimuth_rad = 0.15;
+};
+
+// Closer than the resolution on all axes.
+bool unresolved(const PolarPlace& a, const PolarPlace& b, const Resolution& resolution);
 
 // Position and velocity of a target seen once. Along the line of sight as uncertain as measured,
-// across it R sigma_azimuth in position and `tangential_sigma_mps` about 0 in velocity. Errors as
-// of observe().
-Gaussian start_state(const RadarMeasurement& measurement, double tangential_sigma_mps);
+// across it (on two axes) R sigma_azimuth in position and `tangential_sigma_mps` about 0 in
+// velocity. Errors as of observe().
+Gaussian start_state(const RadarMeasurement& measurement, int axes, double tangential_sigma_mps);
+
+// Tells cheaply that a measurement lies outside a gate: its normalised innovation squared is at
+// least that of range alone, and that of range rate alone. Never refuses one that lies inside.
+class QuickGate {
+ public:
+  QuickGate(const ImmState& state, Measured measured, double gate);
+  bool may_hold(const RadarMeasurement& measurement) const;
+
+ private:
+  struct Expected {
+    double value[2], variance[2];
+  };
+  std::vector<Expected> models_;
+  double gate_;
+  std::size_t axes_;
+};
 
 struct WeightedImm {
   double weight = 0.0;

@@ -1,0 +1,45 @@
+#include "apps/fmcw/bscope_product.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+#include "apps/frame_writer.h"
+#include "core/image.h"
+#include "renderer/plan/effect_catalogue.h"
+#include "sensors/display/display.h"
+
+namespace fanbeam::apps {
+
+SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwOptions& options) {
+  const core::Pose pose = scene.trajectory.at(
+      scene.trajectory.frame_time_s(frame, scene.description.sensor.scan.frame_rate_Hz));
+  const renderer::FramePose frame_pose = scene.frame_pose(frame);
+  SignalBscopeSettings settings;
+  settings.rays_per_cell = options.rays_per_cell;
+  settings.looks = options.looks;
+  settings.own_velocity_mps = frame_pose.north_east_down * pose.v_N_mps;
+  if (scene.plan.runs(renderer::kMultipath)) settings.multipath = renderer::Multipath::coherent;
+  settings.swerling = scene.plan.runs(renderer::kSwerling);
+  settings.noise = scene.plan.runs(renderer::kThermalNoise);
+  settings.line_width_Hz = options.line_width_Hz;
+  settings.adc_bits = options.adc_bits;
+  settings.seed = options.seed;
+  return signal_bscope(scene.world, frame_pose, settings);
+}
+
+void write_bscope(const std::filesystem::path& folder, const sensors::Sensor& sensor, int frame,
+                  const SignalBscope& bscope) {
+  const core::Metadata metadata = {{"fanbeam:product", "bscope"},
+                                   {"fanbeam:frame", std::to_string(frame)},
+                                   {"fanbeam:looks", std::to_string(bscope.looks)}};
+  const std::filesystem::path file = folder / "bscope" / fmt::format("{:05}", frame);
+  core::write_png(file.string() + ".png",
+                  sensors::bscope_picture(sensor, sensors::bscope_grey(sensor, bscope.power_W)),
+                  metadata);
+  core::Image image{sensor.scan.columns, sensor.range.cells, {}};
+  image.layers.push_back({"power_W", farthest_on_top(bscope.power_W, sensor.scan.columns)});
+  core::write_exr(file.string() + ".exr", image, metadata);
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,20 @@
+// Product "bscope" of fanbeam fmcw: from a frame of a scene to its files.
+#pragma once
+
+#include <filesystem>
+
+#include "apps/fmcw/signal_bscope.h"
+#include "apps/fmcw_command.h"
+#include "scenes/scene.h"
+
+namespace fanbeam::apps {
+
+// With the effects of the scene's plan that the signal level has, moving as the trajectory does.
+SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwOptions& options);
+
+// DIR/bscope/00000.png, grey as the sensor's display shows it, and 00000.exr, watts: both laid out
+// as those of fanbeam render, the farthest range on top. Throws InputError E-IO.
+void write_bscope(const std::filesystem::path& folder, const sensors::Sensor& sensor, int frame,
+                  const SignalBscope& bscope);
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,27 @@
+// Which scene a command works on: what the commands that load one ask for in the same words.
+#pragma once
+
+#include <string>
+
+#include "core/errors.h"
+#include "scenes/description.h"
+
+namespace CLI {
+class App;
+}
+
+namespace fanbeam::apps {
+
+struct SceneChoice {
+  std::string scene = "braunschweig-26";  // as find_scene takes it
+  std::string sensor;                     // file instead of the scene's
+  std::string data;                       // folder looked at first, see data_folders
+};
+
+// SCENE, --sensor and --data.
+void add_scene_choice(CLI::App& command, SceneChoice& choice);
+
+// What is wrong with the scene is in `problems`; throws InputError as find_scene and shipped_folder.
+scenes::SceneDescription read_chosen_scene(const SceneChoice& choice, core::ProblemList& problems);
+
+}  // namespace fanbeam::apps

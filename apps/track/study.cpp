@@ -1,0 +1,34 @@
+#include "apps/track/study.h"
+
+#include <fmt/format.h>
+
+#include "core/files.h"
+
+namespace fanbeam::apps {
+
+int track_study(const std::vector<const core::HighwayScenario*>& scenarios,
+                const core::HighwayRadar& radar, std::uint64_t seed,
+                const std::filesystem::path& folder, const CommonOptions& common) {
+  std::string page;
+  const auto add = [&](const char* what, const StudyPart& part) {
+    page += part.text + "\n";
+    for (const auto& [name, plot] : part.plots) {
+      for (const char* ending : {".svg", ".png"}) write_plot(plot, folder / (name + ending));
+      page += fmt::format("![{}]({}.png)\n\n", plot.title, name);
+    }
+    if (!common.quiet) fmt::print("{}\n", what);
+  };
+  add("buffer", study_buffer(radar, seed));
+  add("noise figure", study_noise_figure(radar, seed));
+  add("ghosts", study_ghosts(radar, seed));
+  add("waveforms and associations", study_tracks(scenarios, radar, seed));
+  add("crossings", study_crossing(seed));
+  while (page.ends_with("\n\n")) page.pop_back();
+  core::write_file_atomically(folder / "study.md", page);
+  if (!common.quiet)
+    fmt::print("record {}\n",
+               std::filesystem::absolute(folder / "study.md").lexically_normal().string());
+  return kExitDone;
+}
+
+}  // namespace fanbeam::apps

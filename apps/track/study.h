@@ -1,0 +1,40 @@
+// What accuracy costs a road radar: buffer, noise figure, waveform and association against error
+// and time, as one page of tables and its plots.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "apps/common.h"
+#include "apps/gnuplot.h"
+#include "core/highway.h"
+
+namespace fanbeam::apps {
+
+// A table of Markdown, and the plots that belong to it, by file name without ending.
+struct StudyPart {
+  std::string text;
+  std::vector<std::pair<std::string, Plot>> plots;
+};
+
+// One car of 10 m2 at 100 m that closes at 100 km/h, measured from samples of `triangles` triangles
+// of 2 ms ramps: root mean square errors of 100 draws.
+StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed);
+// The same of one triangle, over the noise figure.
+StudyPart study_noise_figure(const core::HighwayRadar& radar, std::uint64_t seed);
+// Missed targets and ghosts of every waveform over the number of targets: ranges 10 to 200 m,
+// speeds within 60 m/s, one beam, a match within 1 m and 1 m/s, 200 frames.
+StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed);
+// Waveforms x associations in each scenario, 10 runs each; and from samples, one.
+StudyPart study_tracks(const std::vector<const core::HighwayScenario*>& scenarios,
+                       const core::HighwayRadar& radar, std::uint64_t seed);
+// Swaps of a pair 3 km/h apart over what is known of its speeds: the closed form, what the tracker
+// would say on average, and what happens.
+StudyPart study_crossing(std::uint64_t seed);
+
+// Writes study.md and its plots into `folder`.
+int track_study(const std::vector<const core::HighwayScenario*>& scenarios,
+                const core::HighwayRadar& radar, std::uint64_t seed,
+                const std::filesystem::path& folder, const CommonOptions& common);
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,42 @@
+#!/usr/bin/env bash
+# Writes the measured parts of docs/tracking.md (between the marks "study" of that page) and its plots in docs/images/
+# from real runs of `fanbeam track`. Two minutes on two cores. Build first: ./dev build.
+# The scenarios are those of a file in the format of scenes/highway_reader.h, S1 to S4: its path is the argument.
+set -euo pipefail
+
+root="$(dirname -- "$(dirname -- "$(readlink -f -- "${BASH_SOURCE[0]}")")")"
+cd -- "$root"
+fanbeam=${FANBEAM:-build/release/bin/fanbeam}
+work=build/tracking-study
+page=docs/tracking.md
+scenarios=${1:-../shared/reference/highway-scenarios.json}
+
+[[ -x $fanbeam ]] || { echo "no $fanbeam: call ./dev build first" >&2; exit 1; }
+[[ -f $scenarios ]] || { echo "no $scenarios: name the file of scenarios" >&2; exit 1; }
+
+"$fanbeam" track "$scenarios" --study -q -o "$work/study"
+"$fanbeam" track "$scenarios" --plots -q -o "$work/two-stage"
+"$fanbeam" track "$scenarios" --scenario S2 --waveform triangle --plots -q -o "$work/triangle"
+"$fanbeam" track "$scenarios" --scenario S3 --range-only --plots -q -o "$work/range-only"
+"$fanbeam" track "$scenarios" --scenario S2 --samples --plots -q -o "$work/samples"
+
+copy() { install -m 644 -- "$work/$1.png" "docs/images/tracking-$2.png"; }
+copy two-stage/S1/errors s1-errors
+copy two-stage/S2/ranges s2-ranges
+copy two-stage/S2/errors s2-errors
+copy two-stage/S3/ranges s3-ranges
+copy two-stage/S4/ranges s4-ranges
+copy triangle/S2/ranges s2-triangle-ranges
+copy range-only/S3/errors s3-range-only-errors
+copy samples/S2/ranges s2-samples-ranges
+for plot in buffer noise-figure missed ghosts crossing; do copy "study/$plot" "$plot"; done
+
+# Plots of the study stand beside its tables.
+sed -E 's#^!\[([^]]*)\]\(([a-z-]+)\.png\)#![\1](images/tracking-\2.png)#' "$work/study/study.md" >"$work/study.inc"
+awk -v part="$work/study.inc" '
+  /^<!-- study: end -->$/ { inside = 0 }
+  !inside { print }
+  /^<!-- study: begin -->$/ { inside = 1; while ((getline line < part) > 0) print line }
+' "$page" >"$page.new"
+mv -- "$page.new" "$page"
+echo "$page"

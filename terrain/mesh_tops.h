@@ -1,0 +1,37 @@
+// How high meshes reach over each square of a coarse grid: a bound that tells where to look for
+// them, and where not.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "terrain/mesh.h"
+
+namespace fanbeam::terrain {
+
+class MeshTops {
+ public:
+  static constexpr double kSpacing_m = 32.0;
+  static constexpr double kNothing_m = static_cast<double>(-1e30F);
+
+  MeshTops() = default;
+  explicit MeshTops(const std::vector<const TriangleMesh*>& meshes);
+
+  // Upper bound of the height over the square that holds the point, rounded to a float;
+  // kNothing_m where there is no mesh. A triangle counts for every square of its bounding box.
+  double top_m(double x_m, double y_m) const noexcept {
+    const double u = (x_m - west_m_) / kSpacing_m;
+    const double v = (y_m - south_m_) / kSpacing_m;
+    if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return kNothing_m;
+    return static_cast<double>(
+        top_m_[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(u)]);
+  }
+
+ private:
+  double west_m_ = 0.0, south_m_ = 0.0;
+  int columns_ = 0, rows_ = 0;
+  std::vector<float> top_m_;
+};
+
+}  // namespace fanbeam::terrain

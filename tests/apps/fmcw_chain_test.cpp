@@ -1,0 +1,88 @@
+// The receiving chain of fanbeam fmcw inside the program: draws of noise, and what is left out.
+#include <cmath>
+
+#include "apps/fmcw/chain.h"
+#include "sensors/sensor_file.h"
+#include "tests/apps/program.h"
+
+using namespace fanbeam;
+using namespace fanbeam::apps;
+
+namespace {
+
+sensors::Sensor automotive() {
+  core::ProblemList problems;
+  sensors::Sensor sensor =
+      sensors::read_sensor(FANBEAM_SOURCE_DIR "/sensors/automotive-76.toml", problems);
+  REQUIRE_FALSE(problems.has_errors());
+  return sensor;
+}
+
+// |mean of a conj(b)| over the first samples, 1 for equal rows.
+double correlation(const signal::FloatCube& a, const signal::FloatCube& b) {
+  const int count = std::min(a.shape.samples, b.shape.samples);
+  std::complex<double> sum = 0.0;
+  double a_W = 0.0, b_W = 0.0;
+  for (int n = 0; n < count; ++n) {
+    const std::complex<double> x(a.at(0, 0, n)), y(b.at(0, 0, n));
+    sum += x * std::conj(y);
+    a_W += std::norm(x);
+    b_W += std::norm(y);
+  }
+  return std::abs(sum) / std::sqrt(a_W * b_W);
+}
+
+}  // namespace
+
+TEST_CASE("The noise of a stage is that of no other stage, frame or seed", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwOptions options;
+  options.waveform = "two-slopes";
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  std::vector<signal::FloatCube> beats;
+  for (const std::uint64_t seed : {5U, 6U})
+    for (const int frame : {0, 1, 2}) {
+      options.seed = seed;
+      for (signal::FloatCube& beat : fmcw_frame(radar, sensor, {}, frame, options, {"beat"}).beats)
+        beats.push_back(std::move(beat));
+    }
+  REQUIRE(beats.size() == 12);
+  REQUIRE(beats[0].shape.samples >= 500);
+  // Independent rows of 500 samples: 0.25 is above five standard deviations.
+  for (std::size_t i = 0; i < beats.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      INFO("cubes " << k << " and " << i);
+      CHECK(correlation(beats[i], beats[k]) < 0.25);
+    }
+}
+
+TEST_CASE("A frame holds what its products need and nothing else", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwOptions options;
+  options.numbers[11] = 16.0;
+  REQUIRE(std::string(kWaveformNumbers[11].option) == "--chirps");
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.amplitude_sqrtW = 1e-6;
+  const auto made = [&](const std::set<std::string>& products) {
+    return fmcw_frame(radar, sensor, {path}, 0, options, products);
+  };
+  const FmcwFrame beat = made({"beat"});
+  CHECK_FALSE(beat.found);
+  CHECK(beat.range_doppler.values_W.empty());
+  CHECK(beat.cube.values.empty());
+  const FmcwFrame list = made({"detections"});
+  REQUIRE(list.found);
+  REQUIRE(list.found->detections.size() == 1);
+  CHECK(list.found->detections[0].range_m == Approx(40.0).margin(0.05).epsilon(0.0));
+  CHECK(list.found->clusters.size() == 1);
+  CHECK(list.cube.values.empty());
+  const FmcwFrame cube = made({"cube"});
+  CHECK_FALSE(cube.found);
+  CHECK(cube.cube.shape.channels == static_cast<int>(radar.azimuths_rad.size()));
+  CHECK(cube.range_azimuth.values_W.empty());
+  const FmcwFrame view = made({"top-view"});
+  CHECK(view.found);
+  CHECK_FALSE(view.top_view.values_W.empty());
+}

@@ -1,0 +1,76 @@
+// Measurements from samples up: as good as the bound where a car is alone, and good enough for the
+// tracker where six are not.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/tracking/highway_scenes.h"
+#include "tracking/simulation/sampled_frame.h"
+
+using namespace fanbeam;
+using namespace fanbeam::tracking;
+using namespace fanbeam::tests;
+
+TEST_CASE("From samples, a lone car is measured at the bound, in every frame, without ghosts",
+          "[sampled][statistics]") {
+  const SampledRadar radar(highway_radar());
+  const auto scenario = one_stopped_car();
+  MeanSquare range, rate, azimuth;
+  for (std::uint32_t run = 0; run < 40; ++run) {
+    const int frame = static_cast<int>(run) % 60;
+    const auto truth =
+        truth_at(scenario.targets[0], scenario.radar_speed_mps, highway_radar(), frame * 0.05);
+    const auto seen = radar.measure(scenario, 3, run, frame);
+    REQUIRE(seen.size() == 1);
+    range.add((seen[0].range_m - truth.range_m) / seen[0].range_sigma_m);
+    rate.add((seen[0].range_rate_mps - truth.range_rate_mps) / seen[0].range_rate_sigma_mps);
+    azimuth.add((seen[0].azimuth_rad - truth.azimuth_rad) / seen[0].azimuth_sigma_rad);
+  }
+  INFO("range " << range.rms() << ", rate " << rate.rms() << ", azimuth " << azimuth.rms());
+  // 40 normal values: 11 % in the root mean square, three of which are allowed.
+  CHECK(range.rms() == Approx(1.0).epsilon(0.0).margin(0.34));
+  CHECK(rate.rms() == Approx(1.0).epsilon(0.0).margin(0.34));
+  CHECK(azimuth.rms() < 1.5);
+}
+
+TEST_CASE("From samples, S2 is tracked as from frequencies, and twice with the same bits",
+          "[sampled][statistics]") {
+  const SampledRadar radar(highway_radar());
+  const core::HighwayScenario scenario = six_vehicles();
+  ScenarioScore score;
+  int missed = 0, ghosts = 0, instances = 0, frames = 0;
+  run_scenario(
+      scenario, highway_radar(), road_tracker(highway_radar(), kRoadSpeed_mps),
+      [&](int frame) { return radar.measure(scenario, 4, 0, frame); },
+      [&](const Frame& frame) {
+        score.add(scenario, frame);
+        ++frames;
+        const auto match = [](const RadarMeasurement& one, const core::HighwayTruth& truth) {
+          return std::abs(one.range_m - truth.range_m) <= 1.0 &&
+                 std::abs(one.range_rate_mps - truth.range_rate_mps) <= 1.0;
+        };
+        for (const auto& truth : frame.truth) {
+          instances += truth.in_view;
+          missed +=
+              truth.in_view && std::none_of(frame.measurements.begin(), frame.measurements.end(),
+                                            [&](const auto& one) { return match(one, truth); });
+        }
+        for (const auto& one : frame.measurements)
+          ghosts += std::none_of(frame.truth.begin(), frame.truth.end(), [&](const auto& truth) {
+            return truth.in_view && match(one, truth);
+          });
+      });
+  INFO("missed " << missed << " of " << instances << ", ghosts " << ghosts << " in " << frames
+                 << " scans, GOSPA " << score.gospa_m.mean() << " m, MOTA " << score.mot.mota()
+                 << ", tracks " << score.tracks.size() << ", range " << score.range_m.rms()
+                 << " m rms");
+  CHECK(missed <= 0.03 * instances);
+  CHECK(ghosts <= 0.02 * frames);
+  CHECK(score.tracks.size() == 6);
+  CHECK(score.mot.switches() == 0);
+  CHECK(score.gospa_m.mean() <= 0.5);
+  CHECK(score.mot.mota() >= 0.98);
+  const auto first = radar.measure(scenario, 4, 0, 7), again = radar.measure(scenario, 4, 0, 7);
+  REQUIRE(first.size() == again.size());
+  for (std::size_t i = 0; i < first.size(); ++i) CHECK(first[i].range_m == again[i].range_m);
+}

@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/constants.h"
+#include "signal/pairing/ghost_free.h"
+#include "tracking/simulation/simulation_private.h"
+
+namespace fanbeam::tracking {
+namespace {
+
+constexpr double kBeamwidth = 0.8859;
+constexpr double kCoarseFrame_s = 256 * 20e-6;
+constexpr double kFlat_s = 2e-3, kHop_Hz = 700e3;
+
+// Targets that the coarse stage cannot tell apart become one.
+std::vector<Seen> merged(std::vector<Seen> targets,
+                         const std::function<bool(const Seen&, const Seen&)>& together) {
+  for (std::size_t i = 0; i < targets.size(); ++i)
+    for (std::size_t j = i + 1; j < targets.size();) {
+      Seen &a = targets[i], &b = targets[j];
+      if (!together(a, b)) {
+        ++j;
+        continue;
+      }
+      const double share = a.power / (a.power + b.power);
+      a.range_m = share * a.range_m + (1.0 - share) * b.range_m;
+      a.rate_mps = share * a.rate_mps + (1.0 - share) * b.rate_mps;
+      a.azimuth_rad = share * a.azimuth_rad + (1.0 - share) * b.azimuth_rad;
+      a.power += b.power;
+      targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(j));
+    }
+  return targets;
+}
+
+// A chirp sequence has cells of range, speed and azimuth; the flat stretch none of range.
+std::vector<Seen> coarse_targets(const std::vector<Seen>& targets, const core::HighwayRadar& radar,
+                                 const SimulationSettings& settings) {
+  const bool coded = settings.scheme == Scheme::coded;
+  const double wavelength_m = core::kSpeedOfLight_mps / radar.centre_frequency_Hz;
+  const double cell_m = core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz);
+  const double cell_mps = wavelength_m / (2.0 * (coded ? kFlat_s : kCoarseFrame_s));
+  const double beam_rad = kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths);
+  return merged(targets, [&](const Seen& a, const Seen& b) {
+    return (coded || std::abs(a.range_m - b.range_m) < settings.merge_bins * cell_m) &&
+           std::abs(a.rate_mps - b.rate_mps) < settings.merge_bins * cell_mps &&
+           std::abs(std::sin(a.azimuth_rad) - std::sin(b.azimuth_rad)) < beam_rad;
+  });
+}
+
+signal::RangeSpeed coarse_sigma(const Seen& target, const core::HighwayRadar& radar,
+                                const SimulationSettings& settings) {
+  if (settings.scheme != Scheme::coded)
+    return {settings.coarse_range_sigma_m, settings.coarse_speed_sigma_mps};
+  const double ratio = target.bound.signal_to_noise * kFlat_s / kFineRamp_s;
+  const double wavelength_m = core::kSpeedOfLight_mps / radar.centre_frequency_Hz;
+  return {core::kSpeedOfLight_mps / (4.0 * core::kPi * kHop_Hz) * std::sqrt(2.0 / ratio),
+          0.5 * wavelength_m * std::sqrt(6.0 / ratio) / (2.0 * core::kPi * kFlat_s)};
+}
+
+}  // namespace
+
+std::vector<RadarMeasurement> coarse_to_fine(
+    const signal::TriangleModel& fine, const RampPeaks& peaks, const std::vector<Seen>& targets,
+    const core::HighwayRadar& radar, const SimulationSettings& settings, const Draws& draws) {
+  const std::vector<Seen> coarse = coarse_targets(targets, radar, settings);
+  std::vector<RadarMeasurement> result;
+  for (std::size_t i = 0; i < coarse.size(); ++i) {
+    const signal::RangeSpeed sigma = coarse_sigma(coarse[i], radar, settings);
+    const auto noise = draws.normal(i, 3);
+    const signal::RangeSpeed place{coarse[i].range_m + sigma.range_m * noise[0],
+                                   coarse[i].rate_mps + sigma.radial_speed_mps * noise[1]};
+    signal::TwoStageOptions options;
+    // Merged beats are up to 0.6 bin away, whatever the coarse stage knows.
+    options.coarse_range_sigma_m = std::max(sigma.range_m, settings.coarse_range_sigma_m);
+    options.coarse_speed_sigma_mps =
+        std::max(sigma.radial_speed_mps, settings.coarse_speed_sigma_mps);
+    const auto refined =
+        signal::refine_two_stage({place}, {fine, peaks.up.Hz, peaks.down.Hz}, options);
+    result.push_back(with_sigmas(refined[0], coarse[i].azimuth_rad, coarse[i].bound));
+  }
+  return result;
+}
+
+}  // namespace fanbeam::tracking

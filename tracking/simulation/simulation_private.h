@@ -1,0 +1,52 @@
+// What one simulated frame consists of: draws, targets seen, peaks of ramps.
+#pragma once
+
+#include <array>
+
+#include "core/random.h"
+#include "signal/pairing/triangle.h"
+#include "tracking/simulation/measurement_simulator.h"
+
+namespace fanbeam::tracking {
+
+// All draws of one frame.
+class Draws {
+ public:
+  Draws(std::uint64_t seed, std::uint32_t run, int frame)
+      : key_{seed, core::kStreamHighway, static_cast<std::uint32_t>(frame)}, run_(run) {}
+  std::array<double, 2> normal(std::size_t cell, std::uint32_t draw) const {
+    return core::normal_pair(key_, at(cell), draw);
+  }
+  double uniform(std::size_t cell, std::uint32_t draw, std::size_t word = 0) const {
+    return core::uniform_from(core::random_words(key_, at(cell), draw)[word]);
+  }
+
+ private:
+  std::uint64_t at(std::size_t cell) const { return (std::uint64_t{run_} << 32U) + cell; }
+  core::RandomKey key_;
+  std::uint32_t run_;
+};
+
+struct Seen {
+  double range_m = 0.0, rate_mps = 0.0, azimuth_rad = 0.0, power = 0.0;  // azimuth with its noise
+  MeasurementBound bound;
+};
+
+// Beats of one ramp that the radar sees, with the direction they come from.
+struct Peaks {
+  std::vector<double> Hz, azimuth_rad, power;
+};
+struct RampPeaks {
+  Peaks up, down;
+};
+
+RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad,
+                             const MeasurementBound& bound);
+
+// Coarse ranges and speeds from a chirp sequence, or from the coded flat stretch of a triangle,
+// refined by the triangle's beats.
+std::vector<RadarMeasurement> coarse_to_fine(
+    const signal::TriangleModel& fine, const RampPeaks& peaks, const std::vector<Seen>& targets,
+    const core::HighwayRadar& radar, const SimulationSettings& settings, const Draws& draws);
+
+}  // namespace fanbeam::tracking

@@ -1,0 +1,106 @@
+// Pairs that the radar cannot resolve: set aside, parted again, given up.
+#include <algorithm>
+#include <limits>
+
+#include "tracking/association/crossing.h"
+#include "tracking/tracker/tracker_frame_private.h"
+
+namespace fanbeam::tracking {
+namespace {
+
+// Lets a track take part again, with all of its coasting before it.
+void release(Track& track) {
+  track.unresolved_with.reset();
+  track.unresolved_s = 0.0;
+  track.coasted = 1;
+}
+
+void set_aside(Track& track, const Track& with) {
+  track.unresolved_with = with.id;
+  track.unresolved_s = 0.0;
+}
+
+}  // namespace
+
+// Pairs stay together until `part` or time separates them.
+void Tracker::find_unresolved(double step_s) {
+  std::vector<PolarPlace> places;
+  for (Track& track : tracks_) {
+    places.push_back(polar(track.state));
+    if (!track.unresolved_with) continue;
+    track.unresolved_s += step_s;
+    if (track.unresolved_s <= settings_.most_unresolved_s) continue;
+    track.given_up_with = track.unresolved_with;
+    release(track);
+  }
+  for (std::size_t i = 0; i < tracks_.size(); ++i)
+    for (std::size_t j = i + 1; j < tracks_.size(); ++j) {
+      Track &a = tracks_[i], &b = tracks_[j];
+      const bool close = unresolved(places[i], places[j], settings_.resolution);
+      if (!close) {
+        if (a.given_up_with == b.id) a.given_up_with.reset();
+        if (b.given_up_with == a.id) b.given_up_with.reset();
+        continue;
+      }
+      if (!a.confirmed || !b.confirmed || a.unresolved_with || b.unresolved_with ||
+          a.given_up_with == b.id || b.given_up_with == a.id)
+        continue;
+      set_aside(a, b);
+      set_aside(b, a);
+    }
+}
+
+void Tracker::part(Frame& frame) {
+  for (Track& a : tracks_) {
+    if (!a.unresolved_with) continue;
+    const auto b = std::find_if(tracks_.begin(), tracks_.end(),
+                                [&](const Track& one) { return one.id == *a.unresolved_with; });
+    if (b == tracks_.end() || b->unresolved_with != a.id) {
+      release(a);
+      continue;
+    }
+    if (b->id < a.id || unresolved(polar(a.state), polar(b->state), settings_.resolution)) continue;
+    part(a, *b, frame);
+  }
+}
+
+// Lets a pair that is predicted apart go if there is a measurement for each.
+void Tracker::part(Track& a, Track& b, Frame& frame) {
+  constexpr double kNone = -std::numeric_limits<double>::infinity();
+  const std::vector<RadarMeasurement>& seen = frame.measurements;
+  const auto fits = [&](const Track& track) {
+    std::vector<double> result(seen.size(), kNone);
+    const QuickGate gate(track.state, measured_, gate_);
+    for (std::size_t j = 0; j < seen.size(); ++j) {
+      if (frame.used[j] || !gate.may_hold(seen[j])) continue;
+      const Update told = innovation(track.state, measured_, seen[j]);
+      if (told.applied && told.normalised_innovation_squared <= gate_)
+        result[j] = told.log_likelihood;
+    }
+    return result;
+  };
+  const std::vector<double> fits_a = fits(a), fits_b = fits(b);
+  double best = kNone;
+  std::size_t first = 0, second = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    for (std::size_t j = 0; j < seen.size(); ++j) {
+      if (i == j || !(fits_a[i] + fits_b[j] > best) ||
+          unresolved(polar(seen[i]), polar(seen[j]), settings_.resolution))
+        continue;
+      best = fits_a[i] + fits_b[j];
+      first = i;
+      second = j;
+    }
+  if (best == kNone) return;
+  const double kept = kept_probability(a.state, b.state, measured_, seen[first], seen[second]);
+  release(a);
+  release(b);
+  hit(a, seen[first]);
+  hit(b, seen[second]);
+  frame.used[first] = frame.used[second] = true;
+  a.identity_probability *= kept;
+  b.identity_probability *= kept;
+  crossings_.push_back({frame.time_s, a.id, b.id, 1.0 - kept});
+}
+
+}  // namespace fanbeam::tracking
