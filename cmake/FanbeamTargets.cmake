@@ -12,20 +12,15 @@ target_compile_options(fanbeam_options INTERFACE
   -ffp-contract=off
   -Wall -Wextra -Wshadow -Wdouble-promotion -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor)
 if(FANBEAM_SANITIZER STREQUAL "address")
+  # With the coverage that libFuzzer steers by and the checks of the standard library. The cast of a number beyond its
+  # integer type is no part of "undefined".
   target_compile_options(fanbeam_options INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
-    # GCC 12 sees uninitialised members in the standard library's regex once it is instrumented.
-    -Wno-maybe-uninitialized)
+    -fsanitize=address,undefined,float-cast-overflow,fuzzer-no-link -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_compile_definitions(fanbeam_options INTERFACE _GLIBCXX_ASSERTIONS)
   target_link_options(fanbeam_options INTERFACE -fsanitize=address,undefined)
 elseif(FANBEAM_SANITIZER STREQUAL "thread")
   target_compile_options(fanbeam_options INTERFACE -fsanitize=thread -fno-omit-frame-pointer)
   target_link_options(fanbeam_options INTERFACE -fsanitize=thread)
-elseif(FANBEAM_SANITIZER STREQUAL "fuzz")
-  # As for "address", with the coverage that libFuzzer steers by and the checks of the standard library. The cast of a
-  # number beyond its integer type is no part of "undefined".
-  target_compile_options(fanbeam_options INTERFACE
-    -fsanitize=address,undefined,float-cast-overflow,fuzzer-no-link -fno-sanitize-recover=all -fno-omit-frame-pointer)
-  target_compile_definitions(fanbeam_options INTERFACE _GLIBCXX_ASSERTIONS)
 endif()
 
 # fanbeam_library(core PUBLIC a b PRIVATE c d): sources are all .cpp files in and under the folder.
@@ -33,6 +28,7 @@ function(fanbeam_library name)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "*.cpp")
   add_library(fanbeam_${name} STATIC ${sources})
+  set_target_properties(fanbeam_${name} PROPERTIES UNITY_BUILD ${FANBEAM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
   add_library(fanbeam::${name} ALIAS fanbeam_${name})
   set_target_properties(fanbeam_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(fanbeam_${name} PUBLIC

@@ -14,6 +14,7 @@
 #include <unistd.h>
 #include <xmmintrin.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -120,11 +121,12 @@ void on_trap(int signal, siginfo_t* info, void* context) {
   const bool harmless = (program.holds(address) && instruction.vector) ||
                         (info->si_code == FPE_FLTINV && only_meets_nan(instruction));
   if (ours && !harmless) {
+    static std::atomic_flag told = ATOMIC_FLAG_INIT;
+    while (told.test_and_set()) pause();  // another thread's trap ends the process
     _mm_setcsr(_mm_getcsr() | kTrapped);
     report(info->si_code, address);
-    __real_sigaction(SIGFPE, &of_catch, nullptr);  // tells which test it was
     if ((of_catch.sa_flags & SA_SIGINFO) == 0 && of_catch.sa_handler != SIG_DFL)
-      of_catch.sa_handler(signal);
+      of_catch.sa_handler(signal);  // tells which test it was
     std::_Exit(1);
   }
   machine->uc_mcontext.fpregs->mxcsr |= kTrapped;

@@ -8,11 +8,11 @@
 namespace fanbeam::materials {
 namespace {
 
-struct Coefficients {
+struct SeaCoefficients {
   double c1, c2, c3, c4, c5;
 };
-constexpr Coefficients kHorizontal = {-73.0, 20.781, 7.351, 25.65, 0.0054};
-constexpr Coefficients kVertical = {-50.796, 25.93, 0.7093, 21.588, 0.00211};
+constexpr SeaCoefficients kHorizontal = {-73.0, 20.781, 7.351, 25.65, 0.0054};
+constexpr SeaCoefficients kVertical = {-50.796, 25.93, 0.7093, 21.588, 0.00211};
 
 }  // namespace
 
@@ -21,7 +21,7 @@ double nrl_sea_sigma0(Polarisation polarisation, double sea_state, double freque
   require_range("frequency_Hz", frequency_Hz, kNrlSeaLowest_Hz, kNrlSeaHighest_Hz);
   require_range("sea_state", sea_state, 0.0, 6.0);
   if (!(grazing_rad > 0.0)) return 0.0;
-  const Coefficients& k = polarisation == Polarisation::horizontal ? kHorizontal : kVertical;
+  const SeaCoefficients& k = polarisation == Polarisation::horizontal ? kHorizontal : kVertical;
   const double psi_deg = core::degrees(grazing_rad);
   const double frequency_term =
       (27.5 + k.c3 * psi_deg) * std::log10(frequency_Hz / 1e9) / (1.0 + 0.95 * psi_deg);

@@ -12,7 +12,7 @@ using core::ErrorClass;
 using core::Polarisation;
 
 constexpr std::size_t kMostEntries = 64;
-constexpr std::size_t kMostRows = 1000;
+constexpr std::size_t kMostAngles = 1000;
 constexpr double kDefaultReach = 0.1;
 constexpr core::NumberRange kFrequency_GHz{0.1, 300.0};
 
@@ -54,8 +54,8 @@ PhongNrcs read_phong(const JsonNode& node) {
 
 TabulatedNrcs read_table(const JsonNode& node) {
   const JsonNode angles = node.required("grazing_deg"), values = node.required("sigma0_dB");
-  const std::vector<double> grazing_deg = angles.numbers({0.0, 90.0, true}, kMostRows);
-  const std::vector<double> sigma0_dB = values.numbers({-200.0, 60.0}, kMostRows);
+  const std::vector<double> grazing_deg = angles.numbers({0.0, 90.0, true}, kMostAngles);
+  const std::vector<double> sigma0_dB = values.numbers({-200.0, 60.0}, kMostAngles);
   std::vector<NrcsSample> rows;
   for (std::size_t i = 0; i < std::min(grazing_deg.size(), sigma0_dB.size()); ++i) {
     rows.push_back({core::radians(grazing_deg[i]), core::power_from_dB(sigma0_dB[i])});

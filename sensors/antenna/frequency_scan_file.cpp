@@ -15,13 +15,13 @@ namespace {
 using core::ErrorClass;
 using core::number_text;
 
-constexpr std::size_t kMostTableRows = 4096;
+constexpr std::size_t kMostScanRows = 4096;
 constexpr std::int64_t kHighestMode = 1000;
 constexpr double kMostBinsPerCell = 100.0;
 constexpr double kSweepTolerance = 0.01;
 
 std::vector<double> increasing(core::ConfigTable& table, const char* key, core::NumberRange range) {
-  std::vector<double> values = table.numbers(key, range, 2, kMostTableRows);
+  std::vector<double> values = table.numbers(key, range, 2, kMostScanRows);
   if (!table.has(key)) table.error(ErrorClass::ref, key, "missing", "an array of numbers");
   const auto bad = std::adjacent_find(values.begin(), values.end(), std::greater_equal<>());
   if (bad != values.end())
