@@ -89,7 +89,8 @@ SceneFigures measure(const BenchScene& scene, bool city, const Effort& effort, i
   return figures;
 }
 
-Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int threads) {
+Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int threads,
+               const MachineLoad& machine) {
   Report report;
   report.threads = threads;
   report.quick = effort.quick;
@@ -97,6 +98,7 @@ Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int 
     report.scenes.push_back(measure(scene, &scene == &scenes.back(), effort, threads));
   if (const auto obstacles = load(kObstacleScene))
     report.agreement.push_back(measure_agreement(view_at(*obstacles, kDistances_m[1]), effort));
+  report.other_cores = machine.other_cores();  // what follows is not timed
   report.estimates = check_estimates(effort);
   return report;
 }
@@ -137,8 +139,7 @@ void run(const Options& options) {
   }
   if (!options.report) return;
   Report report =
-      measure(scenes, options.quick ? quick_effort() : full_effort(), threads.threads());
-  report.other_cores = machine.other_cores();
+      measure(scenes, options.quick ? quick_effort() : full_effort(), threads.threads(), machine);
   report.skipped = std::move(skipped);
   report.notes = notes();
   if (options.report_file.empty()) {

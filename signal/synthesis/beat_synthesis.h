@@ -15,7 +15,7 @@
 // Error: relative L2 difference from reference_beat at most `relative_error`. Down to 1e-5 the
 // arithmetic is float, below it is double. Allowed: 1e-10 to 1e-2; E-RANGE otherwise. A float
 // result is rounded to 6e-8 at the end.
-// Cost: 1000 paths into 400 x 256 x 12 samples take about 40 ms on one thread with AVX2, seven times
+// Cost: 1000 paths into 400 x 256 x 12 samples take about 45 ms on one thread with AVX2, seven times
 // that to 1e-6 (docs/fmcw.md). It grows with paths x chirps x channels, plus the transforms. Above some 20 000
 // paths see keystone_synthesis.h.
 // The same bits for any number of threads. Sums in the order of the paths.
