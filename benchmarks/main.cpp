@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "benchmarks/cases.h"
+#include "benchmarks/estimate_check.h"
 #include "benchmarks/ladder_plot.h"
 #include "benchmarks/machine_load.h"
 #include "benchmarks/report.h"
@@ -24,13 +25,14 @@ constexpr double kDistances_m[] = {2500.0, 1000.0};
 constexpr std::uint64_t kLargestNotes_bytes = 1 << 20;
 
 constexpr const char* kUsage =
-    "Usage: fanbeam_bench [--report FILE] [--no-report] [--no-cases] [--quick] "
+    "Usage: fanbeam_bench [--report FILE] [--no-report] [--no-cases] [--estimates] [--quick] "
     "[--threads N] [--benchmark_...]\n"
     "\n"
     "  --report FILE   write the report there instead of to the standard output, and its plots\n"
     "                  into the folder images beside it\n"
     "  --no-report     only the google-benchmark cases\n"
     "  --no-cases      only the report\n"
+    "  --estimates     only the report's section on the errors that frames state; not timed\n"
     "  --quick         coarse and short, to try the report: its figures mean nothing\n"
     "  --threads N     threads to use (2, which the targets are set for; 0 for all cores)\n"
     "  --benchmark_... options of google-benchmark, as --benchmark_filter=frame\n";
@@ -39,6 +41,7 @@ struct Options {
   std::string report_file;
   bool report = true;
   bool cases = true;
+  bool estimates_alone = false;
   bool quick = false;
   int threads = 2;
 };
@@ -53,6 +56,8 @@ Options parse(int count, char** arguments) {
       options.report = false;
     } else if (argument == "--no-cases") {
       options.cases = false;
+    } else if (argument == "--estimates") {
+      options.estimates_alone = true;
     } else if (argument == "--quick") {
       options.quick = true;
     } else if (argument == "--report" && has_value) {
@@ -124,6 +129,11 @@ void write(Report& report, const fs::path& file) {
 void run(const Options& options) {
   const MachineLoad machine;
   const core::ThreadLimit threads(options.threads);
+  const Effort effort = options.quick ? quick_effort() : full_effort();
+  if (options.estimates_alone) {
+    fmt::print("{}", estimates_markdown(check_estimates(effort)));
+    return;
+  }
   std::vector<BenchScene> scenes;
   std::vector<std::string> skipped;
   for (const char* name : {kDefaultScene, kCityScene}) {
@@ -138,8 +148,7 @@ void run(const Options& options) {
     benchmark::RunSpecifiedBenchmarks();
   }
   if (!options.report) return;
-  Report report =
-      measure(scenes, options.quick ? quick_effort() : full_effort(), threads.threads(), machine);
+  Report report = measure(scenes, effort, threads.threads(), machine);
   report.skipped = std::move(skipped);
   report.notes = notes();
   if (options.report_file.empty()) {

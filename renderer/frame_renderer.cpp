@@ -124,7 +124,7 @@ std::optional<ErrorEstimate> FrameRenderer::cast(const sensors::AntennaFrame& an
     if (double_bounce_) double_bounce_->add(antenna, sums);
     return std::nullopt;
   }
-  return Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_.thermal_noise)
+  return Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_)
       .cast(antenna, with_cscope, sums, sight);
 }
 

@@ -21,25 +21,44 @@ std::vector<double> mean_squares(const std::vector<double>& one, const std::vect
   return sums;
 }
 
+std::vector<double> plus(std::vector<double> values, const std::vector<double>& more) {
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] += more[i];
+  return values;
+}
+
 }  // namespace
+
+ColumnError::ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column,
+                         const FanSums& common, bool noise)
+    : sensor_(sensor), sub_columns_(sub_columns_per_column) {
+  common_W_ = bscope_W(common);
+  common_W_m3_ = cscope_W_m3(common);
+  if (!noise) return;
+  for (double& cell : common_W_) cell += sensor.noise_power_W();
+  for (double& cell : common_W_m3_) cell += sensors::cscope_noise_W_m3(sensor);
+}
+
+std::vector<double> ColumnError::bscope_W(const FanSums& fan) const {
+  std::vector<double> image =
+      apply_azimuth_beam(fan.range_W_per_rad, fan.cells, fan, sensor_, sub_columns_);
+  add_azimuth_side_lobes(fan.range_W_per_rad, fan.cells, fan, sensor_, image);
+  return image;
+}
+
+std::vector<double> ColumnError::cscope_W_m3(const FanSums& fan) const {
+  std::vector<double> image =
+      apply_azimuth_beam(fan.elevation_W_m3_per_rad, fan.rows, fan, sensor_, sub_columns_);
+  add_azimuth_side_lobes(fan.elevation_W_m3_per_rad, fan.rows, fan, sensor_, image);
+  return image;
+}
 
 ColumnError::Squares ColumnError::between(const FanSums& one, const FanSums& other) const {
   const auto columns = static_cast<std::size_t>(sensor_.scan.columns);
-  const auto picture = [&](const std::vector<double>& power, int bins, const FanSums& fan,
-                           double noise) {
-    std::vector<double> image = apply_azimuth_beam(power, bins, fan, sensor_, sub_columns_);
-    add_azimuth_side_lobes(power, bins, fan, sensor_, image);
-    for (double& pixel : image) pixel += noise;
-    return image;
-  };
   const auto bscope = [&](const FanSums& fan) {
-    return sensors::bscope_grey(sensor_, picture(fan.range_W_per_rad, fan.cells, fan,
-                                                 noise_ ? sensor_.noise_power_W() : 0.0));
+    return sensors::bscope_grey(sensor_, plus(bscope_W(fan), common_W_));
   };
   const auto cscope = [&](const FanSums& fan) {
-    return sensors::cscope_grey(sensor_,
-                                picture(fan.elevation_W_m3_per_rad, fan.rows, fan,
-                                        noise_ ? sensors::cscope_noise_W_m3(sensor_) : 0.0));
+    return sensors::cscope_grey(sensor_, plus(cscope_W_m3(fan), common_W_m3_));
   };
   return {mean_squares(bscope(one), bscope(other), columns),
           one.rows > 0 ? mean_squares(cscope(one), cscope(other), columns)

@@ -10,9 +10,10 @@ namespace fanbeam::renderer {
 
 class ColumnError {
  public:
-  // `noise`: the receiver's mean noise power is in both pictures, as a display shows them.
-  ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column, bool noise)
-      : sensor_(sensor), sub_columns_(sub_columns_per_column), noise_(noise) {}
+  // `common`: what both pictures have as well, such as the echo of rain; shaped like the fans that
+  // are compared. `noise`: so is the receiver's mean noise power, as a display shows it.
+  ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column, const FanSums& common,
+              bool noise);
 
   // Mean squares over a column's cells of the difference of unrounded grey, one value per column.
   struct Squares {
@@ -21,9 +22,12 @@ class ColumnError {
   Squares between(const FanSums& one, const FanSums& other) const;
 
  private:
+  std::vector<double> bscope_W(const FanSums& fan) const;
+  std::vector<double> cscope_W_m3(const FanSums& fan) const;
+
   const sensors::Sensor& sensor_;
   int sub_columns_;
-  bool noise_;
+  std::vector<double> common_W_, common_W_m3_;
 };
 
 }  // namespace fanbeam::renderer

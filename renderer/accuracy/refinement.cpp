@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "renderer/accuracy/column_error.h"
 #include "renderer/casting/fan_layout.h"
+#include "renderer/stages/rain_echo.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -23,7 +23,7 @@ struct Factors {
   double of_old, of_first_mean, of_later_mean;
   double of_mean(int level) const { return level == 1 ? of_first_mean : of_later_mean; }
 };
-constexpr Factors kSlices{0.50, 0.42, 0.50}, kRays{0.78, 0.55, 0.70};
+constexpr Factors kSlices{0.50, 0.42, 0.50}, kRays{0.78, 0.55, 0.70}, kBounces{0.58, 0.50, 0.58};
 Factors factors_of(CasterKind caster) { return caster == CasterKind::profile ? kSlices : kRays; }
 
 double rms(const std::vector<double>& squares) {
@@ -102,19 +102,24 @@ class TooCoarse {
 
 ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                                FanSums& sums, SightLines& sight) const {
+  caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
+  FanSums rain = empty_like(sums);
+  if (effects_.rain_echo && world_.volume_echo)
+    add_rain_echo(world_, antenna, sampling_.sub_columns, rain);
+  const ColumnError difference(world_.sensor, sampling_.sub_columns, rain, effects_.thermal_noise);
   const double target_grey = sampling_.target_grey * (bounces_ != nullptr ? std::sqrt(0.5) : 1.0);
-  const ErrorEstimate error = target_grey > 0.0
-                                  ? refine(antenna, with_cscope, target_grey, sums, sight)
-                                  : estimate(antenna, with_cscope, sums, sight);
-  if (bounces_ == nullptr) return error;
-  return together(error, add_bounces(antenna, target_grey, sums));
+  ErrorEstimate error = target_grey > 0.0
+                            ? refine(antenna, with_cscope, difference, target_grey, sums)
+                            : estimate(antenna, with_cscope, difference, sums);
+  if (bounces_ != nullptr)
+    error = together(error, add_bounces(antenna, difference, target_grey, sums));
+  return error;
 }
 
 ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with_cscope,
-                                 double target_grey, FanSums& sums, SightLines& sight) const {
+                                 const ColumnError& difference, double target_grey,
+                                 FanSums& sums) const {
   const sensors::Sensor& sensor = world_.sensor;
-  const ColumnError difference(sensor, sampling_.sub_columns, noise_);
-  caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
   const TooCoarse too_coarse(sensor, sampling_.sub_columns, sums);
   std::vector<std::uint32_t> groups = groups_of(sums);
   std::vector<std::size_t> columns(static_cast<std::size_t>(sensor.scan.columns));
@@ -143,32 +148,33 @@ ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with
 }
 
 ErrorEstimate Refinement::estimate(const sensors::AntennaFrame& antenna, bool with_cscope,
-                                   FanSums& sums, SightLines& sight) const {
-  caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
+                                   const ColumnError& difference, const FanSums& sums) const {
   thread_local FanSums fresh;
   fresh = sums;
   SightLines none;
   caster_.cast(antenna, with_cscope, CastPass{1, nullptr}, fresh, none);
-  const ColumnError difference(world_.sensor, sampling_.sub_columns, noise_);
   return estimate_of(difference.between(sums, fresh), factors_of(sampling_.caster).of_old, 1);
 }
 
-ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna, double target_grey,
+ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
+                                      const ColumnError& difference, double target_grey,
                                       FanSums& sums) const {
-  const ColumnError difference(world_.sensor, sampling_.sub_columns, noise_);
+  if (!(target_grey > 0.0)) {
+    // Added as a frame without an estimate does it, to the last bit.
+    FanSums fresh = sums;
+    bounces_->add(antenna, sums);
+    bounces_->add(antenna, fresh, 1);
+    return estimate_of(difference.between(sums, fresh), kBounces.of_old, 1);
+  }
   FanSums echoes = empty_like(sums);
   bounces_->add(antenna, echoes);
   for (int level = 1;; ++level) {
     FanSums fresh = empty_like(sums);
     bounces_->add(antenna, fresh, level);
     const ColumnError::Squares apart = difference.between(plus(sums, echoes), plus(sums, fresh));
-    if (!(target_grey > 0.0)) {
-      sums = plus(std::move(sums), echoes);
-      return estimate_of(apart, kRays.of_old, 1);
-    }
     combine_groups(fresh, 0.5, groups_of(sums), 0.5, echoes);
     add_counts(fresh, echoes);
-    ErrorEstimate reached = estimate_of(apart, kRays.of_mean(level), level + 1);
+    ErrorEstimate reached = estimate_of(apart, kBounces.of_mean(level), level + 1);
     reached.reached = reached.largest_grey() <= target_grey;
     if (!reached.reached && level < kFinestBounces) continue;
     sums = plus(std::move(sums), echoes);

@@ -3,9 +3,9 @@
 // Samples come in levels (CastPass): each level puts as many new samples as there were before
 // between them. The picture of the old samples and that of the new ones are two answers to the same
 // question, equally good; their difference D says how good, and their mean is better than both:
-//   error of the old         =  0.50 D for slices, 0.78 D for rays
-//   error of the first mean  =  0.42 D for slices, 0.55 D for rays
-//   error of later means     =  0.50 D for slices, 0.70 D for rays
+//   error of the old         =  0.50 D for slices, 0.78 D for rays, 0.58 D for double bounces
+//   error of the first mean  =  0.42 D for slices, 0.55 D for rays, 0.50 D for double bounces
+//   error of later means     =  0.50 D for slices, 0.70 D for rays, 0.58 D for double bounces
 // as RMS over cells of unrounded displayed grey. For errors that are independent the factors would
 // be 0.50 and 0.71. A slice's errors are edges that fall between two slices, evenly spread: halving
 // the spacing of a step function gives 0.29, for the old ones 0.58. Rays have a part in common that
@@ -18,15 +18,18 @@
 // the target, of the B-scope and of the C-scope where there is one. Double bounces have samples of
 // their own; they are refined in whole fans, and share the target: sqrt(1/2) of it for each.
 //
-// Not in the estimate: rain echo and point targets, which are not sampled at random.
+// Not in the estimate: point targets, which are not sampled at random. The echo of rain is not
+// either, but it fills the cells in which errors would show.
 // Deterministic: depends on the pose and the world alone.
 // Cost: twice that of level 0 at least, and two pictures per level to compare.
 #pragma once
 
 #include <algorithm>
 
+#include "renderer/accuracy/column_error.h"
 #include "renderer/casting/caster.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/plan/effects.h"
 #include "renderer/stages/double_bounce.h"
 #include "renderer/world.h"
 
@@ -43,11 +46,10 @@ struct ErrorEstimate {
 
 class Refinement {
  public:
-  // Of pictures with the mean noise power or without. `bounces` is null where that effect is off.
-  // All must outlive it.
+  // `bounces` is null where that effect is off. All must outlive it.
   Refinement(const World& world, const Sampling& sampling, const Caster& caster,
-             const DoubleBounce* bounces, bool noise)
-      : world_(world), sampling_(sampling), caster_(caster), bounces_(bounces), noise_(noise) {}
+             const DoubleBounce* bounces, const Effects& effects)
+      : world_(world), sampling_(sampling), caster_(caster), bounces_(bounces), effects_(effects) {}
 
   // Casts and adds the bounces: until the estimate is at most the sampling's target_grey, or, where
   // that is 0, what the sampling gives by itself with the estimate of its error.
@@ -55,19 +57,19 @@ class Refinement {
                      SightLines& sight) const;
 
  private:
-  ErrorEstimate refine(const sensors::AntennaFrame& antenna, bool with_cscope, double target_grey,
-                       FanSums& sums, SightLines& sight) const;
-  ErrorEstimate estimate(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums,
-                         SightLines& sight) const;
-  // `target_grey` 0: level 0 alone.
-  ErrorEstimate add_bounces(const sensors::AntennaFrame& antenna, double target_grey,
-                            FanSums& sums) const;
+  // Each is given sums of level 0. `target_grey` 0: what level 0 gives.
+  ErrorEstimate refine(const sensors::AntennaFrame& antenna, bool with_cscope,
+                       const ColumnError& difference, double target_grey, FanSums& sums) const;
+  ErrorEstimate estimate(const sensors::AntennaFrame& antenna, bool with_cscope,
+                         const ColumnError& difference, const FanSums& sums) const;
+  ErrorEstimate add_bounces(const sensors::AntennaFrame& antenna, const ColumnError& difference,
+                            double target_grey, FanSums& sums) const;
 
   const World& world_;
   const Sampling& sampling_;
   const Caster& caster_;
   const DoubleBounce* bounces_;
-  bool noise_;
+  Effects effects_;
 };
 
 }  // namespace fanbeam::renderer

@@ -35,12 +35,6 @@ struct Hit {
   }
 };
 
-// Walls and roofs of one mesh do not share intervals.
-std::uint64_t surface_of(const Packet& packet, int i, const Hit& hit) {
-  return 2 * static_cast<std::uint64_t>(packet.geometry[i]) +
-         (hit.normal.z * hit.normal.z < 0.49 ? 1U : 0U);
-}
-
 // Share of the wave's power whose field is perpendicular to the plane of incidence.
 double perpendicular_share(const Hit& hit, const glm::dvec3& up, core::Polarisation polarisation) {
   const glm::dvec3 field = glm::cross(hit.direction, up);
@@ -59,7 +53,6 @@ struct BounceTracer::Lane {
   glm::dvec3 mirror_m{0.0};
   double first_m = 0.0;  // R1
   double reflection = 0.0;
-  std::uint64_t surface = 0;
   glm::dvec3 start_m{0.0};
   glm::dvec3 direction{0.0};
 };
@@ -153,7 +146,6 @@ bool BounceTracer::mirror(const sensors::AntennaFrame& antenna, const Packet& pa
   if (!(lane.reflection >= faintest_)) return false;
   lane.mirror_m = hit.point_m;
   lane.first_m = hit.distance_m;
-  lane.surface = surface_of(packet, i, hit);
   lane.start_m = terrain::secondary_origin_m(hit.point_m, hit.normal, hit.distance_m);
   lane.direction = hit.direction + 2.0 * hit.sin_grazing * hit.normal;
   return true;
@@ -174,7 +166,6 @@ bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay&
   const double boresight_rad = sensor.antenna.boresight_elevation_rad;
   const Hit hit(*world_.surfaces, packet, i);
   bounce.met = true;
-  bounce.surfaces = (lane.surface << 32U) | surface_of(packet, i, hit);
   if (!(hit.sin_grazing > 0.0)) return false;
   const terrain::MaterialId material = world_.surfaces->material(
       packet.geometry[i], packet.primitive[i], hit.point_m.x, hit.point_m.y);

@@ -38,10 +38,9 @@ struct BounceEcho {
 };
 
 struct Bounce {
-  bool met = false;            // a mirrored ray met something, whether or not anything came back
-  std::uint64_t surfaces = 0;  // rays with the same A and B may share a range interval
-  BounceEcho pair;             // O A B O with O B A O
-  BounceEcho image;            // O A B A O
+  bool met = false;  // a mirrored ray met something, whether or not anything came back
+  BounceEcho pair;   // O A B O with O B A O
+  BounceEcho image;  // O A B A O
 };
 
 struct AntennaRay {

@@ -18,11 +18,11 @@ constexpr int kWindowMargin = 3;
 // Sub-columns that one ray stands for: half the casters' density, for a part of the power.
 constexpr int kAcross = 2;
 
-// Where the rays of one pass lie beside those of the others, and how much they count.
+// Where the rays of one pass lie beside those of others, and how much they count.
 struct PassPlaces {
   std::uint32_t shift = 0;       // of azimuths, in parts of 2^32 of a block
   double elevation_share = 0.5;  // of each interval of elevations
-  double weight = 1.0;
+  double weight = 1.0;           // one over the passes that are averaged
 
   // Between the borders of a block for ray `index`: multiples of the golden ratio.
   double azimuth(int index, int sub_column) const {
@@ -34,12 +34,12 @@ struct PassPlaces {
 // What one echo gives to one sub-column.
 struct Share {
   int sub_column = 0;
-  double from_cell = 0.0, to_cell = 0.0, power_W_per_rad = 0.0;
+  double cell = 0.0, power_W_per_rad = 0.0;
   double row = 0.0, power_W_m3_per_rad = 0.0;
 
   void deposit_in(FanSums& sums) const {
     const auto at = static_cast<std::size_t>(sub_column);
-    deposit(from_cell, to_cell, power_W_per_rad,
+    deposit(cell, cell, power_W_per_rad,
             &sums.range_W_per_rad[at * static_cast<std::size_t>(sums.cells)], sums.cells);
     if (sums.rows > 0)
       deposit(row, row, power_W_m3_per_rad,
@@ -76,9 +76,7 @@ class Strip {
         sums_(sums),
         scratch_(scratch),
         first_(strip * sampling.sub_columns),
-        end_(std::min(first_ + sampling.sub_columns, sums.sub_columns)),
-        gap_limit_m_(sampling.gap_cells * std::max(1.0, 1.0 / sampling.rays_per_cell) *
-                     world.sensor.range.cell_m) {}
+        end_(std::min(first_ + sampling.sub_columns, sums.sub_columns)) {}
 
   // Shares of other strips' sub-columns go to `foreign`.
   void run(std::vector<Share>& foreign) {
@@ -86,7 +84,9 @@ class Strip {
     intervals_ = static_cast<int>(scratch_.edges.size()) - 1;
     if (intervals_ < 1) return;
     const int passes = sampling_.jittered_passes;
-    if (passes > 0) {
+    // A corner that the search misses is missing in a pass: where many are averaged that would not
+    // average out.
+    if (passes > 0 || places_.weight < 1.0) {
       scratch_.wanted.assign(static_cast<std::size_t>(intervals_), 1);
     } else if (!search()) {
       return;
@@ -95,8 +95,10 @@ class Strip {
     for (int pass = 0; pass < std::max(passes, 1); ++pass) {
       aim(pass);
       cast();
-      for (std::size_t i = 0; i < scratch_.sent.size(); ++i)
-        if (scratch_.bounces[i].met) deposit_bounce(i, foreign);
+      for (std::size_t i = 0; i < scratch_.sent.size(); ++i) {
+        deposit_echo(scratch_.bounces[i].pair, scratch_.sent[i], foreign);
+        deposit_echo(scratch_.bounces[i].image, scratch_.sent[i], foreign);
+      }
     }
   }
 
@@ -162,61 +164,24 @@ class Strip {
     }
   }
 
-  void deposit_bounce(std::size_t i, std::vector<Share>& foreign) {
-    const Bounce* below = neighbour(i, -1);
-    const Bounce* above = neighbour(i, 1);
-    for (BounceEcho Bounce::*const echo : {&Bounce::pair, &Bounce::image})
-      deposit_echo(scratch_.bounces[i].*echo, below != nullptr ? &(below->*echo) : nullptr,
-                   above != nullptr ? &(above->*echo) : nullptr, scratch_.sent[i], foreign);
-  }
-
-  // The bounce of the next elevation in the same block, when it took the same surfaces.
-  const Bounce* neighbour(std::size_t i, int step) const {
-    if (!sampling_.deposit_intervals) return nullptr;
-    const int blocks = (end_ - first_ + across_ - 1) / across_;
-    const auto other = static_cast<std::ptrdiff_t>(i) + step * blocks;
-    if (other < 0 || other >= static_cast<std::ptrdiff_t>(scratch_.sent.size())) return nullptr;
-    const auto at = static_cast<std::size_t>(other);
-    const Bounce& bounce = scratch_.bounces[at];
-    const bool next = scratch_.sent[at].interval == scratch_.sent[i].interval + step;
-    return next && bounce.met && bounce.surfaces == scratch_.bounces[i].surfaces ? &bounce
-                                                                                 : nullptr;
-  }
-
-  // Half way to the neighbour.
-  double end_of_interval_m(const BounceEcho& echo, const BounceEcho* other) const {
-    if (other == nullptr || !(other->density_W_per_rad2 > 0.0) ||
-        std::abs(other->range_m - echo.range_m) > gap_limit_m_)
-      return echo.range_m;
-    return (echo.range_m + other->range_m) / 2;
-  }
-
-  void deposit_echo(const BounceEcho& echo, const BounceEcho* below, const BounceEcho* above,
-                    const Sent& sent, std::vector<Share>& foreign) {
+  void deposit_echo(const BounceEcho& echo, const Sent& sent, std::vector<Share>& foreign) {
     if (!(echo.density_W_per_rad2 > 0.0)) return;
     const sensors::RangeGate& gate = world_.sensor.range;
     const sensors::Display& display = world_.sensor.display;
-    const double a_m = end_of_interval_m(echo, below);
-    const double b_m = end_of_interval_m(echo, above);
     Share share;
-    share.from_cell = (std::min(a_m, b_m) - gate.minimum_m) / gate.cell_m;
-    share.to_cell = (std::max(a_m, b_m) - gate.minimum_m) / gate.cell_m;
-    share.power_W_per_rad = places_.weight * echo.density_W_per_rad2 * span_rad(sent.interval) /
-                            std::max(sampling_.jittered_passes, 1);
+    share.sub_column =
+        static_cast<int>(std::floor((echo.azimuth_rad - sums_.first_azimuth_rad) / sums_.step_rad));
+    share.cell = (echo.range_m - gate.minimum_m) / gate.cell_m;
+    share.power_W_per_rad = echo.density_W_per_rad2 * span_rad(sent.interval) *
+                            (block_end(sent.sub_column) - sent.sub_column) * places_.weight;
     share.row = (display.cscope_top_rad - echo.elevation_rad) * display.cscope_rows /
                 display.cscope_span_rad;
     if (echo.range_m >= gate.minimum_m && echo.range_m < gate.maximum_m())
       share.power_W_m3_per_rad = share.power_W_per_rad * echo.range_m * echo.range_m * echo.range_m;
-    // The block that the ray stands for, moved as far as the echo appears beside the ray.
-    const int moved =
-        static_cast<int>(std::lround((echo.azimuth_rad - sent.ray.azimuth_rad) / sums_.step_rad));
-    for (int k = sent.sub_column + moved; k < block_end(sent.sub_column) + moved; ++k) {
-      share.sub_column = k;
-      if (k >= first_ && k < end_) {
-        share.deposit_in(sums_);
-      } else if (k >= 0 && k < sums_.sub_columns) {
-        foreign.push_back(share);
-      }
+    if (share.sub_column >= first_ && share.sub_column < end_) {
+      share.deposit_in(sums_);
+    } else if (share.sub_column >= 0 && share.sub_column < sums_.sub_columns) {
+      foreign.push_back(share);
     }
   }
 
@@ -239,7 +204,6 @@ class Strip {
   FanSums& sums_;
   StripScratch& scratch_;
   int first_, end_;  // sub-columns
-  double gap_limit_m_;
   int intervals_ = 0;
   int across_ = 1;  // sub-columns of a block
   std::uint64_t cast_ = 0;
@@ -253,8 +217,9 @@ DoubleBounce::DoubleBounce(const World& world, const Sampling& sampling)
 void DoubleBounce::add(const sensors::AntennaFrame& antenna, FanSums& sums, int level) const {
   if (!tracer_.any()) return;
   const int passes = level < 2 ? 1 : 1 << (level - 1);
+  const double weight = 1.0 / (passes * std::max(sampling_.jittered_passes, 1));
   for (int pass = 0; pass < passes; ++pass)
-    add_pass(antenna, level < 2 ? level : passes + pass, 1.0 / passes, sums);
+    add_pass(antenna, level < 2 ? level : passes + pass, weight, sums);
 }
 
 void DoubleBounce::add_pass(const sensors::AntennaFrame& antenna, int pass, double weight,

@@ -5,10 +5,13 @@
 //
 // How it samples: first one ray per picture column and every second elevation of the fan, only to
 // see where mirrored rays meet anything at all; around these places one ray per sub-column and
-// elevation, as the casters do (the reference: all of them, jittered, in every pass). A corner seen
-// over fewer than two elevations of the fan and narrower than a column may be missed. An echo is
-// spread over the range interval between its neighbours of the same two surfaces; the mean of the
-// first and the last azimuth decides its sub-column.
+// elevation for every two sub-columns (the reference: in each, jittered, in every pass). A corner
+// seen over fewer than two elevations of the fan and narrower than a column may be missed, but not
+// where samples of several levels are averaged: levels from 2 on search nothing and cast all. An
+// echo lies in one range cell and in one sub-column, that of the mean of its first and last azimuth.
+// It is not spread over the ranges up to its neighbours in elevation, as the casters' hits are: each
+// has an azimuth of its own, and the range of a corner changes faster with that (measured:
+// docs/performance.md).
 //
 // Deterministic: each strip of sub-columns is one thread's; echoes that lie in another strip are
 // added afterwards, in the order of the strips.

@@ -11,7 +11,7 @@ namespace fanbeam::signal {
 namespace {
 
 constexpr double c_mps = core::kSpeedOfLight_mps;
-constexpr std::size_t kChunk = 4096;  // paths of one piece of work
+constexpr std::size_t kPathsAtOnce = 4096;  // paths of one piece of work
 
 // Sum of squares of the two elements of every channel: what the near field depends on.
 struct NearField {
@@ -84,9 +84,9 @@ std::vector<KeystonePath> keystone_paths(const Frame& frame, double reference_s,
                                          const std::vector<ScatterPath>& paths) {
   const NearField near_m2 = near_field(frame);
   std::vector<KeystonePath> seen(paths.size());
-  core::parallel_for((paths.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
-    const std::size_t end = std::min(paths.size(), (chunk + 1) * kChunk);
-    for (std::size_t i = chunk * kChunk; i < end; ++i)
+  core::parallel_for((paths.size() + kPathsAtOnce - 1) / kPathsAtOnce, [&](std::size_t chunk) {
+    const std::size_t end = std::min(paths.size(), (chunk + 1) * kPathsAtOnce);
+    for (std::size_t i = chunk * kPathsAtOnce; i < end; ++i)
       seen[i] = keystone_path(frame, reference_s, near_m2, paths[i]);
   });
   return seen;

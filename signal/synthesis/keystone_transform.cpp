@@ -5,6 +5,7 @@
 #include "core/dispatch.h"
 #include "core/parallel.h"
 #include "signal/synthesis/keystone_transform_private.h"
+#include "signal/synthesis/lanes_private.h"
 #include "signal/synthesis/scaled_transform_private.h"
 #include "signal/unit_phasor_private.h"
 

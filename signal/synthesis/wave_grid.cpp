@@ -25,14 +25,14 @@ FANBEAM_LANES_INLINE int weigh(const float* taps, int powers, int width, double 
   return static_cast<int>(first);
 }
 
-struct Target {
+struct GridPlanes {
   float* values;
   std::size_t row, plane;  // floats
   int delays;
 };
 
 FANBEAM_HOT FANBEAM_INLINE_ALL void add_point(const float* taps, int powers, int width,
-                                              const WavePoint& point, const Target& target) {
+                                              const WavePoint& point, const GridPlanes& target) {
   Lanes<float> by_rate, by_sine, by_delay;
   const int rate = weigh(taps, powers, width, point.rate_cell, by_rate);
   const int sine = weigh(taps, powers, width, point.sine_cell, by_sine);
@@ -102,7 +102,7 @@ WaveGrid::WaveGrid(const SpreadingKernel& kernel, int rates, int sines, int dela
 void WaveGrid::spread(const std::vector<WavePoint>& points) {
   std::vector<std::uint32_t> order;
   const std::vector<std::uint32_t> rate_begin = sort_by_place(points, rates_, sines_, order);
-  const Target target{reinterpret_cast<float*>(values_.data()), 2 * stride_,
+  const GridPlanes target{reinterpret_cast<float*>(values_.data()), 2 * stride_,
                       2 * stride_ * static_cast<std::size_t>(sines_), delays_};
   const int powers = static_cast<int>(taps_.size()) / kLanes;
   const int slab = 2 * width_;

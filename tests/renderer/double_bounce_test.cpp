@@ -35,22 +35,11 @@ terrain::HeightField plane() {
   return tests::ground(4000.0, 250.0, [](double, double) { return 0.0; });
 }
 
-// One-sided, facing the side from which its corners run counter-clockwise.
-terrain::PlacedMesh quad(const std::array<glm::dvec3, 4>& corners_m, terrain::MaterialId material) {
-  terrain::PlacedMesh placed;
-  placed.mesh.vertices_m.assign(corners_m.begin(), corners_m.end());
-  placed.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
-  placed.mesh.triangle_material.assign(2, 0);
-  placed.mesh.material_names = {"quad"};
-  placed.material_of_name = {material};
-  return placed;
-}
-
 // Faces south, towards the sensor of level_pose.
 terrain::PlacedMesh wall(double y_m, double bottom_m, double top_m) {
-  return quad({glm::dvec3(-300.0, y_m, bottom_m), glm::dvec3(300.0, y_m, bottom_m),
-               glm::dvec3(300.0, y_m, top_m), glm::dvec3(-300.0, y_m, top_m)},
-              1);
+  return tests::quad({glm::dvec3(-300.0, y_m, bottom_m), glm::dvec3(300.0, y_m, bottom_m),
+                      glm::dvec3(300.0, y_m, top_m), glm::dvec3(-300.0, y_m, top_m)},
+                     1);
 }
 
 // Ground 0 is a perfect black mirror, wall 1 a diffuse surface.
@@ -187,8 +176,8 @@ TEST_CASE("An inner corner of two walls seen at 45 deg returns in the corner's c
   const glm::dvec3 low(0.0, kDistance_m, z_m - kTall_m / 2), high = low + glm::dvec3(0, 0, kTall_m);
   const glm::dvec3 left(-reach_m, -reach_m, 0.0), right(reach_m, -reach_m, 0.0);
   renderer::World world = tests::world(tests::hivision(16), std::nullopt, {kFaint},
-                                       {quad({low + left, low, high, high + left}, 0),
-                                        quad({low, low + right, high + right, high}, 0)});
+                                       {tests::quad({low + left, low, high, high + left}, 0),
+                                        tests::quad({low, low + right, high + right, high}, 0)});
   world.specular = {kPolished};
   const sensors::Sensor& sensor = world.sensor;
 
@@ -291,8 +280,8 @@ TEST_CASE("Double bounce gives the same bytes on any number of threads", "[bounc
     const glm::dvec3 at(-60.0 + 22.0 * i, 700.0 + 60.0 * i, 0.0);
     const double turn = 0.5 * i;
     const glm::dvec3 along(12.0 * std::cos(turn), 12.0 * std::sin(turn), 0.0), up(0.0, 0.0, 9.0);
-    bodies.push_back(quad({at, at + along, at + along + up, at + up}, 1));
-    bodies.push_back(quad({at + up, at + along + up, at + along, at}, 1));
+    bodies.push_back(tests::quad({at, at + along, at + along + up, at + up}, 1));
+    bodies.push_back(tests::quad({at + up, at + along + up, at + along, at}, 1));
   }
   renderer::World world =
       tests::world(tests::hivision(24), plane(), {kRough, kRough}, std::move(bodies));

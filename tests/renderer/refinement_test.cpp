@@ -110,7 +110,7 @@ TEST_CASE("A city on one side is refined on that side alone", "[refinement]") {
     const auto refined = [&](const renderer::World& world, renderer::FanSums& sums) {
       const auto caster = caster_of(world, sampling);
       renderer::SightLines none;
-      return renderer::Refinement(world, sampling, *caster, nullptr, false)
+      return renderer::Refinement(world, sampling, *caster, nullptr, {})
           .cast(antenna, true, sums, none);
     };
     renderer::FanSums of_half, of_whole;

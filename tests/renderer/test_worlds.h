@@ -1,6 +1,7 @@
 // Small worlds with known answers.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -28,6 +29,18 @@ inline atmosphere::PathAttenuation clear_air() {
   atmosphere::Weather weather;
   weather.simulate_gas = weather.simulate_fog = weather.simulate_rain = false;
   return {weather, 35e9};
+}
+
+// One-sided, facing the side from which its corners run counter-clockwise.
+inline terrain::PlacedMesh quad(const std::array<glm::dvec3, 4>& corners_m,
+                                terrain::MaterialId material) {
+  terrain::PlacedMesh placed;
+  placed.mesh.vertices_m.assign(corners_m.begin(), corners_m.end());
+  placed.mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  placed.mesh.triangle_material.assign(2, 0);
+  placed.mesh.material_names = {"quad"};
+  placed.material_of_name = {material};
+  return placed;
 }
 
 // Ground of one material whose height is a function of east and north.
