@@ -126,8 +126,8 @@ class Run {
     const SignalBscope bscope = fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
     write_bscope(folder_, scene_.description.sensor, index, bscope);
-    return {bscope.looks,           bscope.rays,    bscope.scatterers,
-            bscope.phase_noise_rad, bscope.clipped, ms};
+    return {bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
+            bscope.plan,  ms};
   }
 
   FmcwFrameRecord chain(int index) const {
@@ -135,7 +135,8 @@ class Run {
     const FmcwPaths paths = fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
     const FmcwFrame frame =
-        fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, products_);
+        fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, products_,
+                   {scene_.plan, scene_.accuracy_grey, scene_.wishes});
     const double signal_ms = ms_since(begin);
     FmcwFrameRecord record = fmcw_record(scene_, index, paths, frame);
     write_fmcw_products(folder_, products_, radar_, frame,
@@ -166,8 +167,11 @@ int fmcw(const FmcwOptions& options, const CommonOptions& common) {
                                            options.sensor};
   const scenes::SceneDescription description =
       scenes::read_scene(find_scene(options.scene), scene_options, problems);
-  const std::unique_ptr<scenes::Scene> scene =
-      scenes::build_scene(description, scenes::BuildOptions{}, problems);
+  scenes::BuildOptions build;
+  build.accuracy_grey = options.accuracy_grey;
+  if (!options.effects.empty())
+    build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::samples);
+  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
   if (!common.quiet) print_problems(problems.all());
   const StopOnSignals stop_on_signals;
   try {

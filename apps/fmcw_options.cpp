@@ -4,6 +4,7 @@
 #include "apps/command_line.h"
 #include "apps/fmcw_command.h"
 #include "apps/number_range.h"
+#include "renderer/plan/effect_catalogue.h"
 #include "signal/waveform/waveform.h"
 
 namespace fanbeam::apps {
@@ -50,6 +51,23 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
       ->check(CLI::Range(0, 24));
 }
 
+std::string effects_help() {
+  std::string names;
+  for (const renderer::Effect& effect : renderer::effect_catalogue(renderer::Touches::samples))
+    names += (names.empty() ? "" : ", ") + std::string(effect.name);
+  return "all, none, or a list such as +phase-noise,-gas of the effects " + names +
+         " and those of fanbeam render (default: what the scene and its samples call for)";
+}
+
+void add_plan(CLI::App& command, FmcwOptions& options) {
+  command
+      .add_option("--accuracy", options.accuracy_grey,
+                  "Grey levels asked for: half of it is for effects left out")
+      ->check(number_from(0.0, 255.0))
+      ->capture_default_str();
+  command.add_option("--effects", options.effects, effects_help());
+}
+
 }  // namespace
 
 void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common) {
@@ -68,6 +86,7 @@ void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common
       ->capture_default_str();
   command.add_option("--products", options.products, products_help());
   add_radar(command, options);
+  add_plan(command, options);
   command
       .add_option("--pfa", options.false_alarm_probability,
                   "False-alarm probability of a cell of the range-Doppler map")

@@ -188,8 +188,11 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
   for (ConfigTable& table : root.tables("box")) scene.boxes.push_back(read_box(table));
   for (ConfigTable& table : root.tables("buildings"))
     scene.buildings.push_back(read_buildings(table, search));
+  HighwayPaths highway(search);
   for (ConfigTable& table : root.tables("target"))
-    scene.targets.push_back(read_target(table, objects, scene.sensor.waveform.polarisation));
+    scene.targets.push_back(
+        read_target(table, objects, highway, scene.sensor.waveform.polarisation));
+  for (const std::filesystem::path& file : highway.files()) scene.files.push_back(file);
   for (ConfigTable& table : root.tables("line")) scene.lines.push_back(read_line(table, objects));
 }
 

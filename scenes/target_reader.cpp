@@ -82,7 +82,7 @@ core::Swerling read_rcs(ConfigTable& target, ObjectNames& objects, double wire_p
 
 }  // namespace
 
-TargetDescription read_target(ConfigTable& table, ObjectNames& objects,
+TargetDescription read_target(ConfigTable& table, ObjectNames& objects, HighwayPaths& highway,
                               core::Polarisation polarisation) {
   TargetDescription target;
   target.place = table.place("");
@@ -103,7 +103,12 @@ TargetDescription read_target(ConfigTable& table, ObjectNames& objects,
     target.path.push_back(
         {time_s, read_spot(waypoint, "at"), waypoint.number("above_ground_m", {-100, 20000}, 0.0)});
   }
-  if (waypoints.empty()) {
+  if (table.has("highway")) {
+    if (!waypoints.empty())
+      table.error(core::ErrorClass::ref, "highway", "beside waypoints", "one of the two");
+    const Spot origin = read_spot(table, "at");
+    target.path = highway.path(table, origin, table.number("above_ground_m", {-100, 20000}, 0.0));
+  } else if (waypoints.empty()) {
     target.path.push_back(
         {0.0, read_spot(table, "at"), table.number("above_ground_m", {-100, 20000}, 0.0)});
   }

@@ -4,12 +4,13 @@
 #include "core/config_table.h"
 #include "core/polarisation.h"
 #include "scenes/description.h"
+#include "scenes/highway_path.h"
 #include "scenes/object_names.h"
 
 namespace fanbeam::scenes {
 
 // `polarisation` is the radar's: what a wire is seen with.
-TargetDescription read_target(core::ConfigTable& table, ObjectNames& objects,
+TargetDescription read_target(core::ConfigTable& table, ObjectNames& objects, HighwayPaths& highway,
                               core::Polarisation polarisation);
 LineDescription read_line(core::ConfigTable& table, ObjectNames& objects);
 

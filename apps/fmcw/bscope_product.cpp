@@ -21,7 +21,7 @@ SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwOption
   settings.own_velocity_mps = frame_pose.north_east_down * pose.v_N_mps;
   if (scene.plan.runs(renderer::kMultipath)) settings.multipath = renderer::Multipath::coherent;
   settings.swerling = scene.plan.runs(renderer::kSwerling);
-  settings.noise = scene.plan.runs(renderer::kThermalNoise);
+  settings.budget = {scene.plan, scene.accuracy_grey, scene.wishes};
   settings.line_width_Hz = options.line_width_Hz;
   settings.adc_bits = options.adc_bits;
   settings.seed = options.seed;

@@ -7,8 +7,8 @@
 #include <initializer_list>
 #include <utility>
 
-#include "apps/fmcw/receive.h"
 #include "core/constants.h"
+#include "renderer/plan/effect_catalogue.h"
 #include "signal/detection/clusters.h"
 #include "signal/receiver/receiver_noise.h"
 #include "signal/synthesis/beat_synthesis.h"
@@ -34,12 +34,15 @@ void check_work(const signal::Frame& frame, std::size_t paths) {
         "at most 1e11 products: fewer --rays-per-cell, samples or receivers");
 }
 
+// Complex samples, of a real waveform too: receive() makes those real.
 signal::FloatCube synthesise(const FmcwRadar& radar, int stage,
                              const std::vector<signal::ScatterPath>& paths, FmcwFrame& frame) {
-  const signal::Frame layout = signal::make_frame(radar.waveform, stage, radar.array);
+  signal::Waveform waveform = radar.waveform;
+  waveform.complex_baseband = true;
+  const signal::Frame layout = signal::make_frame(waveform, stage, radar.array);
   check_work(layout, paths.size());
   if (layout.uniform && paths.size() > kMostDirectPaths) {
-    signal::KeystoneBeat beat = signal::keystone_beat(radar.waveform, stage, radar.array, paths);
+    signal::KeystoneBeat beat = signal::keystone_beat(waveform, stage, radar.array, paths);
     if (stage == 0) {
       frame.keystone = true;
       frame.synthesis_error = beat.estimated_error;
@@ -48,7 +51,7 @@ signal::FloatCube synthesise(const FmcwRadar& radar, int stage,
   }
   const signal::SynthesisOptions fine;
   if (stage == 0) frame.synthesis_error = fine.relative_error;
-  return signal::synthesise_beat(radar.waveform, stage, radar.array, paths, fine);
+  return signal::synthesise_beat(waveform, stage, radar.array, paths, fine);
 }
 
 double strongest_delay_s(const std::vector<signal::ScatterPath>& paths) {
@@ -57,6 +60,23 @@ double strongest_delay_s(const std::vector<signal::ScatterPath>& paths) {
         return std::norm(a.amplitude_sqrtW) < std::norm(b.amplitude_sqrtW);
       });
   return strongest == paths.end() ? 0.0 : 2.0 * strongest->range_m / core::kSpeedOfLight_mps;
+}
+
+double sum_W(const std::vector<signal::ScatterPath>& paths) {
+  double sum = 0.0;
+  for (const signal::ScatterPath& path : paths) sum += std::norm(path.amplitude_sqrtW);
+  return sum;
+}
+
+SamplesShown shown_by(const FmcwRadar& radar, const FmcwOptions& options,
+                      const std::set<std::string>& products) {
+  SamplesShown shown;
+  shown.window_dB = options.dynamic_range_dB;
+  shown.samples_asked = products.contains("beat");
+  const bool beams = products.contains("cube") || products.contains("range-azimuth") ||
+                     products.contains("top-view");
+  if (beams) shown.beams = radar.array.channels();
+  return shown;
 }
 
 signal::TopViewGrid grid_of(const FmcwRadar& radar) {
@@ -103,14 +123,16 @@ void make_maps(const FmcwRadar& radar, const std::set<std::string>& products, Fm
 
 FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const std::vector<signal::ScatterPath>& paths, int frame_number,
-                     const FmcwOptions& options, const std::set<std::string>& products) {
+                     const FmcwOptions& options, const std::set<std::string>& products,
+                     const SignalBudget& budget) {
   FmcwFrame frame;
   const auto policy =
       options.refuse_folding ? signal::FoldingPolicy::refuse : signal::FoldingPolicy::count;
   frame.warnings = signal::folding_warnings(signal::count_folding(radar.waveform, paths, policy));
-  if (options.line_width_Hz > 0.0)
-    frame.phase_noise_rad =
-        signal::phase_noise_rms_rad(options.line_width_Hz, strongest_delay_s(paths));
+  const SamplesShown shown = shown_by(radar, options, products);
+  const double echo_W = sum_W(paths);
+  const double phase_noise_rad =
+      signal::phase_noise_rms_rad(options.line_width_Hz, strongest_delay_s(paths));
   for (int stage = 0; stage < radar.waveform.stages(); ++stage) {
     frame.beats.push_back(synthesise(radar, stage, paths, frame));
     const auto number = static_cast<std::uint32_t>(frame_number * radar.waveform.stages() + stage);
@@ -118,11 +140,16 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
         .noise_figure = sensor.receiver.noise_figure,
         .sample_rate_Hz = radar.waveform.sample_rate_Hz[static_cast<std::size_t>(stage)],
         .complex_baseband = !options.real,
-        .phase_noise_rad = frame.phase_noise_rad,
+        .phase_noise_rad = phase_noise_rad,
         .adc_bits = options.adc_bits};
+    const core::EffectPlan plan =
+        receiver_plan(budget, shown, sensor, receiver, echo_W, frame.beats.back());
+    keep_larger(plan, frame.plan);
     // A stage more is another stretch of time: draws of its own.
-    frame.clipped += receive(radar.array, receiver, {options.seed, 0, number}, frame.beats.back());
+    frame.clipped +=
+        receive(radar.array, receiver, plan, {options.seed, 0, number}, frame.beats.back());
   }
+  if (frame.plan.runs(renderer::kPhaseNoise)) frame.phase_noise_rad = phase_noise_rad;
   make_maps(radar, products, frame);
   return frame;
 }

@@ -9,6 +9,7 @@
 
 #include "apps/fmcw/paths.h"
 #include "apps/fmcw/radar.h"
+#include "apps/fmcw/receiver_plan.h"
 #include "core/errors.h"
 #include "signal/cube.h"
 #include "signal/transform/cube_maps.h"
@@ -33,14 +34,17 @@ struct FmcwFrame {
   std::vector<core::Problem> warnings;  // of folding
   bool keystone = false;                // how stage 0 was synthesised
   double synthesis_error = 0.0;         // relative, estimated or asked for
-  double phase_noise_rad = 0.0;
-  std::size_t clipped = 0;  // parts of samples, by the quantiser
+  core::EffectPlan plan;                // of the receiver
+  double phase_noise_rad = 0.0;         // 0 where it does not run
+  std::size_t clipped = 0;              // parts of samples, by the quantiser
 };
 
 // Does what the names of `products` need (kFmcwProducts; maps mark the detections). The draws are
-// keyed by the options' seed, `frame` and the stage.
+// keyed by the options' seed, `frame` and the stage. What the receiver does to the samples is
+// planned from them and `budget`.
 FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const std::vector<signal::ScatterPath>& paths, int frame,
-                     const FmcwOptions& options, const std::set<std::string>& products);
+                     const FmcwOptions& options, const std::set<std::string>& products,
+                     const SignalBudget& budget = {});
 
 }  // namespace fanbeam::apps

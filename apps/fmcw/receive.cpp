@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "renderer/plan/effect_catalogue.h"
 #include "signal/receiver/receiver_noise.h"
 
 namespace fanbeam::apps {
@@ -19,19 +20,23 @@ std::size_t convert(int bits, signal::FloatCube& beat) {
 }  // namespace
 
 std::size_t receive(const signal::Array& array, const FmcwReceiver& receiver,
-                    const core::RandomKey& key, signal::FloatCube& beat) {
-  if (receiver.phase_noise_rad > 0.0)
+                    const core::EffectPlan& plan, const core::RandomKey& key,
+                    signal::FloatCube& beat) {
+  if (plan.runs(renderer::kPhaseNoise))
     signal::apply_phase_noise(signal::PhaseNoise{.rms_rad = receiver.phase_noise_rad,
                                                  .sample_rate_Hz = receiver.sample_rate_Hz,
                                                  .key = key},
                               beat);
-  if (receiver.thermal_noise)
+  if (!receiver.complex_baseband)
+    for (std::complex<float>& value : beat.values)
+      value = static_cast<float>(std::sqrt(2.0)) * value.real();
+  if (plan.runs(renderer::kReceiverNoise))
     signal::add_receiver_noise(
         array,
         {signal::noise_sample_W(receiver.noise_figure, receiver.sample_rate_Hz),
          receiver.complex_baseband, key},
         beat);
-  return receiver.adc_bits > 0 ? convert(receiver.adc_bits, beat) : 0;
+  return plan.runs(renderer::kQuantiser) ? convert(receiver.adc_bits, beat) : 0;
 }
 
 }  // namespace fanbeam::apps

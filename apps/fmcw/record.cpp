@@ -6,6 +6,7 @@
 #include "apps/fmcw/signal_bscope.h"
 #include "apps/waveform_figures.h"
 #include "core/machine.h"
+#include "renderer/plan/effect_catalogue.h"
 #include "sensors/receiver/point_response.h"
 #include "signal/scan/column_sweep.h"
 
@@ -54,12 +55,31 @@ Json scan_json(const sensors::Sensor& sensor) {
           {"doppler_compensated", sensor.waveform.doppler_compensated}};
 }
 
+Json plan_json(const core::EffectPlan& plan) {
+  Json rows = Json::array();
+  for (const core::EffectDecision& decision : plan.decisions)
+    rows.push_back({{"effect", decision.effect},
+                    {"on", decision.on},
+                    {"reason", decision.reason},
+                    {"bound_grey", decision.bound_grey}});
+  return rows;
+}
+
+// Of the scene's plan what the echoes hold; the others belong to pictures of powers alone.
+core::EffectPlan plan_of_echoes(const core::EffectPlan& scene) {
+  core::EffectPlan echoes;
+  for (const core::EffectDecision& decision : scene.decisions)
+    for (const std::string_view effect :
+         {renderer::kGas, renderer::kFog, renderer::kRain, renderer::kSnow, renderer::kMultipath,
+          renderer::kSurfaceState, renderer::kSideLobes, renderer::kSwerling})
+      if (decision.effect == effect) echoes.decisions.push_back(decision);
+  return echoes;
+}
+
 Json scan_json(const FmcwScanCounts& scan) {
-  return {{"looks", scan.looks},
-          {"rays", scan.rays},
-          {"scatterers", scan.scatterers},
-          {"phase_noise_rad", scan.phase_noise_rad},
-          {"clipped", scan.clipped}};
+  return {{"looks", scan.looks},           {"rays", scan.rays},
+          {"scatterers", scan.scatterers}, {"phase_noise_rad", scan.phase_noise_rad},
+          {"clipped", scan.clipped},       {"plan", plan_json(scan.plan)}};
 }
 
 Json frame_json(const FmcwFrameRecord& frame) {
@@ -82,7 +102,8 @@ Json frame_json(const FmcwFrameRecord& frame) {
                {"synthesis", frame.keystone ? "keystone" : "direct"},
                {"synthesis_error", frame.synthesis_error},
                {"phase_noise_rad", frame.phase_noise_rad},
-               {"clipped", frame.clipped}};
+               {"clipped", frame.clipped},
+               {"plan", plan_json(frame.plan)}};
   if (frame.found) {
     json["detections"] = frame.found->detections;
     json["clusters"] = frame.found->clusters;
@@ -117,6 +138,7 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
   record.synthesis_error = frame.synthesis_error;
   record.phase_noise_rad = frame.phase_noise_rad;
   record.clipped = frame.clipped;
+  record.plan = frame.plan;
   return record;
 }
 
@@ -146,6 +168,8 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwOptions& options
   for (const auto& [path, value] : scene.description.resolved)
     std::visit([&, &key = path](const auto& v) { input[key] = v; }, value);
   json["input"] = input;
+  json["accuracy_grey"] = scene.accuracy_grey;
+  json["plan"] = plan_json(plan_of_echoes(scene.plan));
   json["frames"] = Json::array();
   for (const FmcwFrameRecord& frame : frames) json["frames"].push_back(frame_json(frame));
   return json.dump(1) + "\n";

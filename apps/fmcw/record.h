@@ -25,6 +25,7 @@ struct FmcwScanCounts {  // of product bscope
   std::uint64_t rays = 0, scatterers = 0;
   double phase_noise_rad = 0.0;
   std::size_t clipped = 0;
+  core::EffectPlan plan;
   double ms = 0.0;  // for timing.json
 };
 
@@ -42,6 +43,7 @@ struct FmcwFrameRecord {
   bool keystone = false;
   double synthesis_error = 0.0, phase_noise_rad = 0.0;
   std::size_t clipped = 0;
+  core::EffectPlan plan;  // of the receiver
   // For timing.json.
   double echoes_ms = 0.0, signal_ms = 0.0, writing_ms = 0.0;
 };

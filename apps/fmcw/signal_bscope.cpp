@@ -4,9 +4,10 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "apps/fmcw/receive.h"
 #include "core/constants.h"
+#include "renderer/plan/effect_catalogue.h"
 #include "renderer/stages/frame_echoes.h"
+#include "sensors/display/grey_scale.h"
 #include "signal/receiver/receiver_noise.h"
 #include "signal/scan/column_scan.h"
 #include "signal/scan/column_sweep.h"
@@ -39,6 +40,12 @@ double phase_noise_rad(const SignalBscopeSettings& settings,
                                      2.0 * strongest->range_m / core::kSpeedOfLight_mps);
 }
 
+double sum_W(const std::vector<core::Echo>& echoes) {
+  double sum = 0.0;
+  for (const core::Echo& echo : echoes) sum += echo.power_W;
+  return sum;
+}
+
 }  // namespace
 
 sensors::Sensor with_sweep_window(sensors::Sensor sensor) {
@@ -55,8 +62,9 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
   FmcwReceiver receiver;
   receiver.noise_figure = sensor.receiver.noise_figure;
   receiver.sample_rate_Hz = signal::column_sweep(sensor, 0).sample_rate_Hz[0];
-  receiver.thermal_noise = settings.noise;
   receiver.adc_bits = settings.adc_bits;
+  const SamplesShown shown{.window_dB = sensors::GreyScale(sensor).window_dB(),
+                           .over_display_floor = true};
   SignalBscope result;
   result.looks = settings.looks > 0 ? settings.looks : sensor.receiver.looks;
   result.power_W.assign(
@@ -70,8 +78,12 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
     result.scatterers += found.echoes.size();
     signal::FloatCube beat = signal::scan_beat(sensor, found.echoes, found.phase_rad);
     receiver.phase_noise_rad = phase_noise_rad(settings, found.echoes);
-    result.phase_noise_rad = std::max(result.phase_noise_rad, receiver.phase_noise_rad);
-    result.clipped += receive({}, receiver, {seed, 0, pose.frame_index}, beat);
+    const core::EffectPlan plan =
+        receiver_plan(settings.budget, shown, sensor, receiver, sum_W(found.echoes), beat);
+    keep_larger(plan, result.plan);
+    if (plan.runs(renderer::kPhaseNoise))
+      result.phase_noise_rad = std::max(result.phase_noise_rad, receiver.phase_noise_rad);
+    result.clipped += receive({}, receiver, plan, {seed, 0, pose.frame_index}, beat);
     const std::vector<double> cells_W = signal::scan_cells_W(sensor, beat, taken_off_mps);
     for (std::size_t i = 0; i < cells_W.size(); ++i) result.power_W[i] += cells_W[i] / result.looks;
   }

@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "apps/fmcw/receiver_plan.h"
 #include "renderer/frame_pose.h"
 #include "renderer/stages/ground_multipath.h"
 #include "renderer/world.h"
@@ -28,7 +29,7 @@ struct SignalBscopeSettings {
   glm::dvec3 own_velocity_mps{0.0};                           // of the antenna, in scene axes
   renderer::Multipath multipath = renderer::Multipath::none;  // of point targets
   bool swerling = false;
-  bool noise = true;
+  SignalBudget budget{};       // decides over noise, phase noise and quantiser
   double line_width_Hz = 0.0;  // of the oscillator
   int adc_bits = 0;
   std::uint64_t seed = 0;
@@ -39,7 +40,8 @@ struct SignalBscope {
   int looks = 0;
   std::uint64_t rays = 0;        // of all looks
   std::uint64_t scatterers = 0;  // of all looks
-  double phase_noise_rad = 0.0;  // largest of the looks
+  core::EffectPlan plan{};       // of the receiver, the largest bounds of all looks
+  double phase_noise_rad = 0.0;  // largest of the looks in which it runs
   std::size_t clipped = 0;
 };
 

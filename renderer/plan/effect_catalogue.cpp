@@ -9,6 +9,7 @@
 #include "core/constants.h"
 #include "renderer/plan/effect_causes.h"
 #include "renderer/plan/largest_echo.h"
+#include "renderer/plan/signal_effects.h"
 #include "renderer/stages/fluctuation.h"
 #include "renderer/stages/rain_echo.h"
 #include "renderer/stages/range_response.h"
@@ -87,6 +88,10 @@ double noise_dB(const SceneFacts& with) {
   return largest_change_dB(noise, facts);
 }
 
+double receiver_noise_dB(const SceneFacts& facts) {
+  return facts.signal->over_display_floor ? noise_dB(facts) : facts.signal->window_dB;
+}
+
 // At grazing angles every surface reflects all there is, and nothing limits how bright the corner
 // is beside the display's floor; in a null of two rays a target is gone. No bound below the whole
 // window holds for every scene.
@@ -107,9 +112,20 @@ bool targets_fluctuate(const SceneFacts& facts) {
 // Downwards from the mean to the smallest draw, whatever the looks; upwards 13.6 dB.
 double fluctuation_dB(const SceneFacts&) { return kLargestFluctuation_dB; }
 
-}  // namespace
+const std::vector<Effect>& sample_effects() {
+  static const std::vector<Effect> kCatalogue = {
+      {kReceiverNoise, "noise of each physical receiver in its samples",
+       "k T0 F fs, IEEE Std 686 noise figure", always, receiver_noise_dB, receiver_noise_cause, ""},
+      {kPhaseNoise, "phase noise of the oscillator", "Budge and Burt 1993", has_phase_noise,
+       phase_noise_bound_dB, phase_noise_cause,
+       "no line width of the oscillator was given (--line-width), or nothing echoes"},
+      {kQuantiser, "rounding of the samples", "Widrow and Kollar 2008", has_quantiser,
+       quantiser_bound_dB, quantiser_cause, "no number of bits was given (--adc-bits)"},
+  };
+  return kCatalogue;
+}
 
-const std::vector<Effect>& effect_catalogue() {
+const std::vector<Effect>& picture_effects() {
   static const std::vector<Effect> kCatalogue = {
       {kGas, "two-way loss in oxygen and water vapour",
        "ITU-R P.676-13 Annex 1 on the P.835-6 standard atmosphere", always, gas_dB, gas_cause, ""},
@@ -152,6 +168,12 @@ const std::vector<Effect>& effect_catalogue() {
        "no target fluctuates, or frames show the expected power ([accuracy] realisation)"},
   };
   return kCatalogue;
+}
+
+}  // namespace
+
+const std::vector<Effect>& effect_catalogue(Touches touched) {
+  return touched == Touches::samples ? sample_effects() : picture_effects();
 }
 
 }  // namespace fanbeam::renderer

@@ -6,6 +6,8 @@
 //   an additive power p over a local floor f changes 10 log10(1 + p / f) dB (display_floor.h).
 // They hold for the B-scope and for the C-scope of the sensor's mode. Where a small change can
 // decide over a large one plan.cpp takes the whole window instead.
+// What touches pictures is planned once for a sequence, from the scene. What touches samples alone
+// is planned for each set of them, from their power (signal_effects.h).
 // New effects are new rows: nothing else lists them.
 #pragma once
 
@@ -16,6 +18,12 @@
 #include "renderer/plan/scene_facts.h"
 
 namespace fanbeam::renderer {
+
+// What an effect touches.
+enum class Touches {
+  pictures,  // of powers; and through the scene's echoes the samples too, where they have the effect
+  samples,   // of a receiver, and all that is made of them
+};
 
 struct Effect {
   std::string_view name;
@@ -43,7 +51,10 @@ inline constexpr std::string_view kRangeResponse = "range-response";
 inline constexpr std::string_view kThermalNoise = "thermal-noise";
 inline constexpr std::string_view kSpeckle = "speckle";
 inline constexpr std::string_view kSwerling = "swerling";
+inline constexpr std::string_view kReceiverNoise = "receiver-noise";
+inline constexpr std::string_view kPhaseNoise = "phase-noise";
+inline constexpr std::string_view kQuantiser = "quantiser";
 
-const std::vector<Effect>& effect_catalogue();
+const std::vector<Effect>& effect_catalogue(Touches touched = Touches::pictures);
 
 }  // namespace fanbeam::renderer

@@ -30,8 +30,21 @@ SceneFacts with_realisation(const SceneFacts& scene, const EffectWishes& wishes)
 // A C-scope of mode shadow raises an obstacle or does not, by thresholds; a realisation lets point
 // targets cancel the ground they stand on. There any change can be one of the whole window.
 bool tips_over(const SceneFacts& facts) {
+  if (facts.signal) return false;
   return facts.sensor.display.cscope_mode == sensors::Display::CScopeMode::shadow ||
          (facts.sample && facts.has_point_targets);
+}
+
+// Greys of the picture that shows the facts' products.
+struct Greys {
+  double window_dB = 0.0;
+  double dB_per_grey = 0.0;
+};
+
+Greys greys_of(const SceneFacts& facts) {
+  if (facts.signal) return {facts.signal->window_dB, facts.signal->window_dB / 255.0};
+  const sensors::GreyScale scale(facts.sensor);
+  return {scale.window_dB(), scale.dB_per_grey()};
 }
 
 // An effect that the budget decides on.
@@ -42,12 +55,11 @@ struct Open {
 };
 
 // Fills in the decision's bound.
-Open weighed(const Effect& effect, const SceneFacts& facts, const sensors::GreyScale& scale,
+Open weighed(const Effect& effect, const SceneFacts& facts, const Greys& greys,
              core::EffectDecision& decision) {
   const double own_dB = effect.bound_dB(facts);
-  decision.bound_dB =
-      own_dB > 0.0 && tips_over(facts) ? std::max(own_dB, scale.window_dB()) : own_dB;
-  decision.bound_grey = decision.bound_dB / scale.dB_per_grey();
+  decision.bound_dB = own_dB > 0.0 && tips_over(facts) ? std::max(own_dB, greys.window_dB) : own_dB;
+  decision.bound_grey = decision.bound_dB / greys.dB_per_grey;
   return {&effect, &decision, own_dB};
 }
 
@@ -82,7 +94,7 @@ std::string by_user(const std::string& verdict, const core::EffectDecision& deci
 
 // Noise that is shown for certain is part of the floor of every other effect.
 bool noise_runs(const SceneFacts& facts, double accuracy_grey, const EffectWishes& wishes,
-                const sensors::GreyScale& scale) {
+                const Greys& greys) {
   if (contains(wishes.forced_off, kThermalNoise)) return false;
   if (contains(wishes.forced_on, kThermalNoise)) return true;
   if (wishes.base != EffectWishes::Base::as_needed) return wishes.base == EffectWishes::Base::all;
@@ -91,44 +103,13 @@ bool noise_runs(const SceneFacts& facts, double accuracy_grey, const EffectWishe
     return effect.name == kThermalNoise;
   });
   core::EffectDecision decision;
-  weighed(*noise, facts, scale, decision);
+  weighed(*noise, facts, greys, decision);
   return decision.bound_grey > accuracy_grey / 2.0;
 }
 
-}  // namespace
-
-EffectWishes parse_effect_wishes(const std::string& text) {
-  EffectWishes wishes;
-  std::size_t from = 0;
-  while (from <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const std::string word = text.substr(from, comma - from);
-    from = comma + 1;
-    if (word == "all") {
-      wishes.base = EffectWishes::Base::all;
-    } else if (word == "none") {
-      wishes.base = EffectWishes::Base::none;
-    } else {
-      std::string known;
-      bool found = false;
-      for (const Effect& effect : effect_catalogue()) {
-        known += " +" + std::string(effect.name);
-        found = found || (word.size() > 1 && word.substr(1) == effect.name);
-      }
-      if (!found || (word[0] != '+' && word[0] != '-'))
-        core::throw_input_error(core::ErrorClass::ref, "--effects", "\"" + word + "\"",
-                                "all, none, or + or - before one of" + known);
-      (word[0] == '+' ? wishes.forced_on : wishes.forced_off).push_back(word.substr(1));
-    }
-  }
-  return wishes;
-}
-
-core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {
-  const std::vector<Effect>& catalogue = effect_catalogue();
-  SceneFacts facts = with_realisation(scene, wishes);
-  const sensors::GreyScale scale(facts.sensor);
-  facts.noise_shown = noise_runs(facts, accuracy_grey, wishes, scale);
+// What wishes and possibility leave open, `left_grey` decides.
+core::EffectPlan decided(const std::vector<Effect>& catalogue, const SceneFacts& facts,
+                         const Greys& greys, const EffectWishes& wishes, double left_grey) {
   core::EffectPlan result;
   result.decisions.resize(catalogue.size());
   std::vector<Open> open;
@@ -138,7 +119,7 @@ core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const Effec
     decision.effect = effect.name;
     const bool possible = effect.possible(facts);
     Open weighing;
-    if (possible) weighing = weighed(effect, facts, scale, decision);
+    if (possible) weighing = weighed(effect, facts, greys, decision);
     if (contains(wishes.forced_off, effect.name)) {
       decision.reason = by_user("switched off by the user", decision);
     } else if (!possible) {
@@ -152,8 +133,61 @@ core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const Effec
       open.push_back(weighing);
     }
   }
-  share_budget(std::move(open), facts, accuracy_grey / 2.0);
+  share_budget(std::move(open), facts, left_grey);
   return result;
+}
+
+// Of half the accuracy, after what the sequence goes without.
+double left_of_budget_grey(const core::EffectPlan& sequence, double accuracy_grey,
+                           const EffectWishes& wishes) {
+  double left_grey = accuracy_grey / 2.0;
+  for (const core::EffectDecision& decision : sequence.decisions)
+    if (!decision.on && !contains(wishes.forced_off, decision.effect))
+      left_grey -= decision.bound_grey;
+  return left_grey;
+}
+
+std::vector<std::string_view> known_names(Touches touched) {
+  std::vector<std::string_view> names;
+  for (const Effect& effect : effect_catalogue()) names.push_back(effect.name);
+  if (touched == Touches::samples)
+    for (const Effect& effect : effect_catalogue(touched)) names.push_back(effect.name);
+  return names;
+}
+
+}  // namespace
+
+EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
+  const std::vector<std::string_view> names = known_names(touched);
+  EffectWishes wishes;
+  std::size_t from = 0;
+  while (from <= text.size()) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string word = text.substr(from, comma - from);
+    from = comma + 1;
+    if (word == "all") {
+      wishes.base = EffectWishes::Base::all;
+    } else if (word == "none") {
+      wishes.base = EffectWishes::Base::none;
+    } else {
+      std::string known;
+      for (const std::string_view name : names) known += " +" + std::string(name);
+      const bool found =
+          word.size() > 1 && std::find(names.begin(), names.end(), word.substr(1)) != names.end();
+      if (!found || (word[0] != '+' && word[0] != '-'))
+        core::throw_input_error(core::ErrorClass::ref, "--effects", "\"" + word + "\"",
+                                "all, none, or + or - before one of" + known);
+      (word[0] == '+' ? wishes.forced_on : wishes.forced_off).push_back(word.substr(1));
+    }
+  }
+  return wishes;
+}
+
+core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {
+  SceneFacts facts = with_realisation(scene, wishes);
+  const Greys greys = greys_of(facts);
+  facts.noise_shown = noise_runs(facts, accuracy_grey, wishes, greys);
+  return decided(effect_catalogue(), facts, greys, wishes, accuracy_grey / 2.0);
 }
 
 core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& frame,
@@ -162,12 +196,9 @@ core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& 
   if (wishes.base != EffectWishes::Base::as_needed) return result;
   SceneFacts facts = with_realisation(frame, wishes);
   facts.noise_shown = result.runs(kThermalNoise);
-  const sensors::GreyScale scale(facts.sensor);
-  double left_grey = accuracy_grey / 2.0;
+  const Greys greys = greys_of(facts);
   std::vector<Open> open;
   for (core::EffectDecision& decision : result.decisions) {
-    if (!decision.on && !contains(wishes.forced_off, decision.effect))
-      left_grey -= decision.bound_grey;
     const auto effect =
         std::find_if(effect_catalogue().begin(), effect_catalogue().end(),
                      [&](const Effect& each) { return each.name == decision.effect; });
@@ -178,10 +209,21 @@ core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& 
       decision = {decision.effect, false, std::string(effect->why_unseen)};
       continue;
     }
-    open.push_back(weighed(*effect, facts, scale, decision));
+    open.push_back(weighed(*effect, facts, greys, decision));
   }
-  share_budget(std::move(open), facts, left_grey);
+  share_budget(std::move(open), facts, left_of_budget_grey(sequence, accuracy_grey, wishes));
   return result;
+}
+
+core::EffectPlan signal_plan(const core::EffectPlan& sequence, const SceneFacts& samples,
+                             double accuracy_grey, const EffectWishes& wishes) {
+  if (!samples.signal) throw core::InternalError("a plan of samples without their facts");
+  SceneFacts facts = samples;
+  facts.noise_shown =
+      !contains(wishes.forced_off, kReceiverNoise) &&
+      (wishes.base != EffectWishes::Base::none || contains(wishes.forced_on, kReceiverNoise));
+  return decided(effect_catalogue(Touches::samples), facts, greys_of(facts), wishes,
+                 left_of_budget_grey(sequence, accuracy_grey, wishes));
 }
 
 }  // namespace fanbeam::renderer

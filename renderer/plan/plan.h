@@ -18,8 +18,8 @@ struct EffectWishes {
 };
 
 // "all", "none", "+rain,-gas", "all,-fog". Throws InputError E-REF for an unknown effect, naming
-// the known ones.
-EffectWishes parse_effect_wishes(const std::string& text);
+// the known ones: those that touch pictures, and for `touched` samples these as well.
+EffectWishes parse_effect_wishes(const std::string& text, Touches touched = Touches::pictures);
 
 // Half of `accuracy_grey` is for effects left out: an effect that is possible and not forced runs
 // unless its bound, added to the bounds of those already left out (smallest first), stays within
@@ -35,5 +35,11 @@ core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const Effec
 // at most half of `accuracy_grey`.
 core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& frame,
                             double accuracy_grey, const EffectWishes& wishes);
+
+// The plan of one set of samples, beside the plan of its sequence (of the same wishes): effects that
+// touch samples alone, by the facts that `samples` holds of them. What the sequence leaves out takes
+// its bound from that half first. Of the scene's facts the sensor and `sample` are used.
+core::EffectPlan signal_plan(const core::EffectPlan& sequence, const SceneFacts& samples,
+                             double accuracy_grey, const EffectWishes& wishes);
 
 }  // namespace fanbeam::renderer

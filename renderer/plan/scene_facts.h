@@ -1,7 +1,10 @@
 // What the effect catalogue's bounds may use of a scene.
 #pragma once
 
+#include <optional>
+
 #include "atmosphere/weather.h"
+#include "renderer/plan/signal_facts.h"
 #include "sensors/sensor.h"
 
 namespace fanbeam::renderer {
@@ -14,10 +17,12 @@ struct SceneFacts {
   double highest_m = 0.0;
   bool has_walls = false;  // facets that stand within 30 deg of the vertical
   bool has_point_targets = false;
-  bool reflects = false;             // a material in the scene reflects like a mirror
-  bool ground_reflects = false;      // one of the ground does
-  bool sample = false;               // frames show one realisation, not the expected power
-  bool noise_shown = false;          // set by plan(): thermal noise runs whatever else does
+  bool reflects = false;         // a material in the scene reflects like a mirror
+  bool ground_reflects = false;  // one of the ground does
+  bool sample = false;           // frames show one realisation, not the expected power
+  // Set by plan(): thermal noise runs whatever else does. By signal_plan(): it runs, or is left out
+  // because the display's floor hides it.
+  bool noise_shown = false;
   bool fluctuating_targets = false;  // a target of Swerling case 1 to 4
   bool surface_not_dry = false;
   double surface_change_dB = 0.0;      // largest change of NRCS from dry to the scene's state
@@ -25,6 +30,7 @@ struct SceneFacts {
   double largest_eta_m2_per_m3 = 0.0;  // of rain and snow, anywhere
   double largest_sigma0_over_sine = 0.0;  // NRCS over sine of grazing of any material, any state
   double rcs_sum_m2 = 0.0;                // of the point targets, each at its brightest aspect
+  std::optional<SignalFacts> signal{};    // of the samples that signal_plan() decides on
 };
 
 }  // namespace fanbeam::renderer

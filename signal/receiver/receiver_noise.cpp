@@ -7,6 +7,7 @@
 
 #include "core/constants.h"
 #include "core/parallel.h"
+#include "core/random_normals.h"
 #include "signal/checks_private.h"
 #include "signal/receiver/link_budget.h"
 
@@ -30,16 +31,17 @@ void for_rows(const CubeShape& shape, const Body& body) {
 // theta over one chirp.
 std::vector<double> phase_walk_rad(const PhaseNoise& noise, int samples, int chirp) {
   const core::RandomKey key = with_stream(noise.key, core::kStreamPhaseNoise);
+  std::vector<float> draws(static_cast<std::size_t>(samples));
+  core::normal_numbers(key, 0, static_cast<std::uint64_t>(chirp) << 32U, draws.size(),
+                       draws.data());
   const double kept = std::exp(-1.0 / (noise.correlation_s * noise.sample_rate_Hz));
   const double fresh_rad = noise.rms_rad * std::sqrt(1.0 - kept * kept);
   std::vector<double> phase_rad;
-  double last_rad = 0.0;
-  for (int n = 0; n < samples; ++n) {
-    const std::uint64_t cell =
-        static_cast<std::uint64_t>(chirp) << 32 | static_cast<std::uint64_t>(n);
-    const double draw = core::normal_pair(key, cell, 0)[0];
-    last_rad = n == 0 ? noise.rms_rad * draw : kept * last_rad + fresh_rad * draw;
-    phase_rad.push_back(last_rad);
+  phase_rad.reserve(draws.size());
+  for (const float draw : draws) {
+    const double normal = static_cast<double>(draw);
+    phase_rad.push_back(phase_rad.empty() ? noise.rms_rad * normal
+                                          : kept * phase_rad.back() + fresh_rad * normal);
   }
   return phase_rad;
 }
@@ -59,18 +61,19 @@ void add_receiver_noise(const Array& array, const ReceiverNoise& noise, Cube<Rea
            std::to_string(array.channels()) + ", those of the array");
   if (noise.sample_W == 0.0) return;
   const core::RandomKey key = with_stream(noise.key, core::kStreamReceiverNoise);
-  const double part_sqrtW = std::sqrt(0.5 * noise.sample_W);
+  const auto part_sqrtW = static_cast<Real>(std::sqrt(0.5 * noise.sample_W));
+  // Parts of samples that get noise: real and imaginary ones, which follow each other, or real ones.
+  const int parts = noise.complex_baseband ? 2 : 1;
+  const int step = 3 - parts;
   for_rows(cube.shape, [&](int channel, int chirp) {
     const int source =
         array.multiplex == Multiplex::simultaneous ? array.receiver_of(channel) : channel;
-    const std::uint64_t first = cube.index(source, chirp, 0);
-    for (int n = 0; n < cube.shape.samples; ++n) {
-      const std::array<double, 2> draw =
-          core::normal_pair(key, first + static_cast<std::uint64_t>(n), 0);
-      cube.at(channel, chirp, n) += std::complex<Real>(
-          static_cast<Real>(part_sqrtW * draw[0]),
-          noise.complex_baseband ? static_cast<Real>(part_sqrtW * draw[1]) : Real(0));
-    }
+    std::vector<float> normals(static_cast<std::size_t>(parts * cube.shape.samples));
+    core::normal_numbers(key, 0, static_cast<std::uint64_t>(parts) * cube.index(source, chirp, 0),
+                         normals.size(), normals.data());
+    Real* values = reinterpret_cast<Real*>(cube.values.data() + cube.index(channel, chirp, 0));
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      values[static_cast<std::size_t>(step) * i] += part_sqrtW * static_cast<Real>(normals[i]);
   });
 }
 

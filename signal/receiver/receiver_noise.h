@@ -17,7 +17,8 @@
 // The quantiser rounds real and imaginary part to steps of full_scale / 2^(bits - 1), and clips to
 // [-full_scale, full_scale - step].
 //
-// Draws are pure functions of seed, frame and cell (core/random.h); the key's stream is set here.
+// Draws are pure functions of seed, frame and cell (core/random_normals.h, of float accuracy: what
+// that leaves out is 120 dB below the noise); the key's stream is set here.
 // Same bits for any number of threads.
 #pragma once
 

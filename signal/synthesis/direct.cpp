@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstring>
 
 #include "core/dispatch.h"
 #include "core/parallel.h"
@@ -19,13 +20,41 @@ struct Row {
   std::vector<double> re, im;
 };
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void add_run(const PhaseRun& begin, int groups, double* re,
+// Half of the lanes, whose nine variables stay in registers.
+constexpr int kHalf = kLanes / 2;
+typedef double HalfLanes __attribute__((vector_size(kHalf * sizeof(double))));
+
+FANBEAM_LANES_INLINE void load_half(const double* from, HalfLanes& lanes) {
+  std::memcpy(&lanes, from, sizeof(lanes));
+}
+FANBEAM_LANES_INLINE void add_to(double* to, const HalfLanes& lanes) {
+  HalfLanes sum;
+  load_half(to, sum);
+  sum += lanes;
+  std::memcpy(to, &sum, sizeof(sum));
+}
+
+FANBEAM_HOT FANBEAM_INLINE_ALL void add_run(const PhaseRun& run, int groups, double* re,
                                             double* im) {
-  MovingRun run(begin);
-  for (int group = 0; group < groups; ++group) {
-    add_to<double>(re + group * kLanes, run.values.re);
-    add_to<double>(im + group * kLanes, run.values.im);
-    run.advance();
+  for (int half = 0; half < kLanes; half += kHalf) {
+    HalfLanes value_re, value_im, step_re, step_im, turn_re, turn_im;
+    load_half(run.values.re + half, value_re);
+    load_half(run.values.im + half, value_im);
+    load_half(run.steps.re + half, step_re);
+    load_half(run.steps.im + half, step_im);
+    load_half(run.turn.re + half, turn_re);
+    load_half(run.turn.im + half, turn_im);
+    for (int at = half; at < groups * kLanes; at += kLanes) {
+      add_to(re + at, value_re);
+      add_to(im + at, value_im);
+      // MovingRun::advance.
+      HalfLanes next_re = value_re * step_re - value_im * step_im;
+      value_im = value_re * step_im + value_im * step_re;
+      value_re = next_re;
+      next_re = step_re * turn_re - step_im * turn_im;
+      step_im = step_re * turn_im + step_im * turn_re;
+      step_re = next_re;
+    }
   }
 }
 

@@ -103,7 +103,7 @@ void WaveGrid::spread(const std::vector<WavePoint>& points) {
   std::vector<std::uint32_t> order;
   const std::vector<std::uint32_t> rate_begin = sort_by_place(points, rates_, sines_, order);
   const GridPlanes target{reinterpret_cast<float*>(values_.data()), 2 * stride_,
-                      2 * stride_ * static_cast<std::size_t>(sines_), delays_};
+                          2 * stride_ * static_cast<std::size_t>(sines_), delays_};
   const int powers = static_cast<int>(taps_.size()) / kLanes;
   const int slab = 2 * width_;
   const int slabs = (rates_ + slab - 1) / slab;

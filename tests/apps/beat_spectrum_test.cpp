@@ -5,6 +5,7 @@
 
 #include "apps/fmcw/receive.h"
 #include "apps/fmcw/spectrum.h"
+#include "renderer/plan/effect_catalogue.h"
 #include "sensors/sensor_file.h"
 #include "signal/synthesis/beat_synthesis.h"
 
@@ -27,7 +28,9 @@ TEST_CASE("A beat spectrum holds a scatterer's power at its range, and the noise
   apps::FmcwReceiver receiver;
   receiver.noise_figure = sensor.receiver.noise_figure;
   receiver.sample_rate_Hz = radar.waveform.sample_rate_Hz[0];
-  apps::receive(radar.array, receiver, {1, 0, 0}, beat);
+  core::EffectPlan plan;
+  plan.decisions.push_back({std::string(renderer::kReceiverNoise), true, "asked for"});
+  apps::receive(radar.array, receiver, plan, {1, 0, 0}, beat);
   const apps::BeatSpectrum spectrum = apps::beat_spectrum(radar, beat);
   CHECK(spectrum.range_step_m == step_m);
   const auto peak = std::max_element(spectrum.mean_W.begin(), spectrum.mean_W.end());

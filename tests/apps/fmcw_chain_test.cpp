@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "apps/fmcw/chain.h"
+#include "renderer/plan/plan.h"
 #include "sensors/sensor_file.h"
 #include "tests/apps/program.h"
 
@@ -85,4 +86,36 @@ TEST_CASE("A frame holds what its products need and nothing else", "[fmcw]") {
   const FmcwFrame view = made({"top-view"});
   CHECK(view.found);
   CHECK_FALSE(view.top_view.values_W.empty());
+}
+
+TEST_CASE("Receiver effects of zero magnitude, and pruned ones, change no byte", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwOptions options;
+  options.numbers[11] = 16.0;
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.amplitude_sqrtW = 1e-6;
+  const auto made = [&](const char* wishes) {
+    SignalBudget budget;
+    if (*wishes != 0)
+      budget.wishes = renderer::parse_effect_wishes(wishes, renderer::Touches::samples);
+    return fmcw_frame(radar, sensor, {path}, 0, options, {"range-doppler"}, budget);
+  };
+  const FmcwFrame plain = made("");
+  CHECK(made("+phase-noise,+quantiser").beats[0].values == plain.beats[0].values);
+  options.adc_bits = 20;
+  options.line_width_Hz = 1e-9;
+  const FmcwFrame pruned = made("");
+  CHECK(pruned.beats[0].values == plain.beats[0].values);
+  const FmcwFrame forced = made("+phase-noise,+quantiser");
+  CHECK(forced.beats[0].values != plain.beats[0].values);
+  // Mean powers: within the budget of 0.25 grey of 60 / 255 dB.
+  double pruned_W = 0.0, forced_W = 0.0;
+  for (const double power_W : pruned.range_doppler.values_W) pruned_W += power_W;
+  for (const double power_W : forced.range_doppler.values_W) forced_W += power_W;
+  CHECK(std::abs(10.0 * std::log10(forced_W / pruned_W)) < 0.25 * 60.0 / 255.0);
+  options.adc_bits = 3;  // steps longer than the noise's standard deviation
+  CHECK(made("").plan.runs("quantiser"));
+  CHECK_FALSE(made("-quantiser").plan.runs("quantiser"));
 }

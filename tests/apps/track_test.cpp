@@ -1,5 +1,6 @@
 // fanbeam track: a scenario file to tables and metrics, the same bytes again; what it refuses.
 #include <algorithm>
+#include <sstream>
 
 #include "tests/apps/program.h"
 
@@ -128,4 +129,59 @@ TEST_CASE("track measures from samples, and refuses what does not go with it", "
   CHECK(record["scenarios"][0]["range_rmse_m"] < 0.01);
   CHECK(tests::run_fanbeam(words + " --waveform two-slopes").exit_code == 2);
   CHECK(tests::run_fanbeam(words + " --range-only").exit_code == 2);
+}
+
+TEST_CASE("track --study writes its five tables and their plots, with the figures of the bounds",
+          "[track]") {
+  const tests::TemporaryFolder folder;
+  std::string shorter = kScenario;
+  shorter.replace(shorter.find("\"duration_s\": 1.0"), 17, "\"duration_s\": 0.1");
+  folder.write("two.json", shorter);
+  const fs::path out = folder.path() / "out";
+  const auto result = tests::run_fanbeam("track " + tests::quoted(folder.path() / "two.json") +
+                                         " --study --quiet -o " + tests::quoted(out));
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  const std::string page = tests::bytes_of(out / "study.md");
+  // Tables of rows of cells, their two lines of heading included.
+  std::vector<std::vector<std::vector<std::string>>> tables;
+  std::istringstream lines(page);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line); inside = line.starts_with('|')) {
+    if (!line.starts_with('|')) continue;
+    if (!inside) tables.emplace_back();
+    std::istringstream cells(line.substr(1));
+    tables.back().emplace_back();
+    for (std::string cell; std::getline(cells, cell, '|');) tables.back().back().push_back(cell);
+  }
+  REQUIRE(tables.size() == 5);
+  for (const auto& table : tables)
+    for (const auto& row : table) CHECK(row.size() == table[0].size());
+  // Buffer: 2 to 64 ramps. One triangle of 100 runs meets the bound of its 56.45 dB, 0.249 mm, within four
+  // standard deviations; the bound falls with the root of the ramps.
+  REQUIRE(tables[0].size() == 2 + 6);
+  CHECK(std::stod(tables[0][2][2]) == Approx(0.249).margin(0.001).epsilon(0.0));
+  CHECK(std::stod(tables[0][4][2]) == Approx(0.249 / 2.0).margin(0.001).epsilon(0.0));
+  CHECK(std::stod(tables[0][2][1]) == Approx(0.249).epsilon(0.28));
+  // Noise figures up to 50 dB, where peaks are wrong.
+  REQUIRE(tables[1].size() == 2 + 11);
+  CHECK(std::stod(tables[1].back()[6]) > 0.0);
+  CHECK(std::stod(tables[1][2][6]) == 0.0);
+  // Six targets: pairs in order miss two in three, two stages hardly any.
+  REQUIRE(tables[2].size() == 2 + 6);
+  CHECK(std::stod(tables[2][4][1]) == Approx(66.0).margin(6.0).epsilon(0.0));
+  CHECK(std::stod(tables[2][4][5]) <= 1.0);
+  // Five waveforms with two associations, and one row from samples; no identity is exchanged.
+  REQUIRE(tables[3].size() == 2 + 11);
+  for (std::size_t i = 2; i < tables[3].size(); ++i) CHECK(std::stoi(tables[3][i][6]) == 0);
+  // Swaps happen as often as 2 p (1 - p) says: 20000 draws, four standard deviations.
+  REQUIRE(tables[4].size() == 2 + 9);
+  for (std::size_t i = 2; i < tables[4].size(); ++i)
+    CHECK(std::stod(tables[4][i][3]) ==
+          Approx(std::stod(tables[4][i][1])).margin(0.0128).epsilon(0.0));
+  for (const char* plot : {"buffer", "noise-figure", "missed", "ghosts", "crossing"}) {
+    CHECK(page.find("](" + std::string(plot) + ".png)") != std::string::npos);
+    for (const char* ending : {".png", ".svg"})
+      CHECK(fs::file_size(out / (plot + std::string(ending))) > 1000);
+  }
 }

@@ -1,9 +1,11 @@
 // Link budget, two rays, noise and quantisation of the reference radar.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/constants.h"
 #include "core/errors.h"
+#include "core/parallel.h"
 #include "signal/receiver/link_budget.h"
 #include "signal/receiver/receiver_noise.h"
 #include "signal/receiver/two_ray.h"
@@ -103,6 +105,28 @@ TEST_CASE("Receiver noise has the power of k T F fs, white in time", "[receiver]
   CHECK(std::abs(lag) < 4.0 / std::sqrt(4.0 * 64 * 399));
 }
 
+TEST_CASE("Real baseband gets half the noise, white, in the real part alone", "[receiver]") {
+  DoubleCube cube({400, 64, 4});
+  add_receiver_noise(line_array(1, 4, 2e-3), {2.0, false, {12, 0, 1}}, cube);
+  // 102400 values of variance 1: four standard deviations. Were both numbers of a pair taken for
+  // one sample, or one number for two, neighbours or samples 16 apart would be alike.
+  const double count = 400.0 * 64 * 4;
+  double variance = 0.0;
+  double imaginary = 0.0;
+  for (const std::complex<double>& value : cube.values) {
+    variance += value.real() * value.real() / count;
+    imaginary = std::max(imaginary, std::abs(value.imag()));
+  }
+  CHECK(imaginary == 0.0);
+  CHECK(std::abs(variance - 1.0) < 4.0 * std::sqrt(2.0 / count));
+  for (const std::size_t apart : {1U, 2U, 16U, 32U, 400U}) {
+    double lag = 0.0;
+    for (std::size_t i = apart; i < cube.values.size(); ++i)
+      lag += cube.values[i].real() * cube.values[i - apart].real() / count;
+    CHECK(std::abs(lag) < 4.0 / std::sqrt(count));
+  }
+}
+
 TEST_CASE("Virtual channels of one receiver share noise when they are simultaneous", "[receiver]") {
   Array array = line_array(3, 4, 2e-3);
   const auto correlation = [&](int a, int b) {
@@ -131,6 +155,7 @@ TEST_CASE("Noise of nothing changes nothing, and one seed gives one noise", "[re
   CHECK(cube.values == before);
   DoubleCube again = cube;
   add_receiver_noise(array, {1.0, true, {1, 0, 7}}, cube);
+  const core::ThreadLimit one(1);
   add_receiver_noise(array, {1.0, true, {1, 0, 7}}, again);
   CHECK(cube.values == again.values);
   add_receiver_noise(array, {1.0, true, {1, 0, 8}}, again);

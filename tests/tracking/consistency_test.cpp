@@ -1,7 +1,9 @@
 // K06: filters are as good as they say, over fixed runs with matched noise.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "tests/tracking/highway_scenes.h"
 #include "tests/tracking/simulated.h"
 #include "tracking/filters/chi_square.h"
 #include "tracking/filters/kalman.h"
@@ -81,4 +83,68 @@ TEST_CASE("The planar filter is consistent with range, rate and azimuth", "[kalm
   }
   CHECK(mean_interval(3, kRuns).contains(innovations));
   CHECK(mean_interval(4, kRuns).contains(errors));
+}
+
+TEST_CASE("Tracks of measurements from frequencies are as good as they say, by default",
+          "[tracker][statistics]") {
+  // A radar of one element, so that all of a track lies on the line of sight, and a car that
+  // accelerates as the tracker assumes: matched. A floor of 5 mm would bring the mean to 0.04.
+  core::HighwayRadar radar = tests::highway_radar();
+  radar.array_elements = 1;
+  constexpr int kRuns = 100;
+  double errors = 0.0;
+  for (int run = 0; run < kRuns; ++run) {
+    core::HighwayScenario scenario = tests::one_stopped_car();
+    for (int step = 0; step < 60; ++step) {
+      const double a_mps2 =
+          0.5 * core::normal_pair(run_key(run, 1005), static_cast<std::uint64_t>(step), 0)[0];
+      scenario.targets[0].accelerations.push_back(
+          {step * kStep_s, (step + 1) * kStep_s, {a_mps2, 0.0}});
+    }
+    Gaussian last;
+    std::array<double, 2> truth{};
+    run_scenario(scenario, radar, {}, road_tracker(radar, scenario.radar_speed_mps), 31,
+                 static_cast<std::uint32_t>(run), [&](const ScenarioFrame& frame) {
+                   REQUIRE(frame.tracker->tracks().size() == 1);
+                   last = combined(frame.tracker->tracks()[0].state);
+                   truth = {frame.truth[0].range_m, frame.truth[0].range_rate_mps};
+                 });
+    errors += squared_distance(last, {truth[0], truth[1]}) / kRuns;
+  }
+  INFO("normalised squared error " << errors);
+  CHECK(mean_interval(2, kRuns).contains(errors));
+}
+
+TEST_CASE("Errors of six tracks are as large as told, merged beats and all",
+          "[tracker][statistics]") {
+  // Cars that drive straight on, which the tracker does not know: somewhat below 1.
+  const core::HighwayScenario scenario = tests::six_vehicles();
+  const core::HighwayRadar radar = tests::highway_radar();
+  MeanSquare range, azimuth;
+  for (int run = 0; run < 20; ++run) {
+    ScenarioScore score;
+    const auto each = [&](const ScenarioFrame& frame) {
+      score.add(scenario, frame);
+      for (const auto& [target, id] : score.mot.current_match())
+        for (const Track& track : frame.tracker->tracks()) {
+          if (track.id != id) continue;
+          const Gaussian state = combined(track.state);
+          const core::HighwayTruth& truth = frame.truth[static_cast<std::size_t>(target)];
+          const double x_m = state.mean[0], y_m = state.mean[1], range_m = std::hypot(x_m, y_m);
+          // Variance of position along a direction.
+          const auto variance = [&](double x, double y) {
+            return x * x * state.variance(0, 0) + 2.0 * x * y * state.variance(0, 1) +
+                   y * y * state.variance(1, 1);
+          };
+          range.add((range_m - truth.range_m) / std::sqrt(variance(x_m / range_m, y_m / range_m)));
+          azimuth.add((std::atan2(y_m, x_m) - truth.azimuth_rad) * range_m /
+                      std::sqrt(variance(-y_m / range_m, x_m / range_m)));
+        }
+    };
+    run_scenario(scenario, radar, {}, road_tracker(radar, scenario.radar_speed_mps), 32,
+                 static_cast<std::uint32_t>(run), each);
+  }
+  INFO("over the deviation told: range " << range.rms() << ", azimuth " << azimuth.rms());
+  CHECK(range.rms() == Approx(0.95).epsilon(0.0).margin(0.1));
+  CHECK(azimuth.rms() == Approx(0.95).epsilon(0.0).margin(0.1));
 }

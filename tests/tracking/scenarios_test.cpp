@@ -76,10 +76,10 @@ TEST_CASE("S1 tracks of a point target err by at most 1.15 of the posterior boun
   // J' = (Q + F J^-1 F^T)^-1 + R^-1 along the line of sight, for range and speed as measured and the
   // unknown acceleration of 0.5 m/s2 that the tracker assumes (P. Tichavsky, C. H. Muravchik, A.
   // Nehorai, IEEE Trans. SP-46, 1998). The car has none, so the bound is not one for these runs
-  // alone; it is what any filter of that model must expect. The tracker is told that the target is a
-  // point: its floors of 5 mm and 5 mm/s, which cars and merged beats need, cost 1.44 in range.
-  TrackerSettings settings = settings_for();
-  settings.range_floor_m = settings.range_rate_floor_mps = 0.0;
+  // alone; it is what any filter of that model must expect. Tracker and
+  // measurements are those that everybody gets: floors of 5 mm and 5 mm/s would make it 1.44 in
+  // range.
+  const TrackerSettings settings = settings_for();
   constexpr double kStep = 0.05, kVariance = 0.25;
   MeanSquare range, rate;
   for (int run = 0; run < 200; ++run) {

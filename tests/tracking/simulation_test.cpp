@@ -171,3 +171,37 @@ TEST_CASE("Missed and false measurements come at their rates, the same in every 
   CHECK_THROWS_AS(simulated_frame(one_stopped_car(), highway_radar(), settings, 3, 0, 0),
                   core::InputError);
 }
+
+TEST_CASE("Merged beats say how wrong they may be, lone ones that they are right", "[highway]") {
+  for (const Scheme scheme : {Scheme::triangle, Scheme::two_stage}) {
+    SimulationSettings settings;
+    settings.scheme = scheme;
+    for (const RadarMeasurement& one :
+         simulated_frame(one_stopped_car(), highway_radar(), settings, 9, 0, 3)) {
+      CHECK(one.range_systematic_m == 0.0);
+      CHECK(one.range_rate_systematic_mps == 0.0);
+      CHECK(one.azimuth_systematic_rad == 0.0);
+    }
+  }
+  // Two cars of one strength, through each other in 2 s. A beat of two is at most 0.6 bin from
+  // either, sqrt(3) times what it says, on either ramp.
+  const core::HighwayScenario scenario = slow_crossing();
+  int merged = 0, lone = 0, beyond = 0;
+  for (int frame = 80; frame < 160; ++frame) {
+    std::vector<core::HighwayTruth> truth;
+    for (const core::HighwayTarget& target : scenario.targets)
+      truth.push_back(truth_at(target, scenario.radar_speed_mps, highway_radar(), frame * 0.05));
+    for (const auto& one : simulated_frame(scenario, highway_radar(), {}, 9, 0, frame)) {
+      const auto& own = truth[one.azimuth_rad < -0.03 ? 1 : 0];
+      beyond += std::abs(one.range_m - own.range_m) >
+                    std::sqrt(6.0) * one.range_systematic_m + 6.0 * one.range_sigma_m ||
+                std::abs(one.range_rate_mps - own.range_rate_mps) >
+                    std::sqrt(6.0) * one.range_rate_systematic_mps + 6.0 * one.range_rate_sigma_mps;
+      (one.range_systematic_m > 0.0 ? merged : lone) += 1;
+    }
+  }
+  CHECK(merged > 40);
+  CHECK(lone > 40);
+  // Now and then the coarse stage takes a beat of the other car.
+  CHECK(beyond <= (merged + lone) / 20);
+}

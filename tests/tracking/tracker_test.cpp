@@ -51,6 +51,38 @@ TEST_CASE("A track is confirmed by the second good measurement, coasts, and ends
   CHECK(tracker.tracks().empty());
 }
 
+TEST_CASE("What a source knows to be wrong counts as its noise does, and nothing is added to it",
+          "[tracker]") {
+  Tracker one(settings_for()), other(settings_for());
+  for (int i = 0; i < 5; ++i) {
+    RadarMeasurement noisy = at(100.0 - 0.5 * i, -10.0 + 0.01 * i, 0.001 * i);
+    RadarMeasurement wrong = noisy;
+    noisy.range_sigma_m = std::hypot(0.01, 0.3);
+    noisy.range_rate_sigma_mps = std::hypot(0.01, 0.2);
+    noisy.azimuth_sigma_rad = std::hypot(0.001, 0.05);
+    wrong.range_systematic_m = 0.3;
+    wrong.range_rate_systematic_mps = 0.2;
+    wrong.azimuth_systematic_rad = 0.05;
+    one.update(0.05 * i, {noisy});
+    other.update(0.05 * i, {wrong});
+    REQUIRE(one.tracks().size() == 1);
+    REQUIRE(other.tracks().size() == 1);
+    const Gaussian a = combined(one.tracks()[0].state), b = combined(other.tracks()[0].state);
+    for (int k = 0; k < 4; ++k) {
+      const auto at_k = static_cast<std::size_t>(k);
+      CHECK(a.mean[at_k] == Approx(b.mean[at_k]).margin(1e-12));
+      CHECK(a.variance(k, k) == Approx(b.variance(k, k)));
+    }
+    // Seen once, a track is as uncertain as the measurement.
+    if (i == 0) CHECK(a.variance(0, 0) == Approx(0.01 * 0.01 + 0.3 * 0.3));
+  }
+  RadarMeasurement bad = at(50.0, 1.0);
+  bad.range_systematic_m = -1.0;
+  CHECK_THROWS_AS(one.update(1.0, {bad}), core::InputError);
+  bad.range_systematic_m = std::nan("");
+  CHECK_THROWS_AS(one.update(1.0, {bad}), core::InputError);
+}
+
 TEST_CASE("A single false measurement never becomes a track", "[tracker]") {
   Tracker tracker(settings_for());
   tracker.update(0.0, {at(50.0, 3.0)});

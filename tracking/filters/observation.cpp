@@ -13,7 +13,9 @@ namespace {
 
 void check(const RadarMeasurement& m, int size) {
   const double values[] = {m.range_m, m.range_rate_mps, m.azimuth_rad};
-  const double sigmas[] = {m.range_sigma_m, m.range_rate_sigma_mps, m.azimuth_sigma_rad};
+  const double sigmas[][2] = {{m.range_sigma_m, m.range_systematic_m},
+                              {m.range_rate_sigma_mps, m.range_rate_systematic_mps},
+                              {m.azimuth_sigma_rad, m.azimuth_systematic_rad}};
   constexpr const char* kNames[] = {"measurement.range_m", "measurement.range_rate_mps",
                                     "measurement.azimuth_rad"};
   constexpr const char* kSigmaNames[] = {"measurement.range_sigma_m",
@@ -22,11 +24,13 @@ void check(const RadarMeasurement& m, int size) {
   for (int i = 0; i < size; ++i) {
     if (!std::isfinite(values[i]))
       core::throw_input_error(core::ErrorClass::nonfinite, kNames[i], values[i], "a finite value");
-    if (!std::isfinite(sigmas[i]))
-      core::throw_input_error(core::ErrorClass::nonfinite, kSigmaNames[i], sigmas[i],
-                              "a finite value");
-    if (sigmas[i] < 0.0)
-      core::throw_input_error(core::ErrorClass::range, kSigmaNames[i], sigmas[i], "0 or more");
+    for (const double sigma : sigmas[i]) {
+      if (!std::isfinite(sigma))
+        core::throw_input_error(core::ErrorClass::nonfinite, kSigmaNames[i], sigma,
+                                "a finite value");
+      if (sigma < 0.0)
+        core::throw_input_error(core::ErrorClass::range, kSigmaNames[i], sigma, "0 or more");
+    }
   }
 }
 

@@ -14,6 +14,7 @@
 // tangential speed not yet known (20 m/s at 100 m: 0.2 m/s of range rate in 0.05 s) throws a new
 // track away (M. Athans, R. P. Wishner, A. Bertolini, IEEE Trans. AC-13, 1968).
 // Neglected: the correlation of these two terms, and the second order of the azimuth.
+// observe() takes the noise alone; the tracker has put the rest into it (tracking/tracker/tracker.h).
 // Inputs: E-NONFINITE for anything not finite, E-RANGE for a negative standard deviation, a range
 // of 0 in the planar form, or azimuth for a state of one axis.
 #pragma once
@@ -26,10 +27,15 @@ struct RadarMeasurement {
   double range_m = 0.0;
   double range_rate_mps = 0.0;
   double azimuth_rad = 0.0;
-  // Standard deviations.
+  // Standard deviations of noise.
   double range_sigma_m = 0.0;
   double range_rate_sigma_mps = 0.0;
   double azimuth_sigma_rad = 0.0;
+  // Those of what else the source knows to be wrong: beats that neighbours pull or merge with, a
+  // window's side lobes. 0 for a source that is exact but for noise. The tracker adds the squares.
+  double range_systematic_m = 0.0;
+  double range_rate_systematic_mps = 0.0;
+  double azimuth_systematic_rad = 0.0;
 };
 
 enum class Measured { range, range_and_rate, range_rate_and_azimuth };

@@ -13,6 +13,10 @@ constexpr double kBeamwidth = 0.8859;
 constexpr double kCoarseFrame_s = 256 * 20e-6;
 constexpr double kFlat_s = 2e-3, kHop_Hz = 700e3;
 
+double beam_rad(const core::HighwayRadar& radar) {
+  return kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths);
+}
+
 // Targets that the coarse stage cannot tell apart become one.
 std::vector<Seen> merged(std::vector<Seen> targets,
                          const std::function<bool(const Seen&, const Seen&)>& together) {
@@ -28,6 +32,7 @@ std::vector<Seen> merged(std::vector<Seen> targets,
       a.rate_mps = share * a.rate_mps + (1.0 - share) * b.rate_mps;
       a.azimuth_rad = share * a.azimuth_rad + (1.0 - share) * b.azimuth_rad;
       a.power += b.power;
+      a.merged = true;
       targets.erase(targets.begin() + static_cast<std::ptrdiff_t>(j));
     }
   return targets;
@@ -40,11 +45,11 @@ std::vector<Seen> coarse_targets(const std::vector<Seen>& targets, const core::H
   const double wavelength_m = core::kSpeedOfLight_mps / radar.centre_frequency_Hz;
   const double cell_m = core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz);
   const double cell_mps = wavelength_m / (2.0 * (coded ? kFlat_s : kCoarseFrame_s));
-  const double beam_rad = kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths);
+  const double beam = beam_rad(radar);
   return merged(targets, [&](const Seen& a, const Seen& b) {
     return (coded || std::abs(a.range_m - b.range_m) < settings.merge_bins * cell_m) &&
            std::abs(a.rate_mps - b.rate_mps) < settings.merge_bins * cell_mps &&
-           std::abs(std::sin(a.azimuth_rad) - std::sin(b.azimuth_rad)) < beam_rad;
+           std::abs(std::sin(a.azimuth_rad) - std::sin(b.azimuth_rad)) < beam;
   });
 }
 
@@ -77,7 +82,18 @@ std::vector<RadarMeasurement> coarse_to_fine(
         std::max(sigma.radial_speed_mps, settings.coarse_speed_sigma_mps);
     const auto refined =
         signal::refine_two_stage({place}, {fine, peaks.up.Hz, peaks.down.Hz}, options);
-    result.push_back(with_sigmas(refined[0], coarse[i].azimuth_rad, coarse[i].bound));
+    const bool paired = refined[0].range_m != place.range_m;
+    if (!paired && settings.scheme == Scheme::two_stage) continue;
+    RadarMeasurement measured = with_sigmas(refined[0], coarse[i].azimuth_rad, coarse[i].bound);
+    if (paired) {
+      state_spread(fine, peaks, peaks_at(fine, peaks, refined[0]), measured);
+    } else {
+      measured.range_sigma_m = options.coarse_range_sigma_m;
+      measured.range_rate_sigma_mps = options.coarse_speed_sigma_mps;
+    }
+    // Two directions, evenly up to a beam apart, as for merged beats.
+    if (coarse[i].merged) measured.azimuth_systematic_rad = beam_rad(radar) / std::sqrt(12.0);
+    result.push_back(measured);
   }
   return result;
 }

@@ -51,18 +51,25 @@ Peaks merged(const Peaks& beats, double closer_than_Hz) {
             [&](std::size_t a, std::size_t b) { return beats.Hz[a] < beats.Hz[b]; });
   Peaks peaks;
   for (std::size_t i = 0; i < order.size();) {
-    double power = 0.0, sum_Hz = 0.0, sum_rad = 0.0;
+    double power = 0.0, sum_Hz = 0.0, sum_rad = 0.0, sum_rad2 = 0.0;
     std::size_t end = i;
     do {
       const std::size_t one = order[end++];
       power += beats.power[one];
       sum_Hz += beats.power[one] * beats.Hz[one];
       sum_rad += beats.power[one] * beats.azimuth_rad[one];
+      sum_rad2 += beats.power[one] * beats.azimuth_rad[one] * beats.azimuth_rad[one];
     } while (end < order.size() &&
              beats.Hz[order[end]] - beats.Hz[order[end - 1]] < closer_than_Hz);
     peaks.Hz.push_back(sum_Hz / power);
     peaks.azimuth_rad.push_back(sum_rad / power);
     peaks.power.push_back(power);
+    // Two beats of one strength, evenly up to `closer_than_Hz` apart: (d / 2)^2 is a twelfth of its
+    // square on average.
+    const bool lone = end == i + 1;
+    peaks.spread_Hz.push_back(lone ? 0.0 : closer_than_Hz / std::sqrt(12.0));
+    peaks.spread_rad.push_back(
+        lone ? 0.0 : std::sqrt(std::max(0.0, sum_rad2 / power - std::pow(sum_rad / power, 2))));
     i = end;
   }
   return peaks;
@@ -101,17 +108,20 @@ std::size_t nearest(const std::vector<double>& values, double to) {
 // Direction and strength of a pair are those of the beats that it explains.
 RadarMeasurement measured_pair(const signal::TriangleModel& model, const RampPeaks& peaks,
                                const signal::RangeSpeed& place, const core::HighwayRadar& radar) {
-  const signal::BeatPair beats = signal::predict(model, place);
-  const std::size_t up = nearest(peaks.up.Hz, beats.up_Hz);
-  const std::size_t down = nearest(peaks.down.Hz, beats.down_Hz);
+  const PairOfPeaks pair = peaks_at(model, peaks, place);
+  const auto [up, down] = pair;
   const double azimuth_rad = 0.5 * (peaks.up.azimuth_rad[up] + peaks.down.azimuth_rad[down]);
   // The bound of a cross-section that would give this power.
   const double ratio = std::min(peaks.up.power[up], peaks.down.power[down]);
   const double unit =
       measurement_bound(radar, 1.0, std::max(place.range_m, 1e-3), azimuth_rad).signal_to_noise;
-  return with_sigmas(
+  RadarMeasurement measured = with_sigmas(
       place, azimuth_rad,
       measurement_bound(radar, ratio / unit, std::max(place.range_m, 1e-3), azimuth_rad));
+  state_spread(model, peaks, pair, measured);
+  measured.azimuth_systematic_rad =
+      0.5 * std::hypot(peaks.up.spread_rad[up], peaks.down.spread_rad[down]);
+  return measured;
 }
 
 void add_false(const core::HighwayRadar& radar, const SimulationSettings& settings,
@@ -143,6 +153,27 @@ void check(const SimulationSettings& settings) {
 }
 
 }  // namespace
+
+PairOfPeaks peaks_at(const signal::TriangleModel& model, const RampPeaks& peaks,
+                     const signal::RangeSpeed& place) {
+  const signal::BeatPair beats = signal::predict(model, place);
+  return {nearest(peaks.up.Hz, beats.up_Hz), nearest(peaks.down.Hz, beats.down_Hz)};
+}
+
+void state_spread(const signal::TriangleModel& model, const RampPeaks& peaks,
+                  const PairOfPeaks& pair, RadarMeasurement& measurement) {
+  const signal::BeatPair beats{peaks.up.Hz[pair.up], peaks.down.Hz[pair.down]};
+  const signal::RangeSpeed place = solve(model, beats);
+  const auto add = [&](double up_Hz, double down_Hz) {
+    const signal::RangeSpeed moved = solve(model, {beats.up_Hz + up_Hz, beats.down_Hz + down_Hz});
+    measurement.range_systematic_m =
+        std::hypot(measurement.range_systematic_m, moved.range_m - place.range_m);
+    measurement.range_rate_systematic_mps = std::hypot(
+        measurement.range_rate_systematic_mps, moved.radial_speed_mps - place.radial_speed_mps);
+  };
+  add(peaks.up.spread_Hz[pair.up], 0.0);
+  add(0.0, peaks.down.spread_Hz[pair.down]);
+}
 
 RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad,
                              const MeasurementBound& bound) {

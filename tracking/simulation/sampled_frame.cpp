@@ -20,6 +20,8 @@ namespace {
 constexpr double kFalseAlarm = 1e-7;
 constexpr double kCoarseSigma_m = 0.3, kCoarseSigma_mps = 0.3, kGate = 4.0;
 constexpr double kMostSpeed_mps = 70.0;
+// Side lobes of neighbours, the bend of beats, the direction of a moving target.
+constexpr double kSystematic_m = 0.005, kSystematic_mps = 0.005, kSystematic_rad = 5e-4;
 constexpr int kCoarse = 0, kFine = 1;  // stages
 
 std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
@@ -177,7 +179,7 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
     pairs.push_back(best);
     result.push_back({best.place.range_m, best.place.radial_speed_mps, one.azimuth_rad,
                       wider * bound.range_sigma_m, wider * bound.range_rate_sigma_mps,
-                      bound.azimuth_sigma_rad});
+                      bound.azimuth_sigma_rad, kSystematic_m, kSystematic_mps, kSystematic_rad});
   }
   return result;
 }

@@ -30,15 +30,28 @@ class Draws {
 struct Seen {
   double range_m = 0.0, rate_mps = 0.0, azimuth_rad = 0.0, power = 0.0;  // azimuth with its noise
   MeasurementBound bound;
+  bool merged = false;  // of several targets
 };
 
-// Beats of one ramp that the radar sees, with the direction they come from.
+// Beats of one ramp that the radar sees, with the direction they come from and, 0 for a lone one,
+// how far merged ones may be from either.
 struct Peaks {
-  std::vector<double> Hz, azimuth_rad, power;
+  std::vector<double> Hz, azimuth_rad, power, spread_Hz, spread_rad;
 };
 struct RampPeaks {
   Peaks up, down;
 };
+
+// The peaks of a pair.
+struct PairOfPeaks {
+  std::size_t up = 0, down = 0;
+};
+PairOfPeaks peaks_at(const signal::TriangleModel& model, const RampPeaks& peaks,
+                     const signal::RangeSpeed& place);
+
+// Puts what merging leaves uncertain of range and speed into the measurement.
+void state_spread(const signal::TriangleModel& model, const RampPeaks& peaks,
+                  const PairOfPeaks& pair, RadarMeasurement& measurement);
 
 RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad,
                              const MeasurementBound& bound);

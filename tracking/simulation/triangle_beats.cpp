@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/constants.h"
+#include "core/parallel.h"
 #include "signal/detection/tone.h"
 #include "signal/fourier/fft.h"
 #include "signal/fourier/window.h"
@@ -12,7 +14,10 @@ namespace fanbeam::tracking {
 namespace {
 
 constexpr std::size_t kPadding = 2;
-constexpr double kThreshold = 20.0;     // 13 dB over the mean noise of a line
+constexpr double kThreshold = 20.0;  // 13 dB over the mean noise of a line
+constexpr double kTouching = 3.0;    // bins between peaks whose main lobes do
+constexpr double kStill = 3e-4;      // bins: 0.2 mm
+constexpr int kMostSweeps = 12;
 constexpr double kLeastShare = 3.2e-6;  // -55 dB: over the side lobes of the strongest
 
 signal::ToneRecords records_of(const signal::FloatCube& samples, int chirp) {
@@ -53,6 +58,52 @@ std::vector<double> peak_bins(const std::vector<double>& lines, std::size_t chan
   return bins;
 }
 
+// Bins of 0 and of `count` are one.
+double bins_apart(double a, double b, double count) {
+  return std::abs(std::remainder(a - b, count));
+}
+
+void subtract(const signal::Tone& tone, signal::ToneRecords& records) {
+  const std::size_t count = records.front().size();
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::complex<double> phasor = std::polar(
+        1.0, 2.0 * core::kPi * tone.bin * static_cast<double>(n) / static_cast<double>(count));
+    for (std::size_t channel = 0; channel < records.size(); ++channel)
+      records[channel][n] -= tone.amplitudes[channel] * phasor;
+  }
+}
+
+// Tones of all peaks. Those whose main lobes touch are sought in turn, each in what the others leave
+// (J. Li, P. Stoica, IEEE Trans. SP-44, 1996), until none moves any more.
+std::vector<signal::Tone> tones_of(const signal::ToneRecords& records,
+                                   const std::vector<double>& bins,
+                                   const std::vector<double>& weights) {
+  const auto count = static_cast<double>(records.front().size());
+  std::vector<signal::Tone> tones;
+  for (const double near : bins) tones.push_back(signal::refined_tone(records, near, weights));
+  std::vector<bool> lost(tones.size(), false);
+  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
+    double furthest = 0.0;
+    for (std::size_t i = 0; i < tones.size(); ++i) {
+      signal::ToneRecords rest;
+      for (std::size_t j = 0; j < tones.size(); ++j) {
+        if (j == i || lost[i] || bins_apart(bins[i], bins[j], count) > kTouching) continue;
+        if (rest.empty()) rest = records;
+        subtract(tones[j], rest);
+      }
+      if (rest.empty()) continue;
+      signal::Tone tone = signal::refined_tone(rest, tones[i].bin, weights);
+      // One that leaves its peak has none of its own.
+      lost[i] = bins_apart(tone.bin, bins[i], count) > 1.0;
+      if (lost[i]) continue;
+      furthest = std::max(furthest, bins_apart(tone.bin, tones[i].bin, count));
+      tones[i] = std::move(tone);
+    }
+    if (furthest < kStill) break;
+  }
+  return tones;
+}
+
 }  // namespace
 
 SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::TriangleModel& model,
@@ -60,19 +111,23 @@ SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::Tria
   const int count = samples.shape.samples;
   const auto weights =
       signal::window_weights({.kind = signal::WindowKind::chebyshev, .level_dB = 60.0}, count);
-  const signal::ToneRecords records[] = {records_of(samples, 0), records_of(samples, 1)};
+  signal::ToneRecords records[2];
   std::vector<double> bins[2];
-  for (int ramp = 0; ramp < 2; ++ramp)
+  core::parallel_for(2, [&](std::size_t ramp) {
+    records[ramp] = records_of(samples, static_cast<int>(ramp));
     bins[ramp] = peak_bins(lines_of(records[ramp], weights, noise_W), records[ramp].size());
+  });
   const bool alone = bins[0].size() == 1 && bins[1].size() == 1;
   SampledBeats result;
   if (!alone) result.variance_ratio = signal::window_figures(weights).variance_ratio;
+  std::vector<signal::Tone> tones[2];
+  core::parallel_for(2, [&](std::size_t ramp) {
+    tones[ramp] = tones_of(records[ramp], bins[ramp], alone ? std::vector<double>{} : weights);
+  });
   // The first chirp is the ramp up where its middle comes before the turnaround.
   const int up = model.up_middle_s < 0.0 ? 0 : 1;
   for (int ramp = 0; ramp < 2; ++ramp)
-    for (const double near : bins[ramp]) {
-      const signal::Tone tone =
-          signal::refined_tone(records[ramp], near, alone ? std::vector<double>{} : weights);
+    for (const signal::Tone& tone : tones[ramp]) {
       const double half = 0.5 * count;
       const double bin = tone.bin - count * std::floor((tone.bin + half) / count);
       (ramp == up ? result.up : result.down)

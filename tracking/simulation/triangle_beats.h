@@ -21,7 +21,10 @@ struct SampledBeats {
 // `samples`: two chirps, up and down, of any number of channels; `noise_W` of one sample of one
 // channel. Peaks of the spectrum under a Chebyshev window of -60 dB, summed over the channels, 13 dB
 // above the noise of one and at most 55 dB below the strongest; sharper by maximum likelihood,
-// without window where each ramp has one peak.
+// without window where each ramp has one peak. Tones whose peaks are within three bins are sought in
+// turn, each in what the others leave of the samples (RELAX; J. Li, P. Stoica, IEEE Trans. SP-44,
+// 1996), so that they do not pull each other. Neglected: that tones bend over a ramp; two tones that
+// make one peak stay one.
 SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::TriangleModel& model,
                             double sample_rate_Hz, double noise_W);
 

@@ -11,9 +11,11 @@ namespace fanbeam::tracking {
 namespace {
 
 RadarMeasurement with_floors(RadarMeasurement one, const TrackerSettings& settings) {
-  one.range_sigma_m = std::hypot(one.range_sigma_m, settings.range_floor_m);
-  one.range_rate_sigma_mps = std::hypot(one.range_rate_sigma_mps, settings.range_rate_floor_mps);
-  one.azimuth_sigma_rad = std::hypot(one.azimuth_sigma_rad, settings.azimuth_floor_rad);
+  one.range_sigma_m = std::hypot(one.range_sigma_m, one.range_systematic_m, settings.range_floor_m);
+  one.range_rate_sigma_mps = std::hypot(one.range_rate_sigma_mps, one.range_rate_systematic_mps,
+                                        settings.range_rate_floor_mps);
+  one.azimuth_sigma_rad =
+      std::hypot(one.azimuth_sigma_rad, one.azimuth_systematic_rad, settings.azimuth_floor_rad);
   return one;
 }
 

@@ -28,8 +28,9 @@
 //   start         position and closing speed as measured, nothing known of the tangential speed;
 //                 not closer than the resolution to a confirmed track, where biased pairs of merged
 //                 beats lie
-// The measurement noise is that stated, plus floors for what a point target and a linearised model
-// leave out: an uncertainty u across the line of sight bends the range by u^2 / 2R.
+// The measurement noise is that stated, plus what the source states to be wrong besides
+// (observation.h), plus floors, 0 by default, for what a point target leaves out: the echo of a car
+// wanders over metres of it. What the linearised model leaves out is in observation.h.
 // Source: S. Blackman, R. Popoli, "Design and Analysis of Modern Tracking Systems", 1999, ch. 6;
 // Y. Bar-Shalom, P. K. Willett, X. Tian, "Tracking and Data Fusion", 2011.
 // Neglected: groups of three and more unresolved targets are taken pair by pair.
@@ -51,7 +52,7 @@ enum class Association { nearest, joint };
 struct TrackerSettings {
   ImmModel motion = {{MotionModel{}}, 2.0};
   Association association = Association::nearest;
-  double range_floor_m = 0.005, range_rate_floor_mps = 0.005, azimuth_floor_rad = 5e-4;
+  double range_floor_m = 0.0, range_rate_floor_mps = 0.0, azimuth_floor_rad = 0.0;
   // Of both associations; the density is per m, m/s and rad, or per m and m/s on one axis.
   JointSettings detection = {0.98, 0.9999, 1e-4};
   double confirm_ratio = 1e6;

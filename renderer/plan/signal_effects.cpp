@@ -1,0 +1,92 @@
+#include "renderer/plan/signal_effects.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "renderer/plan/effect_causes.h"
+
+namespace fanbeam::renderer {
+namespace {
+
+constexpr double kDecibelsPerNeper = 4.342944819032518;  // of power: 10 / ln 10
+constexpr double kLargestNormal = 6.77;                  // sqrt(2 * 33 ln 2): core/random.h
+
+double noise_part_sqrtW(const SignalFacts& signal) {
+  return std::sqrt(0.5 * signal.noise_sample_W);
+}
+
+double step_sqrtW(const SignalFacts& signal) {
+  return std::ldexp(signal.largest_sample_sqrtW + kLargestNormal * noise_part_sqrtW(signal),
+                    1 - signal.adc_bits);
+}
+
+// Noise is there to hide behind, and only pictures are asked for.
+bool noise_hides(const SceneFacts& facts) {
+  return facts.noise_shown && facts.signal->noise_sample_W > 0.0 && !facts.signal->samples_asked;
+}
+
+std::string whole_text(const std::string& what, const SceneFacts& facts) {
+  const SignalFacts& signal = *facts.signal;
+  if (signal.samples_asked) return what + ": samples are asked for, and show it whatever it is";
+  return what + " can change the picture's whole window of " + figure_text(signal.window_dB) +
+         " dB" + (facts.noise_shown ? "" : ", since no noise hides it");
+}
+
+}  // namespace
+
+bool has_phase_noise(const SceneFacts& facts) {
+  return facts.signal && facts.signal->phase_noise_rad > 0.0;
+}
+
+bool has_quantiser(const SceneFacts& facts) { return facts.signal && facts.signal->adc_bits > 0; }
+
+double phase_noise_bound_dB(const SceneFacts& facts) {
+  const SignalFacts& signal = *facts.signal;
+  if (!noise_hides(facts)) return signal.window_dB;
+  const double variance = signal.phase_noise_rad * signal.phase_noise_rad;
+  const double density =
+      signal.phase_noise_samples > 0.0 ? 1.0 / std::tanh(0.5 / signal.phase_noise_samples) : 1.0;
+  const double images = signal.complex_baseband ? 1.0 : 2.0;
+  const double pedestal_W =
+      signal.beams * signal.echo_W * images * -std::expm1(-variance) * density;
+  const double raised_dB = kDecibelsPerNeper * std::log1p(pedestal_W / signal.noise_sample_W);
+  return std::min(signal.window_dB, std::max(raised_dB, kDecibelsPerNeper * variance));
+}
+
+double quantiser_bound_dB(const SceneFacts& facts) {
+  const SignalFacts& signal = *facts.signal;
+  if (!noise_hides(facts)) return signal.window_dB;
+  const double steps = step_sqrtW(signal) / noise_part_sqrtW(signal);
+  if (!(steps <= 1.0)) return signal.window_dB;
+  return std::min(signal.window_dB, kDecibelsPerNeper * std::log1p(steps * steps / 12.0));
+}
+
+std::string receiver_noise_cause(const SceneFacts& facts, double bound_dB) {
+  if (facts.signal->over_display_floor) return noise_cause(facts, bound_dB);
+  return whole_text("the receiver's noise, on which thresholds and colours stand,", facts);
+}
+
+std::string phase_noise_cause(const SceneFacts& facts, double bound_dB) {
+  const SignalFacts& signal = *facts.signal;
+  const std::string what = "phase noise of " + figure_text(signal.phase_noise_rad) + " rad";
+  if (bound_dB >= signal.window_dB) return whole_text(what, facts);
+  return what + " of echoes of " +
+         figure_text(10.0 * std::log10(signal.echo_W / signal.noise_sample_W)) +
+         " dB over the noise of a sample can change a cell by up to " + figure_text(bound_dB) +
+         " dB";
+}
+
+std::string quantiser_cause(const SceneFacts& facts, double bound_dB) {
+  const SignalFacts& signal = *facts.signal;
+  const std::string what =
+      std::to_string(signal.adc_bits) + (signal.adc_bits == 1 ? " bit" : " bits");
+  if (!noise_hides(facts)) return whole_text("rounding to " + what, facts);
+  const std::string steps = "rounding to " + what + ", in steps of " +
+                            figure_text(step_sqrtW(signal) / noise_part_sqrtW(signal)) +
+                            " of the noise's standard deviation,";
+  if (bound_dB >= signal.window_dB) return whole_text(steps, facts);
+  return steps + " can lift the noise by up to " + figure_text(bound_dB) + " dB";
+}
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,49 @@
+// What a receiver does to the samples of a frame, as effects: bounds and causes of the catalogue's
+// rows of the signal level. They need SceneFacts::signal.
+//
+// Bounds are of the mean power of a cell over the draws of noise and of the echoes' phases (from one
+// draw to the next a cell of noise strays by 5.6 dB RMS anyway), against the mean N that thermal
+// noise leaves there. A transform with weights w turns white noise of N1 a sample into
+// N = N1 sum |w|^2 / |sum w|^2; what the two effects below add goes through the same factor, so that
+// windows and lengths cancel. With P the sum of the echoes' powers and C the channels that a beam
+// sums (it keeps a common pedestal and lowers noise by C; 1 where no product has beams):
+//
+//   receiver noise  the floor itself. Over the display's floor as thermal noise is; elsewhere
+//                   thresholds and colours stand on it, and its bound is the whole window.
+//   phase noise     exp(j theta), theta Gauss-Markov of variance v and correlation time t, common to
+//                   all channels: an echo keeps exp(-v) of its power, the rest is a pedestal with a
+//                   density of at most (1 - exp(-v)) coth(1 / (2 fs t)) times that of white noise
+//                   (exp(R) - 1 <= R (exp(v) - 1) / v for 0 <= R <= v, summed over all lags):
+//                     max(10 log10(1 + C P (1 - exp(-v)) coth(1 / (2 fs t)) / N1), 4.34 v)
+//                   twice the pedestal for real samples, whose image adds its own.
+//   quantiser       steps q no longer than the noise's standard deviation s per part make an error
+//                   that is white, of q^2 / 12 per part (what is left of its dependence on the
+//                   signal is below 2e-9 q): 10 log10(1 + q^2 / (12 s^2)). Longer ones are not
+//                   hidden: the whole window. q = largest part / 2^(bits - 1), the largest with
+//                   the largest draw there is, 6.77 s.
+//
+// Where the user switches the noise off nothing hides either: the whole window. The same where
+// samples are a product themselves.
+// Sources: B. Widrow, I. Kollar, "Quantization Noise", 2008, chapter 5 (Gaussian input); M. C.
+// Budge, M. P. Burt, IEEE Radar Conf. 1993 (signal/receiver/receiver_noise.h).
+// Neglected: the few samples that the quantiser clips, by a step at most; the dependence between
+// channels that share a receiver in the same moment.
+#pragma once
+
+#include <string>
+
+#include "renderer/plan/scene_facts.h"
+
+namespace fanbeam::renderer {
+
+bool has_phase_noise(const SceneFacts& facts);
+bool has_quantiser(const SceneFacts& facts);
+
+double phase_noise_bound_dB(const SceneFacts& facts);
+double quantiser_bound_dB(const SceneFacts& facts);
+
+std::string receiver_noise_cause(const SceneFacts& facts, double bound_dB);
+std::string phase_noise_cause(const SceneFacts& facts, double bound_dB);
+std::string quantiser_cause(const SceneFacts& facts, double bound_dB);
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,23 @@
+// What the bounds of the signal level may use of one set of samples (signal_effects.h).
+#pragma once
+
+namespace fanbeam::renderer {
+
+struct SignalFacts {
+  // How what is made of the samples is shown.
+  double window_dB = 60.0;          // of the picture, grey 0 to 255
+  bool over_display_floor = false;  // a B-scope of the sensor's display; else maps over their noise
+  bool samples_asked = false;       // the samples are a product themselves
+  int beams = 1;                    // channels that a beam sums coherently, most of all products
+  // The samples as they reach the receiver.
+  double echo_W = 0.0;                // sum of the echoes' powers at one receiver's port
+  double largest_sample_sqrtW = 0.0;  // largest magnitude of any part of any sample
+  // The receiver.
+  double noise_sample_W = 0.0;     // thermal noise of a complex sample, both parts
+  bool complex_baseband = true;    // else real samples
+  double phase_noise_rad = 0.0;    // rms; 0: the oscillator has none
+  double phase_noise_samples = 0;  // its correlation time over that from sample to sample
+  int adc_bits = 0;                // 0: no quantiser
+};
+
+}  // namespace fanbeam::renderer
