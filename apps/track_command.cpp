@@ -35,7 +35,8 @@ tracking::SimulationSettings simulation_of(const TrackOptions& options) {
 tracking::TrackerSettings tracker_of(const TrackOptions& options,
                                      const tracking::SimulationSettings& simulation,
                                      const core::HighwayRadar& radar, double radar_speed_mps) {
-  tracking::TrackerSettings settings = tracking::road_tracker(radar, radar_speed_mps);
+  tracking::TrackerSettings settings =
+      tracking::road_tracker(radar, radar_speed_mps, options.acceleration_mps2);
   if (options.association == "joint") settings.association = tracking::Association::joint;
   // Never certain, so that a miss does not cost infinitely much.
   settings.detection.detection_probability = std::clamp(options.detection_probability, 0.05, 0.98);
@@ -252,6 +253,7 @@ int track(const TrackOptions& options, const CommonOptions& common) {
                                  {"from_samples", options.samples},
                                  {"range_only", radar.array_elements < 2},
                                  {"noise_figure", radar.noise_figure},
+                                 {"acceleration_mps2", options.acceleration_mps2},
                                  {"detection_probability", options.detection_probability},
                                  {"false_measurements", options.false_per_frame},
                                  {"scenarios", nlohmann::ordered_json::array()}};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/common.h"
+#include "tracking/simulation/scenario_run.h"
 
 namespace fanbeam::apps {
 
@@ -18,6 +19,7 @@ struct TrackOptions {
   double detection_probability = 1.0;
   double false_per_frame = 0.0;
   std::optional<double> noise_figure_dB{};  // instead of the file's
+  double acceleration_mps2 = tracking::kSteady_mps2;
   bool range_only = false;
   bool samples = false;
   bool plots = false;

@@ -34,6 +34,13 @@ void add_track_command(CLI::App& app, TrackOptions& options, CommonOptions& comm
       ->capture_default_str();
   command.add_option("--noise-figure", options.noise_figure_dB, "dB, instead of the file's")
       ->check(number_from(0.0, 60.0));
+  command
+      .add_option(
+          "--acceleration", options.acceleration_mps2,
+          "m/s2, unknown to the tracker: 0.5 for steady traffic, 4 to 8 where targets brake; "
+          "more tells less of who is who after a crossing")
+      ->check(number_from(0.01, 20.0))
+      ->capture_default_str();
   command.add_flag("--range-only", options.range_only,
                    "One receiver without azimuth: tracks of range and range rate alone");
   CLI::Option* samples = command.add_flag(

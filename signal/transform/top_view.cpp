@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/constants.h"
 #include "core/parallel.h"
 #include "signal/checks_private.h"
 
@@ -27,16 +28,19 @@ double between(double low, double high, double part) { return low + part * (high
 
 double power_at(const PowerMap& map, const std::vector<double>& azimuths_rad, double azimuth_rad,
                 double range_cell) {
-  if (azimuth_rad < azimuths_rad.front() || azimuth_rad > azimuths_rad.back() ||
-      range_cell > map.columns - 1)
+  const bool closed = azimuths_rad.front() <= -0.5 * core::kPi * (1.0 - 1e-12);
+  const double last_rad = closed ? 0.5 * core::kPi : azimuths_rad.back();
+  if (azimuth_rad < azimuths_rad.front() || azimuth_rad > last_rad || range_cell > map.columns - 1)
     return 0.0;
   const auto above = std::upper_bound(azimuths_rad.begin(), azimuths_rad.end(), azimuth_rad);
-  const int high =
+  const bool wraps = above == azimuths_rad.end() && closed;
+  const int next =
       std::min(static_cast<int>(std::distance(azimuths_rad.begin(), above)), map.rows - 1);
-  const int low = std::max(0, high - 1);
+  const int low = wraps ? map.rows - 1 : std::max(0, next - 1);
+  const int high = wraps ? 0 : next;
   const double low_rad = azimuths_rad[static_cast<std::size_t>(low)];
-  const double high_rad = azimuths_rad[static_cast<std::size_t>(high)];
-  const double part = high > low ? (azimuth_rad - low_rad) / (high_rad - low_rad) : 0.0;
+  const double high_rad = wraps ? last_rad : azimuths_rad[static_cast<std::size_t>(high)];
+  const double part = high_rad > low_rad ? (azimuth_rad - low_rad) / (high_rad - low_rad) : 0.0;
   const int near = std::min(static_cast<int>(range_cell), std::max(0, map.columns - 2));
   const int far = std::min(near + 1, map.columns - 1);
   const double beyond = range_cell - near;

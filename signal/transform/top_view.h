@@ -2,7 +2,9 @@
 //
 // Each cell takes the power at its centre by bilinear interpolation between the four neighbours in
 // range and azimuth: a cell at a map cell's own place has its power exactly, and a power never
-// leaves the interval of its neighbours. Cells beyond the map's azimuths or its last range are 0.
+// leaves the interval of its neighbours. Cells beyond the map's azimuths or its last range are 0. A
+// map that begins at -90 deg ends at 90 deg with the same cell: at a pitch of half a wavelength the
+// two are one phase.
 // Power is per map cell, not per area: sums over the picture mean nothing.
 #pragma once
 

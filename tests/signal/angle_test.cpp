@@ -254,6 +254,23 @@ TEST_CASE("the top view keeps what lies on its own cells and nothing beyond the 
   CHECK_THROWS_AS(top_view(map, {0.0}, 1.0, {.rows = 1, .columns = 1}), core::InputError);
 }
 
+TEST_CASE("the top view of half a wavelength's pitch reaches to both sides", "[top_view]") {
+  const std::vector<double> azimuths = angle_cell_azimuths_rad(8, 0.5, 1.0);
+  PowerMap map(8, 11);
+  for (double& power : map.values_W) power = 3.0;
+  for (int range = 0; range <= 10; ++range) map.at(0, range) = 7.0;  // at -90 and 90 deg
+  const PowerMap view =
+      top_view(map, azimuths, 1.0,
+               {.nearest_m = 0.0, .leftmost_m = -10.0, .step_m = 1.0, .rows = 8, .columns = 21});
+  CHECK(view.at(0, 0) == Approx(7.0));
+  CHECK(view.at(0, 20) == Approx(7.0));
+  // Between 48.6 deg, the last cell, and 90: the naive view is black there.
+  for (int column = 14; column < 20; ++column) {
+    CHECK(view.at(2, column) > 3.0);
+    CHECK(view.at(2, column) < 7.0);
+  }
+}
+
 TEST_CASE("arrays, snapshots and grids that do not fit are refused", "[angle]") {
   const Array line = half_wave_line(1, 4);
   const auto elements_m = virtual_elements_m(line);

@@ -26,20 +26,21 @@ std::vector<Place> places(const std::vector<NamedPlace>& named) {
 
 }  // namespace
 
-TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps) {
+TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps,
+                             double acceleration_mps2) {
   TrackerSettings settings;
   settings.most_range_m = radar.most_range_m;
   settings.most_azimuth_rad = radar.most_azimuth_rad;
   if (radar.array_elements < 2) {
     MotionModel along;
     along.axes = 1;
-    along.acceleration_mps2 = 0.5;
+    along.acceleration_mps2 = acceleration_mps2;
     settings.motion.motions = {along};
     settings.detection.clutter_density *= 2.0 * radar.most_azimuth_rad;
     return settings;
   }
   MotionModel straight, turn;
-  straight.acceleration_mps2 = 0.5;
+  straight.acceleration_mps2 = acceleration_mps2;
   turn.kind = MotionKind::coordinated_turn;
   turn.acceleration_mps2 = 0.3;
   turn.turn_density_rad2_per_s3 = 1e-4;

@@ -17,11 +17,16 @@ namespace fanbeam::tracking {
 
 inline constexpr double kMatch_m = 3.0;
 
-// Straight on with 0.5 m/s2 of unknown acceleration, or a turn with 0.3 m/s2, each kept for 20 s on
-// average: a turning target that is not seen for a second goes on turning. A radar of one element
-// tells no azimuth: then range alone is tracked, at constant speed with 0.5 m/s2, which loses what
-// passes close by. Field of view of the radar.
-TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps);
+// Straight on with an unknown acceleration of standard deviation `acceleration_mps2` in each step, or
+// a turn with 0.3 m/s2, each kept for 20 s on average: a turning target that is not seen for a
+// second goes on turning. Speeds are measured to millimetres per second, so that a target that
+// brakes much harder leaves its track at once; the larger the acceleration, the less is known of who
+// is who after a crossing. A radar of one element tells no azimuth: then range alone is tracked, at
+// constant speed with the same acceleration, which loses what passes close by. Field of view of the
+// radar.
+inline constexpr double kSteady_mps2 = 0.5;
+TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps,
+                             double acceleration_mps2 = kSteady_mps2);
 
 struct ScenarioFrame {
   double time_s = 0.0;
