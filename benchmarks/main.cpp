@@ -25,14 +25,16 @@ constexpr double kDistances_m[] = {2500.0, 1000.0};
 constexpr std::uint64_t kLargestNotes_bytes = 1 << 20;
 
 constexpr const char* kUsage =
-    "Usage: fanbeam_bench [--report FILE] [--no-report] [--no-cases] [--estimates] [--quick] "
-    "[--threads N] [--benchmark_...]\n"
+    "Usage: fanbeam_bench [--report FILE] [--no-report] [--no-cases] [--estimates] "
+    "[--no-estimates] "
+    "[--quick] [--threads N] [--benchmark_...]\n"
     "\n"
     "  --report FILE   write the report there instead of to the standard output, and its plots\n"
     "                  into the folder images beside it\n"
     "  --no-report     only the google-benchmark cases\n"
     "  --no-cases      only the report\n"
     "  --estimates     only the report's section on the errors that frames state; not timed\n"
+    "  --no-estimates  the report without that section, in a little over half the time\n"
     "  --quick         coarse and short, to try the report: its figures mean nothing\n"
     "  --threads N     threads to use (2, which the targets are set for; 0 for all cores)\n"
     "  --benchmark_... options of google-benchmark, as --benchmark_filter=frame\n";
@@ -41,7 +43,7 @@ struct Options {
   std::string report_file;
   bool report = true;
   bool cases = true;
-  bool estimates_alone = false;
+  bool estimates = true, estimates_alone = false;
   bool quick = false;
   int threads = 2;
 };
@@ -56,6 +58,8 @@ Options parse(int count, char** arguments) {
       options.report = false;
     } else if (argument == "--no-cases") {
       options.cases = false;
+    } else if (argument == "--no-estimates") {
+      options.estimates = false;
     } else if (argument == "--estimates") {
       options.estimates_alone = true;
     } else if (argument == "--quick") {
@@ -95,7 +99,7 @@ SceneFigures measure(const BenchScene& scene, bool city, const Effort& effort, i
 }
 
 Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int threads,
-               const MachineLoad& machine) {
+               bool estimates, const MachineLoad& machine) {
   Report report;
   report.threads = threads;
   report.quick = effort.quick;
@@ -104,7 +108,7 @@ Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int 
   if (const auto obstacles = load(kObstacleScene))
     report.agreement.push_back(measure_agreement(view_at(*obstacles, kDistances_m[1]), effort));
   report.other_cores = machine.other_cores();  // what follows is not timed
-  report.estimates = check_estimates(effort);
+  if (estimates) report.estimates = check_estimates(effort);
   return report;
 }
 
@@ -148,7 +152,7 @@ void run(const Options& options) {
     benchmark::RunSpecifiedBenchmarks();
   }
   if (!options.report) return;
-  Report report = measure(scenes, effort, threads.threads(), machine);
+  Report report = measure(scenes, effort, threads.threads(), options.estimates, machine);
   report.skipped = std::move(skipped);
   report.notes = notes();
   if (options.report_file.empty()) {
