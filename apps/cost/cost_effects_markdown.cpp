@@ -10,9 +10,9 @@
 namespace fanbeam::apps {
 namespace {
 
-// A cost of less than twice its uncertainty is none that was measured.
+// A cost of less than twice its uncertainty is none that was measured; a gain is noise too.
 bool measurable(const EffectPrice& price) {
-  return std::abs(price.cost_ms()) > 2.0 * price.cost_error_ms();
+  return price.cost_ms() > 2.0 * price.cost_error_ms();
 }
 
 std::string cost_text(const EffectPrice& price) {
