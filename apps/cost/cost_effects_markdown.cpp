@@ -11,9 +11,7 @@ namespace fanbeam::apps {
 namespace {
 
 // A cost of less than twice its uncertainty is none that was measured; a gain is noise too.
-bool measurable(const EffectPrice& price) {
-  return price.cost_ms() > 2.0 * price.cost_error_ms();
-}
+bool measurable(const EffectPrice& price) { return price.cost_ms() > 2.0 * price.cost_error_ms(); }
 
 std::string cost_text(const EffectPrice& price) {
   return measurable(price) ? fmt::format("{:.2f} ms", price.cost_ms())
