@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
+#include "terrain/crs_limit.h"
 #include "terrain/raster/gdal_messages.h"
 
 namespace fanbeam::terrain {
@@ -98,8 +99,11 @@ void LatticeBuilder::make_transformations(const std::string& crs_wkt) {
 }
 
 void LatticeBuilder::transform(OGRCoordinateTransformation& transformation, Points& points) const {
-  bool good =
-      transformation.Transform(static_cast<int>(points.x.size()), points.x.data(), points.y.data());
+  bool good = true;
+  for (std::size_t i = 0; i < points.x.size(); ++i)
+    good = good && is_convertible(points.x[i], points.y[i]);
+  good = good && transformation.Transform(static_cast<int>(points.x.size()), points.x.data(),
+                                          points.y.data());
   for (std::size_t i = 0; i < points.x.size(); ++i)
     good = good && std::isfinite(points.x[i]) && std::isfinite(points.y[i]);
   if (!good)

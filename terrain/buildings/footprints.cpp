@@ -12,6 +12,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "terrain/buildings/crossings_private.h"
+#include "terrain/crs_limit.h"
 #include "terrain/raster/gdal_messages.h"
 
 namespace fanbeam::terrain {
@@ -29,26 +30,24 @@ GeodeticRing ring_from(const OGRLinearRing& source, bool counter_clockwise) {
   return ring;
 }
 
-bool is_on_earth(const OGREnvelope& box) {
-  return std::abs(box.MinX) <= kLargestLongitude_deg &&
-         std::abs(box.MaxX) <= kLargestLongitude_deg && std::abs(box.MinY) <= 90.0 &&
-         std::abs(box.MaxY) <= 90.0;
+// False for coordinates that are no numbers.
+bool is_on_earth(double longitude_deg, double latitude_deg) {
+  return std::abs(longitude_deg) <= kLargestLongitude_deg && std::abs(latitude_deg) <= 90.0;
 }
 
-bool has_only_finite_points(const OGRPolygon& polygon) {
+bool all_points(const OGRPolygon& polygon, bool (*holds)(double, double)) {
   for (const OGRLinearRing* ring : polygon)
     for (int i = 0; i < ring->getNumPoints(); ++i)
-      if (!std::isfinite(ring->getX(i)) || !std::isfinite(ring->getY(i))) return false;
+      if (!holds(ring->getX(i), ring->getY(i))) return false;
   return true;
 }
 
-void collect_polygons(const OGRGeometry& geometry, std::vector<const OGRPolygon*>& polygons) {
+void collect_polygons(OGRGeometry& geometry, std::vector<OGRPolygon*>& polygons) {
   const OGRwkbGeometryType type = wkbFlatten(geometry.getGeometryType());
   if (type == wkbPolygon) {
     polygons.push_back(geometry.toPolygon());
   } else if (type == wkbMultiPolygon || type == wkbGeometryCollection) {
-    for (const OGRGeometry* part : *geometry.toGeometryCollection())
-      collect_polygons(*part, polygons);
+    for (OGRGeometry* part : *geometry.toGeometryCollection()) collect_polygons(*part, polygons);
   }
 }
 
@@ -143,15 +142,17 @@ void FootprintReader::read_layer(OGRLayer& layer) {
 
 void FootprintReader::read_feature(OGRFeature& feature) {
   OGRGeometry* geometry = feature.GetGeometryRef();
-  std::vector<const OGRPolygon*> polygons;
+  std::vector<OGRPolygon*> polygons;
   if (geometry != nullptr) collect_polygons(*geometry, polygons);
   if (polygons.empty()) {
     ++no_polygons_;
     return;
   }
-  if (to_wgs84_ && geometry->transform(to_wgs84_.get()) != OGRERR_NONE)
-    return refuse_feature("coordinates", "outside their reference system",
-                          "positions on the Earth");
+  for (OGRPolygon* polygon : polygons)
+    if (to_wgs84_ && (!all_points(*polygon, is_convertible) ||
+                      polygon->transform(to_wgs84_.get()) != OGRERR_NONE))
+      return refuse_feature("coordinates", "outside their reference system",
+                            "positions on the Earth");
   std::size_t unused = 0;
   const auto height_m =
       height_of(feature, options_.height_property, options_.default_height_m, without_height_);
@@ -161,9 +162,7 @@ void FootprintReader::read_feature(OGRFeature& feature) {
 }
 
 void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m, double height_m) {
-  OGREnvelope box;
-  polygon.getEnvelope(&box);
-  if (!has_only_finite_points(polygon) || !is_on_earth(box))
+  if (!all_points(polygon, is_on_earth))
     return refuse_feature("coordinates", "beyond the Earth",
                           "longitude -540 to 540, latitude -90 to 90 deg");
   if (polygon.IsValid()) return add_valid_polygon(polygon, min_height_m, height_m);
@@ -177,7 +176,7 @@ void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m
                              std::to_string(kMostFileCrossings) + " in the file");
   crossings_left_ -= found;
   const std::unique_ptr<OGRGeometry> repaired(polygon.MakeValid());
-  std::vector<const OGRPolygon*> parts;
+  std::vector<OGRPolygon*> parts;
   if (repaired) collect_polygons(*repaired, parts);
   if (parts.empty()) {
     ++degenerate_;

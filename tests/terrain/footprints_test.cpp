@@ -199,6 +199,19 @@ TEST_CASE("Coordinates of another system are converted", "[footprints]") {
   CHECK(west_rad == Approx(1224000.0 / 6378137.0).epsilon(1e-12));
 }
 
+TEST_CASE("Positions beyond their reference system are refused, where GDAL would not end",
+          "[footprints]") {
+  const auto mercator = [](const std::string& type, const std::string& coordinates) {
+    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"EPSG:3857"}},)"
+           R"("features":[)" +
+           feature(R"("render_height":5)", type, coordinates) + "]}";
+  };
+  const std::string far = "[[[1e300,0],[1224100,0],[1224100,100],[1e300,0]]]";
+  CHECK_THAT(refusal_of(mercator("Polygon", far)), Contains("E-RANGE feature 0 coordinates"));
+  CHECK_THAT(refusal_of(mercator("MultiPolygon", "[" + far + "]")),
+             Contains("E-RANGE feature 0 coordinates"));
+}
+
 TEST_CASE("Files that are no GeoJSON, cut off, or missing are refused", "[footprints]") {
   const std::string whole = collection(feature(R"("render_height":5)", "Polygon", kSquare) + "," +
                                        feature(R"("render_height":6)", "Polygon", kSquare));

@@ -112,6 +112,21 @@ TEST_CASE("Rasters that cannot be placed on the Earth are refused", "[raster_fil
   CHECK_THAT(refusal_of(far.write(folder, "far", ten)), Contains("E-REF"));
 }
 
+TEST_CASE("A raster beyond web Mercator is refused, where GDAL would not end", "[raster_file]") {
+  const TemporaryFolder folder;
+  AsciiGrid grid{4, 4, 1e300, 0.0, 1e299};
+  grid.wkt =
+      "PROJCS[\"WGS_1984_Web_Mercator_Auxiliary_Sphere\",GEOGCS[\"GCS_WGS_1984\","
+      "DATUM[\"D_WGS_1984\",SPHEROID[\"WGS_1984\",6378137,298.257223563]],"
+      "PRIMEM[\"Greenwich\",0],UNIT[\"Degree\",0.0174532925199433]],"
+      "PROJECTION[\"Mercator_Auxiliary_Sphere\"],PARAMETER[\"False_Easting\",0],"
+      "PARAMETER[\"False_Northing\",0],PARAMETER[\"Central_Meridian\",0],"
+      "PARAMETER[\"Standard_Parallel_1\",0],PARAMETER[\"Auxiliary_Sphere_Type\",0],"
+      "UNIT[\"Meter\",1]]";
+  CHECK_THAT(refusal_of(grid.write(folder, "mercator", [](int, int) { return std::string("10"); })),
+             Contains("E-REF"));
+}
+
 TEST_CASE("Missing, foreign and damaged raster files are refused", "[raster_file]") {
   const TemporaryFolder folder;
   CHECK_THAT(refusal_of(folder.path() / "nothing.tif"), Contains("E-IO"));
