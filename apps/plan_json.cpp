@@ -1,6 +1,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.h"
+#include "apps/decision_json.h"
 #include "apps/plan_report.h"
 #include "apps/run_record.h"
 #include "core/machine.h"
@@ -11,19 +12,12 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json decision_json(const core::EffectDecision& decision) {
-  return {{"effect", decision.effect},
-          {"on", decision.on},
-          {"reason", decision.reason},
-          {"bound_grey", decision.bound_grey},
-          {"bound_dB", decision.bound_dB}};
-}
-
 Json plan_rows(const PlanReport& report) {
   Json rows = Json::array();
   const auto& decisions = report.scene.plan.decisions;
   for (std::size_t i = 0; i < decisions.size(); ++i) {
     Json row = decision_json(decisions[i]);
+    row["bound_dB"] = decisions[i].bound_dB;
     for (const renderer::Effect& effect : renderer::effect_catalogue())
       if (effect.name == decisions[i].effect) {
         row["what"] = effect.what;

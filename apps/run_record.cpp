@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.h"
+#include "apps/decision_json.h"
 #include "core/machine.h"
 #include "core/units.h"
 #include "sensors/receiver/receiver_figures.h"
@@ -142,12 +143,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["realisation"] = realisation_of(scene.plan);
   json["sampling"] = sampling_json(scene.caster, record.choice.sampling);
   json["plan_per_frame"] = record.plan_per_frame;
-  json["plan"] = Json::array();
-  for (const core::EffectDecision& decision : scene.plan.decisions)
-    json["plan"].push_back({{"effect", decision.effect},
-                            {"on", decision.on},
-                            {"reason", decision.reason},
-                            {"bound_grey", decision.bound_grey}});
+  json["plan"] = decisions_json(scene.plan);
   json["surface_state"] =
       materials::kSurfaceStateNames[static_cast<std::size_t>(scene.description.surface_state)];
   json["materials"] = Json::array();

@@ -34,7 +34,7 @@ constexpr const char* kUsage =
     "  --no-report     only the google-benchmark cases\n"
     "  --no-cases      only the report\n"
     "  --estimates     only the report's section on the errors that frames state; not timed\n"
-    "  --no-estimates  the report without that section, in a little over half the time\n"
+    "  --no-estimates  the report without that section, in a quarter of the time\n"
     "  --quick         coarse and short, to try the report: its figures mean nothing\n"
     "  --threads N     threads to use (2, which the targets are set for; 0 for all cores)\n"
     "  --benchmark_... options of google-benchmark, as --benchmark_filter=frame\n";

@@ -7,7 +7,6 @@
 #include "core/random.h"
 #include "renderer/casting/profile/profile_caster.h"
 #include "renderer/casting/ray_caster.h"
-#include "renderer/stages/azimuth_beam.h"
 #include "renderer/stages/fluctuation.h"
 #include "renderer/stages/point_targets.h"
 #include "renderer/stages/rain_echo.h"
@@ -96,14 +95,11 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   frame.slices = sums.slices;
   frame.blanked = sums.blanked;
   frame.unprojected = targets.unprojected;
-  frame.bscope_W =
-      apply_azimuth_beam(sums.range_W_per_rad, sums.cells, sums, sensor, sampling_.sub_columns);
-  add_azimuth_side_lobes(sums.range_W_per_rad, sums.cells, sums, sensor, frame.bscope_W);
-  if (elevation_resolved) {
-    frame.cscope_W_m3 = apply_azimuth_beam(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor,
-                                           sampling_.sub_columns);
-    add_azimuth_side_lobes(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor, frame.cscope_W_m3);
-  }
+  const int sub_columns = sampling_.sub_columns;
+  frame.bscope_W = through_antenna(sums.range_W_per_rad, sums.cells, sums, sensor, sub_columns);
+  if (elevation_resolved)
+    frame.cscope_W_m3 =
+        through_antenna(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor, sub_columns);
   // Phases mean something in a realisation only: ground_multipath.h.
   const Multipath multipath = !effects_.multipath ? Multipath::none
                               : effects_.speckle  ? Multipath::coherent

@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <numbers>
 #include <vector>
 
 namespace fanbeam::signal {
@@ -44,6 +45,14 @@ struct Cube {
     return values[index(channel, chirp, sample)];
   }
 };
+
+// What a receiver without quadrature keeps: sqrt(2) times the real part, so that the mean square
+// keeps the power.
+template <typename Real>
+void keep_real(Cube<Real>& cube) {
+  for (std::complex<Real>& value : cube.values)
+    value = static_cast<Real>(std::numbers::sqrt2) * value.real();
+}
 
 using FloatCube = Cube<float>;
 using DoubleCube = Cube<double>;

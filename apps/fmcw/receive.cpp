@@ -27,9 +27,7 @@ std::size_t receive(const signal::Array& array, const FmcwReceiver& receiver,
                                                  .sample_rate_Hz = receiver.sample_rate_Hz,
                                                  .key = key},
                               beat);
-  if (!receiver.complex_baseband)
-    for (std::complex<float>& value : beat.values)
-      value = static_cast<float>(std::sqrt(2.0)) * value.real();
+  if (!receiver.complex_baseband) signal::keep_real(beat);
   if (plan.runs(renderer::kReceiverNoise))
     signal::add_receiver_noise(
         array,

@@ -19,8 +19,8 @@ struct FmcwReceiver {
   int adc_bits = 0;              // 0: no quantiser; else its range is the cube's largest sample
 };
 
-// The complex cube becomes real samples (sqrt(2) times the real part) where the receiver has those:
-// after the phase noise, which turns both parts. Returns how many parts of samples the quantiser
+// The complex cube becomes real samples (signal::keep_real) where the receiver has those: after
+// the phase noise, which turns both parts. Returns how many parts of samples the quantiser
 // clipped.
 std::size_t receive(const signal::Array& array, const FmcwReceiver& receiver,
                     const core::EffectPlan& plan, const core::RandomKey& key,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/decision_json.h"
 #include "apps/fmcw/signal_bscope.h"
 #include "apps/waveform_figures.h"
 #include "core/machine.h"
@@ -55,31 +56,19 @@ Json scan_json(const sensors::Sensor& sensor) {
           {"doppler_compensated", sensor.waveform.doppler_compensated}};
 }
 
-Json plan_json(const core::EffectPlan& plan) {
-  Json rows = Json::array();
-  for (const core::EffectDecision& decision : plan.decisions)
-    rows.push_back({{"effect", decision.effect},
-                    {"on", decision.on},
-                    {"reason", decision.reason},
-                    {"bound_grey", decision.bound_grey}});
-  return rows;
-}
-
 // Of the scene's plan what the echoes hold; the others belong to pictures of powers alone.
 core::EffectPlan plan_of_echoes(const core::EffectPlan& scene) {
   core::EffectPlan echoes;
-  for (const core::EffectDecision& decision : scene.decisions)
-    for (const std::string_view effect :
-         {renderer::kGas, renderer::kFog, renderer::kRain, renderer::kSnow, renderer::kMultipath,
-          renderer::kSurfaceState, renderer::kSideLobes, renderer::kSwerling})
-      if (decision.effect == effect) echoes.decisions.push_back(decision);
+  for (const renderer::Effect& effect : renderer::effect_catalogue())
+    for (const core::EffectDecision& decision : scene.decisions)
+      if (effect.in_echoes && decision.effect == effect.name) echoes.decisions.push_back(decision);
   return echoes;
 }
 
 Json scan_json(const FmcwScanCounts& scan) {
   return {{"looks", scan.looks},           {"rays", scan.rays},
           {"scatterers", scan.scatterers}, {"phase_noise_rad", scan.phase_noise_rad},
-          {"clipped", scan.clipped},       {"plan", plan_json(scan.plan)}};
+          {"clipped", scan.clipped},       {"plan", decisions_json(scan.plan)}};
 }
 
 Json frame_json(const FmcwFrameRecord& frame) {
@@ -103,7 +92,7 @@ Json frame_json(const FmcwFrameRecord& frame) {
                {"synthesis_error", frame.synthesis_error},
                {"phase_noise_rad", frame.phase_noise_rad},
                {"clipped", frame.clipped},
-               {"plan", plan_json(frame.plan)}};
+               {"plan", decisions_json(frame.plan)}};
   if (frame.found) {
     json["detections"] = frame.found->detections;
     json["clusters"] = frame.found->clusters;
@@ -169,7 +158,7 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwOptions& options
     std::visit([&, &key = path](const auto& v) { input[key] = v; }, value);
   json["input"] = input;
   json["accuracy_grey"] = scene.accuracy_grey;
-  json["plan"] = plan_json(plan_of_echoes(scene.plan));
+  json["plan"] = decisions_json(plan_of_echoes(scene.plan));
   json["frames"] = Json::array();
   for (const FmcwFrameRecord& frame : frames) json["frames"].push_back(frame_json(frame));
   return json.dump(1) + "\n";

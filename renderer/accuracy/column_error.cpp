@@ -2,7 +2,6 @@
 
 #include <cstddef>
 
-#include "renderer/stages/azimuth_beam.h"
 #include "renderer/stages/side_lobes.h"
 #include "sensors/display/display.h"
 
@@ -21,44 +20,41 @@ std::vector<double> mean_squares(const std::vector<double>& one, const std::vect
   return sums;
 }
 
-std::vector<double> plus(std::vector<double> values, const std::vector<double>& more) {
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] += more[i];
+// `common` may be empty.
+std::vector<double> over(const std::vector<double>& common, double noise,
+                         std::vector<double> values) {
+  for (double& value : values) value += noise;
+  for (std::size_t i = 0; i < common.size(); ++i) values[i] += common[i];
   return values;
 }
 
 }  // namespace
 
-ColumnError::ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column,
-                         const FanSums& common, bool noise)
-    : sensor_(sensor), sub_columns_(sub_columns_per_column) {
-  common_W_ = bscope_W(common);
-  common_W_m3_ = cscope_W_m3(common);
-  if (!noise) return;
-  for (double& cell : common_W_) cell += sensor.noise_power_W();
-  for (double& cell : common_W_m3_) cell += sensors::cscope_noise_W_m3(sensor);
+ColumnError::ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column, bool noise)
+    : sensor_(sensor),
+      sub_columns_(sub_columns_per_column),
+      noise_W_(noise ? sensor.noise_power_W() : 0.0),
+      noise_W_m3_(noise ? sensors::cscope_noise_W_m3(sensor) : 0.0) {}
+
+void ColumnError::put_under(const FanSums& common) {
+  common_W_ = image(common.range_W_per_rad, common.cells, common);
+  common_W_m3_ = image(common.elevation_W_m3_per_rad, common.rows, common);
 }
 
-std::vector<double> ColumnError::bscope_W(const FanSums& fan) const {
-  std::vector<double> image =
-      apply_azimuth_beam(fan.range_W_per_rad, fan.cells, fan, sensor_, sub_columns_);
-  add_azimuth_side_lobes(fan.range_W_per_rad, fan.cells, fan, sensor_, image);
-  return image;
-}
-
-std::vector<double> ColumnError::cscope_W_m3(const FanSums& fan) const {
-  std::vector<double> image =
-      apply_azimuth_beam(fan.elevation_W_m3_per_rad, fan.rows, fan, sensor_, sub_columns_);
-  add_azimuth_side_lobes(fan.elevation_W_m3_per_rad, fan.rows, fan, sensor_, image);
-  return image;
+std::vector<double> ColumnError::image(const std::vector<double>& sums, int bins,
+                                       const FanSums& fan) const {
+  return through_antenna(sums, bins, fan, sensor_, sub_columns_);
 }
 
 ColumnError::Squares ColumnError::between(const FanSums& one, const FanSums& other) const {
   const auto columns = static_cast<std::size_t>(sensor_.scan.columns);
   const auto bscope = [&](const FanSums& fan) {
-    return sensors::bscope_grey(sensor_, plus(bscope_W(fan), common_W_));
+    return sensors::bscope_grey(
+        sensor_, over(common_W_, noise_W_, image(fan.range_W_per_rad, fan.cells, fan)));
   };
   const auto cscope = [&](const FanSums& fan) {
-    return sensors::cscope_grey(sensor_, plus(cscope_W_m3(fan), common_W_m3_));
+    return sensors::cscope_grey(
+        sensor_, over(common_W_m3_, noise_W_m3_, image(fan.elevation_W_m3_per_rad, fan.rows, fan)));
   };
   return {mean_squares(bscope(one), bscope(other), columns),
           one.rows > 0 ? mean_squares(cscope(one), cscope(other), columns)

@@ -10,10 +10,11 @@ namespace fanbeam::renderer {
 
 class ColumnError {
  public:
-  // `common`: what both pictures have as well, such as the echo of rain; shaped like the fans that
-  // are compared. `noise`: so is the receiver's mean noise power, as a display shows it.
-  ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column, const FanSums& common,
-              bool noise);
+  // `noise`: the receiver's mean noise power is in both pictures, as a display shows them.
+  ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column, bool noise);
+
+  // What both pictures have as well, such as the echo of rain; shaped like the fans to compare.
+  void put_under(const FanSums& common);
 
   // Mean squares over a column's cells of the difference of unrounded grey, one value per column.
   struct Squares {
@@ -22,12 +23,12 @@ class ColumnError {
   Squares between(const FanSums& one, const FanSums& other) const;
 
  private:
-  std::vector<double> bscope_W(const FanSums& fan) const;
-  std::vector<double> cscope_W_m3(const FanSums& fan) const;
+  std::vector<double> image(const std::vector<double>& sums, int bins, const FanSums& fan) const;
 
   const sensors::Sensor& sensor_;
   int sub_columns_;
-  std::vector<double> common_W_, common_W_m3_;
+  double noise_W_, noise_W_m3_;
+  std::vector<double> common_W_, common_W_m3_;  // empty for nothing
 };
 
 }  // namespace fanbeam::renderer

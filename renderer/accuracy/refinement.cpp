@@ -103,10 +103,12 @@ class TooCoarse {
 ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                                FanSums& sums, SightLines& sight) const {
   caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
-  FanSums rain = empty_like(sums);
-  if (effects_.rain_echo && world_.volume_echo)
+  ColumnError difference(world_.sensor, sampling_.sub_columns, effects_.thermal_noise);
+  if (effects_.rain_echo && world_.volume_echo) {
+    FanSums rain = empty_like(sums);
     add_rain_echo(world_, antenna, sampling_.sub_columns, rain);
-  const ColumnError difference(world_.sensor, sampling_.sub_columns, rain, effects_.thermal_noise);
+    difference.put_under(rain);
+  }
   const double target_grey = sampling_.target_grey * (bounces_ != nullptr ? std::sqrt(0.5) : 1.0);
   ErrorEstimate error = target_grey > 0.0
                             ? refine(antenna, with_cscope, difference, target_grey, sums)

@@ -21,7 +21,8 @@
 // Not in the estimate: point targets, which are not sampled at random. The echo of rain is not
 // either, but it fills the cells in which errors would show.
 // Deterministic: depends on the pose and the world alone.
-// Cost: twice that of level 0 at least, and two pictures per level to compare.
+// Cost: twice that of level 0 at least, and two pictures per level to compare; in rain its echo once
+// more, so that a frame has the same bytes with an estimate and without.
 #pragma once
 
 #include <algorithm>

@@ -36,6 +36,8 @@ struct Effect {
   // Why a single frame goes without; empty for what is built into the world or the same in every
   // frame, and so decided for the whole sequence.
   std::string_view why_unseen = {};
+  // The scene's echoes have it, and so the samples that are made of them.
+  bool in_echoes = false;
 };
 
 inline constexpr std::string_view kGas = "gas";

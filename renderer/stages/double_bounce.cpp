@@ -23,6 +23,7 @@ struct PassPlaces {
   std::uint32_t shift = 0;       // of azimuths, in parts of 2^32 of a block
   double elevation_share = 0.5;  // of each interval of elevations
   double weight = 1.0;           // one over the passes that are averaged
+  bool everywhere = false;       // else only around places that a search has found
 
   // Between the borders of a block for ray `index`: multiples of the golden ratio.
   double azimuth(int index, int sub_column) const {
@@ -84,9 +85,7 @@ class Strip {
     intervals_ = static_cast<int>(scratch_.edges.size()) - 1;
     if (intervals_ < 1) return;
     const int passes = sampling_.jittered_passes;
-    // A corner that the search misses is missing in a pass: where many are averaged that would not
-    // average out.
-    if (passes > 0 || places_.weight < 1.0) {
+    if (places_.everywhere) {
       scratch_.wanted.assign(static_cast<std::size_t>(intervals_), 1);
     } else if (!search()) {
       return;
@@ -209,6 +208,23 @@ class Strip {
   std::uint64_t cast_ = 0;
 };
 
+void add_pass(const World& world, const Sampling& sampling, const ElevationFan& fan,
+              const BounceTracer& tracer, const sensors::AntennaFrame& antenna,
+              const PassPlaces& places, FanSums& sums) {
+  const int strips = (sums.sub_columns + sampling.sub_columns - 1) / sampling.sub_columns;
+  std::vector<std::vector<Share>> foreign(static_cast<std::size_t>(strips));
+  std::vector<std::uint64_t> cast(foreign.size(), 0);
+  core::parallel_for(foreign.size(), [&](std::size_t i) {
+    thread_local StripScratch scratch;
+    Strip strip(world, sampling, fan, tracer, antenna, places, sums, static_cast<int>(i), scratch);
+    strip.run(foreign[i]);
+    cast[i] = strip.cast_count();
+  });
+  for (const std::vector<Share>& shares : foreign)
+    for (const Share& share : shares) share.deposit_in(sums);
+  for (const std::uint64_t count : cast) sums.rays += count;
+}
+
 }  // namespace
 
 DoubleBounce::DoubleBounce(const World& world, const Sampling& sampling)
@@ -217,28 +233,16 @@ DoubleBounce::DoubleBounce(const World& world, const Sampling& sampling)
 void DoubleBounce::add(const sensors::AntennaFrame& antenna, FanSums& sums, int level) const {
   if (!tracer_.any()) return;
   const int passes = level < 2 ? 1 : 1 << (level - 1);
-  const double weight = 1.0 / (passes * std::max(sampling_.jittered_passes, 1));
-  for (int pass = 0; pass < passes; ++pass)
-    add_pass(antenna, level < 2 ? level : passes + pass, weight, sums);
-}
-
-void DoubleBounce::add_pass(const sensors::AntennaFrame& antenna, int pass, double weight,
-                            FanSums& sums) const {
-  const PassPlace place = pass_place(pass);
-  const PassPlaces places{place.azimuth_shift, place.elevation, weight};
-  const int strips = (sums.sub_columns + sampling_.sub_columns - 1) / sampling_.sub_columns;
-  std::vector<std::vector<Share>> foreign(static_cast<std::size_t>(strips));
-  std::vector<std::uint64_t> cast(foreign.size(), 0);
-  core::parallel_for(foreign.size(), [&](std::size_t i) {
-    thread_local StripScratch scratch;
-    Strip strip(world_, sampling_, fan_, tracer_, antenna, places, sums, static_cast<int>(i),
-                scratch);
-    strip.run(foreign[i]);
-    cast[i] = strip.cast_count();
-  });
-  for (const std::vector<Share>& shares : foreign)
-    for (const Share& share : shares) share.deposit_in(sums);
-  for (const std::uint64_t count : cast) sums.rays += count;
+  PassPlaces places;
+  places.weight = 1.0 / (passes * std::max(sampling_.jittered_passes, 1));
+  // What a search misses is missing in every pass: the mean of many would not make up for it.
+  places.everywhere = sampling_.jittered_passes > 0 || passes > 1;
+  for (int pass = 0; pass < passes; ++pass) {
+    const PassPlace place = pass_place(level < 2 ? level : passes + pass);
+    places.shift = place.azimuth_shift;
+    places.elevation_share = place.elevation;
+    add_pass(world_, sampling_, fan_, tracer_, antenna, places, sums);
+  }
 }
 
 }  // namespace fanbeam::renderer

@@ -4,14 +4,14 @@
 // the echoes to the fan before the azimuth beam.
 //
 // How it samples: first one ray per picture column and every second elevation of the fan, only to
-// see where mirrored rays meet anything at all; around these places one ray per sub-column and
-// elevation for every two sub-columns (the reference: in each, jittered, in every pass). A corner
-// seen over fewer than two elevations of the fan and narrower than a column may be missed, but not
-// where samples of several levels are averaged: levels from 2 on search nothing and cast all. An
-// echo lies in one range cell and in one sub-column, that of the mean of its first and last azimuth.
-// It is not spread over the ranges up to its neighbours in elevation, as the casters' hits are: each
+// see where mirrored rays meet anything at all; around these places one ray for every two
+// sub-columns and every elevation (the reference: in each, jittered, in every pass). A corner seen
+// over fewer than two elevations of the fan and narrower than a column may be missed, but not where
+// samples of several levels are averaged: levels from 2 on search nothing and cast all. An echo
+// lies in one range cell and in one sub-column, that of the mean of its first and last azimuth. It
+// is not spread over the ranges up to its neighbours in elevation, as the casters' hits are: each
 // has an azimuth of its own, and the range of a corner changes faster with that (measured:
-// docs/performance.md).
+// docs/performance-notes.md).
 //
 // Deterministic: each strip of sub-columns is one thread's; echoes that lie in another strip are
 // added afterwards, in the order of the strips.
@@ -37,8 +37,6 @@ class DoubleBounce {
   void add(const sensors::AntennaFrame& antenna, FanSums& sums, int level = 0) const;
 
  private:
-  void add_pass(const sensors::AntennaFrame& antenna, int pass, double weight, FanSums& sums) const;
-
   const World& world_;
   Sampling sampling_;
   ElevationFan fan_;

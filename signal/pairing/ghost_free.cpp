@@ -65,12 +65,12 @@ std::vector<RangeSpeed> pair_two_slopes(const TriangleBeats& first, const Triang
   return targets;
 }
 
-std::vector<RangeSpeed> refine_two_stage(const std::vector<RangeSpeed>& coarse,
-                                         const TriangleBeats& fine,
-                                         const TwoStageOptions& options) {
-  std::vector<RangeSpeed> refined;
+std::vector<std::optional<RangeSpeed>> refine_two_stage(const std::vector<RangeSpeed>& coarse,
+                                                        const TriangleBeats& fine,
+                                                        const TwoStageOptions& options) {
+  std::vector<std::optional<RangeSpeed>> refined;
   for (const RangeSpeed& target : coarse) {
-    RangeSpeed best = target;
+    std::optional<RangeSpeed> best;
     double least = options.gate * options.gate;
     for (const double up_Hz : fine.up_Hz)
       for (const double down_Hz : fine.down_Hz) {

@@ -7,12 +7,15 @@
 //
 // Two stages: a chirp sequence gives range and speed, coarse but without ambiguity. For each, the
 // pair of fine beats is taken that fits best, (dR / sigma_R)^2 + (dv / sigma_v)^2 least; the fine
-// pair gives the answer. A coarse target with no pair inside the gate keeps its coarse values.
+// pair gives the answer. A coarse target with no pair inside the gate has none.
 //
 // Sources: E. Hyun, W. Oh, J.-H. Lee, "Multi-target detection algorithm for FMCW radar", IEEE Radar
 // Conf. 2012 (two stages, misses from 67 % to 3 %); H. Rohling, M.-M. Meinecke, CIE Radar 2001.
 // Neglected: amplitudes, which would tell some pairs apart further.
 #pragma once
+
+#include <optional>
+#include <vector>
 
 #include "signal/pairing/triangle.h"
 
@@ -40,8 +43,10 @@ struct TwoStageOptions {
   double gate = 4.0;  // in standard deviations
 };
 
-// `coarse` at the triangle's turnaround. One answer for each entry, in order.
-std::vector<RangeSpeed> refine_two_stage(const std::vector<RangeSpeed>& coarse,
-                                         const TriangleBeats& fine, const TwoStageOptions& options);
+// `coarse` at the triangle's turnaround. One answer for each entry, in order; nothing where no pair
+// fits.
+std::vector<std::optional<RangeSpeed>> refine_two_stage(const std::vector<RangeSpeed>& coarse,
+                                                        const TriangleBeats& fine,
+                                                        const TwoStageOptions& options);
 
 }  // namespace fanbeam::signal

@@ -252,9 +252,7 @@ Cube<Real> synthesise(const Waveform& waveform, int stage, const Array& array,
   Cube<Real> cube = error >= kFloatLimit ? converted<Real>(spread_all<float>(frame, paths, plan))
                                          : converted<Real>(spread_all<double>(frame, paths, plan));
   add_direct(frame, plan.direct, cube);
-  if (!waveform.complex_baseband)
-    for (std::complex<Real>& value : cube.values)
-      value = static_cast<Real>(std::sqrt(2.0)) * value.real();
+  if (!waveform.complex_baseband) keep_real(cube);
   return cube;
 }
 

@@ -104,8 +104,7 @@ KeystoneBeat keystone_beat(const Waveform& waveform, int stage, const Array& arr
   grid.spread(points_of(axes, seen));
   transform_delays(kernel, frame.shape.samples, grid);
   transform_rates_and_sines(frame, axes, kernel, grid, beat.cube);
-  if (!waveform.complex_baseband)
-    for (std::complex<float>& value : beat.cube.values) value = std::sqrt(2.0f) * value.real();
+  if (!waveform.complex_baseband) keep_real(beat.cube);
   return beat;
 }
 

@@ -46,10 +46,8 @@ DoubleCube reference_beat(const Waveform& waveform, int stage, const Array& arra
     const int channel = static_cast<int>(row / chirps);
     const int chirp = static_cast<int>(row % chirps);
     add_row(frame, channel, chirp, paths, cube);
-    if (waveform.complex_baseband) return;
-    for (int n = 0; n < frame.shape.samples; ++n)
-      cube.at(channel, chirp, n) = std::sqrt(2.0) * cube.at(channel, chirp, n).real();
   });
+  if (!waveform.complex_baseband) keep_real(cube);
   return cube;
 }
 

@@ -126,7 +126,11 @@ Rates stages(int count) {
       coarse.push_back(
           {truth[i].range_m + 0.3 * noise[0], truth[i].radial_speed_mps + 0.3 * noise[1]});
     }
-    return refine_two_stage(coarse, beats_of(short_triangle(), truth, frame, 1), {});
+    const auto refined = refine_two_stage(coarse, beats_of(short_triangle(), truth, frame, 1), {});
+    std::vector<RangeSpeed> places;
+    for (std::size_t i = 0; i < coarse.size(); ++i)
+      places.push_back(refined[i].value_or(coarse[i]));
+    return places;
   });
 }
 

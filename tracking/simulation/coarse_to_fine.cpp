@@ -80,13 +80,13 @@ std::vector<RadarMeasurement> coarse_to_fine(
     options.coarse_range_sigma_m = std::max(sigma.range_m, settings.coarse_range_sigma_m);
     options.coarse_speed_sigma_mps =
         std::max(sigma.radial_speed_mps, settings.coarse_speed_sigma_mps);
-    const auto refined =
-        signal::refine_two_stage({place}, {fine, peaks.up.Hz, peaks.down.Hz}, options);
-    const bool paired = refined[0].range_m != place.range_m;
-    if (!paired && settings.scheme == Scheme::two_stage) continue;
-    RadarMeasurement measured = with_sigmas(refined[0], coarse[i].azimuth_rad, coarse[i].bound);
-    if (paired) {
-      state_spread(fine, peaks, peaks_at(fine, peaks, refined[0]), measured);
+    const std::optional<signal::RangeSpeed> refined =
+        signal::refine_two_stage({place}, {fine, peaks.up.Hz, peaks.down.Hz}, options).front();
+    if (!refined && settings.scheme == Scheme::two_stage) continue;
+    RadarMeasurement measured =
+        with_sigmas(refined.value_or(place), coarse[i].azimuth_rad, coarse[i].bound);
+    if (refined) {
+      state_spread(fine, peaks, peaks_at(fine, peaks, *refined), measured);
     } else {
       measured.range_sigma_m = options.coarse_range_sigma_m;
       measured.range_rate_sigma_mps = options.coarse_speed_sigma_mps;
