@@ -87,7 +87,7 @@ class EchoDensity {
       facets.range_slope[i] = front ? slope : 0.0F;
       // Walls and roofs of one mesh do not share intervals.
       const std::uint32_t upright = nz * nz < 0.49F * square ? 1U : 0U;
-      facets.surface[i] = hit ? 2U * batch.geometry[i] + upright : terrain::kNoHit;
+      facets.surface[i] = hit ? surface_of(batch.geometry[i], upright) : terrain::kNoHit;
       facets.x_m[i] = x_m + batch.direction_x[i] * batch.distance_m[i];
       facets.y_m[i] = y_m + batch.direction_y[i] * batch.distance_m[i];
       facets.z_m[i] = z_m + batch.direction_z[i] * batch.distance_m[i];

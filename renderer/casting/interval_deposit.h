@@ -83,7 +83,7 @@ class IntervalDeposit {
     alignas(64) double border_rad[kSize], middle_m[kSize];
     alignas(64) double border_row[kSize];  // in rows of the C-scope from the top
     alignas(64) int border_whole_row[kSize];
-    alignas(64) double joined[kSize];  // 1 where both rays lie on one piece of surface, else 0
+    alignas(64) double joined[kSize];  // 1 where they meet half way between their ranges, else 0
   };
   // What is added where: `share` of it to bin `first`, the rest to the next one.
   struct Spread {
@@ -120,7 +120,11 @@ class IntervalDeposit {
       block.border_rad[i] = (block.elevation_rad[i] + block.elevation_rad[i + 1]) / 2;
       block.middle_m[i] = (block.range_m[i] + block.range_m[i + 1]) / 2;
       const bool near = std::abs(block.range_m[i + 1] - block.range_m[i]) <= limit_m_;
-      block.joined[i] = block.surface[i] == block.surface[i + 1] && near ? 1.0 : 0.0;
+      // A neighbour has another azimuth, in which an oblique wall stands at another range: half way
+      // to it, no ray would reach the wall's ends. The wall's own plane is exact.
+      const bool one_surface =
+          block.surface[i] == block.surface[i + 1] && !is_upright(block.surface[i]);
+      block.joined[i] = one_surface && near ? 1.0 : 0.0;
     }
   }
 

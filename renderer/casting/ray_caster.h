@@ -10,11 +10,11 @@
 // the power of that. (The widening itself, 0.5 % at 6 deg, is neglected for surfaces.) Flat ground
 // then gives the seed's patch R phi dR / cos(psi). Its power is spread evenly over the range
 // interval that the ray stands for: half way to its neighbours on the same surface, along its own
-// facet at a silhouette, never across one.
+// facet on walls and at a silhouette, never across one.
 //
-// How it samples: elevations follow the visible range cells (elevation_fan.h); each ray has its own
-// azimuth inside its sub-column (golden-ratio sequence), because regular azimuths hit or miss
-// oblique walls; neighbours that are more than a cell apart or hit different surfaces are refined
+// How it samples: elevations follow the visible range cells (elevation_fan.h), in each sub-column at
+// another place between their borders; each ray has its own azimuth inside its sub-column
+// (golden-ratio sequence), because regular azimuths hit or miss oblique walls; neighbours that are more than a cell apart or hit different surfaces are refined
 // by halving.
 //
 // Neglected: secondary bounces, refraction, diffraction. Accuracy over sampling:

@@ -17,6 +17,12 @@ struct RayGap {
   std::int32_t below = 0, above = 0;
 };
 
+// Neighbours of equal surface may be one piece. Upright facets, walls, are a surface of their own.
+inline std::uint32_t surface_of(std::uint32_t geometry, std::uint32_t upright) {
+  return 2U * geometry + upright;
+}
+inline bool is_upright(std::uint32_t surface) { return (surface & 1U) != 0; }
+
 class RayChain {
  public:
   static constexpr std::int32_t kEnd = -1;
@@ -52,7 +58,7 @@ class RayChain {
   std::vector<float>
       range_slope;  // q: the facet's plane lies at R / (1 + q de) for a ray de higher
   std::vector<float> density_W_per_rad2;  // dP / (de daz)
-  std::vector<std::uint32_t> surface;     // rays with equal surface may share a range interval
+  std::vector<std::uint32_t> surface;     // surface_of(), terrain::kNoHit without a hit
   std::vector<std::uint8_t> azimuth;      // sub-column of the group
   std::vector<std::int32_t> next;         // the next higher ray of the same sub-column
 

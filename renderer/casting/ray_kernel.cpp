@@ -48,6 +48,7 @@ class GroupCaster {
       const double centre_rad =
           sums.first_azimuth_rad + (kGroupAzimuths * group + a + 0.5) * sums.step_rad;
       columns_[a] = {centre_rad, std::cos(centre_rad), std::sin(centre_rad), sums.step_rad};
+      elevation_share_[a] = elevation_place(sub_column(a), frame.places.first_elevation);
     }
   }
 
@@ -120,12 +121,11 @@ class GroupCaster {
     cast_rays(kGroupAzimuths * rows(), [&](int first, int count) {
       for (int lane = 0; lane < count; lane += kGroupAzimuths) {
         const int row = (first + lane) / kGroupAzimuths;
-        const double elevation_rad =
-            edges[row] + frame_.places.elevation_share * (edges[row + 1] - edges[row]);
-        const double gain = gain_at(elevation_rad);
         for (int a = 0; a < kGroupAzimuths; ++a) {
+          const double elevation_rad =
+              edges[row] + elevation_share_[a] * (edges[row + 1] - edges[row]);
           batch_.elevation_rad[lane + a] = elevation_rad;
-          batch_.gain[lane + a] = gain;
+          batch_.gain[lane + a] = gain_at(elevation_rad);
           batch_.offset_rad[lane + a] = columns_[a].offset_rad(
               frame_.places.azimuth_place(static_cast<std::uint32_t>(row), sub_column(a)));
         }
@@ -243,6 +243,7 @@ class GroupCaster {
   EchoDensity echo_;
   double gap_limit_m_;
   std::array<SubColumn, kGroupAzimuths> columns_;
+  std::array<double, kGroupAzimuths> elevation_share_;
   RayBatch batch_;
 };
 

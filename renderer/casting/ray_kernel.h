@@ -24,7 +24,7 @@ struct RayPlaces {
   // in elevation share an interval of ranges, so a narrow strip is a sharper cut.
   double strip_begin = 0.0, strip_width = 1.0;
   std::uint32_t dither_shift = 0;  // inside the strip, in parts of 2^32
-  double elevation_share = 0.5;    // of each interval of elevations, from its lower end
+  double first_elevation = 0.5;    // of each step, from its lower end, in sub-column 0
 
   double azimuth_place(std::uint32_t index, int sub_column) const {
     return strip_begin + strip_width * dither(index, sub_column, dither_shift);

@@ -19,9 +19,9 @@ Sampling reference_sampling(std::uint64_t seed, int passes) {
 
 Sampling sampling_for(double rays_per_cell) {
   Sampling sampling;
-  // Azimuth first, while a sub-column keeps at least 0.4 rays per cell, and 0.7 where there are
+  // Azimuth first, while a sub-column keeps a third of a ray per cell, and 0.7 where there are
   // three or more: below that cells share too many rays (docs/performance-notes.md).
-  sampling.sub_columns = rays_per_cell < 0.8    ? 1
+  sampling.sub_columns = rays_per_cell < 0.65   ? 1
                          : rays_per_cell < 2.2  ? 2
                          : rays_per_cell < 3.5  ? 3
                          : rays_per_cell < 10.0 ? 4

@@ -1,6 +1,7 @@
-// Where inside its sub-column of azimuth a ray goes.
+// Where inside its sub-column of azimuth, and its step in elevation, a ray goes.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 namespace fanbeam::renderer {
@@ -21,6 +22,15 @@ inline double dither(std::uint32_t index, int sub_column, std::uint32_t shift) {
   const std::uint32_t value =
       index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U + shift;
   return static_cast<double>(value) * 0x1p-32;
+}
+
+// Where the rays of a sub-column lie inside their steps in elevation, as a part of the step; that
+// of sub-column 0 is `first`. The edge of a wall that faces the radar has one elevation in many
+// azimuths: rays at the same elevations everywhere would get the same wrong part of it in all of
+// them.
+inline double elevation_place(int sub_column, double first) {
+  const double place = first + 0.5698402909980532 * sub_column;
+  return place - std::floor(place);
 }
 
 }  // namespace fanbeam::renderer

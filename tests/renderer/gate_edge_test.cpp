@@ -65,9 +65,10 @@ void check_gate_rows(const renderer::Sampling& sampling, double tolerance) {
 }  // namespace
 
 // Neighbouring rays meet half way between their ranges, 6.67^2 / (4 * 200) = 0.056 m behind the
-// true place; a row of level ground is 0.6 to 0.9 m long there.
+// true place; a row of level ground is 0.48 to 0.9 m long there. What a ray stands for is spread
+// evenly: where the gate cuts near its end, that is 3 % off. Together 0.1 in a lit row of 17.3 m.
 TEST_CASE("A row of the C-scope with the gate's edge in it gets what lies inside: rays", "[flat]") {
-  check_gate_rows(renderer::sampling_for(4.0), 0.1);
+  check_gate_rows(renderer::sampling_for(4.0), 0.12);
 }
 
 // Slices cut at the gate itself, and spread a piece's power evenly over the rows it crosses.
