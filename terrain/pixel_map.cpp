@@ -10,6 +10,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
+#include "terrain/crs_definition.h"
 #include "terrain/crs_limit.h"
 #include "terrain/raster/gdal_messages.h"
 
@@ -83,6 +84,10 @@ void LatticeBuilder::invert_geotransform() {
 }
 
 void LatticeBuilder::make_transformations(const std::string& crs_wkt) {
+  if (names_files(crs_wkt))
+    core::throw_input_error(core::ErrorClass::path, core::Place{file_}, "georeference",
+                            "a coordinate reference system that names files",
+                            "a system that PROJ knows by itself");
   OGRSpatialReference crs;
   OGRSpatialReference wgs84;
   if (crs_wkt.empty() || crs.importFromWkt(crs_wkt.c_str()) != OGRERR_NONE)

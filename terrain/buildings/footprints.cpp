@@ -9,9 +9,11 @@
 #include <optional>
 #include <system_error>
 
+#include "core/files.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "terrain/buildings/crossings_private.h"
+#include "terrain/crs_definition.h"
 #include "terrain/crs_limit.h"
 #include "terrain/raster/gdal_messages.h"
 
@@ -61,6 +63,7 @@ class FootprintReader {
 
  private:
   void check_size() const;
+  void check_crs() const;
   GDALDatasetUniquePtr open() const;
   void read_layer(OGRLayer& layer);
   void read_feature(OGRFeature& feature);
@@ -90,6 +93,7 @@ class FootprintReader {
 
 std::vector<Footprint> FootprintReader::read() {
   check_size();
+  check_crs();
   const GDALDatasetUniquePtr dataset = open();
   for (OGRLayer* layer : dataset->GetLayers()) read_layer(*layer);
   if (messages_.has_errors())
@@ -110,6 +114,12 @@ void FootprintReader::check_size() const {
   if (size_bytes > kLargestFootprintFile_bytes)
     core::throw_input_error(core::ErrorClass::limit, core::Place{file_}, "footprints",
                             std::to_string(size_bytes) + " bytes", "at most 200 MB");
+}
+
+void FootprintReader::check_crs() const {
+  if (crs_names_files(core::read_file(file_, kLargestFootprintFile_bytes), file_))
+    core::throw_input_error(core::ErrorClass::path, core::Place{file_}, "crs",
+                            "a system that names files", "a system that PROJ knows by itself");
 }
 
 GDALDatasetUniquePtr FootprintReader::open() const {

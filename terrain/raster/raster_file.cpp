@@ -12,6 +12,7 @@
 
 #include "core/errors.h"
 #include "core/files.h"
+#include "terrain/crs_definition.h"
 #include "terrain/raster/gdal_messages.h"
 
 namespace fanbeam::terrain {
@@ -49,6 +50,7 @@ class BandReader {
 
   void check_readable() const;
   void check_side_files() const;
+  void check_side_text(const std::filesystem::path& path) const;
   void check_shape() const;
   void check_kind(GDALRasterBand& band) const;
   PixelMap make_map() const;
@@ -66,7 +68,8 @@ void BandReader::check_readable() const {
     refuse(core::ErrorClass::io, "raster", "no such file, or not readable", "a readable file");
 }
 
-// GDAL reads "dem.prj" and "dem.tif.aux.xml" beside "dem.tif" unasked, wherever links lead it.
+// GDAL reads "dem.prj" and "dem.tif.aux.xml" beside "dem.tif" unasked, wherever links lead it, whole,
+// and opens what they name.
 void BandReader::check_side_files() const {
   namespace fs = std::filesystem;
   const fs::path path = fs::absolute(file_);
@@ -75,10 +78,21 @@ void BandReader::check_side_files() const {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with(start) && !core::lies_inside(folder, entry.path()))
+    if (!name.starts_with(start)) continue;
+    if (!core::lies_inside(folder, entry.path()))
       refuse(core::ErrorClass::path, "side file", name,
              "files beside the raster that are no links out of its folder");
+    if (name.ends_with(".prj") || name.ends_with(".aux.xml")) check_side_text(entry.path());
   }
+}
+
+void BandReader::check_side_text(const std::filesystem::path& path) const {
+  constexpr std::uint64_t kLargest_bytes = 1 << 20;
+  const std::string text = core::read_file(path, kLargest_bytes);
+  // XML may write letters as numbers, which nobody needs here.
+  if (names_files(text) || text.find("&#") != std::string::npos)
+    refuse(core::ErrorClass::path, "side file", path.filename().string(),
+           "a coordinate reference system that names no files");
 }
 
 void BandReader::check_shape() const {
