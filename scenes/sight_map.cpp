@@ -15,7 +15,7 @@ using terrain::HeightField;
 constexpr double kTile_m = 128.0;
 // Floats of the ray caster and rounding (ray_scene.h: 25 mm).
 constexpr double kMargin_m = 1.0;
-// An echo is spread over half the way to its neighbours, from a little beyond the gate too.
+// An echo is spread over half the way to its neighbours at most, from a little beyond the gate too.
 constexpr double kMarginCells = 8.0;
 // What the fan may be wider than field of view and beam: sub-columns come in whole groups.
 constexpr double kMarginColumns = 5.0;

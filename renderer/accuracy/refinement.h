@@ -9,9 +9,9 @@
 // as RMS over cells of unrounded displayed grey. For errors that are independent the factors would
 // be 0.50 and 0.71. A slice's errors are edges that fall between two slices, evenly spread: halving
 // the spacing of a step function gives 0.29, for the old ones 0.58. Rays have a part in common that
-// D does not see, the interval of ranges that a ray stands for. The factors are fits to converged
-// pictures; docs/performance-notes.md holds estimates against true errors. What every early sample
-// missed, a narrow thing behind others, is in no estimate.
+// D does not see, the interval of ranges that a ray stands for on ground and roofs. The factors are
+// fits to converged pictures; docs/performance-notes.md holds estimates against true errors. What
+// every early sample missed, a narrow thing behind others, is in no estimate.
 //
 // Refined is where it is needed: columns whose own error is above the target get the next level,
 // with the columns beside them that their beam reaches, until the RMS over all columns is at most
@@ -21,8 +21,8 @@
 // Not in the estimate: point targets, which are not sampled at random. The echo of rain is not
 // either, but it fills the cells in which errors would show.
 // Deterministic: depends on the pose and the world alone.
-// Cost: twice that of level 0 at least, and two pictures per level to compare; in rain its echo once
-// more, so that a frame has the same bytes with an estimate and without.
+// Cost: twice that of level 0 at least, and two pictures per level to compare; in rain its echo
+// once more, so that a frame has the same bytes with an estimate and without.
 #pragma once
 
 #include <algorithm>

@@ -85,9 +85,9 @@ class EchoDensity {
       facets.range_m[i] = hit ? batch.distance_m[i] : 0.0F;
       facets.sin_grazing[i] = front ? sin_grazing : 0.0F;
       facets.range_slope[i] = front ? slope : 0.0F;
-      // Walls and roofs of one mesh do not share intervals.
-      const std::uint32_t upright = nz * nz < 0.49F * square ? 1U : 0U;
-      facets.surface[i] = hit ? surface_of(batch.geometry[i], upright) : terrain::kNoHit;
+      // Steeper than 45.6 degrees: neither do walls share intervals with roofs of their mesh.
+      const std::uint32_t steep = nz * nz < 0.49F * square ? 1U : 0U;
+      facets.surface[i] = hit ? surface_of(batch.geometry[i], steep) : terrain::kNoHit;
       facets.x_m[i] = x_m + batch.direction_x[i] * batch.distance_m[i];
       facets.y_m[i] = y_m + batch.direction_y[i] * batch.distance_m[i];
       facets.z_m[i] = z_m + batch.direction_z[i] * batch.distance_m[i];

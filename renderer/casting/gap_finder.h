@@ -17,7 +17,7 @@ class GapFinder {
   // Neighbours farther apart than this are not one piece of surface.
   explicit GapFinder(double limit_m) : limit_m_(limit_m) {}
 
-  // Into `gaps`, all of a fan just linked, from the lowest elevation up.
+  // Into `gaps`, all of a fan just linked, from the lowest step in elevation up.
   void search_fan(const RayChain& rays, bool horizon_only, std::vector<std::uint8_t>& marks,
                   std::vector<RayGap>& gaps) const {
     const int count = rays.count() - kGroupAzimuths;

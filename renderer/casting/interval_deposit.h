@@ -121,9 +121,9 @@ class IntervalDeposit {
       block.middle_m[i] = (block.range_m[i] + block.range_m[i + 1]) / 2;
       const bool near = std::abs(block.range_m[i + 1] - block.range_m[i]) <= limit_m_;
       // A neighbour has another azimuth, in which an oblique wall stands at another range: half way
-      // to it, no ray would reach the wall's ends. The wall's own plane is exact.
+      // to it, no ray would reach the wall's ends. A steep facet keeps to its own plane.
       const bool one_surface =
-          block.surface[i] == block.surface[i + 1] && !is_upright(block.surface[i]);
+          block.surface[i] == block.surface[i + 1] && !is_steep(block.surface[i]);
       block.joined[i] = one_surface && near ? 1.0 : 0.0;
     }
   }

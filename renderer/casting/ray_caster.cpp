@@ -105,7 +105,8 @@ std::vector<terrain::RayPacket<16>> RayCaster::packets(const sensors::AntennaFra
   FanSums sums;
   lay_out_fan(world_, sampling_, true, sums);
   const PathLossTable path_loss = path_loss_.from(antenna.position_m.z);
-  const RayFrame frame{world_, sampling_, fan_, nrcs_, antenna, elevation_gain_, path_loss, true};
+  const RayFrame frame{world_,          sampling_, fan_, nrcs_,          antenna,
+                       elevation_gain_, path_loss, true, whole_places(0)};
   std::vector<std::vector<terrain::RayPacket<16>>> groups;
   cast_all<16>(frame, groups_of(sums), sums, &groups);
   std::vector<terrain::RayPacket<16>> packets;

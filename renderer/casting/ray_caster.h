@@ -10,12 +10,12 @@
 // the power of that. (The widening itself, 0.5 % at 6 deg, is neglected for surfaces.) Flat ground
 // then gives the seed's patch R phi dR / cos(psi). Its power is spread evenly over the range
 // interval that the ray stands for: half way to its neighbours on the same surface, along its own
-// facet on walls and at a silhouette, never across one.
+// facet where that is steep and at a silhouette, never across one.
 //
-// How it samples: elevations follow the visible range cells (elevation_fan.h), in each sub-column at
-// another place between their borders; each ray has its own azimuth inside its sub-column
-// (golden-ratio sequence), because regular azimuths hit or miss oblique walls; neighbours that are more than a cell apart or hit different surfaces are refined
-// by halving.
+// How it samples: elevations follow the visible range cells (elevation_fan.h), in each sub-column
+// at another place between their borders; each ray has its own azimuth inside its sub-column
+// (golden-ratio sequence), because regular azimuths hit or miss oblique walls; neighbours that are
+// more than a cell apart or hit different surfaces are refined by halving.
 //
 // Neglected: secondary bounces, refraction, diffraction. Accuracy over sampling:
 // docs/performance.md; closed forms on flat ground within 0.05 dB (reference) and 0.5 dB (one ray
@@ -49,7 +49,7 @@ class RayCaster : public Caster {
   void cast_groups(const sensors::AntennaFrame& frame, bool with_cscope, int level,
                    const std::vector<std::uint32_t>& groups, FanSums& sums) const;
 
-  // Every ray of a frame as the last pass would send it, in packets, for the bare-pass benchmark.
+  // Every ray of a frame as level 0 sends it, in packets, for the bare-pass benchmark.
   std::vector<terrain::RayPacket<16>> packets(const sensors::AntennaFrame& frame) const;
 
  private:

@@ -1,7 +1,7 @@
 // The rays of a group of sub-columns after their cast, in order of elevation.
 //
-// The fan is stored row by row, all azimuths of an elevation side by side, as it is cast. Rays that
-// refinement puts between two others go to the end and are linked in.
+// The fan is stored row by row, all azimuths of a step in elevation side by side, as it is cast.
+// Rays that refinement puts between two others go to the end and are linked in.
 #pragma once
 
 #include <cstddef>
@@ -17,11 +17,12 @@ struct RayGap {
   std::int32_t below = 0, above = 0;
 };
 
-// Neighbours of equal surface may be one piece. Upright facets, walls, are a surface of their own.
-inline std::uint32_t surface_of(std::uint32_t geometry, std::uint32_t upright) {
-  return 2U * geometry + upright;
+// Neighbours of equal surface may be one piece. Steep facets of a mesh or of the ground, walls among
+// them, are a surface of their own.
+inline std::uint32_t surface_of(std::uint32_t geometry, std::uint32_t steep) {
+  return 2U * geometry + steep;
 }
-inline bool is_upright(std::uint32_t surface) { return (surface & 1U) != 0; }
+inline bool is_steep(std::uint32_t surface) { return (surface & 1U) != 0; }
 
 class RayChain {
  public:

@@ -168,8 +168,8 @@ class GroupCaster {
     }
   }
 
-  // A ray in the middle of every gap. Gaps are in order of elevation, so that a packet's rays stay
-  // close together.
+  // A ray in the middle of every gap. Gaps are nearly in order of elevation, so that a packet's
+  // rays stay close together.
   void fill_gaps() {
     RayChain& rays = scratch_.rays;
     const std::vector<RayGap>& gaps = scratch_.gaps;

@@ -21,7 +21,7 @@ namespace fanbeam::renderer {
 // Where the rays of one pass over a fan lie beside those of the others.
 struct RayPlaces {
   // The strip of every sub-column that the rays are spread over, as parts of its width. Neighbours
-  // in elevation share an interval of ranges, so a narrow strip is a sharper cut.
+  // in elevation share an interval of ranges on the ground, so a narrow strip is a sharper cut.
   double strip_begin = 0.0, strip_width = 1.0;
   std::uint32_t dither_shift = 0;  // inside the strip, in parts of 2^32
   double first_elevation = 0.5;    // of each step, from its lower end, in sub-column 0

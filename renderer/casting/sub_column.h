@@ -18,7 +18,7 @@ struct SubColumn {
 // other. `shift`, in parts of 2^32, moves them all.
 inline double dither(std::uint32_t index, int sub_column, std::uint32_t shift) {
   // Fractions as 32-bit integers wrap round by themselves: 0.6180339887 and 0.7548776662 times
-  // 2^32.
+  // 2^32, the golden ratio and the first step of the R2 sequence.
   const std::uint32_t value =
       index * 2654435769U + static_cast<std::uint32_t>(sub_column) * 3242174889U + shift;
   return static_cast<double>(value) * 0x1p-32;
@@ -29,7 +29,9 @@ inline double dither(std::uint32_t index, int sub_column, std::uint32_t shift) {
 // azimuths: rays at the same elevations everywhere would get the same wrong part of it in all of
 // them.
 inline double elevation_place(int sub_column, double first) {
-  const double place = first + 0.5698402909980532 * sub_column;
+  // With the step of dither() from one sub-column to the next, the R2 sequence.
+  constexpr double kStep = 0.5698402909980532;
+  const double place = first + kStep * sub_column;
   return place - std::floor(place);
 }
 

@@ -69,7 +69,7 @@ TEST_CASE("--accuracy leaves at most half of its error to sampling, and more of 
   const TemporaryFolder folder;
   for (const std::string caster : kCasters) {
     std::vector<nlohmann::json> runs;
-    for (const double accuracy_grey : {2.0, 0.3, 0.15}) {
+    for (const double accuracy_grey : {2.0, 0.2, 0.12}) {
       INFO(caster << " to " << accuracy_grey);
       const std::string asked = nlohmann::json(accuracy_grey).dump();
       const Result result =

@@ -1,7 +1,11 @@
 // The end of an oblique wall that reaches a little into a range cell.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstddef>
 #include <glm/geometric.hpp>
+#include <vector>
 
+#include "renderer/casting/sub_column.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {
@@ -37,9 +41,9 @@ double end_W(const renderer::World& world, const renderer::Sampling& sampling) {
 
 }  // namespace
 
-// Half way to the range of a neighbour, which has another azimuth, few rays reach the wall's end: the
-// cell would get 0.6 and 0.8 of its power, in every frame the same. Which rays are added between
-// those that meet the wall and those that pass it costs a tenth still.
+// Half way to the range of a neighbour, which has another azimuth, few rays reach the wall's end:
+// the cell would get 0.6 and 0.8 of its power, in every frame the same. Which rays are added
+// between those that meet the wall and those that pass it costs a tenth still.
 TEST_CASE("The end of an oblique wall in a range cell shows with its power", "[rays]") {
   for (const double deep_m : {0.1, 0.2}) {
     const renderer::World world = oblique_wall(deep_m);
@@ -48,4 +52,22 @@ TEST_CASE("The end of an oblique wall in a range cell shows with its power", "[r
     INFO("end " << deep_m << " m inside the cell");
     CHECK(end_W(world, renderer::sampling_for(8.0)) / converged_W == Approx(1.0).margin(0.15));
   }
+}
+
+// A level edge that is high in many azimuths gets its share of each step only if these differ.
+TEST_CASE("Sub-columns side by side look at elevations that fill a step evenly", "[rays]") {
+  for (const int first : {0, 1, 17, 655})
+    for (const int count : {2, 4, 8, 16, 32}) {
+      std::vector<double> places;
+      for (int i = 0; i < count; ++i) places.push_back(renderer::elevation_place(first + i, 0.5));
+      std::sort(places.begin(), places.end());
+      double widest = places.front() + 1.0 - places.back();
+      for (std::size_t i = 1; i < places.size(); ++i)
+        widest = std::max(widest, places[i] - places[i - 1]);
+      INFO(count << " from " << first);
+      CHECK(places.front() >= 0.0);
+      CHECK(places.back() < 1.0);
+      CHECK(widest < 4.0 / count);  // with equal ones 1
+    }
+  CHECK(renderer::elevation_place(0, 0.5) == 0.5);
 }
