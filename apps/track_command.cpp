@@ -6,6 +6,7 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "apps/progress.h"
 #include "apps/track/plots.h"
 #include "apps/track/study.h"
 #include "core/decibel.h"
@@ -105,9 +106,14 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
   }
 }
 
+// At 25 000 frames/s from frequencies, others are done before a bar could be read.
+constexpr int kManyFrames = 50'000;
+
 Outcome run_one(const TrackOptions& options, const core::HighwayScenario& scenario,
-                const core::HighwayRadar& radar) {
+                const core::HighwayRadar& radar, bool quiet) {
   Outcome outcome;
+  const int frames = tracking::frames_of(scenario, radar);
+  Progress progress(scenario.id, frames, quiet || !(options.samples || frames > kManyFrames));
   const tracking::SimulationSettings simulation = simulation_of(options);
   const auto run = static_cast<std::uint32_t>(options.run);
   std::optional<tracking::SampledRadar> sampled;
@@ -129,6 +135,7 @@ Outcome run_one(const TrackOptions& options, const core::HighwayScenario& scenar
         outcome.skipped_updates = frame.tracker->skipped_updates();
         outcome.last = frame;
         outcome.last.tracker = nullptr;
+        progress.step(outcome.score.gospa_m.count());
       });
   return outcome;
 }
@@ -259,7 +266,7 @@ int track(const TrackOptions& options, const CommonOptions& common) {
                                  {"scenarios", nlohmann::ordered_json::array()}};
   nlohmann::ordered_json timing = nlohmann::ordered_json::array();
   for (const core::HighwayScenario* scenario : chosen) {
-    const Outcome outcome = run_one(options, *scenario, radar);
+    const Outcome outcome = run_one(options, *scenario, radar, common.quiet);
     write(options, *scenario, outcome, folder / scenario->id);
     if (!common.quiet) print(*scenario, outcome);
     json["scenarios"].push_back(json_of(*scenario, outcome));

@@ -57,6 +57,14 @@ Columns columns_of(const sensors::Sensor& sensor, const FrameEchoSettings& setti
   return {-half * step_rad, step_rad, 2 * half};
 }
 
+void check_work(const sensors::Sensor& sensor, const FrameEchoSettings& settings, int columns) {
+  const double rays =
+      settings.sampling.rays_per_cell * sensor.range.cells * columns * settings.passes;
+  if (!(rays <= kMostFrameEchoRays))
+    core::throw_input_error(core::ErrorClass::limit, "rays of a frame", rays,
+                            "at most 2e7: fewer rays per cell, or fewer azimuths");
+}
+
 struct Scatterers {
   std::vector<core::Echo> echoes;
   std::vector<double> phase_rad;
@@ -194,6 +202,7 @@ FrameEchoes frame_echoes(const World& world, const FramePose& pose,
   check(pose);
   const sensors::AntennaFrame antenna = antenna_of(world.sensor, pose);
   const Columns columns = columns_of(world.sensor, settings);
+  check_work(world.sensor, settings, columns.count);
   const SurfaceCaster caster(world, antenna, settings, pose.frame_index);
   std::vector<Scatterers> found(static_cast<std::size_t>(columns.count));
   core::parallel_for(found.size(), [&](std::size_t i) {

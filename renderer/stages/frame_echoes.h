@@ -35,6 +35,10 @@
 
 namespace fanbeam::renderer {
 
+// Of one frame, by its range cells, sub-columns, rays per cell and passes: an echo takes some 100
+// bytes, and as much again while the sub-columns are put together.
+inline constexpr double kMostFrameEchoRays = 2e7;
+
 struct FrameEchoSettings {
   // Used of it: sub_columns, rays_per_cell, largest_step_rad, largest_step_rows.
   Sampling sampling;
@@ -56,8 +60,8 @@ struct FrameEchoes {
 };
 
 // Echoes inside the sensor's range gate with power above 0. Throws InputError: E-NONFINITE for a
-// velocity that is not finite, E-RANGE for passes and a half fan (0 to pi) out of range, and what
-// check(FramePose) throws.
+// velocity that is not finite, E-RANGE for passes and a half fan (0 to pi) out of range, E-LIMIT
+// above kMostFrameEchoRays, and what check(FramePose) throws.
 FrameEchoes frame_echoes(const World& world, const FramePose& pose,
                          const FrameEchoSettings& settings);
 

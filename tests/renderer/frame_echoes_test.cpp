@@ -187,4 +187,8 @@ TEST_CASE("Echoes of a frame do not depend on threads, and differ from frame to 
   other = fine(1);
   other.half_fan_rad = 4.0;
   CHECK_THROWS_AS(renderer::frame_echoes(world, pose, other), core::InputError);
+  // Hundreds of gigabytes of echoes: refused before any ray is cast.
+  other = fine(64);
+  other.sampling.rays_per_cell = 1e5;
+  CHECK_THROWS_WITH(renderer::frame_echoes(world, pose, other), Catch::Contains("E-LIMIT"));
 }

@@ -110,3 +110,13 @@ TEST_CASE("From samples, S3 keeps both cars through the crossing", "[sampled][st
   CHECK(score.range_m.rms() <= 0.1);
   CHECK(score.range_m.largest() <= 1.0);
 }
+
+TEST_CASE("From samples, an array too long to scan is refused, not measured wrongly or for hours",
+          "[sampled]") {
+  core::HighwayRadar radar = highway_radar();
+  radar.array_pitch_wavelengths = 1250.0 / (radar.array_elements - 1);
+  CHECK_NOTHROW(SampledRadar(radar));
+  radar.array_pitch_wavelengths *= 1.01;
+  CHECK_THROWS_WITH(SampledRadar(radar),
+                    Catch::Contains("E-LIMIT") && Catch::Contains("1250 wavelengths"));
+}

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "core/constants.h"
 #include "signal/pairing/ghost_free.h"

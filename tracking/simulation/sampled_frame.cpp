@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "core/errors.h"
 #include "core/random.h"
 #include "signal/detection/map_peaks.h"
 #include "signal/receiver/link_budget.h"
@@ -20,6 +21,8 @@ namespace {
 constexpr double kFalseAlarm = 1e-7;
 constexpr double kCoarseSigma_m = 0.3, kCoarseSigma_mps = 0.3, kGate = 4.0;
 constexpr double kMostSpeed_mps = 70.0;
+// azimuth_peak steps over a quarter of a beamwidth at most, up to here.
+constexpr double kWidestArray_wavelengths = 1250.0;
 // Side lobes of neighbours, the bend of beats, the direction of a moving target.
 constexpr double kSystematic_m = 0.005, kSystematic_mps = 0.005, kSystematic_rad = 5e-4;
 constexpr int kCoarse = 0, kFine = 1;  // stages
@@ -84,6 +87,11 @@ bool seen_before(const std::vector<Pair>& pairs, const std::vector<RadarMeasurem
 }  // namespace
 
 SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
+  const double aperture = (radar.array_elements - 1) * radar.array_pitch_wavelengths;
+  if (!(aperture <= kWidestArray_wavelengths))
+    core::throw_input_error(core::ErrorClass::limit, "radar.virtual_ula_spacing_wavelengths",
+                            radar.array_pitch_wavelengths,
+                            "an array at most 1250 wavelengths long to measure from samples");
   signal::TwoStageParameters parameters;
   parameters.coarse.frequency_Hz = parameters.fine.frequency_Hz = radar.centre_frequency_Hz;
   parameters.coarse.bandwidth_Hz = parameters.fine.bandwidth_Hz = radar.bandwidth_Hz;

@@ -37,7 +37,8 @@ namespace fanbeam::tracking {
 
 class SampledRadar {
  public:
-  // E-RANGE for what the waveform or the detector refuses.
+  // Throws InputError: E-RANGE for what the waveform or the detector refuses, E-LIMIT for an array
+  // longer than 1250 wavelengths.
   explicit SampledRadar(const core::HighwayRadar& radar);
 
   std::vector<RadarMeasurement> measure(const core::HighwayScenario& scenario, std::uint64_t seed,

@@ -89,16 +89,21 @@ void ScenarioScore::add(const core::HighwayScenario& scenario, const ScenarioFra
     }
 }
 
-void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
-                  const TrackerSettings& settings, const MeasureFrame& measure,
-                  const std::function<void(const ScenarioFrame&)>& each) {
+int frames_of(const core::HighwayScenario& scenario, const core::HighwayRadar& radar) {
   // The last frame counts where the duration is a whole number of frames but for rounding.
   const double steps = std::floor(scenario.duration_s / radar.frame_s + 1e-9);
   if (!(steps >= 0.0 && steps <= kMostFrames))
     core::throw_input_error(core::ErrorClass::limit, "duration_s", scenario.duration_s,
                             "at most a million frames");
+  return static_cast<int>(steps) + 1;
+}
+
+void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
+                  const TrackerSettings& settings, const MeasureFrame& measure,
+                  const std::function<void(const ScenarioFrame&)>& each) {
+  const int frames = frames_of(scenario, radar);
   Tracker tracker(settings);
-  for (int i = 0; i <= static_cast<int>(steps); ++i) {
+  for (int i = 0; i < frames; ++i) {
     ScenarioFrame frame;
     frame.time_s = i * radar.frame_s;
     const auto start = std::chrono::steady_clock::now();

@@ -53,9 +53,12 @@ struct ScenarioScore {
   void add(const core::HighwayScenario& scenario, const ScenarioFrame& frame);
 };
 
+// From time 0 to the duration. Throws InputError E-LIMIT for more than a million.
+int frames_of(const core::HighwayScenario& scenario, const core::HighwayRadar& radar);
+
 using MeasureFrame = std::function<std::vector<RadarMeasurement>(int frame)>;
 
-// Calls `each` after every frame, from time 0 to the duration. Errors as of `measure` and Tracker.
+// Calls `each` after every frame. Errors as of frames_of, `measure` and Tracker.
 void run_scenario(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
                   const TrackerSettings& settings, const MeasureFrame& measure,
                   const std::function<void(const ScenarioFrame&)>& each);
