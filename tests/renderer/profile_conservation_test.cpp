@@ -79,6 +79,13 @@ double horizon_rad(const renderer::World& world, double heading_rad) {
   return std::atan(tangent);
 }
 
+bool has_corner_near(const renderer::World& world, double heading_rad, double within_rad) {
+  for (const terrain::Solid& solid : world.solids.prisms)
+    for (const glm::dvec2& corner : solid.rings_m.front())
+      if (std::abs(std::atan2(corner.x, corner.y) - heading_rad) <= within_rad) return true;
+  return false;
+}
+
 }  // namespace
 
 TEST_CASE("A slice sees every elevation once, from the first range to the horizon", "[profile]") {
@@ -95,7 +102,11 @@ TEST_CASE("A slice sees every elevation once, from the first range to the horizo
       const renderer::FanSums sums =
           tests::cast_profile(world, 8, tests::level_antenna({0.0, 0.0, kHeight_m}));
       double worst = 0.0;
+      int looked_at = 0;
       for (int sub = 0; sub < sums.sub_columns; ++sub) {
+        // Beside a corner a slice stands for more or less of a front than its wedge.
+        if (has_corner_near(world, tests::slice_azimuth_rad(sums, sub), sums.step_rad)) continue;
+        ++looked_at;
         const double seen_rad = horizon_rad(world, tests::slice_azimuth_rad(sums, sub)) +
                                 std::asin(kHeight_m / kFirst_m);
         const double expected = sensor.radar_constant_W_m2() * 0.02 * seen_rad;
@@ -114,6 +125,7 @@ TEST_CASE("A slice sees every elevation once, from the first range to the horizo
         worst = std::max(worst, std::abs(middle / expected - 1.0));
       }
       CHECK(worst < 5e-4);
+      CHECK(looked_at >= sums.sub_columns / 4);
     }
 }
 

@@ -40,21 +40,35 @@ class PlanView {
     double turned_rad = 0.0;
     glm::dvec2 from = ring_m.back() - sensor_m_;
     double from_rad = heading_rad(from);
+    const std::size_t begin = edges.size();
+    bool seen_before = false, seen_first = false;
     for (const glm::dvec2& corner : ring_m) {
       const glm::dvec2 to = corner - sensor_m_;
       const double to_rad = heading_rad(to);
       turned_rad += std::remainder(to_rad - from_rad, 2.0 * core::kPi);
       // Edges that pass behind the sensor cross the jump of the heading, far from any slice.
-      if (std::abs(to_rad - from_rad) < core::kPi && std::max(from_rad, to_rad) >= left_rad_ &&
-          std::min(from_rad, to_rad) <= right_rad_)
+      const bool seen = std::abs(to_rad - from_rad) < core::kPi &&
+                        std::max(from_rad, to_rad) >= left_rad_ &&
+                        std::min(from_rad, to_rad) <= right_rad_;
+      if (seen) {
         edges.push_back({from, to, from_rad, to_rad, cross(from, to), prism});
+        if (seen_before) join(edges[edges.size() - 2], edges.back(), 1);
+      }
+      if (&corner == &ring_m.front()) seen_first = seen;
+      seen_before = seen;
       from = to;
       from_rad = to_rad;
     }
+    if (seen_first && seen_before && edges.size() > begin + 1)
+      join(edges.back(), edges[begin], -static_cast<std::int32_t>(edges.size() - 1 - begin));
     return std::abs(turned_rad) > core::kPi;
   }
 
  private:
+  static void join(CutEdge& edge, CutEdge& next, std::int32_t steps) {
+    edge.after = steps;
+    next.before = -steps;
+  }
   double heading_rad(const glm::dvec2& relative_m) const {
     return std::atan2(glm::dot(relative_m, right_), glm::dot(relative_m, forward_));
   }

@@ -19,6 +19,9 @@ struct CutEdge {
   double from_rad, to_rad;  // clockwise from the forward axis
   double cross_m2;          // of from and to
   std::uint32_t prism;      // index into Solids::prisms, or kPaint
+  // Steps to the ring's edges that end where this one begins and begin where it ends; 0 where they
+  // are out of view.
+  std::int32_t before = 0, after = 0;
 };
 
 class EdgeIndex {

@@ -63,7 +63,7 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void integrate(const sensors::RangeGate& gate,
   const In far_distance_m = pieces.far_distance_m.data();
   const In far_height_m = pieces.far_height_m.data();
   const In nearer_m = pieces.nearer_m.data(), farther_m = pieces.farther_m.data();
-  const In cross_m2 = pieces.cross_m2.data();
+  const In cross_m2 = pieces.cross_m2.data(), share = pieces.share.data();
   const Out near_range_m = powers.near_range_m.data(), far_range_m = powers.far_range_m.data();
   const Out before_per_m2 = powers.before_W_per_rad.data();
   const Out behind_per_m2 = powers.behind_W_per_rad.data();
@@ -107,8 +107,8 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void integrate(const sensors::RangeGate& gate,
     const double not_behind_m = crossing_m < s2_m ? crossing_m : s2_m;
     const double between_m = not_behind_m > s1_m ? not_behind_m : s1_m;
     const double split_m = c1 == c2 ? s2_m : between_m;
-    before_per_m2[i] = solid_integral_per_m2(p_m, s1_m, split_m);
-    behind_per_m2[i] = solid_integral_per_m2(p_m, split_m, s2_m);
+    before_per_m2[i] = share[i] * solid_integral_per_m2(p_m, s1_m, split_m);
+    behind_per_m2[i] = share[i] * solid_integral_per_m2(p_m, split_m, s2_m);
     border_share[i] = (split_m - s1_m) * per_length;
     near_range_m[i] = range1_m;
     far_range_m[i] = range2_m;

@@ -5,7 +5,7 @@
 // prisms of World::solids. Inside a slice visibility and geometry are exact for plane facets
 // (slice_sweep.h, slice_power.h); pattern, NRCS and loss are those in the middle of each piece,
 // which spans at most 2 mrad of elevation. A slice stands for the wedge around it, over which
-// oblique walls are spread. The error left is that of the azimuths between slices: closed forms
+// oblique walls are spread; fronts of buildings count with their true widths (wall_front.h). The error left is that of the azimuths between slices: closed forms
 // within 1e-9 for constant gamma and an even pattern, 0.01 dB for HiVision's; converged slices
 // against converged rays in docs/performance.md.
 // What a vertical cut cannot describe (models, prisms with air under them) is left to rays: the

@@ -30,6 +30,8 @@ struct VisiblePieces {
   alignas(64) Column<std::int32_t> material;
   // Walls: how much nearer and farther the facet lies at the wedge's borders; 0 elsewhere.
   alignas(64) Column<double> nearer_m, farther_m;
+  // Of the wedge that the piece stands for: 1 but for walls.
+  alignas(64) Column<double> share;
 
   int count = 0;
   bool full() const { return count == kCapacity; }

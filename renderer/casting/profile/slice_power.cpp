@@ -109,6 +109,7 @@ void SlicePower::put(const Slice& slice, const Part& part, const SliceBins& bins
     parts_.facet_d2[n] = pieces.facet_d2[i];
     parts_.material[n] = pieces.material[i];
     parts_.nearer_m[n] = parts_.farther_m[n] = 0.0;
+    parts_.share[n] = pieces.share[i];
     part_cell_[n] = part.cell;
     if (parts_.full()) finish_parts(slice, bins);
   }

@@ -10,8 +10,6 @@ namespace fanbeam::renderer {
 namespace {
 
 constexpr double kBelowEverything = -1e300;
-// A wall nearer than this to the slice's own direction stands edge on.
-constexpr double kEdgeOn_rad = 1e-9;
 
 }  // namespace
 
@@ -28,7 +26,7 @@ SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const Edg
 
 void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates, double far_m,
                      VisiblePieces& pieces, const Full& full, const Sights& sights) {
-  slice_ = slice;
+  wedge_ = Wedge(slice);
   sights_ = sights;
   pieces_ = &pieces;
   full_ = &full;
@@ -59,25 +57,14 @@ void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates
   if (roofed_ && cut_.pieces > 0) close_roof(cut_.distance_m[cut_.pieces]);
 }
 
-// Where the half-plane meets an edge that it is known to cross: never beyond the edge's ends.
-double SliceSweep::crossing_m(const CutEdge& edge, const glm::dvec2& along) {
-  const glm::dvec2 step = edge.to_m - edge.from_m;
-  const double length = glm::length(step);
-  const double from_m = glm::length(edge.from_m), to_m = glm::length(edge.to_m);
-  const double across = along.x * step.y - along.y * step.x;
-  if (std::abs(across) <= kEdgeOn_rad * length) return from_m;
-  return std::clamp(edge.cross_m2 / across, std::abs(edge.cross_m2) / length,
-                    std::max({from_m, to_m, std::abs(edge.cross_m2) / length}));
-}
-
 // Edges come roughly sorted: insertion puts the rest in order.
 void SliceSweep::find_events(const EdgeIndex::Candidates& candidates, double far_m) {
   events_.clear();
-  const glm::dvec2 u = slice_.along;
+  const glm::dvec2 u = wedge_.slice.along;
   for (const std::uint32_t index : candidates) {
     const CutEdge& edge = edges_.edges()[index];
-    const bool from_left = edge.from_rad <= slice_.heading_rad;
-    if (from_left == (edge.to_rad <= slice_.heading_rad)) continue;
+    const bool from_left = edge.from_rad <= wedge_.slice.heading_rad;
+    if (from_left == (edge.to_rad <= wedge_.slice.heading_rad)) continue;
     const double distance_m = crossing_m(edge, u);
     if (distance_m < far_m) add_event(distance_m, index);
   }
@@ -130,7 +117,7 @@ void SliceSweep::enter(const SliceEvent& event, const CutEdge& edge, double grou
   active_.push_back(edge.prism);
   if (roofed_ && top_m <= roof_m_) return;
   if (roofed_) close_roof(event.distance_m);
-  if (top_m > below_m) see_wall(event.distance_m, below_m, top_m, edge);
+  if (top_m > below_m) see_wall(event, below_m, top_m);
   roof_from_m_ = event.distance_m;
   find_top();
 }
@@ -213,13 +200,13 @@ void SliceSweep::see_ground(ProfilePoint near, const ProfilePoint& far, std::siz
   const double ne = sw[stride + 1];
   const double gx = (cell.upper ? ne - sw[stride] : sw[1] - sw[0]) * per_m;
   const double gy = (cell.upper ? sw[stride] - sw[0] : ne - sw[1]) * per_m;
-  const double slope = gx * slice_.along.x + gy * slice_.along.y;
+  const double slope = gx * wedge_.slice.along.x + gy * wedge_.slice.along.y;
   // The facet's plane passes this far below the sensor.
   const double below_m = slope * far.distance_m - far.height_m;
   const double middle_m = (near.distance_m + far.distance_m) / 2;
   const std::int32_t material =
-      map_->material_in_cell(cell.column, cell.row, sensor_m_.x + slice_.along.x * middle_m,
-                             sensor_m_.y + slice_.along.y * middle_m);
+      map_->material_in_cell(cell.column, cell.row, sensor_m_.x + wedge_.slice.along.x * middle_m,
+                             sensor_m_.y + wedge_.slice.along.y * middle_m);
   const int i = next_piece();
   pieces_->near_distance_m[i] = near.distance_m;
   pieces_->near_height_m[i] = near.height_m;
@@ -229,6 +216,7 @@ void SliceSweep::see_ground(ProfilePoint near, const ProfilePoint& far, std::siz
   pieces_->facet_m[i] = below_m;
   pieces_->facet_d2[i] = 1.0 + gx * gx + gy * gy;
   pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
+  pieces_->share[i] = 1.0;
   pieces_->material[i] = material;
 }
 
@@ -245,40 +233,44 @@ void SliceSweep::close_roof(double distance_m) {
   pieces_->facet_m[i] = -roof_m_;
   pieces_->facet_d2[i] = 1.0;
   pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
+  pieces_->share[i] = 1.0;
   pieces_->material[i] = roof_material_;
 }
 
-void SliceSweep::see_wall(double distance_m, double low_m, double top_m, const CutEdge& edge) {
-  const double from_m = std::max(low_m, horizon_tangent_ * distance_m);
-  if (!(top_m > from_m)) return;
-  horizon_tangent_ = top_m / distance_m;
-  const glm::dvec2 step = edge.to_m - edge.from_m;
+void SliceSweep::see_wall(const SliceEvent& event, double low_m, double top_m) {
+  const double horizon_tangent = horizon_tangent_;
+  if (!(top_m > std::max(low_m, horizon_tangent * event.distance_m))) return;
+  horizon_tangent_ = top_m / event.distance_m;
+  const CutEdge& edge = edges_.edges()[event.edge];
+  const std::int32_t material = world_.solids.prisms[edge.prism].wall;
+  const WallFront front =
+      roofed_ ? wall_in_wedge(edge, wedge_) : front_of(edges_.edges(), event.edge, wedge_);
+  for (int i = 0; i < front.count; ++i) {
+    const WallPart& part = front.parts[static_cast<std::size_t>(i)];
+    const double from_m = std::max(low_m, horizon_tangent * part.distance_m);
+    if (top_m > from_m) add_wall(part, from_m, top_m, material);
+  }
+}
+
+void SliceSweep::add_wall(const WallPart& part, double from_m, double top_m,
+                          std::int32_t material) {
+  const double distance_m = part.distance_m;
   const double range_per_distance = distance_m / std::sqrt(distance_m * distance_m + top_m * top_m);
-  // How much nearer or farther the wall stands under another heading of the wedge, whose borders
-  // are clipped to the wall's corners.
-  const auto moved_m = [&](double turn_rad) {
-    const glm::dvec2 clockwise(slice_.along.y, -slice_.along.x);
-    const glm::dvec2 turned = slice_.along * std::cos(turn_rad) + clockwise * std::sin(turn_rad);
-    return (crossing_m(edge, turned) - distance_m) * range_per_distance;
-  };
-  const double half_rad = slice_.width_rad / 2;
-  const double left_m = moved_m(std::max(edge.from_rad - slice_.heading_rad, -half_rad));
-  const double right_m = moved_m(std::min(edge.to_rad - slice_.heading_rad, half_rad));
-  const double facet_m = std::abs(edge.cross_m2) / glm::length(step);
   const int parts = parts_of(distance_m * (top_m - from_m),
                              distance_m * distance_m + std::min(from_m * from_m, top_m * top_m));
   const double part_m = (top_m - from_m) / parts;
-  for (int part = 0; part < parts; ++part) {
+  for (int k = 0; k < parts; ++k) {
     const int i = next_piece();
     pieces_->near_distance_m[i] = pieces_->far_distance_m[i] = distance_m;
-    pieces_->near_height_m[i] = from_m + part_m * part;
-    pieces_->far_height_m[i] = part + 1 == parts ? top_m : from_m + part_m * (part + 1);
+    pieces_->near_height_m[i] = from_m + part_m * k;
+    pieces_->far_height_m[i] = k + 1 == parts ? top_m : from_m + part_m * (k + 1);
     pieces_->cross_m2[i] = distance_m * part_m;
     pieces_->facet_d2[i] = 1.0;
-    pieces_->facet_m[i] = facet_m;
-    pieces_->nearer_m[i] = std::min({left_m, right_m, 0.0});
-    pieces_->farther_m[i] = std::max({left_m, right_m, 0.0});
-    pieces_->material[i] = world_.solids.prisms[edge.prism].wall;
+    pieces_->facet_m[i] = part.facet_m;
+    pieces_->nearer_m[i] = part.nearer_m * range_per_distance;
+    pieces_->farther_m[i] = part.farther_m * range_per_distance;
+    pieces_->share[i] = part.share;
+    pieces_->material[i] = material;
   }
 }
 

@@ -13,6 +13,7 @@
 #include "renderer/casting/profile/edge_index.h"
 #include "renderer/casting/profile/ground_cut.h"
 #include "renderer/casting/profile/slice.h"
+#include "renderer/casting/profile/wall_front.h"
 #include "renderer/world.h"
 
 namespace fanbeam::renderer {
@@ -61,7 +62,6 @@ class SliceSweep {
            VisiblePieces& pieces, const Full& full, const Sights& sights);
 
  private:
-  static double crossing_m(const CutEdge& edge, const glm::dvec2& along);
   void add_event(double distance_m, std::uint32_t edge);
   void test(const SightPoint& point, double at_m);
   void find_events(const EdgeIndex::Candidates& candidates, double far_m);
@@ -70,7 +70,8 @@ class SliceSweep {
   void leave(double distance_m, std::uint32_t prism);
   void walk_ground(const ProfilePoint& near, const ProfilePoint& far, std::size_t piece);
   void see_ground(ProfilePoint near, const ProfilePoint& far, std::size_t piece);
-  void see_wall(double distance_m, double low_m, double top_m, const CutEdge& edge);
+  void see_wall(const SliceEvent& event, double low_m, double top_m);
+  void add_wall(const WallPart& part, double from_m, double top_m, std::int32_t material);
   void close_roof(double distance_m);
   void find_top();
   bool visible(ProfilePoint& near, const ProfilePoint& far);
@@ -83,7 +84,7 @@ class SliceSweep {
   const EdgeIndex& edges_;
   double darkest_tangent_;
 
-  Slice slice_;
+  Wedge wedge_{Slice{}};
   GroundCut& cut_;
   std::vector<SliceEvent>& events_;
   VisiblePieces* pieces_ = nullptr;
