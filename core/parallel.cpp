@@ -9,41 +9,53 @@
 #include "core/stop.h"
 
 #ifdef __SANITIZE_THREAD__
-#include <sanitizer/tsan_interface.h>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
 #endif
 
 namespace fanbeam::core {
 namespace {
 
-// The packaged oneTBB is not instrumented: the thread sanitizer has to be told that what the caller
-// did comes before every body, and every body before what the caller does next. Nothing is said
-// about bodies among each other. The marks are static because a body must not read the caller's
-// stack before it has passed the first one.
 #ifdef __SANITIZE_THREAD__
-char begun, done;
-struct LoopOrder {
-  LoopOrder() { __tsan_release(&begun); }
-  ~LoopOrder() { __tsan_acquire(&done); }
-};
-struct BodyOrder {
-  BodyOrder() { __tsan_acquire(&begun); }
-  ~BodyOrder() { __tsan_release(&done); }
-};
+// The packaged oneTBB is not instrumented: the thread sanitizer cannot see what it puts in order,
+// and reports races that are none. Plain threads it understands.
+void run_all(std::size_t count, const std::function<void(std::size_t)>& body) {
+  std::atomic<std::size_t> next{0};
+  std::mutex failing;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    try {
+      for (std::size_t i = next++; i < count; i = next++) body(i);
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(failing);
+      if (!failure) failure = std::current_exception();
+      next = count;
+    }
+  };
+  const std::size_t threads = std::min(
+      count, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  std::vector<std::thread> others;
+  for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
+  if (failure) std::rethrow_exception(failure);
+}
 #else
-struct LoopOrder {};
-struct BodyOrder {};
+void run_all(std::size_t count, const std::function<void(std::size_t)>& body) {
+  tbb::parallel_for(std::size_t{0}, count, std::size_t{1}, body, tbb::simple_partitioner());
+}
 #endif
 
 }  // namespace
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  const auto ordered_body = [&body](std::size_t i) {
-    [[maybe_unused]] const BodyOrder order;
+  run_all(count, [&body](std::size_t i) {
     throw_if_stopped();
     body(i);
-  };
-  [[maybe_unused]] const LoopOrder order;
-  tbb::parallel_for(std::size_t{0}, count, std::size_t{1}, ordered_body, tbb::simple_partitioner());
+  });
 }
 
 ThreadLimit::ThreadLimit(int threads)
