@@ -63,33 +63,55 @@ void fill_voids(RasterBand& band) {
     throw core::InternalError("filling voids: " + messages.first_error_or("GDAL failed"));
 }
 
-// Repeated 3 x 3 binomial averages, each post held within half a step of where it began. Posts
-// beside a hole or beyond the edge count as the post itself.
+// The 3 x 3 binomial average around a post, whose neighbours are those of the rows above, here and
+// below. A hole counts as the post itself.
+float binomial_average(const float* above, const float* here, const float* below) {
+  const float post = here[0];
+  const auto known = [post](float sample) { return std::isnan(sample) ? post : sample; };
+  float sum = known(above[-1]) + 2.0F * known(above[0]) + known(above[1]);
+  sum = sum + 2.0F * known(here[-1]) + 4.0F * post + 2.0F * known(here[1]);
+  sum = sum + known(below[-1]) + 2.0F * known(below[0]) + known(below[1]);
+  return sum / 16.0F;
+}
+
+// The same beside an edge, beyond which posts count as this one.
+float average_at_edge(const RasterBand& band, int column, int row) {
+  float rows[3][3];
+  for (int dy = -1; dy <= 1; ++dy)
+    for (int dx = -1; dx <= 1; ++dx) {
+      const int x = column + dx, y = row + dy;
+      const bool inside = x >= 0 && x < band.width && y >= 0 && y < band.height;
+      rows[dy + 1][dx + 1] = inside ? band.at(x, y) : band.at(column, row);
+    }
+  return binomial_average(rows[0] + 1, rows[1] + 1, rows[2] + 1);
+}
+
+// Repeated averages, each post held within half a step of where it began.
 void smooth_within_steps(RasterBand& band, double step_m) {
   const std::vector<float> original = band.samples;
   std::vector<float> smoothed = original;
   const auto half_step_m = static_cast<float>(0.5 * step_m);
+  const int last_row = band.height - 1, last_column = band.width - 1;
   for (int pass = 0; pass < kSmoothingPasses; ++pass) {
     core::parallel_for(static_cast<std::size_t>(band.height), [&](std::size_t row_index) {
       const int row = static_cast<int>(row_index);
-      for (int column = 0; column < band.width; ++column) {
-        const float here = band.at(column, row);
-        float sum = 0.0F;
-        for (int dy = -1; dy <= 1; ++dy) {
-          for (int dx = -1; dx <= 1; ++dx) {
-            const int x = column + dx;
-            const int y = row + dy;
-            const bool inside = x >= 0 && x < band.width && y >= 0 && y < band.height;
-            const float there = inside ? band.at(x, y) : here;
-            const float weight = (dx == 0 ? 2.0F : 1.0F) * (dy == 0 ? 2.0F : 1.0F);
-            sum += weight * (std::isnan(there) ? here : there);
-          }
-        }
-        const std::size_t index =
-            row_index * static_cast<std::size_t>(band.width) + static_cast<std::size_t>(column);
-        smoothed[index] =
-            std::clamp(sum / 16.0F, original[index] - half_step_m, original[index] + half_step_m);
+      const auto width = static_cast<std::size_t>(band.width);
+      const float* const here = band.samples.data() + row_index * width;
+      const float* const began = original.data() + row_index * width;
+      float* const becomes = smoothed.data() + row_index * width;
+      const auto hold = [&](int column, float average) {
+        becomes[column] =
+            std::clamp(average, began[column] - half_step_m, began[column] + half_step_m);
+      };
+      if (row == 0 || row == last_row) {
+        for (int column = 0; column <= last_column; ++column)
+          hold(column, average_at_edge(band, column, row));
+        return;
       }
+      hold(0, average_at_edge(band, 0, row));
+      for (int column = 1; column < last_column; ++column)
+        hold(column, binomial_average(here - width + column, here + column, here + width + column));
+      hold(last_column, average_at_edge(band, last_column, row));
     });
     band.samples.swap(smoothed);
   }
