@@ -190,8 +190,10 @@ std::string caster_text(const renderer::Sampling& sampling) {
   if (sampling.target_grey > 0.0)
     return fmt::format("{}, refined to {} grey RMS", renderer::name_of(sampling.caster),
                        core::number_text(sampling.target_grey));
-  if (sampling.caster == renderer::CasterKind::profile)
-    return fmt::format("profile, {} slices per column", slices_per_column(sampling));
+  if (sampling.caster == renderer::CasterKind::profile) {
+    const auto slices = slices_per_column(sampling);
+    return fmt::format("profile, {} {} per column", slices, slices == 1 ? "slice" : "slices");
+  }
   return fmt::format("rays, {} per range cell and column",
                      core::number_text(rays_per_cell_and_column(sampling)));
 }
