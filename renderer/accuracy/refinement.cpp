@@ -102,7 +102,8 @@ class TooCoarse {
 
 ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                                FanSums& sums, SightLines& sight) const {
-  caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
+  const bool refined = sampling_.target_grey > 0.0;
+  caster_.cast(antenna, with_cscope, CastPass{0, nullptr, refined}, sums, sight);
   ColumnError difference(world_.sensor, sampling_.sub_columns, effects_.thermal_noise);
   if (effects_.rain_echo && world_.volume_echo) {
     FanSums rain = empty_like(sums);
@@ -110,9 +111,8 @@ ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_c
     difference.put_under(rain);
   }
   const double target_grey = sampling_.target_grey * (bounces_ != nullptr ? std::sqrt(0.5) : 1.0);
-  ErrorEstimate error = target_grey > 0.0
-                            ? refine(antenna, with_cscope, difference, target_grey, sums)
-                            : estimate(antenna, with_cscope, difference, sums);
+  ErrorEstimate error = refined ? refine(antenna, with_cscope, difference, target_grey, sums)
+                                : estimate(antenna, with_cscope, difference, sums);
   if (bounces_ != nullptr)
     error = together(error, add_bounces(antenna, difference, target_grey, sums));
   return error;
@@ -132,7 +132,7 @@ ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with
   SightLines none;
   for (int level = 1;; ++level) {
     fresh = sums;  // what is not cast again is the same in both pictures
-    caster_.cast(antenna, with_cscope, CastPass{level, &groups}, fresh, none);
+    caster_.cast(antenna, with_cscope, CastPass{level, &groups, true}, fresh, none);
     const ColumnError::Squares apart = difference.between(sums, fresh);
     const double factor = factors_of(sampling_.caster).of_mean(level);
     for (const std::size_t c : columns) {

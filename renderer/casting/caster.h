@@ -48,6 +48,8 @@ struct CastPass {
   // Of fan_layout.h, rising; null for all. Sums of other groups keep what they hold, or are
   // anything where slices share sub-columns (a tilted antenna).
   const std::vector<std::uint32_t>* groups = nullptr;
+  // One of the levels of a picture that is refined by their differences (profile/wall_front.h).
+  bool refined = false;
 };
 
 class Caster {

@@ -79,11 +79,12 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
   sight.clear.assign(sight.to_m.size(), kAskRays);
   const PointsOfSlices points = sort_points(slices, antenna.position_m, forward, sight);
   const PathLossTable path_loss = path_loss_.from(antenna.position_m.z);
-  const SliceFrame frame{world_,  antenna,
-                         tables_, path_loss,
-                         slices,  edges,
-                         points,  sight.clear.data(),
-                         tile,    dark_below(world_.sensor.antenna, level)};
+  const SliceFrame frame{world_,       antenna,
+                         tables_,      path_loss,
+                         slices,       edges,
+                         points,       sight.clear.data(),
+                         tile,         dark_below(world_.sensor.antenna, level),
+                         !pass.refined};
   if (level) {
     const std::vector<std::uint32_t> asked =
         pass.groups != nullptr ? *pass.groups : groups_of(sums);

@@ -14,13 +14,14 @@ constexpr double kBelowEverything = -1e300;
 }  // namespace
 
 SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
-                       double darkest_tangent, SweepScratch& scratch)
+                       double darkest_tangent, bool fronts, SweepScratch& scratch)
     : world_(world),
       ground_(world.surfaces->terrain()),
       map_(world.surfaces->surface_map()),
       sensor_m_(sensor_m),
       edges_(edges),
       darkest_tangent_(darkest_tangent),
+      fronts_(fronts),
       cut_(scratch.cut),
       events_(scratch.events) {}
 
@@ -243,8 +244,8 @@ void SliceSweep::see_wall(const SliceEvent& event, double low_m, double top_m) {
   horizon_tangent_ = top_m / event.distance_m;
   const CutEdge& edge = edges_.edges()[event.edge];
   const std::int32_t material = world_.solids.prisms[edge.prism].wall;
-  const WallFront front =
-      roofed_ ? wall_in_wedge(edge, wedge_) : front_of(edges_.edges(), event.edge, wedge_);
+  const WallFront front = fronts_ && !roofed_ ? front_of(edges_.edges(), event.edge, wedge_)
+                                              : wall_in_wedge(edge, wedge_);
   for (int i = 0; i < front.count; ++i) {
     const WallPart& part = front.parts[static_cast<std::size_t>(i)];
     const double from_m = std::max(low_m, horizon_tangent * part.distance_m);

@@ -45,9 +45,10 @@ struct SweepScratch {
 
 class SliceSweep {
  public:
-  // Ground below the tangent `darkest_tangent` is not shown: it only hides what is behind it.
+  // Ground below the tangent `darkest_tangent` is not shown: it only hides what is behind it. With
+  // `fronts` walls count as wall_front.h tells, else as far as the wedge goes.
   SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
-             double darkest_tangent, SweepScratch& scratch);
+             double darkest_tangent, bool fronts, SweepScratch& scratch);
 
   // Walks `slice` out to `far_m`. `full` is called whenever `pieces` has no room left and must
   // empty it; what remains at the end stays there.
@@ -83,6 +84,7 @@ class SliceSweep {
   glm::dvec3 sensor_m_;
   const EdgeIndex& edges_;
   double darkest_tangent_;
+  bool fronts_;
 
   Wedge wedge_{Slice{}};
   GroundCut& cut_;

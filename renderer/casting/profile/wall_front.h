@@ -9,6 +9,9 @@
 // Neglected: what covers a part of the front in the wedge but not where the slice cuts it. A front
 // that goes on for less than a wedge behind a nearer building counts too wide, by an eighth of a
 // wedge at most on average.
+// Not in pictures that are refined (CastPass): the errors at the ends of fronts, which all buildings
+// have, are what makes refinement go on until narrower things have been met. With them gone a city
+// of 20 views stopped at a true error of 2.2 times its estimate (refinement_test.cpp).
 #pragma once
 
 #include <array>
