@@ -106,7 +106,7 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
   }
 }
 
-// At 25 000 frames/s from frequencies, others are done before a bar could be read.
+// From frequencies, fewer are done in seconds: a bar would only flicker.
 constexpr int kManyFrames = 50'000;
 
 Outcome run_one(const TrackOptions& options, const core::HighwayScenario& scenario,

@@ -23,7 +23,8 @@ SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const Edg
       darkest_tangent_(darkest_tangent),
       fronts_(fronts),
       cut_(scratch.cut),
-      events_(scratch.events) {}
+      events_(scratch.events),
+      front_(scratch.front) {}
 
 void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates, double far_m,
                      VisiblePieces& pieces, const Full& full, const Sights& sights) {
@@ -244,10 +245,12 @@ void SliceSweep::see_wall(const SliceEvent& event, double low_m, double top_m) {
   horizon_tangent_ = top_m / event.distance_m;
   const CutEdge& edge = edges_.edges()[event.edge];
   const std::int32_t material = world_.solids.prisms[edge.prism].wall;
-  const WallFront front = fronts_ && !roofed_ ? front_of(edges_.edges(), event.edge, wedge_)
-                                              : wall_in_wedge(edge, wedge_);
-  for (int i = 0; i < front.count; ++i) {
-    const WallPart& part = front.parts[static_cast<std::size_t>(i)];
+  if (fronts_ && !roofed_)
+    front_of(edges_.edges(), event.edge, wedge_, front_);
+  else
+    wall_in_wedge(edge, wedge_, front_);
+  for (int i = 0; i < front_.count; ++i) {
+    const WallPart& part = front_.parts[static_cast<std::size_t>(i)];
     const double from_m = std::max(low_m, horizon_tangent * part.distance_m);
     if (top_m > from_m) add_wall(part, from_m, top_m, material);
   }

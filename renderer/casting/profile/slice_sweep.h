@@ -41,6 +41,7 @@ struct SliceEvent {
 struct SweepScratch {
   GroundCut cut;
   std::vector<SliceEvent> events;
+  WallFront front;
 };
 
 class SliceSweep {
@@ -89,6 +90,7 @@ class SliceSweep {
   Wedge wedge_{Slice{}};
   GroundCut& cut_;
   std::vector<SliceEvent>& events_;
+  WallFront& front_;
   VisiblePieces* pieces_ = nullptr;
   const Full* full_ = nullptr;
   Sights sights_;

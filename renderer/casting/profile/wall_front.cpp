@@ -72,30 +72,32 @@ WallPart part_between(const CutEdge& edge, const Wedge& wedge, double left_rad, 
   return part;
 }
 
-// The last wall of the front to one side, as far as `beyond_rad`, where another slice cuts it.
+// Which way to go along a front: at a wall's end on that side, and on to the next wall.
+struct Side {
+  double CutEdge::*end_rad;
+  std::int32_t CutEdge::*next;
+  double sign;
+};
+constexpr Side kLeft{&CutEdge::from_rad, &CutEdge::before, -1.0};
+constexpr Side kRight{&CutEdge::to_rad, &CutEdge::after, 1.0};
+
+// The last wall of the front to one side, as far as another slice cuts it.
 struct FrontEnd {
   std::int64_t edge;
-  double heading_rad;
-  int walls;  // on the way there
+  double beside_rad;  // of the slice, where it ends; from the wedge's width up: anywhere beyond
+  int walls;          // on the way there
 };
 
-FrontEnd left_end(const std::vector<CutEdge>& edges, std::int64_t edge, double beyond_rad) {
+FrontEnd front_end(const std::vector<CutEdge>& edges, std::int64_t edge, const Slice& slice,
+                   const Side& side) {
   for (int walls = 0;; ++walls) {
     const CutEdge& here = edges[static_cast<std::size_t>(edge)];
-    if (walls > WallFront::kMostAside || here.from_rad <= beyond_rad || here.before == 0 ||
-        !faces_sensor(edges[static_cast<std::size_t>(edge + here.before)]))
-      return {edge, here.from_rad, walls};
-    edge += here.before;
-  }
-}
-
-FrontEnd right_end(const std::vector<CutEdge>& edges, std::int64_t edge, double beyond_rad) {
-  for (int walls = 0;; ++walls) {
-    const CutEdge& here = edges[static_cast<std::size_t>(edge)];
-    if (walls > WallFront::kMostAside || here.to_rad >= beyond_rad || here.after == 0 ||
-        !faces_sensor(edges[static_cast<std::size_t>(edge + here.after)]))
-      return {edge, here.to_rad, walls};
-    edge += here.after;
+    const double beside_rad = side.sign * (here.*side.end_rad - slice.heading_rad);
+    const std::int32_t step = here.*side.next;
+    if (walls > WallFront::kMostAside || beside_rad >= slice.width_rad || step == 0 ||
+        !faces_sensor(edges[static_cast<std::size_t>(edge + step)]))
+      return {edge, beside_rad, walls};
+    edge += step;
   }
 }
 
@@ -112,26 +114,28 @@ double crossing_m(const CutEdge& edge, const glm::dvec2& along) {
   return WallLine(edge).crossing_m(along);
 }
 
-WallFront wall_in_wedge(const CutEdge& edge, const Wedge& wedge) {
+void wall_in_wedge(const CutEdge& edge, const Wedge& wedge, WallFront& front) {
   const double heading_rad = wedge.slice.heading_rad, half_rad = wedge.slice.width_rad / 2;
-  WallFront front;
   front.parts[0] = part_between(edge, wedge, heading_rad - half_rad, heading_rad + half_rad, 1.0);
   front.count = 1;
-  return front;
 }
 
-WallFront front_of(const std::vector<CutEdge>& edges, std::uint32_t edge, const Wedge& wedge) {
+void front_of(const std::vector<CutEdge>& edges, std::uint32_t edge, const Wedge& wedge,
+              WallFront& front) {
   const double heading_rad = wedge.slice.heading_rad, width_rad = wedge.slice.width_rad;
-  const FrontEnd left = left_end(edges, edge, heading_rad - width_rad);
-  const FrontEnd right = right_end(edges, edge, heading_rad + width_rad);
-  if (std::max(left.walls, right.walls) > WallFront::kMostAside)
-    return wall_in_wedge(edges[edge], wedge);
-  const double left_rad =
-      left.heading_rad > heading_rad - width_rad ? left.heading_rad : heading_rad - width_rad / 2;
-  const double right_rad =
-      right.heading_rad < heading_rad + width_rad ? right.heading_rad : heading_rad + width_rad / 2;
-  const double per_rad = 1.0 / std::min(width_rad, right.heading_rad - left.heading_rad);
-  WallFront front;
+  const FrontEnd left = front_end(edges, edge, wedge.slice, kLeft);
+  const FrontEnd right = front_end(edges, edge, wedge.slice, kRight);
+  if (std::max(left.walls, right.walls) > WallFront::kMostAside) {
+    wall_in_wedge(edges[edge], wedge, front);
+    return;
+  }
+  const auto reach_rad = [width_rad](const FrontEnd& end) {
+    return end.beside_rad < width_rad ? end.beside_rad : width_rad / 2;
+  };
+  const double left_rad = heading_rad - reach_rad(left);
+  const double right_rad = heading_rad + reach_rad(right);
+  const double per_rad = 1.0 / std::min(width_rad, left.beside_rad + right.beside_rad);
+  front.count = 0;
   for (std::int64_t e = left.edge;; e += edges[static_cast<std::size_t>(e)].after) {
     const CutEdge& wall = edges[static_cast<std::size_t>(e)];
     const double span_rad = std::min(wall.to_rad, right_rad) - std::max(wall.from_rad, left_rad);
@@ -140,7 +144,6 @@ WallFront front_of(const std::vector<CutEdge>& edges, std::uint32_t edge, const 
           part_between(wall, wedge, left_rad, right_rad, span_rad * per_rad);
     if (e == right.edge) break;
   }
-  return front;
 }
 
 }  // namespace fanbeam::renderer

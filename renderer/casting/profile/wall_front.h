@@ -38,6 +38,7 @@ struct WallPart {
   double share = 0.0;                      // of the wedge's width
 };
 
+// Kept from wall to wall: a kilobyte that is not to be cleared for each.
 struct WallFront {
   static constexpr int kMostAside = 12;  // walls; where there are more, as wall_in_wedge
   std::array<WallPart, 2 * kMostAside + 1> parts;
@@ -49,9 +50,10 @@ struct WallFront {
 double crossing_m(const CutEdge& edge, const glm::dvec2& along);
 
 // `edge`, which the wedge's slice crosses, and its ring's neighbours that face the sensor too.
-WallFront front_of(const std::vector<CutEdge>& edges, std::uint32_t edge, const Wedge& wedge);
+void front_of(const std::vector<CutEdge>& edges, std::uint32_t edge, const Wedge& wedge,
+              WallFront& front);
 
 // What of the wall the wedge alone holds: for one behind a roof, which hides its corners.
-WallFront wall_in_wedge(const CutEdge& edge, const Wedge& wedge);
+void wall_in_wedge(const CutEdge& edge, const Wedge& wedge, WallFront& front);
 
 }  // namespace fanbeam::renderer
