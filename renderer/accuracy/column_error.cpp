@@ -1,5 +1,6 @@
 #include "renderer/accuracy/column_error.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include "renderer/stages/side_lobes.h"
@@ -30,9 +31,8 @@ std::vector<double> over(const std::vector<double>& common, double noise,
 
 }  // namespace
 
-ColumnError::ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column, bool noise)
+ColumnError::ColumnError(const sensors::Sensor& sensor, bool noise)
     : sensor_(sensor),
-      sub_columns_(sub_columns_per_column),
       noise_W_(noise ? sensor.noise_power_W() : 0.0),
       noise_W_m3_(noise ? sensors::cscope_noise_W_m3(sensor) : 0.0) {}
 
@@ -43,7 +43,8 @@ void ColumnError::put_under(const FanSums& common) {
 
 std::vector<double> ColumnError::image(const std::vector<double>& sums, int bins,
                                        const FanSums& fan) const {
-  return through_antenna(sums, bins, fan, sensor_, sub_columns_);
+  const double per_column = sensor_.scan.column_width_rad() / fan.step_rad;
+  return through_antenna(sums, bins, fan, sensor_, static_cast<int>(std::lround(per_column)));
 }
 
 ColumnError::Squares ColumnError::between(const FanSums& one, const FanSums& other) const {

@@ -1,4 +1,5 @@
-// How far two pictures of one fan are apart, column by column, in displayed grey.
+// How far two pictures of one view are apart, column by column, in displayed grey. Their fans may have
+// different sub-columns.
 #pragma once
 
 #include <vector>
@@ -11,9 +12,9 @@ namespace fanbeam::renderer {
 class ColumnError {
  public:
   // `noise`: the receiver's mean noise power is in both pictures, as a display shows them.
-  ColumnError(const sensors::Sensor& sensor, int sub_columns_per_column, bool noise);
+  ColumnError(const sensors::Sensor& sensor, bool noise);
 
-  // What both pictures have as well, such as the echo of rain; shaped like the fans to compare.
+  // What both pictures have as well, such as the echo of rain.
   void put_under(const FanSums& common);
 
   // Mean squares over a column's cells of the difference of unrounded grey, one value per column.
@@ -26,7 +27,6 @@ class ColumnError {
   std::vector<double> image(const std::vector<double>& sums, int bins, const FanSums& fan) const;
 
   const sensors::Sensor& sensor_;
-  int sub_columns_;
   double noise_W_, noise_W_m3_;
   std::vector<double> common_W_, common_W_m3_;  // empty for nothing
 };

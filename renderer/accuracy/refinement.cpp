@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderer/casting/fan_layout.h"
+#include "renderer/casting/profile/profile_caster.h"
 #include "renderer/stages/rain_echo.h"
 
 namespace fanbeam::renderer {
@@ -20,10 +21,12 @@ constexpr double kBeamReach = 0.75;
 
 // Of the difference between old and new samples: refinement.h.
 struct Factors {
-  double of_old, of_first_mean, of_later_mean;
-  double of_mean(int level) const { return level == 1 ? of_first_mean : of_later_mean; }
+  double of_old, of_first_new, of_later_new;
+  double share;  // of the new samples in the new picture
+  double of_new(int level) const { return level == 1 ? of_first_new : of_later_new; }
 };
-constexpr Factors kSlices{0.50, 0.42, 0.50}, kRays{0.78, 0.55, 0.70}, kBounces{0.58, 0.50, 0.58};
+constexpr Factors kSlices{1.0, 0.5, 0.5, 1.0}, kRays{0.78, 0.55, 0.70, 0.5};
+constexpr Factors kBounces{0.58, 0.50, 0.58, 0.5};
 Factors factors_of(CasterKind caster) { return caster == CasterKind::profile ? kSlices : kRays; }
 
 double rms(const std::vector<double>& squares) {
@@ -50,6 +53,31 @@ FanSums empty_like(const FanSums& fan) {
   return empty;
 }
 
+ColumnError::Squares none_of(std::size_t columns) {
+  return {std::vector<double>(columns, 0.0), std::vector<double>(columns, 0.0)};
+}
+
+// With the mean of every two sub-columns of a column in both.
+FanSums in_pairs(FanSums fan, int margin) {
+  const auto smooth = [&](std::vector<double>& sums, int bins) {
+    const auto count = static_cast<std::size_t>(bins);
+    for (std::size_t sub = static_cast<std::size_t>(margin % 2);
+         sub + 1 < static_cast<std::size_t>(fan.sub_columns); sub += 2)
+      for (std::size_t i = sub * count; i < (sub + 1) * count; ++i)
+        sums[i] = sums[i + count] = (sums[i] + sums[i + count]) / 2;
+  };
+  smooth(fan.range_W_per_rad, fan.cells);
+  smooth(fan.elevation_W_m3_per_rad, fan.rows);
+  return fan;
+}
+
+void add_scaled(const ColumnError::Squares& more, double factor2, ColumnError::Squares& squares) {
+  for (std::size_t c = 0; c < squares.bscope_grey2.size(); ++c) {
+    squares.bscope_grey2[c] += factor2 * more.bscope_grey2[c];
+    squares.cscope_grey2[c] += factor2 * more.cscope_grey2[c];
+  }
+}
+
 FanSums plus(FanSums sums, const FanSums& more) {
   combine_groups(more, 1.0, groups_of(sums), 1.0, sums);
   add_counts(more, sums);
@@ -65,10 +93,18 @@ class TooCoarse {
         margin_(margin_sub_columns(sensor, sub_columns)),
         groups_(static_cast<std::size_t>(fan.sub_columns) / kGroupAzimuths) {}
 
-  std::vector<std::size_t> columns(const ColumnError::Squares& error, double target_grey) const {
+  // By the error that more samples make smaller, and what of it the target leaves room for beside
+  // the one that they do not.
+  std::vector<std::size_t> columns(const ColumnError::Squares& error,
+                                   const ColumnError::Squares& fixed, double target_grey) const {
+    const double target2 = target_grey * target_grey;
+    const auto too_large = [&](double error2, double fixed2) {
+      return error2 + fixed2 > target2 && error2 > fixed2;
+    };
     std::vector<std::size_t> found;
     for (std::size_t c = 0; c < error.bscope_grey2.size(); ++c)
-      if (std::max(error.bscope_grey2[c], error.cscope_grey2[c]) > target_grey * target_grey)
+      if (too_large(error.bscope_grey2[c], fixed.bscope_grey2[c]) ||
+          too_large(error.cscope_grey2[c], fixed.cscope_grey2[c]))
         found.push_back(c);
     return found;
   }
@@ -102,17 +138,17 @@ class TooCoarse {
 
 ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                                FanSums& sums, SightLines& sight) const {
-  const bool refined = sampling_.target_grey > 0.0;
-  caster_.cast(antenna, with_cscope, CastPass{0, nullptr, refined}, sums, sight);
-  ColumnError difference(world_.sensor, sampling_.sub_columns, effects_.thermal_noise);
+  caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
+  ColumnError difference(world_.sensor, effects_.thermal_noise);
   if (effects_.rain_echo && world_.volume_echo) {
     FanSums rain = empty_like(sums);
     add_rain_echo(world_, antenna, sampling_.sub_columns, rain);
     difference.put_under(rain);
   }
   const double target_grey = sampling_.target_grey * (bounces_ != nullptr ? std::sqrt(0.5) : 1.0);
-  ErrorEstimate error = refined ? refine(antenna, with_cscope, difference, target_grey, sums)
-                                : estimate(antenna, with_cscope, difference, sums);
+  ErrorEstimate error = target_grey > 0.0
+                            ? refine(antenna, with_cscope, difference, target_grey, sums)
+                            : estimate(antenna, with_cscope, difference, sums);
   if (bounces_ != nullptr)
     error = together(error, add_bounces(antenna, difference, target_grey, sums));
   return error;
@@ -126,25 +162,28 @@ ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with
   std::vector<std::uint32_t> groups = groups_of(sums);
   std::vector<std::size_t> columns(static_cast<std::size_t>(sensor.scan.columns));
   std::iota(columns.begin(), columns.end(), std::size_t{0});
-  ColumnError::Squares error{std::vector<double>(columns.size(), 0.0),
-                             std::vector<double>(columns.size(), 0.0)};
+  ColumnError::Squares error = none_of(columns.size());
+  const ColumnError::Squares fixed = of_sub_columns(difference, sums);
   thread_local FanSums fresh;
   SightLines none;
   for (int level = 1;; ++level) {
     fresh = sums;  // what is not cast again is the same in both pictures
-    caster_.cast(antenna, with_cscope, CastPass{level, &groups, true}, fresh, none);
+    caster_.cast(antenna, with_cscope, CastPass{level, &groups}, fresh, none);
     const ColumnError::Squares apart = difference.between(sums, fresh);
-    const double factor = factors_of(sampling_.caster).of_mean(level);
+    const Factors factors = factors_of(sampling_.caster);
+    const double factor = factors.of_new(level);
     for (const std::size_t c : columns) {
       error.bscope_grey2[c] = factor * factor * apart.bscope_grey2[c];
       error.cscope_grey2[c] = factor * factor * apart.cscope_grey2[c];
     }
-    combine_groups(fresh, 0.5, groups, 0.5, sums);
+    combine_groups(fresh, factors.share, groups, 1.0 - factors.share, sums);
     add_counts(fresh, sums);
-    ErrorEstimate reached = estimate_of(error, 1.0, level + 1);
+    ColumnError::Squares both = error;
+    add_scaled(fixed, 1.0, both);
+    ErrorEstimate reached = estimate_of(both, 1.0, level + 1);
     reached.reached = reached.largest_grey() <= target_grey;
-    if (reached.reached || level == kFinestLevel) return reached;
-    columns = too_coarse.columns(error, target_grey);
+    columns = too_coarse.columns(error, fixed, target_grey);
+    if (reached.reached || level == kFinestLevel || columns.empty()) return reached;
     groups = too_coarse.groups(columns);
   }
 }
@@ -152,10 +191,33 @@ ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with
 ErrorEstimate Refinement::estimate(const sensors::AntennaFrame& antenna, bool with_cscope,
                                    const ColumnError& difference, const FanSums& sums) const {
   thread_local FanSums fresh;
-  fresh = sums;
   SightLines none;
-  caster_.cast(antenna, with_cscope, CastPass{1, nullptr}, fresh, none);
-  return estimate_of(difference.between(sums, fresh), factors_of(sampling_.caster).of_old, 1);
+  if (sampling_.caster == CasterKind::profile) {
+    // In a sampling of its own: twice the sub-columns too, as far as they go.
+    const int slices = sampling_.sub_columns * sampling_.slices_per_sub_column;
+    ProfileCaster(world_, profile_sampling_for(2.0 * slices))
+        .cast(antenna, with_cscope, CastPass{}, fresh, none);
+  } else {
+    fresh = sums;
+    caster_.cast(antenna, with_cscope, CastPass{1, nullptr}, fresh, none);
+  }
+  const double factor = factors_of(sampling_.caster).of_old;
+  ColumnError::Squares error = none_of(static_cast<std::size_t>(world_.sensor.scan.columns));
+  add_scaled(difference.between(sums, fresh), factor * factor, error);
+  if (fresh.sub_columns == sums.sub_columns)
+    add_scaled(of_sub_columns(difference, sums), 1.0, error);
+  return estimate_of(error, 1.0, 1);
+}
+
+// Where in its sub-column a thing stands, the beam does not know: an error that falls with the square
+// of their width. Pairs of sub-columns taken as one have four times of it, three times more.
+ColumnError::Squares Refinement::of_sub_columns(const ColumnError& difference,
+                                                const FanSums& sums) const {
+  ColumnError::Squares error = none_of(static_cast<std::size_t>(world_.sensor.scan.columns));
+  if (sampling_.caster != CasterKind::profile || sampling_.sub_columns % 2 != 0) return error;
+  const int margin = margin_sub_columns(world_.sensor, sampling_.sub_columns);
+  add_scaled(difference.between(sums, in_pairs(sums, margin)), 1.0 / 9.0, error);
+  return error;
 }
 
 ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
@@ -176,7 +238,7 @@ ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
     const ColumnError::Squares apart = difference.between(plus(sums, echoes), plus(sums, fresh));
     combine_groups(fresh, 0.5, groups_of(sums), 0.5, echoes);
     add_counts(fresh, echoes);
-    ErrorEstimate reached = estimate_of(apart, kBounces.of_mean(level), level + 1);
+    ErrorEstimate reached = estimate_of(apart, kBounces.of_new(level), level + 1);
     reached.reached = reached.largest_grey() <= target_grey;
     if (!reached.reached && level < kFinestBounces) continue;
     sums = plus(std::move(sums), echoes);

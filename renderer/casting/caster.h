@@ -40,16 +40,15 @@ struct SightLines {
 // hide it.
 inline constexpr double kSightClearance_m = 1.0;
 
-// Samples come in levels. Level 0 is what the sampling asks for; each further level takes as many
-// new samples as all levels before it together, evenly between those, so that the mean of all of
-// them is again evenly sampled.
+// Samples come in levels. Level 0 is what the sampling asks for; with each further one there are
+// twice as many. A level of rays takes as many new ones as all levels before it together, evenly
+// between those: the mean of all of them is again evenly sampled. A level of slices takes twice as
+// many as the one before and replaces it: wedges that overlap would be worse than either.
 struct CastPass {
   int level = 0;
   // Of fan_layout.h, rising; null for all. Sums of other groups keep what they hold, or are
   // anything where slices share sub-columns (a tilted antenna).
   const std::vector<std::uint32_t>* groups = nullptr;
-  // One of the levels of a picture that is refined by their differences (profile/wall_front.h).
-  bool refined = false;
 };
 
 class Caster {

@@ -37,7 +37,7 @@ struct Sampling {
   // Above 0: every frame is refined until its estimated error, RMS over a picture's displayed grey,
   // is at most this (accuracy/refinement.h).
   double target_grey = 0.0;
-  // Estimate the error of what the other settings give; as many samples again.
+  // Estimate the error of what the other settings give; as many rays again, or twice as many slices.
   bool estimate_error = false;
 };
 
@@ -55,8 +55,8 @@ Sampling sampling_for(double rays_per_cell);
 // `times` as many rays in each elevation, neighbours as much closer together.
 Sampling finer_in_elevation(const Sampling& sampling, int times);
 
-// Where refinement to `target_grey` begins: four azimuths per column, each crossing every range cell
-// once.
+// Where refinement to `target_grey` begins: four azimuths of rays per column or eight slices,
+// each crossing every range cell once.
 Sampling refined_sampling(CasterKind caster, double target_grey);
 
 inline constexpr double kDefaultSlicesPerColumn = 8.0;

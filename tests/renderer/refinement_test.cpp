@@ -47,13 +47,28 @@ double true_error_grey(const renderer::GreyReference& reference, const renderer:
   return noise ? error.with_noise.rms : error.noise_free.rms;
 }
 
+// Converged, and not by the other caster: rays are 0.05 to 0.3 grey off where they are `converged`,
+// more than slices have to state. That both come to the same picture is profile_rays_test's.
+renderer::Sampling many_slices() {
+  renderer::Sampling sampling = slices(8);
+  sampling.sub_columns = 16;
+  sampling.slices_per_sub_column = 8;
+  return sampling;
+}
+
+// Slices begin with so many that hardly anything is left to refine: here with one.
+renderer::Sampling coarse_start(renderer::CasterKind caster, double target_grey) {
+  if (caster == renderer::CasterKind::rays) return renderer::refined_sampling(caster, target_grey);
+  renderer::Sampling sampling = slices(1);
+  sampling.target_grey = target_grey / 10.0;
+  return sampling;
+}
+
 }  // namespace
 
 // A feature that falls between all samples of a column is in no estimate of it. Few columns hold few
 // features, so single narrow frames scatter (75 to 95 % within the factor, by sampling); together
-// they are as good as three wide ones. Slices at a fixed sampling have the true widths of fronts:
-// in most views half of their error is gone, and what is left, of narrow things, scatters more: 12
-// of the 20 views lie within the factor.
+// they are as good as three wide ones.
 TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
           "[refinement][statistics]") {
   constexpr std::uint64_t kPoses = 20;
@@ -75,9 +90,12 @@ TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
     const auto render = [&](const renderer::Sampling& sampling) {
       return renderer::FrameRenderer(world, sampling, {}, effects).render(pose);
     };
-    const renderer::Frame converged = render(renderer::reference_sampling(number));
-    const renderer::GreyReference reference(world.sensor,
-                                            {converged.bscope_W, converged.cscope_W_m3});
+    const auto reference_of = [&](const renderer::Sampling& sampling) {
+      const renderer::Frame converged = render(sampling);
+      return renderer::GreyReference(world.sensor, {converged.bscope_W, converged.cscope_W_m3});
+    };
+    const renderer::GreyReference by_rays = reference_of(renderer::reference_sampling(number));
+    const renderer::GreyReference by_slices = reference_of(many_slices());
     for (std::size_t s = 0; s < samplings.size(); ++s) {
       const renderer::Frame frame = render(samplings[s]);
       REQUIRE(frame.error.has_value());
@@ -86,6 +104,8 @@ TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
         CHECK(frame.error->rms_grey <= target_grey);
         CHECK(frame.error->cscope_rms_grey <= target_grey);
       }
+      const renderer::GreyReference& reference =
+          samplings[s].caster == renderer::CasterKind::rays ? by_rays : by_slices;
       tallies[s].add(true_error_grey(reference, frame, effects.thermal_noise),
                      frame.error->rms_grey);
     }
@@ -94,9 +114,7 @@ TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
     INFO("sampling " << s << ": " << tallies[s].within << " of " << tallies[s].cases);
     CHECK(tallies[s].true_over_estimate() < 1.5);
     CHECK(tallies[s].true_over_estimate() > 1.0 / 1.5);
-    const bool with_fronts =
-        samplings[s].caster == renderer::CasterKind::profile && !(samplings[s].target_grey > 0.0);
-    CHECK(tallies[s].within >= (with_fronts ? 0.6 : 0.75) * tallies[s].cases);
+    CHECK(tallies[s].within >= 0.75 * tallies[s].cases);
   }
 }
 
@@ -107,7 +125,7 @@ TEST_CASE("A city on one side is refined on that side alone", "[refinement]") {
   const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
   for (const renderer::CasterKind kind :
        {renderer::CasterKind::rays, renderer::CasterKind::profile}) {
-    const renderer::Sampling sampling = renderer::refined_sampling(kind, 0.25);
+    const renderer::Sampling sampling = coarse_start(kind, 0.25);
     const auto samples = [&](const renderer::FanSums& sums) {
       return static_cast<double>(kind == renderer::CasterKind::rays ? sums.rays : sums.slices);
     };
@@ -132,7 +150,8 @@ TEST_CASE("A city on one side is refined on that side alone", "[refinement]") {
     CHECK(samples(of_whole) > 1.5 * samples(of_half));
     // The right quarter of the fan holds the first two levels and nothing else.
     renderer::FanSums first = cast_level(*caster, 0, antenna);
-    mix_in(cast_level(*caster, 1, antenna), 0.5, first);
+    const double share = kind == renderer::CasterKind::rays ? 0.5 : 1.0;
+    mix_in(cast_level(*caster, 1, antenna), share, first);
     const auto from =
         static_cast<std::ptrdiff_t>(first.sub_columns / 4 * 3) * std::ptrdiff_t{first.cells};
     CHECK(std::equal(first.range_W_per_rad.begin() + from, first.range_W_per_rad.end(),
@@ -144,7 +163,7 @@ TEST_CASE("R10 refined frames have the same bytes for 1 and 2 threads", "[refine
   const renderer::World world = city_world(narrow(24), everywhere);
   for (const renderer::CasterKind kind :
        {renderer::CasterKind::rays, renderer::CasterKind::profile}) {
-    const renderer::FrameRenderer frames(world, renderer::refined_sampling(kind, 0.5), {}, {});
+    const renderer::FrameRenderer frames(world, coarse_start(kind, 0.5), {}, {});
     const renderer::Frame expected = frames.render(pose_of(3));
     REQUIRE(expected.error.has_value());
     CHECK(expected.error->levels > 2);

@@ -1,14 +1,16 @@
-// Which vertical walls and painted borders each slice of a frame crosses.
+// Which vertical walls and painted borders stand in the wedge of each slice of a frame.
 //
 // All edges near enough are seen from the sensor once per frame: the azimuths of their ends decide
-// which slices cross them, the same way for both edges that share a corner, so that a slice enters
-// and leaves every building as often. Edges come roughly from near to far.
+// which wedges they reach into, the same way for both edges that share a corner, so that each heading
+// enters and leaves every building as often. Edges come roughly from near to far.
 #pragma once
 
 #include <cstdint>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <vector>
 
+#include "renderer/casting/profile/slice.h"
 #include "renderer/world.h"
 
 namespace fanbeam::renderer {
@@ -18,37 +20,45 @@ struct CutEdge {
   glm::dvec2 from_m, to_m;  // relative to the sensor
   double from_rad, to_rad;  // clockwise from the forward axis
   double cross_m2;          // of from and to
-  std::uint32_t prism;      // index into Solids::prisms, or kPaint
-  // Steps to the ring's edges that end where this one begins and begin where it ends; 0 where they
-  // are out of view.
-  std::int32_t before = 0, after = 0;
+  // At most that of anything of its building: where the horizon is higher, there is none of it.
+  double highest_tangent;
+  std::uint32_t prism;  // index into Solids::prisms, or kPaint
 };
+
+// A ring of a building or of paint, the same in all frames.
+struct PlanRing {
+  glm::dvec2 low_m, high_m;  // bounds of the whole building
+  double top_m;
+  const std::vector<glm::dvec2>* corners_m;
+  std::uint32_t prism;  // as in CutEdge
+};
+// Of one prism one after the other. `world` must outlive them.
+std::vector<PlanRing> plan_rings(const World& world);
 
 class EdgeIndex {
  public:
-  // `headings_rad` of the frame's slices, rising; `tile` slices share a list of candidates.
-  // `forward` is the horizontal direction of heading 0.
-  EdgeIndex(const World& world, const glm::dvec2& sensor_m, const glm::dvec2& forward,
-            const std::vector<double>& headings_rad, std::size_t tile);
+  // Rings up to `far_m`; the frame's `slices` by rising heading, of which `tile` share a list of
+  // candidates. `forward` is the horizontal direction of heading 0.
+  EdgeIndex(const std::vector<PlanRing>& rings, double far_m, const glm::dvec3& sensor_m,
+            const glm::dvec2& forward, const std::vector<Slice>& slices, std::size_t tile);
 
-  // Indices into edges() that a slice of the tile may cross, roughly from near to far.
+  // What may stand in the tile's wedges, roughly from near to far.
   struct Candidates {
-    const std::uint32_t* first;
-    const std::uint32_t* last;
-    const std::uint32_t* begin() const { return first; }
-    const std::uint32_t* end() const { return last; }
+    const CutEdge* const* first;
+    const CutEdge* const* last;
+    const CutEdge* const* begin() const { return first; }
+    const CutEdge* const* end() const { return last; }
   };
   Candidates candidates(std::size_t tile) const {
     return {edge_of_tile_.data() + tile_begin_[tile], edge_of_tile_.data() + tile_begin_[tile + 1]};
   }
-  const std::vector<CutEdge>& edges() const { return edges_; }
   // Prisms that the sensor stands above.
   const std::vector<std::uint32_t>& below_sensor() const { return below_sensor_; }
 
  private:
-  std::vector<CutEdge> edges_;
+  std::vector<std::vector<CutEdge>> edges_;  // of blocks of rings
   std::vector<std::size_t> tile_begin_;
-  std::vector<std::uint32_t> edge_of_tile_;
+  std::vector<const CutEdge*> edge_of_tile_;
   std::vector<std::uint32_t> below_sensor_;
 };
 

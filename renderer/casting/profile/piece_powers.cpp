@@ -14,12 +14,17 @@ constexpr double kNoLength_m2 = 1e-30;  // a piece of no length then sends nothi
 // Elevation below which one middle does for a piece on both sides of a cell's border.
 constexpr double kSmallTurn_rad = 7e-4;
 
-// integral of p ds / (p^2 + s^2)^2, slice_power.h.
-inline double solid_integral_per_m2(double p_m, double s1_m, double s2_m) {
-  const double middle_m = (s1_m + s2_m) / 2, length_m = s2_m - s1_m;
-  // A line through the sensor sends nothing back, not even from its foot.
+// Square of the range in the middle between two places on a piece's line. A line through the sensor
+// sends nothing back, not even from its foot.
+inline double middle_range2_m2(double p_m, double s1_m, double s2_m) {
+  const double middle_m = (s1_m + s2_m) / 2;
   const double square_m2 = p_m * p_m + middle_m * middle_m;
-  const double inverse_per_m2 = 1.0 / (square_m2 > kLeast_m2 ? square_m2 : kLeast_m2);
+  return square_m2 > kLeast_m2 ? square_m2 : kLeast_m2;
+}
+
+// integral of p ds / (p^2 + s^2)^2, slice_power.h; `inverse_per_m2` is that of middle_range2_m2.
+inline double solid_integral_per_m2(double p_m, double s1_m, double s2_m, double inverse_per_m2) {
+  const double middle_m = (s1_m + s2_m) / 2, length_m = s2_m - s1_m;
   const double cosine2 = middle_m * middle_m * inverse_per_m2;
   const double x = length_m * length_m / 4 * inverse_per_m2;
   const double c2 = 12.0 * cosine2 - 2.0;
@@ -107,8 +112,14 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void integrate(const sensors::RangeGate& gate,
     const double not_behind_m = crossing_m < s2_m ? crossing_m : s2_m;
     const double between_m = not_behind_m > s1_m ? not_behind_m : s1_m;
     const double split_m = c1 == c2 ? s2_m : between_m;
-    before_per_m2[i] = share[i] * solid_integral_per_m2(p_m, s1_m, split_m);
-    behind_per_m2[i] = share[i] * solid_integral_per_m2(p_m, split_m, s2_m);
+    // Both inverses from one division.
+    const double before_m2 = middle_range2_m2(p_m, s1_m, split_m);
+    const double behind_m2 = middle_range2_m2(p_m, split_m, s2_m);
+    const double inverse_per_m4 = 1.0 / (before_m2 * behind_m2);
+    before_per_m2[i] =
+        share[i] * solid_integral_per_m2(p_m, s1_m, split_m, inverse_per_m4 * behind_m2);
+    behind_per_m2[i] =
+        share[i] * solid_integral_per_m2(p_m, split_m, s2_m, inverse_per_m4 * before_m2);
     border_share[i] = (split_m - s1_m) * per_length;
     near_range_m[i] = range1_m;
     far_range_m[i] = range2_m;
@@ -147,9 +158,11 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void weigh(const PowerTables& tables, const doubl
   for (int i = 0; i < count; ++i) {
     const double d_m = distance_m[i], z_m = height_m[i];
     const double range2_m2 = d_m * d_m + z_m * z_m;
-    const double per_range = 1.0 / std::sqrt(range2_m2);
-    range_m[i] = range2_m2 * per_range;
-    const double grazing = facet_m[i] / std::sqrt(facet_d2[i]) * per_range;
+    const double range = std::sqrt(range2_m2), tilt = std::sqrt(facet_d2[i]);
+    const double per_both = 1.0 / (range * tilt);
+    const double per_range = per_both * tilt;
+    range_m[i] = range;
+    const double grazing = facet_m[i] * per_both;
     double nrcs_share = 0.0;
     const int entry = material[i] * NrcsTable::kEntries +
                       NrcsTable::index_of(grazing > 0.0 ? grazing : 0.0, nrcs_share);

@@ -13,7 +13,7 @@ SweepScratch& scratch_of_thread() {
 SliceCaster::SliceCaster(const SliceFrame& frame)
     : frame_(frame),
       power_(frame.world, frame.antenna, frame.tables, frame.path_loss),
-      sweep_(frame.world, frame.antenna.position_m, frame.edges, frame.dark_below, frame.fronts,
+      sweep_(frame.world, frame.antenna.position_m, frame.edges, frame.dark_below,
              scratch_of_thread()) {}
 
 void SliceCaster::cast(std::size_t i, const SliceBins& bins) {

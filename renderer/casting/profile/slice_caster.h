@@ -27,7 +27,6 @@ struct SliceFrame {
   std::uint8_t* clear;  // SightLines
   std::size_t tile;     // slices that share their candidates
   double dark_below;    // tangent of the elevation at which the antenna's pattern begins
-  bool fronts;          // wall_front.h; else slices stand for their wedges alone
 };
 
 // For one thread at a time, and cheap to make: its buffers are the thread's.

@@ -9,17 +9,45 @@
 namespace fanbeam::renderer {
 namespace {
 
-// Ranges in cells over which an oblique wall spreads.
-struct WedgeSpan {
-  double from, to;
+// Ranges in cells over which an oblique wall spreads: by its height and, at each height, over the
+// wedge. Both evenly, which together makes a trapezoid.
+struct WallSpread {
+  double from, height, wedge;
+
+  double to() const { return from + height + wedge; }
+  // Of the wall, nearer than `place`.
+  double share_before(double place) const {
+    const auto ramp = [](double beyond) { return beyond > 0.0 ? beyond * beyond / 2 : 0.0; };
+    const double x = place - from;
+    return (ramp(x) - ramp(x - height) - ramp(x - wedge) + ramp(x - height - wedge)) /
+           (height * wedge);
+  }
 };
 
-WedgeSpan wedge_span(const sensors::RangeGate& gate, const VisiblePieces& pieces,
+WallSpread spread_of(const sensors::RangeGate& gate, const VisiblePieces& pieces,
                      const PiecePowers& powers, int i) {
   const double near_m = powers.near_range_m[i] - gate.minimum_m;
   const double far_m = powers.far_range_m[i] - gate.minimum_m;
   return {(std::min(near_m, far_m) + pieces.nearer_m[i]) / gate.cell_m,
-          (std::max(near_m, far_m) + pieces.farther_m[i]) / gate.cell_m};
+          std::abs(far_m - near_m) / gate.cell_m,
+          (pieces.farther_m[i] - pieces.nearer_m[i]) / gate.cell_m};
+}
+
+void deposit_wall(const WallSpread& spread, double power_W_per_rad, double* bins, int cells) {
+  // Below it the trapezoid is a box, to the same part of a cell.
+  constexpr double kThin = 1e-4;
+  if (std::min(spread.height, spread.wedge) < kThin) {
+    deposit(spread.from, spread.to(), power_W_per_rad, bins, cells);
+    return;
+  }
+  const int first = std::max(static_cast<int>(std::floor(spread.from)), 0);
+  const int last = std::min(static_cast<int>(std::floor(spread.to())), cells - 1);
+  double before = spread.from < 0.0 ? spread.share_before(0.0) : 0.0;
+  for (int cell = first; cell <= last; ++cell) {
+    const double share = cell + 1.0 >= spread.to() ? 1.0 : spread.share_before(cell + 1.0);
+    bins[cell] += std::max(share - before, 0.0) * power_W_per_rad;
+    before = share;
+  }
 }
 
 }  // namespace
@@ -58,9 +86,9 @@ void SliceDeposit::add_special(const VisiblePieces& pieces, const PiecePowers& p
   const sensors::RangeGate& gate = world_.sensor.range;
   const double power_W_per_rad = powers.before_W_per_rad[i] + powers.behind_W_per_rad[i];
   if (powers.kind[i] == PiecePowers::wedge) {
-    const WedgeSpan span = wedge_span(gate, pieces, powers, i);
-    if (span.to < 0.0 || span.from >= gate.cells) return;
-    deposit(span.from, span.to, power_W_per_rad, bins.range_W_per_rad, gate.cells);
+    const WallSpread spread = spread_of(gate, pieces, powers, i);
+    if (spread.to() < 0.0 || spread.from >= gate.cells) return;
+    deposit_wall(spread, power_W_per_rad, bins.range_W_per_rad, gate.cells);
   }
   if (bins.elevation_W_m3_per_rad == nullptr) return;
   const double range_m = powers.range_m[i];
@@ -134,10 +162,10 @@ void SliceDeposit::add_to_sub_column(const VisiblePieces& pieces, const PiecePow
   double* range_bins = bins.range_W_per_rad + column * static_cast<std::size_t>(gate.cells);
   double power_W_per_rad = 0.0;
   if (powers.kind[i] == PiecePowers::wedge) {
-    const WedgeSpan span = wedge_span(gate, pieces, powers, i);
-    if (span.to < 0.0 || span.from >= gate.cells) return;
+    const WallSpread spread = spread_of(gate, pieces, powers, i);
+    if (spread.to() < 0.0 || spread.from >= gate.cells) return;
     power_W_per_rad = share * (powers.before_W_per_rad[i] + powers.behind_W_per_rad[i]);
-    deposit(span.from, span.to, power_W_per_rad, range_bins, gate.cells);
+    deposit_wall(spread, power_W_per_rad, range_bins, gate.cells);
   } else {
     const auto put = [&](std::int32_t cell, double part_W_per_rad) {
       if (cell >= gate.cells) return;

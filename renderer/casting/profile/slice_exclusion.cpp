@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
-#include "renderer/casting/fan_layout.h"
 #include "renderer/casting/heading.h"
 
 namespace fanbeam::renderer {
@@ -40,13 +39,15 @@ HeadingSpan headings_of(const terrain::Box_m& box, const glm::dvec2& sensor_m,
 
 }  // namespace
 
-std::vector<std::uint32_t> groups_for_rays(const World& world, const sensors::AntennaFrame& antenna,
-                                           const std::vector<Slice>& slices,
-                                           int slices_per_sub_column, const FanSums& sums) {
-  std::vector<bool> wanted(static_cast<std::size_t>(sums.sub_columns / kGroupAzimuths), false);
+std::vector<std::uint8_t> sub_columns_for_rays(const World& world,
+                                               const sensors::AntennaFrame& antenna,
+                                               const std::vector<Slice>& slices,
+                                               int slices_per_sub_column, const FanSums& sums) {
+  std::vector<std::uint8_t> wanted(static_cast<std::size_t>(sums.sub_columns), 0);
   const glm::dvec2 sensor_m(antenna.position_m.x, antenna.position_m.y);
   const glm::dvec2 forward = horizontal(antenna.forward);
   const auto per_sub = static_cast<std::size_t>(slices_per_sub_column);
+  const double beside_rad = slices.front().width_rad / 2 + kLeaning_rad;
   const auto slice_at = [&](double heading_rad) {
     const auto before = [](const Slice& slice, double rad) { return slice.heading_rad < rad; };
     return static_cast<std::size_t>(
@@ -55,14 +56,11 @@ std::vector<std::uint32_t> groups_for_rays(const World& world, const sensors::An
   for (const terrain::Box_m& box : world.solids.others) {
     const HeadingSpan span = headings_of(box, sensor_m, forward);
     if (span.nearest_m > world.sensor.range.maximum_m()) continue;
-    const std::size_t first = slice_at(span.left_rad - sums.step_rad - kLeaning_rad);
-    const std::size_t last = slice_at(span.right_rad + sums.step_rad + kLeaning_rad);
-    for (std::size_t i = first; i < last; ++i) wanted[i / per_sub / kGroupAzimuths] = true;
+    const std::size_t first = slice_at(span.left_rad - beside_rad);
+    const std::size_t last = slice_at(span.right_rad + beside_rad);
+    for (std::size_t i = first; i < last; ++i) wanted[i / per_sub] = 1;
   }
-  std::vector<std::uint32_t> groups;
-  for (std::size_t g = 0; g < wanted.size(); ++g)
-    if (wanted[g]) groups.push_back(static_cast<std::uint32_t>(g));
-  return groups;
+  return wanted;
 }
 
 }  // namespace fanbeam::renderer

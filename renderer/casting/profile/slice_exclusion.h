@@ -14,11 +14,12 @@ namespace fanbeam::renderer {
 // An antenna that counts as level leans by half of this at most.
 inline constexpr double kLeaning_rad = 2e-3;
 
-// Groups of sub-columns whose level slices some box of Solids::others may meet, rising. A level
+// Marks, with 1, the sub-columns in whose wedges some box of Solids::others may stand. A level
 // antenna may lean by 1 mrad, which moves a point by the tangent of its elevation times as much in
-// azimuth: a sub-column and 2 mrad beside it cover elevations to 60 deg.
-std::vector<std::uint32_t> groups_for_rays(const World& world, const sensors::AntennaFrame& antenna,
-                                           const std::vector<Slice>& slices,
-                                           int slices_per_sub_column, const FanSums& sums);
+// azimuth: 2 mrad beside the wedges cover elevations to 60 deg.
+std::vector<std::uint8_t> sub_columns_for_rays(const World& world,
+                                               const sensors::AntennaFrame& antenna,
+                                               const std::vector<Slice>& slices,
+                                               int slices_per_sub_column, const FanSums& sums);
 
 }  // namespace fanbeam::renderer

@@ -41,23 +41,15 @@ Headings headings_of_fan(const World& world, const sensors::AntennaFrame& antenn
 
 }  // namespace
 
-// Half a spacing beside those of level 0 first, then half way between all there are.
-SlicePlaces slice_places(const Sampling& sampling, int level) {
-  const int slices = sampling.slices_per_sub_column;
-  if (level == 0) return {slices, 0.5};
-  if (level == 1) return {slices, 0.0};
-  return {slices << (level - 1), 0.5};
-}
-
-std::vector<Slice> level_slices(const World& world, const SlicePlaces& places,
+std::vector<Slice> level_slices(const World& world, int per_sub_column,
                                 const sensors::AntennaFrame& antenna, const FanSums& sums) {
   const glm::dvec2 forward = horizontal(antenna.forward);
-  const int count = sums.sub_columns * places.per_sub_column;
-  const double width_rad = sums.step_rad / places.per_sub_column;
+  const int count = sums.sub_columns * per_sub_column;
+  const double width_rad = sums.step_rad / per_sub_column;
   std::vector<Slice> slices;
   slices.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    const double azimuth_rad = sums.first_azimuth_rad + (i + places.place) * width_rad;
+    const double azimuth_rad = sums.first_azimuth_rad + (i + 0.5) * width_rad;
     const glm::dvec2 along = horizontal(
         sensors::direction(antenna, azimuth_rad, world.sensor.antenna.boresight_elevation_rad,
                            world.sensor.scan.surface));
@@ -66,17 +58,17 @@ std::vector<Slice> level_slices(const World& world, const SlicePlaces& places,
   return slices;
 }
 
-std::vector<Slice> tilted_slices(const World& world, const SlicePlaces& places,
+std::vector<Slice> tilted_slices(const World& world, int per_sub_column,
                                  const sensors::AntennaFrame& antenna, const FanSums& sums) {
   const Headings seen = headings_of_fan(world, antenna, sums);
-  const double wanted_rad = sums.step_rad / places.per_sub_column;
+  const double wanted_rad = sums.step_rad / per_sub_column;
   const int count = static_cast<int>(std::ceil((seen.right_rad - seen.left_rad) / wanted_rad)) + 1;
   const glm::dvec2 forward = horizontal(antenna.forward);
   const glm::dvec2 clockwise(forward.y, -forward.x);
   std::vector<Slice> slices;
   slices.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    const double heading_rad = seen.left_rad + (i + places.place) * wanted_rad;
+    const double heading_rad = seen.left_rad + (i + 0.5) * wanted_rad;
     slices.push_back({forward * std::cos(heading_rad) + clockwise * std::sin(heading_rad),
                       heading_rad, wanted_rad});
   }
@@ -84,6 +76,7 @@ std::vector<Slice> tilted_slices(const World& world, const SlicePlaces& places,
 }
 
 std::vector<SubColumnSlices> slices_of_groups(const std::vector<std::uint32_t>& groups,
+                                              const std::vector<std::uint8_t>& for_rays,
                                               int slices_per_sub_column) {
   const auto per_sub = static_cast<std::size_t>(slices_per_sub_column);
   std::vector<SubColumnSlices> columns;
@@ -91,10 +84,21 @@ std::vector<SubColumnSlices> slices_of_groups(const std::vector<std::uint32_t>& 
   for (const std::uint32_t group : groups) {
     for (std::size_t a = 0; a < kGroupAzimuths; ++a) {
       const std::size_t sub = group * std::size_t{kGroupAzimuths} + a;
-      columns.push_back({sub, sub * per_sub, (sub + 1) * per_sub});
+      if (for_rays[sub] == 0) columns.push_back({sub, sub * per_sub, (sub + 1) * per_sub});
     }
   }
   return columns;
+}
+
+std::vector<std::uint32_t> groups_of_rays(const std::vector<std::uint32_t>& groups,
+                                          const std::vector<std::uint8_t>& for_rays) {
+  std::vector<std::uint32_t> some;
+  for (const std::uint32_t group : groups) {
+    const auto first = for_rays.begin() + static_cast<std::ptrdiff_t>(group) * kGroupAzimuths;
+    if (std::find(first, first + kGroupAzimuths, 1) != first + kGroupAzimuths)
+      some.push_back(group);
+  }
+  return some;
 }
 
 }  // namespace fanbeam::renderer

@@ -18,7 +18,8 @@
 // A piece that passes one border between cells is integrated on both sides of it with the pattern,
 // NRCS and loss of its own middle; longer ones are cut into pieces of their own.
 //
-// A wall that stands obliquely in the slice's wedge spreads evenly over the ranges it takes there.
+// A wall that stands obliquely in the slice's wedge spreads evenly over the ranges that it takes there
+// at each of its heights.
 #pragma once
 
 #include <cstdint>
