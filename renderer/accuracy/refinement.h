@@ -6,10 +6,10 @@
 // Slices: each level has twice as many and replaces the one before.
 //   error of the old level = 1.0 D, of the new one 0.5 D
 // For an error that falls by 2.3 with each level, in a way of its own, it would be 0.92 and 0.40.
-// Less than eight slices per column have fewer sub-columns too, and where in its sub-column a thing
-// stands, the beam does not know: what a sampling gives by itself is compared with the sampling of
-// twice as many slices, sub-columns and all. From eight on, and for refinement, which begins there,
-// that error is told by what it would be with sub-columns in pairs, and joins the other.
+// Where in its sub-column a thing stands, the beam does not know. What that costs is told by what
+// sub-columns in pairs would cost, an error that falls with the square of their width, and joins the
+// other. Fewer than eight slices per column have fewer sub-columns too: what such a sampling gives by
+// itself is compared with the sampling of twice as many slices, sub-columns and all.
 //
 // Rays and double bounces: each level puts as many new samples as there were before between them.
 // The picture of the old samples and that of the new ones are two answers to the same question,

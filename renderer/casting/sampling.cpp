@@ -65,7 +65,8 @@ Sampling finer_in_elevation(const Sampling& sampling, int times) {
 Sampling refined_sampling(CasterKind caster, double target_grey) {
   // Sub-columns are not refined. With four of slices, where in them things stand is 0.2 to 0.3 grey
   // over a city, with eight 0.05.
-  Sampling sampling = sampling_for(caster, caster == CasterKind::profile ? 8.0 : 4.0);
+  const bool fine = caster == CasterKind::profile && target_grey < 0.5;
+  Sampling sampling = sampling_for(caster, fine ? 8.0 : 4.0);
   sampling.target_grey = target_grey;
   return sampling;
 }

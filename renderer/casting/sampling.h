@@ -55,8 +55,8 @@ Sampling sampling_for(double rays_per_cell);
 // `times` as many rays in each elevation, neighbours as much closer together.
 Sampling finer_in_elevation(const Sampling& sampling, int times);
 
-// Where refinement to `target_grey` begins: four azimuths of rays per column or eight slices,
-// each crossing every range cell once.
+// Where refinement to `target_grey` begins: four azimuths per column, of slices eight below 0.5
+// grey, each crossing every range cell once.
 Sampling refined_sampling(CasterKind caster, double target_grey);
 
 inline constexpr double kDefaultSlicesPerColumn = 8.0;

@@ -15,17 +15,6 @@ double total(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-// Largest difference as part of the largest value.
-double apart(const std::vector<double>& one, const std::vector<double>& other) {
-  REQUIRE(one.size() == other.size());
-  const double scale = *std::max_element(other.begin(), other.end());
-  REQUIRE(scale > 0.0);
-  double largest = 0.0;
-  for (std::size_t i = 0; i < one.size(); ++i)
-    largest = std::max(largest, std::abs(one[i] - other[i]) / scale);
-  return largest;
-}
-
 }  // namespace
 
 TEST_CASE("Each level of slices is the plain sampling with twice as many as the one before",
@@ -45,8 +34,9 @@ TEST_CASE("Each level of slices is the plain sampling with twice as many as the 
   }
 }
 
-TEST_CASE("Each level of slices is nearer to many slices than half of the one before", "[levels]") {
-  // Rough ground alone, then a city: edges that fall between slices would only come down to 0.6.
+TEST_CASE("Four levels of slices take nine tenths of the error away", "[levels]") {
+  // Of rough ground alone, and of a city on level ground. Edges that fall between slices would leave
+  // more than an eighth of it.
   std::uint64_t post = 0;
   const renderer::World rough = tests::world(
       narrow(12), ground(1300.0, 25.0, [&](double, double) { return 20.0 * uniform(3, ++post); }),
@@ -54,23 +44,20 @@ TEST_CASE("Each level of slices is nearer to many slices than half of the one be
   const renderer::World city = city_world(narrow(12), everywhere);
   const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m + 20.0});
   for (const renderer::World* world : {&rough, &city}) {
-    const renderer::FanSums many =
-        cast_level(renderer::ProfileCaster(*world, slices(1)), 7, antenna);
+    const renderer::ProfileCaster caster(*world, slices(1));
+    const renderer::FanSums many = cast_level(caster, 7, antenna);
     const auto error = [&](int level) {
-      const renderer::FanSums sums =
-          cast_level(renderer::ProfileCaster(*world, slices(1)), level, antenna);
-      double square = 0.0;
-      for (std::size_t i = 0; i < sums.range_W_per_rad.size(); ++i)
+      const renderer::FanSums sums = cast_level(caster, level, antenna);
+      double square = 0.0, whole = 0.0;
+      for (std::size_t i = 0; i < sums.range_W_per_rad.size(); ++i) {
         square += std::pow(sums.range_W_per_rad[i] - many.range_W_per_rad[i], 2);
-      return std::sqrt(square);
+        whole += std::pow(many.range_W_per_rad[i], 2);
+      }
+      return std::sqrt(square / whole);
     };
-    double before = error(0);
-    for (int level = 1; level <= 4; ++level) {
-      const double now = error(level);
-      INFO((world == &city ? "city" : "rough ground") << ", level " << level);
-      CHECK(now < 0.55 * before);
-      before = now;
-    }
+    INFO((world == &city ? "city" : "rough ground"));
+    CHECK(error(4) < 0.1 * error(0));
+    CHECK(error(0) > 1e-4);
   }
 }
 
