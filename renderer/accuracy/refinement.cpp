@@ -57,6 +57,15 @@ ColumnError::Squares none_of(std::size_t columns) {
   return {std::vector<double>(columns, 0.0), std::vector<double>(columns, 0.0)};
 }
 
+// In a sampling of its own: twice the sub-columns too, as far as they go, and then twice the rays in
+// those that are left to rays, or they would be the same ones again.
+Sampling twice_as_many(const Sampling& slices) {
+  Sampling finer = profile_sampling_for(2.0 * slices.sub_columns * slices.slices_per_sub_column);
+  const double rays = 2.0 * slices.rays_per_cell * slices.sub_columns / finer.sub_columns;
+  finer.rays_per_cell = std::max(finer.rays_per_cell, rays);
+  return finer;
+}
+
 // With the mean of every two sub-columns of a column in both.
 FanSums in_pairs(FanSums fan, int margin) {
   const auto smooth = [&](std::vector<double>& sums, int bins) {
@@ -193,9 +202,7 @@ ErrorEstimate Refinement::estimate(const sensors::AntennaFrame& antenna, bool wi
   thread_local FanSums fresh;
   SightLines none;
   if (sampling_.caster == CasterKind::profile) {
-    // In a sampling of its own: twice the sub-columns too, as far as they go.
-    const int slices = sampling_.sub_columns * sampling_.slices_per_sub_column;
-    ProfileCaster(world_, profile_sampling_for(2.0 * slices))
+    ProfileCaster(world_, twice_as_many(sampling_))
         .cast(antenna, with_cscope, CastPass{}, fresh, none);
   } else {
     fresh = sums;

@@ -32,7 +32,8 @@
 // either, but it fills the cells in which errors would show.
 // Deterministic: depends on the pose and the world alone.
 // Cost: that of level 0 twice with rays and three times with slices, at least, and two pictures per
-// level to compare; in rain its echo once more, so that a frame has the same bytes with an estimate and without.
+// level to compare; in rain its echo once more, so that a frame has the same bytes with an estimate
+// and without.
 #pragma once
 
 #include <algorithm>

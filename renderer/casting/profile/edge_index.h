@@ -1,8 +1,8 @@
 // Which vertical walls and painted borders stand in the wedge of each slice of a frame.
 //
 // All edges near enough are seen from the sensor once per frame: the azimuths of their ends decide
-// which wedges they reach into, the same way for both edges that share a corner, so that each heading
-// enters and leaves every building as often. Edges come roughly from near to far.
+// which wedges they reach into, the same way for both edges that share a corner, so that each
+// heading enters and leaves every building as often. Edges come roughly from near to far.
 #pragma once
 
 #include <cstdint>

@@ -5,17 +5,18 @@
 // prisms of World::solids. Inside a slice visibility and geometry are exact for plane facets
 // (slice_sweep.h, slice_power.h); pattern, NRCS and loss are those in the middle of each piece,
 // which spans at most 2 mrad of elevation. A slice stands for the wedge around it. Buildings are
-// clipped to the wedge: walls and shadows count with their true widths, and oblique walls spread over
-// their ranges (wedge_strips.h). The error left is that of the ground's azimuths between slices: closed forms
-// within 1e-9 for constant gamma and an even pattern, 0.01 dB for HiVision's; converged slices
-// against converged rays in docs/performance.md.
+// clipped to the wedge: walls and shadows count with their true widths, and oblique walls spread
+// over their ranges (wedge_strips.h). The error left is that of the ground's azimuths between slices
+// and of where in its sub-column a thing stands: closed forms within 1e-9 for constant gamma and an
+// even pattern, 0.01 dB for HiVision's; converged slices against converged rays in
+// docs/performance.md.
 // What a vertical cut cannot describe (models, prisms with air under them) is left to rays: the
 // sub-columns that such a thing stands in are cast by a RayCaster. Half-planes of other
 // azimuths cannot meet it, so both see each other rightly. With a tilted antenna or a cone scan
 // sub-columns are no half-planes; scenes with such things then go to rays alone.
 //
-// Lines of sight are tested against the horizon of the strip of a wedge that they lie in, at their own
-// distance and height: up to half a wedge beside their true azimuth, as far as the ground goes.
+// Lines of sight are tested against the horizon of the strip of a wedge that they lie in, at their
+// own distance and height: up to half a wedge beside their true azimuth, as far as the ground goes.
 //
 // Neglected: what ray_caster.h neglects. A slice is a half-plane through the local vertical; an
 // antenna tilted by less than 1 mrad counts as level.

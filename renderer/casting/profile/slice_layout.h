@@ -14,7 +14,7 @@
 namespace fanbeam::renderer {
 
 // All slices of a fan whose azimuths are upright, by rising heading, in the middles of the wedges
-// that they stand for: those of sub-column s are numbers [s n, (s + 1) n) with n = `per_sub_column`.
+// that they stand for: those of sub-column s are numbers [s n, (s + 1) n), n = `per_sub_column`.
 std::vector<Slice> level_slices(const World& world, int per_sub_column,
                                 const sensors::AntennaFrame& antenna, const FanSums& sums);
 
