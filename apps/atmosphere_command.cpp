@@ -8,6 +8,7 @@
 #include "apps/atmosphere_table.h"
 #include "apps/frequency_choice.h"
 #include "apps/gnuplot.h"
+#include "apps/scene_choice.h"
 #include "core/constants.h"
 #include "core/files.h"
 #include "sensors/antenna/beam_pattern.h"
@@ -18,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The weather and the sensor that are asked about.
+// The weather and the sensor that are asked about, before the options have changed it.
 struct Question {
   atmosphere::Weather weather;
   sensors::Sensor sensor;
@@ -32,12 +33,11 @@ Question question_of(const AtmosphereOptions& options) {
     question.sensor =
         sensors::read_sensor((shipped_folder() / "sensors/hivision.toml").string(), problems);
   } else {
-    const scenes::SceneDescription scene = scenes::read_scene(
-        find_scene(options.scene), {shipped_folder(), data_folders(options.data), {}}, problems);
+    const scenes::SceneDescription scene =
+        read_chosen_scene({options.scene, {}, options.data}, problems);
     question = {scene.weather, scene.sensor, scene.rain_cells};
   }
   problems.throw_if_errors();
-  put_over(options.weather, question.weather);
   return question;
 }
 
@@ -45,10 +45,8 @@ Question question_of(const AtmosphereOptions& options) {
 core::Problem in_words_of_options(core::Problem problem, const AtmosphereOptions& options) {
   const bool compares = !options.compare_GHz.empty();
   std::string option = option_behind(options.weather, problem.field);
-  if (problem.field == "frequency_Hz" && (compares || !options.frequency_GHz.empty())) {
+  if (problem.field == "frequency" && (compares || !options.frequency_GHz.empty()))
     option = compares ? "--compare" : "--frequency";
-    problem.value = core::number_text(std::stod(problem.value) * 1e-9) + " GHz";
-  }
   if (!option.empty()) problem.field = option;
   return problem;
 }
@@ -60,15 +58,15 @@ std::string dB_text(double value_dB) {
 
 std::string csv_of(const std::vector<AtmosphereTable>& tables) {
   std::string text =
-      "frequency_GHz,range_m,gas_dB,fog_dB,rain_dB,snow_dB,one_way_dB,two_way_dB,eta_m2_per_m3,"
-      "equivalent_sigma0_dB\n";
+      "frequency_GHz,range_m,gas_dB,oxygen_dB,vapour_dB,fog_dB,rain_dB,snow_dB,one_way_dB,"
+      "two_way_dB,eta_m2_per_m3,equivalent_sigma0_dB\n";
   for (const AtmosphereTable& table : tables)
     for (const AtmosphereRow& row : table.rows)
       text += fmt::format(
-          "{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n", table.frequency_Hz * 1e-9,
-          row.range_m, row.one_way_dB.gas_dB_per_km, row.one_way_dB.fog_dB_per_km,
-          row.one_way_dB.rain_dB_per_km, row.one_way_dB.snow_dB_per_km, row.total_one_way_dB(),
-          2.0 * row.total_one_way_dB(), row.eta_m2_per_m3,
+          "{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n",
+          table.frequency_Hz / 1e9, row.range_m, row.gas_dB(), row.oxygen_dB, row.vapour_dB,
+          row.fog_dB, row.rain_dB, row.snow_dB, row.one_way_dB(), row.two_way_dB(),
+          row.eta_m2_per_m3,
           std::isfinite(row.equivalent_sigma0_dB) ? fmt::format("{:.4f}", row.equivalent_sigma0_dB)
                                                   : "");
   return text;
@@ -83,34 +81,39 @@ std::string json_of(const std::vector<AtmosphereTable>& tables,
   for (const AtmosphereTable& table : tables) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
     for (const AtmosphereRow& row : table.rows) {
-      nlohmann::ordered_json entry = {{"range_m", row.range_m},
-                                      {"gas_dB", row.one_way_dB.gas_dB_per_km},
-                                      {"fog_dB", row.one_way_dB.fog_dB_per_km},
-                                      {"rain_dB", row.one_way_dB.rain_dB_per_km},
-                                      {"snow_dB", row.one_way_dB.snow_dB_per_km},
-                                      {"one_way_dB", row.total_one_way_dB()},
-                                      {"two_way_dB", 2.0 * row.total_one_way_dB()},
-                                      {"eta_m2_per_m3", row.eta_m2_per_m3}};
+      nlohmann::ordered_json entry = {
+          {"range_m", row.range_m},         {"gas_dB", row.gas_dB()},
+          {"oxygen_dB", row.oxygen_dB},     {"vapour_dB", row.vapour_dB},
+          {"fog_dB", row.fog_dB},           {"rain_dB", row.rain_dB},
+          {"snow_dB", row.snow_dB},         {"one_way_dB", row.one_way_dB()},
+          {"two_way_dB", row.two_way_dB()}, {"eta_m2_per_m3", row.eta_m2_per_m3}};
       if (std::isfinite(row.equivalent_sigma0_dB))
         entry["equivalent_sigma0_dB"] = row.equivalent_sigma0_dB;
       rows.push_back(entry);
     }
-    json["frequencies"].push_back({{"frequency_GHz", table.frequency_Hz * 1e-9}, {"rows", rows}});
+    nlohmann::ordered_json entry = {{"frequency_GHz", table.frequency_Hz / 1e9}};
+    if (table.rain) entry["rain"] = {{"k", table.rain->k}, {"alpha", table.rain->alpha}};
+    entry["rows"] = rows;
+    json["frequencies"].push_back(entry);
   }
   return json.dump(2) + "\n";
 }
 
 void print_table(const AtmosphereTable& table) {
-  fmt::print("\n{} GHz\n{:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11} {:>10}\n",
-             table.frequency_Hz * 1e-9, "range", "gas", "fog", "rain", "snow", "one way", "two-way",
+  constexpr const char* kHeadings =
+      "{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11} {:>10}\n";
+  fmt::print("\n{} GHz\n", table.frequency_Hz / 1e9);
+  fmt::print(kHeadings, "range", "oxygen", "vapour", "fog", "rain", "snow", "one way", "two-way",
              "eta", "as sigma0");
-  fmt::print("{:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11} {:>10}\n", "m", "dB", "dB", "dB",
-             "dB", "dB", "dB", "m2/m3", "dB");
+  fmt::print(kHeadings, "m", "dB", "dB", "dB", "dB", "dB", "dB", "dB", "m2/m3", "dB");
   for (const AtmosphereRow& row : table.rows)
-    fmt::print("{:>8.0f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.3f} {:>9.3f} {:>11.3g} {:>10}\n",
-               row.range_m, row.one_way_dB.gas_dB_per_km, row.one_way_dB.fog_dB_per_km,
-               row.one_way_dB.rain_dB_per_km, row.one_way_dB.snow_dB_per_km, row.total_one_way_dB(),
-               2.0 * row.total_one_way_dB(), row.eta_m2_per_m3, dB_text(row.equivalent_sigma0_dB));
+    fmt::print(
+        "{:>8.0f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.3f} {:>9.3f} {:>11.3g} "
+        "{:>10}\n",
+        row.range_m, row.oxygen_dB, row.vapour_dB, row.fog_dB, row.rain_dB, row.snow_dB,
+        row.one_way_dB(), row.two_way_dB(), row.eta_m2_per_m3, dB_text(row.equivalent_sigma0_dB));
+  if (table.rain)
+    fmt::print("  rain: k = {:.4f}, alpha = {:.4f}\n", table.rain->k, table.rain->alpha);
 }
 
 void print_notes(const AtmospherePath& path, const std::vector<AtmosphereModel>& models) {
@@ -142,10 +145,10 @@ Plot plot_of(const std::vector<AtmosphereTable>& tables) {
   plot.x = {"range [km]", false, 0.0, {}};
   plot.y = {"loss [dB]", false, 0.0, {}};
   for (const AtmosphereTable& table : tables) {
-    PlotSeries total{fmt::format("{} GHz", table.frequency_Hz * 1e-9), {}, {}};
+    PlotSeries total{fmt::format("{} GHz", table.frequency_Hz / 1e9), {}, {}};
     for (const AtmosphereRow& row : table.rows) {
       total.x.push_back(1e-3 * row.range_m);
-      total.y.push_back(2.0 * row.total_one_way_dB());
+      total.y.push_back(row.two_way_dB());
     }
     plot.series.push_back(total);
   }
@@ -161,6 +164,23 @@ void write_files(const fs::path& folder, const std::vector<AtmosphereTable>& tab
     write_plot(plot_of(tables), folder / name);
 }
 
+// What only the rain law itu-p838 knows does nothing beside another.
+void refuse_idle(const WeatherOptions& options, const atmosphere::Weather& weather) {
+  if (weather.rain_law == atmosphere::RainLaw::itu_p838) return;
+  core::ProblemList problems;
+  const auto refuse = [&](bool given, const char* option, const std::string& value) {
+    if (given)
+      problems.error(core::ErrorClass::range, {}, option, value,
+                     "the rain law itu-p838, as " + std::string(name_of(weather.rain_law)) +
+                         " does not know it");
+  };
+  refuse(!options.polarisation.empty(), "--polarisation", options.polarisation);
+  refuse(options.tilt_deg.has_value(), "--tilt", core::number_text(options.tilt_deg.value_or(0)));
+  refuse(options.path_elevation_deg.has_value(), "--path-elevation",
+         core::number_text(options.path_elevation_deg.value_or(0)));
+  problems.throw_if_errors();
+}
+
 void answer(const Question& question, const AtmosphereOptions& options,
             const CommonOptions& common) {
   if (!options.compare_GHz.empty()) {
@@ -168,6 +188,7 @@ void answer(const Question& question, const AtmosphereOptions& options,
                         1e9 * options.compare_GHz[1], options.output);
     return;
   }
+  refuse_idle(options.weather, question.weather);
   const AtmospherePath path{options.height_m, options.to_height_m, options.range_m, options.step_m,
                             sensors::two_way_width(question.sensor.antenna.elevation)};
   std::vector<double> frequencies_GHz = options.frequency_GHz;
@@ -191,8 +212,9 @@ void answer(const Question& question, const AtmosphereOptions& options,
 }  // namespace
 
 int atmosphere(const AtmosphereOptions& options, const CommonOptions& common) {
-  const Question question = question_of(options);
+  Question question = question_of(options);
   try {
+    put_over(options.weather, question.weather);
     answer(question, options, common);
   } catch (const core::InputError& error) {
     std::vector<core::Problem> problems;

@@ -21,5 +21,7 @@ struct AtmosphereOptions {
 };
 
 int atmosphere(const AtmosphereOptions& options, const CommonOptions& common);
+CLI::App& add_atmosphere_command(CLI::App& program, AtmosphereOptions& options,
+                                 CommonOptions& common);
 
 }  // namespace fanbeam::apps

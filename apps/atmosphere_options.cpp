@@ -3,6 +3,7 @@
 #include "apps/atmosphere_command.h"
 #include "apps/command_line.h"
 #include "apps/number_range.h"
+#include "apps/value_words.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -14,27 +15,29 @@ Options add_amounts(CLI::App& command, WeatherOptions& weather) {
   CLI::Option* visibility = command.add_option("--fog-visibility", weather.visibility_m,
                                                "Visibility in fog, m, 10 to 100000");
   CLI::Option* water =
-      command.add_option("--fog-water", weather.liquid_water_g_per_m3, "Water in fog, g/m3, to 20")
+      command
+          .add_option("--fog-water", weather.liquid_water_g_per_m3, "Water in fog, g/m3, 0 to 20")
           ->excludes(visibility);
-  CLI::Option* fog_top =
-      command.add_option("--fog-top", weather.fog_top_m, "Top of the fog above the origin, m");
+  CLI::Option* fog_top = command.add_option("--fog-top", weather.fog_top_m,
+                                            "Top of the fog above the origin, m, -2000 to 12000");
   CLI::Option* rain =
-      command.add_option("--rain", weather.rain_mm_per_h, "Rain rate, mm/h, to 300");
-  CLI::Option* rain_top =
-      command.add_option("--rain-top", weather.rain_top_m, "Top of the rain above the origin, m");
+      command.add_option("--rain", weather.rain_mm_per_h, "Rain rate, mm/h, 0 to 300");
+  CLI::Option* rain_top = command.add_option("--rain-top", weather.rain_top_m,
+                                             "Top of the rain above the origin, m, -2000 to 12000");
   CLI::Option* melting = command
                              .add_flag("--melting-layer", weather.melting_layer,
                                        "Rain ends below the 0 C level of the air, in wet snow")
                              ->excludes(rain_top);
   CLI::Option* melting_height =
       command
-          .add_option("--melting-height", weather.melting_height_m,
-                      "A melting layer with its 0 C level there, m above the origin")
+          .add_option(
+              "--melting-height", weather.melting_height_m,
+              "A melting layer with its 0 C level there, m above the origin, -2000 to 11640")
           ->excludes(rain_top);
   CLI::Option* snow = command.add_option("--snow", weather.snow_mm_per_h,
-                                         "Dry snow, mm/h of water, to 50; up to 40 GHz");
-  CLI::Option* snow_top =
-      command.add_option("--snow-top", weather.snow_top_m, "Top of the snow above the origin, m");
+                                         "Dry snow, mm/h of water, 0 to 50; up to 40 GHz");
+  CLI::Option* snow_top = command.add_option("--snow-top", weather.snow_top_m,
+                                             "Top of the snow above the origin, m, -2000 to 12000");
   return {visibility, water, fog_top, rain, rain_top, melting, melting_height, snow, snow_top};
 }
 
@@ -50,16 +53,42 @@ void add_laws(CLI::App& command, WeatherOptions& weather) {
       ->check(CLI::IsMember({"mie", "mie-fit", "georgia-tech-1975"}));
   command.add_option("--drop-sizes", weather.drop_sizes, "Of the laws mie")
       ->check(CLI::IsMember({"marshall-palmer", "joss-drizzle", "joss-thunderstorm"}));
+  CLI::Option* polarisation =
+      command
+          .add_option("--polarisation", weather.polarisation,
+                      "For the rain law itu-p838 (default: the scene's, else HH)")
+          ->check(CLI::IsMember({"HH", "VV"}));
   command
-      .add_option("--polarisation", weather.polarisation,
-                  "For the rain law (default: the scene's, else HH)")
-      ->check(CLI::IsMember({"HH", "VV"}));
+      .add_option("--tilt", weather.tilt_deg,
+                  "The same in between: tilt from horizontal, degrees, -180 to 180; 45 stands for "
+                  "circular too")
+      ->check(number_from(-180.0, 180.0))
+      ->excludes(polarisation);
+  command
+      .add_option("--path-elevation", weather.path_elevation_deg,
+                  "For the rain law itu-p838: elevation of the path, degrees, -90 to 90 (default "
+                  "0, as scenes are rendered; heights and range do not change it)")
+      ->check(number_from(-90.0, 90.0));
 }
 
 void add_air(CLI::App& command, WeatherOptions& weather) {
   command.add_option("--temperature", weather.temperature_C, "At the origin, C, -60 to 50");
-  command.add_option("--humidity", weather.humidity, "At the origin, 0 to 1");
-  command.add_option("--pressure", weather.pressure_hPa, "At the origin, hPa, 300 to 1100");
+  CLI::Option* humidity =
+      command.add_option("--humidity", weather.humidity, "Relative, at the origin, 0 to 1");
+  CLI::Option* pressure =
+      command.add_option("--pressure", weather.pressure_hPa,
+                         "Of air and vapour together, at the origin, hPa, 300 to 1100");
+  command
+      .add_option("--vapour-density", weather.vapour_density_g_per_m3,
+                  "Water vapour at the origin, g/m3, 0 to saturation; in fog air is saturated")
+      ->check(number_from(0.0, 300.0))
+      ->excludes(humidity);
+  command
+      .add_option(
+          "--dry-pressure", weather.dry_pressure_hPa,
+          "Of the air without its vapour, as P.676 takes it, at the origin, hPa; 300 to 1100 with "
+          "it")
+      ->excludes(pressure);
 }
 
 Options add_path(CLI::App& command, AtmosphereOptions& options) {
@@ -78,20 +107,24 @@ Options add_path(CLI::App& command, AtmosphereOptions& options) {
 
 }  // namespace
 
-void add_atmosphere_command(CLI::App& app, AtmosphereOptions& options, CommonOptions& common) {
-  CLI::App& command = *app.add_subcommand(
+CLI::App& add_atmosphere_command(CLI::App& program, AtmosphereOptions& options,
+                                 CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
       "atmosphere", "Loss in air, fog, rain and snow over range, and the echo of what falls");
   CLI::Option* scene =
-      command.add_option("SCENE", options.scene, "A scene whose weather and sensor are used");
+      command.add_option("SCENE", options.scene, "A scene whose weather and sensor are used")
+          ->type_name(kSceneValue);
   command
       .add_option("--data", options.data,
-                  "Folder with terrain and flight data (before FANBEAM_DATA)")
+                  "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
+                  "names")
+      ->type_name(kFolderValue)
       ->needs(scene);
   CLI::Option* frequency = command
                                .add_option("--frequency", options.frequency_GHz,
                                            "GHz, one or more: 35,94 (default: the sensor's)")
                                ->delimiter(',')
-                               ->check(CLI::Range(1.0, 1000.0));
+                               ->check(number_from(1.0, 1000.0));
   CLI::Option* compare =
       command
           .add_option("--compare", options.compare_GHz,
@@ -99,7 +132,7 @@ void add_atmosphere_command(CLI::App& app, AtmosphereOptions& options, CommonOpt
                       "and rains, and plots of them with -o")
           ->delimiter(',')
           ->expected(2)
-          ->check(CLI::Range(1.0, 1000.0));
+          ->check(number_from(1.0, 1000.0));
   CLI::Option* csv = command.add_flag("--csv", options.csv, "Print CSV");
   CLI::Option* json = command.add_flag("--json", options.json, "Print JSON")->excludes(csv);
   Options without_effect = {frequency, csv, json};
@@ -108,9 +141,12 @@ void add_atmosphere_command(CLI::App& app, AtmosphereOptions& options, CommonOpt
   for (CLI::Option* option : without_effect) compare->excludes(option);
   add_laws(command, options.weather);
   add_air(command, options.weather);
-  command.add_option("-o,--output", options.output,
-                     "Folder for plots, and for CSV and JSON unless --compare");
+  command
+      .add_option("-o,--output", options.output,
+                  "Folder for plots, and for CSV and JSON unless --compare (default: none written)")
+      ->type_name(kFolderValue);
   add_common_options(command, common);
+  return command;
 }
 
 }  // namespace fanbeam::apps

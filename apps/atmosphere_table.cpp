@@ -1,20 +1,26 @@
 #include "apps/atmosphere_table.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 
 #include "atmosphere/volume_echo.h"
+#include "core/units.h"
 
 namespace fanbeam::apps {
 namespace {
 
+using atmosphere::GasPart;
 using atmosphere::PathAttenuation;
 using atmosphere::Weather;
 
 // The loss of one cause alone: the air stays what it is.
-PathAttenuation alone(Weather weather, bool Weather::*cause, double frequency_Hz) {
+PathAttenuation alone(Weather weather, bool Weather::*cause, double frequency_Hz,
+                      GasPart gas_part = GasPart::whole) {
   weather.simulate_gas = weather.simulate_fog = weather.simulate_rain = weather.simulate_snow =
       false;
   weather.*cause = true;
+  weather.gas_part = gas_part;
   return {weather, frequency_Hz};
 }
 
@@ -59,12 +65,19 @@ std::string fog_source(atmosphere::FogLaw law) {
 AtmosphereTable atmosphere_table(const Weather& weather, double frequency_Hz,
                                  const AtmospherePath& path) {
   atmosphere::problems_in(weather, frequency_Hz).throw_if_errors();
-  const PathAttenuation gas = alone(weather, &Weather::simulate_gas, frequency_Hz);
+  const PathAttenuation oxygen =
+      alone(weather, &Weather::simulate_gas, frequency_Hz, GasPart::oxygen);
+  const PathAttenuation vapour =
+      alone(weather, &Weather::simulate_gas, frequency_Hz, GasPart::vapour);
   const PathAttenuation fog = alone(weather, &Weather::simulate_fog, frequency_Hz);
   const PathAttenuation rain = alone(weather, &Weather::simulate_rain, frequency_Hz);
   const PathAttenuation snow = alone(weather, &Weather::simulate_snow, frequency_Hz);
   const atmosphere::VolumeEcho echo(weather, frequency_Hz);
-  AtmosphereTable table{frequency_Hz, {}};
+  AtmosphereTable table;
+  table.frequency_Hz = frequency_Hz;
+  if (has_rain(weather) && weather.rain_law == atmosphere::RainLaw::itu_p838)
+    table.rain = atmosphere::rain_coefficients(frequency_Hz, weather.rain_path_elevation_rad,
+                                               weather.polarisation_tilt_rad);
   const int steps = static_cast<int>(std::ceil(path.range_m / path.step_m - 1e-9));
   for (int i = 1; i <= steps; ++i) {
     AtmosphereRow row;
@@ -74,7 +87,11 @@ AtmosphereTable atmosphere_table(const Weather& weather, double frequency_Hz,
     const auto loss_dB = [&](const PathAttenuation& cause) {
       return cause.one_way_dB(path.from_height_m, path.to_height_m, row.range_m);
     };
-    row.one_way_dB = {loss_dB(gas), loss_dB(fog), loss_dB(rain), loss_dB(snow)};
+    row.oxygen_dB = loss_dB(oxygen);
+    row.vapour_dB = loss_dB(vapour);
+    row.fog_dB = loss_dB(fog);
+    row.rain_dB = loss_dB(rain);
+    row.snow_dB = loss_dB(snow);
     row.eta_m2_per_m3 = echo.layered_eta_m2_per_m3(path.to_height_m);
     row.equivalent_sigma0_dB =
         10.0 * std::log10(row.eta_m2_per_m3 * row.range_m * path.beam_height_rad);
@@ -98,10 +115,13 @@ std::vector<AtmosphereModel> atmosphere_models(const Weather& weather) {
     const auto with_drops = [&](std::string_view name, bool mie) {
       return std::string(name) + (mie ? drops : "");
     };
-    models.push_back(
-        {"rain",
-         with_drops(name_of(weather.rain_law), weather.rain_law == atmosphere::RainLaw::mie),
-         rain_source(weather.rain_law)});
+    std::string law =
+        with_drops(name_of(weather.rain_law), weather.rain_law == atmosphere::RainLaw::mie);
+    if (weather.rain_law == atmosphere::RainLaw::itu_p838)
+      law += fmt::format(", tilt {:.6g} deg, elevation {:.6g} deg",
+                         core::degrees(weather.polarisation_tilt_rad),
+                         core::degrees(weather.rain_path_elevation_rad));
+    models.push_back({"rain", law, rain_source(weather.rain_law)});
     models.push_back({"rain echo",
                       with_drops(name_of(weather.rain_echo_law),
                                  weather.rain_echo_law == atmosphere::RainEchoLaw::mie),

@@ -2,6 +2,7 @@
 // `fanbeam atmosphere`.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,17 +22,21 @@ struct AtmospherePath {
 
 struct AtmosphereRow {
   double range_m = 0.0;
-  atmosphere::SpecificAttenuation one_way_dB{};  // of the whole path, by cause
-  double eta_m2_per_m3 = 0.0;                    // where the path ends
+  // One way, of the whole path, by cause. Oxygen includes the dry continuum of nitrogen.
+  double oxygen_dB = 0.0, vapour_dB = 0.0, fog_dB = 0.0, rain_dB = 0.0, snow_dB = 0.0;
+  double eta_m2_per_m3 = 0.0;  // where the path ends
   // The NRCS that flat ground would need to return what a beam full of this eta returns in the same
   // range cell: eta R beam height (small grazing angles). Both lose the same on the way.
   double equivalent_sigma0_dB = 0.0;
 
-  double total_one_way_dB() const { return one_way_dB.total_dB_per_km(); }
+  double gas_dB() const { return oxygen_dB + vapour_dB; }
+  double one_way_dB() const { return gas_dB() + fog_dB + rain_dB + snow_dB; }
+  double two_way_dB() const { return 2.0 * one_way_dB(); }
 };
 
 struct AtmosphereTable {
   double frequency_Hz = 0.0;
+  std::optional<atmosphere::RainCoefficients> rain{};  // in rain of the law itu-p838
   std::vector<AtmosphereRow> rows;
 };
 

@@ -1,40 +1,57 @@
-// What each command takes from the command line: its options, which of them go together, its help.
-// An option that would do nothing beside the others given is refused, with exit code 2.
+// The command line: the commands with what each takes and what it runs.
+//
+// A command is a struct of options and two functions, handed to CommandLine::add in main.cpp: one
+// declares the options to CLI11, the other runs with what was given. Help, man pages and shell
+// completion follow from what was declared. An option that would do nothing beside the others given
+// is refused, with exit code 2.
 #pragma once
 
-namespace CLI {
-class App;
-}
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "apps/common.h"
 
 namespace fanbeam::apps {
 
-struct AtmosphereOptions;
-struct CommonOptions;
-struct CostOptions;
-struct DoctorOptions;
-struct FmcwOptions;
-struct MaterialsFitOptions;
-struct MaterialsOptions;
-struct MaterialsPlotOptions;
-struct PlanOptions;
-struct RenderOptions;
-struct TrackOptions;
-struct WaveformOptions;
-
-// --version, --quiet and --log-level, which every command and subcommand has (--help is CLI11's).
+// --version, --quiet, --log-level and --isa, which every command and subcommand has (--help is CLI11's).
 void add_common_options(CLI::App& command, CommonOptions& common);
 
-// Each adds its command to `app`. What is given may be read once the command line was parsed.
-void add_render_command(CLI::App& app, RenderOptions& options, CommonOptions& common);
-void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common);
-void add_atmosphere_command(CLI::App& app, AtmosphereOptions& options, CommonOptions& common);
-void add_cost_command(CLI::App& app, CostOptions& options, CommonOptions& common);
-void add_doctor_command(CLI::App& app, DoctorOptions& options, CommonOptions& common);
-void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common);
-void add_track_command(CLI::App& app, TrackOptions& options, CommonOptions& common);
-void add_waveform_command(CLI::App& app, WaveformOptions& options, CommonOptions& common);
-// Its own subcommands are plot, fit and objects.
-void add_materials_command(CLI::App& app, MaterialsOptions& options, MaterialsPlotOptions& plot,
-                           MaterialsFitOptions& fit, CommonOptions& common);
+// --accuracy, of one range wherever it is asked for.
+CLI::Option* add_accuracy_option(CLI::App& command, double& accuracy_grey, const std::string& what);
+
+
+class CommandLine {
+ public:
+  CommandLine();
+
+  // What is added from here on stands under this heading in overviews.
+  void heading(std::string text) { heading_ = std::move(text); }
+
+  // declare(CLI::App& program, Options&, CommonOptions&) adds a subcommand with its options and
+  // returns it; action(const Options&, const CommonOptions&) gives an exit code.
+  template <class Options, class Run>
+  void add(CLI::App& (*declare)(CLI::App&, Options&, CommonOptions&), Run action) {
+    const auto options = std::make_shared<Options>();
+    put(declare(program_, *options, common_),
+        [this, options, action] { return action(*options, common_); });
+  }
+
+  // Reads the command line and runs what it asks for. Returns the program's exit code; what went
+  // wrong is on standard error.
+  int run(int argc, const char* const* argv);
+
+  const CLI::App& program() const { return program_; }
+
+ private:
+  void put(CLI::App& command, std::function<int()> action);
+
+  CLI::App program_;
+  CommonOptions common_;
+  std::string heading_;
+  std::map<const CLI::App*, std::function<int()>> actions_;
+};
 
 }  // namespace fanbeam::apps

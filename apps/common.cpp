@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <system_error>
 #include <tuple>
 
+#include "apps/shipped_names.h"
 #include "apps/version.h"
 
 namespace fanbeam::apps {
@@ -45,7 +47,17 @@ fs::path shipped_folder() {
                           "share/fanbeam beside the installed program, or a source tree around it");
 }
 
+void check_data_folder(const std::string& from_command_line, core::ProblemList& problems) {
+  std::error_code refused;
+  if (!from_command_line.empty() && !fs::is_directory(from_command_line, refused))
+    problems.error(core::ErrorClass::io, {}, "--data", "\"" + from_command_line + "\"",
+                   "a folder that exists, with terrain and flight data");
+}
+
 std::vector<fs::path> data_folders(const std::string& from_command_line) {
+  core::ProblemList problems;
+  check_data_folder(from_command_line, problems);
+  problems.throw_if_errors();
   std::vector<fs::path> folders;
   if (!from_command_line.empty()) folders.emplace_back(from_command_line);
   if (const char* variable = std::getenv("FANBEAM_DATA"); variable != nullptr && *variable != '\0')
@@ -61,15 +73,9 @@ fs::path find_scene(const std::string& name) {
   for (const fs::path& candidate : {fs::path(name), shipped / name, shipped / "scenes" / name})
     if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused))
       return candidate;
-  std::string known;
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(shipped / "scenes"))
-    if (fs::is_regular_file(entry.path() / "scene.toml"))
-      names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  for (const std::string& scene : names) known += " " + scene;
   core::throw_input_error(core::ErrorClass::io, core::Place{name}, "scene", "not found",
-                          "a folder with scene.toml, or one of the shipped scenes:" + known);
+                          "a folder with scene.toml, or one of the shipped scenes:" +
+                              nearest_first(name, shipped_scenes()));
 }
 
 void print_problems(std::vector<core::Problem> problems) {
@@ -101,6 +107,7 @@ int exit_code_of(const std::vector<core::Problem>& problems) {
 }
 
 int run_guarded(const std::function<int()>& command) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is a failed write
   try {
     const int exit_code = command();
     std::cout.flush();
@@ -122,5 +129,6 @@ int run_guarded(const std::function<int()>& command) {
 
 std::string version_text() { return kVersion; }
 std::string commit_text() { return kCommit; }
+std::string date_text() { return kDate; }
 
 }  // namespace fanbeam::apps

@@ -9,6 +9,10 @@
 #include "core/errors.h"
 #include "scenes/scene_reader.h"
 
+namespace CLI {
+class App;
+}
+
 namespace fanbeam::apps {
 
 inline constexpr int kExitDone = 0;
@@ -22,6 +26,7 @@ inline constexpr int kExitBug = 5;
 struct CommonOptions {
   bool quiet = false;
   std::string log_level = "info";
+  std::string isa;  // "v2", "v3" or "v4": no kernel uses more; empty without a limit
 };
 void set_up_log(const CommonOptions& options);
 
@@ -29,7 +34,11 @@ void set_up_log(const CommonOptions& options);
 // source tree around a build. Throws InputError E-IO when neither is there.
 std::filesystem::path shipped_folder();
 
-// `--data DIR` first, then FANBEAM_DATA, then ../shared/data beside a source tree.
+// Reports E-IO when `--data` names what is no folder.
+void check_data_folder(const std::string& from_command_line, core::ProblemList& problems);
+
+// `--data DIR` first, then FANBEAM_DATA, then ../shared/data beside a source tree. Throws
+// InputError E-IO when the first is no folder.
 std::vector<std::filesystem::path> data_folders(const std::string& from_command_line);
 
 // A folder, a scene.toml, or the name of a shipped scene ("braunschweig-26",
@@ -50,5 +59,6 @@ int run_guarded(const std::function<int()>& command);
 
 std::string version_text();
 std::string commit_text();
+std::string date_text();  // of the commit, "2026-11-22"; empty where git is missing
 
 }  // namespace fanbeam::apps

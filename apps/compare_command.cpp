@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <set>
 
+#include "apps/figure/difference_map.h"
+#include "core/files.h"
 #include "core/image_compare.h"
+#include "core/text.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -40,39 +43,56 @@ bool judge(const std::string& name, const core::LayerDifference& difference, boo
   if (!quiet || !ok)
     fmt::print(
         "{} {} {}: mean {:+.4f}, RMS {:.4f}, largest {:.3f} {}, {:.3f} % of {} cells differ{}\n",
-        ok ? "same  " : "DIFFER", name, difference.layer, mean, rms, largest, grey ? "grey" : "dB",
-        percent, difference.cells,
+        ok ? "same  " : "DIFFER", core::printable_text(name),
+        core::printable_text(difference.layer), mean, rms, largest, grey ? "grey" : "dB", percent,
+        difference.cells,
         difference.only_one_positive > 0
             ? fmt::format(", {} lit in one only", difference.only_one_positive)
             : "");
   return ok;
 }
 
-bool compare_files(const fs::path& a, const fs::path& b, const CompareOptions& options,
-                   bool quiet) {
+// `map`: where the heat map goes, empty for nowhere; drawn for a pair that is equal only where
+// `always` or where there is one.
+bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bool always,
+                   const CompareOptions& options, bool quiet) {
+  const core::Image image_a = core::read_image(a), image_b = core::read_image(b);
   bool same = true;
+  bool equal = true;
   for (const core::LayerDifference& difference :
-       core::compare_images(core::read_image(a), core::read_image(b), a.string(), b.string()))
+       core::compare_images(image_a, image_b, a.string(), b.string())) {
     same =
         judge(a.filename().string(), difference, a.extension() == ".png", options, quiet) && same;
+    equal = equal && difference.different == 0;
+  }
+  if (map.empty() || (equal && !always && !fs::exists(map))) return same;
+  core::write_png(map,
+                  difference_map(image_a, image_b, difference_unit(a),
+                                 {b.filename().string() + ": B against A"}),
+                  {{"Software", "fanbeam " + version_text() + " " + commit_text()}});
+  if (!quiet) fmt::print("map    {}\n", map.string());
   return same;
 }
 
-}  // namespace
+// Where the map of two images goes.
+fs::path single_map(const CompareOptions& options) {
+  const fs::path map = options.heat_map;
+  if (map.empty()) return map;
+  if (fs::is_directory(map)) return heat_map_path(map, fs::path(options.b).filename());
+  if (map.extension() != ".png")
+    core::throw_input_error(core::ErrorClass::range, "--heat-map", "\"" + options.heat_map + "\"",
+                            "a folder, or a file that ends in .png");
+  return map;
+}
 
-int compare(const CompareOptions& options, const CommonOptions& common) {
-  const fs::path a = options.a;
-  const fs::path b = options.b;
-  for (const fs::path& path : {a, b})
-    if (!fs::exists(path))
-      core::throw_input_error(core::ErrorClass::io, core::Place{path.string()}, "", "missing",
-                              "an image or a folder");
-  if (fs::is_directory(a) != fs::is_directory(b))
-    core::throw_input_error(core::ErrorClass::ref, core::Place{b.string()}, "kind",
-                            fs::is_directory(b) ? "a folder" : "a file",
-                            "two images or two folders");
-  if (!fs::is_directory(a))
-    return compare_files(a, b, options, common.quiet) ? kExitDone : kExitCompareFailed;
+void refuse_map_among(const fs::path& image_or_folder, const fs::path& map) {
+  if (!map.empty() && core::lies_inside(image_or_folder, map))
+    core::throw_input_error(core::ErrorClass::path, "--heat-map", "\"" + map.string() + "\"",
+                            "a place outside " + image_or_folder.string() + ", which is compared");
+}
+
+bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions& options,
+                     bool quiet) {
   const std::set<fs::path> in_a = images_below(a);
   const std::set<fs::path> in_b = images_below(b);
   bool same = true;
@@ -80,22 +100,53 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
   for (const fs::path& name : in_a) {
     if (in_b.contains(name)) {
       ++pairs;
-      same = compare_files(a / name, b / name, options, common.quiet) && same;
+      const fs::path map = options.heat_map.empty() ? "" : heat_map_path(options.heat_map, name);
+      same = compare_files(a / name, b / name, map, false, options, quiet) && same;
     } else {
       same = false;
-      fmt::print("DIFFER {}: only in {}\n", name.string(), a.string());
+      fmt::print("DIFFER {}: only in {}\n", core::printable_text(name.string()), a.string());
     }
   }
   for (const fs::path& name : in_b) {
     if (in_a.contains(name)) continue;
     same = false;
-    fmt::print("DIFFER {}: only in {}\n", name.string(), b.string());
+    fmt::print("DIFFER {}: only in {}\n", core::printable_text(name.string()), b.string());
   }
   if (pairs == 0)
     core::throw_input_error(core::ErrorClass::io, core::Place{a.string()}, "images",
                             "none in both folders", "PNG or EXR images");
-  if (!common.quiet || !same)
+  if (!quiet || !same)
     fmt::print("{} pairs of images {}\n", pairs, same ? "agree" : "compared, some differ");
+  return same;
+}
+
+}  // namespace
+
+fs::path heat_map_path(const fs::path& folder, const fs::path& image) {
+  fs::path name = image;
+  if (name.extension() != ".png") name += ".png";
+  return folder / name;
+}
+
+int compare(const CompareOptions& options, const CommonOptions& common) {
+  const fs::path a = options.a;
+  const fs::path b = options.b;
+  core::ProblemList missing;
+  for (const fs::path& path : {a, b})
+    if (!fs::exists(path))
+      missing.error(core::ErrorClass::io, core::Place{path.string()}, "", "missing",
+                    "an image or a folder");
+  missing.throw_if_errors();
+  if (fs::is_directory(a) != fs::is_directory(b))
+    core::throw_input_error(core::ErrorClass::ref, core::Place{b.string()}, "kind",
+                            fs::is_directory(b) ? "a folder" : "a file",
+                            "two images or two folders");
+  const bool folders = fs::is_directory(a);
+  const fs::path map = folders ? fs::path(options.heat_map) : single_map(options);
+  refuse_map_among(a, map);
+  refuse_map_among(b, map);
+  const bool same = folders ? compare_folders(a, b, options, common.quiet)
+                            : compare_files(a, b, map, true, options, common.quiet);
   return same ? kExitDone : kExitCompareFailed;
 }
 

@@ -135,7 +135,7 @@ CostFigures head_of(const CostBench& bench, const CostOptions& options, int thre
   CostFigures figures;
   figures.scene = scene.description.name;
   figures.title = scene.description.title;
-  figures.machine = {core::processor_name(), core::instruction_level(), threads};
+  figures.machine = {core::processor_name(), core::name_of(core::instruction_level()), threads};
   figures.caster = renderer::name_of(bench.sampling.caster);
   if (!bench.slices) figures.why_no_slices = scene.caster.reason;
   figures.triangles = scene.world.surfaces->triangle_count();
@@ -184,8 +184,9 @@ int cost(const CostOptions& options, const CommonOptions& common) {
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
   if (!common.quiet) print_problems(problems.all());
   const std::vector<int> frames = frames_of(options, scene->frame_count());
-  const fs::path folder = options.output.empty() ? fs::path("out") / (description.name + "-cost")
-                                                 : fs::path(options.output);
+  const fs::path folder = options.output.empty()
+                              ? core::default_output_folder(description.name, "-cost")
+                              : fs::path(options.output);
   fs::create_directories(folder);  // before minutes are spent
 
   const auto begin = std::chrono::steady_clock::now();

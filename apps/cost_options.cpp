@@ -2,23 +2,28 @@
 
 #include "apps/command_line.h"
 #include "apps/cost_command.h"
+#include "apps/number_range.h"
+#include "apps/value_words.h"
 #include "renderer/plan/caster_choice.h"
 
 namespace fanbeam::apps {
 
-void add_cost_command(CLI::App& app, CostOptions& options, CommonOptions& common) {
-  CLI::App& command = *app.add_subcommand(
+CLI::App& add_cost_command(CLI::App& program, CostOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
       "cost", "Measure what accuracy and effects cost in time: CSV, plots and a page of tables");
   command.footer(
-      "Takes minutes: converged pictures come first, some 10 s each on two cores. Leave the "
-      "machine "
-      "alone meanwhile.");
+      "Takes minutes: converged pictures come first, 10 s to well over a minute each on two "
+      "cores, longest over a city. Leave the machine alone meanwhile.");
   add_scene_choice(command, options);
-  command.add_option("-o,--output", options.output,
-                     "Folder to write to (default out/<scene name>-cost)");
-  command.add_option("--frames", options.frames,
-                     "A:B[:STEP], counted like a Python slice, or one frame (default: two, at a "
-                     "quarter and at three quarters of the approach)");
+  command
+      .add_option("-o,--output", options.output,
+                  "Folder to write to (default out/<scene name>-cost)")
+      ->type_name(kFolderValue);
+  command
+      .add_option("--frames", options.frames,
+                  "A:B[:STEP], counted like a Python slice, or one frame (default: two, at a "
+                  "quarter and at three quarters of the approach)")
+      ->type_name(kFramesValue);
   command
       .add_option(
           "--parts", options.parts,
@@ -31,7 +36,7 @@ void add_cost_command(CLI::App& app, CostOptions& options, CommonOptions& common
   command
       .add_option("--repetitions", options.repetitions,
                   "Repetitions of every timing after a warm-up (default 20, or 3 with --quick)")
-      ->check(CLI::Range(1, 10000));
+      ->check(whole_number_from(1, 10000));
   command.add_flag("--quick", options.quick,
                    "A short look: fewer steps and repetitions, a coarse reference");
   const auto& wishes = renderer::kCasterWishes;
@@ -41,8 +46,9 @@ void add_cost_command(CLI::App& app, CostOptions& options, CommonOptions& common
                   "else rays)")
       ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(CLI::Range(0, 1024));
+      ->check(whole_number_from(0, 1024));
   add_common_options(command, common);
+  return command;
 }
 
 }  // namespace fanbeam::apps

@@ -23,10 +23,10 @@ core::Picture8 detection_mask(const sensors::Sensor& sensor,
 }
 
 std::string detection_table(const sensors::Sensor& sensor, int frame, double time_s,
-                            const std::string& fingerprint,
+                            const core::Metadata& metadata,
                             const std::vector<renderer::ThresholdDetection>& detections) {
-  std::string table = table_comment("threshold detections", fingerprint) +
-                      "\nframe,time_s,row,column,range_m,azimuth_deg,power_W,snr_dB\n";
+  std::string table = table_head("threshold detections", metadata) +
+                      "frame,time_s,row,column,range_m,azimuth_deg,power_W,snr_dB\n";
   const double noise_W = sensor.noise_power_W();
   for (const renderer::ThresholdDetection& detection : detections)
     table += fmt::format("{},{},{},{},{:.2f},{:.3f},{:.6e},{:.2f}\n", frame,

@@ -14,11 +14,11 @@ namespace fanbeam::apps {
 core::Picture8 detection_mask(const sensors::Sensor& sensor,
                               const std::vector<renderer::ThresholdDetection>& detections);
 
-// One line per detection under a comment with the input's fingerprint and the column names:
+// One line per detection under the frame's metadata as comments and the column names:
 // frame, time_s, row (0 nearest), column (0 left), range_m and azimuth_deg of the cell's middle,
 // power_W with its noise, snr_dB: power over mean noise, less the noise.
 std::string detection_table(const sensors::Sensor& sensor, int frame, double time_s,
-                            const std::string& fingerprint,
+                            const core::Metadata& metadata,
                             const std::vector<renderer::ThresholdDetection>& detections);
 
 }  // namespace fanbeam::apps

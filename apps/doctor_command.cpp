@@ -3,13 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "apps/blank_pictures.h"
 #include "apps/frame_choice.h"
 #include "apps/sampling_choice.h"
 #include "apps/text_table.h"
 #include "core/files.h"
+#include "core/text.h"
+#include "core/units.h"
 #include "renderer/plan/effects.h"
+#include "scenes/doctor/approach.h"
 #include "scenes/doctor/scene_doctor.h"
 
 namespace fanbeam::apps {
@@ -40,18 +46,47 @@ std::string table(const Findings& findings) {
                                        {"where", &finding.where},
                                        {"why", &finding.why},
                                        {"do", &finding.remedy}})
-      text += beside(fmt::format("          {:<6} ", label), *words);
+      text += beside(fmt::format("          {:<6} ", label), core::printable_text(*words));
   }
   return text;
 }
 
-std::string json_text(const scenes::Scene& scene, const Findings& findings) {
+std::string approach_text(const scenes::Approach& approach) {
+  const std::string where =
+      approach.passes_threshold
+          ? fmt::format("{:.1f} m over the threshold", approach.height_m)
+          : fmt::format("ends {:.0f} m before the threshold, {:.1f} m over it",
+                        approach.before_threshold_m, approach.height_m);
+  return beside(
+      "approach  ",
+      fmt::format("runway {}: {}, {:.1f} m {} of the centre line; glide angle {:.2f} deg, "
+                  "fitted from {:.1f} km to {:.1f} km before the threshold",
+                  approach.runway, where, std::abs(approach.right_m),
+                  approach.right_m < 0.0 ? "left" : "right", core::degrees(approach.glide_path_rad),
+                  approach.fitted_from_m / 1e3, approach.fitted_to_m / 1e3));
+}
+
+nlohmann::ordered_json approach_json(const std::optional<scenes::Approach>& approach) {
+  if (!approach) return nullptr;
+  return {{"runway", approach->runway},
+          {"passes_threshold", approach->passes_threshold},
+          {"before_threshold_m", approach->before_threshold_m},
+          {"height_over_threshold_m", approach->height_m},
+          {"right_of_centre_line_m", approach->right_m},
+          {"glide_angle_deg", core::degrees(approach->glide_path_rad)},
+          {"fitted_from_m", approach->fitted_from_m},
+          {"fitted_to_m", approach->fitted_to_m}};
+}
+
+std::string json_text(const scenes::Scene& scene, const std::optional<scenes::Approach>& approach,
+                      const Findings& findings) {
   nlohmann::ordered_json json;
   json["version"] = version_text();
   json["commit"] = commit_text();
   json["scene"] = scene.description.name;
   json["sensor"] = scene.description.sensor.name;
   json["accuracy_grey"] = scene.accuracy_grey;
+  json["approach"] = approach_json(approach);
   json["findings"] = nlohmann::ordered_json::array();
   for (const Finding& finding : findings)
     json["findings"].push_back({{"severity", name_of(finding.severity)},
@@ -106,13 +141,17 @@ int examine_scene(const DoctorOptions& options, const CommonOptions& common) {
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
   if (!common.quiet) print_problems(problems.all());
   Findings findings = scenes::examine(*scene, problems.all());
+  add_blank_pictures(*scene, findings);
   if (options.measure) add_unreached(*scene, findings);
-  if (!options.json.empty()) core::write_file_atomically(options.json, json_text(*scene, findings));
+  const std::optional<scenes::Approach> approach = scenes::approach_of(*scene);
+  if (!options.json.empty())
+    core::write_file_atomically(options.json, json_text(*scene, approach, findings));
   const auto count = [&](Severity severity) {
     return std::count_if(findings.begin(), findings.end(),
                          [&](const Finding& finding) { return finding.severity == severity; });
   };
   const auto wrong = count(Severity::wrong);
+  if (approach) fmt::print("{}\n", approach_text(*approach));
   fmt::print("{}{}{}: {} wrong, {} delicate, {} to note\n", table(findings),
              findings.empty() ? "" : "\n", description.name, wrong, count(Severity::delicate),
              count(Severity::note));

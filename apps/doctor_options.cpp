@@ -2,26 +2,24 @@
 
 #include "apps/command_line.h"
 #include "apps/doctor_command.h"
-#include "apps/number_range.h"
+#include "apps/value_words.h"
 
 namespace fanbeam::apps {
 
-void add_doctor_command(CLI::App& app, DoctorOptions& options, CommonOptions& common) {
-  CLI::App& command = *app.add_subcommand(
+CLI::App& add_doctor_command(CLI::App& program, DoctorOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
       "doctor", "Tell what makes a scene numerically delicate, why it matters and what to do");
   add_scene_choice(command, options);
-  command.add_option("--json", options.json, "Write the findings to this file as well");
-  command
-      .add_option("--accuracy", options.accuracy_grey,
-                  "Grey levels that will be asked for: is that possible?")
-      ->check(number_from(0.01, 100.0))
+  command.add_option("--json", options.json, "Write the findings to this file as well")
+      ->type_name(kFileValue);
+  add_accuracy_option(command, options.accuracy_grey,
+                      "Grey levels that will be asked for: is that possible?")
       ->capture_default_str();
   command.add_flag("--measure", options.measure,
                    "Refine three frames to the accuracy as well and tell where it is not reached; "
                    "takes up to minutes");
   add_common_options(command, common);
-  command.footer(
-      "Exit codes: 0 nothing worse than delicate, 1 something is wrong, 3 invalid input");
+  return command;
 }
 
 }  // namespace fanbeam::apps

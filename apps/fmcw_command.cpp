@@ -11,6 +11,7 @@
 #include "apps/fmcw/products.h"
 #include "apps/fmcw/record.h"
 #include "apps/frame_choice.h"
+#include "apps/output_folder.h"
 #include "apps/progress.h"
 #include "apps/stop_on_signals.h"
 #include "core/files.h"
@@ -68,8 +69,10 @@ class Run {
         radar_(options.products == kScan ? FmcwRadar{}
                                          : fmcw_radar(options, scene.description.sensor)),
         products_(chosen_products(options.products, radar_)),
-        folder_(options.output.empty() ? fs::path("out") / (scene.description.name + "-fmcw")
-                                       : fs::path(options.output)) {}
+        output_(options.output.empty()
+                    ? core::default_output_folder(scene.description.name, "-fmcw")
+                    : fs::path(options.output),
+                "", options.overwrite) {}
 
   void process() {
     Progress progress(scene_.description.name, static_cast<int>(frames_.size()), common_.quiet);
@@ -78,9 +81,13 @@ class Run {
       process(index);
       progress.step(static_cast<int>(records_.size()));
     }
-    core::write_file_atomically(folder_ / "run.json",
+    std::set<std::string> files;
+    for (const FmcwFrameRecord& frame : records_)
+      files.insert(frame.files.begin(), frame.files.end());
+    output_.keep_only(files);
+    core::write_file_atomically(output_.path() / "run.json",
                                 fmcw_run_json(scene_, options_, radar_, records_));
-    core::write_file_atomically(folder_ / "timing.json",
+    core::write_file_atomically(output_.path() / "timing.json",
                                 fmcw_timing_json(threads_, scene_.build_s, records_));
   }
 
@@ -103,9 +110,9 @@ class Run {
     }
     for (const std::string& product : products_)
       fmt::print("{:14} {}\n", product,
-                 fs::absolute(folder_ / product).lexically_normal().string());
+                 fs::absolute(output_.path() / product).lexically_normal().string());
     fmt::print("{:14} {}\n", "record",
-               fs::absolute(folder_ / "run.json").lexically_normal().string());
+               fs::absolute(output_.path() / "run.json").lexically_normal().string());
   }
 
  private:
@@ -117,7 +124,10 @@ class Run {
     record.index = index;
     record.time_s =
         scene_.trajectory.frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
-    if (products_.contains(kScan)) record.scan = scan(index);
+    if (products_.contains(kScan)) {
+      record.scan = scan(index);
+      record.files.insert(record.scan->files.begin(), record.scan->files.end());
+    }
     records_.push_back(std::move(record));
   }
 
@@ -125,9 +135,14 @@ class Run {
     Clock::time_point begin = Clock::now();
     const SignalBscope bscope = fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
-    write_bscope(folder_, scene_.description.sensor, index, bscope);
-    return {bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
-            bscope.plan,  ms};
+    return {bscope.looks,
+            bscope.rays,
+            bscope.scatterers,
+            bscope.phase_noise_rad,
+            bscope.clipped,
+            bscope.plan,
+            ms,
+            write_bscope(output_.path(), scene_.description.sensor, index, bscope)};
   }
 
   FmcwFrameRecord chain(int index) const {
@@ -139,8 +154,9 @@ class Run {
                    {scene_.plan, scene_.accuracy_grey, scene_.wishes});
     const double signal_ms = ms_since(begin);
     FmcwFrameRecord record = fmcw_record(scene_, index, paths, frame);
-    write_fmcw_products(folder_, products_, radar_, frame,
-                        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
+    record.files = write_fmcw_products(
+        output_.path(), products_, radar_, frame,
+        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
     record.echoes_ms = echoes_ms;
     record.signal_ms = signal_ms;
     record.writing_ms = ms_since(begin);
@@ -154,7 +170,7 @@ class Run {
   std::vector<int> frames_;
   FmcwRadar radar_;
   std::set<std::string> products_;
-  fs::path folder_;
+  OutputFolder output_;
   std::vector<FmcwFrameRecord> records_;
 };
 
@@ -163,10 +179,7 @@ class Run {
 int fmcw(const FmcwOptions& options, const CommonOptions& common) {
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
-  const scenes::SceneOptions scene_options{shipped_folder(), data_folders(options.data),
-                                           options.sensor};
-  const scenes::SceneDescription description =
-      scenes::read_scene(find_scene(options.scene), scene_options, problems);
+  const scenes::SceneDescription description = read_chosen_scene(options, problems);
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty())

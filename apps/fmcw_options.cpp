@@ -4,19 +4,13 @@
 #include "apps/command_line.h"
 #include "apps/fmcw_command.h"
 #include "apps/number_range.h"
+#include "apps/option_lists.h"
+#include "apps/value_words.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "signal/waveform/waveform.h"
 
 namespace fanbeam::apps {
 namespace {
-
-std::string products_help() {
-  std::string text = "A list of";
-  for (const Product& product : kFmcwProducts)
-    text += (text.ends_with("of") ? " " : ", ") + std::string(product.name) + " (" +
-            std::string(product.what) + ")";
-  return text + " (default: maps and detections where the waveform has them, else beat)";
-}
 
 void add_radar(CLI::App& command, FmcwOptions& options) {
   std::vector<std::string> names = {kAutomotive};
@@ -36,10 +30,10 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
   }
   command.add_flag("--real", options.real, "Real samples: negative beats read as positive ones");
   command.add_option("--transmitters", options.transmitters, "Of the array")
-      ->check(CLI::Range(1, 64))
+      ->check(whole_number_from(1, 64))
       ->capture_default_str();
   command.add_option("--receivers", options.receivers, "Of the array, half a wavelength apart")
-      ->check(CLI::Range(1, 64))
+      ->check(whole_number_from(1, 64))
       ->capture_default_str();
   command
       .add_option("--line-width", options.line_width_Hz,
@@ -48,7 +42,7 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
   command
       .add_option("--adc-bits", options.adc_bits,
                   "Quantise the samples, full scale at the largest (default 0: not)")
-      ->check(CLI::Range(0, 24));
+      ->check(whole_number_from(0, 24));
 }
 
 std::string effects_help() {
@@ -60,31 +54,38 @@ std::string effects_help() {
 }
 
 void add_plan(CLI::App& command, FmcwOptions& options) {
-  command
-      .add_option("--accuracy", options.accuracy_grey,
-                  "Grey levels asked for: half of it is for effects left out")
-      ->check(number_from(0.0, 255.0))
+  add_accuracy_option(command, options.accuracy_grey,
+                      "Grey levels asked for: half of it is for effects left out")
       ->capture_default_str();
-  command.add_option("--effects", options.effects, effects_help());
+  command.add_option("--effects", options.effects, effects_help())
+      ->type_name("EFFECT")
+      ->check(offers(effect_wishes(renderer::Touches::samples)));
 }
 
 }  // namespace
 
-void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common) {
-  CLI::App& command = *app.add_subcommand(
+CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
       "fmcw",
       "A scene at signal level: beat signals, maps of range, speed and azimuth, detections");
+  add_scene_choice(command, options);
   command
-      .add_option("SCENE", options.scene,
-                  "A folder with scene.toml, that file, or the name of a shipped scene")
-      ->capture_default_str();
-  command.add_option("-o,--output", options.output,
-                     "Folder to write to (default out/<scene name>-fmcw)");
+      .add_option("-o,--output", options.output,
+                  "Folder to write to (default out/<scene name>-fmcw)")
+      ->type_name(kFolderValue);
+  command.add_flag("--overwrite", options.overwrite,
+                   "Write to a folder that holds files of others too, which stay");
   command
       .add_option("--frames", options.frames,
                   "A:B[:STEP], counted like a Python slice, or one frame")
+      ->type_name(kFramesValue)
       ->capture_default_str();
-  command.add_option("--products", options.products, products_help());
+  command
+      .add_option("--products", options.products,
+                  products_help(kFmcwProducts) +
+                      " (default: maps and detections where the waveform has them, else beat)")
+      ->type_name("PRODUCT")
+      ->check(offers(names_of(kFmcwProducts)));
   add_radar(command, options);
   add_plan(command, options);
   command
@@ -100,7 +101,7 @@ void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common
   command
       .add_option("--looks", options.looks,
                   "Sweeps per column of the B-scope, their powers averaged (default: the sensor's)")
-      ->check(CLI::Range(1, 100000));
+      ->check(whole_number_from(1, 100000));
   command
       .add_option("--dynamic-range", options.dynamic_range_dB,
                   "Of the pictures' colours, dB from the noise up")
@@ -112,16 +113,16 @@ void add_fmcw_command(CLI::App& app, FmcwOptions& options, CommonOptions& common
       "--unfold", options.unfold,
       "Tell by the array which fold a detection's speed is in: right for what is alone "
       "in its cell, wrong at times for clutter");
-  command.add_option("--sensor", options.sensor, "Sensor file instead of the scene's");
-  command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
+  command.add_option("--seed", options.seed, "Seed of everything random")
+      ->check(any_seed())
+      ->capture_default_str();
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(CLI::Range(0, 1024));
-  command.add_option("--data", options.data,
-                     "Folder with terrain and flight data (before FANBEAM_DATA)");
+      ->check(whole_number_from(0, 1024));
   command.footer(
-      "Frequency, sweep and element pattern are those of the scene's sensor. Speeds are positive\n"
+      "Frequency, sweep and element pattern are those of the scene's sensor. Speeds are positive "
       "receding, azimuths positive right. docs/fmcw.md explains every step and file.");
   add_common_options(command, common);
+  return command;
 }
 
 }  // namespace fanbeam::apps

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "apps/common.h"
 #include "apps/frame_table.h"
+#include "apps/output_folder.h"
 #include "core/units.h"
+#include "renderer/plan/effect_catalogue.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -31,6 +35,15 @@ std::optional<renderer::ErrorEstimate> error_of(const std::string& text) {
   return error;
 }
 
+// Mean noise in the picture's watts, drawn or not.
+double noise_W(const scenes::Scene& scene, const FrameRecord& record) {
+  const std::vector<std::string>& left_out = record.left_out;
+  const bool noisy =
+      scene.plan.runs(renderer::kThermalNoise) &&
+      std::find(left_out.begin(), left_out.end(), renderer::kThermalNoise) == left_out.end();
+  return noisy ? scene.description.sensor.noise_power_W() : 0.0;
+}
+
 std::string value_of(const core::Metadata& metadata, const std::string& name) {
   for (const auto& [key, value] : metadata)
     if (key == name) return value;
@@ -42,6 +55,7 @@ std::string value_of(const core::Metadata& metadata, const std::string& name) {
 core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampling& sampling,
                               const FrameRecord& record, const std::string& fingerprint) {
   const sensors::Sensor& sensor = scene.description.sensor;
+  const core::Attitude attitude = core::attitude_from(record.pose.q_NB);
   std::string events;
   for (const std::string& event : record.events) events += (events.empty() ? "" : " ") + event;
   return {
@@ -55,8 +69,9 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
       {"fanbeam:longitude_deg",
        core::number_text(core::degrees(record.pose.position.longitude_rad))},
       {"fanbeam:height_m", core::number_text(record.pose.position.height_m)},
-      {"fanbeam:heading_deg",
-       core::number_text(core::degrees(core::attitude_from(record.pose.q_NB).heading_rad))},
+      {"fanbeam:roll_deg", core::number_text(core::degrees(attitude.roll_rad))},
+      {"fanbeam:pitch_deg", core::number_text(core::degrees(attitude.pitch_rad))},
+      {"fanbeam:heading_deg", core::number_text(core::degrees(attitude.heading_rad))},
       {"fanbeam:azimuth",
        fmt::format("{} columns, {} deg", sensor.scan.columns,
                    core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
@@ -66,6 +81,7 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
                                          core::number_text(sensor.display.high_dB))},
       {"fanbeam:cscope", cscope_text(sensor.display.cscope_mode)},
       {"fanbeam:realisation", realisation_of(scene.plan)},
+      {"fanbeam:noise_W", core::number_text(noise_W(scene, record))},
       {"fanbeam:caster", caster_text(sampling)},
       {"fanbeam:rays", std::to_string(record.rays)},
       {"fanbeam:slices", std::to_string(record.slices)},
@@ -81,21 +97,15 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
 
 bool take_over(const fs::path& folder, const ProductSet& products, const std::string& fingerprint,
                FrameRecord& record) {
-  for (const std::string& product : products) {
-    if (product == "preview") return false;
-    if (product == "obstacles") {  // its table does not hold the frame's record
-      if (products.size() == 1 || !has_frame_table(folder, product, record.index, fingerprint))
-        return false;
-      continue;
-    }
-    if (product == "detections" && !has_frame_table(folder, product, record.index, fingerprint))
-      return false;
-    const fs::path file = frame_path(folder, product, record.index);
+  if (products.contains("preview")) return false;
+  for (const std::string& name : frame_files(products, record.index)) {
+    const fs::path file = folder / name;
     if (!fs::is_regular_file(file)) return false;
     core::Metadata metadata;
     try {
-      metadata = core::read_metadata(file);
-      core::read_image(file);  // whole?
+      const bool table = file.extension() == ".csv";
+      metadata = table ? table_metadata(file) : core::read_metadata(file);
+      if (!table) core::read_image(file);  // whole?
     } catch (const core::InputError&) {
       return false;  // damaged: render it again
     }

@@ -6,20 +6,28 @@
 
 namespace fanbeam::apps {
 
-std::string table_comment(const std::string& what, const std::string& fingerprint) {
-  return fmt::format("# {} of the input {}", what, fingerprint);
+std::string table_head(const std::string& what, const core::Metadata& metadata) {
+  std::string head = fmt::format("# {}\n", what);
+  for (const auto& [name, value] : metadata) head += fmt::format("# {} {}\n", name, value);
+  return head;
+}
+
+core::Metadata table_metadata(const std::filesystem::path& table) {
+  core::Metadata metadata;
+  std::ifstream stream(table);
+  std::string line;
+  std::getline(stream, line);  // what it is
+  while (std::getline(stream, line) && line.starts_with("# ")) {
+    const std::size_t blank = std::min(line.find(' ', 2), line.size());
+    metadata.emplace_back(line.substr(2, blank - 2),
+                          blank < line.size() ? line.substr(blank + 1) : "");
+  }
+  return metadata;
 }
 
 std::filesystem::path frame_table_path(const std::filesystem::path& folder,
                                        const std::string& product, int frame) {
   return folder / product / fmt::format("{:05}.csv", frame);
-}
-
-bool has_frame_table(const std::filesystem::path& folder, const std::string& product, int frame,
-                     const std::string& fingerprint) {
-  std::ifstream stream(frame_table_path(folder, product, frame));
-  std::string line;
-  return std::getline(stream, line) && line.ends_with(" of the input " + fingerprint);
 }
 
 }  // namespace fanbeam::apps

@@ -1,20 +1,21 @@
-// Tables that a product writes per frame, DIR/<product>/00000.csv: the first line is a comment that
-// ends with the fingerprint of the run's input.
+// Tables that a product writes per frame, DIR/<product>/00000.csv: comment lines with what stands in
+// pictures as metadata, then the column names.
 #pragma once
 
 #include <filesystem>
 #include <string>
 
+#include "core/image.h"
+
 namespace fanbeam::apps {
 
-// "# obstacles of the input 0123456789abcdef"
-std::string table_comment(const std::string& what, const std::string& fingerprint);
+// "# obstacles\n# fanbeam:input 0123456789abcdef\n...".
+std::string table_head(const std::string& what, const core::Metadata& metadata);
+
+// What table_head wrote; nothing where there is no such file or it has no head.
+core::Metadata table_metadata(const std::filesystem::path& table);
 
 std::filesystem::path frame_table_path(const std::filesystem::path& folder,
                                        const std::string& product, int frame);
-
-// Whether the table of a frame is there and of this input.
-bool has_frame_table(const std::filesystem::path& folder, const std::string& product, int frame,
-                     const std::string& fingerprint);
 
 }  // namespace fanbeam::apps

@@ -3,7 +3,10 @@
 #include <fmt/core.h>
 
 #include "apps/detection_product.h"
+#include "apps/figure/frame_figure.h"
+#include "apps/figure/plan_figure.h"
 #include "apps/frame_table.h"
+#include "core/errors.h"
 #include "core/files.h"
 #include "core/stop.h"
 #include "sensors/display/display.h"
@@ -13,6 +16,18 @@ namespace fanbeam::apps {
 namespace {
 
 constexpr int kPpiSize_px = 700;
+
+// For whoever cuts the scopes out again.
+core::Metadata figure_metadata(const sensors::Sensor& sensor, core::Metadata metadata) {
+  const FigureLayout layout = figure_layout(sensor);
+  const auto place = [&](const Box& box, int rows) {
+    return fmt::format("left {}, top {}, {} x {} pixels per cell", box.left, box.top,
+                       box.columns / sensor.scan.columns, box.rows / rows);
+  };
+  metadata.emplace_back("fanbeam:figure_bscope", place(layout.bscope, sensor.range.cells));
+  metadata.emplace_back("fanbeam:figure_cscope", place(layout.cscope, sensor.display.cscope_rows));
+  return metadata;
+}
 
 }  // namespace
 
@@ -105,6 +120,31 @@ void FrameWriter::run() {
   }
 }
 
+void FrameWriter::write_plan_views(const FrameOutput& output) const {
+  using Up = sensors::PpiView::Up;
+  for (const auto& [product, up] : {std::pair{"ppi", Up::track}, std::pair{"ppi_north", Up::north},
+                                    std::pair{"ppi_figure", Up::track}}) {
+    if (!products_.contains(product)) continue;
+    const sensors::PpiView view = sensors::ppi_view(sensor_, up, kPpiSize_px, output.heading_rad);
+    const core::Picture8 picture = sensors::ppi_picture(
+        view, sensors::ppi_grey(sensor_, output.frame.bscope_grey, output.heading_rad, view));
+    const std::filesystem::path path = frame_path(folder_, product, output.index);
+    core::Metadata metadata = output.metadata;
+    metadata.emplace_back("fanbeam:ppi", fmt::format("{} m per pixel, antenna at column {}, row {}",
+                                                     core::number_text(view.metres_per_pixel),
+                                                     core::number_text(view.antenna_column),
+                                                     core::number_text(view.antenna_row)));
+    if (product == std::string_view("ppi_figure")) {
+      const Box place = plan_figure_layout(view).ppi;
+      metadata.emplace_back("fanbeam:figure_ppi",
+                            fmt::format("left {}, top {}", place.left, place.top));
+      core::write_png(path, plan_figure(sensor_, output.figure, view, picture), metadata);
+    } else {
+      core::write_png(path, picture, metadata);
+    }
+  }
+}
+
 void FrameWriter::write(const FrameOutput& output) const {
   const renderer::Frame& frame = output.frame;
   if (products_.contains("bscope"))
@@ -118,16 +158,13 @@ void FrameWriter::write(const FrameOutput& output) const {
                     side_by_side(sensors::bscope_picture(sensor_, frame.bscope_grey),
                                  sensors::cscope_picture(sensor_, frame.cscope_grey)),
                     output.metadata);
-  using Up = sensors::PpiView::Up;
-  for (const auto& [product, up] :
-       {std::pair{"ppi", Up::track}, std::pair{"ppi_north", Up::north}}) {
-    if (!products_.contains(product)) continue;
-    const sensors::PpiView view = sensors::ppi_view(sensor_, up, kPpiSize_px);
-    const std::vector<double> grey =
-        sensors::ppi_grey(sensor_, frame.bscope_grey, output.heading_rad, view);
-    core::write_png(frame_path(folder_, product, output.index), sensors::ppi_picture(view, grey),
-                    output.metadata);
-  }
+  if (products_.contains("figure"))
+    core::write_png(
+        frame_path(folder_, "figure", output.index),
+        frame_figure(sensor_, output.figure, sensors::bscope_picture(sensor_, frame.bscope_grey),
+                     sensors::cscope_picture(sensor_, frame.cscope_grey)),
+        figure_metadata(sensor_, output.metadata));
+  write_plan_views(output);
   if (products_.contains("detections")) {
     core::write_file_atomically(frame_table_path(folder_, "detections", output.index),
                                 output.detection_table);
@@ -139,7 +176,7 @@ void FrameWriter::write(const FrameOutput& output) const {
                                 output.obstacle_table);
   if (products_.contains("power")) {
     core::Image image{sensor_.scan.columns, sensor_.range.cells, {}};
-    image.layers.push_back({"power_W", farthest_on_top(frame.bscope_W, sensor_.scan.columns)});
+    image.layers.push_back({"power_W", farthest_on_top(frame.received_W(), sensor_.scan.columns)});
     core::write_exr(frame_path(folder_, "power", output.index), image, output.metadata);
   }
 }

@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "apps/figure/figure_facts.h"
 #include "core/image.h"
 #include "renderer/frame_renderer.h"
 #include "sensors/sensor.h"
@@ -26,11 +27,12 @@ struct FrameOutput {
   core::Metadata metadata;
   std::string detection_table{};  // of the product "detections"
   std::string obstacle_table{};   // of the product "obstacles"
+  FigureFacts figure{};           // of the products "figure" and "ppi_figure"
 };
 
-// Names of products: "bscope", "cscope", "pair" (both side by side), "power",
-// "ppi" (track up), "ppi_north" (north up), "preview", "detections" (mask and table),
-// "obstacles" (table).
+// Names of products: "bscope", "cscope", "pair" (both side by side), "figure" (both with scales),
+// "power", "ppi" (track up), "ppi_north" (north up), "ppi_figure" (ppi with scales), "preview",
+// "detections" (mask and table), "obstacles" (table).
 using ProductSet = std::set<std::string>;
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,
@@ -55,6 +57,7 @@ class FrameWriter {
  private:
   void run();
   void write(const FrameOutput& output) const;
+  void write_plan_views(const FrameOutput& output) const;
 
   static constexpr std::size_t kMostQueued = 8;
   std::filesystem::path folder_;

@@ -1,21 +1,17 @@
 #include "apps/gnuplot.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <string_view>
 
+#include "apps/child_process.h"
 #include "core/errors.h"
 #include "core/files.h"
-
-extern char** environ;
+#include "core/png_check.h"
+#include "core/text.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -82,45 +78,30 @@ std::string data_block(const PlotSeries& series, std::size_t index) {
                           "a working gnuplot program (Debian package gnuplot-nox)");
 }
 
-// Starts gnuplot without the user's own settings, reading commands from `input`.
-int start_gnuplot(int input, const fs::path& file) {
-  std::array<std::string, 3> words = {"gnuplot", "--default-settings", "-"};
-  char* arguments[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  int process = 0;
-  const int failed = posix_spawnp(&process, "gnuplot", &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed != 0) {
-    close(input);
-    refuse(file, "gnuplot cannot be started");
-  }
-  return process;
+// Without the user's own settings.
+void run_gnuplot(const std::string& script, const fs::path& file) {
+  ChildProcess gnuplot({"gnuplot", "--default-settings", "-"}, ChildProcess::Pipe::to_its_input);
+  if (!gnuplot.started()) refuse(file, "gnuplot cannot be started");
+  const bool sent = gnuplot.send(script);
+  if (!gnuplot.succeeded() || !sent) refuse(file, "gnuplot failed");
 }
 
-void run_gnuplot(std::string_view script, const fs::path& file) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) refuse(file, "no pipe");
-  std::signal(SIGPIPE, SIG_IGN);  // a dying gnuplot shows as a failed write
-  int process = 0;
+// gnuplot reports success when a full disk has cut its picture off.
+void check_complete(const fs::path& picture, const fs::path& file) {
+  bool complete = false;
   try {
-    process = start_gnuplot(ends[0], file);
-  } catch (...) {
-    close(ends[1]);
-    throw;
+    if (picture.extension() == ".svg") {
+      const std::string text = core::read_file(picture, 1ULL << 30U);
+      complete = core::trimmed(text).ends_with("</svg>");
+    } else {
+      complete = core::check_png(picture).has_value();
+    }
+  } catch (const core::InputError&) {
+    complete = false;
   }
-  close(ends[0]);
-  while (!script.empty()) {
-    const ssize_t count = write(ends[1], script.data(), script.size());
-    if (count <= 0) break;  // the exit status tells why
-    script.remove_prefix(static_cast<std::size_t>(count));
-  }
-  close(ends[1]);
-  int status = 0;
-  waitpid(process, &status, 0);
-  if (!script.empty() || !WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    refuse(file, "gnuplot failed");
+  if (!complete)
+    core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "plot",
+                            "it is not complete", "room to write");
 }
 
 }  // namespace
@@ -164,8 +145,10 @@ void write_plot(const std::function<std::string(const fs::path&)>& script, const
   if (file.extension() != ".svg" && file.extension() != ".png")
     core::throw_input_error(core::ErrorClass::unsupported, core::Place{file.string()}, "plot",
                             "\"" + file.extension().string() + "\"", "a name with .svg or .png");
-  core::write_atomically(file,
-                         [&](const fs::path& temporary) { run_gnuplot(script(temporary), file); });
+  core::write_atomically(file, [&](const fs::path& temporary) {
+    run_gnuplot(script(temporary), file);
+    check_complete(temporary, file);
+  });
 }
 
 }  // namespace fanbeam::apps

@@ -9,6 +9,7 @@
 #include "apps/common.h"
 #include "apps/gnuplot.h"
 #include "apps/measurement_csv.h"
+#include "apps/objects_table.h"
 #include "core/files.h"
 #include "core/units.h"
 #include "materials/library/library_text.h"
@@ -26,17 +27,17 @@ using materials::NrcsCurve;
 constexpr double kListAngles_deg[] = {3.0, 10.0, 30.0};
 constexpr std::uint64_t kLargestFile_bytes = 4U << 20U;
 
-fs::path library_file(const MaterialsOptions& options) {
+fs::path library_file(const MaterialsView& options) {
   return options.library.empty() ? shipped_folder() / "materials" / "library.toml"
                                  : fs::path(options.library);
 }
 
-core::Polarisation polarisation_of(const MaterialsOptions& options) {
+core::Polarisation polarisation_of(const MaterialsView& options) {
   return options.polarisation == "VV" ? core::Polarisation::vertical
                                       : core::Polarisation::horizontal;
 }
 
-materials::SurfaceState state_of(const MaterialsOptions& options) {
+materials::SurfaceState state_of(const MaterialsView& options) {
   const auto& names = materials::kSurfaceStateNames;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (options.state == names[i]) return static_cast<materials::SurfaceState>(i);
@@ -44,7 +45,7 @@ materials::SurfaceState state_of(const MaterialsOptions& options) {
                           "dry, wet, dry-snow or wet-snow");
 }
 
-materials::MaterialLibrary read_library(const MaterialsOptions& options) {
+materials::MaterialLibrary read_library(const MaterialsView& options) {
   core::ProblemList problems;
   auto library = materials::MaterialLibrary::from_file(library_file(options), problems);
   problems.throw_if_errors();
@@ -63,8 +64,7 @@ struct Row {
   }
 };
 
-std::vector<Row> rows_of(const materials::MaterialLibrary& library,
-                         const MaterialsOptions& options) {
+std::vector<Row> rows_of(const materials::MaterialLibrary& library, const MaterialsView& options) {
   const double frequency_Hz = options.frequency_GHz * 1e9;
   const core::Polarisation polarisation = polarisation_of(options);
   const materials::SurfaceState state = state_of(options);
@@ -167,7 +167,7 @@ std::string model_keys(const MaterialsFitOptions& fit) {
   throw core::InputError(problems);
 }
 
-std::vector<materials::NrcsSample> samples_of_model(const MaterialsOptions& options,
+std::vector<materials::NrcsSample> samples_of_model(const MaterialsView& options,
                                                     const MaterialsFitOptions& fit) try {
   core::ProblemList problems;
   core::ConfigTable table = core::ConfigTable::from_text(model_keys(fit), "command line", problems);
@@ -194,7 +194,7 @@ std::vector<materials::NrcsSample> samples_of_file(const std::string& file) {
   return samples;
 }
 
-int print_library_again(const MaterialsOptions& options) {
+int print_library_again(const MaterialsView& options) {
   const fs::path file = library_file(options);
   core::ProblemList problems;
   const std::string text = materials::with_fits_made_again(
@@ -204,9 +204,7 @@ int print_library_again(const MaterialsOptions& options) {
   return kExitDone;
 }
 
-}  // namespace
-
-int list_materials(const MaterialsOptions& options) {
+int list_materials(const MaterialsView& options) {
   const materials::MaterialLibrary library = read_library(options);
   const std::vector<Row> rows = rows_of(library, options);
   if (options.json) {
@@ -229,7 +227,7 @@ int list_materials(const MaterialsOptions& options) {
   return kExitDone;
 }
 
-int plot_materials(const MaterialsOptions& options, const MaterialsPlotOptions& plot) {
+int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plot) {
   constexpr int kPlaces = 400;
   const materials::MaterialLibrary library = read_library(options);
   core::ProblemList problems;
@@ -259,7 +257,7 @@ int plot_materials(const MaterialsOptions& options, const MaterialsPlotOptions& 
   return kExitDone;
 }
 
-int fit_materials(const MaterialsOptions& options, const MaterialsFitOptions& fit) {
+int fit_materials(const MaterialsView& options, const MaterialsFitOptions& fit) {
   if (fit.whole_library) return print_library_again(options);
   const materials::PhongFit result = materials::fit_phong(
       fit.csv.empty() ? samples_of_model(options, fit) : samples_of_file(fit.csv));
@@ -276,6 +274,22 @@ int fit_materials(const MaterialsOptions& options, const MaterialsFitOptions& fi
              materials::five_digits(result.nrcs.a()), materials::five_digits(result.nrcs.b()),
              materials::five_digits(result.nrcs.c()), result.rms_dB, result.max_dB);
   return kExitDone;
+}
+
+}  // namespace
+
+int materials(const MaterialsOptions& options, const CommonOptions&) {
+  switch (options.task) {
+    case MaterialsOptions::Task::plot:
+      return plot_materials(options.view, options.plot);
+    case MaterialsOptions::Task::fit:
+      return fit_materials(options.view, options.fit);
+    case MaterialsOptions::Task::objects:
+      return list_objects(options.view.library);
+    case MaterialsOptions::Task::list:
+      break;
+  }
+  return list_materials(options.view);
 }
 
 }  // namespace fanbeam::apps

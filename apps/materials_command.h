@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/common.h"
+
 namespace fanbeam::apps {
 
 // Which rows, and how they are looked at.
-struct MaterialsOptions {
+struct MaterialsView {
   std::string library;  // a file; empty for the shipped one
   double frequency_GHz = 35.0;
   std::string polarisation = "HH";
@@ -30,8 +32,17 @@ struct MaterialsFitOptions {
   bool whole_library = false;  // prints the library's text with all fits made again
 };
 
-int list_materials(const MaterialsOptions& options);
-int plot_materials(const MaterialsOptions& options, const MaterialsPlotOptions& plot);
-int fit_materials(const MaterialsOptions& options, const MaterialsFitOptions& fit);
+struct MaterialsOptions {
+  enum class Task { list, plot, fit, objects };  // its subcommands; none: list
+  Task task = Task::list;
+  MaterialsView view;
+  MaterialsPlotOptions plot;
+  MaterialsFitOptions fit;
+};
+
+// Returns an exit code; throws InputError for bad input.
+int materials(const MaterialsOptions& options, const CommonOptions& common);
+CLI::App& add_materials_command(CLI::App& program, MaterialsOptions& options,
+                                CommonOptions& common);
 
 }  // namespace fanbeam::apps

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/decibel.h"
+#include "core/spelling.h"
 #include "core/text.h"
 #include "core/units.h"
 
@@ -55,7 +56,8 @@ class Reader {
       const auto found = std::find(cells.begin(), cells.end(), kColumns[c]);
       if (found == cells.end())
         report(ErrorClass::parse, "header", "no column " + std::string(kColumns[c]),
-               "grazing_deg and sigma0_dB");
+               "grazing_deg and sigma0_dB" +
+                   core::names_there_text(kColumns[c], {cells.begin(), cells.end()}));
       else
         place_[c] = static_cast<std::size_t>(found - cells.begin());
     }

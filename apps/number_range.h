@@ -1,21 +1,53 @@
-// Limits of a number on the command line.
+// Numbers on the command line: within limits, which help and man pages print.
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <string>
+
+#include "core/errors.h"
+#include "core/text.h"
 
 namespace fanbeam::apps {
 
-// CLI::Range lets NaN pass, which is neither below nor above anything.
-inline CLI::Validator number_from(double least, double most) {
-  const auto refuse_nan = [](std::string& text) {
-    double value = 0.0;
-    return CLI::detail::lexical_cast(text, value) && std::isnan(value)
-               ? "Value " + text + " is not a number"
-               : std::string();
-  };
-  return CLI::Range(least, most) & CLI::Validator(refuse_nan, "");
+// As people write it: 1e7, not 1e+07.
+inline std::string limit_text(double limit) {
+  std::string text = core::number_text(limit);
+  const std::size_t exponent = text.find("e+0");
+  return exponent == std::string::npos ? text : text.replace(exponent, 3, "e");
 }
+
+// A number with a decimal point. CLI::Range lets NaN pass, which is neither below nor above
+// anything.
+inline CLI::Validator number_from(double least, double most) {
+  const std::string range = limit_text(least) + " to " + limit_text(most);
+  const auto refuse = [least, most, range](const std::string& text) {
+    const core::ParsedNumber number = core::parse_number(text);
+    const bool good =
+        number.error == core::NumberError::none && number.value >= least && number.value <= most;
+    return good ? std::string() : text + " given, expected a number from " + range;
+  };
+  return {refuse, range};
+}
+
+// What an integer option takes, whatever its type: CLI11 alone would read -1 as 2^64 - 1 for an
+// unsigned one, anything larger as the largest, and 010 as eight.
+inline CLI::Validator whole_number_from(std::uint64_t least, std::uint64_t most) {
+  const std::string range = std::to_string(least) + " to " + std::to_string(most);
+  const auto refuse = [least, most, range](const std::string& text) {
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    const bool plain = text.size() == 1 || !text.starts_with('0');
+    const bool good = error == std::errc() && end == text.data() + text.size() && plain &&
+                      value >= least && value <= most;
+    return good ? std::string() : text + " given, expected a whole number from " + range;
+  };
+  return {refuse, range};
+}
+
+// Of every --seed.
+inline CLI::Validator any_seed() { return whole_number_from(0, UINT64_MAX); }
 
 }  // namespace fanbeam::apps

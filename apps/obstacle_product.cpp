@@ -8,10 +8,9 @@
 namespace fanbeam::apps {
 
 std::string obstacle_table(const std::vector<sensors::ShadowObstacle>& obstacles,
-                           const std::string& fingerprint) {
-  std::string table =
-      table_comment("obstacles, heights estimated from radar shadows,", fingerprint) +
-      "\nrange_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged,uncertain\n";
+                           const core::Metadata& metadata) {
+  std::string table = table_head("obstacles, heights estimated from radar shadows", metadata) +
+                      "range_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged,uncertain\n";
   for (const sensors::ShadowObstacle& obstacle : obstacles) {
     const std::string height = obstacle.uncertain ? ","
                                                   : fmt::format("{:.2f},{:.2f}", obstacle.height_m,

@@ -74,7 +74,7 @@ std::string plan_json(const PlanReport& report) {
                         {"frame_ms", report.measured->frame_ms},
                         {"sampling", caster_text(report.measured->run.sampling)},
                         {"threads", report.measured->threads},
-                        {"isa", core::instruction_level()},
+                        {"isa", core::name_of(core::instruction_level())},
                         {"machine", core::processor_name()}};
   if (!report.spans.empty()) {
     json["per_frame"] = spans_json(report);

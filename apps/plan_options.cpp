@@ -2,23 +2,27 @@
 
 #include "apps/command_line.h"
 #include "apps/number_range.h"
+#include "apps/option_lists.h"
 #include "apps/plan_command.h"
+#include "apps/value_words.h"
 
 namespace fanbeam::apps {
 
-void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common) {
-  CLI::App& command = *app.add_subcommand(
+CLI::App& add_plan_command(CLI::App& program, PlanOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
       "plan", "Tell which effects a scene calls for, why, how much each can change, and its cost");
   add_scene_choice(command, options);
   command.add_flag("--json", options.json, "The same as JSON (docs/plan.md has its keys)");
-  command
-      .add_option("--accuracy", options.accuracy_grey,
-                  "Grey levels asked for: half of it is for effects left out, half for sampling")
-      ->check(number_from(0.0, 255.0))
+  add_accuracy_option(
+      command, options.accuracy_grey,
+      "Grey levels asked for: half of it is for effects left out, half for sampling")
       ->capture_default_str();
-  command.add_option("--effects", options.effects,
-                     "all, none, or a list such as +rain,-gas; fanbeam render --help names the "
-                     "effects (default: what the scene calls for)");
+  command
+      .add_option("--effects", options.effects,
+                  "all, none, or a list such as +rain,-gas; fanbeam list effects names them "
+                  "(default: what the scene calls for)")
+      ->type_name("EFFECT")
+      ->check(offers(effect_wishes(renderer::Touches::pictures)));
   command.add_flag("--per-frame", options.per_frame,
                    "Tell as well what single frames can go without");
   CLI::Option* measure = command.add_flag(
@@ -29,11 +33,12 @@ void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common
       .add_option("--frames", options.frames,
                   "Frames for --per-frame and --measure: A:B[:STEP], counted like a Python slice, "
                   "or one frame")
+      ->type_name(kFramesValue)
       ->default_str("all");
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(CLI::Range(0, 1024));
+      ->check(whole_number_from(0, 1024));
   command.add_option("--repetitions", options.repetitions, "Of each measured frame")
-      ->check(CLI::Range(1, 10000))
+      ->check(whole_number_from(1, 10000))
       ->needs(measure)
       ->group("");  // for tests and the impatient: a cost that is told elsewhere wants 20
   add_common_options(command, common);
@@ -44,6 +49,7 @@ void add_plan_command(CLI::App& app, PlanOptions& options, CommonOptions& common
           "only chooses frames of --per-frame and --measure; the plan itself is that "
           "of the whole sequence");
   });
+  return command;
 }
 
 }  // namespace fanbeam::apps

@@ -1,38 +1,36 @@
 #include "apps/preview.h"
 
-#include <fcntl.h>
 #include <fmt/core.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
-#include <csignal>
-#include <thread>
-#include <vector>
+#include <algorithm>
+#include <fstream>
 
 #include "core/errors.h"
-#include "core/stop.h"
-
-extern char** environ;
+#include "core/files.h"
 
 namespace fanbeam::apps {
 namespace {
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& reason) {
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& reason,
+                         const std::string& expected) {
   core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "preview", reason,
-                          "a working ffmpeg program (Debian package ffmpeg)");
+                          expected);
 }
 
-}  // namespace
+constexpr const char* kRoom = "room to write the film, and a working ffmpeg";
 
-Preview::Preview(std::filesystem::path file, int columns, int rows, double frame_rate_Hz)
-    : file_(std::move(file)),
-      temporary_(file_.parent_path() / (".preview.tmp" + file_.extension().string())) {
-  std::filesystem::create_directories(file_.parent_path());
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) refuse(file_, "no pipe");
-  std::signal(SIGPIPE, SIG_IGN);  // a dying ffmpeg shows as a failed write
+// Made before ffmpeg starts, which makes no folders.
+fs::path temporary_for(const fs::path& file) {
+  std::error_code status;
+  fs::create_directories(file.parent_path(), status);
+  if (status) refuse(file, status.message(), "a folder that can be made and written to");
+  return core::temporary_beside(file);
+}
+
+std::vector<std::string> encoder(const fs::path& output, int columns, int rows,
+                                 double frame_rate_Hz) {
   std::vector<std::string> words = {"ffmpeg",   "-loglevel",
                                     "error",    "-y",
                                     "-f",       "rawvideo",
@@ -40,60 +38,69 @@ Preview::Preview(std::filesystem::path file, int columns, int rows, double frame
                                     "-s",       fmt::format("{}x{}", columns, rows),
                                     "-r",       fmt::format("{}", frame_rate_Hz),
                                     "-i",       "-"};
-  if (file_.extension() == ".mp4")
+  if (output.extension() == ".mp4")
     for (const char* word :
          {"-c:v", "libx264", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart"})
       words.emplace_back(word);
-  words.push_back(temporary_.string());
-  std::vector<char*> arguments;
-  for (std::string& word : words) arguments.push_back(word.data());
-  arguments.push_back(nullptr);
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-  const int failed =
-      posix_spawnp(&process_, "ffmpeg", &actions, nullptr, arguments.data(), environ);
-  posix_spawn_file_actions_destroy(&actions);
-  close(ends[0]);
-  pipe_ = ends[1];
-  if (failed != 0) {
-    process_ = 0;
-    close(pipe_);
-    pipe_ = -1;
-    refuse(file_, "ffmpeg cannot be started");
-  }
+  words.push_back(output.string());
+  return words;
+}
+
+// Players take a GIF or PNG whose last bytes are missing; the formats do not.
+bool ends_as_its_kind(const fs::path& film) {
+  const std::string extension = film.extension().string();
+  const std::string_view end = extension == ".gif"    ? std::string_view(";")
+                               : extension == ".apng" ? std::string_view("IEND\xAE\x42\x60\x82")
+                                                      : std::string_view();
+  std::ifstream stream(film, std::ios::binary);
+  std::string last(end.size(), '\0');
+  stream.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+  stream.read(last.data(), static_cast<std::streamsize>(last.size()));
+  return stream.good() && last == end;
+}
+
+}  // namespace
+
+Preview::Preview(fs::path file, int columns, int rows, double frame_rate_Hz)
+    : file_(std::move(file)),
+      temporary_(temporary_for(file_)),
+      ffmpeg_(encoder(temporary_, columns, rows, frame_rate_Hz), ChildProcess::Pipe::to_its_input) {
+  if (!ffmpeg_.started())
+    refuse(file_, "ffmpeg cannot be started", "a working ffmpeg program (Debian package ffmpeg)");
 }
 
 Preview::~Preview() {
-  if (pipe_ >= 0) close(pipe_);
-  if (process_ > 0) {  // not finished: nobody wants what it has
-    kill(process_, SIGKILL);
-    waitpid(process_, nullptr, 0);
-  }
   std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  fs::remove(temporary_, ignored);
 }
 
 void Preview::add(const core::Picture8& picture) {
-  std::size_t sent = 0;
-  while (sent < picture.pixels.size()) {
-    const ssize_t count = write(pipe_, picture.pixels.data() + sent, picture.pixels.size() - sent);
-    if (count <= 0) refuse(file_, "ffmpeg stopped reading");
-    sent += static_cast<std::size_t>(count);
-  }
+  const auto* bytes = reinterpret_cast<const char*>(picture.pixels.data());
+  if (!ffmpeg_.send({bytes, picture.pixels.size()})) refuse(file_, "ffmpeg stopped reading", kRoom);
+  ++pictures_;
 }
 
 void Preview::finish() {
-  close(pipe_);
-  pipe_ = -1;
-  int status = 0;
-  while (waitpid(process_, &status, WNOHANG) == 0) {
-    core::throw_if_stopped();
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  process_ = 0;
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) refuse(file_, "ffmpeg failed");
-  std::filesystem::rename(temporary_, file_);
+  if (!ffmpeg_.succeeded()) refuse(file_, "ffmpeg failed", kRoom);
+  if (!is_complete()) refuse(file_, "the film is not complete", kRoom);
+  fs::rename(temporary_, file_);
+}
+
+// ffmpeg reads its own film and prints a line for each picture.
+bool Preview::is_complete() const {
+  ChildProcess reader({"ffmpeg", "-loglevel", "quiet", "-xerror", "-i", temporary_.string(), "-map",
+                       "0:v:0", "-vsync", "passthrough", "-f", "framecrc", "-"},
+                      ChildProcess::Pipe::from_its_output);
+  if (!reader.started()) return false;
+  int pictures = 0;
+  bool begins = true, comment = false;  // of a line
+  for (std::string text; !(text = reader.receive()).empty();)
+    for (const char c : text) {
+      if (begins) comment = c == '#';
+      begins = c == '\n';
+      if (begins && !comment) ++pictures;
+    }
+  return reader.succeeded() && pictures == pictures_ && ends_as_its_kind(temporary_);
 }
 
 }  // namespace fanbeam::apps

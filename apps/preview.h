@@ -1,16 +1,15 @@
 // A moving preview of a sequence through the ffmpeg program.
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
-#include <string>
 
+#include "apps/child_process.h"
 #include "core/image.h"
 
 namespace fanbeam::apps {
 
 // Feeds pictures of one size to ffmpeg and leaves an MP4 (H.264) or, by extension, an animated GIF
-// or PNG.
+// or PNG. The film gets its name when it is complete: every picture can be read from it again.
 class Preview {
  public:
   // Throws InputError E-IO when ffmpeg cannot be started; the message names the package.
@@ -19,14 +18,18 @@ class Preview {
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
 
+  // Throws InputError E-IO when ffmpeg has given up.
   void add(const core::Picture8& picture);
-  // Closes the video and gives it its final name. Throws InputError E-IO when ffmpeg failed.
+  // Closes the film, reads it, and gives it its final name. Throws InputError E-IO when ffmpeg
+  // failed or the film is not whole, as on a full disk, where ffmpeg reports success.
   void finish();
 
  private:
+  bool is_complete() const;
+
   std::filesystem::path file_, temporary_;
-  int pipe_ = -1;
-  int process_ = 0;
+  int pictures_ = 0;
+  ChildProcess ffmpeg_;
 };
 
 }  // namespace fanbeam::apps

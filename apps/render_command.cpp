@@ -13,8 +13,10 @@
 #include "apps/frame_metadata.h"
 #include "apps/frame_writer.h"
 #include "apps/obstacle_product.h"
+#include "apps/output_folder.h"
 #include "apps/preview.h"
 #include "apps/progress.h"
+#include "apps/render_summary.h"
 #include "apps/run_record.h"
 #include "apps/stop_on_signals.h"
 #include "core/errors.h"
@@ -53,40 +55,25 @@ ProductSet parse_products(const std::string& text) {
   return products;
 }
 
-// What was asked for and what was reached, where an accuracy or a time was asked for.
-void print_accuracy(const RunRecord& record, double accuracy_grey) {
-  const SamplingChoice& choice = record.choice;
-  if (choice.budget_ms > 0.0)
-    fmt::print(
-        "{:.1f} ms of {:.1f} ms a frame, sampling error {:.2f} grey: the same again with "
-        "--rays-per-cell {}{}{}\n",
-        choice.slowest_ms, choice.budget_ms, choice.estimated_error_grey,
-        core::number_text(choice.samples),
-        accuracy_grey > 0.0 ? " --accuracy " + core::number_text(accuracy_grey) : std::string(),
-        choice.fits ? "" : " (the coarsest there is, and too slow)");
-  double largest_grey = 0.0;
-  std::size_t estimated = 0, missed = 0;
-  for (const FrameRecord& frame : record.frames) {
-    if (!frame.error) continue;
-    ++estimated;
-    largest_grey = std::max(largest_grey, frame.error->largest_grey());
-    if (!frame.error->reached) ++missed;
-  }
-  if (estimated == 0) return;
-  fmt::print("sampling error at most {:.2f} grey RMS (estimated)", largest_grey);
-  if (choice.sampling.target_grey > 0.0)
-    fmt::print(", asked for {:.2f}{}", choice.sampling.target_grey,
-               missed > 0 ? fmt::format(": {} frames missed it at the finest sampling", missed)
-                          : std::string());
-  fmt::print("\n");
-}
-
 // Effects that the sequence runs and this frame does not.
 std::vector<std::string> left_out(const core::EffectPlan& sequence, const core::EffectPlan& frame) {
   std::vector<std::string> names;
   for (const core::EffectDecision& decision : sequence.decisions)
     if (decision.on && !frame.runs(decision.effect)) names.push_back(decision.effect);
   return names;
+}
+
+RunRecord record_of(const RenderOptions& options, const scenes::Scene& scene,
+                    const renderer::Products& wanted, int threads) {
+  RunRecord record;
+  record.choice =
+      choose_sampling(options, scene, wanted, parse_frames(options.frames, scene.frame_count()));
+  record.seed = options.seed;
+  record.plan_per_frame = options.plan_per_frame;
+  record.range_unit = options.range_unit;
+  record.threads = threads;
+  record.scene_build_s = scene.build_s;
+  return record;
 }
 
 class Run {
@@ -97,45 +84,43 @@ class Run {
         common_(common),
         scene_(scene),
         products_(std::move(products)),
-        folder_(options.output.empty() ? fs::path("out") / scene.description.name
-                                       : fs::path(options.output)) {
-    record_.choice = choose_sampling(options, scene, wanted(),
-                                     parse_frames(options.frames, scene.frame_count()));
-    record_.seed = options.seed;
-    record_.plan_per_frame = options.plan_per_frame;
-    record_.threads = threads;
-    record_.scene_build_s = scene.build_s;
-    fingerprint_ = input_fingerprint(scene, record_);
-  }
+        record_(record_of(options, scene, wanted(), threads)),
+        fingerprint_(input_fingerprint(scene, record_)),
+        output_(options.output.empty() ? core::default_output_folder(scene.description.name)
+                                       : fs::path(options.output),
+                fingerprint_, options.overwrite) {}
 
   void render_frames();
-  void write_records() const {
-    core::write_file_atomically(folder_ / "run.json", run_json(scene_, record_));
-    core::write_file_atomically(folder_ / "timing.json", timing_json(record_));
-  }
+  void write_records();
   void print_summary() const;
 
  private:
   core::EffectPlan plan_of(int index) const {
     return options_.plan_per_frame ? scenes::frame_plan(scene_, index) : scene_.plan;
   }
+  FrameRecord frame_record(int index, const core::EffectPlan& plan) const;
+  void take_over_frames();
   void remove_leftovers() const;
   FrameOutput render_frame(const renderer::FrameRenderer& frame_renderer,
                            FrameRecord& record) const;
   renderer::Products wanted() const {
-    const bool both = products_.contains("pair") || products_.contains("preview");
-    const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north");
+    const bool both =
+        products_.contains("pair") || products_.contains("figure") || products_.contains("preview");
+    const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north") ||
+                           products_.contains("ppi_figure");
     return {both || plan_view || products_.contains("bscope"), both || products_.contains("cscope"),
             products_.contains("detections"), products_.contains("obstacles")};
   }
+
+  fs::path film() const { return output_.path() / ("preview." + options_.preview_format); }
 
   const RenderOptions& options_;
   const CommonOptions& common_;
   const scenes::Scene& scene_;
   ProductSet products_;
-  fs::path folder_;
   RunRecord record_;
   std::string fingerprint_;
+  OutputFolder output_;
 };
 
 void Run::render_frames() {
@@ -143,23 +128,19 @@ void Run::render_frames() {
   const std::vector<int> frames = parse_frames(options_.frames, scene_.frame_count());
   if (options_.resume) remove_leftovers();
   renderer::PlannedFrames renderers(scene_.world, record_.choice.sampling, wanted(), options_.seed);
-  FrameWriter writer(folder_, products_, sensor);
+  FrameWriter writer(output_.path(), products_, sensor);
   std::optional<Preview> preview;
   if (products_.contains("preview"))
-    preview.emplace(folder_ / ("preview." + options_.preview_format), 4 * sensor.scan.columns + 8,
+    preview.emplace(film(), 4 * sensor.scan.columns + 8,
                     std::max(sensor.range.cells, sensor.display.cscope_rows),
                     sensor.scan.frame_rate_Hz);
   Progress progress(scene_.description.name, static_cast<int>(frames.size()), common_.quiet);
   const Clock::time_point begin = Clock::now();
   for (const int index : frames) {
     core::throw_if_stopped();
-    FrameRecord record;
-    record.index = index;
-    record.time_s = scene_.trajectory.frame_time_s(index, sensor.scan.frame_rate_Hz);
-    record.pose = scene_.trajectory.at(record.time_s);
     const core::EffectPlan plan = plan_of(index);
-    record.left_out = left_out(scene_.plan, plan);
-    if (!options_.resume || !take_over(folder_, products_, fingerprint_, record)) {
+    FrameRecord record = frame_record(index, plan);
+    if (!options_.resume || !take_over(output_.path(), products_, fingerprint_, record)) {
       FrameOutput output = render_frame(renderers.for_plan(plan), record);
       if (preview)
         preview->add(side_by_side(sensors::bscope_picture(sensor, output.frame.bscope_grey),
@@ -170,15 +151,55 @@ void Run::render_frames() {
     progress.step(static_cast<int>(record_.frames.size()));
   }
   writer.finish();
-  if (preview) preview->finish();
+  if (preview) {
+    preview->finish();
+    record_.films.insert(film().filename().string());
+  }
   record_.wall_s = seconds_since(begin);
+}
+
+FrameRecord Run::frame_record(int index, const core::EffectPlan& plan) const {
+  FrameRecord record;
+  record.index = index;
+  record.time_s =
+      scene_.trajectory.frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
+  record.pose = scene_.trajectory.at(record.time_s);
+  record.left_out = left_out(scene_.plan, plan);
+  return record;
+}
+
+// The record lists every frame of this input that is there, whichever run made it.
+void Run::take_over_frames() {
+  std::map<int, ProductSet> products;
+  for (const FrameRecord& record : record_.frames) products[record.index] = products_;
+  const auto all = output_.frames(products);
+  for (const auto& [index, there] : all) {
+    if (products.contains(index) || index >= scene_.frame_count()) continue;
+    FrameRecord record = frame_record(index, plan_of(index));
+    if (take_over(output_.path(), there, fingerprint_, record))
+      record_.frames.push_back(std::move(record));
+  }
+  std::sort(record_.frames.begin(), record_.frames.end(),
+            [](const FrameRecord& a, const FrameRecord& b) { return a.index < b.index; });
+  for (FrameRecord& record : record_.frames)
+    record.files = frame_files(all.at(record.index), record.index);
+}
+
+void Run::write_records() {
+  take_over_frames();
+  std::set<std::string> files = record_.films;
+  for (const FrameRecord& record : record_.frames)
+    files.insert(record.files.begin(), record.files.end());
+  output_.keep_only(files);
+  core::write_file_atomically(output_.path() / "run.json", run_json(scene_, record_));
+  core::write_file_atomically(output_.path() / "timing.json", timing_json(record_));
 }
 
 // What a killed run was writing.
 void Run::remove_leftovers() const {
-  core::remove_abandoned_temporaries(folder_);
+  core::remove_abandoned_temporaries(output_.path());
   for (const std::string& product : products_)
-    core::remove_abandoned_temporaries(folder_ / product);
+    core::remove_abandoned_temporaries(output_.path() / product);
 }
 
 FrameOutput Run::render_frame(const renderer::FrameRenderer& frame_renderer,
@@ -196,37 +217,33 @@ FrameOutput Run::render_frame(const renderer::FrameRenderer& frame_renderer,
   record.events = output.frame.events;
   record.error = output.frame.error;
   output.metadata = frame_metadata(scene_, record_.choice.sampling, record, fingerprint_);
+  if (products_.contains("figure") || products_.contains("ppi_figure"))
+    output.figure = figure_facts(scene_, record.pose, record.index, options_.range_unit);
   if (products_.contains("obstacles"))
-    output.obstacle_table = obstacle_table(output.frame.obstacles, fingerprint_);
+    output.obstacle_table = obstacle_table(output.frame.obstacles, output.metadata);
   if (products_.contains("detections"))
     output.detection_table = detection_table(scene_.description.sensor, record.index, record.time_s,
-                                             fingerprint_, output.frame.detections);
+                                             output.metadata, output.frame.detections);
   return output;
 }
 
 void Run::print_summary() const {
   if (common_.quiet) return;
-  const auto resumed = std::count_if(record_.frames.begin(), record_.frames.end(),
-                                     [](const FrameRecord& f) { return f.resumed; });
-  fmt::print("{} frames in {:.1f} s", record_.frames.size(), record_.wall_s);
-  if (resumed > 0) fmt::print(" ({} already there)", resumed);
-  fmt::print(", scene built in {:.1f} s\n", record_.scene_build_s);
-  fmt::print("cast by {}: {}\n", caster_text(record_.choice.sampling), scene_.caster.reason);
-  print_accuracy(record_, options_.accuracy_grey);
-  for (const core::EffectDecision& decision : scene_.plan.decisions)
-    fmt::print("  {:14} {:3}  {}\n", decision.effect, decision.on ? "on" : "off", decision.reason);
-  for (const std::string& product : products_) {
-    const fs::path path =
-        product == "preview" ? folder_ / ("preview." + options_.preview_format) : folder_ / product;
-    fmt::print("{:8} {}\n", product, fs::absolute(path).lexically_normal().string());
-  }
-  fmt::print("{:8} {}\n", "record", fs::absolute(folder_ / "run.json").lexically_normal().string());
+  std::vector<fs::path> places;
+  for (const std::string& product : products_)
+    places.push_back(product == "preview" ? film() : output_.path() / product);
+  places.push_back(output_.path() / "run.json");
+  print_render_summary(record_, scene_, options_.accuracy_grey, places);
 }
 
 }  // namespace
 
 int render(const RenderOptions& options, const CommonOptions& common) {
   ProductSet products = parse_products(options.products);
+  if (!options.range_unit.empty() && !products.contains("figure") &&
+      !products.contains("ppi_figure"))
+    core::throw_input_error(core::ErrorClass::ref, "--range-unit", options.range_unit,
+                            "figure or ppi_figure among --products");
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
   scenes::SceneDescription description = read_chosen_scene(options, problems);

@@ -1,8 +1,11 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command_line.h"
+#include "apps/figure/figure_facts.h"
 #include "apps/number_range.h"
+#include "apps/option_lists.h"
 #include "apps/render_command.h"
+#include "apps/value_words.h"
 #include "core/errors.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/caster_choice.h"
@@ -10,14 +13,6 @@
 
 namespace fanbeam::apps {
 namespace {
-
-std::string products_help() {
-  std::string text = "A list of";
-  for (const Product& product : kProducts)
-    text += (text.ends_with("of") ? " " : ", ") + std::string(product.name) + " (" +
-            std::string(product.what) + ")";
-  return text;
-}
 
 std::string effects_help() {
   std::string names;
@@ -36,14 +31,11 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                           core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
                           core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
           ->check(number_from(0.1, 100000.0));
-  CLI::Option* accuracy =
-      command
-          .add_option("--accuracy", options.accuracy_grey,
-                      "Error allowed, RMS in grey levels: half of it is for effects left out, half "
-                      "for sampling, which is refined frame by frame until its estimate says so; "
-                      "with --rays-per-cell for effects alone (one grey level is 0.24 dB with the "
-                      "default display)")
-          ->check(number_from(0.01, 100.0));
+  CLI::Option* accuracy = add_accuracy_option(
+      command, options.accuracy_grey,
+      "Error allowed, RMS in grey levels: half of it is for effects left out, half for sampling, "
+      "which is refined frame by frame until its estimate says so; with --rays-per-cell for "
+      "effects alone (one grey level is 0.24 dB with the default display)");
   CLI::Option* budget =
       command
           .add_option("--time-budget", options.time_budget_ms,
@@ -64,9 +56,10 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                   "the scene's, else rays)")
       ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
   command
-      .add_flag("--reference", options.reference,
-                "Converged sampling, always with rays: 256 azimuths per column x 8 rays per cell, "
-                "about 10 s a frame")
+      .add_flag(
+          "--reference", options.reference,
+          "Converged sampling, always with rays: 256 azimuths per column x 8 rays per cell; 10 s "
+          "to well over a minute a frame on two cores, longest over a city")
       ->excludes(rays)
       ->excludes(accuracy)
       ->excludes(budget)
@@ -76,7 +69,9 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                   "mean: expected power; sample: one draw with speckle, noise and fluctuating "
                   "targets (default: the scene's)")
       ->check(CLI::IsMember({"mean", "sample"}));
-  command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
+  command.add_option("--seed", options.seed, "Seed of everything random")
+      ->check(any_seed())
+      ->capture_default_str();
   command.callback([&options] {
     if (options.reference && options.caster == name_of(renderer::CasterWish::profile))
       throw CLI::ValidationError(
@@ -88,28 +83,46 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
 
 }  // namespace
 
-void add_render_command(CLI::App& app, RenderOptions& options, CommonOptions& common) {
-  CLI::App& command =
-      *app.add_subcommand("render", "Render a scene's approach to B-scope and C-scope pictures");
+CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
+      "render", "Render a scene's approach to B-scope and C-scope pictures");
   add_scene_choice(command, options);
-  command.add_option("-o,--output", options.output,
-                     "Folder to write to (default out/<scene name>)");
-  command.add_option("--frames", options.frames,
-                     "A:B[:STEP], counted like a Python slice, or one frame");
-  command.add_option("--products", options.products, products_help())->capture_default_str();
+  command
+      .add_option("-o,--output", options.output, "Folder to write to (default out/<scene name>)")
+      ->type_name(kFolderValue);
+  command
+      .add_option("--frames", options.frames,
+                  "A:B[:STEP], counted like a Python slice, or one frame (default: all)")
+      ->type_name(kFramesValue);
+  command.add_option("--products", options.products, products_help(kProducts))
+      ->type_name("PRODUCT")
+      ->check(offers(names_of(kProducts)))
+      ->capture_default_str();
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(CLI::Range(0, 1024));
+      ->check(whole_number_from(0, 1024));
   add_sampling(command, options);
-  command.add_option("--effects", options.effects, effects_help());
+  command.add_option("--effects", options.effects, effects_help())
+      ->type_name("EFFECT")
+      ->check(offers(effect_wishes(renderer::Touches::pictures)));
   command.add_flag("--plan-per-frame", options.plan_per_frame,
                    "Leave out of each frame what it can do without, not only what the whole "
                    "sequence can; no pixel changes by more than half the accuracy");
   command.add_flag("--resume", options.resume,
-                   "Keep frames that an earlier run with the same input has finished");
+                   "Do not render again what an earlier run with the same input has finished");
+  command.add_flag("--overwrite", options.overwrite,
+                   "Write to a folder that holds other files too: frames of other renders there "
+                   "are removed, other files stay (a run's own record is always replaced)");
   command.add_option("--preview-format", options.preview_format, "Form of the preview")
       ->check(CLI::IsMember({"mp4", "gif", "apng"}))
       ->capture_default_str();
+  command
+      .add_option("--range-unit", options.range_unit,
+                  "Of the range scale of figure and ppi_figure (default: km for sensors that see "
+                  "beyond 2 km, else "
+                  "m)")
+      ->check(CLI::IsMember(std::vector<std::string>(kRangeUnits.begin(), kRangeUnits.end())));
   add_common_options(command, common);
+  return command;
 }
 
 }  // namespace fanbeam::apps

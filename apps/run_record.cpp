@@ -5,12 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/common.h"
 #include "apps/decision_json.h"
+#include "apps/fingerprint.h"
 #include "core/machine.h"
+#include "core/median.h"
 #include "core/units.h"
 #include "sensors/receiver/receiver_figures.h"
 
@@ -129,6 +130,19 @@ Json pose_json(const core::Pose& pose) {
           {"heading_deg", core::degrees(attitude.heading_rad)}};
 }
 
+// Rows of a recorded flight that were left out; first and last by number.
+Json rejected_json(const std::vector<scenes::RejectedRows>& rejected) {
+  Json json = Json::array();
+  for (const scenes::RejectedRows& rows : rejected)
+    json.push_back({{"first_row", rows.first_row},
+                    {"last_row", rows.last_row},
+                    {"rows", rows.count},
+                    {"first_line", rows.first_line},
+                    {"first_time_s", rows.first_time_s},
+                    {"why", rows.why}});
+  return json;
+}
+
 Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   Json json;
   json["version"] = version_text();
@@ -136,6 +150,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["scene"] = scene.description.name;
   json["sensor"] = scene.description.sensor.name;
   json["seed"] = record.seed;
+  if (const auto limit = core::instruction_limit()) json["isa"] = core::short_name_of(*limit);
   json["caster"] = caster_json(scene.caster, record.choice.sampling);
   json["input"] = resolved_json(scene.description.resolved);
   json["sensor_values"] = sensor_json(scene.description.sensor);
@@ -143,6 +158,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["realisation"] = realisation_of(scene.plan);
   json["sampling"] = sampling_json(scene.caster, record.choice.sampling);
   json["plan_per_frame"] = record.plan_per_frame;
+  if (!record.range_unit.empty()) json["range_unit"] = record.range_unit;
   json["plan"] = decisions_json(scene.plan);
   json["surface_state"] =
       materials::kSurfaceStateNames[static_cast<std::size_t>(scene.description.surface_state)];
@@ -163,6 +179,8 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
                                         {"known", outside.known}});
   }
   json["attitude_derived"] = scene.trajectory.attitude_derived;
+  if (scene.description.trajectory.columns.outliers == scenes::OutlierPolicy::reject)
+    json["trajectory_rows_rejected"] = rejected_json(scene.trajectory.rejected);
   return json;
 }
 
@@ -172,12 +190,6 @@ Json budget_json(const SamplingChoice& choice) {
           {"rays_per_cell", choice.samples},
           {"estimated_error_grey", choice.estimated_error_grey},
           {"fits", choice.fits}};
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace
@@ -201,6 +213,7 @@ std::string caster_text(const renderer::Sampling& sampling) {
 std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
   Json json = header_json(scene, record);
   if (record.choice.budget_ms > 0.0) json["time_budget"] = budget_json(record.choice);
+  if (!record.films.empty()) json["files"] = record.films;
   json["frames"] = Json::array();
   for (const FrameRecord& frame : record.frames) {
     Json entry = {{"index", frame.index},
@@ -219,6 +232,7 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
     }
     if (record.plan_per_frame) entry["left_out"] = frame.left_out;
     entry["events"] = frame.events;
+    entry["files"] = frame.files;
     json["frames"].push_back(std::move(entry));
   }
   return json.dump(1) + "\n";
@@ -227,7 +241,7 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
 std::string timing_json(const RunRecord& record) {
   Json json;
   json["threads"] = record.threads;
-  json["isa"] = core::instruction_level();
+  json["isa"] = core::name_of(core::instruction_level());
   json["machine"] = core::processor_name();
   json["frames"] = Json::array();
   std::vector<double> times_ms;
@@ -244,7 +258,7 @@ std::string timing_json(const RunRecord& record) {
   }
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const double median_ms = median(times_ms);
+  const double median_ms = core::median(times_ms);
   json["summary"] = {
       {"frame_ms_median", median_ms},
       {"frames_per_s", median_ms > 0.0 ? 1000.0 / median_ms : 0.0},
@@ -258,22 +272,7 @@ std::string timing_json(const RunRecord& record) {
 }
 
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record) {
-  // FNV-1a, 64 bits: tells inputs apart, guards nothing.
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  const auto add = [&hash](const char* bytes, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i)
-      hash = (hash ^ static_cast<unsigned char>(bytes[i])) * 0x100000001b3U;
-  };
-  const std::string header = header_json(scene, record).dump();
-  add(header.data(), header.size());
-  std::vector<char> chunk(1U << 16U);
-  for (const std::filesystem::path& file : scene.description.files) {
-    std::ifstream stream(file, std::ios::binary);
-    while (stream.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) ||
-           stream.gcount() > 0)
-      add(chunk.data(), static_cast<std::size_t>(stream.gcount()));
-  }
-  return fmt::format("{:016x}", hash);
+  return fingerprint_of(header_json(scene, record).dump(), scene.description.files);
 }
 
 }  // namespace fanbeam::apps

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct FrameRecord {
   std::vector<std::string> events;
   std::optional<renderer::ErrorEstimate> error;
   std::vector<std::string> left_out;  // effects of the plan that this frame did without
+  std::set<std::string> files;        // its pictures and tables, relative to the folder
   double frame_ms = 0.0;
   bool resumed = false;  // taken over from an earlier run: no time was measured
 };
@@ -35,7 +37,9 @@ struct RunRecord {
   SamplingChoice choice;
   bool plan_per_frame = false;
   std::uint64_t seed = 0;
-  std::vector<FrameRecord> frames;
+  std::string range_unit;           // asked for of the figure
+  std::vector<FrameRecord> frames;  // by index
+  std::set<std::string> films;      // beside the frames' files
   int threads = 0;
   double scene_build_s = 0.0;
   double wall_s = 0.0;  // frames, writing included
@@ -51,8 +55,7 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record);
 std::string timing_json(const RunRecord& record);
 
 // A short text that changes when anything that shapes the pictures does: a setting, the program, or
-// a byte of a file that the scene names (buffers beside a glTF model excepted). Stands in every
-// picture.
+// a byte of a file that the scene names or that belongs to one. Stands in every picture.
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record);
 
 }  // namespace fanbeam::apps

@@ -1,25 +1,69 @@
 #include "apps/scene_choice.h"
 
 #include <CLI/CLI.hpp>
+#include <system_error>
 
 #include "apps/common.h"
+#include "apps/shipped_names.h"
+#include "apps/value_words.h"
 #include "scenes/scene_reader.h"
 
 namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What `find` gives; what it throws goes to `problems`.
+template <class Find>
+auto tried(const Find& find, core::ProblemList& problems) -> decltype(find()) {
+  try {
+    return find();
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+    return {};
+  }
+}
+
+}  // namespace
 
 void add_scene_choice(CLI::App& command, SceneChoice& choice) {
   command
       .add_option("SCENE", choice.scene,
-                  "A folder with scene.toml, that file, or the name of a shipped scene")
+                  "A folder with scene.toml, that file, or the name of a shipped scene (fanbeam "
+                  "list scenes)")
+      ->type_name(kSceneValue)
       ->capture_default_str();
-  command.add_option("--sensor", choice.sensor, "Sensor file instead of the scene's");
-  command.add_option("--data", choice.data,
-                     "Folder with terrain and flight data (before FANBEAM_DATA)");
+  command
+      .add_option("--sensor", choice.sensor,
+                  "Sensor file, or the name of a shipped sensor (fanbeam list sensors), instead of "
+                  "the scene's")
+      ->type_name(kSensorValue);
+  command
+      .add_option("--data", choice.data,
+                  "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
+                  "names")
+      ->type_name(kFolderValue);
+}
+
+fs::path find_sensor(const std::string& name) {
+  const fs::path shipped = shipped_folder() / "sensors";
+  std::error_code refused;
+  for (const fs::path& candidate : {fs::path(name), shipped / (name + ".toml")})
+    if (fs::is_regular_file(candidate, refused)) return candidate;
+  core::throw_input_error(
+      core::ErrorClass::io, "--sensor", "\"" + name + "\" not found",
+      "a sensor file, or one of the shipped sensors:" + nearest_first(name, shipped_sensors()));
 }
 
 scenes::SceneDescription read_chosen_scene(const SceneChoice& choice, core::ProblemList& problems) {
-  const scenes::SceneOptions options{shipped_folder(), data_folders(choice.data), choice.sensor};
-  return scenes::read_scene(find_scene(choice.scene), options, problems);
+  core::ProblemList missing;
+  const fs::path scene = tried([&] { return find_scene(choice.scene); }, missing);
+  const fs::path sensor = choice.sensor.empty()
+                              ? fs::path()
+                              : tried([&] { return find_sensor(choice.sensor); }, missing);
+  const std::vector<fs::path> data = tried([&] { return data_folders(choice.data); }, missing);
+  missing.throw_if_errors();
+  return scenes::read_scene(scene, {shipped_folder(), data, sensor}, problems);
 }
 
 }  // namespace fanbeam::apps

@@ -14,14 +14,18 @@ namespace fanbeam::apps {
 
 struct SceneChoice {
   std::string scene = "braunschweig-26";  // as find_scene takes it
-  std::string sensor;                     // file instead of the scene's
+  std::string sensor;                     // as find_sensor takes it, instead of the scene's
   std::string data;                       // folder looked at first, see data_folders
 };
 
 // SCENE, --sensor and --data.
 void add_scene_choice(CLI::App& command, SceneChoice& choice);
 
-// What is wrong with the scene is in `problems`; throws InputError as find_scene and shipped_folder.
+// A sensor file, or the name of a shipped sensor ("hivision-94"). Throws InputError E-IO.
+std::filesystem::path find_sensor(const std::string& name);
+
+// What is wrong with the scene is in `problems`. Throws InputError E-IO for all of scene, sensor
+// and data folder that are not there, and as shipped_folder.
 scenes::SceneDescription read_chosen_scene(const SceneChoice& choice, core::ProblemList& problems);
 
 }  // namespace fanbeam::apps

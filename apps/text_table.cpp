@@ -1,12 +1,13 @@
 #include "apps/text_table.h"
 
 #include <algorithm>
-#include <vector>
 
 namespace fanbeam::apps {
 namespace {
 
 constexpr std::size_t kWidth = 100;
+
+}  // namespace
 
 std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
   std::vector<std::string> lines(1);
@@ -25,8 +26,6 @@ std::vector<std::string> wrapped(const std::string& text, std::size_t width) {
   }
   return lines;
 }
-
-}  // namespace
 
 std::string beside(const std::string& lead, const std::string& text) {
   std::string all;

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "apps/progress.h"
@@ -11,6 +10,7 @@
 #include "apps/track/study.h"
 #include "core/decibel.h"
 #include "core/files.h"
+#include "core/text.h"
 #include "scenes/highway_reader.h"
 #include "tracking/simulation/sampled_frame.h"
 #include "tracking/simulation/scenario_run.h"
@@ -50,13 +50,10 @@ tracking::TrackerSettings tracker_of(const TrackOptions& options,
 
 // The id becomes a folder.
 void check_id(const std::string& id) {
-  const bool plain =
-      !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](unsigned char c) {
-        return std::isalnum(c) != 0 || c == '-' || c == '_';
-      });
-  if (!plain)
-    core::throw_input_error(core::ErrorClass::path, "scenario id", "\"" + id + "\"",
-                            "1 to 64 letters, digits, - and _");
+  if (!core::is_safe_word(id))
+    core::throw_input_error(
+        core::ErrorClass::path, "scenario id", "\"" + id + "\"",
+        "1 to 64 letters, digits, '.', '-' and '_', the first a letter or digit");
 }
 
 struct Outcome {

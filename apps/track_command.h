@@ -30,5 +30,6 @@ struct TrackOptions {
 
 // Returns an exit code; throws InputError for bad input.
 int track(const TrackOptions& options, const CommonOptions& common);
+CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOptions& common);
 
 }  // namespace fanbeam::apps

@@ -3,16 +3,21 @@
 #include "apps/command_line.h"
 #include "apps/number_range.h"
 #include "apps/track_command.h"
+#include "apps/value_words.h"
 
 namespace fanbeam::apps {
 
-void add_track_command(CLI::App& app, TrackOptions& options, CommonOptions& common) {
-  CLI::App& command = *app.add_subcommand(
+CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
       "track", "A highway scenario to measurements, tracks, errors and metrics");
-  command.add_option("SCENARIO", options.file, "JSON file of highway scenarios")->required();
+  command.add_option("SCENARIO", options.file, "JSON file of highway scenarios")
+      ->type_name(kFileValue)
+      ->required();
   command.add_option("--scenario", options.scenario, "Id of one scenario (default: all)");
-  command.add_option("-o,--output", options.output,
-                     "Folder to write to (default out/<file's name>-tracks)");
+  command
+      .add_option("-o,--output", options.output,
+                  "Folder to write to (default out/<file's name>-tracks)")
+      ->type_name(kFolderValue);
   command
       .add_option("--waveform", options.scheme,
                   "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
@@ -52,17 +57,20 @@ void add_track_command(CLI::App& app, TrackOptions& options, CommonOptions& comm
   command.add_flag("--study", options.study,
                    "What accuracy costs: buffer, noise figure, waveform and association against "
                    "error and time, as tables and plots (one minute; needs gnuplot)");
-  command.add_option("--seed", options.seed, "Seed of everything random")->capture_default_str();
+  command.add_option("--seed", options.seed, "Seed of everything random")
+      ->check(any_seed())
+      ->capture_default_str();
   command.add_option("--run", options.run, "Another draw of the same seed")
-      ->check(CLI::Range(0, 1000000))
+      ->check(whole_number_from(0, 1000000))
       ->capture_default_str();
   command.footer(
-      "Writes tracks.csv and measurements.csv for each scenario, run.json with the metrics and\n"
-      "timing.json; with --study instead study.md and its plots. Prints where each track ended,\n"
-      "where its target is, and how likely the track is still on the target it began with.\n"
-      "Places are relative to the radar, x forward and y right; azimuths positive right, speeds\n"
+      "Writes tracks.csv and measurements.csv for each scenario, run.json with the metrics and "
+      "timing.json; with --study instead study.md and its plots. Prints where each track ended, "
+      "where its target is, and how likely the track is still on the target it began with. "
+      "Places are relative to the radar, x forward and y right; azimuths positive right, speeds "
       "positive receding.");
   add_common_options(command, common);
+  return command;
 }
 
 }  // namespace fanbeam::apps

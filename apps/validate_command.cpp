@@ -6,12 +6,9 @@
 
 namespace fanbeam::apps {
 
-int validate(const std::string& name, const std::string& data, const std::string& sensor,
-             const CommonOptions& common) {
+int validate(const ValidateOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
-  const scenes::SceneOptions options{shipped_folder(), data_folders(data), sensor};
-  const scenes::SceneDescription description =
-      scenes::read_scene(find_scene(name), options, problems);
+  const scenes::SceneDescription description = read_chosen_scene(options, problems);
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, {}, problems);
   print_problems(problems.all());
   if (common.quiet) return kExitDone;

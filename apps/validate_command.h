@@ -1,13 +1,15 @@
 // fanbeam validate: every problem of a scene at once.
 #pragma once
 
-#include <string>
-
 #include "apps/common.h"
+#include "apps/scene_choice.h"
 
 namespace fanbeam::apps {
 
-int validate(const std::string& scene, const std::string& data, const std::string& sensor,
-             const CommonOptions& common);
+struct ValidateOptions : SceneChoice {};
+
+// Returns an exit code; throws InputError for bad input.
+int validate(const ValidateOptions& options, const CommonOptions& common);
+CLI::App& add_validate_command(CLI::App& program, ValidateOptions& options, CommonOptions& common);
 
 }  // namespace fanbeam::apps

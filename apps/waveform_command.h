@@ -18,25 +18,30 @@ struct WaveformNumber {
 };
 inline constexpr std::array kWaveformNumbers = {
     WaveformNumber{"--frequency", "Centre frequency, GHz (default 76)", 1e-3, 1000.0, 1e9},
-    WaveformNumber{"--bandwidth", "Swept or stepped over, MHz (250)", 1e-6, 1e5, 1e6},
-    WaveformNumber{"--sample-rate", "Of the beat, MHz", 1e-6, 1e5, 1e6},
-    WaveformNumber{"--fine-sample-rate", "Of two-stage's triangle, MHz (0.5)", 1e-6, 1e5, 1e6},
-    WaveformNumber{"--duration", "Of the tone, us (20000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--pulse-width", "ns (10)", 1e-3, 1e9, 1e-9},
-    WaveformNumber{"--interval", "From chirp to chirp or pulse to pulse, us", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--pulses", "Pulses of a frame (64)", 1, 65536, 1},
-    WaveformNumber{"--ramp", "Of a chirp or of a triangle's half, us (20, 2000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--second-ramp", "Of the second triangle, us (3000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--fine-ramp", "Of two-stage's triangle, us (2000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--chirps", "Chirps of each transmitter (256)", 1, 65536, 1},
-    WaveformNumber{"--slots", "Transmitters in turn (1)", 1, 256, 1},
-    WaveformNumber{"--modulation", "Of sinusoidal modulation, Hz (500)", 1e-3, 1e9, 1},
-    WaveformNumber{"--flat", "Flat stretch, us (2000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--hop", "Between the two tones of the flat stretch, kHz (700)", 1e-3, 1e9, 1e3},
-    WaveformNumber{"--code-degree", "n of 2^n - 1 chips (7)", 3, 12, 1},
-    WaveformNumber{"--steps", "Of each staircase (256)", 2, 65536, 1},
-    WaveformNumber{"--step", "Duration of a step, us (10)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--shift", "Of the second staircase, kHz (-488.28)", -1e9, 1e9, 1e3},
+    WaveformNumber{"--bandwidth", "Swept or stepped over, MHz (default 250)", 1e-6, 1e5, 1e6},
+    WaveformNumber{"--sample-rate", "Of the beat, MHz (default: as the kind of waveform needs)",
+                   1e-6, 1e5, 1e6},
+    WaveformNumber{"--fine-sample-rate", "Of two-stage's triangle, MHz (default 0.5)", 1e-6, 1e5,
+                   1e6},
+    WaveformNumber{"--duration", "Of the tone, us (default 20000)", 1e-3, 1e9, 1e-6},
+    WaveformNumber{"--pulse-width", "Of a pulse, ns (default 10)", 1e-3, 1e9, 1e-9},
+    WaveformNumber{"--interval", "From chirp to chirp (default: the ramp) or pulse to pulse, us",
+                   1e-3, 1e9, 1e-6},
+    WaveformNumber{"--pulses", "Pulses of a frame (default 64)", 1, 65536, 1},
+    WaveformNumber{"--ramp", "Of a chirp or a triangle's half, us (default 20, 2000)", 1e-3, 1e9,
+                   1e-6},
+    WaveformNumber{"--second-ramp", "Of the second triangle, us (default 3000)", 1e-3, 1e9, 1e-6},
+    WaveformNumber{"--fine-ramp", "Of two-stage's triangle, us (default 2000)", 1e-3, 1e9, 1e-6},
+    WaveformNumber{"--chirps", "Chirps of each transmitter (default 256)", 1, 65536, 1},
+    WaveformNumber{"--slots", "Transmitters in turn (default 1)", 1, 256, 1},
+    WaveformNumber{"--modulation", "Of sinusoidal modulation, Hz (default 500)", 1e-3, 1e9, 1},
+    WaveformNumber{"--flat", "Flat stretch, us (default 2000)", 1e-3, 1e9, 1e-6},
+    WaveformNumber{"--hop", "Between the two tones of the flat stretch, kHz (default 700)", 1e-3,
+                   1e9, 1e3},
+    WaveformNumber{"--code-degree", "n of 2^n - 1 chips (default 7)", 3, 12, 1},
+    WaveformNumber{"--steps", "Of each staircase (default 256)", 2, 65536, 1},
+    WaveformNumber{"--step", "Duration of a step, us (default 10)", 1e-3, 1e9, 1e-6},
+    WaveformNumber{"--shift", "Of the second staircase, kHz (default -488.28)", -1e9, 1e9, 1e3},
 };
 
 struct WaveformOptions {
@@ -49,5 +54,6 @@ struct WaveformOptions {
 };
 
 int waveform(const WaveformOptions& options, const CommonOptions& common);
+CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options, CommonOptions& common);
 
 }  // namespace fanbeam::apps

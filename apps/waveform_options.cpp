@@ -7,8 +7,8 @@
 
 namespace fanbeam::apps {
 
-void add_waveform_command(CLI::App& app, WaveformOptions& options, CommonOptions& common) {
-  CLI::App& command = *app.add_subcommand(
+CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
       "waveform", "What a radar waveform can measure, and what it reads for a target");
   std::vector<std::string> kinds;
   for (const signal::WaveformKind kind : signal::all_waveform_kinds())
@@ -38,10 +38,10 @@ void add_waveform_command(CLI::App& app, WaveformOptions& options, CommonOptions
   command.add_flag("--json", options.json, "Print JSON");
   command.footer(
       "A parameter that the kind does not have is refused. The range of a triangle's target is "
-      "that\n"
-      "at its turnaround. Beats are transmitted minus received frequency: a receding target's\n"
+      "that at its turnaround. Beats are transmitted minus received frequency: a receding target's "
       "Doppler is positive.");
   add_common_options(command, common);
+  return command;
 }
 
 }  // namespace fanbeam::apps

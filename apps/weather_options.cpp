@@ -1,6 +1,13 @@
 #include "apps/weather_options.h"
 
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "atmosphere/air_column.h"
+#include "atmosphere/gas/gases.h"
 #include "core/constants.h"
+#include "core/units.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -14,6 +21,15 @@ void put_fog(const WeatherOptions& options, atmosphere::Weather& weather) {
   if (!options.fog_type.empty())
     weather.fog_water_model = atmosphere::fog_water_model_named(options.fog_type);
   if (!options.fog_law.empty()) weather.fog_law = atmosphere::fog_law_named(options.fog_law);
+}
+
+// Refuses what was given when what came of it lies outside.
+void require(double derived, double lowest, double highest, const char* option, double given,
+             const std::string& expected) {
+  if (derived >= lowest && derived <= highest) return;
+  core::throw_input_error(
+      std::isfinite(given) ? core::ErrorClass::range : core::ErrorClass::nonfinite, option, given,
+      expected);
 }
 
 // A top of the rain and a melting layer replace each other.
@@ -35,6 +51,37 @@ void put_rain(const WeatherOptions& options, atmosphere::Weather& weather) {
     weather.drop_sizes = atmosphere::drop_sizes_named(options.drop_sizes);
 }
 
+// P.676 takes dry pressure and vapour density, Weather total pressure and relative humidity.
+void put_gases(const WeatherOptions& options, atmosphere::Weather& weather) {
+  const auto& dry_hPa = options.dry_pressure_hPa;
+  const auto& vapour_g_per_m3 = options.vapour_density_g_per_m3;
+  if (!dry_hPa && !vapour_g_per_m3) return;
+  if (!weather.levels.empty())
+    core::throw_input_error(core::ErrorClass::range,
+                            vapour_g_per_m3 ? "--vapour-density" : "--dry-pressure",
+                            vapour_g_per_m3.value_or(*dry_hPa), "a scene without weather.level");
+  const auto air = [&] { return atmosphere::AirColumn(weather).at(0.0); };
+  if (dry_hPa) {
+    // How much vapour a humidity means hangs on the pressure a little: a few rounds settle it.
+    for (int i = 0; i < 3; ++i) {
+      const atmosphere::AirState now = air();
+      weather.pressure_hPa =
+          *dry_hPa + atmosphere::vapour_pressure_hPa(
+                         vapour_g_per_m3.value_or(now.vapour_density_g_per_m3), now.temperature_K);
+      require(*weather.pressure_hPa, 300.0, 1100.0, "--dry-pressure", *dry_hPa,
+              "300 to 1100 hPa together with the vapour's");
+    }
+  }
+  if (!vapour_g_per_m3) return;
+  const atmosphere::AirState now = air();
+  const double saturated_g_per_m3 =
+      atmosphere::saturation_vapour_density_g_per_m3(now.temperature_K, now.pressure_hPa);
+  weather.humidity = *vapour_g_per_m3 / saturated_g_per_m3;
+  require(*weather.humidity, 0.0, 1.0, "--vapour-density", *vapour_g_per_m3,
+          fmt::format("0 to {:.4g} g/m3, where air of {:.4g} C is saturated", saturated_g_per_m3,
+                      now.temperature_K - 273.15));
+}
+
 }  // namespace
 
 void put_over(const WeatherOptions& options, atmosphere::Weather& weather) {
@@ -45,8 +92,12 @@ void put_over(const WeatherOptions& options, atmosphere::Weather& weather) {
   if (options.temperature_C) weather.temperature_C = options.temperature_C;
   if (options.humidity) weather.humidity = options.humidity;
   if (options.pressure_hPa) weather.pressure_hPa = options.pressure_hPa;
+  put_gases(options, weather);
   if (!options.polarisation.empty())
     weather.polarisation_tilt_rad = options.polarisation == "VV" ? core::kPi / 2.0 : 0.0;
+  if (options.tilt_deg) weather.polarisation_tilt_rad = core::radians(*options.tilt_deg);
+  if (options.path_elevation_deg)
+    weather.rain_path_elevation_rad = core::radians(*options.path_elevation_deg);
 }
 
 std::string option_behind(const WeatherOptions& options, const std::string& field) {

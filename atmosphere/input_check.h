@@ -24,6 +24,16 @@ void check_range(core::ProblemList& problems, std::string_view field, double val
 // The same for a single input: throws InputError.
 void require_range(std::string_view field, double value, const Range& range);
 
+// The same for a frequency, whose field is "frequency" and whose value and range are told in GHz,
+// as everybody gives them. `whose` tells what has this range: "the fog law centimetre".
+void check_frequency(core::ProblemList& problems, double frequency_Hz, double lowest_Hz,
+                     double highest_Hz, std::string_view whose = {});
+void require_frequency(double frequency_Hz, double lowest_Hz, double highest_Hz,
+                       std::string_view whose = {});
+
+// "35 GHz".
+std::string GHz_text(double frequency_Hz);
+
 // A closed set of choices and the names that scene files use for them.
 template <typename Choice, std::size_t count>
 using NameTable = std::array<std::pair<std::string_view, Choice>, count>;

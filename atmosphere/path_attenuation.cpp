@@ -79,9 +79,11 @@ class PathAttenuation::Builder {
     if (saturated)
       air.vapour_density_g_per_m3 =
           saturation_vapour_density_g_per_m3(air.temperature_K, air.pressure_hPa);
-    return gas_attenuation(frequency_Hz_, air.dry_pressure_hPa(), air.temperature_K,
-                           air.vapour_density_g_per_m3)
-        .total_dB_per_km();
+    const GasAttenuation gas = gas_attenuation(frequency_Hz_, air.dry_pressure_hPa(),
+                                               air.temperature_K, air.vapour_density_g_per_m3);
+    if (weather_.gas_part == GasPart::oxygen) return gas.oxygen_dB_per_km;
+    if (weather_.gas_part == GasPart::vapour) return gas.water_dB_per_km;
+    return gas.total_dB_per_km();
   }
 
   // Of the layer that holds `inside_m`: its limits at the borders, not the values beyond them.

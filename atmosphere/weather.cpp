@@ -70,9 +70,8 @@ double fog_layer_dB_per_km(const Weather& weather, const FogLayer& layer, double
 }
 
 double rain_dB_per_km(const Weather& weather, double rain_rate_mm_per_h, double frequency_Hz) {
-  constexpr double kLevelPath_rad = 0.0;
   return rain_attenuation_dB_per_km(weather.rain_law, rain_rate_mm_per_h, frequency_Hz,
-                                    kLevelPath_rad, weather.polarisation_tilt_rad,
+                                    weather.rain_path_elevation_rad, weather.polarisation_tilt_rad,
                                     rain_drops(weather));
 }
 

@@ -25,6 +25,8 @@ namespace fanbeam::atmosphere {
 inline constexpr double kLowestWeather_m = -2000.0;
 inline constexpr double kHighestWeather_m = 12000.0;
 
+enum class GasPart { whole, oxygen, vapour };
+
 struct Weather {
   // Fog is present when one of these two is set (not both) and means liquid water above zero.
   std::optional<double> visibility_m;           // 10 to 100000
@@ -40,8 +42,9 @@ struct Weather {
   RainEchoLaw rain_echo_law = RainEchoLaw::mie;
   DropSizes drop_sizes = DropSizes::marshall_palmer;
   double rain_top_m = 3000.0;  // -2000 to 12000; about the melting height of temperate summers
-  double polarisation_tilt_rad = 0.0;  // 0 horizontal, pi/2 vertical; -pi to pi
-  std::vector<RainCell> rain_cells;    // on top of that rain
+  double polarisation_tilt_rad = 0.0;    // 0 horizontal, pi/2 vertical; -pi to pi
+  double rain_path_elevation_rad = 0.0;  // for the rain law alone; -pi/2 to pi/2
+  std::vector<RainCell> rain_cells;      // on top of that rain
 
   // With a melting layer the rain ends at the rain height (melting_layer.h), not at rain_top_m.
   bool melting_layer = false;              // at the height where the air passes 0 C, or
@@ -63,6 +66,7 @@ struct Weather {
   // Which losses are simulated. A switched-off loss is exactly 0 dB; the air stays as it is. Rain
   // means rain, melting layer and rain cells.
   bool simulate_gas = true;
+  GasPart gas_part = GasPart::whole;  // what of the gas counts: one alone for look-ups
   bool simulate_fog = true;
   bool simulate_rain = true;
   bool simulate_snow = true;
@@ -91,8 +95,9 @@ double rain_temperature_C(const Weather& weather);
 RainDrops rain_drops(const Weather& weather);
 
 // One-way loss inside a fog layer, and in rain of a rate below the melting layer; switched off or
-// not. The rain is taken for horizontal paths: at 10 degrees elevation and 35 GHz that is 0.2 %
-// too much for horizontal polarisation. Throws InputError: E-RANGE, E-NONFINITE.
+// not. The rain is taken for paths of one elevation, in scenes horizontal: at 10 degrees elevation
+// and 35 GHz that is 0.2 % too much for horizontal polarisation. Throws InputError: E-RANGE,
+// E-NONFINITE.
 double fog_layer_dB_per_km(const Weather& weather, const FogLayer& layer, double frequency_Hz);
 double rain_dB_per_km(const Weather& weather, double rain_rate_mm_per_h, double frequency_Hz);
 

@@ -161,7 +161,7 @@ void check_laws(core::ProblemList& problems, const Weather& weather, double freq
 
 core::ProblemList problems_in(const Weather& weather, double frequency_Hz) {
   core::ProblemList problems;
-  check_range(problems, "frequency_Hz", frequency_Hz, {1e9, 1e12, "Hz"});
+  check_frequency(problems, frequency_Hz, 1e9, 1e12);
   collect(problems, "", [&] {
     StandardAtmosphere(
         {weather.origin_height_m, weather.temperature_C, weather.pressure_hPa, weather.humidity});
@@ -173,6 +173,8 @@ core::ProblemList problems_in(const Weather& weather, double frequency_Hz) {
               {0.0, kLargestRainRate_mm_per_h, "mm/h"});
   check_range(problems, "polarisation_tilt_rad", weather.polarisation_tilt_rad,
               {-core::kPi, core::kPi, "rad"});
+  check_range(problems, "rain_path_elevation_rad", weather.rain_path_elevation_rad,
+              {-core::kPi / 2.0, core::kPi / 2.0, "rad"});
   check_fog_layers(problems, weather);
   check_rain_cells(problems, weather);
   check_levels(problems, weather);

@@ -16,6 +16,13 @@ namespace {
 
 constexpr const char* kHead =
     "# Performance\n\n"
+    "What a picture costs in milliseconds and how far it is from the converged one in grey levels\n"
+    "(one is 0.235 dB), with the receiver's noise in both / noise-free. Two cores; the machine, "
+    "what\n"
+    "the words mean and every table follow below.\n\n";
+
+constexpr const char* kWords =
+    "## How to read the tables\n\n"
     "Written by `build/release/bin/fanbeam_bench --report docs/performance.md` (`./dev bench`\n"
     "prints the same); every figure was measured in one run on the machine below. The last\n"
     "chapters are those of `docs/performance-notes.md`.\n\n"
@@ -83,8 +90,8 @@ std::string machine_markdown(const Report& report) {
       "| instruction level of hot functions | {}, Embree packets {} wide |\n"
       "| system | {} |\n| compiler | {} |\n| commit | {} |\n\n",
       core::processor_name(), std::thread::hardware_concurrency(), memory_bytes / 1e9,
-      report.threads, report.other_cores, core::instruction_level(), native_packet, system_name(),
-      compiler_name(), commit());
+      report.threads, report.other_cores, core::name_of(core::instruction_level()), native_packet,
+      system_name(), compiler_name(), commit());
 }
 
 std::string plots_markdown(const Report& report) {
@@ -184,10 +191,11 @@ std::string scaling_markdown(const SceneFigures& scene) {
 }  // namespace
 
 std::string markdown(const Report& report) {
+  const std::string targets = targets_markdown(report);
   std::string out = kHead;
   if (report.quick) out += kQuickHead;
-  out += machine_markdown(report) + targets_markdown(report) + plots_markdown(report) +
-         scenes_markdown(report) + agreement_markdown(report);
+  out += summary_markdown(report, targets) + plots_markdown(report) + kWords +
+         machine_markdown(report) + targets + scenes_markdown(report) + agreement_markdown(report);
   for (const SceneFigures& scene : report.scenes) out += scaling_markdown(scene);
   for (const SceneFigures& scene : report.scenes)
     for (const ViewFigures& figures : scene.views) out += view_markdown(figures, report.threads);

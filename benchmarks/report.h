@@ -38,6 +38,10 @@ std::string markdown(const Report& report);
 // The section with the design's targets beside the figures.
 std::string targets_markdown(const Report& report);
 
+// The first screen: what sixteen and ninety pictures a second cost, and what of `targets`, as
+// targets_markdown gives it, was missed.
+std::string summary_markdown(const Report& report, const std::string& targets);
+
 // Below the table of agreement: why cells of slices are apart from the reference.
 std::string off_cells_markdown(const std::vector<AgreementFigures>& lines);
 

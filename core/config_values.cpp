@@ -6,9 +6,13 @@
 #include <sstream>
 
 #include "core/config_document_private.h"
+#include "core/text.h"
 
 namespace fanbeam::core {
 namespace {
+
+// Texts become names on terminals, in pages and in records.
+constexpr const char* kPrintable = "a text without control characters";
 
 bool holds(const NumberRange& range, double value) {
   return value >= range.low && value <= range.high && !(range.above_low && value == range.low);
@@ -127,8 +131,13 @@ std::optional<std::string> ConfigTable::optional_text(std::string_view key) {
     error(ErrorClass::parse, key, value_text(*node), "a text in quotes");
     return std::nullopt;
   }
-  record(key, node->as_string()->get());
-  return node->as_string()->get();
+  const std::string& text = node->as_string()->get();
+  if (!is_printable_text(text)) {
+    error(ErrorClass::range, key, value_text(*node), kPrintable);
+    return std::nullopt;
+  }
+  record(key, text);
+  return text;
 }
 
 std::string ConfigTable::text(std::string_view key, std::string_view fallback) {
@@ -209,7 +218,13 @@ std::vector<std::string> ConfigTable::texts(std::string_view key) {
     return values;
   }
   for (const toml::node& element : *array) {
-    values.push_back(element.as_string()->get());
+    const std::string& text = element.as_string()->get();
+    if (!is_printable_text(text)) {
+      document_->problems->error(ErrorClass::range, place_of(element.source(), document_->file),
+                                 path(key), value_text(element), kPrintable);
+      return {};
+    }
+    values.push_back(text);
     record(std::string(key) + "[" + std::to_string(values.size() - 1) + "]", values.back());
   }
   return values;

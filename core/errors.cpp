@@ -6,6 +6,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "core/text.h"
+
 namespace fanbeam::core {
 namespace {
 
@@ -53,7 +55,7 @@ std::string to_string(const Problem& problem) {
   if (!problem.value.empty()) text += (problem.field.empty() ? " " : " = ") + problem.value;
   if (!problem.expected.empty())
     text += (problem.is_error() ? ": expected " : ": ") + problem.expected;
-  return text;
+  return printable_text(text);
 }
 
 namespace {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/text.h"
 
 namespace fanbeam::core {
 namespace {
@@ -23,6 +24,13 @@ namespace fs = std::filesystem;
   throw_input_error(ErrorClass::io, Place{path.string()}, "", reason, expected);
 }
 
+}  // namespace
+
+fs::path default_output_folder(const std::string& name, const std::string& ending) {
+  if (!is_safe_word(name)) throw InternalError("a name that is no safe word: " + name);
+  return fs::path("out") / (name + ending);
+}
+
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
   fs::path name = std::string(".").append(path.stem().string()) + "." + std::to_string(getpid()) +
@@ -30,8 +38,6 @@ fs::path temporary_beside(const fs::path& path) {
   name += path.extension();
   return path.parent_path() / name;
 }
-
-}  // namespace
 
 std::string read_file(const fs::path& path, std::uint64_t largest_bytes) {
   std::error_code status;
@@ -83,7 +89,7 @@ void remove_abandoned_temporaries(const fs::path& folder) {
     if (!std::regex_match(name, parts, kTemporary)) continue;
     if (kill(std::stoi(parts[1]), 0) != 0 && errno == ESRCH) abandoned.push_back(entry->path());
   }
-  for (const fs::path& path : abandoned) fs::remove(path, status);
+  for (const fs::path& path : abandoned) fs::remove_all(path, status);
 }
 
 void write_file_atomically(const fs::path& path, std::string_view bytes) {

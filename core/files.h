@@ -23,6 +23,15 @@ void write_file_atomically(const std::filesystem::path& path, std::string_view b
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path&)>& write);
 
+// "out/<name><ending>", where programs write to unless told where. Throws InternalError when `name`
+// is no safe word (core/text.h): readers refuse such names, as this could be any place.
+std::filesystem::path default_output_folder(const std::string& name,
+                                            const std::string& ending = "");
+
+// A name for what is to become `path`, hidden, in its folder and with its extension: this process's
+// alone, and known to remove_abandoned_temporaries.
+std::filesystem::path temporary_beside(const std::filesystem::path& path);
+
 // Removes what processes that live no more left in `folder` (not below it) of write_atomically:
 // files that were never finished. Does nothing where it may not, or where there is no such folder.
 void remove_abandoned_temporaries(const std::filesystem::path& folder);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "core/colour_picture.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/png_check.h"
@@ -60,15 +61,30 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   return input;
 }
 
+// Of a grey or a coloured picture.
+template <class AnyPicture>
+void write_bytes(const std::filesystem::path& path, const AnyPicture& picture,
+                 const Metadata& metadata) {
+  using Pixel = typename decltype(picture.pixels)::value_type;
+  if (picture.pixels.size() != cells(picture.columns, picture.rows))
+    throw InternalError("picture size");
+  OIIO::ImageSpec spec(picture.columns, picture.rows, static_cast<int>(sizeof(Pixel)),
+                       OIIO::TypeDesc::UINT8);
+  spec.attribute("png:compressionLevel", 2);  // writing must not hold up rendering
+  write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
+}
+
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Picture8& picture,
                const Metadata& metadata) {
-  if (picture.pixels.size() != cells(picture.columns, picture.rows))
-    throw InternalError("picture size");
-  OIIO::ImageSpec spec(picture.columns, picture.rows, 1, OIIO::TypeDesc::UINT8);
-  spec.attribute("png:compressionLevel", 2);  // writing must not hold up rendering
-  write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
+  write_bytes(path, picture, metadata);
+}
+
+void write_png(const std::filesystem::path& path, const ColourPicture& picture,
+               const Metadata& metadata) {
+  static_assert(sizeof(Colour) == 3);
+  write_bytes(path, picture, metadata);
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata) {

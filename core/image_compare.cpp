@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/spelling.h"
 
 namespace fanbeam::core {
 namespace {
@@ -34,7 +35,11 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
     const double dB = 10.0 * std::log10(b.values[i] / a.values[i]);
     sum_dB += dB;
     squares_dB += dB * dB;
-    result.largest_dB = std::max(result.largest_dB, std::abs(dB));
+    if (std::abs(dB) > result.largest_dB) {
+      result.largest_dB = std::abs(dB);
+      result.largest_dB_column = static_cast<int>(i) % columns;
+      result.largest_dB_row = static_cast<int>(i) / columns;
+    }
   }
   const auto cells = static_cast<double>(std::max<std::size_t>(result.cells, 1));
   const auto positive = static_cast<double>(std::max<std::size_t>(result.both_positive, 1));
@@ -66,9 +71,13 @@ std::vector<LayerDifference> compare_images(const Image& a, const Image& b,
     const auto other =
         std::find_if(b.layers.begin(), b.layers.end(),
                      [&](const Image::Layer& candidate) { return candidate.name == layer.name; });
-    if (other == b.layers.end())
-      throw_input_error(ErrorClass::ref, Place{name_b}, "layer", "missing",
-                        "\"" + layer.name + "\" as in " + name_a);
+    if (other == b.layers.end()) {
+      std::vector<std::string> there;
+      for (const Image::Layer& candidate : b.layers) there.push_back(candidate.name);
+      throw_input_error(
+          ErrorClass::ref, Place{name_b}, "layer", "missing",
+          "\"" + layer.name + "\" as in " + name_a + names_there_text(layer.name, there));
+    }
     differences.push_back(compare_layer(layer, *other, a.columns));
   }
   return differences;

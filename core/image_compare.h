@@ -21,6 +21,7 @@ struct LayerDifference {
   std::size_t both_positive = 0;
   std::size_t only_one_positive = 0;
   double mean_dB = 0.0, rms_dB = 0.0, largest_dB = 0.0;
+  int largest_dB_column = 0, largest_dB_row = 0;
 };
 
 // Layer by layer, paired by name. Throws InputError E-REF when sizes or layer names differ.

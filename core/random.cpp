@@ -19,12 +19,10 @@ std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter,
 
 std::array<std::uint32_t, 4> random_words(const RandomKey& key, std::uint64_t cell,
                                           std::uint32_t draw) {
-  // Seed and stream make the key; cell, draw and frame the counter.
-  const auto seed_low = static_cast<std::uint32_t>(key.seed);
-  const auto seed_high = static_cast<std::uint32_t>(key.seed >> 32U);
-  return philox_block(
-      {static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(cell >> 32U), draw, key.frame},
-      {seed_low, seed_high ^ (key.stream * 0x9E3779B9U)});
+  // Cell, draw and the lower half of the frame make the counter.
+  return philox_block({static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(cell >> 32U),
+                       draw, static_cast<std::uint32_t>(key.frame)},
+                      philox_key(key));
 }
 
 std::array<double, 2> normal_pair(const RandomKey& key, std::uint64_t cell, std::uint32_t draw) {

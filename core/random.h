@@ -14,7 +14,7 @@ namespace fanbeam::core {
 struct RandomKey {
   std::uint64_t seed = 0;
   std::uint32_t stream = 0;  // what the numbers are for; each use has its own
-  std::uint32_t frame = 0;
+  std::uint64_t frame = 0;
 };
 
 inline constexpr std::uint32_t kStreamTurbulence = 1;
@@ -28,6 +28,15 @@ inline constexpr std::uint32_t kStreamPhaseNoise = 8;
 inline constexpr std::uint32_t kStreamCfarCalibration = 9;
 inline constexpr std::uint32_t kStreamHighway = 20;    // measurements of road scenarios
 inline constexpr std::uint32_t kStreamFrameEcho = 10;  // places and phases of scatterers
+
+// The key that Philox gets of seed, stream and the upper half of the frame; the counter gets cell,
+// draw and the lower half. For one seed, no two pairs of a stream and an upper half share a key: the
+// numbers of a session that runs for years never come back (2^32 frames are 8.5 years at 16 Hz).
+constexpr std::array<std::uint32_t, 2> philox_key(const RandomKey& key) {
+  const auto frame_high = static_cast<std::uint32_t>(key.frame >> 32U);
+  return {static_cast<std::uint32_t>(key.seed) ^ (frame_high * 0x85EBCA6BU),
+          static_cast<std::uint32_t>(key.seed >> 32U) ^ (key.stream * 0x9E3779B9U)};
+}
 
 std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter,
                                           std::array<std::uint32_t, 2> key);

@@ -84,9 +84,11 @@ inline Direction direction(std::uint32_t word) {
           std::bit_cast<float>(std::bit_cast<std::uint32_t>(odd ? cosine : sine) ^ sine_sign)};
 }
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void fill_groups(const RandomKey& key, std::uint32_t draw,
-                                                std::uint64_t group, std::size_t count,
-                                                float* numbers) {
+FANBEAM_HOT(void, fill_groups,
+            (const RandomKey& key, std::uint32_t draw, std::uint64_t group, std::size_t count,
+             float* numbers),
+            (key, draw, group, count, numbers)) {
+  const auto [key0, key1] = philox_key(key);
   for (std::size_t g = 0; g < count; ++g, ++group, numbers += kNumbers) {
     Words words;
     // The 16 cells of a group never carry into the high word.
@@ -95,10 +97,9 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void fill_groups(const RandomKey& key, std::uint3
       words.of[0][i] = static_cast<std::uint32_t>(cell) + static_cast<std::uint32_t>(i);
       words.of[1][i] = static_cast<std::uint32_t>(cell >> 32U);
       words.of[2][i] = draw;
-      words.of[3][i] = key.frame;
+      words.of[3][i] = static_cast<std::uint32_t>(key.frame);
     }
-    mix(static_cast<std::uint32_t>(key.seed),
-        static_cast<std::uint32_t>(key.seed >> 32U) ^ (key.stream * 0x9E3779B9U), words);
+    mix(key0, key1, words);
     for (int pair = 0; pair < 2; ++pair)
       for (int i = 0; i < kBlocks; ++i) {
         const float r = radius(words.of[2 * pair][i]);

@@ -8,6 +8,17 @@ namespace {
 
 // The distance costs the product of both lengths, and a hostile file may hold very long names.
 constexpr std::size_t kLongestCompared = 100;
+// Of names in messages.
+constexpr std::size_t kMostListed = 20;
+constexpr std::size_t kMostLookedAt = 1000;
+constexpr std::size_t kLongestListed = 60;
+
+std::size_t unlikeness(std::string_view wanted, std::string_view candidate) {
+  if (candidate.empty() || wanted.empty()) return std::max(candidate.size(), wanted.size());
+  const bool one_in_other = candidate.find(wanted) != std::string_view::npos ||
+                            wanted.find(candidate) != std::string_view::npos;
+  return one_in_other ? 0 : edit_distance(wanted, candidate);
+}
 
 }  // namespace
 
@@ -39,6 +50,27 @@ std::vector<std::string> nearest_names(std::string_view wanted,
   for (std::size_t i = 0; i < std::min(most, ranked.size()); ++i)
     names.push_back(known[ranked[i].second]);
   return names;
+}
+
+std::string names_there_text(std::string_view wanted, const std::vector<std::string>& known) {
+  if (known.empty()) return "; there are none";
+  const std::string_view start = wanted.substr(0, kLongestListed);
+  std::size_t least = kLongestListed + 1, likeliest = 0;
+  for (std::size_t i = 0; i < std::min(kMostLookedAt, known.size()); ++i) {
+    const std::string_view candidate = std::string_view(known[i]).substr(0, kLongestListed);
+    const std::size_t unlike = unlikeness(start, candidate);
+    if (2 * unlike > std::max(start.size(), candidate.size()) || unlike >= least) continue;
+    least = unlike;
+    likeliest = i;
+  }
+  std::string text = "; there are ";
+  if (least <= kLongestListed)
+    text = "; perhaps " + known[likeliest].substr(0, kLongestListed) + " of ";
+  for (std::size_t i = 0; i < std::min(kMostListed, known.size()); ++i)
+    text += (i == 0 ? "" : ", ") + known[i].substr(0, kLongestListed);
+  if (known.size() > kMostListed)
+    text += " and " + std::to_string(known.size() - kMostListed) + " more";
+  return text;
 }
 
 }  // namespace fanbeam::core

@@ -1,7 +1,9 @@
-// Reading numbers from text without looking at the locale.
+// Text from outside: numbers read without looking at the locale, words that are safe as names of
+// folders, and what may be printed.
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace fanbeam::core {
@@ -18,5 +20,19 @@ struct ParsedNumber {
 ParsedNumber parse_number(std::string_view text);
 
 std::string_view trimmed(std::string_view text);
+
+// `text` as a terminal, a log or a page may show it: control characters (C0, DEL, C1), the ones that
+// turn the direction of writing (U+202A to U+202E, U+2066 to U+2069), line separators and bytes that
+// are no UTF-8 become \x1b or \u202e; everything else stays. Files may hold anything, and a
+// terminal obeys it.
+std::string printable_text(std::string_view text);
+bool is_printable_text(std::string_view text);
+
+// 1 to 64 letters, digits, '.', '-' and '_' of ASCII, the first a letter or digit: the name of one
+// file or folder on any system, never a path, an option or a hidden file.
+bool is_safe_word(std::string_view text);
+// Such a word from any text: other bytes become '-', what is too long is cut; "unnamed" where
+// nothing is left.
+std::string safe_word(std::string_view text);
 
 }  // namespace fanbeam::core

@@ -14,7 +14,7 @@ namespace fanbeam::renderer {
 // The aircraft at one instant in scene axes.
 struct FramePose {
   double time_s = 0.0;
-  std::uint32_t frame_index = 0;  // keys what is random in the frame
+  std::uint64_t frame_index = 0;  // keys what is random in the frame
   glm::dvec3 position_m{0.0};
   glm::dmat3 north_east_down{1.0};  // columns: unit vectors at the aircraft
   glm::dquat q_NB{1.0, 0.0, 0.0, 0.0};

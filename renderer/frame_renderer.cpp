@@ -60,6 +60,8 @@ FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const
                           : nullptr),
       threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {}
 
+std::vector<double> Frame::received_W() const { return plus(bscope_W, noise_W); }
+
 Frame FrameRenderer::render(const FramePose& pose) const {
   check(pose);
   const sensors::Sensor& sensor = world_.sensor;
@@ -125,7 +127,7 @@ std::optional<ErrorEstimate> FrameRenderer::cast(const sensors::AntennaFrame& an
 }
 
 // The last stage before display: targets join the diffuse power, expected or as one realisation.
-void FrameRenderer::receive(const std::vector<core::Echo>& echoes, std::uint32_t frame_index,
+void FrameRenderer::receive(const std::vector<core::Echo>& echoes, std::uint64_t frame_index,
                             Frame& frame) const {
   const sensors::Sensor& sensor = world_.sensor;
   if (!effects_.speckle && !effects_.swerling) {
@@ -154,8 +156,8 @@ void FrameRenderer::receive(const std::vector<core::Echo>& echoes, std::uint32_t
 void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
   const sensors::Sensor& sensor = world_.sensor;
   const bool mean_noise = effects_.thermal_noise && !effects_.speckle;
-  const double noise_W = mean_noise ? sensor.noise_power_W() : 0.0;
-  const std::vector<double> received_W = plus(frame.bscope_W, noise_W);
+  frame.noise_W = mean_noise ? sensor.noise_power_W() : 0.0;
+  const std::vector<double> received_W = frame.received_W();
   if (products_.bscope) frame.bscope_grey = sensors::bscope_grey(sensor, received_W);
   if (products_.detections) frame.detections = above_threshold(sensor, threshold_W_, received_W);
   const bool above = height_above_ground_m > 0.0;

@@ -33,8 +33,11 @@ struct Products {
 // Arrays are row-major [row][column]; B-scope row 0 is the nearest range cell, C-scope row 0 the
 // highest elevation.
 struct Frame {
-  // Expected received power without noise; with speckle on, a realisation with its noise.
+  // Expected power of the echoes; with speckle on, a realisation with its noise.
   std::vector<double> bscope_W;
+  // Mean noise that the receiver adds to each cell of bscope_W: 0 without thermal noise, and in a
+  // realisation, which holds its draw of it.
+  double noise_W = 0.0;
   std::vector<double> cscope_W_m3;  // the same times R^3, summed over range
   std::vector<double>
       bscope_grey;  // unrounded, 0 to 255, with the mean noise power when noise is on
@@ -49,6 +52,9 @@ struct Frame {
   // "below_terrain": the sensor is not above the ground, the picture holds noise alone.
   // "empty_view": nothing was hit.
   std::vector<std::string> events;
+
+  // What the receiver gives out and the display shows: bscope_W and the noise.
+  std::vector<double> received_W() const;
 };
 
 class FrameRenderer {
@@ -68,7 +74,7 @@ class FrameRenderer {
   // With an estimate, double bounces are in `sums` already.
   std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                                     FanSums& sums, SightLines& sight) const;
-  void receive(const std::vector<core::Echo>& echoes, std::uint32_t frame_index,
+  void receive(const std::vector<core::Echo>& echoes, std::uint64_t frame_index,
                Frame& frame) const;
   void display(double height_above_ground_m, Frame& frame) const;
 

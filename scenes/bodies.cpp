@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "core/spelling.h"
 #include "scenes/file_budget.h"
 #include "scenes/objects.h"
 #include "scenes/placed_problems.h"
@@ -154,9 +155,11 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
   }
   for (const auto& [name, material] : model.materials) {
     const auto& used = placed.mesh.material_names;
-    if (std::find(used.begin(), used.end(), name) == used.end())
+    const bool listed = problems.all().size() < core::ProblemList::kMost;
+    if (listed && std::find(used.begin(), used.end(), name) == used.end())
       problems.warning("UNUSED", model.place, "model.materials", "\"" + name + "\"",
-                       "no triangle of " + model.file.filename().string() + " has this material");
+                       "no triangle of " + model.file.filename().string() + " has this material" +
+                           core::names_there_text(name, used));
   }
   if (!placed.mesh.vertices_m.empty())
     bodies.solids.others.push_back(terrain::box_around(placed.mesh));

@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "scenes/elevation_voids.h"
 #include "scenes/natural_ground.h"
 #include "scenes/placed_problems.h"
 #include "terrain/geoid.h"
@@ -129,7 +130,7 @@ void Ground::shape(const MaterialNames& names) {
   const NaturalGround natural(scene_.terrain, level_m(), names, problems_);
   if (!natural.usable()) return;
   std::mutex guard;
-  std::size_t outside = 0;
+  std::size_t outside = 0, in_holes = 0;
   std::pair<std::size_t, std::string> first_outside{field_.height_m.size(), ""};  // post, position
   core::parallel_for(static_cast<std::size_t>(field_.rows), [&](std::size_t row) {
     const int j = static_cast<int>(row);
@@ -138,10 +139,12 @@ void Ground::shape(const MaterialNames& names) {
                          field_.south_m + field_.spacing_m * j);
       const std::optional<double> up_m = post_up_m(natural, p);
       if (!up_m) {
+        const core::Geodetic at = frame_.to_geodetic({p, 0.0});
+        const bool in_hole = is_in_hole(*natural.elevation(), at);
         const std::lock_guard<std::mutex> lock(guard);
         ++outside;
-        first_outside = std::min(first_outside,
-                                 {field_.post(i, j), degrees_text(frame_.to_geodetic({p, 0.0}))});
+        if (in_hole) ++in_holes;
+        first_outside = std::min(first_outside, {field_.post(i, j), degrees_text(at)});
         continue;
       }
       field_.height_m[field_.post(i, j)] = *up_m;
@@ -151,11 +154,15 @@ void Ground::shape(const MaterialNames& names) {
           natural.material(frame_.to_geodetic({middle, *up_m}), middle, zone(middle));
     }
   });
-  if (outside > 0)
-    problems_.error(ErrorClass::range, scene_.terrain.place, "terrain extent",
-                    std::to_string(outside) + " posts without elevation, the first at " +
-                        first_outside.second + " deg",
-                    "a smaller extent, or elevation data that cover it");
+  if (natural.elevation() != nullptr)
+    tell_used_voids(scene_.terrain, *natural.elevation(), field_, frame_, problems_);
+  if (outside == 0) return;
+  const std::string holes =
+      in_holes > 0 ? " (" + std::to_string(in_holes) + " in voids too wide to fill)" : "";
+  problems_.error(ErrorClass::range, scene_.terrain.place, "terrain extent",
+                  std::to_string(outside) + " posts without elevation" + holes + ", the first at " +
+                      first_outside.second + " deg",
+                  "a smaller extent, or elevation data that cover it");
 }
 
 std::optional<double> Ground::post_up_m(const NaturalGround& natural, glm::dvec2 position_m) const {

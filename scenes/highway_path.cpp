@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/spelling.h"
+
 namespace fanbeam::scenes {
 namespace {
 
@@ -22,6 +24,13 @@ std::vector<Span> accelerating(const core::HighwayTarget& target, double begin_s
   for (const core::LaneChange& change : target.lane_changes)
     spans.push_back({change.start_s, change.end_s});
   return spans;
+}
+
+template <class Named>
+std::string ids_there_text(const std::string& wanted, const std::vector<Named>& there) {
+  std::vector<std::string> ids;
+  for (const Named& one : there) ids.push_back(one.id);
+  return core::names_there_text(wanted, ids);
 }
 
 }  // namespace
@@ -68,13 +77,15 @@ std::vector<TargetDescription::Waypoint> HighwayPaths::path(core::ConfigTable& t
   const auto scenario = std::find_if(file->scenarios.begin(), file->scenarios.end(),
                                      [&](const auto& one) { return one.id == scenario_id; });
   if (scenario == file->scenarios.end()) {
-    table.error(core::ErrorClass::ref, "scenario", scenario_id, "a scenario of the file");
+    table.error(core::ErrorClass::ref, "scenario", scenario_id,
+                "a scenario of the file" + ids_there_text(scenario_id, file->scenarios));
     return {};
   }
   const auto law = std::find_if(scenario->targets.begin(), scenario->targets.end(),
                                 [&](const auto& one) { return one.id == target_id; });
   if (law == scenario->targets.end()) {
-    table.error(core::ErrorClass::ref, "target", target_id, "a target of the scenario");
+    table.error(core::ErrorClass::ref, "target", target_id,
+                "a target of the scenario" + ids_there_text(target_id, scenario->targets));
     return {};
   }
   std::vector<TargetDescription::Waypoint> result;

@@ -2,11 +2,14 @@
 
 #include <cstdint>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "core/decibel.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/json_size.h"
+#include "core/spelling.h"
 #include "scenes/json_reader_private.h"
 
 namespace fanbeam::scenes {
@@ -125,12 +128,17 @@ void read_truth(JsonReader& reader, const json& scenario, const std::string& pat
     const std::string id = reader.text(tables[i], here, "id");
     std::size_t owner = 0;
     while (owner < result.targets.size() && result.targets[owner].id != id) ++owner;
-    if (owner == result.targets.size())
-      reader.error(ErrorClass::ref, here + ".id", id, "the id of a target");
-    else if (!told.insert(id).second)
+    if (owner == result.targets.size()) {
+      if (reader.problems().is_full()) continue;
+      std::vector<std::string> ids;
+      for (const core::HighwayTarget& target : result.targets) ids.push_back(target.id);
+      reader.error(ErrorClass::ref, here + ".id", id,
+                   "the id of a target" + core::names_there_text(id, ids));
+    } else if (!told.insert(id).second) {
       reader.error(ErrorClass::ref, here + ".id", id, "one table for each target");
-    else
+    } else {
       result.truth[owner] = truth_of(reader, tables[i], here);
+    }
   }
 }
 

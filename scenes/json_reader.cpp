@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/spelling.h"
+#include "core/text.h"
 #include "scenes/json_reader_private.h"
 
 namespace fanbeam::scenes {
@@ -33,7 +35,11 @@ const json* JsonReader::member(const json& owner, const std::string& path, const
   }
   const auto found = owner.find(key);
   if (found != owner.end()) return &*found;
-  error(ErrorClass::parse, joined(path, key), "nothing", "a value");
+  if (problems_.is_full()) return nullptr;
+  std::vector<std::string> there;
+  for (const auto& [name, value] : owner.items()) there.push_back(name);
+  error(ErrorClass::parse, joined(path, key), "nothing",
+        "a value" + core::names_there_text(key, there));
   return nullptr;
 }
 
@@ -77,8 +83,13 @@ bool JsonReader::flag(const json& value, const std::string& path) {
 std::string JsonReader::text(const json& owner, const std::string& path, const char* key) {
   const json* value = member(owner, path, key);
   if (value == nullptr) return {};
-  if (value->is_string()) return value->get<std::string>();
-  error(ErrorClass::parse, joined(path, key), shown(*value), "a text");
+  if (!value->is_string()) {
+    error(ErrorClass::parse, joined(path, key), shown(*value), "a text");
+    return {};
+  }
+  auto text = value->get<std::string>();
+  if (core::is_printable_text(text)) return text;
+  error(ErrorClass::range, joined(path, key), shown(*value), "a text without control characters");
   return {};
 }
 

@@ -26,11 +26,10 @@ void NaturalGround::generate(const TerrainDescription& terrain, const MaterialNa
 
 void NaturalGround::load_elevation(const TerrainDescription& terrain, core::ProblemList& problems) {
   terrain::ElevationOptions options;
-  options.voids = terrain.fill_voids ? terrain::VoidPolicy::fill : terrain::VoidPolicy::refuse;
   options.interpolation = terrain::Interpolation::cubic_spline;
   options.quantisation_step_m = terrain.quantisation_step_m;
   try {
-    elevation_.emplace(terrain.elevation, options, problems);
+    elevation_.emplace(terrain.elevation, options);
   } catch (const core::InputError& error) {
     append_placed(problems, error, terrain.elevation_place, "terrain.elevation");
     usable_ = false;

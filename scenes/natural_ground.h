@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/errors.h"
 #include "scenes/description.h"
 #include "scenes/ground.h"
 #include "terrain/landscape.h"
@@ -23,6 +24,9 @@ class NaturalGround {
   // False when a raster could not be read: then there is nothing to ask for.
   bool usable() const { return usable_; }
 
+  // Null where the ground comes from no raster. Voids are filled in it, whether the scene allows
+  // that or not.
+  const terrain::ElevationRaster* elevation() const { return elevation_ ? &*elevation_ : nullptr; }
   // In the scene's datum, without trees; nothing where the elevation data end. All three are safe
   // to call from many threads.
   std::optional<double> height_m(const core::Geodetic& position, glm::dvec2 position_m) const;

@@ -52,7 +52,7 @@ struct PointTargets {
 
 // Runways, lines and targets, each in file order. E-LIMIT for a line of more than 100000 points and
 // beyond `most_points`: then the last object is the one that exceeds it. W-NEAR-FIELD, see
-// near_field.h.
+// near_field.h, and W-DUPLICATE, see duplicate_targets.h.
 PointTargets build_targets(const SceneDescription& scene, const Ground& ground,
                            core::ProblemList& problems,
                            std::size_t most_points = kMostPointTargets);

@@ -1,12 +1,11 @@
 #include "scenes/scene.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <glm/matrix.hpp>
 
 #include "materials/library/material_library.h"
 #include "renderer/stages/side_lobes.h"
+#include "scenes/flight_window.h"
 #include "scenes/ground.h"
 #include "scenes/model_materials.h"
 #include "scenes/objects.h"
@@ -25,33 +24,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-// Every frame's aircraft must be over the terrain and above it.
-void check_flight(const SceneDescription& scene, const terrain::LocalFrame& frame,
-                  const Trajectory& trajectory, const Ground& ground, core::ProblemList& problems) {
-  const double rate_Hz = scene.sensor.scan.frame_rate_Hz;
-  const int frames = trajectory.frame_count(rate_Hz);
-  int outside = 0;
-  int below = 0;
-  for (int k = 0; k < frames; ++k) {
-    const double time_s = trajectory.frame_time_s(k, rate_Hz);
-    const glm::dvec3 at_m = frame.to_local_m(trajectory.at(time_s).position);
-    const auto ground_m = ground.field().height_at(at_m.x, at_m.y);
-    const std::string when =
-        "frame " + std::to_string(k) + " at " + core::number_text(time_s) + " s";
-    if (!ground_m && outside++ == 0)
-      problems.error(core::ErrorClass::range, scene.trajectory.place, "trajectory",
-                     when + ": " + core::number_text(std::round(at_m.x) + 0.0) + " m east, " +
-                         core::number_text(std::round(at_m.y) + 0.0) + " m north of the origin",
-                     "positions over the scene's terrain (this is the first frame outside it)");
-    if (ground_m && at_m.z <= *ground_m && below++ == 0)
-      problems.error(
-          core::ErrorClass::range, scene.trajectory.place, "trajectory",
-          when + ": " + core::number_text(std::round((*ground_m - at_m.z) * 10.0) / 10.0) +
-              " m inside the ground",
-          "a sensor above the ground; check vertical_datum (this is the first such frame)");
-  }
 }
 
 atmosphere::Weather simulated_weather(atmosphere::Weather weather, const core::EffectPlan& plan) {
@@ -133,6 +105,18 @@ std::vector<std::string> names_of(const materials::MaterialLibrary& library) {
   return names;
 }
 
+std::vector<RunwayPlace> runway_places(const SceneDescription& scene, const Ground& ground) {
+  std::vector<RunwayPlace> places;
+  for (std::size_t i = 0; i < scene.runways.size(); ++i) {
+    RunwayPlace place;
+    for (const int end : {0, 1})
+      place.ends[end] = {scene.runways[i].ends[end].name,
+                         ground.on_ground_m(ground.runways()[i].threshold_m(end), 0.0)};
+    places.push_back(std::move(place));
+  }
+  return places;
+}
+
 core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
   core::Geodetic origin = scene.origin;
   if (scene.datum == core::VerticalDatum::egm96)
@@ -152,7 +136,7 @@ renderer::FramePose Scene::pose_at(const core::Pose& pose) const {
 renderer::FramePose Scene::frame_pose(int frame_index) const {
   renderer::FramePose pose = pose_at(
       trajectory.at(trajectory.frame_time_s(frame_index, description.sensor.scan.frame_rate_Hz)));
-  pose.frame_index = static_cast<std::uint32_t>(frame_index);
+  pose.frame_index = static_cast<std::uint64_t>(frame_index);
   return pose;
 }
 
@@ -179,7 +163,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
         caster_facts(description.sensor, frame, *trajectory, ground.field(), bodies.solids),
         problems);
   check_surfaces(description, library, names.used(), problems);
-  if (trajectory) check_flight(description, frame, *trajectory, ground, problems);
+  if (trajectory) check_flight(description, frame, *trajectory, ground.field(), problems);
   problems.throw_if_errors();
 
   const double frequency_Hz = description.sensor.waveform.frequency_Hz;
@@ -218,6 +202,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   if (planned.facts.has_walls || planned.facts.has_point_targets)
     report_mirrors(description, library, scene->surfaces, problems);
   record_model_materials(model_materials, *scene);
+  scene->runways = runway_places(description, ground);
   keep(std::move(planned), options, *scene);
   scene->build_s = seconds_since(begin);
   return scene;

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "core/effect_plan.h"
 #include "core/errors.h"
@@ -19,6 +22,15 @@
 #include "terrain/local_frame.h"
 
 namespace fanbeam::scenes {
+
+// A runway's thresholds on the ground, local metres.
+struct RunwayPlace {
+  struct End {
+    std::string name;  // of a landing on this threshold
+    glm::dvec3 threshold_m{0.0};
+  };
+  End ends[2];
+};
 
 struct Scene {
   SceneDescription description;
@@ -38,6 +50,7 @@ struct Scene {
   double accuracy_grey = 0.5;
   double plan_s = 0.0;
   std::optional<SightMap> sight{};  // with BuildOptions::frame_plans
+  std::vector<RunwayPlace> runways{};
 
   int frame_count() const { return trajectory.frame_count(description.sensor.scan.frame_rate_Hz); }
   renderer::FramePose frame_pose(int frame_index) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/files.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "scenes/data_search.h"
 #include "scenes/object_reader.h"
@@ -47,7 +48,14 @@ void read_scene_table(ConfigTable& root, SceneDescription& scene) {
   ConfigTable table = root.table("scene");
   if (!table.present())
     root.error(core::ErrorClass::ref, "scene", "missing", "a table [scene] with name and origin");
-  scene.name = table.text("name", scene.folder.filename().string());
+  // The name becomes the folder that pictures are written to.
+  scene.name = table.text("name", core::safe_word(scene.folder.filename().string()));
+  if (!core::is_safe_word(scene.name)) {
+    table.error(core::ErrorClass::range, "name", "\"" + scene.name + "\"",
+                "1 to 64 letters, digits, '.', '-' and '_', the first a letter or digit (title "
+                "takes any text)");
+    scene.name = core::safe_word(scene.name);
+  }
   scene.title = table.text("title", scene.name);
   ConfigTable origin = table.table("origin");
   if (table.present() && !origin.present())

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "scenes/duplicate_targets.h"
 #include "scenes/line_points.h"
 #include "scenes/near_field.h"
 #include "scenes/objects.h"
@@ -122,6 +123,7 @@ PointTargets build_targets(const SceneDescription& scene, const Ground& ground,
     if (full(target.place, "target")) return targets;
   }
   near_field.report(problems);
+  tell_duplicate_targets(targets, scene.sensor.wavelength_m(), problems);
   return targets;
 }
 

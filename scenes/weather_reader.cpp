@@ -161,7 +161,8 @@ void read_weather(ConfigTable& root, SceneDescription& scene) {
   for (const core::Problem& problem : found.all()) {
     const auto [at, key] = place_of(problem.field, table, lists);
     core::Problem placed = problem;
-    placed.field = at.path(key);
+    // No key of the weather, but where the weather's law and the sensor do not go together.
+    placed.field = key == "frequency" ? "frequency of the sensor" : at.path(key);
     placed.place = at.place(key);
     table.problems().append({placed});
   }

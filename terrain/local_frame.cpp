@@ -2,6 +2,7 @@
 
 #include <GeographicLib/Geocentric.hpp>
 #include <GeographicLib/Geodesic.hpp>
+#include <GeographicLib/Math.hpp>
 #include <cmath>
 #include <glm/matrix.hpp>
 #include <string>
@@ -15,8 +16,6 @@ namespace {
 
 constexpr double kLowestHeight_m = -20.0e3;
 constexpr double kHighestHeight_m = 1.0e6;
-// A plane Earth divides by the cosine of this latitude.
-constexpr double kLargestPlaneLatitude_rad = core::radians(89.0);
 
 struct EcefFrame {
   glm::dvec3 position_m{0.0};
@@ -35,19 +34,21 @@ EcefFrame ecef_frame_at(const core::Geodetic& position) {
   return frame;
 }
 
-struct RadiiOfCurvature {
-  double meridian_m = 0.0;
-  double prime_vertical_m = 0.0;
+// Where a place lies on a plane Earth about `origin`, and which way is north there. Angles in
+// degrees, so that what lies due east, south or west does so exactly.
+struct PlanePlace {
+  double distance_m = 0.0;
+  double azimuth_deg = 0.0;      // at the origin, of the geodesic to the place
+  double end_azimuth_deg = 0.0;  // of the same at the place
 };
 
-RadiiOfCurvature radii_at(double latitude_rad) {
-  const auto& ellipsoid = GeographicLib::Geocentric::WGS84();
-  const double f = ellipsoid.Flattening();
-  const double e2 = f * (2.0 - f);
-  const double sine = std::sin(latitude_rad);
-  const double w2 = 1.0 - e2 * sine * sine;
-  const double prime_vertical_m = ellipsoid.EquatorialRadius() / std::sqrt(w2);
-  return {prime_vertical_m * (1.0 - e2) / w2, prime_vertical_m};
+PlanePlace plane_place(const core::Geodetic& origin, const core::Geodetic& position) {
+  PlanePlace place;
+  GeographicLib::Geodesic::WGS84().Inverse(
+      core::degrees(origin.latitude_rad), core::degrees(origin.longitude_rad),
+      core::degrees(position.latitude_rad), core::degrees(position.longitude_rad), place.distance_m,
+      place.azimuth_deg, place.end_azimuth_deg);
+  return place;
 }
 
 void check_coordinate(core::ProblemList& problems, const std::string& field, double value,
@@ -64,43 +65,48 @@ void check_coordinate(core::ProblemList& problems, const std::string& field, dou
 LocalFrame::LocalFrame(const core::Geodetic& origin, EarthModel model)
     : origin_(origin), model_(model) {
   check_geodetic(origin, "origin");
-  if (model == EarthModel::wgs84) {
-    const EcefFrame frame = ecef_frame_at(origin);
-    origin_ecef_m_ = frame.position_m;
-    ecef_from_local_ = frame.ecef_from_east_north_up;
-    return;
-  }
-  if (std::abs(origin.latitude_rad) > kLargestPlaneLatitude_rad)
-    core::throw_input_error(core::ErrorClass::range, "origin.latitude_deg",
-                            core::degrees(origin.latitude_rad), "-89 to 89 on a plane Earth");
-  const RadiiOfCurvature radii = radii_at(origin.latitude_rad);
-  metres_per_latitude_rad_ = radii.meridian_m;
-  metres_per_longitude_rad_ = radii.prime_vertical_m * std::cos(origin.latitude_rad);
+  if (model == EarthModel::plane) return;
+  const EcefFrame frame = ecef_frame_at(origin);
+  origin_ecef_m_ = frame.position_m;
+  ecef_from_local_ = frame.ecef_from_east_north_up;
 }
 
 glm::dvec3 LocalFrame::to_local_m(const core::Geodetic& position) const {
   if (model_ == EarthModel::plane) {
-    const double longitude_rad = core::wrap_pi_rad(position.longitude_rad - origin_.longitude_rad);
-    return {longitude_rad * metres_per_longitude_rad_,
-            (position.latitude_rad - origin_.latitude_rad) * metres_per_latitude_rad_,
+    const PlanePlace place = plane_place(origin_, position);
+    double sine = 0.0;
+    double cosine = 0.0;
+    GeographicLib::Math::sincosd(place.azimuth_deg, sine, cosine);
+    return {place.distance_m * sine, place.distance_m * cosine,
             position.height_m - origin_.height_m};
   }
   return glm::transpose(ecef_from_local_) * (ecef_from_geodetic(position) - origin_ecef_m_);
 }
 
 core::Geodetic LocalFrame::to_geodetic(const glm::dvec3& local_m) const {
-  if (model_ == EarthModel::plane)
-    return {origin_.latitude_rad + local_m.y / metres_per_latitude_rad_,
-            core::wrap_pi_rad(origin_.longitude_rad + local_m.x / metres_per_longitude_rad_),
+  if (model_ == EarthModel::plane) {
+    double latitude_deg = 0.0;
+    double longitude_deg = 0.0;
+    GeographicLib::Geodesic::WGS84().Direct(
+        core::degrees(origin_.latitude_rad), core::degrees(origin_.longitude_rad),
+        GeographicLib::Math::atan2d(local_m.x, local_m.y), std::hypot(local_m.x, local_m.y),
+        latitude_deg, longitude_deg);
+    return {core::radians(latitude_deg), core::radians(longitude_deg),
             origin_.height_m + local_m.z};
+  }
   return geodetic_from_ecef(origin_ecef_m_ + ecef_from_local_ * local_m);
 }
 
 glm::dmat3 LocalFrame::north_east_down_at(const core::Geodetic& position) const {
-  glm::dmat3 local_from_east_north_up{1.0};
-  if (model_ == EarthModel::wgs84)
-    local_from_east_north_up =
-        glm::transpose(ecef_from_local_) * ecef_frame_at(position).ecef_from_east_north_up;
+  if (model_ == EarthModel::plane) {
+    const PlanePlace place = plane_place(origin_, position);
+    double sine = 0.0;
+    double cosine = 0.0;
+    GeographicLib::Math::sincosd(place.azimuth_deg - place.end_azimuth_deg, sine, cosine);
+    return {{sine, cosine, 0.0}, {cosine, -sine, 0.0}, {0.0, 0.0, -1.0}};
+  }
+  const glm::dmat3 local_from_east_north_up =
+      glm::transpose(ecef_from_local_) * ecef_frame_at(position).ecef_from_east_north_up;
   return {local_from_east_north_up[1], local_from_east_north_up[0], -local_from_east_north_up[2]};
 }
 

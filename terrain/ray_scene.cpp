@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/errors.h"
+#include "core/machine.h"
 
 namespace fanbeam::terrain {
 
@@ -46,6 +47,19 @@ T* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::s
   return static_cast<T*>(rtcSetNewGeometryBuffer(geometry, type, 0, format, stride, count));
 }
 
+// The names that Embree 3.13 knows; it takes an unknown one in silence for no limit.
+std::string embree_set(std::optional<core::InstructionLevel> limit) {
+  if (!limit) return "";
+  switch (*limit) {
+    case core::InstructionLevel::v4:
+      return "avx512";
+    case core::InstructionLevel::v3:
+      return "avx2";
+    default:
+      return "sse4.2";
+  }
+}
+
 RTCIntersectContext coherent_context() {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -59,7 +73,9 @@ RayScene::RayScene(std::optional<HeightField> terrain, std::vector<SurfacePatch>
                    std::vector<PlacedMesh> meshes, const std::string& instruction_set, bool robust)
     : library_(std::make_unique<Library>()), has_terrain_(terrain.has_value()) {
   // The number of threads of the build does not change the tree.
-  const std::string configuration = instruction_set.empty() ? "" : "isa=" + instruction_set;
+  const std::string set =
+      instruction_set.empty() ? embree_set(core::instruction_limit()) : instruction_set;
+  const std::string configuration = set.empty() ? "" : "isa=" + set;
   library_->device = rtcNewDevice(configuration.c_str());
   if (library_->device == nullptr)
     throw core::InternalError("Embree: no device for \"" + configuration + "\"");

@@ -1,5 +1,5 @@
-// Time limits of tests count the processor's time, which other programs do not lengthen; a
-// sanitizer does.
+// Guards against work that grows with a hostile number: code that falls for it takes minutes, or
+// all memory there is. The processor's time counts, which other programs hardly lengthen.
 #pragma once
 
 #include <ctime>
@@ -11,11 +11,13 @@ inline double processor_time_s() {
   return static_cast<double>(std::clock()) / static_cast<double>(CLOCKS_PER_SEC);
 }
 
-// Factor for limits of time, and of memory with it.
+// What is refused "at once" takes milliseconds; the rest is room for slow machines.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr double kSanitizerSlowdown = 10.0;
+inline constexpr double kAtOnce_s = 100.0;
+inline constexpr double kSanitizerMemory = 10.0;  // factor for limits of memory
 #else
-inline constexpr double kSanitizerSlowdown = 1.0;
+inline constexpr double kAtOnce_s = 5.0;
+inline constexpr double kSanitizerMemory = 1.0;
 #endif
 
 }  // namespace fanbeam::tests

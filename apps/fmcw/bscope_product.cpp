@@ -28,18 +28,20 @@ SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwOption
   return signal_bscope(scene.world, frame_pose, settings);
 }
 
-void write_bscope(const std::filesystem::path& folder, const sensors::Sensor& sensor, int frame,
-                  const SignalBscope& bscope) {
+std::set<std::string> write_bscope(const std::filesystem::path& folder,
+                                   const sensors::Sensor& sensor, int frame,
+                                   const SignalBscope& bscope) {
   const core::Metadata metadata = {{"fanbeam:product", "bscope"},
                                    {"fanbeam:frame", std::to_string(frame)},
                                    {"fanbeam:looks", std::to_string(bscope.looks)}};
-  const std::filesystem::path file = folder / "bscope" / fmt::format("{:05}", frame);
-  core::write_png(file.string() + ".png",
+  const std::string name = fmt::format("bscope/{:05}", frame);
+  core::write_png(folder / (name + ".png"),
                   sensors::bscope_picture(sensor, sensors::bscope_grey(sensor, bscope.power_W)),
                   metadata);
   core::Image image{sensor.scan.columns, sensor.range.cells, {}};
   image.layers.push_back({"power_W", farthest_on_top(bscope.power_W, sensor.scan.columns)});
-  core::write_exr(file.string() + ".exr", image, metadata);
+  core::write_exr(folder / (name + ".exr"), image, metadata);
+  return {name + ".png", name + ".exr"};
 }
 
 }  // namespace fanbeam::apps

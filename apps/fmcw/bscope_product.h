@@ -2,6 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
+#include <string>
 
 #include "apps/fmcw/signal_bscope.h"
 #include "apps/fmcw_command.h"
@@ -14,7 +16,9 @@ SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwOption
 
 // DIR/bscope/00000.png, grey as the sensor's display shows it, and 00000.exr, watts: both laid out
 // as those of fanbeam render, the farthest range on top. Throws InputError E-IO.
-void write_bscope(const std::filesystem::path& folder, const sensors::Sensor& sensor, int frame,
-                  const SignalBscope& bscope);
+// Answers with the names of the files, relative to the folder.
+std::set<std::string> write_bscope(const std::filesystem::path& folder,
+                                   const sensors::Sensor& sensor, int frame,
+                                   const SignalBscope& bscope);
 
 }  // namespace fanbeam::apps

@@ -135,7 +135,9 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
       signal::phase_noise_rms_rad(options.line_width_Hz, strongest_delay_s(paths));
   for (int stage = 0; stage < radar.waveform.stages(); ++stage) {
     frame.beats.push_back(synthesise(radar, stage, paths, frame));
-    const auto number = static_cast<std::uint32_t>(frame_number * radar.waveform.stages() + stage);
+    const auto number = static_cast<std::uint64_t>(frame_number) *
+                            static_cast<std::uint64_t>(radar.waveform.stages()) +
+                        static_cast<std::uint64_t>(stage);
     const FmcwReceiver receiver{
         .noise_figure = sensor.receiver.noise_figure,
         .sample_rate_Hz = radar.waveform.sample_rate_Hz[static_cast<std::size_t>(stage)],

@@ -44,10 +44,13 @@ class Writer {
   void range_azimuth() const;
   void top_view() const;
   void detections() const;
+  const std::set<std::string>& files() const { return files_; }
 
  private:
   fs::path file(const std::string& product, const std::string& ending) const {
-    return folder_ / product / (fmt::format("{:05}", stamp_.frame) + ending);
+    const std::string name = fmt::format("{}/{:05}{}", product, stamp_.frame, ending);
+    files_.insert(name);
+    return folder_ / name;
   }
   std::string title(const char* what) const {
     return fmt::format("{}, frame {}: {}", stamp_.scene, stamp_.frame, what);
@@ -70,6 +73,7 @@ class Writer {
   const FmcwRadar& radar_;
   const FmcwFrame& frame_;
   const FmcwStamp& stamp_;
+  mutable std::set<std::string> files_;
 };
 
 void Writer::map(const char* product, const signal::PowerMap& powers, double noise_W,
@@ -167,17 +171,20 @@ void Writer::detections() const {
 
 }  // namespace
 
-void write_fmcw_products(const fs::path& folder, const std::set<std::string>& products,
-                         const FmcwRadar& radar, const FmcwFrame& frame, const FmcwStamp& stamp) {
+std::set<std::string> write_fmcw_products(const fs::path& folder,
+                                          const std::set<std::string>& products,
+                                          const FmcwRadar& radar, const FmcwFrame& frame,
+                                          const FmcwStamp& stamp) {
   const Writer writer(folder, radar, frame, stamp);
   if (products.contains("beat")) writer.beats();
-  if (!radar.maps) return;
+  if (!radar.maps) return writer.files();
   if (products.contains("spectrum")) writer.spectrum();
   if (products.contains("cube")) writer.rad_cube();
   if (products.contains("range-doppler")) writer.range_doppler();
   if (products.contains("range-azimuth")) writer.range_azimuth();
   if (products.contains("top-view")) writer.top_view();
   if (products.contains("detections")) writer.detections();
+  return writer.files();
 }
 
 }  // namespace fanbeam::apps

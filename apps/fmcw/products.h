@@ -18,7 +18,10 @@ struct FmcwStamp {
 
 // Files DIR/<product>/00000.*, of every product that is wanted and that the waveform has. Throws
 // InputError E-IO.
-void write_fmcw_products(const std::filesystem::path& folder, const std::set<std::string>& products,
-                         const FmcwRadar& radar, const FmcwFrame& frame, const FmcwStamp& stamp);
+// Answers with the names of the files, relative to the folder.
+std::set<std::string> write_fmcw_products(const std::filesystem::path& folder,
+                                          const std::set<std::string>& products,
+                                          const FmcwRadar& radar, const FmcwFrame& frame,
+                                          const FmcwStamp& stamp);
 
 }  // namespace fanbeam::apps

@@ -100,6 +100,7 @@ Json frame_json(const FmcwFrameRecord& frame) {
   if (frame.scan) json["bscope"] = scan_json(*frame.scan);
   json["warnings"] = warnings;
   json["targets"] = targets;
+  json["files"] = frame.files;
   return json;
 }
 
@@ -142,6 +143,7 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwOptions& options
                {"noise_figure", scene.description.sensor.receiver.noise_figure},
                {"line_width_Hz", options.line_width_Hz},
                {"adc_bits", options.adc_bits}};
+  if (const auto limit = core::instruction_limit()) json["isa"] = core::short_name_of(*limit);
   if (!radar.waveform.segments.empty()) {  // the chain ran
     json["waveform"] = named_waveform_json(radar);
     json["array"] = array_json(radar);
@@ -167,7 +169,7 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwOptions& options
 std::string fmcw_timing_json(int threads, double scene_build_s,
                              const std::vector<FmcwFrameRecord>& frames) {
   Json json = {{"threads", threads},
-               {"isa", core::instruction_level()},
+               {"isa", core::name_of(core::instruction_level())},
                {"machine", core::processor_name()},
                {"scene_build_s", scene_build_s},
                {"frames", Json::array()}};

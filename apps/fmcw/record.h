@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -27,11 +28,13 @@ struct FmcwScanCounts {  // of product bscope
   std::size_t clipped = 0;
   core::EffectPlan plan;
   double ms = 0.0;  // for timing.json
+  std::set<std::string> files;
 };
 
 struct FmcwFrameRecord {
   int index = 0;
   double time_s = 0.0;
+  std::set<std::string> files;  // relative to the folder
   std::optional<FmcwScanCounts> scan;
   bool chain = false;  // what follows is known
   std::uint64_t rays = 0;

@@ -20,15 +20,16 @@ double itu_p840(double f, double temperature_C) {
   return 0.819 * f / (eps.imag() * (1.0 + eta * eta));
 }
 
-// The limits are wavelengths, but the input is a frequency: at the border both sides of the
-// comparison must round the same way.
+// The laws' ranges are round wavelengths, which their users turn into round frequencies with
+// c = 3e8 m/s, 0.07 % above the true ones. Either reading is inside: 15 GHz (19.986 mm) stands for
+// 2 cm, and so does 14.9896 GHz. The laws themselves are no better than 1.5 %.
 void require_wavelength(double frequency_Hz, double shortest_m, double longest_m,
                         std::string_view law) {
-  const std::string unit = "Hz (wavelength " + core::number_text(shortest_m * 1e3) + " to " +
-                           core::number_text(longest_m * 1e3) + " mm) for the fog law " +
-                           std::string(law);
-  require_range("frequency_Hz", frequency_Hz,
-                {core::kSpeedOfLight_mps / longest_m, core::kSpeedOfLight_mps / shortest_m, unit});
+  constexpr double kRoundSpeed_mps = 3e8;
+  const double lowest_Hz = kRoundSpeed_mps / longest_m;
+  if (frequency_Hz >= core::kSpeedOfLight_mps / longest_m && frequency_Hz < lowest_Hz) return;
+  require_frequency(frequency_Hz, lowest_Hz, kRoundSpeed_mps / shortest_m,
+                    "the fog law " + std::string(law));
 }
 
 }  // namespace
@@ -41,7 +42,7 @@ double fog_coefficient(FogLaw law, double frequency_Hz, double temperature_C) {
   require_range("temperature_C", temperature_C, {-40.0, 50.0, "C"});
   switch (law) {
     case FogLaw::itu_p840:
-      require_range("frequency_Hz", frequency_Hz, {1e9, 200e9, "Hz for the fog law itu-p840"});
+      require_frequency(frequency_Hz, 1e9, 200e9, "the fog law itu-p840");
       return itu_p840(frequency_Hz * 1e-9, temperature_C);
     case FogLaw::altshuler: {
       require_wavelength(frequency_Hz, 0.003, 0.010, "altshuler");

@@ -67,7 +67,7 @@ double vapour_pressure_hPa(double vapour_density_g_per_m3, double temperature_K)
 GasAttenuation gas_attenuation(double frequency_Hz, double dry_pressure_hPa, double temperature_K,
                                double vapour_density_g_per_m3) {
   core::ProblemList problems;
-  check_range(problems, "frequency_Hz", frequency_Hz, {1e9, 1e12, "Hz"});
+  check_frequency(problems, frequency_Hz, 1e9, 1e12);
   check_range(problems, "dry_pressure_hPa", dry_pressure_hPa, {0.0, 2000.0, "hPa"});
   check_range(problems, "temperature_K", temperature_K, {100.0, 350.0, "K"});
   check_range(problems, "vapour_density_g_per_m3", vapour_density_g_per_m3, {0.0, 300.0, "g/m3"});

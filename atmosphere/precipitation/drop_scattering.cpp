@@ -25,7 +25,7 @@ double simpson_weight(int i) {
 
 DropScattering::DropScattering(double frequency_Hz, double temperature_C) {
   core::ProblemList problems;
-  check_range(problems, "frequency_Hz", frequency_Hz, {1e9, 1e12, "Hz"});
+  check_frequency(problems, frequency_Hz, 1e9, 1e12);
   check_range(problems, "temperature_C", temperature_C, {0.0, 40.0, "C for drops of rain"});
   problems.throw_if_errors();
 

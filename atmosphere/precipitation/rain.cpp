@@ -60,7 +60,7 @@ std::string_view name_of(RainLaw law) { return name_in(kRainLawNames, law); }
 RainCoefficients rain_coefficients(double frequency_Hz, double path_elevation_rad,
                                    double polarisation_tilt_rad) {
   core::ProblemList problems;
-  check_range(problems, "frequency_Hz", frequency_Hz, {1e9, 1e12, "Hz"});
+  check_frequency(problems, frequency_Hz, 1e9, 1e12);
   check_range(problems, "path_elevation_rad", path_elevation_rad,
               {-core::kPi / 2, core::kPi / 2, "rad"});
   check_range(problems, "polarisation_tilt_rad", polarisation_tilt_rad,
@@ -88,8 +88,7 @@ double rain_attenuation_dB_per_km(RainLaw law, double rain_rate_mm_per_h, double
   RainCoefficients coefficients =
       rain_coefficients(frequency_Hz, path_elevation_rad, polarisation_tilt_rad);
   if (law == RainLaw::georgia_tech_95) {
-    require_range("frequency_Hz", frequency_Hz,
-                  {90e9, 100e9, "Hz for the rain law georgia-tech-95"});
+    require_frequency(frequency_Hz, 90e9, 100e9, "the rain law georgia-tech-95");
     coefficients = {1.6, 0.64};
   }
   if (rain_rate_mm_per_h == 0.0) return 0.0;

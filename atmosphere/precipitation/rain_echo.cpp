@@ -43,7 +43,7 @@ const Entry& entry_for(const std::array<Entry, count>& entries, double frequency
   }
   core::throw_input_error(
       std::isfinite(frequency_Hz) ? core::ErrorClass::range : core::ErrorClass::nonfinite,
-      "frequency_Hz", frequency_Hz,
+      "frequency", GHz_text(frequency_Hz),
       "within 2 % of " + known + " GHz for the rain echo law " + std::string(law));
 }
 

@@ -2,6 +2,8 @@
 
 #include "core/files.h"
 #include "core/json_size.h"
+#include "core/spelling.h"
+#include "core/text.h"
 #include "materials/open_material/json_node_private.h"
 
 namespace fanbeam::materials {
@@ -109,8 +111,9 @@ JsonNode JsonNode::member(const std::string& key) const {
 
 JsonNode JsonNode::required(const std::string& key) const {
   JsonNode node = member(key);
-  if (present() && value_->is_object() && !node.present())
-    problems_->error(ErrorClass::ref, place(), node.pointer_, "missing", "it to be there");
+  if (present() && value_->is_object() && !node.present() && !problems_->is_full())
+    problems_->error(ErrorClass::ref, place(), node.pointer_, "missing",
+                     "it to be there" + core::names_there_text(key, keys()));
   return node;
 }
 
@@ -153,8 +156,13 @@ std::optional<double> JsonNode::number(const core::NumberRange& range) const {
 
 std::optional<std::string> JsonNode::text() const {
   if (!present()) return std::nullopt;
-  if (value_->is_string()) return value_->get<std::string>();
-  error(ErrorClass::parse, "a text in quotes");
+  if (!value_->is_string()) {
+    error(ErrorClass::parse, "a text in quotes");
+    return std::nullopt;
+  }
+  auto text = value_->get<std::string>();
+  if (core::is_printable_text(text)) return text;
+  error(ErrorClass::range, "a text without control characters");
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 #include "materials/open_material/mapping_file.h"
 
 #include "core/relative_uri.h"
+#include "core/spelling.h"
 #include "materials/open_material/json_node_private.h"
 #include "materials/open_material/metadata_private.h"
 
@@ -45,6 +46,12 @@ void read_mapping(const std::filesystem::path& file, core::ProblemList& problems
   }
 }
 
+std::string names_there(const std::string& wanted, const OpenMapping& mapping) {
+  std::vector<std::string> names;
+  for (const auto& [name, uri] : mapping.material_of_name) names.push_back(name);
+  return core::names_there_text(wanted, names);
+}
+
 void replace_names(const JsonNode& replacements, OpenMapping& mapping) {
   std::map<std::string, NamedUri> replaced = mapping.material_of_name;
   const std::size_t count = replacements.size(kMostRows);
@@ -53,10 +60,11 @@ void replace_names(const JsonNode& replacements, OpenMapping& mapping) {
     const std::vector<std::string> row = read_row(node, 2);
     if (row.empty()) continue;
     const auto key = mapping.material_of_name.find(row[1]);
-    if (key == mapping.material_of_name.end())
-      node.element(1).error(ErrorClass::ref, "a name of " + mapping.file.filename().string());
-    else
+    if (key != mapping.material_of_name.end())
       replaced[row[0]] = key->second;
+    else if (!node.problems().is_full())
+      node.element(1).error(ErrorClass::ref, "a name of " + mapping.file.filename().string() +
+                                                 names_there(row[1], mapping));
   }
   mapping.material_of_name = std::move(replaced);
 }

@@ -281,14 +281,16 @@ void GroupCaster<N>::deposit_points() {
 
 // Everything is inlined into these two, so that the whole loop is compiled for the processor it
 // runs on.
-FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group,
-                                               RayScratch& scratch, FanSums& sums,
-                                               std::vector<RayPacket<8>>* record) {
+FANBEAM_HOT(void, cast_group,
+            (const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+             std::vector<RayPacket<8>>* record),
+            (frame, group, scratch, sums, record)) {
   GroupCaster<8>(frame, group, scratch, sums, record).run();
 }
-FANBEAM_HOT FANBEAM_INLINE_ALL void cast_group(const RayFrame& frame, int group,
-                                               RayScratch& scratch, FanSums& sums,
-                                               std::vector<RayPacket<16>>* record) {
+FANBEAM_HOT(void, cast_group,
+            (const RayFrame& frame, int group, RayScratch& scratch, FanSums& sums,
+             std::vector<RayPacket<16>>* record),
+            (frame, group, scratch, sums, record)) {
   GroupCaster<16>(frame, group, scratch, sums, record).run();
 }
 

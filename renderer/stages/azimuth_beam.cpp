@@ -40,8 +40,10 @@ BeamWeights weights_of(const FanSums& fan, const sensors::Sensor& sensor,
 
 // A block of bins of two neighbouring columns: weights times bins, `stride` apart, from the left
 // one's first sub-column on. What both reach is read once.
-FANBEAM_HOT void weigh_two(const double* from, std::size_t stride, const double* weights,
-                           std::size_t reach, std::size_t apart, double* left, double* right) {
+FANBEAM_HOT(void, weigh_two,
+            (const double* from, std::size_t stride, const double* weights, std::size_t reach,
+             std::size_t apart, double* left, double* right),
+            (from, stride, weights, reach, apart, left, right)) {
   FourBins left_sum[kFours] = {}, right_sum[kFours] = {};
   std::size_t s = 0;
   for (; s < apart; ++s, from += stride) {

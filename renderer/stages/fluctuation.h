@@ -44,7 +44,7 @@ struct Fluctuation {
   bool swerling = false;  // of the targets' power
   int looks = 1;
   std::uint64_t seed = 0;
-  std::uint32_t frame = 0;
+  std::uint64_t frame = 0;
 };
 
 // What a target gives to one cell of a picture.

@@ -74,7 +74,7 @@ struct Scatterers {
 class SurfaceCaster {
  public:
   SurfaceCaster(const World& world, const sensors::AntennaFrame& antenna,
-                const FrameEchoSettings& settings, std::uint32_t frame_index)
+                const FrameEchoSettings& settings, std::uint64_t frame_index)
       : world_(world),
         antenna_(antenna),
         settings_(settings),

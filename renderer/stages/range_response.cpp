@@ -47,8 +47,10 @@ std::vector<double> shares_of(const sensors::PointResponse& response, double cel
 
 // One row of a picture whose columns share one response; four rows at a time, for fewer passes over
 // `to`.
-FANBEAM_HOT void gather_row(const double* picture, int columns, int cells, int row,
-                            const std::vector<double>& shares, double* to) {
+FANBEAM_HOT(void, gather_row,
+            (const double* picture, int columns, int cells, int row,
+             const std::vector<double>& shares, double* to),
+            (picture, columns, cells, row, shares, to)) {
   const int reach = static_cast<int>(shares.size()) - 1;
   const int last = std::min(cells - 1, row + reach);
   const auto share = [&](int from) {

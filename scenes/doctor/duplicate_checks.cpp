@@ -1,5 +1,5 @@
 // Triangles that lie in each other (T08): what the loader removed from a mesh, and what two bodies
-// share corner by corner, as the ray caster keeps it.
+// share corner by corner, as the ray caster keeps it. Point targets that do: as told on building.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -134,6 +134,12 @@ void tell_removed(const DoctorParts& parts, Findings& findings) {
 
 void check_duplicates(const DoctorParts& parts, Findings& findings) {
   tell_removed(parts, findings);
+  for (const core::Problem& problem : parts.warnings)
+    if (problem.code == "W-DUPLICATE")
+      findings.push_back({Severity::delicate, "duplicate-targets", problem.value,
+                          place_text(problem.place), 10.0 * std::log10(2.0), "dB",
+                          "Both echo: the picture shows them brighter by this much than one.",
+                          "Remove one of the two, unless two things stand there."});
   for (const auto& [pair, found] : shared_triangles(parts))
     findings.push_back(
         {found.differing > 0 ? Severity::wrong : Severity::note, "duplicate-triangles",

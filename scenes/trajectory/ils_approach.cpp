@@ -18,6 +18,8 @@ namespace {
 constexpr double kStep_s = 0.02;
 constexpr double kDerotation_s = 4.0;
 constexpr double kCalmBelow_m = 30.0;
+// Lukla (VNLK) rises by 11.85 % from end to end, the steepest part of Courchevel (LFLJ) by 18.6 %.
+constexpr double kSteepestRunway = 0.2;
 
 void check(const IlsApproach& approach) {
   core::ProblemList problems;
@@ -35,7 +37,7 @@ void check(const IlsApproach& approach) {
     check_in(problems, "localiser_course_deg less bearing",
              core::degrees(core::wrap_pi_rad(core::radians(course_deg - bearing_deg))), -30.0,
              30.0);
-  check_in(problems, "runway_slope", approach.runway_slope, -0.05, 0.05);
+  check_in(problems, "runway_slope", approach.runway_slope, -kSteepestRunway, kSteepestRunway);
   check_in(problems, "crossing_distance_m", approach.crossing_distance_m.value_or(0.0), 0.0, 20e3);
   check_in(problems, "glide_path_deg", core::degrees(approach.glide_path_rad), 1.0, 10.0);
   if (approach.runway_slope + std::tan(approach.glide_path_rad) < std::tan(core::radians(0.9)))
@@ -100,6 +102,11 @@ Progress fly(const IlsApproach& approach, const IlsPath& path) {
   return progress;
 }
 
+// Nose up when the main wheels touch, against the horizon.
+double touchdown_pitch_rad(const IlsApproach& approach) {
+  return std::atan(approach.runway_slope) + approach.touchdown_pitch_rad;
+}
+
 struct AirMotion {
   double heading_rad = 0.0;
   double path_rad = 0.0;
@@ -123,7 +130,7 @@ core::Attitude attitude_in_the_air(const IlsApproach& approach, const IlsPath& p
   const double crab_rad = core::wrap_pi_rad(air.heading_rad - track_rad);
   return {
       (1.0 - flare) * coordinated_roll_rad(v_N_mps, a_N_mps2),
-      std::lerp(air.path_rad + approach.angle_of_attack_rad, approach.touchdown_pitch_rad, flare),
+      std::lerp(air.path_rad + approach.angle_of_attack_rad, touchdown_pitch_rad(approach), flare),
       track_rad + (1.0 - flare) * crab_rad};
 }
 
@@ -183,7 +190,8 @@ Trajectory fly_ils_approach(const IlsApproach& approach, const terrain::LocalFra
       runway_heading_rad = attitudes[i].heading_rad;
     } else {
       attitudes[i] = {0.0,
-                      approach.touchdown_pitch_rad * (1.0 - smooth_step(rolling_s / kDerotation_s)),
+                      std::lerp(touchdown_pitch_rad(approach), std::atan(approach.runway_slope),
+                                smooth_step(rolling_s / kDerotation_s)),
                       runway_heading_rad};
     }
   }

@@ -15,9 +15,10 @@
 // Speed is constant until touchdown, then falls by a constant deceleration. The wind is constant
 // everywhere; the aircraft holds its track by crab, which it takes off during the flare. Pitch is
 // the path angle through the air plus an angle of attack, growing to the touchdown pitch in the
-// flare and falling to 0 in the 4 s after touchdown; roll is that of a coordinated turn. Gusts are
-// Dryden's (scenes/trajectory/dryden.h) with height above the runway as height above ground, and displace the
-// aircraft as scenes/trajectory/trajectory_turbulence.h says; they fade out over the last 30 m of height.
+// flare and falling to the slope of the runway in the 4 s after touchdown; roll is that of a
+// coordinated turn. Gusts are Dryden's (scenes/trajectory/dryden.h) with height above the runway as
+// height above ground, and displace the aircraft as scenes/trajectory/trajectory_turbulence.h says;
+// they fade out over the last 30 m of height.
 //
 // Neglected: wind shear, loss of speed in the flare, beam bends, localiser and glide path captures.
 #pragma once
@@ -38,7 +39,7 @@ enum class SpeedKind { true_air, ground };  // ground: over the ground on the ce
 struct IlsApproach {
   core::Geodetic threshold;         // height: the runway's surface above the ellipsoid
   double runway_bearing_rad = 0.0;  // true, of landing
-  double runway_slope = 0.0;        // rise per metre in landing direction, -0.05 to 0.05
+  double runway_slope = 0.0;        // rise per metre in landing direction, -0.2 to 0.2
 
   std::optional<double> localiser_course_rad;  // true; absent: the bearing. At most 30 deg off it
   // Where an offset course meets the centre line; absent: where the glide path is at the decision
@@ -64,7 +65,7 @@ struct IlsApproach {
   double decision_height_m = 200.0 * core::kFoot_m;  // above the threshold, 20 to 300
   double flare_height_m = 12.0;                      // wheels above the runway, 1 to 50
   double touchdown_sink_mps = 0.6;                   // 0.1 to 3, less than the approach's
-  double touchdown_pitch_rad = core::radians(5.0);   // assumed; -5 to 15 deg
+  double touchdown_pitch_rad = core::radians(5.0);   // above the runway, assumed; -5 to 15 deg
   double height_on_ground_m = 3.0;  // of the reference point with the wheels on the runway, 0 to 15
   double rollout_deceleration_mps2 = 1.8;  // 0.5 to 5
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/pose.h"
+#include "scenes/trajectory/rejected_rows.h"
 
 namespace fanbeam::scenes {
 
@@ -47,6 +48,8 @@ class Trajectory {
 
   // True when roll, pitch or heading were not in the source and were derived from the path.
   bool attitude_derived = false;
+  // Rows of the recording that were left out.
+  std::vector<RejectedRows> rejected{};
 
  private:
   std::vector<core::Pose> poses_;

@@ -224,13 +224,16 @@ void check_gaps(const RawTrack& track, core::ProblemList& problems) {
   std::size_t gaps = 0;
   double longest_s = 0.0;
   double all_s = 0.0;
+  core::Place place{track.file};
   for (std::size_t i = 1; i < track.rows.size(); ++i) {
     const double step_s = track.rows[i].time_s - track.rows[i - 1].time_s;
     if (step_s > kLongestGap_s) {
       ++gaps;
       all_s += step_s;
     }
-    longest_s = std::max(longest_s, step_s);
+    if (step_s <= longest_s) continue;
+    longest_s = step_s;
+    place.line = track.rows[i].line;
   }
   if (all_s > kMostBridged_s)
     core::throw_input_error(ErrorClass::limit, "gaps of more than 60 s, together",
@@ -238,9 +241,9 @@ void check_gaps(const RawTrack& track, core::ProblemList& problems) {
                             "at most " + core::number_text(kMostBridged_s) +
                                 " s to be bridged: choose a part of the flight");
   if (gaps > 0)
-    problems.warning(
-        "GAP", {}, "rows more than 60 s apart", std::to_string(gaps),
-        "bridged by a smooth curve; the longest lasts " + core::number_text(longest_s) + " s");
+    problems.warning("GAP", place, "rows more than 60 s apart", std::to_string(gaps),
+                     "bridged by a smooth curve; the longest, before this one, lasts " +
+                         core::number_text(longest_s) + " s");
 }
 
 }  // namespace
@@ -258,6 +261,7 @@ Trajectory trajectory_from(const RawTrack& track, const AttitudeAssumptions& ass
   Trajectory trajectory(recorded || fixed ? recorded_poses(track)
                                           : derived_poses(track, assumptions));
   trajectory.attitude_derived = !recorded;
+  trajectory.rejected = track.rejected;
   return trajectory;
 }
 

@@ -1,5 +1,6 @@
 #include "scenes/trajectory/trajectory_builder.h"
 
+#include "scenes/trajectory/track_check.h"
 #include "scenes/trajectory/trajectory_transplant.h"
 
 namespace fanbeam::scenes {
@@ -9,6 +10,8 @@ std::optional<Trajectory> from_file(const SceneDescription& scene, const Ground&
                                     core::ProblemList& problems) {
   const TrajectoryDescription& description = scene.trajectory;
   RawTrack track = read_track_csv(description.file, description.columns, problems);
+  if (problems.has_errors()) return std::nullopt;
+  check_track(track, description.columns, description.assumptions.smoothing, problems);
   if (problems.has_errors()) return std::nullopt;
   for (TrackRow& row : track.rows)
     row.position.height_m = ground.ellipsoidal_m(row.position.height_m, row.position.latitude_rad,
@@ -45,6 +48,10 @@ std::optional<Trajectory> fixed(const SceneDescription& scene, const Ground& gro
   if (!at_m) return std::nullopt;
   core::Pose pose;
   pose.position = frame.to_geodetic(ground.on_ground_m(*at_m, description.above_ground_m));
+  if (!description.at.on_runway) {  // at a pole the way back would lose the longitude, and north
+    pose.position.latitude_rad = description.at.latitude_rad;
+    pose.position.longitude_rad = description.at.longitude_rad;
+  }
   pose.q_NB =
       core::quaternion_from({description.roll_rad, description.pitch_rad, description.heading_rad});
   return Trajectory({pose});

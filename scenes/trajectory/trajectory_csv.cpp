@@ -2,11 +2,12 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <string_view>
-#include <system_error>
 
 #include "core/text.h"
+#include "scenes/line_reader.h"
+#include "scenes/trajectory/iso_time.h"
+#include "scenes/trajectory/track_order.h"
 #include "scenes/trajectory/trajectory_csv_header.h"
 
 namespace fanbeam::scenes {
@@ -15,54 +16,6 @@ namespace {
 using core::ErrorClass;
 using core::Place;
 using core::ProblemList;
-
-constexpr std::streamsize kLongestLine_bytes = 65536;
-
-// Hands out the lines of a file one by one, so that memory does not grow with the file.
-class LineReader {
- public:
-  LineReader(const std::filesystem::path& path, ProblemList& problems)
-      : stream_(path, std::ios::binary),
-        place_{path.string()},
-        problems_(problems),
-        buffer_(static_cast<std::size_t>(kLongestLine_bytes), '\0') {
-    std::error_code status;
-    if (stream_ && std::filesystem::is_regular_file(path, status)) return;
-    stream_.setstate(std::ios::failbit);
-    problems_.error(ErrorClass::io, place_, "", "not readable", "a readable file");
-  }
-
-  // The next line that holds something, or false at the end or after a failure.
-  bool next(std::string_view& line) {
-    while (stream_.good()) {
-      stream_.getline(buffer_.data(), kLongestLine_bytes);
-      const auto count = static_cast<std::size_t>(stream_.gcount());
-      if (count > 0 || place_.line == 0) ++place_.line;
-      if (stream_.bad()) {
-        problems_.error(ErrorClass::io, place_, "", "read failed", "a readable file");
-        return false;
-      }
-      if (stream_.fail() && count > 0) {
-        problems_.error(ErrorClass::limit, place_, "line length", "65536 bytes or more",
-                        "a shorter line");
-        return false;
-      }
-      line = std::string_view(buffer_).substr(0, stream_.eof() || count == 0 ? count : count - 1);
-      if (place_.line == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
-      line = core::trimmed(line);
-      if (!line.empty() && line.front() != '#') return true;
-    }
-    return false;
-  }
-
-  const Place& place() const { return place_; }
-
- private:
-  std::ifstream stream_;
-  Place place_;
-  ProblemList& problems_;
-  std::string buffer_;
-};
 
 // Turns rows into the track, one after the other.
 class TrackBuilder {
@@ -90,11 +43,14 @@ class TrackBuilder {
       if (empty_rows_++ == 0) first_empty_ = place;
       return;
     }
-    check_order(row.time_s, place);
+    row.row = static_cast<std::int32_t>(row_);
+    row.line = place.line;
+    in_order_ = in_order_ && (track_.rows.empty() || row.time_s > track_.rows.back().time_s);
     read_position_and_attitude(values, place, row);
     track_.rows.push_back(row);
   }
 
+  bool in_order() const { return in_order_; }
   bool full() const { return track_.rows.size() > kMostTrackRows; }
 
   RawTrack finish(const Place& end) {
@@ -112,6 +68,7 @@ class TrackBuilder {
       problems_.warning("GAPS", first_gap_[i], std::string(cells_.attitude[i]->name), "empty cells",
                         "derived from the path everywhere");
     }
+    track_.file = end.file;
     track_.has_roll = recorded_[0];
     track_.has_pitch = recorded_[1];
     track_.has_heading = recorded_[2];
@@ -127,6 +84,12 @@ class TrackBuilder {
                       "\"" + std::string(text.substr(0, 40)) + "\"", expected);
       return false;
     };
+    if (cell.is_iso8601) {
+      const std::optional<double> instant_s = unix_time_s(text);
+      if (!instant_s) return complain(ErrorClass::parse, "2024-05-17T08:30:00Z or the like");
+      si = *instant_s;
+      return true;
+    }
     const core::ParsedNumber number = core::parse_number(text);
     switch (number.error) {
       case core::NumberError::none:
@@ -141,16 +104,6 @@ class TrackBuilder {
     si = number.value * cell.scale;
     if (si < cell.lowest || si > cell.highest) return complain(ErrorClass::range, cell.expected);
     return true;
-  }
-
-  void check_order(double time_s, const Place& place) {
-    if (last_line_ > 0 && !(time_s > last_time_s_))
-      problems_.error(ErrorClass::time, place, std::string(cells_.time.name),
-                      core::number_text(time_s) + " s",
-                      "later than " + core::number_text(last_time_s_) + " s in line " +
-                          std::to_string(last_line_));
-    last_time_s_ = time_s;
-    last_line_ = place.line;
   }
 
   void read_position_and_attitude(const std::vector<std::string_view>& values, const Place& place,
@@ -176,8 +129,7 @@ class TrackBuilder {
   ProblemList& problems_;
   RawTrack track_;
   std::int64_t row_ = 0;
-  double last_time_s_ = 0.0;
-  int last_line_ = 0;
+  bool in_order_ = true;
   std::int64_t empty_rows_ = 0;
   Place first_empty_;
   std::array<bool, 3> recorded_{};
@@ -222,6 +174,7 @@ RawTrack read_track_csv(const std::filesystem::path& path, const TrajectoryColum
         builder.add(values, reader.place());
       }
       track = builder.finish(reader.place());
+      if (!builder.in_order() && !builder.full()) bring_into_order(track, columns, problems);
     }
   } else if (!found.has_errors()) {
     found.error(ErrorClass::parse, reader.place(), "header", "nothing", "a line of column names");

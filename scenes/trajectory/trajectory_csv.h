@@ -13,14 +13,16 @@
 
 #include "core/errors.h"
 #include "core/geodetic.h"
+#include "scenes/trajectory/rejected_rows.h"
 
 namespace fanbeam::scenes {
 
 // Where one quantity is found.
 struct TrajectoryColumn {
   std::string name;
-  // Time: "s", "ms". Angles: "deg", "rad". Height: "m", "ft". Empty: the part of `name` behind its
-  // last underscore.
+  // Time: "s", "ms", "iso8601" (dates and times, see iso_time.h; the file's clock is then seconds
+  // since 1970). Angles: "deg", "rad". Height: "m", "ft". Empty: the part of `name` behind its last
+  // underscore.
   std::string unit;
   // A quantity that may be missing counts as not recorded; a missing other one is E-PARSE.
   bool may_be_missing = false;
@@ -45,6 +47,8 @@ struct TrajectoryColumns {
   std::optional<double> to_time_s;
   std::optional<std::int64_t> first_row;
   std::optional<std::int64_t> last_row;
+
+  OutlierPolicy outliers = OutlierPolicy::error;
 };
 
 // Longitude and heading as in the file; heights from whatever the file's heights count from.
@@ -55,6 +59,8 @@ struct TrackRow {
   double roll_rad = 0.0;
   double pitch_rad = 0.0;
   double heading_rad = 0.0;
+  std::int32_t row = 0;  // counted from 1 behind the header; 0 when it is from no file
+  std::int32_t line = 0;
 };
 
 // A flight as recorded: times increase, everything is finite and in range.
@@ -63,9 +69,13 @@ struct RawTrack {
   bool has_roll = false;
   bool has_pitch = false;
   bool has_heading = false;
+  std::string file;
+  std::vector<RejectedRows> rejected;  // under OutlierPolicy::reject
+
+  bool fully_recorded() const { return has_roll && has_pitch && has_heading; }
 };
 
-// Most rows that one track may keep: 18 hours at 60 Hz, 224 MB. A longer file can be read through
+// Most rows that one track may keep: 18 hours at 60 Hz, 256 MB. A longer file can be read through
 // a window; the file itself is never held in memory.
 inline constexpr std::size_t kMostTrackRows = 4'000'000;
 
@@ -78,7 +88,8 @@ inline constexpr std::size_t kMostTrackRows = 4'000'000;
 //   E-NONFINITE  nan or inf
 //   E-RANGE    latitude beyond +-90 deg, longitude beyond +-540 deg, height outside -20 to 1000 km,
 //              roll beyond +-180, pitch beyond +-90, heading beyond +-540 deg
-//   E-TIME     time not later than that of the row before
+//   E-TIME     a row out of order: the fewest rows without which times increase. With
+//              OutlierPolicy::reject they are left out instead
 //   E-LIMIT    more than kMostTrackRows rows, a line longer than 64 kB
 //   W-EMPTY    rows without a position, skipped and counted
 //   W-GAPS     an angle that only some rows have, taken as not recorded

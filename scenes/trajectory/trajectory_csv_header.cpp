@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "core/spelling.h"
 #include "core/text.h"
 #include "core/units.h"
 
@@ -23,7 +24,7 @@ struct Dimension {
   const char* expected;
 };
 
-constexpr Dimension kTime{{{{"s", 1.0}, {"ms", 1e-3}}}, "a unit: s or ms"};
+constexpr Dimension kTime{{{{"s", 1.0}, {"ms", 1e-3}}}, "a unit: s, ms or iso8601"};
 constexpr Dimension kAngle{{{{"deg", core::radians(1.0)}, {"rad", 1.0}}}, "a unit: deg or rad"};
 constexpr Dimension kLength{{{{"m", 1.0}, {"ft", core::kFoot_m}}}, "a unit: m or ft"};
 
@@ -42,13 +43,6 @@ constexpr Quantity kHalfTurn{kAngle, -core::radians(180.0), core::radians(180.0)
 constexpr Quantity kTurn{kAngle, -core::radians(540.0), core::radians(540.0), "-540 to 540 deg"};
 constexpr Quantity kHeight{kLength, -20e3, 1000e3, "-20000 to 1000000 m"};
 
-std::string_view unit_name(const TrajectoryColumn& column) {
-  if (!column.unit.empty()) return column.unit;
-  const std::size_t underscore = column.name.rfind('_');
-  if (underscore == std::string::npos) return {};
-  return std::string_view(column.name).substr(underscore + 1);
-}
-
 class HeaderSearch {
  public:
   HeaderSearch(const std::vector<std::string_view>& header, const core::Place& place,
@@ -58,12 +52,23 @@ class HeaderSearch {
   std::optional<TrackCell> find(const TrajectoryColumn& column, const Quantity& quantity) {
     const auto found = std::find(header_.begin(), header_.end(), column.name);
     if (found == header_.end()) {
-      if (!column.may_be_missing) complain(column, "missing", "a column of this name");
+      if (!column.may_be_missing)
+        complain(column, "missing",
+                 "a column of this name" +
+                     core::names_there_text(column.name, {header_.begin(), header_.end()}));
       return std::nullopt;
     }
     if (std::find(found + 1, header_.end(), column.name) != header_.end())
       complain(column, "there twice", "one column of this name");
-    const std::string_view unit = unit_name(column);
+    const std::string_view unit = unit_of(column);
+    if (&quantity.dimension == &kTime && unit == "iso8601")
+      return TrackCell{column.name,
+                       static_cast<std::size_t>(found - header_.begin()),
+                       1.0,
+                       quantity.lowest,
+                       quantity.highest,
+                       quantity.expected,
+                       true};
     for (const Unit& known : quantity.dimension.units)
       if (known.name == unit)
         return TrackCell{column.name,      static_cast<std::size_t>(found - header_.begin()),
@@ -74,7 +79,8 @@ class HeaderSearch {
   }
 
  private:
-  void complain(const TrajectoryColumn& column, const std::string& found, const char* expected) {
+  void complain(const TrajectoryColumn& column, const std::string& found,
+                const std::string& expected) {
     problems_.error(ErrorClass::parse, place_, "column \"" + column.name + "\"", found, expected);
   }
 
@@ -84,6 +90,13 @@ class HeaderSearch {
 };
 
 }  // namespace
+
+std::string_view unit_of(const TrajectoryColumn& column) {
+  if (!column.unit.empty()) return column.unit;
+  const std::size_t underscore = column.name.rfind('_');
+  if (underscore == std::string::npos) return {};
+  return std::string_view(column.name).substr(underscore + 1);
+}
 
 void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
   cells.clear();

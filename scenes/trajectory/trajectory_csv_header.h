@@ -1,4 +1,4 @@
-// Private to the track reader: finds the asked columns in a header line.
+// Finds the asked columns in the header line of a table in text form.
 #pragma once
 
 #include <array>
@@ -14,6 +14,10 @@ namespace fanbeam::scenes {
 // The cells of a line, without blanks and quotes around them. Views into `line`.
 void split_cells(std::string_view line, std::vector<std::string_view>& cells);
 
+// What the column's numbers count in: as stated, else the text behind the last underscore of its
+// name.
+std::string_view unit_of(const TrajectoryColumn& column);
+
 // A quantity's cell in every row and what turns it into SI.
 struct TrackCell {
   std::string_view name;
@@ -22,6 +26,7 @@ struct TrackCell {
   double lowest = 0.0;  // SI
   double highest = 0.0;
   const char* expected = "";  // the range in words
+  bool is_iso8601 = false;    // a date and time (iso_time.h) instead of a number
 };
 
 struct TrackCells {

@@ -172,10 +172,10 @@ core::Geodetic IlsPath::position(double to_go_m) const {
                          {at.before_threshold_m, at.right_m, height_m});
   const double c = std::cos(approach_.runway_bearing_rad);
   const double s = std::sin(approach_.runway_bearing_rad);
-  const glm::dvec3 threshold_m = frame_.to_local_m(approach_.threshold);
-  return frame_.to_geodetic(threshold_m + glm::dvec3{-at.before_threshold_m * s + at.right_m * c,
-                                                     -at.before_threshold_m * c - at.right_m * s,
-                                                     height_m});
+  const glm::dvec3 from_threshold_N_m{-at.before_threshold_m * c - at.right_m * s,
+                                      -at.before_threshold_m * s + at.right_m * c, -height_m};
+  return frame_.to_geodetic(frame_.to_local_m(approach_.threshold) +
+                            frame_.north_east_down_at(approach_.threshold) * from_threshold_N_m);
 }
 
 }  // namespace fanbeam::scenes

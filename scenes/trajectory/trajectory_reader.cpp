@@ -28,6 +28,8 @@ void read_columns(ConfigTable& table, TrajectoryColumns& columns) {
   columns.from_time_s = table.optional_number("from_time_s", {});
   columns.to_time_s = table.optional_number("to_time_s", {});
   if (table.has("from_row")) columns.first_row = table.integer("from_row", 1, 1'000'000'000, 1);
+  columns.outliers =
+      static_cast<OutlierPolicy>(table.choice("outliers", {"error", "reject", "keep"}, 0));
   if (table.has("to_row")) columns.last_row = table.integer("to_row", 1, 1'000'000'000, 1);
 }
 

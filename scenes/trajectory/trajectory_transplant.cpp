@@ -78,6 +78,7 @@ Trajectory transplant(const Trajectory& flight, const RunwayEnd& from, const Run
   }
   Trajectory trajectory(std::move(poses));
   trajectory.attitude_derived = flight.attitude_derived;
+  trajectory.rejected = flight.rejected;
   return trajectory;
 }
 

@@ -129,9 +129,7 @@ std::vector<double> flat_earth_cscope_W_m3(const Sensor& sensor, std::span<const
 }
 
 double cscope_noise_W_m3(const Sensor& sensor) {
-  double sum_m3 = 0.0;
-  for (int row = 0; row < sensor.range.cells; ++row) sum_m3 += compensation_m3(sensor.range, row);
-  return sensor.noise_power_W() * sum_m3 / sensor.display.cscope_rows;
+  return sensor.noise_power_W() * compensated_cells_m3(sensor.range) / sensor.display.cscope_rows;
 }
 
 }  // namespace fanbeam::sensors

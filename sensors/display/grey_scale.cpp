@@ -27,8 +27,10 @@ double level_of(double ratio, const char* field) {
 }
 
 // False when a value is negative or not a number; the greys then mean nothing.
-FANBEAM_HOT bool grey_of_all(const double* values, std::size_t count, double factor, double low_dB,
-                             double greys_per_dB, double* grey) {
+FANBEAM_HOT(bool, grey_of_all,
+            (const double* values, std::size_t count, double factor, double low_dB,
+             double greys_per_dB, double* grey),
+            (values, count, factor, low_dB, greys_per_dB, grey)) {
   unsigned refused = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double ratio = values[i] * factor;
@@ -42,7 +44,8 @@ FANBEAM_HOT bool grey_of_all(const double* values, std::size_t count, double fac
   return refused == 0;
 }
 
-FANBEAM_HOT bool round_all(const double* grey, std::size_t count, std::uint8_t* rounded) {
+FANBEAM_HOT(bool, round_all, (const double* grey, std::size_t count, std::uint8_t* rounded),
+            (grey, count, rounded)) {
   unsigned refused = 0;
   for (std::size_t i = 0; i < count; ++i) {
     refused |= grey[i] == grey[i] ? 0U : 1U;
@@ -56,6 +59,12 @@ FANBEAM_HOT bool round_all(const double* grey, std::size_t count, std::uint8_t* 
 
 }  // namespace
 
+double compensated_cells_m3(const RangeGate& gate) {
+  double sum_m3 = 0.0;
+  for (int row = 0; row < gate.cells; ++row) sum_m3 += cubed(range_middle_m(gate, row));
+  return sum_m3;
+}
+
 GreyScale::GreyScale(const Sensor& sensor)
     : low_dB_(sensor.display.low_dB), high_dB_(sensor.display.high_dB) {
   const RangeGate& gate = sensor.range;
@@ -67,10 +76,10 @@ GreyScale::GreyScale(const Sensor& sensor)
       level_per_power_per_W_[static_cast<std::size_t>(row)] =
           cubed(range_middle_m(gate, row)) / flat_ground_W_m3;
     level_per_compensated_per_W_m3_ = 1.0 / flat_ground_W_m3;
+  } else if (sensor.display.mapping == Display::Mapping::log) {
+    level_per_compensated_per_W_m3_ = sensor.display.cscope_rows / compensated_cells_m3(gate);
   } else {
     level_per_compensated_per_W_m3_ = 1.0 / cubed(range_middle_m(gate, 0));
-  }
-  if (sensor.display.mapping == Display::Mapping::seed) {
     const SignalLimits limits = seed_signal_limits(sensor);
     low_dB_ = 10.0 * std::log10(limits.minimum_W);
     high_dB_ = 10.0 * std::log10(limits.maximum_W);
@@ -105,9 +114,13 @@ double GreyScale::bscope_grey(double power_W, int range_row) const {
   return grey_of_level(level_dB(power_W, range_row));
 }
 
+double GreyScale::cscope_level_dB(double compensated_power_W_m3) const {
+  return level_of(compensated_power_W_m3 * level_per_compensated_per_W_m3_,
+                  "range-compensated power");
+}
+
 double GreyScale::cscope_grey(double compensated_power_W_m3) const {
-  return grey_of_level(level_of(compensated_power_W_m3 * level_per_compensated_per_W_m3_,
-                                "range-compensated power"));
+  return grey_of_level(cscope_level_dB(compensated_power_W_m3));
 }
 
 void GreyScale::bscope_grey(std::span<const double> power_W, int range_row, double* grey) const {

@@ -12,9 +12,13 @@
 // is the middle of the range cell. Zero power is grey 0. Nothing is scaled per frame. Flat ground
 // is taken at grazing incidence, cosine 1.
 //
-// The C-scope's input is the sum over range of P R^3 in W m^3. Under stc its level is that of a
-// B-scope cell with the same P R^3; under log and seed it is as if the sum came from the middle of
-// the nearest range cell.
+// The C-scope's input S is the sum over range of P R^3 in W m^3. Its level is, by mapping:
+//   stc   that of a B-scope cell with P R^3 = S
+//   log   10 log10(S / (R0^3 1 W)), R0^3 = sum over the range cells of R^3 / C-scope rows
+//   seed  as if S came from the middle of the nearest range cell, like the seed's maximum signal
+// R0 of log follows from one demand: the same power P in every range cell, shared evenly among the
+// rows, is P sum(R^3) / rows in each pixel and shall have the level of P. Receiver noise is such a
+// power: it is the same grey in both pictures, and a window that fits the B-scope fits the C-scope.
 //
 // Errors: E-NONFINITE for NaN, E-RANGE for negative power. Infinite levels clamp. Accuracy 1e-12
 // dB; one logarithm per pixel.
@@ -27,6 +31,9 @@
 #include "sensors/sensor.h"
 
 namespace fanbeam::sensors {
+
+// Sum over the range cells of R^3, R their middles, in m^3.
+double compensated_cells_m3(const RangeGate& gate);
 
 class GreyScale {
  public:
@@ -49,6 +56,7 @@ class GreyScale {
   double level_dB(double power_W, int range_row) const;
   double bscope_grey(double power_W, int range_row) const;
   // Of C-scope cells.
+  double cscope_level_dB(double compensated_power_W_m3) const;
   double cscope_grey(double compensated_power_W_m3) const;
   // The same of many cells, those of one row or of any, within 1e-11 grey. `grey` is as long as the
   // powers.

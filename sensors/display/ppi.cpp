@@ -74,22 +74,57 @@ class CellReader {
   std::span<const double> grey_;
 };
 
-}  // namespace
+// Whole pixels of `size_px` that lie beyond `needed_px`; an even number, so that a picture of even
+// size stays one, as films ask for.
+int spare_px(double size_px, double needed_px) {
+  constexpr double kRounding_px = 1e-6;
+  return 2 * static_cast<int>(std::max(0.0, size_px - needed_px + kRounding_px) / 2.0);
+}
 
-PpiView ppi_view(const Sensor& sensor, PpiView::Up up, int size_px) {
-  check_side("ppi size", size_px);
-  const double size = size_px;
+PpiView track_up(double range_m, double half_sector_rad, int size_px) {
+  const bool ahead_only = half_sector_rad <= core::kPi / 2;
+  const double half_width = ahead_only ? std::sin(half_sector_rad) : 1.0;  // of the range
+  const double behind = ahead_only ? 0.0 : -std::cos(half_sector_rad);
   PpiView view;
-  view.up = up;
+  view.up = PpiView::Up::track;
+  view.metres_per_pixel = 2.0 * std::max(0.5, half_width) * range_m / size_px;
+  const double range_px = range_m / view.metres_per_pixel;
+  view.columns = size_px - spare_px(size_px, 2.0 * half_width * range_px);
+  view.rows = size_px - spare_px(size_px, (1.0 + behind) * range_px);
+  view.antenna_column = 0.5 * view.columns;
+  view.antenna_row = ahead_only ? view.rows : 0.5 * size_px;
+  return view;
+}
+
+PpiView north_up(double range_m, double half_sector_rad, int size_px, double heading_rad) {
+  // Circle through the antenna and the two far corners, then over the chord between these.
+  double radius = 1.0, ahead = 0.0;  // of the range
+  if (half_sector_rad <= core::kPi / 4) {
+    radius = ahead = 0.5 / std::cos(half_sector_rad);
+  } else if (half_sector_rad <= core::kPi / 2) {
+    radius = std::sin(half_sector_rad);
+    ahead = std::cos(half_sector_rad);
+  }
+  PpiView view;
+  view.up = PpiView::Up::north;
   view.columns = size_px;
   view.rows = size_px;
-  const double half_sector_rad = 0.5 * sensor.scan.field_of_view_rad;
-  const bool ahead_only = up == PpiView::Up::track && half_sector_rad <= core::kPi / 2;
-  const double half_width = ahead_only ? std::max(0.5, std::sin(half_sector_rad)) : 1.0;
-  view.metres_per_pixel = 2.0 * half_width * sensor.range.maximum_m() / size;
-  view.antenna_column = 0.5 * size;
-  view.antenna_row = ahead_only ? size : 0.5 * size;
+  view.metres_per_pixel = 2.0 * radius * range_m / size_px;
+  const double ahead_px = ahead * range_m / view.metres_per_pixel;
+  view.antenna_column = 0.5 * size_px - ahead_px * std::sin(heading_rad);
+  view.antenna_row = 0.5 * size_px + ahead_px * std::cos(heading_rad);
   return view;
+}
+
+}  // namespace
+
+PpiView ppi_view(const Sensor& sensor, PpiView::Up up, int size_px, double heading_rad) {
+  check_side("ppi size", size_px);
+  check_finite("heading", heading_rad);
+  const double half_sector_rad = 0.5 * sensor.scan.field_of_view_rad;
+  return up == PpiView::Up::track
+             ? track_up(sensor.range.maximum_m(), half_sector_rad, size_px)
+             : north_up(sensor.range.maximum_m(), half_sector_rad, size_px, heading_rad);
 }
 
 std::vector<double> ppi_grey(const Sensor& sensor, std::span<const double> bscope_grey,

@@ -31,11 +31,16 @@ struct PpiView {
   double antenna_row = 0.0;
 };
 
-// A square picture that just holds all that the sensor sees: north up about the antenna in its
-// middle, track up with the antenna in the middle of the lower edge (of the picture's middle, when
-// the scan reaches behind).
-// Throws InputError E-RANGE for a size outside 1 to 8192.
-PpiView ppi_view(const Sensor& sensor, PpiView::Up up, int size_px);
+// A picture that just holds the sector that the sensor sees and the antenna; its size and scale
+// are the same for every heading.
+//   track  the sector's bounding box, antenna in the middle of the lower edge (of the picture's
+//          middle, when the scan reaches behind): cut out of the square of `size_px` whose lower
+//          edge is max(1, 2 sin(half sector)) maximum ranges long, 2 when the scan reaches behind.
+//   north  a square of `size_px` around the smallest circle that holds sector and antenna, with
+//          the circle in its middle: with the half sector a and the maximum range R, the radius is
+//          R / (2 cos a) up to a = 45 deg, R sin a up to 90 deg, R beyond.
+// Throws InputError E-RANGE for a size outside 1 to 8192, E-NONFINITE for the heading.
+PpiView ppi_view(const Sensor& sensor, PpiView::Up up, int size_px, double heading_rad);
 
 // Unrounded grey, row-major, top row first, of unrounded B-scope grey as bscope_grey gives it.
 // `heading_rad` is the true heading of the antenna's forward axis; it matters for north up only.

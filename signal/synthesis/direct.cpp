@@ -34,8 +34,8 @@ FANBEAM_LANES_INLINE void add_to(double* to, const HalfLanes& lanes) {
   std::memcpy(to, &sum, sizeof(sum));
 }
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void add_run(const PhaseRun& run, int groups, double* re,
-                                            double* im) {
+FANBEAM_HOT(void, add_run, (const PhaseRun& run, int groups, double* re, double* im),
+            (run, groups, re, im)) {
   for (int half = 0; half < kLanes; half += kHalf) {
     HalfLanes value_re, value_im, step_re, step_im, turn_re, turn_im;
     load_half(run.values.re + half, value_re);

@@ -109,8 +109,8 @@ std::vector<float> gather(const WaveGrid& grid, const Block& block) {
   return values;
 }
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void sum_sines(const float* values, const float* factors, int sines,
-                                              float* sum) {
+FANBEAM_HOT(void, sum_sines, (const float* values, const float* factors, int sines, float* sum),
+            (values, factors, sines, sum)) {
   Lanes<float> re = {}, im = {};
   for (int i = 0; i < sines; ++i) {
     Lanes<float> value_re, value_im, factor_re, factor_im;

@@ -142,14 +142,14 @@ FANBEAM_LANES_INLINE void spread_groups(const Real* taps, GridPath& path,
 }
 
 // One entry for every width, precision and way of bending, each compiled for every level.
-#define FANBEAM_SPREAD(name, Real, W)                                               \
-  FANBEAM_HOT FANBEAM_INLINE_ALL void name(const Real* taps, GridPath& path,        \
-                                           const Chirps<Real>& chirps) {            \
-    spread_groups<Real, W, false>(taps, path, chirps);                              \
-  }                                                                                 \
-  FANBEAM_HOT FANBEAM_INLINE_ALL void name##_bent(const Real* taps, GridPath& path, \
-                                                  const Chirps<Real>& chirps) {     \
-    spread_groups<Real, W, true>(taps, path, chirps);                               \
+#define FANBEAM_SPREAD(name, Real, W)                                                            \
+  FANBEAM_HOT(void, name, (const Real* taps, GridPath& path, const Chirps<Real>& chirps),        \
+              (taps, path, chirps)) {                                                            \
+    spread_groups<Real, W, false>(taps, path, chirps);                                           \
+  }                                                                                              \
+  FANBEAM_HOT(void, name##_bent, (const Real* taps, GridPath& path, const Chirps<Real>& chirps), \
+              (taps, path, chirps)) {                                                            \
+    spread_groups<Real, W, true>(taps, path, chirps);                                            \
   }
 FANBEAM_SPREAD(spread_float_4, float, 4)
 FANBEAM_SPREAD(spread_float_6, float, 6)

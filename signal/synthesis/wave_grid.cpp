@@ -31,8 +31,10 @@ struct GridPlanes {
   int delays;
 };
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void add_point(const float* taps, int powers, int width,
-                                              const WavePoint& point, const GridPlanes& target) {
+FANBEAM_HOT(void, add_point,
+            (const float* taps, int powers, int width, const WavePoint& point,
+             const GridPlanes& target),
+            (taps, powers, width, point, target)) {
   Lanes<float> by_rate, by_sine, by_delay;
   const int rate = weigh(taps, powers, width, point.rate_cell, by_rate);
   const int sine = weigh(taps, powers, width, point.sine_cell, by_sine);

@@ -85,18 +85,20 @@ inline void scatter_any(const Strip<Real>& strip, std::size_t width) {
     scatter(strip, width);
 }
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void gather_strip(const Strip<float>& strip, std::size_t width,
-                                                 const float* weights) {
+FANBEAM_HOT(void, gather_strip,
+            (const Strip<float>& strip, std::size_t width, const float* weights),
+            (strip, width, weights)) {
   gather_any(strip, width, weights);
 }
-FANBEAM_HOT FANBEAM_INLINE_ALL void gather_strip(const Strip<double>& strip, std::size_t width,
-                                                 const double* weights) {
+FANBEAM_HOT(void, gather_strip,
+            (const Strip<double>& strip, std::size_t width, const double* weights),
+            (strip, width, weights)) {
   gather_any(strip, width, weights);
 }
-FANBEAM_HOT FANBEAM_INLINE_ALL void scatter_strip(const Strip<float>& strip, std::size_t width) {
+FANBEAM_HOT(void, scatter_strip, (const Strip<float>& strip, std::size_t width), (strip, width)) {
   scatter_any(strip, width);
 }
-FANBEAM_HOT FANBEAM_INLINE_ALL void scatter_strip(const Strip<double>& strip, std::size_t width) {
+FANBEAM_HOT(void, scatter_strip, (const Strip<double>& strip, std::size_t width), (strip, width)) {
   scatter_any(strip, width);
 }
 
@@ -113,10 +115,12 @@ std::size_t tile_pitch(std::size_t rows) { return rows + rows % 2 + 8; }
 
 }  // namespace
 
-FANBEAM_HOT void weigh(const float* in, const float* weights, float* out, std::size_t count) {
+FANBEAM_HOT(void, weigh, (const float* in, const float* weights, float* out, std::size_t count),
+            (in, weights, out, count)) {
   for (std::size_t i = 0; i < count; ++i) out[i] = in[i] * weights[i];
 }
-FANBEAM_HOT void weigh(const double* in, const double* weights, double* out, std::size_t count) {
+FANBEAM_HOT(void, weigh, (const double* in, const double* weights, double* out, std::size_t count),
+            (in, weights, out, count)) {
   for (std::size_t i = 0; i < count; ++i) out[i] = in[i] * weights[i];
 }
 

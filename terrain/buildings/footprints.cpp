@@ -7,9 +7,11 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include "core/files.h"
+#include "core/spelling.h"
 #include "core/text.h"
 #include "core/units.h"
 #include "terrain/buildings/crossings_private.h"
@@ -60,6 +62,7 @@ class FootprintReader {
       : file_(path.string()), options_(options), problems_(problems) {}
 
   std::vector<Footprint> read();
+  std::vector<std::string> properties();
 
  private:
   void check_size() const;
@@ -83,6 +86,7 @@ class FootprintReader {
   GdalMessages messages_;
   std::vector<Footprint> footprints_;
   std::unique_ptr<OGRCoordinateTransformation> to_wgs84_;
+  std::set<std::string> properties_;  // that any feature has
   std::size_t feature_ = 0;
   std::size_t crossings_left_ = kMostFileCrossings;
   std::size_t repaired_ = 0;
@@ -102,6 +106,17 @@ std::vector<Footprint> FootprintReader::read() {
   errors_.throw_if_errors();
   report_counts();
   return std::move(footprints_);
+}
+
+std::vector<std::string> FootprintReader::properties() {
+  check_size();
+  check_crs();
+  const GDALDatasetUniquePtr dataset = open();
+  std::vector<std::string> names;
+  for (OGRLayer* layer : dataset->GetLayers())
+    for (int i = 0; i < layer->GetLayerDefn()->GetFieldCount(); ++i)
+      names.emplace_back(layer->GetLayerDefn()->GetFieldDefn(i)->GetNameRef());
+  return names;
 }
 
 void FootprintReader::check_size() const {
@@ -144,6 +159,9 @@ void FootprintReader::read_layer(OGRLayer& layer) {
       core::throw_input_error(core::ErrorClass::ref, core::Place{file_}, "crs", crs->GetName(),
                               "a system with a known way to WGS 84");
   }
+  const OGRFeatureDefn& definition = *layer.GetLayerDefn();
+  for (int i = 0; i < definition.GetFieldCount(); ++i)
+    properties_.insert(definition.GetFieldDefn(i)->GetNameRef());
   for (const OGRFeatureUniquePtr& feature : layer) {
     read_feature(*feature);
     ++feature_;
@@ -243,8 +261,13 @@ void FootprintReader::report_counts() {
     if (count > 0) problems_.warning(name, core::Place{file_}, what, std::to_string(count), done);
   };
   report("REPAIRED", repaired_, "polygons that cross or touch themselves", "their area is kept");
+  // The usual cause where no feature has it is another name.
   report("DEFAULT", without_height_, "features without " + options_.height_property,
-         core::number_text(options_.default_height_m) + " m is used");
+         core::number_text(options_.default_height_m) + " m is used" +
+             (properties_.contains(options_.height_property)
+                  ? ""
+                  : core::names_there_text(options_.height_property,
+                                           {properties_.begin(), properties_.end()})));
   report("SKIPPED", no_polygons_, "features that are no polygons", "left out");
   report("DEGENERATE", degenerate_, "footprints without area or height", "left out");
 }
@@ -255,6 +278,11 @@ std::vector<Footprint> read_footprints(const std::filesystem::path& file,
                                        const FootprintOptions& options,
                                        core::ProblemList& problems) {
   return FootprintReader(file, options, problems).read();
+}
+
+std::vector<std::string> footprint_properties(const std::filesystem::path& file) {
+  core::ProblemList none;
+  return FootprintReader(file, {}, none).properties();
 }
 
 }  // namespace fanbeam::terrain

@@ -54,4 +54,8 @@ std::vector<Footprint> read_footprints(const std::filesystem::path& file,
                                        const FootprintOptions& options,
                                        core::ProblemList& problems);
 
+// Names of the properties that features of the file have, in the order of the file. Throws
+// InputError as read_footprints for a file that cannot be opened.
+std::vector<std::string> footprint_properties(const std::filesystem::path& file);
+
 }  // namespace fanbeam::terrain

@@ -1,11 +1,9 @@
 #include "terrain/gltf/gltf_buffers.h"
 
-#include <tiny_gltf.h>
-
-#include <string_view>
 #include <utility>
 
 #include "core/relative_uri.h"
+#include "terrain/gltf/gltf_data_uri.h"
 #include "terrain/gltf/gltf_limits.h"
 
 namespace fanbeam::terrain {
@@ -13,9 +11,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using core::ErrorClass;
-
-constexpr std::string_view kDataScheme = "data:";
-constexpr std::string_view kBase64Mark = ";base64,";
 
 class BufferLoader {
  public:
@@ -46,23 +41,10 @@ class BufferLoader {
  private:
   std::string bytes_of(const GltfBufferSource& source, std::size_t i, const std::string& field) {
     if (source.uri.empty()) return i == 0 ? std::string(container_.binary) : std::string();
-    if (source.uri.starts_with(kDataScheme)) return decoded_data(source.uri, field);
+    if (is_data_uri(source.uri)) return data_uri_bytes(source.uri, place_, field);
     std::string bytes = read_file_(resolved(source.uri, field), readable_bytes_);
     readable_bytes_ -= bytes.size();
     return bytes;
-  }
-
-  std::string decoded_data(const std::string& uri, const std::string& field) const {
-    const std::size_t mark = uri.substr(0, uri.find(',') + 1).find(kBase64Mark);
-    if (mark == std::string::npos)
-      core::throw_input_error(ErrorClass::unsupported, place_, field, uri.substr(0, 40),
-                              "a data: URI in base64");
-    // The decoder knows few media types; which one a buffer claims to be does not matter.
-    std::string media_type;
-    std::vector<unsigned char> bytes;
-    tinygltf::DecodeDataURI(&bytes, media_type, "data:application/octet-stream" + uri.substr(mark),
-                            0, false);
-    return {bytes.begin(), bytes.end()};
   }
 
   const GltfContainer& container_;
@@ -110,7 +92,7 @@ std::vector<std::string> load_gltf_buffers(const GltfDocument& document,
   }
   for (std::size_t i = 0; i < document.image_uris.size(); ++i) {
     const std::string& uri = document.image_uris[i];
-    if (uri.empty() || uri.starts_with(kDataScheme)) continue;
+    if (uri.empty() || is_data_uri(uri)) continue;
     try {
       loader.resolved(uri, "images[" + std::to_string(i) + "].uri");
     } catch (const core::InputError& error) {

@@ -17,12 +17,13 @@ namespace fanbeam::terrain {
 using FileReader =
     std::function<std::string(const std::filesystem::path& file, std::uint64_t largest_bytes)>;
 
-// The bytes of every buffer, cut to its byteLength; empty for a buffer that names no data. URIs are
-// relative to `file` and must end inside `allowed_folder`, symbolic links followed; "data:" URIs
-// in base64 are decoded. URIs of images pass the same gate but are never read.
+// The bytes of every buffer, cut to its byteLength; empty for a buffer that names no data, which is
+// an error only where geometry is read from it. URIs are relative to `file` and must end inside
+// `allowed_folder`, symbolic links followed; "data:" URIs are decoded. URIs of images pass the same
+// gate but are never read.
 // Errors into `problems`: E-PATH (another scheme, absolute, outside the folder), E-LIMIT
 // (kLargestGltfBuffers_bytes over all buffers, checked before reading), E-REF (fewer bytes than
-// byteLength), E-UNSUPPORTED (a "data:" URI not in base64), E-IO.
+// byteLength), E-PARSE (a "data:" URI that cannot be decoded), E-IO.
 std::vector<std::string> load_gltf_buffers(const GltfDocument& document,
                                            const GltfContainer& container,
                                            const std::filesystem::path& file,

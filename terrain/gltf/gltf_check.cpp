@@ -34,6 +34,15 @@ bool is_unsigned_type(int component_type) {
          component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
 }
 
+// The extension that the primitive, or the accessor itself, leaves the elements to; null for none.
+const std::string* extension_of_elements(const GltfModel& model, int accessor_index,
+                                         const std::string& path) {
+  auto known = model.extension_of_path.find(path);
+  if (known == model.extension_of_path.end())
+    known = model.extension_of_path.find("accessors[" + std::to_string(accessor_index) + "]");
+  return known == model.extension_of_path.end() ? nullptr : &known->second;
+}
+
 class AccessorCheck {
  public:
   AccessorCheck(const GltfModel& model, core::ProblemList& problems)
@@ -51,7 +60,7 @@ class AccessorCheck {
  private:
   void check_view(std::size_t i) {
     const tinygltf::BufferView& view = parts_.bufferViews[i];
-    const std::uint64_t size = model_.buffers[view.buffer].size();
+    const std::uint64_t size = model_.buffer_sizes_bytes[view.buffer];
     if (view.byteOffset > size || view.byteLength > size - view.byteOffset)
       report(ErrorClass::ref, "bufferViews[" + std::to_string(i) + "]",
              std::to_string(view.byteLength) + " bytes from " + std::to_string(view.byteOffset),
@@ -116,7 +125,8 @@ class AccessorCheck {
 
   void check_unbacked(int accessor_index, const std::string& path) {
     const tinygltf::Accessor& accessor = parts_.accessors[accessor_index];
-    if (accessor.bufferView < 0 && accessor.count > kMostGltfUnbackedElements)
+    if (accessor.bufferView < 0 && accessor.count > kMostGltfUnbackedElements &&
+        extension_of_elements(model_, accessor_index, path) == nullptr)
       report(ErrorClass::limit, path,
              std::to_string(accessor.count) + " elements without a buffer view",
              "at most " + std::to_string(kMostGltfUnbackedElements));
@@ -157,6 +167,40 @@ class AccessorCheck {
 };
 
 }  // namespace
+
+bool has_elements(const GltfModel& model, int accessor_index, const std::string& path,
+                  core::ProblemList& problems) {
+  const auto unsupported = [&](const std::string& field, const std::string& extension) {
+    problems.error(ErrorClass::unsupported, core::Place{model.file}, field,
+                   "data that only " + extension + " holds",
+                   "data in a buffer: a model written without this extension");
+    return false;
+  };
+  const tinygltf::Accessor& accessor = model.parts.accessors[accessor_index];
+  const std::string* extension = extension_of_elements(model, accessor_index, path);
+  if (accessor.bufferView < 0 && extension != nullptr) return unsupported(path, *extension);
+  std::vector<int> views;
+  if (accessor.bufferView >= 0) views.push_back(accessor.bufferView);
+  if (accessor.sparse.isSparse) {
+    views.push_back(accessor.sparse.indices.bufferView);
+    views.push_back(accessor.sparse.values.bufferView);
+  }
+  for (const int view : views) {
+    const int buffer = model.parts.bufferViews[view].buffer;
+    if (!model.buffers[buffer].empty()) continue;
+    if (extension != nullptr) return unsupported(path, *extension);
+    const std::string view_path = "bufferViews[" + std::to_string(view) + "]";
+    const std::string buffer_path = "buffers[" + std::to_string(buffer) + "]";
+    for (const std::string& part : {view_path, buffer_path})
+      if (const auto known = model.extension_of_path.find(part);
+          known != model.extension_of_path.end())
+        return unsupported(part, known->second);
+    problems.error(ErrorClass::ref, core::Place{model.file}, buffer_path + ".uri", "missing",
+                   "the data that " + path + " reads: a URI, or the BIN chunk of a .glb");
+    return false;
+  }
+  return true;
+}
 
 void check_gltf_accessors(const GltfModel& model, core::ProblemList& problems) {
   AccessorCheck(model, problems).check();

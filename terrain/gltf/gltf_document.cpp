@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "terrain/gltf/gltf_extensions_private.h"
 #include "terrain/gltf/gltf_limits.h"
 #include "terrain/gltf/gltf_reducer_private.h"
 
@@ -120,6 +121,7 @@ GltfDocument read_gltf_document(const GltfContainer& container, const std::files
   check_transforms(kept, place, problems);
 
   GltfDocument document;
+  document.extension_of_path = taken_extensions(kept);
   for (json& buffer : kept["buffers"]) {
     document.buffers.push_back({uri_of(buffer), buffer["byteLength"]});
     if (document.buffers.back().byte_length == 0)

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,13 +31,20 @@ struct GltfBufferSource {
 // may do without one.
 inline constexpr const char* kIndicesAttribute = "_INDICES";
 
+// The extension that may hold the data of a part of the file, by the part's path:
+// "meshes[0].primitives[1].attributes.POSITION", "accessors[2]", "bufferViews[3]", "buffers[0]".
+using GltfExtensionOfPath = std::map<std::string, std::string>;
+
 struct GltfDocument {
   std::string json;  // asset, scenes, nodes, meshes, materials, accessors and buffer views
                      // with the indices of a primitive as its attribute kIndicesAttribute
   std::vector<GltfBufferSource> buffers;
   std::vector<std::string> image_uris;  // by image, empty for an image in a buffer
+  GltfExtensionOfPath extension_of_path;
 };
 
+// Whole numbers may be written as 36.0 or 3.6e1: to JSON that is the number 36, and there are
+// writers that know no other. Extensions are not read, but noted where data may hide in them.
 // Errors, all together: E-PARSE (not JSON, with line, column and byte offset; a member missing or
 // of another type; a node with a matrix beside translation, rotation or scale), E-NONFINITE (a
 // number beyond double), E-RANGE (a negative size, an empty buffer), E-REF (an index of something

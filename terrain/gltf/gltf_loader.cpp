@@ -104,8 +104,13 @@ class MeshBuilder {
 
   Patch read_patch(const tinygltf::Primitive& primitive, const std::string& path) {
     Patch patch;
-    patch.positions = read_positions(model_, primitive.attributes.at("POSITION"),
-                                     path + ".attributes.POSITION", problems_);
+    const int position = primitive.attributes.at("POSITION");
+    const std::string position_path = path + ".attributes.POSITION";
+    const bool has_positions = has_elements(model_, position, position_path, problems_);
+    const bool has_indices = primitive.indices < 0 ||
+                             has_elements(model_, primitive.indices, path + ".indices", problems_);
+    if (!has_positions || !has_indices) return patch;
+    patch.positions = read_positions(model_, position, position_path, problems_);
     std::vector<std::uint32_t> indices;
     if (primitive.indices >= 0) {
       indices = read_indices(model_, primitive.indices, patch.positions.size(), path + ".indices",

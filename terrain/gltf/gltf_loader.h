@@ -4,7 +4,9 @@
 // and fans with positions in 32-bit floats, or in integers of 8 or 16 bits where the file requires
 // KHR_mesh_quantization, indexed by 8, 16 or 32 bits, sparse or not. Ignored:
 // textures and images (never opened), normals, skins, animations, morph targets, cameras, lights,
-// extensions that are not required. Points and lines are skipped with W-SKIPPED.
+// extensions that are not required and leave the data of what is drawn in the buffers. Where only an
+// extension has them (Draco, meshopt), the model is E-UNSUPPORTED; an accessor that is all zero, or
+// sparse, by the core specification is read as such. Points and lines are skipped with W-SKIPPED.
 // Source: Khronos Group, glTF 2.0 Specification, version 2.0.1 (2021), and its extension
 // KHR_mesh_quantization (2020).
 //
@@ -28,8 +30,9 @@ namespace fanbeam::terrain {
 //
 // Buffers come only from inside `allowed_folder`, through `read_file`, which also reads `file`.
 // Throws InputError with all problems of the stage that found some: bytes and JSON text (E-PARSE,
-// E-LIMIT, E-UNSUPPORTED, E-REF), then buffers (E-PATH, E-IO), accessors and node tree (E-REF,
-// E-RANGE, E-NONFINITE), then the geometry itself. Limits stand in gltf_limits.h. Warnings
+// E-LIMIT, E-UNSUPPORTED, E-REF), then buffers (E-PATH, E-IO, E-PARSE), accessors and node tree
+// (E-REF, E-RANGE, E-NONFINITE), then the geometry itself (E-UNSUPPORTED and E-REF for data that are
+// not there among others). Limits stand in gltf_limits.h. Warnings
 // go to `problems`: W-DEGENERATE, W-BOUNDS, W-SKIPPED, and W-EMPTY for a scene without triangles.
 TriangleMesh load_gltf(const std::filesystem::path& file,
                        const std::filesystem::path& allowed_folder, core::ProblemList& problems,

@@ -6,7 +6,9 @@ namespace fanbeam::terrain {
 
 GltfModel parse_gltf_model(const GltfDocument& document, std::vector<std::string> buffers,
                            const std::filesystem::path& file) {
-  GltfModel model{file.string(), {}, std::move(buffers)};
+  GltfModel model{file.string(), {}, std::move(buffers), {}, document.extension_of_path};
+  for (const GltfBufferSource& buffer : document.buffers)
+    model.buffer_sizes_bytes.push_back(buffer.byte_length);
   tinygltf::TinyGLTF parser;
   // Without callbacks the parser has no means to open a file.
   parser.SetFsCallbacks({nullptr, nullptr, nullptr, nullptr, nullptr});

@@ -17,7 +17,9 @@ namespace fanbeam::terrain {
 struct GltfModel {
   std::string file;
   tinygltf::Model parts;  // all but the buffers; references were checked with the document
-  std::vector<std::string> buffers;
+  std::vector<std::string> buffers;               // empty for one that names no data
+  std::vector<std::uint64_t> buffer_sizes_bytes;  // as the file says
+  GltfExtensionOfPath extension_of_path;
 };
 
 // Errors: E-PARSE with the parser's own words.
@@ -31,14 +33,20 @@ GltfModel parse_gltf_model(const GltfDocument& document, std::vector<std::string
 // required, integers of 8 or 16 bits), E-LIMIT (kMostGltfUnbackedElements).
 void check_gltf_accessors(const GltfModel& model, core::ProblemList& problems);
 
-// The elements of a checked accessor of VEC3, normalised where it says so. E-NONFINITE with the
+// Whether the elements of a checked accessor are in the file's buffers, or all zero because nothing
+// stands behind it. Errors: E-UNSUPPORTED where only an extension has them, which is named; E-REF
+// for a buffer without data. `path` is where geometry names the accessor.
+bool has_elements(const GltfModel& model, int accessor, const std::string& path,
+                  core::ProblemList& problems);
+
+// The elements, which must be there, of a checked accessor of VEC3, normalised where it says so. E-NONFINITE with the
 // element,
 // E-REF (a sparse index past the end); W-BOUNDS when the file's min and max are not those of the
 // elements. `path` goes into the messages.
 std::vector<glm::dvec3> read_positions(const GltfModel& model, int accessor,
                                        const std::string& path, core::ProblemList& problems);
 
-// The elements of a checked accessor of unsigned integers, each below `vertex_count`; else E-REF
+// The elements, which must be there, of a checked accessor of unsigned integers, each below `vertex_count`; else E-REF
 // with the element.
 std::vector<std::uint32_t> read_indices(const GltfModel& model, int accessor,
                                         std::size_t vertex_count, const std::string& path,

@@ -1,9 +1,13 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "core/spelling.h"
 #include "terrain/gltf/gltf_reducer_private.h"
 
 namespace fanbeam::terrain {
@@ -12,7 +16,19 @@ namespace {
 using core::ErrorClass;
 using nlohmann::json;
 
-enum class Kind { integer, index, indices, size, flag, text, texts, numbers, object, objects };
+enum class Kind {
+  integer,
+  index,
+  indices,
+  size,
+  flag,
+  text,
+  texts,
+  numbers,
+  object,
+  objects,
+  anything  // an object that is kept whole
+};
 
 // One member that is kept of a JSON object.
 struct Member {
@@ -36,7 +52,8 @@ constexpr Member kAttributes[] = {{"POSITION", Kind::index, false, "accessors"}}
 constexpr Member kPrimitive[] = {{"attributes", Kind::object, true, nullptr, 0, kAttributes},
                                  {"indices", Kind::index, false, "accessors"},
                                  {"material", Kind::index, false, "materials"},
-                                 {"mode", Kind::integer}};
+                                 {"mode", Kind::integer},
+                                 {"extensions", Kind::anything}};
 constexpr Member kMesh[] = {{"name", Kind::text},
                             {"primitives", Kind::objects, true, nullptr, 0, kPrimitive}};
 constexpr Member kMaterial[] = {{"name", Kind::text}};
@@ -56,12 +73,15 @@ constexpr Member kAccessor[] = {{"bufferView", Kind::index, false, "bufferViews"
                                 {"type", Kind::text, true},
                                 {"min", Kind::numbers},
                                 {"max", Kind::numbers},
-                                {"sparse", Kind::object, false, nullptr, 0, kSparse}};
+                                {"sparse", Kind::object, false, nullptr, 0, kSparse},
+                                {"extensions", Kind::anything}};
 constexpr Member kBufferView[] = {{"buffer", Kind::index, true, "buffers"},
                                   {"byteOffset", Kind::size},
                                   {"byteLength", Kind::size, true},
-                                  {"byteStride", Kind::size}};
-constexpr Member kBuffer[] = {{"uri", Kind::text}, {"byteLength", Kind::size, true}};
+                                  {"byteStride", Kind::size},
+                                  {"extensions", Kind::anything}};
+constexpr Member kBuffer[] = {
+    {"uri", Kind::text}, {"byteLength", Kind::size, true}, {"extensions", Kind::anything}};
 constexpr Member kImage[] = {{"uri", Kind::text}};
 constexpr Member kRoot[] = {{"asset", Kind::object, true, nullptr, 0, kAsset},
                             {"extensionsRequired", Kind::texts},
@@ -74,6 +94,24 @@ constexpr Member kRoot[] = {{"asset", Kind::object, true, nullptr, 0, kAsset},
                             {"bufferViews", Kind::objects, false, nullptr, 0, kBufferView},
                             {"buffers", Kind::objects, false, nullptr, 0, kBuffer},
                             {"images", Kind::objects, false, nullptr, 0, kImage}};
+
+// 36.0 becomes 36. Beyond 2^53 a double does not tell whole numbers apart.
+void make_whole(json& value) {
+  if (!value.is_number_float()) return;
+  constexpr double kLargestExact = 9007199254740992.0;
+  const double number = value.get<double>();
+  if (std::abs(number) > kLargestExact || std::trunc(number) != number) return;
+  if (number < 0.0)
+    value = static_cast<std::int64_t>(number);
+  else
+    value = static_cast<std::uint64_t>(number);
+}
+
+std::vector<std::string> names_of(const json& object) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : object.items()) names.push_back(name);
+  return names;
+}
 
 // Moves the wanted members out of the parsed text. The depth of its recursion is that of the
 // tables above, whatever the file holds.
@@ -97,8 +135,9 @@ class Reducer {
       const auto found = object.find(member.key);
       if (found != object.end())
         kept[member.key] = checked(*found, member, member_path);
-      else if (member.required)
-        report(ErrorClass::parse, member_path, "missing", "it to be there");
+      else if (member.required && !problems_.is_full())
+        report(ErrorClass::parse, member_path, "missing",
+               "it to be there" + core::names_there_text(member.key, names_of(object)));
     }
     return kept;
   }
@@ -110,8 +149,9 @@ class Reducer {
         check_index(value, member, path);
         break;
       case Kind::size:
+        make_whole(value);
         if (!value.is_number_integer())
-          expect(false, value, path, "a whole number");
+          expect(false, value, path, kWhole);
         else if (!value.is_number_unsigned())
           report(ErrorClass::range, path, shown(value), "0 or more");
         break;
@@ -127,6 +167,9 @@ class Reducer {
       case Kind::object:
         if (expect(value.is_object(), value, path, "an object"))
           return reduce(value, member.members, path);
+        break;
+      case Kind::anything:
+        if (!expect(value.is_object(), value, path, "an object")) return json::object();
         break;
       case Kind::texts:
       case Kind::indices:
@@ -148,8 +191,9 @@ class Reducer {
     return kept;
   }
 
-  void check_index(const json& value, const Member& member, const std::string& path) {
-    if (!expect(value.is_number_integer(), value, path, "a whole number")) return;
+  void check_index(json& value, const Member& member, const std::string& path) {
+    make_whole(value);
+    if (!expect(value.is_number_integer(), value, path, kWhole)) return;
     const auto most = std::numeric_limits<std::int32_t>::max();
     const bool fits = value.is_number_unsigned() && value.get<std::uint64_t>() <= most;
     if (member.refers_to != nullptr) {
@@ -169,6 +213,8 @@ class Reducer {
                std::all_of(value.begin(), value.end(), is_number),
            value, path, "an array of " + count + "numbers");
   }
+
+  static constexpr const char* kWhole = "a whole number of at most 2^53";
 
   bool expect(bool condition, const json& value, const std::string& path, std::string expected) {
     if (!condition) report(ErrorClass::parse, path, shown(value), std::move(expected));

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/parallel.h"
 #include "terrain/raster/gdal_messages.h"
 
@@ -130,8 +131,7 @@ std::array<double, 4> b_spline_weights(double t) {
 
 }  // namespace
 
-ElevationRaster::ElevationRaster(const std::filesystem::path& file, const ElevationOptions& options,
-                                 core::ProblemList& problems)
+ElevationRaster::ElevationRaster(const std::filesystem::path& file, const ElevationOptions& options)
     : band_(read_raster_band(file)), interpolation_(options.interpolation) {
   const std::string name = file.string();
   if (!(options.quantisation_step_m >= 0.0 && options.quantisation_step_m <= kLargestStep_m))
@@ -140,29 +140,23 @@ ElevationRaster::ElevationRaster(const std::filesystem::path& file, const Elevat
   if (band_.width < 2 || band_.height < 2)
     refuse_range(name, "size", std::to_string(band_.width) + " x " + std::to_string(band_.height),
                  "at least 2 x 2 posts");
-  treat_voids(name, options.voids, problems);
+  treat_voids(name);
   if (options.quantisation_step_m > 0.0) smooth_within_steps(band_, options.quantisation_step_m);
   find_height_range(name);
 }
 
-void ElevationRaster::treat_voids(const std::string& file, VoidPolicy policy,
-                                  core::ProblemList& problems) {
+void ElevationRaster::treat_voids(const std::string& file) {
   const auto is_void = [](float sample) { return std::isnan(sample); };
   std::vector<float>& samples = band_.samples;
   voids_ = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), is_void));
   if (voids_ == 0) return;
-  const auto first = std::find_if(samples.begin(), samples.end(), is_void);
-  const std::string found =
-      std::to_string(voids_) + " of " + std::to_string(samples.size()) + ", the first at " +
-      post_name(static_cast<std::size_t>(first - samples.begin()), band_.width);
-  if (policy == VoidPolicy::refuse || voids_ == samples.size())
-    refuse_range(file, "posts without height", found,
-                 policy == VoidPolicy::refuse ? "none, or the option to fill them"
-                                              : "at least one post with a height");
+  if (voids_ == samples.size())
+    refuse_range(file, "posts without height", "all " + std::to_string(voids_),
+                 "at least one post with a height");
+  is_void_.resize(samples.size());
+  std::transform(samples.begin(), samples.end(), is_void_.begin(), is_void);
   fill_voids(band_);
   holes_ = static_cast<std::size_t>(std::count_if(samples.begin(), samples.end(), is_void));
-  problems.warning("VOID", core::Place{file}, "posts without height", found,
-                   "filled from around; " + std::to_string(holes_) + " are left");
 }
 
 void ElevationRaster::find_height_range(const std::string& file) {
@@ -179,7 +173,9 @@ void ElevationRaster::find_height_range(const std::string& file) {
   }
 }
 
-std::optional<double> ElevationRaster::height_m(double latitude_rad, double longitude_rad) const {
+// Counted from the middle of the first post, and not beyond the outermost ones.
+std::optional<PixelPosition> ElevationRaster::post_position(double latitude_rad,
+                                                            double longitude_rad) const {
   const auto pixel = band_.pixel_map.pixel_at(latitude_rad, longitude_rad);
   if (!pixel) return std::nullopt;
   const double last_column = band_.width - 1;
@@ -190,14 +186,28 @@ std::optional<double> ElevationRaster::height_m(double latitude_rad, double long
   if (column < -kPixelMapAccuracy || column > last_column + kPixelMapAccuracy ||
       row < -kPixelMapAccuracy || row > last_row + kPixelMapAccuracy)
     return std::nullopt;
-  const double inside_column = std::clamp(column, 0.0, last_column);
-  const double inside_row = std::clamp(row, 0.0, last_row);
+  return PixelPosition{std::clamp(column, 0.0, last_column), std::clamp(row, 0.0, last_row)};
+}
 
+std::optional<double> ElevationRaster::height_m(double latitude_rad, double longitude_rad) const {
+  const auto at = post_position(latitude_rad, longitude_rad);
+  if (!at) return std::nullopt;
   double result_m = std::numeric_limits<double>::quiet_NaN();
-  if (interpolation_ != Interpolation::bilinear) result_m = cubic_m(inside_column, inside_row);
+  if (interpolation_ != Interpolation::bilinear) result_m = cubic_m(at->column, at->row);
   // A hole near by, or bilinear asked for.
-  if (std::isnan(result_m)) result_m = bilinear_m(inside_column, inside_row);
+  if (std::isnan(result_m)) result_m = bilinear_m(at->column, at->row);
   return std::isnan(result_m) ? std::nullopt : std::optional(result_m);
+}
+
+std::optional<ElevationRaster::Posts> ElevationRaster::posts_at(double latitude_rad,
+                                                                double longitude_rad) const {
+  const auto at = post_position(latitude_rad, longitude_rad);
+  if (!at) return std::nullopt;
+  const int around = interpolation_ == Interpolation::bilinear ? 0 : 1;
+  const int i = std::min(static_cast<int>(at->column), band_.width - 2);
+  const int j = std::min(static_cast<int>(at->row), band_.height - 2);
+  return Posts{std::max(i - around, 0), std::min(i + 1 + around, band_.width - 1),
+               std::max(j - around, 0), std::min(j + 1 + around, band_.height - 1)};
 }
 
 std::optional<double> ElevationRaster::post_height_m(int column, int row) const {

@@ -42,6 +42,8 @@ class BandReader {
     return result;
   }
 
+  RasterFacts facts() const;
+
  private:
   [[noreturn]] void refuse(core::ErrorClass error_class, const char* field,
                            const std::string& value, const char* expected) const {
@@ -169,7 +171,37 @@ std::vector<float> BandReader::read_samples(GDALRasterBand& band) const {
   return samples;
 }
 
+RasterFacts BandReader::facts() const {
+  RasterFacts facts;
+  facts.format = dataset_->GetDriver()->GetDescription();
+  const CPLStringList files(dataset_->GetFileList());
+  for (int i = 0; i < files.size(); ++i) facts.files.emplace_back(files[i]);
+  const OGRSpatialReference* crs = dataset_->GetSpatialRef();
+  if (facts.format == "SRTMHGT" || facts.format == "DTED") {
+    facts.heights = RasterFacts::Heights::gravity;
+    facts.heights_name = "EGM96";
+  } else if (crs != nullptr && crs->IsCompound() != 0) {
+    const char* name = crs->GetAttrValue("COMPD_CS|VERT_CS");
+    facts.heights_name = name != nullptr ? name : "";
+    // Type 2002 of WKT 1, and how GeoTIFF names heights over an ellipsoid.
+    const char* type = crs->GetAttrValue("VERT_DATUM", 1);
+    const bool ellipsoidal = (type != nullptr && std::string_view(type) == "2002") ||
+                             facts.heights_name.find("llipsoid") != std::string::npos;
+    facts.heights = ellipsoidal ? RasterFacts::Heights::ellipsoid : RasterFacts::Heights::gravity;
+  } else if (crs != nullptr && crs->IsGeographic() != 0 && crs->GetAxesCount() == 3) {
+    facts.heights = RasterFacts::Heights::ellipsoid;
+    facts.heights_name = crs->GetName();
+  }
+  return facts;
+}
+
 }  // namespace
+
+RasterFacts read_raster_facts(const std::filesystem::path& path) {
+  // GDAL keeps the vertical part of older GeoTIFFs to itself otherwise.
+  const CPLConfigOptionSetter whole_system("GTIFF_REPORT_COMPD_CS", "YES", false);
+  return BandReader(path).facts();
+}
 
 RasterBand read_raster_band(const std::filesystem::path& path) { return BandReader(path).read(); }
 

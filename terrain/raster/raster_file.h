@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "terrain/pixel_map.h"
@@ -26,6 +27,17 @@ struct RasterBand {
   }
 };
 
+// What a raster file says of itself beside its samples.
+struct RasterFacts {
+  // What its heights count from: `gravity` is some mean sea level.
+  enum class Heights { unsaid, ellipsoid, gravity };
+  std::string format;                 // GDAL's short name: "GTiff", "DTED", "SRTMHGT", "AAIGrid"
+  Heights heights = Heights::unsaid;  // of its coordinate reference system, or of its format
+  std::string heights_name;           // "EGM96 height", where there is one
+  std::vector<std::filesystem::path>
+      files;  // the file itself, and those beside it that belong to it
+};
+
 // 100 million samples: 400 MB. A one-degree cell at one arc second has 13 million.
 inline constexpr std::int64_t kMostSamples = 100'000'000;
 
@@ -35,5 +47,9 @@ inline constexpr std::int64_t kMostSamples = 100'000'000;
 // E-REF (no georeference), E-UNSUPPORTED (more than one band, complex numbers, heights not in
 // metres, or as PixelMap).
 RasterBand read_raster_band(const std::filesystem::path& path);
+
+// SRTM .hgt and DTED always count from EGM96; other formats where their system has a vertical part.
+// Throws InputError: E-IO, E-PATH, E-PARSE as above.
+RasterFacts read_raster_facts(const std::filesystem::path& path);
 
 }  // namespace fanbeam::terrain

@@ -6,8 +6,26 @@
 #include "apps/atmosphere_table.h"
 #include "apps/frequency_choice.h"
 #include "tests/apps/program.h"
+#include "tests/data_rows.h"
 
 using namespace fanbeam;
+
+namespace {
+
+// A level kilometre at the origin: dB are dB/km.
+const std::string kKilometre =
+    "atmosphere --json --height 0 --to-height 0 --range 1000 --step 1000 ";
+
+nlohmann::json frequencies_of(const std::string& words) {
+  const auto result = tests::run_fanbeam(kKilometre + words);
+  INFO(words << "\n" << result.output);
+  REQUIRE(result.exit_code == 0);
+  return nlohmann::json::parse(result.output)["frequencies"];
+}
+
+double number(const nlohmann::json& row, const char* key) { return row[key].get<double>(); }
+
+}  // namespace
 
 TEST_CASE("Losses by cause add up to that of the whole path", "[atmosphere_command]") {
   atmosphere::Weather weather;
@@ -22,8 +40,7 @@ TEST_CASE("Losses by cause add up to that of the whole path", "[atmosphere_comma
   REQUIRE(table.rows.size() == 7);
   CHECK(table.rows.front().range_m == 3000.0);
   for (const apps::AtmosphereRow& row : table.rows) {
-    CHECK(row.total_one_way_dB() ==
-          Approx(whole.one_way_dB(2500.0, 20.0, row.range_m)).epsilon(1e-6));
+    CHECK(row.one_way_dB() == Approx(whole.one_way_dB(2500.0, 20.0, row.range_m)).epsilon(1e-6));
     const double sigma0 = row.eta_m2_per_m3 * row.range_m * 0.1;
     CHECK(row.equivalent_sigma0_dB == Approx(10.0 * std::log10(sigma0)).epsilon(1e-12));
   }
@@ -144,4 +161,121 @@ TEST_CASE("--compare refuses what it would not look at; --quiet leaves the table
   CHECK_THAT(table, Catch::Contains("35 GHz\n   range"));
   CHECK_THAT(table, !Catch::Contains("P.838"));
   CHECK_THAT(notes_and_table, Catch::Contains("P.838") && Catch::EndsWith(table));
+}
+
+TEST_CASE("Oxygen and vapour apart meet the ITU's P.676-13 examples, in dry pressure and density",
+          "[atmosphere_command]") {
+  const auto rows = tests::data_rows("itu_p676_13_validation.csv");
+  REQUIRE(rows.size() == 120);
+  std::string list;
+  for (const auto& row : rows) {
+    // All of one air.
+    REQUIRE((row.number("p_dry_hPa") == 1013.25 && row.number("T_K") == 288.15 &&
+             row.number("rho_gm3") == 7.5));
+    list += (list.empty() ? "" : ",") + row.text("f_GHz");
+  }
+  const nlohmann::json found = frequencies_of(
+      "--frequency " + list + " --dry-pressure 1013.25 --temperature 15 --vapour-density 7.5");
+  REQUIRE(found.size() == rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    INFO(rows[i].text("f_GHz") << " GHz");
+    const nlohmann::json& row = found[i]["rows"][0];
+    CHECK(number(row, "oxygen_dB") == Approx(rows[i].number("gamma_oxygen")).epsilon(1e-9));
+    CHECK(number(row, "vapour_dB") == Approx(rows[i].number("gamma_water")).epsilon(1e-9));
+    CHECK(number(row, "gas_dB") == Approx(rows[i].number("gamma_total")).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("Dry pressure and humidity, total pressure and density are the same air",
+          "[atmosphere_command]") {
+  // P.453-14 equation 9 over water at t = 20 C, with 1 + 1e-4 (7.2 + P (0.0320 + 5.9e-6 t^2)).
+  const double saturated_hPa =
+      1.0042016 * 6.1121 * std::exp((18.678 - 20.0 / 234.5) * 20.0 / (20.0 + 257.14));
+  const double vapour_hPa = 0.6 * saturated_hPa;
+  const auto air = [](const std::string& words) {
+    return frequencies_of("--frequency 22.235 --temperature 20 " + words)[0]["rows"][0];
+  };
+  const auto text = [](double value) { return " " + std::to_string(value); };
+  const nlohmann::json total = air("--pressure 1013.25 --humidity 0.6");
+  const nlohmann::json dry = air("--humidity 0.6 --dry-pressure" + text(1013.25 - vapour_hPa));
+  const nlohmann::json density =
+      air("--pressure 1013.25 --vapour-density" + text(vapour_hPa * 216.7 / 293.15));
+  for (const char* cause : {"oxygen_dB", "vapour_dB"}) {
+    INFO(cause);
+    CHECK(number(dry, cause) == Approx(number(total, cause)).epsilon(1e-5));
+    CHECK(number(density, cause) == Approx(number(total, cause)).epsilon(1e-5));
+  }
+  // Taking dry for total pressure would be seen: 1.4 % of oxygen's loss.
+  CHECK(number(air("--pressure" + text(1013.25 - vapour_hPa) + " --humidity 0.6"), "oxygen_dB") <
+        0.98 * number(total, "oxygen_dB"));
+  CHECK(number(air("--vapour-density 0"), "vapour_dB") == 0.0);
+}
+
+TEST_CASE("Rain at any tilt and path elevation meets the ITU's P.838-3 examples",
+          "[atmosphere_command]") {
+  const auto rows = tests::data_rows("itu_p838_3_validation.csv");
+  REQUIRE(rows.size() == 32);
+  for (std::size_t i = 0; i < rows.size(); i += 3) {
+    const auto& row = rows[i];
+    const nlohmann::json found = frequencies_of(
+        "--frequency " + row.text("f_GHz") + " --rain " + row.text("rain_mm_h") + " --tilt " +
+        row.text("tau_deg") + " --path-elevation " + row.text("elevation_deg"))[0];
+    INFO(row.text("f_GHz") << " GHz, elevation " << row.text("elevation_deg") << ", tilt "
+                           << row.text("tau_deg"));
+    CHECK(number(found["rain"], "k") == Approx(row.number("k")).epsilon(0.0).margin(6e-9));
+    CHECK(number(found["rain"], "alpha") == Approx(row.number("alpha")).epsilon(0.0).margin(6e-9));
+    CHECK(number(found["rows"][0], "rain_dB") ==
+          Approx(row.number("gamma_dB_km")).epsilon(0.0).margin(6e-9));
+  }
+  // Circular, 45 deg: k is the mean of P.838-3's 0.3374 and 0.3224 at 35 GHz, alpha their mean
+  // weighted with k, whatever the elevation.
+  for (const char* elevation : {"0", "60"}) {
+    const nlohmann::json circular = frequencies_of("--frequency 35 --rain 10 --tilt 45 " +
+                                                   ("--path-elevation " + std::string(elevation)));
+    CHECK(number(circular[0]["rain"], "k") == Approx(0.3299).epsilon(0.0).margin(5e-5));
+    CHECK(number(circular[0]["rain"], "alpha") ==
+          Approx((0.3374 * 0.9047 + 0.3224 * 0.8761) / 0.6598).epsilon(0.0).margin(1e-4));
+  }
+  const auto rain_dB = [](const std::string& words) {
+    return number(frequencies_of("--rain 10 " + words)[0]["rows"][0], "rain_dB");
+  };
+  CHECK(rain_dB("--tilt 0") == rain_dB("--polarisation HH"));
+  CHECK(rain_dB("--tilt 90") == rain_dB("--polarisation VV"));
+}
+
+TEST_CASE("Air that there is not, and options that do nothing, are refused in the user's words",
+          "[atmosphere_command]") {
+  const std::pair<const char*, const char*> cases[] = {
+      {"--vapour-density 30 --temperature 15",
+       "E-RANGE --vapour-density = 30: expected 0 to 12.88 g/m3, where air of 15 C is saturated"},
+      {"--dry-pressure 1200",
+       "E-RANGE --dry-pressure = 1200: expected 300 to 1100 hPa together with the vapour's"},
+      {"--dry-pressure 100", "E-RANGE --dry-pressure = 100"},
+      {"--dry-pressure nan", "E-NONFINITE --dry-pressure = nan"},
+      {"--temperature 80 --vapour-density 7", "E-RANGE --temperature = 80: expected -60 to 50 C"},
+      {"--rain 5 --rain-law mie --tilt 45 --path-elevation 10",
+       "E-RANGE --tilt = 45: expected the rain law itu-p838, as mie does not know it\n"
+       "E-RANGE --path-elevation = 10"},
+      {"--fog-water 0.1 --fog-law centimetre --frequency 16",
+       "E-RANGE --frequency = 16 GHz: expected 3 to 15 GHz for the fog law centimetre\n"},
+      {"--fog-water 0.1 --fog-law centimetre",
+       "E-RANGE frequency = 35 GHz: expected 3 to 15 GHz for the fog law centimetre\n"},
+      {"--rain-echo-law mie-fit --rain 5 --frequency 50",
+       "E-RANGE --frequency = 50 GHz: expected within 2 % of 9.4, 24, 35, 76.5, 94 GHz for"}};
+  for (const auto& [words, message] : cases) {
+    INFO(words);
+    const auto result = tests::run_fanbeam(std::string("atmosphere ") + words);
+    INFO(result.output);
+    CHECK((result.exit_code == 2 || result.exit_code == 3));
+    CHECK_THAT(result.output, Catch::StartsWith(message));
+  }
+  for (const char* words :
+       {"--vapour-density -1", "--vapour-density nan", "--vapour-density 7 --humidity 0.5",
+        "--dry-pressure 1000 --pressure 1000", "--tilt 200", "--tilt nan", "--path-elevation 91",
+        "--tilt 45 --polarisation HH"}) {
+    INFO(words);
+    CHECK(tests::run_fanbeam(std::string("atmosphere ") + words).exit_code == 2);
+  }
+  CHECK(tests::run_fanbeam("atmosphere --fog-water 0.1 --fog-law centimetre --frequency 15")
+            .exit_code == 0);
 }

@@ -11,7 +11,7 @@ namespace fanbeam::tests {
 
 // Everything but the preview, whose bytes are ffmpeg's.
 inline const std::string kAllPictures =
-    " --products bscope,cscope,pair,ppi,ppi_north,power,detections,obstacles ";
+    " --products bscope,cscope,pair,figure,ppi,ppi_north,ppi_figure,power,detections,obstacles ";
 
 // 20 columns of 0.4 deg and 20 or more range cells of 30 m; side lobes, a Taylor window.
 inline std::string small_sensor(int cells) {

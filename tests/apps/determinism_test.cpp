@@ -52,9 +52,9 @@ TEST_CASE("The busy scene is busy", "[determinism]") {
   const TemporaryFolder folder;
   write_busy_scene(folder);
   const Files files = rendered(folder, kFour + kWays[0].words + kAllPictures);
-  // Four frames: six pictures, power, a mask and a table each for detections, a table of obstacles.
+  // Four frames: eight pictures, power, a mask and a table each for detections, a table of obstacles.
   CHECK(std::count_if(files.begin(), files.end(),
-                      [](const auto& file) { return !file.second.empty(); }) == 4 * 9 + 1);
+                      [](const auto& file) { return !file.second.empty(); }) == 4 * 11 + 1);
   std::vector<std::string> off;
   for (const Json& effect : Json::parse(files.at("run.json"))["plan"])
     if (!effect["on"].get<bool>()) off.push_back(effect["effect"]);

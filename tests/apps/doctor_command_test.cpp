@@ -1,5 +1,6 @@
 // fanbeam doctor as a user meets it: table, JSON, exit codes.
 #include <algorithm>
+#include <regex>
 
 #include "tests/apps/busy_scene.h"
 
@@ -71,6 +72,30 @@ TEST_CASE("doctor exits with 0 when nothing is worse than delicate, with 3 for b
   folder.write("scene.toml", kPlain + "nonsense = 1\n");
   CHECK(run_fanbeam("doctor " + quoted(folder.path())).exit_code == 3);
   CHECK(run_fanbeam("doctor flat-grass --accuracy no").exit_code == 2);
+}
+
+TEST_CASE("doctor tells an approach's height, offset and glide angle, with units and its runway",
+          "[doctor]") {
+  const std::string runway =
+      "[[runway]]\nfirst = { name = \"36\", latitude_deg = 52.0, longitude_deg = 10.0, elevation_m "
+      "= "
+      "0.0 }\nsecond = { name = \"18\", latitude_deg = 52.009, longitude_deg = 10.0, elevation_m = "
+      "0.0 }\n[trajectory.ils]\nrunway = \"36\"\nstart_distance_m = 1500.0\n";
+  const TemporaryFolder folder;
+  folder.write("scene.toml", kPlain.substr(0, kPlain.find("[trajectory")) + runway);
+  const fs::path file = folder.path() / "findings.json";
+  const Result result = run_fanbeam("doctor " + quoted(folder.path()) + " --json " + quoted(file));
+  INFO(result.output);
+  CHECK(result.output.find("approach  runway 36: 15.0 m over the threshold, 0.0 m ") !=
+        std::string::npos);
+  CHECK(std::regex_search(result.output, std::regex("glide angle 3\\.00\\s+deg")));
+  const nlohmann::json approach = json_of(file)["approach"];
+  CHECK(approach["runway"] == "36");
+  CHECK(approach["glide_angle_deg"].get<double>() == Approx(3.0).margin(0.01));
+  CHECK(approach["height_over_threshold_m"].get<double>() == Approx(15.0).margin(0.05));
+  folder.write("scene.toml", kPlain);
+  run_fanbeam("doctor " + quoted(folder.path()) + " --json " + quoted(file));
+  CHECK(json_of(file)["approach"].is_null());
 }
 
 TEST_CASE("doctor --measure tells the error that render reaches, where it is too large",

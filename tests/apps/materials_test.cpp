@@ -179,6 +179,8 @@ TEST_CASE("Every problem of a measurement file is told with its line", "[cli][ma
     CHECK(read(text).empty());
     CHECK(problems.all().front().code == "E-PARSE");
   }
+  CHECK(read("angle_deg,level\n1,-20\n").empty());
+  CHECK(problems.all().front().expected == "grazing_deg and sigma0_dB; there are angle_deg, level");
   CHECK(read("\xEF\xBB\xBFsigma0_dB,grazing_deg\n-20,3").size() == 1);
   CHECK(problems.all().empty());
 }

@@ -2,8 +2,10 @@
 // interrupted. A final name only ever holds a complete file, and the program says that it failed.
 #include <unistd.h>
 
+#include <algorithm>
 #include <iostream>
 
+#include "tests/apps/child.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam;
@@ -67,7 +69,7 @@ bool can_mount() {
 // Renders onto a disk of `kilobytes` that holds `before`, and copies what is there afterwards. The
 // disk is made read-only first if asked.
 Result render_onto_disk(const fs::path& scratch, std::size_t kilobytes, const fs::path& before,
-                        bool read_only, Files& after) {
+                        bool read_only, Files& after, const std::string& command = kRender) {
   const fs::path disk = scratch / "disk", copy = scratch / "copy";
   fs::create_directories(disk);
   fs::remove_all(copy);
@@ -75,7 +77,7 @@ Result render_onto_disk(const fs::path& scratch, std::size_t kilobytes, const fs
       << "mount -t tmpfs -o size=" << kilobytes << "k none " << quoted(disk) << " || exit 99\n"
       << (before.empty() ? "" : "cp -a " + quoted(before / ".") + " " + quoted(disk) + "\n")
       << (read_only ? "mount -o remount,ro " + quoted(disk) + "\n" : "")
-      << "'" FANBEAM_BINARY_DIR "/bin/fanbeam' " << kRender << "-o " << quoted(disk)
+      << "'" FANBEAM_BINARY_DIR "/bin/fanbeam' " << command << "-o " << quoted(disk)
       << "\ncode=$?\n"
       << "cp -a " << quoted(disk) << " " << quoted(copy) << "\nexit $code\n";
   const Result result =
@@ -159,14 +161,16 @@ TEST_CASE("F17 a program stopped while it writes leaves complete files, and can 
   const fs::path out = folder.path() / "out";
   const std::string program =
       "'" FANBEAM_BINARY_DIR "/bin/fanbeam' " + kRender + "--resume -o " + quoted(out) + " 2>&1";
-  // The system ends a program that writes beyond this size, in blocks of 512 bytes: in the middle
-  // of the first table of ranges and before it of the first plan view.
+  // The system refuses to write beyond this size, in blocks of 512 bytes, and would end a program
+  // that does not ignore SIGXFSZ: in the middle of the first table of ranges and before it of the
+  // first plan view.
   for (const char* blocks : {"100", "16", "2"}) {
     fs::remove_all(out);
     const Result stopped =
         run_shell(std::string("ulimit -c 0; ulimit -f ") + blocks + "; " + program);
     INFO(stopped.output);
-    CHECK(stopped.exit_code != 0);
+    CHECK(stopped.exit_code == 4);
+    CHECK(stopped.output.find("E-IO") != std::string::npos);
     const Files found = finished(results(out));
     CHECK(found.count("run.json") == 0);
     CHECK(check_complete(found, finished(whole)) < finished(whole).size());
@@ -178,6 +182,116 @@ TEST_CASE("F17 a program stopped while it writes leaves complete files, and can 
   }
   REQUIRE(run_shell(program).exit_code == 0);
   CHECK(results(out) == whole);  // nothing in the making is left
+}
+
+namespace {
+
+// What writes files, with a place for the folder or file at the end; few and small pictures.
+struct Writing {
+  const char* what;
+  std::string command;
+  const char* needs;  // a program
+};
+
+std::vector<Writing> writings() {
+  const std::string frames = "render obstacle-field --frames 100:140:20 --rays-per-cell 1 -q ";
+  return {
+      {"films", frames + "--products preview ", "ffmpeg"},
+      {"GIF films", frames + "--products preview --preview-format gif ", "ffmpeg"},
+      {"PNG films", frames + "--products preview --preview-format apng ", "ffmpeg"},
+      {"pictures", frames + "--products bscope,cscope,pair,figure,ppi,ppi_north,ppi_figure ", ""},
+      {"watts and tables", frames + "--products power,detections,obstacles ", ""},
+      {"beat signals",
+       "fmcw street-76ghz -q --products "
+       "beat,spectrum,cube,range-doppler,range-azimuth,top-view,detections ",
+       "gnuplot"},
+      {"plots of materials", "materials plot short_grass asphalt_worn ", "gnuplot"}};
+}
+
+bool has_program(const std::string& name) {
+  return name.empty() ||
+         std::system((name + " --version >/dev/null 2>&1 || " + name + " -version >/dev/null 2>&1")
+                         .c_str()) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("F17 whatever writes: no file or a whole one, and exit code 4, by disk and by limit",
+          "[no_room]") {
+  const TemporaryFolder folder;
+  for (const Writing& writing : writings()) {
+    if (!has_program(writing.needs)) {
+      std::cout << "[not run] " << writing.what << " need " << writing.needs << '\n';
+      continue;
+    }
+    INFO(writing.what);
+    // A plot has one file; all else has a folder.
+    const bool plot = writing.command.starts_with("materials");
+    const fs::path whole_at = folder.path() / "whole";
+    fs::remove_all(whole_at);
+    const std::string name = plot ? "/plot.png" : "";
+    fs::create_directories(whole_at);
+    const Result good = run_fanbeam(writing.command + "-o '" + whole_at.string() + name + "'");
+    INFO(good.output);
+    REQUIRE(good.exit_code == 0);
+    const Files whole = finished(results(whole_at));
+    std::size_t largest = 0;
+    for (const auto& [file, bytes] : whole) largest = std::max(largest, bytes.size());
+
+    // A limit of the size of files that the largest exceeds: by a little, and by a lot.
+    for (const std::size_t blocks : {(largest - 1) / 512, largest / 1024, std::size_t{1}}) {
+      const fs::path out = folder.path() / "out";
+      fs::remove_all(out);
+      fs::create_directories(out);
+      const Result limited = run_shell("ulimit -c 0; ulimit -f " + std::to_string(blocks) +
+                                       "; '" FANBEAM_BINARY_DIR "/bin/fanbeam' " + writing.command +
+                                       "-o '" + out.string() + name + "' 2>&1");
+      INFO(blocks << " blocks of 512 bytes: " << limited.output);
+      CHECK(limited.exit_code == 4);
+      CHECK(limited.output.find("E-IO") != std::string::npos);
+      for (const auto& [file, bytes] : contents(out))
+        CHECK(fs::path(file).filename().string().find(".tmp") == std::string::npos);
+      check_complete(finished(results(out)), whole);
+    }
+    if (plot || !can_mount()) continue;
+    Files found;
+    const Result full = render_onto_disk(folder.path(), size_of(whole) / 2048 + 8, {}, false, found,
+                                         writing.command);
+    INFO(full.output);
+    CHECK(full.exit_code == 4);
+    CHECK(full.output.find("E-IO") != std::string::npos);
+    check_complete(finished(found), whole);
+  }
+}
+
+TEST_CASE("F17 a film that a killed run was making is gone after --resume", "[no_room]") {
+  if (!has_program("ffmpeg")) {
+    std::cout << "[not run] needs the ffmpeg program\n";
+    return;
+  }
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  {
+    Child child({"render", "obstacle-field", "--frames", "100:1000", "--rays-per-cell", "1", "-q",
+                 "--products", "bscope,preview", "-o", out.string()});
+    while (child.running() && !fs::exists(out / "bscope/00105.png")) wait_ms(2.0);
+    child.send(SIGKILL);
+    child.wait();
+  }
+  // ffmpeg sees the end of its input and finishes its own file.
+  run_shell("for i in $(seq 150); do pgrep -f '[f]fmpeg.*" + out.string() +
+            "' >/dev/null || break; sleep 0.2; done");
+  std::size_t hidden = 0;
+  for (const auto& [file, bytes] : contents(out))
+    hidden += fs::path(file).filename().string().starts_with(".") ? 1 : 0;
+  CHECK(hidden > 0);  // else this proves nothing
+  REQUIRE(run_fanbeam("render obstacle-field --frames 100:102 --rays-per-cell 1 -q --resume -o " +
+                      quoted(out))
+              .exit_code == 0);
+  for (const auto& [file, bytes] : contents(out)) {
+    INFO(file);
+    CHECK_FALSE(fs::path(file).filename().string().starts_with("."));
+  }
 }
 
 TEST_CASE("F17 what cannot be printed is E-IO too", "[no_room]") {

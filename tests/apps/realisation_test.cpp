@@ -1,8 +1,12 @@
 // Realisations and detections as products of fanbeam render.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
+#include "core/errors.h"
 #include "core/image.h"
+#include "sensors/display/display.h"
+#include "sensors/sensor_file.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam;
@@ -65,6 +69,50 @@ TEST_CASE("By default frames show the expected power, whatever the seed", "[rend
         Approx(20.813).epsilon(1e-3));
 }
 
+TEST_CASE("The power EXR holds what the display shows: the echoes' watts and the mean noise",
+          "[render]") {
+  const TemporaryFolder folder;
+  run("--products power,bscope", folder.path() / "mean");
+  run("--products power --effects=-thermal-noise", folder.path() / "quiet");
+  run("--products power --realisation sample", folder.path() / "sample");
+  const auto exr = [&](const char* name) { return folder.path() / name / "power/00120.exr"; };
+  const auto noise_W = [&](const char* name) {
+    for (const auto& [key, value] : core::read_metadata(exr(name)))
+      if (key == "fanbeam:noise_W") return std::stod(value);
+    return -1.0;
+  };
+  const std::vector<double> with_W = core::read_image(exr("mean")).layers[0].values;
+  const std::vector<double> without_W = core::read_image(exr("quiet")).layers[0].values;
+  // k T0 F / dwell of docs/physics/receiver.md.
+  const double expected_W = 1.380649e-23 * 290.0 * std::pow(10.0, 0.6) * 16.0 * 164.0;
+  CHECK(noise_W("mean") == Approx(expected_W).epsilon(1e-12));
+  CHECK(noise_W("sample") == Approx(expected_W).epsilon(1e-12));
+  CHECK(noise_W("quiet") == 0.0);
+  REQUIRE(with_W.size() == without_W.size());
+  double most = 0.0;
+  for (std::size_t i = 0; i < with_W.size(); ++i)  // floats: 24 bits
+    most = std::max(most, std::abs(with_W[i] / (without_W[i] + expected_W) - 1.0));
+  CHECK(most < 2e-7);
+  CHECK(*std::min_element(without_W.begin(), without_W.end()) == 0.0);
+
+  // Watts, farthest range on top, to the pixels of the B-scope.
+  core::ProblemList problems;
+  const sensors::Sensor sensor =
+      sensors::read_sensor(FANBEAM_SOURCE_DIR "/sensors/hivision.toml", problems);
+  std::vector<double> nearest_first;
+  for (int row = sensor.range.cells; row-- > 0;)
+    nearest_first.insert(nearest_first.end(), with_W.begin() + row * sensor.scan.columns,
+                         with_W.begin() + (row + 1) * sensor.scan.columns);
+  const core::Picture8 shown =
+      sensors::bscope_picture(sensor, sensors::bscope_grey(sensor, nearest_first));
+  const std::vector<double> png =
+      core::read_image(folder.path() / "mean/bscope/00120.png").layers[0].values;
+  REQUIRE(png.size() == shown.pixels.size());
+  int others = 0;
+  for (std::size_t i = 0; i < png.size(); ++i) others += png[i] == shown.pixels[i] ? 0 : 1;
+  CHECK(others < 5);  // a float's rounding next to a half
+}
+
 TEST_CASE("Detections: a mask laid out as the B-scope and a table with the same cells",
           "[render]") {
   const TemporaryFolder folder;
@@ -72,7 +120,13 @@ TEST_CASE("Detections: a mask laid out as the B-scope and a table with the same 
   const core::Image mask = core::read_image(folder.path() / "detections/00120.png");
   REQUIRE(mask.columns == 164);
   REQUIRE(mask.rows == 524);
-  const std::vector<std::string> lines = lines_of(folder.path() / "detections/00120.csv");
+  std::vector<std::string> lines = lines_of(folder.path() / "detections/00120.csv");
+  CHECK(lines[0] == "# threshold detections");
+  CHECK(std::count(lines.begin(), lines.end(), "# fanbeam:frame 120") == 1);
+  // One comment stays, for the numbers of lines below.
+  lines.erase(lines.begin(), std::find_if(lines.begin(), lines.end(), [](const std::string& line) {
+                               return !line.starts_with("#");
+                             }) - 1);
   REQUIRE(lines.size() > 100);
   CHECK(lines[1] == "frame,time_s,row,column,range_m,azimuth_deg,power_W,snr_dB");
   const std::vector<double>& pixels = mask.layers[0].values;

@@ -130,6 +130,76 @@ TEST_CASE("run.json and timing.json have their documented keys, pictures the ess
     CHECK(std::count(notes.begin(), notes.end(), std::pair{name, value}) == 1);
 }
 
+TEST_CASE("PNG and EXR carry the whole pose, as their own formats write text", "[render]") {
+  const TemporaryFolder folder;
+  // Turbulence rolls the aircraft.
+  render("braunschweig-26", folder.path(),
+         "--frames 700 --rays-per-cell 0.2 -q --products bscope,power");
+  const nlohmann::json pose = json_of(folder.path() / "run.json")["frames"][0]["pose"];
+  const std::string png = bytes_of(folder.path() / "bscope/00700.png");
+  const std::string exr = bytes_of(folder.path() / "power/00700.exr");
+  CHECK(std::abs(pose["roll_deg"].get<double>()) > 0.01);
+  CHECK(std::abs(pose["pitch_deg"].get<double>()) > 0.01);
+  for (const char* part :
+       {"latitude_deg", "longitude_deg", "height_m", "roll_deg", "pitch_deg", "heading_deg"}) {
+    INFO(part);
+    const std::string key = std::string("fanbeam:") + part;
+    const auto value_at = [](const std::string& file, const std::string& before) {
+      const std::size_t at = file.find(before);
+      REQUIRE(at != std::string::npos);
+      return std::stod(file.substr(at + before.size(), 30));
+    };
+    // A tEXt chunk: keyword, zero, text. An attribute: name, type, four bytes of size, text.
+    CHECK(value_at(png, "tEXt" + key + '\0') == pose[part].get<double>());
+    const std::size_t at = exr.find(key + '\0' + "string" + '\0');
+    REQUIRE(at != std::string::npos);
+    CHECK(std::stod(exr.substr(at + key.size() + 12, 30)) == pose[part].get<double>());
+  }
+}
+
+TEST_CASE("Rows of a flight that were left out are counted on the terminal and listed in run.json",
+          "[render]") {
+  const TemporaryFolder folder;
+  std::string rows = "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg\n";
+  for (int t = 0; t <= 20; ++t)
+    rows += std::to_string(t) + "," + std::to_string(52.0 + 0.0005 * t) + ",10," +
+            (t == 7 ? "9000" : "200") + ",0,0,0\n";
+  folder.write("flight.csv", rows);
+  const auto scene = [&](const std::string& policy) {
+    folder.write("scene.toml",
+                 "[scene]\nname = \"flown\"\nvertical_datum = \"scene\"\n"
+                 "origin = { latitude_deg = 52.0, longitude_deg = 10.0, height_m = 0.0 }\n"
+                 "[terrain]\nhalf_extent_m = 3000.0\nspacing_m = 100.0\n"
+                 "[trajectory]\nfile = \"flight.csv\"\nvertical_datum = \"scene\"\n"
+                 "outliers = \"" +
+                     policy + "\"\n");
+  };
+  const std::string words = "render " + quoted(folder.path()) + " --frames 0 --rays-per-cell 1 -o ";
+  scene("error");
+  const Result refused = run_fanbeam(words + quoted(folder.path() / "refused"));
+  CHECK(refused.exit_code == 3);
+  CHECK(refused.output.find("flight.csv:9: E-RANGE row 8, height = 9000 m") != std::string::npos);
+
+  scene("reject");
+  const Result rejected = run_fanbeam(words + quoted(folder.path() / "rejected"));
+  INFO(rejected.output);
+  REQUIRE(rejected.exit_code == 0);
+  CHECK(rejected.output.find("W-OUTLIER") != std::string::npos);
+  const nlohmann::json listed =
+      json_of(folder.path() / "rejected/run.json")["trajectory_rows_rejected"];
+  REQUIRE(listed.size() == 1);
+  CHECK(listed[0]["first_row"] == 8);
+  CHECK(listed[0]["last_row"] == 8);
+  CHECK(listed[0]["rows"] == 1);
+  CHECK(listed[0]["first_line"] == 9);
+  CHECK(listed[0]["why"] == "height");
+
+  scene("keep");
+  const Result kept = run_fanbeam(words + quoted(folder.path() / "kept"));
+  CHECK(kept.exit_code == 0);
+  CHECK_FALSE(json_of(folder.path() / "kept/run.json").contains("trajectory_rows_rejected"));
+}
+
 TEST_CASE("Two runs and any number of threads give the same bytes in everything but timing.json",
           "[render]") {
   const TemporaryFolder folder;

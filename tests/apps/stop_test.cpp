@@ -168,7 +168,7 @@ TEST_CASE("--resume removes what a killed run was writing, and nothing else", "[
   write("bscope/.00001" + alive + ".4.tmp.png");
   write("bscope/.notes");
   write("bscope/mine.tmp.png");
-  render(folder.path(), out, " -q --frames 0 --resume");
+  render(folder.path(), out, " -q --frames 0 --resume --overwrite");
   CHECK_FALSE(fs::exists(out / ("bscope/.00000" + dead + ".3.tmp.png")));
   CHECK_FALSE(fs::exists(out / (".run" + dead + ".9.tmp.json")));
   CHECK(fs::exists(out / ("bscope/.00001" + alive + ".4.tmp.png")));

@@ -54,15 +54,34 @@ TEST_CASE("Fog laws accept their own wavelengths and temperatures, borders inclu
 
   // At 30 mm and 20 C the formula gives -0.07: published range, refused here.
   tests::check_rejected([&] { coefficient(FogLaw::altshuler, 0.030, 20.0); }, ErrorClass::range,
-                        "wavelength 3 to 10 mm");
+                        "30 to 100 GHz for the fog law altshuler");
   tests::check_rejected([&] { coefficient(FogLaw::altshuler, 0.00857, 25.1); }, ErrorClass::range,
                         "-8 to 25 C");
   tests::check_rejected([&] { coefficient(FogLaw::centimetre, 0.00857, 10.0); }, ErrorClass::range,
-                        "wavelength 20 to 100 mm");
+                        "3 to 15 GHz for the fog law centimetre");
   tests::check_rejected([] { fog_coefficient(FogLaw::itu_p840, 201e9, 10.0); }, ErrorClass::range,
-                        "1e+09 to 2e+11 Hz");
+                        "frequency = 201 GHz: expected 1 to 200 GHz for the fog law itu-p840");
   tests::check_rejected([] { fog_coefficient(FogLaw::itu_p840, 35e9, -41.0); }, ErrorClass::range,
                         "-40 to 50 C");
+}
+
+TEST_CASE("Round frequencies of the fog laws' round wavelengths are inside, and told in GHz",
+          "[fog]") {
+  // 2 and 10 cm, 3 and 10 mm with c = 3e8 m/s.
+  CHECK(fog_coefficient(FogLaw::centimetre, 15e9, 10.0) ==
+        tests::within(0.438 / (1.9986163867 * 1.9986163867), 1e-9));
+  CHECK(fog_coefficient(FogLaw::centimetre, 3e9, 10.0) > 0.0);
+  CHECK(fog_coefficient(FogLaw::altshuler, 30e9, 25.0) > 0.0);
+  CHECK(fog_coefficient(FogLaw::altshuler, 100e9, 10.0) > 0.0);
+  const auto refused = [](FogLaw law, double f_Hz, const std::string& text) {
+    tests::check_rejected([&] { fog_coefficient(law, f_Hz, 10.0); }, ErrorClass::range, text);
+  };
+  const std::string centimetre = " GHz: expected 3 to 15 GHz for the fog law centimetre";
+  refused(FogLaw::centimetre, 15.01e9, "frequency = 15.01" + centimetre);
+  refused(FogLaw::centimetre, 2.99e9, "frequency = 2.99" + centimetre);
+  const std::string altshuler = " GHz: expected 30 to 100 GHz for the fog law altshuler";
+  refused(FogLaw::altshuler, 100.1e9, "frequency = 100.1" + altshuler);
+  refused(FogLaw::altshuler, 29.9e9, "frequency = 29.9" + altshuler);
 }
 
 TEST_CASE("No fog water is no loss, impossible fog water is refused", "[fog]") {

@@ -44,7 +44,7 @@ TEST_CASE("Gas inputs outside their range are refused with the range", "[gases]"
   const double nan = std::numeric_limits<double>::quiet_NaN();
   using core::ErrorClass;
   tests::check_rejected([] { gas_attenuation(0.9e9, 1013.0, 288.0, 7.5); }, ErrorClass::range,
-                        "frequency_Hz");
+                        "frequency = 0.9 GHz: expected 1 to 1000 GHz");
   tests::check_rejected([] { gas_attenuation(35e9, -1.0, 288.0, 7.5); }, ErrorClass::range,
                         "0 to 2000 hPa");
   tests::check_rejected([&] { gas_attenuation(35e9, 1013.0, nan, 7.5); }, ErrorClass::nonfinite,

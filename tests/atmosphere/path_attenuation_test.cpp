@@ -242,5 +242,6 @@ TEST_CASE("Wrong weather is refused, all problems together", "[path_attenuation]
   wrong_law.rain_rate_mm_per_h = 4.0;
   tests::check_rejected([&] { PathAttenuation(wrong_law, 35e9); }, ErrorClass::range,
                         "for the rain law georgia-tech-95");
-  tests::check_rejected([] { PathAttenuation(Weather{}, 0.0); }, ErrorClass::range, "frequency_Hz");
+  tests::check_rejected([] { PathAttenuation(Weather{}, 0.0); }, ErrorClass::range,
+                        "1 to 1000 GHz");
 }

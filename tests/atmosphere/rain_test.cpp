@@ -117,7 +117,8 @@ TEST_CASE("The W-band rain law is refused at 35 GHz and accepted from 90 to 100 
   };
   CHECK(law_at(90e9) == tests::within(1.6 * std::pow(10.0, 0.64), 1e-15));
   CHECK(law_at(100e9) == law_at(90e9));
-  tests::check_rejected([&] { law_at(35e9); }, ErrorClass::range, "9e+10 to 1e+11 Hz");
+  tests::check_rejected([&] { law_at(35e9); }, ErrorClass::range,
+                        "frequency = 35 GHz: expected 90 to 100 GHz");
   // Against P.838-3 at 94 GHz, ratios read from the comparison of both formulas: 1.21 at 1 mm/h.
   for (const double rate : {1.0, 4.0, 10.0, 50.0, 100.0}) {
     const auto loss = [&](RainLaw law) {

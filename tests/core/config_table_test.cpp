@@ -132,6 +132,22 @@ TEST_CASE("Missing required keys and wrong choices name what was expected", "[co
        "test.toml:3:1: E-RANGE t.list = an array of 3: expected 2 numbers, each a finite number"});
 }
 
+TEST_CASE("Texts with control characters are refused, and shown as escapes", "[config_table]") {
+  const auto found = problems_of(
+      "title = \"\\u001b]0;owned\\u0007\"\nlist = [\"plain\", \"a\\nb\"]\n\"k\\u001b\" = 1\n",
+      [](ConfigTable& root) {
+        CHECK(root.text("title", "fallback") == "fallback");
+        CHECK(root.texts("list").empty());
+        root.report_unknown_keys();
+      });
+  check(found, {"test.toml:1:1: E-RANGE title = \"\\x1b]0;owned\\x07\": expected a text without "
+                "control characters",
+                "test.toml:2:18: E-RANGE list = \"a\\x0ab\": expected a text without control "
+                "characters",
+                "test.toml:3:1: E-REF k\\x1b = unknown key: expected a key of this table, such as "
+                "\"list\", \"title\""});
+}
+
 TEST_CASE("Unknown keys are errors wherever they stand, with the names most like them",
           "[config_table]") {
   const std::string text =

@@ -89,6 +89,13 @@ TEST_CASE("A refusal shows its errors, however many warnings came before", "[err
   CHECK_FALSE(list.is_full());
 }
 
+TEST_CASE("A terminal never obeys what a message quotes", "[errors]") {
+  const Problem problem{"E-REF", Place{"a\x1b[31m.gltf", 2, 1}, "mesh \"\x1b[2J\"", "\n\r\x07",
+                        "one of \x9b"};
+  CHECK(to_string(problem) ==
+        "a\\x1b[31m.gltf:2:1: E-REF mesh \"\\x1b[2J\" = \\x0a\\x0d\\x07: expected one of \\x9b");
+}
+
 TEST_CASE("Megabytes of an input do not end up in a message, nor half a letter", "[errors]") {
   const std::string megabyte(1'000'000, 'x');
   std::string umlauts = "x";

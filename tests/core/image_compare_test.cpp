@@ -72,6 +72,8 @@ TEST_CASE("Power is compared in dB where both are lit, and counted where only on
   CHECK(d.mean_dB == Approx(20.0 / 3.0));
   CHECK(d.rms_dB == Approx(std::sqrt(600.0 / 3.0)));
   CHECK(d.largest_dB == Approx(20.0));
+  CHECK(d.largest_dB_column == 2);  // the largest in watts is in column 0
+  CHECK(d.largest_column == 0);
   CHECK(d.different == 5);
 }
 
@@ -90,7 +92,7 @@ TEST_CASE("Sizes or layers that do not match are E-REF and name both files", "[i
   CHECK(message_of(a, layer("Y", 4, 1, {1, 2, 3, 4})) ==
         "b.png: E-REF size = 4 x 1, 1 layers: expected 2 x 2, 1 layers as in a.png");
   CHECK(message_of(a, layer("R", 2, 2, {1, 2, 3, 4})) ==
-        "b.png: E-REF layer = missing: expected \"Y\" as in a.png");
+        "b.png: E-REF layer = missing: expected \"Y\" as in a.png; there are R");
   CHECK(message_of(a, Image{2, 2, {}}) ==
         "b.png: E-REF size = 2 x 2, 0 layers: expected 2 x 2, 1 layers as in a.png");
 }

@@ -23,9 +23,9 @@ std::vector<float> numbers(std::uint64_t first, std::size_t count, const RandomK
 }
 
 // Number n by the formula of the header, in double.
-double exact(std::uint64_t n) {
+double exact(std::uint64_t n, const RandomKey& key = kKey) {
   const std::uint64_t in_group = n % kGroup;
-  const auto words = random_words(kKey, 16 * (n / kGroup) + in_group % 16, 0);
+  const auto words = random_words(key, 16 * (n / kGroup) + in_group % 16, 0);
   const std::size_t pair = in_group < 32 ? 0 : 2;
   const double u = ((words[pair] >> 1U) + 0.5) * 0x1p-31;
   const double angle_rad = 2.0 * kPi * words[pair + 1] * 0x1p-32;
@@ -50,6 +50,16 @@ TEST_CASE("Normal numbers by the group are those of Box and Muller", "[random]")
     }
     CHECK(largest < 1.0);
   }
+}
+
+TEST_CASE("Numbers by the group of frames 2^32 apart differ, each those of its own frame",
+          "[random]") {
+  RandomKey late = kKey;
+  late.frame += std::uint64_t{1} << 32U;
+  const auto drawn = numbers(0, kGroup, late);
+  CHECK(drawn != numbers(0, kGroup));
+  for (std::size_t i = 0; i < drawn.size(); ++i)
+    CHECK(static_cast<double>(drawn[i]) == Approx(exact(i, late)).epsilon(0.0).margin(3e-4));
 }
 
 TEST_CASE("A number does not depend on the piece that it is drawn in", "[random]") {

@@ -38,6 +38,22 @@ TEST_CASE("M06 a draw depends on every part of its name and on nothing else", "[
   CHECK(random_words(key, 11, 0) == random_words(key, 11, 0));
 }
 
+TEST_CASE("M06 no frame repeats after 2^32, and the words of the first 2^32 are those of ever",
+          "[M06]") {
+  constexpr std::uint64_t kTurn = std::uint64_t{1} << 32U;
+  // Seed 7 and stream 4 (times 2^32 over the golden ratio) make Philox's key.
+  const Block first = philox_block({11, 0, 2, 3}, {7, 4 * 0x9E3779B9U});
+  CHECK(random_words({7, kStreamSpeckle, 3}, 11, 2) == first);
+  CHECK(random_words({7, kStreamSpeckle, kTurn - 1}, 11, 2) ==
+        philox_block({11, 0, 2, 0xFFFFFFFFU}, {7, 4 * 0x9E3779B9U}));
+  std::set<Block> blocks;
+  for (std::uint64_t turn = 0; turn < 1000; ++turn)
+    for (std::uint32_t stream = 0; stream < 32; ++stream)
+      blocks.insert(random_words({7, stream, turn * kTurn + 3}, 11, 2));
+  CHECK(blocks.size() == 32000);
+  CHECK(blocks.count(first) == 1);
+}
+
 TEST_CASE("Uniform numbers lie in the open interval, also for the extreme words", "[random]") {
   CHECK(uniform_from(0) == 0x1p-33);
   CHECK(uniform_from(0xFFFFFFFFU) == 1.0 - 0x1p-33);

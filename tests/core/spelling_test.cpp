@@ -11,6 +11,21 @@ TEST_CASE("Edit distance counts single-letter changes", "[core][spelling]") {
   REQUIRE(edit_distance("grass", "gras") == 1);
 }
 
+TEST_CASE("A missing name is told with those there and the likely one", "[core][spelling]") {
+  const std::vector<std::string> known = {"time_s", "lat_deg", "lon_deg", "altitude_ft"};
+  const std::string all = "time_s, lat_deg, lon_deg, altitude_ft";
+  CHECK(names_there_text("alt_ft", known) == "; perhaps altitude_ft of " + all);
+  CHECK(names_there_text("lat", known) == "; perhaps lat_deg of " + all);
+  CHECK(names_there_text("timestamp", known) == "; there are " + all);
+  CHECK(names_there_text("", known) == "; there are " + all);
+  CHECK(names_there_text("x", {}) == "; there are none");
+  CHECK(names_there_text("x", {"", "roll"}) == "; there are , roll");
+  const std::string many = names_there_text("b", std::vector<std::string>(25, "column"));
+  CHECK(many.ends_with(", column and 5 more"));
+  CHECK(names_there_text(std::string(10'000'000, 'x'), {std::string(10'000'000, 'x')}).size() <
+        200);
+}
+
 TEST_CASE("Nearest names come nearest first and stay in order where equal", "[core][spelling]") {
   const std::vector<std::string> known = {"water", "brick", "roof", "root"};
   REQUIRE(nearest_names("roop", known, 2) == std::vector<std::string>{"roof", "root"});

@@ -55,3 +55,51 @@ TEST_CASE("trimmed removes blanks at both ends only", "[text]") {
   CHECK(trimmed(" \t ").empty());
   CHECK(trimmed("").empty());
 }
+
+TEST_CASE("What a terminal would obey is shown as an escape, everything else as it is", "[text]") {
+  for (const char* plain :
+       {"", "tower 3", "Innsbruck, Flughäfen, Köln/Bonn", "日本 ✈", "~!\"'\\"}) {
+    CHECK(printable_text(plain) == plain);
+    CHECK(is_printable_text(plain));
+  }
+  using namespace std::string_literals;
+  const std::pair<std::string, std::string> kEscaped[] = {
+      {"\x1b[2J", "\\x1b[2J"},
+      {"a\nb\r", "a\\x0ab\\x0d"},
+      {"\0"s, "\\x00"},
+      {"\x7f", "\\x7f"},
+      {"\xc2\x9b"
+       "31m",
+       "\\x9b31m"},
+      {"\u202egnp.exe", "\\u202egnp.exe"},
+      {"\u2028", "\\u2028"},
+      {"\u2066", "\\u2066"},
+      {"\xff", "\\xff"},
+      {"\xc0\xaf", "\\xc0\\xaf"},           // an overlong "/"
+      {"\xed\xa0\x80", "\\xed\\xa0\\x80"},  // a surrogate
+      {"\xf4\x90\x80\x80", "\\xf4\\x90\\x80\\x80"},
+      {"\xe2\x82", "\\xe2\\x82"}};
+  for (const auto& [text, shown] : kEscaped) {
+    INFO(shown);
+    CHECK(printable_text(text) == shown);
+    CHECK_FALSE(is_printable_text(text));
+    CHECK(is_printable_text(printable_text(text)));
+  }
+}
+
+TEST_CASE("A safe word names one file in one folder, and any text becomes one", "[text]") {
+  for (const char* word : {"a", "innsbruck-26", "v1.2_b", "0", "A..b"}) {
+    CHECK(is_safe_word(word));
+    CHECK(safe_word(word) == word);
+  }
+  for (const char* text : {"", ".", "..", "../../owned", "/etc", "a/b", "a\\b", "-o", ".hidden",
+                           "a b", "a\n", "ä", "C:"}) {
+    INFO(text);
+    CHECK_FALSE(is_safe_word(text));
+    CHECK(is_safe_word(safe_word(text)));
+  }
+  CHECK(safe_word("../../owned") == "owned");
+  CHECK(safe_word("My scene") == "My-scene");
+  CHECK_FALSE(is_safe_word(std::string(65, 'a')));
+  CHECK(safe_word(std::string(1000, 'a')).size() == 64);
+}

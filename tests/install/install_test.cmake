@@ -29,6 +29,13 @@ foreach(file IN LISTS shipped)
   endif()
 endforeach()
 
+# So do the manual and the shell's completion.
+foreach(file man/man1/fanbeam.1 man/man1/fanbeam-render.1 bash-completion/completions/fanbeam)
+  if(NOT EXISTS "${prefix}/share/${file}")
+    message(FATAL_ERROR "not installed: share/${file}")
+  endif()
+endforeach()
+
 run("${prefix}/bin/fanbeam" render --frames 0:1 -o "${SCRATCH}/pictures")
 foreach(file bscope/00000.png cscope/00000.png run.json)
   if(NOT EXISTS "${SCRATCH}/pictures/${file}")
@@ -39,5 +46,5 @@ endforeach()
 run("${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}/tests/install/consumer" -B "${SCRATCH}/consumer"
     "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}" -DCMAKE_BUILD_TYPE=Release)
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/consumer")
-run("${SCRATCH}/consumer/consumer")
+run("${SCRATCH}/consumer/consumer" "${prefix}/share/fanbeam" flat-grass)
 file(REMOVE_RECURSE "${SCRATCH}")

@@ -26,7 +26,7 @@ renderer::World field_of_two(Swerling swerling, int looks = 1) {
 }
 
 renderer::Frame rendered(const renderer::World& world, const renderer::Effects& effects,
-                         std::uint32_t frame_index = 0) {
+                         std::uint64_t frame_index = 0) {
   renderer::FramePose pose = tests::level_pose(60.0);
   pose.frame_index = frame_index;
   return renderer::FrameRenderer(world, renderer::sampling_for(2.0), {true, true, true}, effects)
@@ -102,6 +102,14 @@ TEST_CASE("M06 a realisation is the same for any thread count and order of frame
     other.seed = 4;
     CHECK_FALSE(rendered(world, other).bscope_W == first[0].bscope_W);
   }
+}
+
+TEST_CASE("M06 a session's realisations do not come back after 2^32 frames", "[M06]") {
+  const renderer::World world = field_of_two(Swerling::case2);
+  const renderer::Frame early = rendered(world, kSample, 5);
+  const renderer::Frame late = rendered(world, kSample, 5 + (std::uint64_t{1} << 32U));
+  CHECK_FALSE(late.bscope_W == early.bscope_W);
+  CHECK_FALSE(late.cscope_W_m3 == early.cscope_W_m3);
 }
 
 TEST_CASE("R19 nothing to fluctuate equals off, byte for byte", "[R19]") {

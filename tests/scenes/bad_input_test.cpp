@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
+#include <fstream>
 
 #include "core/files.h"
+#include "scenes/scene_reader.h"
 #include "tests/scenes/problem_checks.h"
 
 using namespace fanbeam;
@@ -179,6 +181,32 @@ TEST_CASE("F05 files outside the scene's folder are never opened", "[bad_input]"
                    {"@/scene.toml:26:1: E-PATH trajectory.file = \"" + name +
                     "\": expected a path inside @ (" + reason + ")"});
   }
+}
+
+TEST_CASE("F05 a scene's name, which becomes a folder, is a safe word", "[bad_input]") {
+  for (const std::string name :
+       {"../../owned", "/tmp/owned", "..", ".hidden", "-o", "a b", "C:\\x", "", "\u00e4"}) {
+    const std::string escaped = name == "C:\\x" ? "C:\\\\x" : name;
+    check_problems("name = \"test\"", "name = \"" + escaped + "\"",
+                   "2:1: E-RANGE scene.name = \"" + name +
+                       "\": expected 1 to 64 letters, digits, '.', '-' and '_', the first a letter "
+                       "or digit (title takes any text)");
+  }
+  check_problems("name = \"test\"", "name = \"a\\u001b[2J\"",
+                 "2:1: E-RANGE scene.name = \"a\\x1b[2J\": expected a text without control "
+                 "characters");
+}
+
+TEST_CASE("A scene without a name has that of its folder, made a safe word", "[bad_input]") {
+  const TemporaryFolder folder;
+  const fs::path inside = folder.path() / "My scene\x1b[2J";
+  fs::create_directories(inside);
+  std::ofstream(inside / "scene.toml")
+      << tests::replaced(tests::kSmallScene, "name = \"test\"\n", "");
+  core::ProblemList problems;
+  const scenes::SceneDescription scene =
+      scenes::read_scene(inside, {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+  CHECK(scene.name == "My-scene--2J");
 }
 
 TEST_CASE("Exactly one kind of trajectory", "[bad_input]") {

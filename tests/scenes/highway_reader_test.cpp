@@ -124,6 +124,17 @@ TEST_CASE("All that is wrong with a scenario file is told together, with its pat
   }
 }
 
+TEST_CASE("A member that is not there is told with those that are", "[highway]") {
+  const core::InputError error = refusal(file_with(
+      R"("motion": "piecewise-acceleration", "position": [50, 0], "velocity_mps": [22, 0])"));
+  const auto missing =
+      std::find_if(error.problems().begin(), error.problems().end(),
+                   [](const core::Problem& one) { return one.value == "nothing"; });
+  REQUIRE(missing != error.problems().end());
+  CHECK(missing->field == "scenarios[0].targets[0].position_m");
+  CHECK(missing->expected.starts_with("a value; perhaps position of "));
+}
+
 TEST_CASE("Hostile scenario files are refused before they cost anything", "[highway]") {
   CHECK(refusal(std::string(100000, '[')).has(core::ErrorClass::limit));
   CHECK(refusal("{").has(core::ErrorClass::parse));

@@ -105,6 +105,12 @@ TEST_CASE("A target of a scenario starts at its place and refuses what is not th
   CHECK(problems(tests::replaced(good, "runway = \"36\", behind_threshold_m = 100.0, left_m = 2.0",
                                  "latitude_deg = 52.0, longitude_deg = 10.0")) ==
         Codes{"E-REF target[0].at"});
+  folder.write("scene.toml",
+               tests::kSmallScene + tests::replaced(good, "target = \"D\"", "target = \"d1\""));
+  const tests::Outcome misspelt = tests::build(folder.path(), {});
+  REQUIRE(misspelt.problems.size() == 1);
+  CHECK(misspelt.problems[0].expected.starts_with("a target of the scenario; there are "));
+  CHECK(misspelt.problems[0].expected.find("D") != std::string::npos);
   CHECK(problems(good + "[[target.waypoint]]\ntime_s = 0.0\nat = { latitude_deg = 52.0, "
                         "longitude_deg = 10.0 }\n") == Codes{"E-REF target[0].highway"});
 }

@@ -1,5 +1,6 @@
 // Scenes that want too much: files outside their folder, more objects than there is memory for,
 // texts that keep a reader busy. docs/scene-format.md, "Limits".
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "scenes/file_budget.h"
@@ -116,7 +117,7 @@ TEST_CASE("R17 lines of a million points in all are E-LIMIT", "[hostile_scene][R
   CHECK(outcome.problems[0].code == "E-LIMIT");
   CHECK(outcome.problems[0].place.line == 28 + 4 * 10);  // the line behind ten of 99 900 points
   CHECK(memory.rise_MiB() < 1500.0);
-  CHECK(tests::processor_time_s() - begin_s < 5.0 * tests::kSanitizerSlowdown);
+  CHECK(tests::processor_time_s() - begin_s < tests::kAtOnce_s);
 }
 
 TEST_CASE("R17 models and buildings are counted by the bytes of their files",
@@ -191,9 +192,14 @@ TEST_CASE("R17 points of runways, lines and targets together are E-LIMIT, and no
   CHECK(points(all) == all);
   CHECK_FALSE(problems.has_errors());
   CHECK(points(all - 50) == all - 49);
-  REQUIRE(problems.all().size() == 1);
-  CHECK(problems.all()[0].code == "E-LIMIT");
-  CHECK(problems.all()[0].place.line == 28 + 3 * 50);
+  // A hundred targets in one place are warned of too.
+  std::vector<core::Problem> errors = problems.all();
+  errors.erase(std::remove_if(errors.begin(), errors.end(),
+                              [](const core::Problem& problem) { return !problem.is_error(); }),
+               errors.end());
+  REQUIRE(errors.size() == 1);
+  CHECK(errors[0].code == "E-LIMIT");
+  CHECK(errors[0].place.line == 28 + 3 * 50);
 }
 
 TEST_CASE("Scene files of 4 MiB of anything are answered in seconds", "[hostile_scene]") {
@@ -230,7 +236,7 @@ TEST_CASE("Scene files of 4 MiB of anything are answered in seconds", "[hostile_
     CHECK(codes_of(outcome.problems).find(c.code) != std::string::npos);
     for (const core::Problem& problem : outcome.problems)
       CHECK(core::to_string(problem).size() < 4000);
-    CHECK(memory.rise_MiB() < 512.0 * tests::kSanitizerSlowdown);
-    CHECK(tests::processor_time_s() - begin_s < 5.0 * tests::kSanitizerSlowdown);
+    CHECK(memory.rise_MiB() < 512.0 * tests::kSanitizerMemory);
+    CHECK(tests::processor_time_s() - begin_s < tests::kAtOnce_s);
   }
 }

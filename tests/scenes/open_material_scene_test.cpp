@@ -183,6 +183,18 @@ TEST_CASE("The scene's own mapping goes before the files, the default behind the
                       [](const std::string& name) { return name.starts_with("wall.gltf"); }) == 0);
 }
 
+TEST_CASE("A mapping of a material that the model has not names those it has", "[open_material]") {
+  const TemporaryFolder folder;
+  folder.write("wall.gltf", wall_gltf("Painted_Steel"));
+  const tests::Outcome outcome =
+      tests::build_text(folder, wall_scene("materials = { Painted = \"concrete\" }"));
+  REQUIRE(outcome.problems.size() == 1);
+  CHECK(outcome.problems[0].code == "W-UNUSED");
+  CHECK(outcome.problems[0].expected ==
+        "no triangle of wall.gltf has this material; perhaps Painted_Steel of Steel, "
+        "Painted_Steel");
+}
+
 TEST_CASE("An asset of the model's own name is used when asked for, and only then",
           "[open_material]") {
   const TemporaryFolder folder;

@@ -1,7 +1,9 @@
 // What [[target]] and [[line]] become: shapes, typical objects, wires, poles, and what is told
 // about them.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdio>
 
 #include "core/constants.h"
 #include "core/decibel.h"
@@ -231,6 +233,62 @@ source = "a test"
   CHECK(scene->description.files.back().filename() == "mine.toml");
 }
 
+TEST_CASE("Targets in each other are told by both names, once for two objects", "[targets]") {
+  const TemporaryFolder folder;
+  const std::string mast = target("name = \"mast\"\nrcs = { rcs_dBsm = 10.0 }");
+  const auto mast_line = 2 + std::count(kSmallScene.begin(), kSmallScene.end(), '\n');
+  const auto beside_mast = [&](const std::string& keys) {
+    return warnings_of(folder, mast + target("name = \"twin\"\n" + keys));
+  };
+  const auto twins = beside_mast("rcs = { rcs_dBsm = 10.0 }\nheading_deg = 30.0");
+  REQUIRE(twins.size() == 1);
+  CHECK(twins[0].code == "W-DUPLICATE");
+  CHECK(twins[0].field == "target");
+  CHECK(twins[0].place.line == mast_line + 5);
+  CHECK(twins[0].value == "\"twin\" at the place of \"mast\" of line " + std::to_string(mast_line) +
+                              ", with the same RCS");
+  CHECK(twins[0].expected == "both are kept, and two echo 3 dB more than one");
+  CHECK(beside_mast("rcs = { rcs_dBsm = 10.01 }").empty());
+  CHECK(beside_mast("rcs = { rcs_dBsm = 10.0 }\nabove_ground_m = 0.01").empty());
+
+  // The same place from its latitude and longitude, rounded as files do.
+  const auto scene = tests::good_scene(folder, kSmallScene + mast);
+  const core::Geodetic at =
+      scene->frame.to_geodetic(scene->world.targets.back().path.front().position_m);
+  char spot[80];
+  std::snprintf(spot, sizeof spot, "at = { latitude_deg = %.11f, longitude_deg = %.11f }\n",
+                core::degrees(at.latitude_rad), core::degrees(at.longitude_rad));
+  CHECK(
+      warnings_of(folder, mast + "\n[[target]]\n" + spot + "rcs = { rcs_dBsm = 10.0 }\n").size() ==
+      1);
+
+  // A trihedral looks one way.
+  const auto corners = [&](const std::string& heading_deg) {
+    const std::string corner = "rcs = { shape = \"trihedral\", edge_m = 0.1 }\nheading_deg = ";
+    return warnings_of(folder, target(corner + "0.0") + target(corner + heading_deg));
+  };
+  CHECK(corners("180.0").empty());
+  CHECK(corners("360.0").size() == 1);
+
+  const std::string poles = line("object = \"fence_post\"");
+  const auto lines = warnings_of(folder, poles + poles);
+  REQUIRE(lines.size() == 1);
+  CHECK(lines[0].field == "line");
+  CHECK(lines[0].value.starts_with("20 of the 20 points of \"line\" at the place of \"line\""));
+
+  // Cars that start together and part are two cars.
+  const auto drive = [](const std::string& left_m) {
+    return "\n[[target]]\nrcs = { rcs_dBsm = 10.0 }\n"
+           "[[target.waypoint]]\ntime_s = 0.0\n" +
+           kAt +
+           "[[target.waypoint]]\ntime_s = 9.0\nat = { runway = \"36\", behind_threshold_m = 200.0, "
+           "left_m = " +
+           left_m + " }\n";
+  };
+  CHECK(warnings_of(folder, drive("0.0") + drive("5.0")).empty());
+  CHECK(warnings_of(folder, drive("5.0") + drive("5.0")).size() == 1);
+}
+
 TEST_CASE("Targets too large for the far field are counted in one warning", "[targets]") {
   const TemporaryFolder folder;
   CHECK(warnings_of(folder, target("rcs = { shape = \"trihedral\", edge_m = 1.0 }")).empty());
@@ -251,8 +309,8 @@ TEST_CASE("Targets too large for the far field are counted in one warning", "[ta
 
 TEST_CASE("An object not known at the sensor's frequency is told about once", "[targets]") {
   const TemporaryFolder folder;
-  const auto warnings =
-      warnings_of(folder, target("rcs = \"airliner\"") + target("rcs = \"airliner\""));
+  const auto warnings = warnings_of(
+      folder, target("rcs = \"airliner\"") + target("rcs = \"airliner\"\nabove_ground_m = 30.0"));
   REQUIRE(warnings.size() == 1);
   CHECK(warnings[0].code == "W-EXTRAPOLATED");
   CHECK(warnings[0].field == "object 'airliner' at frequency_GHz");

@@ -78,6 +78,17 @@ TEST_CASE("Voids under the field of view, by their area; elsewhere they are nobo
   CHECK(with_void_in_row(25).empty());  // behind the radar
 }
 
+TEST_CASE("Targets in each other, by what the second adds", "[doctor]") {
+  const TemporaryFolder folder;
+  const auto post = [](double above_m) {
+    return "[[target]]\nat = " + north_of_it(1000.0) +
+           "\nrcs = { rcs_dBsm = 0 }\nabove_ground_m = " + core::number_text(above_m) + "\n";
+  };
+  check_found(examined(folder, kPlain + post(2) + post(2)), "duplicate-targets", Severity::delicate,
+              3.0103, "dB", 1e-4);
+  CHECK(examined(folder, kPlain + post(2) + post(3)).empty());
+}
+
 TEST_CASE("Targets below the ground, by their depth", "[doctor]") {
   const TemporaryFolder folder;
   const std::string target = "[[target]]\nname = \"buried\"\nat = " + north_of_it(1000.0) +

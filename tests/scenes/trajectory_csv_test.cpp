@@ -82,6 +82,23 @@ TEST_CASE("F09: each broken trajectory text has its class and line", "[trajector
   CHECK(codes_and_lines(kHeader + "0,47 11,11,600\n") == "E-PARSE@2");
 }
 
+TEST_CASE("F09: a clock reading that is too late is told itself, not the rows that follow",
+          "[trajectory_csv]") {
+  const std::string text =
+      kHeader + "0,47,11,600\n1,47,11,600\n900,47,11,600\n3,47,11,600\n4,47,11,600\n";
+  CHECK(codes_and_lines(text) == "E-TIME@4");
+  CHECK_THAT(core::to_string(read(text).problems.all().at(0)),
+             Catch::Contains("time_s = 900 s: expected earlier than 3 s in line 5"));
+  TrajectoryColumns rejecting;
+  rejecting.outliers = OutlierPolicy::reject;
+  const Reading reading = read(text, rejecting);
+  CHECK(reading.problems.all().empty());
+  CHECK(reading.track.rows.size() == 4);
+  REQUIRE(reading.track.rejected.size() == 1);
+  CHECK(reading.track.rejected[0].first_row == 3);
+  CHECK(reading.track.rejected[0].first_line == 4);
+}
+
 TEST_CASE("F09: one row, CRLF, byte order mark and blank lines are fine", "[trajectory_csv]") {
   const Reading reading =
       read("\xEF\xBB\xBFtime_s,latitude_deg,longitude_deg,height_m\r\n0,47,-11.5,600\r\n\r\n");

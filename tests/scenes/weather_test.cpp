@@ -198,3 +198,12 @@ TEST_CASE("A rain cell off the terrain is told where it stands", "[weather]") {
       "24:1: E-RANGE weather.rain_cell[0].at = 0 m east, 9000 m north of the origin: expected a "
       "place on the scene's terrain");
 }
+
+TEST_CASE("A law that the sensor's frequency does not suit is told in GHz, as sensors are written",
+          "[weather]") {
+  const TemporaryFolder folder;
+  tests::check_problems(
+      folder, with_weather("visibility_m = 400.0\nfog_law = \"centimetre\"\n"),
+      {"@/scene.toml:22:1: E-RANGE frequency of the sensor = 35 GHz: expected 3 to 15 GHz for the "
+       "fog law centimetre"});
+}

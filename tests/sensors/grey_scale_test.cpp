@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "sensors/display/display.h"
 #include "sensors/display/seed_signal.h"
 #include "tests/sensors/shipped_sensor.h"
 
@@ -116,7 +117,29 @@ TEST_CASE("log shows received power in dBW whatever the range", "[grey_scale]") 
   sensor.display.high_dB = -70.0;
   const GreyScale scale(sensor);
   for (const int row : {0, 523}) CHECK(scale.bscope_grey(1e-12, row) == Approx(127.5));
-  CHECK(scale.cscope_grey(1e-12 * std::pow(203.335, 3)) == Approx(127.5));
+  // The C-scope: the same power in each of the 524 range cells, shared evenly among 524 rows. The
+  // sum of R^3 over the cells is (R2^4 - R1^4) / (4 cell) within 1e-5 (midpoint rule).
+  const double shared_m3 = (std::pow(3695.08, 4) - std::pow(200.0, 4)) / (4.0 * 6.67) / 524.0;
+  CHECK(scale.cscope_level_dB(1e-12 * shared_m3) == Approx(-120.0).epsilon(0.0).margin(1e-4));
+  CHECK(scale.cscope_grey(1e-12 * shared_m3) == Approx(127.5).epsilon(1e-5));
+}
+
+TEST_CASE("under log the noise is the same grey in the C-scope as in the B-scope", "[grey_scale]") {
+  for (const char* file : {"automotive-76.toml", "hivision.toml"}) {
+    Sensor sensor = tests::shipped_sensor(file);
+    sensor.display.mapping = Display::Mapping::log;
+    sensor.display.low_dB = -180.0;
+    sensor.display.high_dB = -80.0;
+    for (const int rows : {16, 128, 524}) {
+      sensor.display.cscope_rows = rows;
+      const GreyScale scale(sensor);
+      const double noise_grey = scale.bscope_grey(sensor.noise_power_W(), 7);
+      CHECK(noise_grey > 1.0);
+      CHECK(scale.cscope_grey(cscope_noise_W_m3(sensor)) == Approx(noise_grey).epsilon(1e-9));
+      CHECK(scale.cscope_floor_W_m3() ==
+            Approx(cscope_noise_W_m3(sensor) / sensor.noise_power_W() * 1e-18).epsilon(1e-9));
+    }
+  }
 }
 
 TEST_CASE("seed maps its minimum signal to 0 and its maximum to 255, linear in dB",

@@ -32,8 +32,7 @@ std::string refusal_of_footprints(const std::filesystem::path& file) {
 
 std::string refusal_of_raster(const std::filesystem::path& file) {
   try {
-    core::ProblemList problems;
-    ElevationRaster raster(file, {}, problems);
+    ElevationRaster raster(file, {});
   } catch (const core::InputError& error) {
     return error.what();
   }

@@ -21,12 +21,7 @@ namespace {
 using core::radians;
 using tests::shared_data;
 
-ElevationRaster load(const std::filesystem::path& file, VoidPolicy voids = VoidPolicy::refuse) {
-  ElevationOptions options;
-  options.voids = voids;
-  core::ProblemList problems;
-  return {file, options, problems};
-}
+ElevationRaster load(const std::filesystem::path& file) { return {file, ElevationOptions{}}; }
 
 std::string bytes_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
@@ -45,9 +40,9 @@ TEST_CASE("An SRTM cell as .hgt and DTED 1 and 0 holds the same heights", "[elev
   const auto folder = shared_data("srtm-n47e009");
   if (!folder) return;
   const std::string bytes = bytes_of(*folder / "N47E009.hgt");
-  const ElevationRaster hgt = load(*folder / "N47E009.hgt", VoidPolicy::fill);
-  const ElevationRaster dted1 = load(*folder / "n47_e009.dt1", VoidPolicy::fill);
-  const ElevationRaster dted0 = load(*folder / "n47_e009.dt0", VoidPolicy::fill);
+  const ElevationRaster hgt = load(*folder / "N47E009.hgt");
+  const ElevationRaster dted1 = load(*folder / "n47_e009.dt1");
+  const ElevationRaster dted0 = load(*folder / "n47_e009.dt0");
   REQUIRE(hgt.width() == 1201);
   REQUIRE(dted1.width() == 1201);
   REQUIRE(dted0.width() == 121);
@@ -81,12 +76,6 @@ TEST_CASE("An SRTM cell as .hgt and DTED 1 and 0 holds the same heights", "[elev
     CHECK(height_deg(*raster, 47.5, 9.5) ==
           Approx(*hgt.post_height_m(600, 600)).epsilon(0.0).margin(1e-6));
   }
-}
-
-TEST_CASE("Voids of an SRTM cell are refused unless filling is asked for", "[elevation][data]") {
-  const auto file = shared_data("srtm-n47e009/N47E009.hgt");
-  if (!file) return;
-  CHECK_THROWS_WITH(load(*file), Catch::Matchers::Contains("15299 of 1442401"));
 }
 
 TEST_CASE("Innsbruck's terrain has the published range and agrees with its UTM copy",
@@ -156,7 +145,7 @@ TEST_CASE("Truncated copies of real rasters are refused, never read as zeros",
       const auto length = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
       const auto file = folder.write(original.filename().string(), whole.substr(0, length));
       CAPTURE(file.string(), part);
-      CHECK_THROWS_WITH(load(file, VoidPolicy::fill), Catch::Matchers::Contains("E-PARSE"));
+      CHECK_THROWS_WITH(load(file), Catch::Matchers::Contains("E-PARSE"));
     }
   };
   folder.write("dem_lowi_core_1arcsec.prj", bytes_of(*root / "dem_lowi_core_1arcsec.prj"));

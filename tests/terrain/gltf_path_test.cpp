@@ -100,9 +100,14 @@ TEST_CASE("F05 data URIs in base64 need no file", "[gltf]") {
     return tests::problems_of(document);
   };
   CHECK(has(problems("data:;base64,AAAA"), "E-REF", "buffers[0].byteLength"));
-  CHECK(has(problems("data:;base64,####"), "E-REF", "buffers[0].byteLength"));
-  CHECK(has(problems("data:,AAAA"), "E-UNSUPPORTED", "buffers[0].uri"));
-  CHECK(has(problems("data:"), "E-UNSUPPORTED", "buffers[0].uri"));
+  CHECK(has(problems("data:;base64,####"), "E-PARSE", "buffers[0].uri"));
+  CHECK(has(problems("data:;base64," + payload.substr(0, 47) + "!"), "E-PARSE", "buffers[0].uri"));
+  CHECK(has(problems("data:;base64," + payload.substr(0, 45)), "E-PARSE", "buffers[0].uri"));
+  CHECK(has(problems("data:;base64," + payload + "==="), "E-PARSE", "buffers[0].uri"));
+  CHECK(has(problems("data:,AAAA"), "E-REF", "buffers[0].byteLength"));
+  CHECK(has(problems("data:,%0"), "E-PARSE", "buffers[0].uri"));
+  CHECK(has(problems("data:,%0x00"), "E-PARSE", "buffers[0].uri"));
+  CHECK(has(problems("data:"), "E-PARSE", "buffers[0].uri"));
 }
 
 TEST_CASE("F08 an image bomb is neither opened nor decoded", "[gltf]") {

@@ -105,7 +105,7 @@ TEST_CASE("T06: coordinates outside their domain are refused by name", "[local_f
   CHECK(problem_of(geodetic_deg(90.0, 540.0, 1.0e6)) == "accepted");
   CHECK(problem_of(geodetic_deg(-90.0, -540.0, -20.0e3)) == "accepted");
   CHECK_THROWS_AS(LocalFrame(geodetic_deg(-91.0, 0.0, 0.0)), core::InputError);
-  CHECK_THROWS_AS(LocalFrame(geodetic_deg(90.0, 0.0, 0.0), EarthModel::plane), core::InputError);
+  CHECK_THROWS_AS(LocalFrame(geodetic_deg(-91.0, 0.0, 0.0), EarthModel::plane), core::InputError);
 }
 
 TEST_CASE("A frame and its inverse agree, on the ellipsoid and on a plane Earth", "[local_frame]") {
@@ -117,14 +117,78 @@ TEST_CASE("A frame and its inverse agree, on the ellipsoid and on a plane Earth"
   }
 }
 
-TEST_CASE("A plane Earth has no curvature and arcs of the right length", "[local_frame]") {
-  const LocalFrame frame(kInnsbruck, EarthModel::plane);
-  const glm::dvec3 east_m =
-      frame.to_local_m(geodesic_point(kInnsbruck, core::radians(90.0), 1000.0));
-  const glm::dvec3 north_m = frame.to_local_m(geodesic_point(kInnsbruck, 0.0, 1000.0));
-  CHECK(east_m.z == 0.0);
-  CHECK(std::abs(east_m.x - 1000.0) < 1e-2);   // the parallel bends away from the geodesic
-  CHECK(std::abs(north_m.y - 1000.0) < 1e-3);  // the meridian's radius grows with latitude
+// A map of degrees of latitude and longitude has no east at the poles and a seam at the date line.
+const std::vector<core::Geodetic> kOrigins{
+    kInnsbruck,
+    geodetic_deg(0.0, 180.0, 0.0),
+    geodetic_deg(52.0, -180.0, 50.0),
+    geodetic_deg(89.95, 123.0, 2000.0),
+    geodetic_deg(90.0, 0.0, 0.0),
+    geodetic_deg(90.0, 77.0, 0.0),
+    geodetic_deg(-90.0, -45.0, 2835.0),
+};
+
+TEST_CASE(
+    "T05: a plane Earth is the same at a pole and across the date line: geodesics keep length and "
+    "direction",
+    "[local_frame]") {
+  for (const core::Geodetic& origin : kOrigins) {
+    INFO(core::degrees(origin.latitude_rad) << ", " << core::degrees(origin.longitude_rad));
+    const LocalFrame frame(origin, EarthModel::plane);
+    for (double azimuth_deg = -170.0; azimuth_deg <= 180.0; azimuth_deg += 10.0)
+      for (const double distance_m : {0.5, 3700.0, 12345.6}) {
+        const double azimuth_rad = core::radians(azimuth_deg);
+        core::Geodetic there = geodesic_point(origin, azimuth_rad, distance_m);
+        there.height_m = origin.height_m + 234.5;
+        const glm::dvec3 local_m = frame.to_local_m(there);
+        const glm::dvec3 expected_m{distance_m * std::sin(azimuth_rad),
+                                    distance_m * std::cos(azimuth_rad), 234.5};
+        REQUIRE(glm::distance(local_m, expected_m) < 1e-7);
+        REQUIRE(glm::distance(frame.to_local_m(frame.to_geodetic(local_m)), local_m) < 1e-7);
+      }
+  }
+}
+
+TEST_CASE("A plane Earth has the places and the north of the round one, but for its curvature",
+          "[local_frame]") {
+  constexpr double kRadius_m = 6335.4e3;  // the smallest of WGS 84
+  for (const core::Geodetic& origin : kOrigins) {
+    INFO(core::degrees(origin.latitude_rad) << ", " << core::degrees(origin.longitude_rad));
+    const LocalFrame plane(origin, EarthModel::plane);
+    const LocalFrame round(origin);
+    for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 15.0)
+      for (const double distance_m : {100.0, 3700.0, 10.0e3}) {
+        core::Geodetic there = geodesic_point(origin, core::radians(azimuth_deg), distance_m);
+        there.height_m = origin.height_m;
+        const glm::dvec3 difference_m = plane.to_local_m(there) - round.to_local_m(there);
+        // d^3 / (6 R^2) of foreshortening, and heights of the origin stretch the round one.
+        const double level_m = std::pow(distance_m, 3) / (6.0 * kRadius_m * kRadius_m) +
+                               distance_m * std::abs(origin.height_m) / kRadius_m;
+        REQUIRE(std::hypot(difference_m.x, difference_m.y) < 1.01 * level_m + 1e-6);
+        REQUIRE(difference_m.z == Approx(0.5 * distance_m * distance_m / kRadius_m).epsilon(0.012));
+        // The plumb line tilts by d / R; north turns about it alike.
+        const glm::dmat3 a = plane.north_east_down_at(there);
+        const glm::dmat3 b = round.north_east_down_at(there);
+        const double tilt = distance_m / kRadius_m;
+        for (int axis = 0; axis < 3; ++axis)
+          REQUIRE(glm::distance(a[axis], b[axis]) < 1.01 * tilt + 1e-9);
+        for (int axis = 0; axis < 2; ++axis)
+          REQUIRE(std::hypot(a[axis].x - b[axis].x, a[axis].y - b[axis].y) < tilt * tilt + 1e-9);
+      }
+  }
+}
+
+TEST_CASE("On a plane Earth what lies on the origin's meridian is due north or south exactly",
+          "[local_frame]") {
+  const LocalFrame frame(geodetic_deg(52.0, 10.0, 50.0), EarthModel::plane);
+  for (const double latitude_deg : {51.9, 51.99999, 52.0, 52.00001, 52.1}) {
+    const core::Geodetic there = geodetic_deg(latitude_deg, 10.0, 50.0);
+    CHECK(frame.to_local_m(there).x == 0.0);
+    const glm::dmat3 level = frame.north_east_down_at(there);
+    CHECK(level[0] == glm::dvec3(0.0, 1.0, 0.0));
+    CHECK(level[1] == glm::dvec3(1.0, 0.0, 0.0));
+    CHECK(level[2] == glm::dvec3(0.0, 0.0, -1.0));
+  }
 }
 
 TEST_CASE("North, east and down are those of the place asked for", "[local_frame]") {
@@ -143,11 +207,6 @@ TEST_CASE("North, east and down are those of the place asked for", "[local_frame
   CHECK(glm::distance(glm::cross(axes[0], axes[1]), axes[2]) < 1e-14);
   // 10 km over an Earth radius of 6388 km tilts the plumb line by 1.565 mrad.
   CHECK(std::asin(-axes[2].x) == Approx(10.0e3 / 6388.5e3).epsilon(1e-3));
-
-  const glm::dmat3 level = LocalFrame(kInnsbruck, EarthModel::plane).north_east_down_at(place);
-  CHECK(level[0] == glm::dvec3(0.0, 1.0, 0.0));
-  CHECK(level[1] == glm::dvec3(1.0, 0.0, 0.0));
-  CHECK(level[2] == glm::dvec3(0.0, 0.0, -1.0));
 }
 
 TEST_CASE("F10: geodesics cross the date line and the pole", "[local_frame]") {

@@ -54,8 +54,10 @@ struct Crossings {
 
 }  // namespace
 
-FANBEAM_HOT void cut_ground(const terrain::HeightField& ground, const glm::dvec2& origin_m,
-                            const glm::dvec2& along, double far_m, double zero_m, GroundCut& cut) {
+FANBEAM_HOT(void, cut_ground,
+            (const terrain::HeightField& ground, const glm::dvec2& origin_m,
+             const glm::dvec2& along, double far_m, double zero_m, GroundCut& cut),
+            (ground, origin_m, along, far_m, zero_m, cut)) {
   cut.pieces = 0;
   const double per_spacing = 1.0 / ground.spacing_m;
   const double u0 = (origin_m.x - ground.west_m) * per_spacing, u_per_m = along.x * per_spacing;

@@ -61,8 +61,9 @@ inline double kind_of(const Reach& reach, double cross_m2, double nearest2_m2, d
 
 }  // namespace
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void integrate(const sensors::RangeGate& gate,
-                                              const VisiblePieces& pieces, PiecePowers& powers) {
+FANBEAM_HOT(void, integrate,
+            (const sensors::RangeGate& gate, const VisiblePieces& pieces, PiecePowers& powers),
+            (gate, pieces, powers)) {
   const In near_distance_m = pieces.near_distance_m.data();
   const In near_height_m = pieces.near_height_m.data();
   const In far_distance_m = pieces.far_distance_m.data();
@@ -141,9 +142,10 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void integrate(const sensors::RangeGate& gate,
   powers.count = count;
 }
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void weigh(const PowerTables& tables, const double* gain,
-                                          const SineWeights& weights, double constant_W_m2,
-                                          const VisiblePieces& pieces, PiecePowers& powers) {
+FANBEAM_HOT(void, weigh,
+            (const PowerTables& tables, const double* gain, const SineWeights& weights,
+             double constant_W_m2, const VisiblePieces& pieces, PiecePowers& powers),
+            (tables, gain, weights, constant_W_m2, pieces, powers)) {
   const In facet_m = pieces.facet_m.data(), facet_d2 = pieces.facet_d2.data();
   const std::int32_t* material = pieces.material.data();
   const In distance_m = powers.distance_m.data(), height_m = powers.height_m.data();
@@ -178,8 +180,9 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void weigh(const PowerTables& tables, const doubl
   }
 }
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void lose_on_path(const PathLossTable& path_loss,
-                                                 double sensor_height_m, PiecePowers& powers) {
+FANBEAM_HOT(void, lose_on_path,
+            (const PathLossTable& path_loss, double sensor_height_m, PiecePowers& powers),
+            (path_loss, sensor_height_m, powers)) {
   const In height_m = powers.height_m.data(), range_m = powers.range_m.data();
   const Out before = powers.before_W_per_rad.data(), behind = powers.behind_W_per_rad.data();
   const int count = powers.count;

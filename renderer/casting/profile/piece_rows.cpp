@@ -42,10 +42,10 @@ inline void place(const RowOf& row_of, const SineWeights& weights, const Visible
   }
 }
 
-FANBEAM_HOT FANBEAM_INLINE_ALL void place_anywhere(const PowerTables& tables,
-                                                   const SineWeights& weights,
-                                                   const VisiblePieces& pieces,
-                                                   PiecePowers& powers) {
+FANBEAM_HOT(void, place_anywhere,
+            (const PowerTables& tables, const SineWeights& weights, const VisiblePieces& pieces,
+             PiecePowers& powers),
+            (tables, weights, pieces, powers)) {
   const In row = tables.row();
   const double lowest_sine = tables.lowest_sine(), per_sine = tables.steps_per_sine();
   constexpr double kLastStep = PowerTables::kSineSteps - 1e-6;
@@ -60,10 +60,10 @@ FANBEAM_HOT FANBEAM_INLINE_ALL void place_anywhere(const PowerTables& tables,
 }
 
 // Near the horizon the arc sine is a short series: no table is needed.
-FANBEAM_HOT FANBEAM_INLINE_ALL void place_near_horizon(const PowerTables& tables,
-                                                       const SineWeights& weights,
-                                                       const VisiblePieces& pieces,
-                                                       PiecePowers& powers) {
+FANBEAM_HOT(void, place_near_horizon,
+            (const PowerTables& tables, const SineWeights& weights, const VisiblePieces& pieces,
+             PiecePowers& powers),
+            (tables, weights, pieces, powers)) {
   const double top_rad = tables.top_rad(), per_rad = tables.rows_per_rad();
   const auto row_of = [=](double sine) {
     const double not_high = sine < kNearHorizon ? sine : kNearHorizon;
@@ -82,7 +82,8 @@ void place_in_rows(const PowerTables& tables, const SineWeights& weights,
     place_anywhere(tables, weights, pieces, powers);
 }
 
-FANBEAM_HOT void share_rows(int rows_in_picture, int cells_in_gate, PiecePowers& powers) {
+FANBEAM_HOT(void, share_rows, (int rows_in_picture, int cells_in_gate, PiecePowers& powers),
+            (rows_in_picture, cells_in_gate, powers)) {
   const In high_row = powers.high_row.data(), low_row = powers.low_row.data();
   const In before = powers.before_W_per_rad.data(), behind = powers.behind_W_per_rad.data();
   const In range_m = powers.range_m.data();

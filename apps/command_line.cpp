@@ -1,0 +1,50 @@
+#include "apps/command_line.h"
+
+#include <iostream>
+#include <memory>
+#include <utility>
+
+#include "apps/help/help_formatter.h"
+#include "apps/help/suggestion.h"
+#include "core/machine.h"
+
+namespace fanbeam::apps {
+
+CommandLine::CommandLine()
+    : program_(
+          "fanbeam renders what an airborne imaging millimetre-wave radar sees on an approach.",
+          "fanbeam") {
+  program_.set_version_flag("--version", "fanbeam " + version_text() + " (" + commit_text() + ")");
+  program_.require_subcommand(1);
+  program_.formatter(std::make_shared<HelpFormatter>());
+}
+
+void CommandLine::put(CLI::App& command, std::function<int()> action) {
+  command.group(heading_);
+  for (CLI::App* below : command.get_subcommands({})) {
+    if (below->get_name().empty()) {
+      below->set_help_flag();  // a group of options, which CLI11 gives a --help of its own
+    } else {
+      below->group("Commands");
+    }
+  }
+  actions_[&command] = std::move(action);
+}
+
+int CommandLine::run(int argc, const char* const* argv) {
+  try {
+    program_.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program_.exit(error);
+    std::cerr << usage_error_text(program_, error);
+    return kExitUsage;
+  }
+  const std::function<int()>& action = actions_.at(program_.get_subcommands().front());
+  return run_guarded([&] {
+    set_up_log(common_);
+    core::limit_instructions(core::instruction_level_named(common_.isa), "--isa");
+    return action();
+  });
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,160 @@
+#include "apps/help/command_notes.h"
+
+#include <map>
+
+namespace fanbeam::apps {
+namespace {
+
+using Examples = std::map<std::string_view, std::vector<Example>>;
+
+Examples pictures() {
+  return {
+      {"render",
+       {{"fanbeam render", "the default scene, to out/braunschweig-26"},
+        {"fanbeam render flat-grass --products bscope,power -o /tmp/grass",
+         "B-scope as PNG and power in watts as EXR"},
+        {"fanbeam render braunschweig-26 --frames 0:160:16 --accuracy 0.5",
+         "a frame a second for ten seconds, to half a grey level"},
+        {"fanbeam render --frames 40 --sensor hivision-seed --effects +multipath,-fog",
+         "one frame with the radar as its published table has it, without fog"},
+        {"fanbeam render my-scene --data ~/terrain --resume",
+         "a scene of your own with its terrain elsewhere, taken up where it was stopped"}}},
+      {"plan",
+       {{"fanbeam plan", "which effects the default scene calls for, and why"},
+        {"fanbeam plan rain-94ghz --accuracy 0.1 --json", "the same for programs, ten times finer"},
+        {"fanbeam plan braunschweig-26 --per-frame --frames 0:50:10",
+         "what single frames can go without"}}},
+      {"cost",
+       {{"fanbeam cost flat-grass --quick", "a short look, to out/flat-grass-cost"},
+        {"fanbeam cost --parts ladder,effects -o /tmp/cost", "without numerics and signals"}}},
+  };
+}
+
+Examples checks() {
+  return {
+      {"init",
+       {{"fanbeam init my-scene --airport EDNY --runway 24 --runways runways.csv --dem N47E009.hgt",
+         "an instrument approach over real terrain, in a folder that validates"},
+        {"fanbeam init my-scene --airport LOWI --runway 26 --apt-dat apt.dat --dem dem.tif --track "
+         "flight.csv --buildings houses.geojson",
+         "a recorded flight, with buildings"}}},
+      {"regress",
+       {{"fanbeam regress run suite.toml", "pictures, a page and JUnit XML in out/regress"},
+        {"fanbeam regress approve suite.toml --reason \"wet grass is brighter\"",
+         "from now on these pictures are right"}}},
+      {"regress run",
+       {{"fanbeam regress run suite.toml --junit results.xml --no-html", "in a CI"}}},
+      {"regress approve",
+       {{"fanbeam regress approve suite.toml --case \"LOWI 26\" --reason \"new taxiway\"",
+         "one case of the suite"}}},
+      {"validate",
+       {{"fanbeam validate my-scene", "every problem of a scene, with file, line and column"},
+        {"fanbeam validate my-scene -q && fanbeam render my-scene",
+         "pictures of a good scene only"}}},
+      {"doctor",
+       {{"fanbeam doctor braunschweig-26", "what is delicate, and what to do about it"},
+        {"fanbeam doctor my-scene --measure --json findings.json",
+         "measured on three frames, and written down"}}},
+      {"compare",
+       {{"fanbeam compare --exact old new", "two folders, every value of every picture"},
+        {"fanbeam compare --rms 0.5 --largest 8 old/bscope/00000.png new/bscope/00000.png",
+         "two pictures within half a grey level RMS and eight anywhere"}}},
+  };
+}
+
+Examples signals() {
+  return {
+      {"fmcw",
+       {{"fanbeam fmcw", "maps and detections of a street, to out/street-76ghz-fmcw"},
+        {"fanbeam fmcw street-76ghz --frames 0:3 --products cube,detections --unfold",
+         "three frames: range, speed and azimuth, and what is in them"},
+        {"fanbeam fmcw braunschweig-26 --products bscope",
+         "an aircraft's picture from beat signals"}}},
+      {"waveform",
+       {{"fanbeam waveform", "what a chirp sequence at 76 GHz resolves"},
+        {"fanbeam waveform triangle --bandwidth 150 --ramp 1000 --range 80 --speed -12",
+         "the beats of a target that closes in"}}},
+      {"track",
+       {{"fanbeam track highway.json --plots", "tracks and errors of every scenario in the file"},
+        {"fanbeam track highway.json --scenario crossing --association joint --seed 3",
+         "one of them, with another association and another draw"}}},
+  };
+}
+
+Examples look_ups() {
+  return {
+      {"materials",
+       {{"fanbeam materials --state wet --polarisation VV", "reflectivities of wet surfaces"},
+        {"fanbeam materials plot -o grass.svg short_grass concrete",
+         "two of them over grazing angle"},
+        {"fanbeam materials objects", "radar cross-sections"}}},
+      {"materials plot",
+       {{"fanbeam materials plot -o grass.svg short_grass concrete", "two curves at 35 GHz"},
+        {"fanbeam materials plot -o all.png --frequency 94", "all of them at 94 GHz"}}},
+      {"materials fit",
+       {{"fanbeam materials fit --model git-land --terrain grass", "a, b, c of a published model"},
+        {"fanbeam materials fit --csv measured.csv --json", "of measurements of your own"}}},
+      {"materials objects", {{"fanbeam materials objects", "a line an object"}}},
+      {"atmosphere",
+       {{"fanbeam atmosphere --fog-visibility 200", "loss at 35 GHz in thick fog, to 4 km"},
+        {"fanbeam atmosphere --frequency 35,94 --rain 4 --range 8000 --csv",
+         "a table for programs"},
+        {"fanbeam atmosphere --compare 35,94 -o /tmp/bands",
+         "which band sees farther, with plots"}}},
+      {"list",
+       {{"fanbeam list", "names of all there is"},
+        {"fanbeam list scenes", "what can be rendered, and whether its data are there"},
+        {"fanbeam list effects --json", "for programs"}}},
+      {"help",
+       {{"fanbeam help render", "its options, with examples"},
+        {"source <(fanbeam help --bash-completion)", "completion in this shell"}}},
+  };
+}
+
+Examples all_examples() {
+  Examples all = {{"",
+                   {{"fanbeam list scenes", "what can be rendered"},
+                    {"fanbeam render", "pictures of the default scene, to out/braunschweig-26"},
+                    {"fanbeam validate my-scene", "what is wrong with a scene of your own"},
+                    {"fanbeam help render", "all that render can do, with examples"}}}};
+  for (Examples part : {pictures(), checks(), signals(), look_ups()}) all.merge(part);
+  return all;
+}
+
+// Meanings of 1 and of more than 5, which few commands have.
+const std::map<std::string_view, ExitCode>& own_exit_codes() {
+  static const std::map<std::string_view, ExitCode> codes = {
+      {"compare", {"1", "comparison failed", "pictures differ by more than is allowed"}},
+      {"doctor", {"1", "something is worse than delicate", ""}},
+      {"regress", {"1", "pictures differ or are not approved", ""}},
+      {"regress run", {"1", "pictures differ or are not approved", ""}},
+      {"render", {"130 or 143", "stopped by Ctrl-C or kill", "whole files only are left"}},
+      {"fmcw", {"130 or 143", "stopped by Ctrl-C or kill", "whole files only are left"}},
+      {"", {"1", "comparison failed", "pictures differ by more than is allowed"}},
+  };
+  return codes;
+}
+
+}  // namespace
+
+const std::vector<Example>& examples_of(std::string_view command) {
+  static const Examples all = all_examples();
+  static const std::vector<Example> none;
+  const auto found = all.find(command);
+  return found == all.end() ? none : found->second;
+}
+
+std::vector<ExitCode> exit_codes_of(std::string_view command) {
+  std::vector<ExitCode> codes = {
+      {"0", "done", ""},
+      {"2", "usage", "the command line could not be understood; nothing was done"},
+      {"3", "invalid input", "a scene or another file is wrong; each problem was told"},
+      {"4", "input/output", "a file is not there, or the system refused to read or write one"},
+      {"5", "bug", "of fanbeam itself: please report it"}};
+  const auto own = own_exit_codes().find(command);
+  if (own == own_exit_codes().end()) return codes;
+  codes.insert(own->second.codes == "1" ? codes.begin() + 1 : codes.end(), own->second);
+  return codes;
+}
+
+}  // namespace fanbeam::apps

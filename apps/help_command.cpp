@@ -1,0 +1,72 @@
+#include "apps/help_command.h"
+
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "apps/command_line.h"
+#include "apps/help/bash_completion.h"
+#include "apps/help/help_formatter.h"
+#include "apps/help/man_page.h"
+#include "apps/help/option_text.h"
+#include "apps/help/suggestion.h"
+#include "apps/value_words.h"
+
+namespace fanbeam::apps {
+namespace {
+
+const CLI::App* below(const CLI::App& parent, const std::string& name) {
+  for (const CLI::App* command : commands_of(parent))
+    if (command->get_name() == name) return command;
+  return nullptr;
+}
+
+}  // namespace
+
+int help(const CLI::App& program, const HelpOptions& options) {
+  if (!options.man_pages.empty()) {
+    write_man_pages(program, options.man_pages);
+    return kExitDone;
+  }
+  if (options.bash_completion) {
+    fmt::print("{}", bash_completion(program));
+    return kExitDone;
+  }
+  const CLI::App* command = &program;
+  for (const std::string& name : options.command) {
+    const CLI::App* next = below(*command, name);
+    if (next == nullptr) {
+      std::cerr << no_such_command(*command, name);
+      return kExitUsage;
+    }
+    command = next;
+  }
+  fmt::print(
+      "{}{}",
+      program.get_formatter()->make_help(command, path_of(*command), CLI::AppFormatMode::Normal),
+      examples_text(*command));
+  return kExitDone;
+}
+
+CLI::App& add_help_command(CLI::App& program, HelpOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
+      "help", "Tell what there is, or how a command is used, with examples");
+  CLI::Option* name =
+      command.add_option("COMMAND", options.command, "Such as render, or materials plot")
+          ->type_name(kCommandValue);
+  CLI::Option* completion =
+      command
+          .add_flag("--bash-completion", options.bash_completion,
+                    "Print a script for bash that completes commands, options and their values")
+          ->excludes(name);
+  command
+      .add_option("--man-pages", options.man_pages, "Write a manual page for each command there")
+      ->type_name(kFolderValue)
+      ->excludes(name)
+      ->excludes(completion);
+  add_common_options(command, common);
+  return command;
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,91 @@
+#include "apps/list_command.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "apps/listing.h"
+#include "apps/text_table.h"
+
+namespace fanbeam::apps {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kKinds[] = {"scenes", "sensors", "materials", "effects", "products"};
+
+Listing listing_of(const std::string& kind, const ListOptions& options) {
+  if (kind == "scenes") return listed_scenes(data_folders(options.data));
+  if (kind == "sensors") return listed_sensors();
+  if (kind == "materials") return listed_materials();
+  if (kind == "effects") return listed_effects();
+  return listed_products();
+}
+
+// A name may come twice: fmcw has a bscope too.
+std::vector<std::string> names_in(const Listing& listing) {
+  std::vector<std::string> names;
+  for (const ListedThing& thing : listing.things)
+    if (std::find(names.begin(), names.end(), thing.name) == names.end())
+      names.push_back(thing.name);
+  return names;
+}
+
+Json json_of(const Listing& listing) {
+  Json json = Json::array();
+  for (const ListedThing& thing : listing.things) json.push_back(thing.json);
+  return json;
+}
+
+void print_names(const std::string& kind, const Listing& listing) {
+  std::string text;
+  for (const std::string& name : names_in(listing)) text += (text.empty() ? "" : " ") + name;
+  fmt::print("{}", beside(fmt::format("{:<11}", kind), text));
+}
+
+void print_table(const std::string& kind, const Listing& listing) {
+  std::vector<ListedThing> rows = listing.things;
+  rows.insert(rows.begin(), ListedThing{kind, listing.headings, {}});
+  std::vector<std::size_t> widths(listing.headings.size(), 0);  // of the name and all but the last
+  for (const ListedThing& row : rows) {
+    widths[0] = std::max(widths[0], row.name.size());
+    for (std::size_t i = 1; i < widths.size(); ++i)
+      widths[i] = std::max(widths[i], row.columns[i - 1].size());
+  }
+  for (const ListedThing& row : rows) {
+    std::string lead = fmt::format("{:<{}}  ", row.name, widths[0]);
+    for (std::size_t i = 1; i < widths.size(); ++i)
+      lead += fmt::format("{:<{}}  ", row.columns[i - 1], widths[i]);
+    fmt::print("{}", beside(lead, row.columns.back()));
+  }
+}
+
+}  // namespace
+
+int list(const ListOptions& options, const CommonOptions& common) {
+  if (options.what.empty()) {
+    Json all;
+    for (const char* kind : kKinds) {
+      const Listing listing = listing_of(kind, options);
+      if (options.json) all[kind] = json_of(listing);
+      if (!options.json) print_names(kind, listing);
+    }
+    if (options.json) fmt::print("{}\n", all.dump(1));
+    if (!options.json && !common.quiet)
+      fmt::print("\nfanbeam list scenes tells more, and so on.\n");
+    return kExitDone;
+  }
+  const Listing listing = listing_of(options.what, options);
+  if (options.json) {
+    fmt::print("{}\n", Json{{options.what, json_of(listing)}}.dump(1));
+  } else if (options.names) {
+    for (const std::string& name : names_in(listing)) fmt::print("{}\n", name);
+  } else {
+    print_table(options.what, listing);
+    if (!common.quiet) fmt::print("\n{}", beside("", listing.note));
+  }
+  return kExitDone;
+}
+
+}  // namespace fanbeam::apps

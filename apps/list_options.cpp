@@ -1,0 +1,28 @@
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line.h"
+#include "apps/list_command.h"
+#include "apps/value_words.h"
+
+namespace fanbeam::apps {
+
+CLI::App& add_list_command(CLI::App& program, ListOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
+      "list", "List the scenes, sensors, materials, effects and products that there are");
+  CLI::Option* what =
+      command.add_option("WHAT", options.what, "Left out: the names of them all")
+          ->check(CLI::IsMember({"scenes", "sensors", "materials", "effects", "products"}));
+  CLI::Option* json = command.add_flag("--json", options.json, "Print JSON");
+  command.add_flag("--names", options.names, "Print the names alone, one a line")
+      ->needs(what)
+      ->excludes(json);
+  command
+      .add_option("--data", options.data,
+                  "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
+                  "names: are the files of the scenes there?")
+      ->type_name(kFolderValue);
+  add_common_options(command, common);
+  return command;
+}
+
+}  // namespace fanbeam::apps

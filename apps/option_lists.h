@@ -1,0 +1,44 @@
+// What --products and --effects say and offer, the same for every command that has them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/render_command.h"
+#include "renderer/plan/effect_catalogue.h"
+
+namespace fanbeam::apps {
+
+template <class Products>
+std::vector<std::string> names_of(const Products& products) {
+  std::vector<std::string> names;
+  for (const Product& product : products) names.emplace_back(product.name);
+  return names;
+}
+
+// "A list of bscope (range over azimuth, PNG), ..."
+template <class Products>
+std::string products_help(const Products& products) {
+  std::string text;
+  for (const Product& product : products)
+    text.append(text.empty() ? "A list of " : ", ")
+        .append(product.name)
+        .append(" (")
+        .append(product.what)
+        .append(")");
+  return text;
+}
+
+// "all", "none", "+gas", "-gas" and so on.
+inline std::vector<std::string> effect_wishes(renderer::Touches touched) {
+  std::vector<std::string> wishes = {"all", "none"};
+  const auto add = [&wishes](renderer::Touches kind) {
+    for (const renderer::Effect& effect : renderer::effect_catalogue(kind))
+      for (const char* sign : {"+", "-"}) wishes.push_back(sign + std::string(effect.name));
+  };
+  add(renderer::Touches::pictures);
+  if (touched == renderer::Touches::samples) add(touched);
+  return wishes;
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,42 @@
+#include "apps/regress/tolerance.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fanbeam::apps {
+namespace {
+
+double percent_of(std::size_t part, std::size_t cells) {
+  return 100.0 * static_cast<double>(part) / static_cast<double>(std::max<std::size_t>(cells, 1));
+}
+
+}  // namespace
+
+LayerJudgement judge(const core::LayerDifference& difference, DifferenceUnit unit,
+                     const std::optional<Tolerance>& tolerance) {
+  const bool grey = unit == DifferenceUnit::grey;
+  const std::string of = grey ? "grey" : "dB";
+  const Tolerance limits = tolerance.value_or(Tolerance{});
+  LayerJudgement judged{difference.layer,
+                        {},
+                        grey ? difference.largest_column : difference.largest_dB_column,
+                        grey ? difference.largest_row : difference.largest_dB_row};
+  const auto add = [&](const char* name, const std::string& in, double value,
+                       std::optional<double> allowed) {
+    // A value that is no number is not within anything.
+    const bool within = !allowed || std::abs(value) <= *allowed;
+    judged.figures.push_back({name, in, value, allowed, within});
+    judged.within = judged.within && within;
+  };
+  add("mean", of, grey ? difference.mean : difference.mean_dB, limits.mean);
+  add("rms", of, grey ? difference.rms : difference.rms_dB, limits.rms);
+  add("largest", of, grey ? difference.largest : difference.largest_dB, limits.largest);
+  add("percent", "%", percent_of(difference.different, difference.cells),
+      tolerance ? limits.percent : 0.0);
+  if (!grey)
+    add("lit_in_one_percent", "%", percent_of(difference.only_one_positive, difference.cells),
+        limits.lit_in_one_percent.value_or(0.0));
+  return judged;
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,16 @@
+// What fanbeam render tells when it is done.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "apps/run_record.h"
+
+namespace fanbeam::apps {
+
+// How many frames, cast how and why, what accuracy or time was reached, which effects ran and why,
+// and `places`: where products and record lie.
+void print_render_summary(const RunRecord& record, const scenes::Scene& scene, double accuracy_grey,
+                          const std::vector<std::filesystem::path>& places);
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,60 @@
+#include <fmt/core.h>
+
+#include <sstream>
+
+#include "benchmarks/report.h"
+
+namespace fanbeam::benchmarks {
+namespace {
+
+std::string rate_cell(const SamplingFigures& figures, const std::string& unit) {
+  const FrameError& error = figures.error;
+  return fmt::format("{} grey, {:.3g} {}{} in {:.1f} ms",
+                     pair_text(error.bscope.with_noise.rms, error.bscope.noise_free.rms),
+                     figures.fineness, unit, figures.fineness == 1.0 ? "" : "s", figures.frame_ms);
+}
+
+std::string rates(const Report& report) {
+  std::string out =
+      "| surfaces alone, B-scope error | 16 Hz, slices | 16 Hz, rays | 90 Hz, slices |\n"
+      "| --- | --- | --- | --- |\n";
+  for (const SceneFigures& scene : report.scenes)
+    for (const ViewFigures& view : scene.views)
+      out +=
+          fmt::format("| {}, {:.0f} m before the threshold | {} | {} | {} |\n", scene.scene->name,
+                      view.view.distance_m, rate_cell(view.slices.at_16Hz, "slice"),
+                      rate_cell(view.rays.at_16Hz, "ray"), rate_cell(view.slices.at_90Hz, "slice"));
+  return out;
+}
+
+std::string sequences(const Report& report) {
+  std::string out =
+      "| every effect, default sampling, with files | frame | on disk |\n| --- | --- | --- |\n";
+  for (const SceneFigures& scene : report.scenes)
+    for (const SequenceFigures& sequence : scene.sequences)
+      out += fmt::format("| {}, --caster {} | {:.1f} ms | {:.1f} frames/s |\n", scene.scene->name,
+                         sequence.wish, sequence.frame_ms, sequence.frames_per_s_written);
+  return out;
+}
+
+// The rows of the table of targets that were missed, without their verdicts.
+std::string missed(const std::string& targets) {
+  constexpr std::string_view kVerdict = " missed |";
+  std::istringstream lines(targets);
+  std::string rows;
+  for (std::string line; std::getline(lines, line);)
+    if (line.ends_with(kVerdict)) rows += line.substr(0, line.size() - kVerdict.size()) + "\n";
+  if (rows.empty()) return "Every target is met.\n";
+  return "Missed, of all targets below:\n\n| what | must | aim | measured |\n"
+         "| --- | --- | --- | --- |\n" +
+         rows;
+}
+
+}  // namespace
+
+std::string summary_markdown(const Report& report, const std::string& targets) {
+  return "## In short\n\n" + rates(report) + "\n" + sequences(report) + "\n" + missed(targets) +
+         "\n";
+}
+
+}  // namespace fanbeam::benchmarks

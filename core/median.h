@@ -1,0 +1,17 @@
+// The value in the middle.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+namespace fanbeam::core {
+
+// Of an even number the upper of the two in the middle; 0 of none. Finite values.
+inline double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace fanbeam::core

@@ -1,0 +1,19 @@
+// Can every frame of the flight be rendered?
+#pragma once
+
+#include "core/errors.h"
+#include "scenes/description.h"
+#include "scenes/trajectory/trajectory.h"
+#include "terrain/height_field.h"
+#include "terrain/local_frame.h"
+
+namespace fanbeam::scenes {
+
+// In the middle of every frame the aircraft must be over the terrain and above it, and there must
+// be a frame. Adds E-RANGE to `problems`: for the first frame outside the terrain and the first in
+// the ground, with the longest time between such frames; for a flight shorter than one frame.
+void check_flight(const SceneDescription& scene, const terrain::LocalFrame& frame,
+                  const Trajectory& trajectory, const terrain::HeightField& ground,
+                  core::ProblemList& problems);
+
+}  // namespace fanbeam::scenes

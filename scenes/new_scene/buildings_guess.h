@@ -1,0 +1,22 @@
+// Which property of a GeoJSON file is the buildings' height.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/errors.h"
+#include "scenes/new_scene/note.h"
+
+namespace fanbeam::scenes {
+
+struct BuildingsGuess {
+  std::string height_property, min_height_property;  // empty for the reader's defaults
+};
+
+// Of the properties whose names speak of a height, the one that most features have with a number of
+// metres. Adds what terrain::read_footprints refuses in the file to `problems`; then nothing.
+std::optional<BuildingsGuess> guess_buildings(const std::filesystem::path& file, Notes& notes,
+                                              core::ProblemList& problems);
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,155 @@
+// A folder of pictures holds one input: what render and fmcw replace there, keep, and refuse to mix
+// with.
+#include <algorithm>
+
+#include "core/image.h"
+#include "tests/apps/program.h"
+
+using namespace fanbeam;
+using namespace fanbeam::tests;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string kQuick = " --rays-per-cell 1 -q ";
+
+Result render(const fs::path& folder, const std::string& words) {
+  return run_fanbeam("render " + words + kQuick + "-o " + quoted(folder));
+}
+
+void must_render(const fs::path& folder, const std::string& words) {
+  const Result result = render(folder, words);
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+}
+
+std::vector<std::string> files_in(const fs::path& folder) {
+  std::vector<std::string> files;
+  for (const auto& [name, bytes] : contents(folder))
+    if (fs::is_regular_file(folder / name)) files.push_back(name);
+  return files;
+}
+
+// What run.json lists, with itself and the times.
+std::vector<std::string> files_told(const fs::path& folder) {
+  const nlohmann::json run = json_of(folder / "run.json");
+  std::vector<std::string> files = {"run.json", "timing.json"};
+  for (const nlohmann::json& frame : run["frames"])
+    for (const nlohmann::json& file : frame["files"]) files.push_back(file);
+  if (run.contains("files"))
+    for (const nlohmann::json& file : run["files"]) files.push_back(file);
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("Another input replaces exactly the pictures that run.json lists", "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  must_render(out, "obstacle-field --frames 100:160:20 --products bscope,power");
+  must_render(out, "flat-grass --frames 0");
+  CHECK(files_in(out) == std::vector<std::string>{"bscope/00000.png", "cscope/00000.png",
+                                                  "run.json", "timing.json"});
+  CHECK(files_told(out) == files_in(out));
+  CHECK(json_of(out / "run.json")["scene"] == "flat-grass");
+  CHECK_FALSE(fs::exists(out / "power"));
+}
+
+TEST_CASE("Frames of the same input stay, and run.json is that of all frames rendered at once",
+          "[render]") {
+  const TemporaryFolder folder;
+  const std::string scene = "obstacle-field --products bscope,obstacles,detections ";
+  must_render(folder.path() / "whole", scene + "--frames 100:180:20");
+  const fs::path out = folder.path() / "parts";
+  must_render(out, scene + "--frames 160");
+  must_render(out, scene + "--frames 100:140:20");
+  must_render(out, scene + "--frames 140");
+  CHECK((results(out) == results(folder.path() / "whole")));
+  CHECK(files_told(out) == files_in(out));
+  // A product more of one frame is listed with what is there of it.
+  must_render(out, "obstacle-field --frames 120 --products power");
+  CHECK(files_told(out) == files_in(out));
+  CHECK(json_of(out / "run.json")["frames"][1]["files"].size() == 5);
+}
+
+TEST_CASE("Pictures that a stopped run of the same input left are taken over without its record",
+          "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const std::string scene = "obstacle-field --products bscope,obstacles ";
+  must_render(out, scene + "--frames 100:160:20");
+  fs::remove(out / "run.json");
+  must_render(out, scene + "--frames 200");
+  CHECK(json_of(out / "run.json")["frames"].size() == 4);
+  CHECK(files_told(out) == files_in(out));
+}
+
+TEST_CASE("A folder with other files is refused by their names, and --overwrite leaves them",
+          "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  must_render(out, "obstacle-field --frames 100:140:20 --products bscope");
+  fs::remove(out / "run.json");  // nobody says whose the pictures are
+  std::ofstream(out / "notes.txt") << "mine";
+  std::ofstream(out / "bscope/mine.png") << "mine";
+  std::ofstream(out / ".hidden") << "mine";
+  const auto before = contents(out);
+  for (const char* more : {"", " --resume"}) {
+    const Result refused = render(out, std::string("flat-grass --frames 0") + more);
+    INFO(refused.output);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.find("bscope/00100.png, bscope/00120.png, bscope/mine.png, notes.txt") !=
+          std::string::npos);
+    CHECK(refused.output.find("--overwrite") != std::string::npos);
+    CHECK(refused.output.find(".hidden") == std::string::npos);
+    CHECK((contents(out) == before));
+  }
+  must_render(out, "flat-grass --frames 0 --products bscope --overwrite");
+  CHECK(files_in(out) == std::vector<std::string>{".hidden", "bscope/00000.png", "bscope/mine.png",
+                                                  "notes.txt", "run.json", "timing.json"});
+  CHECK(bytes_of(out / "notes.txt") == "mine");
+  // Refused again: what is not ours does not become so.
+  CHECK(render(out, "flat-grass --frames 0").exit_code == 2);
+}
+
+TEST_CASE("A hostile run.json cannot have files removed outside the folder, nor others in it",
+          "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  fs::create_directories(out / "bscope");
+  fs::create_directories(folder.path() / "else/bscope");
+  const fs::path outside = folder.write("else/bscope/00007.png", "kept");
+  fs::create_directory_symlink(folder.path() / "else/bscope", out / "cscope");
+  std::ofstream(out / "bscope/00009.png") << "listed";
+  std::ofstream(out / "run.json") << R"({"files": ["../else/bscope/00007.png", ")"
+                                  << outside.string()
+                                  << R"(", "cscope/00007.png", 7, "bscope/00009.png"],)"
+                                  << R"("frames": [{"files": ["../../etc/passwd"]}, 3]})";
+  must_render(out, "flat-grass --frames 0 --products bscope");
+  CHECK(bytes_of(outside) == "kept");
+  CHECK_FALSE(fs::exists(out / "bscope/00009.png"));
+  for (const std::string record : {"{", "[]", "{\"files\": \"bscope\"}", "{\"frames\": {}}"}) {
+    std::ofstream(out / "run.json") << record;
+    INFO(record);
+    CHECK(render(out, "obstacle-field --frames 100").exit_code == 2);
+    CHECK(bytes_of(out / "run.json") == record);
+  }
+}
+
+TEST_CASE("fmcw replaces what its record lists and refuses other files", "[fmcw]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const auto fmcw = [&](const std::string& words) {
+    return run_fanbeam("fmcw street-76ghz -q -o " + quoted(out) + " " + words);
+  };
+  REQUIRE(fmcw("--frames 0 --products detections,beat").exit_code == 0);
+  CHECK(files_told(out) == files_in(out));
+  REQUIRE(fmcw("--frames 1 --products detections").exit_code == 0);
+  CHECK(files_in(out) == std::vector<std::string>{"detections/00001.csv", "detections/00001.json",
+                                                  "run.json", "timing.json"});
+  std::ofstream(out / "notes.txt") << "mine";
+  CHECK(fmcw("--frames 1 --products detections").exit_code == 2);
+  CHECK(fmcw("--frames 1 --products detections --overwrite").exit_code == 0);
+  CHECK(bytes_of(out / "notes.txt") == "mine");
+}

@@ -1,0 +1,73 @@
+// Which differences a tolerance lets pass.
+#include "apps/regress/tolerance.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+using namespace fanbeam;
+using namespace fanbeam::apps;
+
+namespace {
+
+// 1000 cells: mean -0.3 grey, RMS 2, largest 9, 50 not equal.
+core::LayerDifference grey_difference() {
+  core::LayerDifference difference;
+  difference.layer = "Y";
+  difference.cells = 1000;
+  difference.different = 50;
+  difference.mean = -0.3;
+  difference.rms = 2.0;
+  difference.largest = 9.0;
+  return difference;
+}
+
+std::vector<std::string> beyond(const LayerJudgement& judged) {
+  std::vector<std::string> names;
+  for (const Figure& figure : judged.figures)
+    if (!figure.within) names.push_back(figure.name);
+  CHECK(judged.within == names.empty());
+  return names;
+}
+
+using Names = std::vector<std::string>;
+
+}  // namespace
+
+TEST_CASE("Each limit stands for its own figure, and what is absent limits nothing", "[regress]") {
+  const auto judged = [](const Tolerance& tolerance) {
+    return beyond(judge(grey_difference(), DifferenceUnit::grey, tolerance));
+  };
+  CHECK(judged({.mean = 0.3, .rms = 2.0, .largest = 9.0, .percent = 5.0}).empty());
+  CHECK(judged({.mean = 0.29}) == Names{"mean"});  // whatever its sign
+  CHECK(judged({.rms = 1.99}) == Names{"rms"});
+  CHECK(judged({.largest = 8.9}) == Names{"largest"});
+  CHECK(judged({.percent = 4.9}) == Names{"percent"});
+  CHECK(judged({.rms = 100.0}).empty());
+}
+
+TEST_CASE("Without a tolerance every value has to be equal", "[regress]") {
+  CHECK(beyond(judge(grey_difference(), DifferenceUnit::grey, std::nullopt)) == Names{"percent"});
+  core::LayerDifference same;
+  same.cells = 1000;
+  CHECK(beyond(judge(same, DifferenceUnit::grey, std::nullopt)).empty());
+}
+
+TEST_CASE("Cells of power that are lit in one picture only are none, unless a limit says so",
+          "[regress]") {
+  core::LayerDifference difference;
+  difference.cells = 1000;
+  difference.different = difference.only_one_positive = 2;  // no decibels, so no RMS tells
+  const auto judged = [&](const Tolerance& tolerance) {
+    return beyond(judge(difference, DifferenceUnit::dB, tolerance));
+  };
+  CHECK(judged({.rms = 1.0}) == Names{"lit_in_one_percent"});
+  CHECK(judged({.rms = 1.0, .lit_in_one_percent = 0.2}).empty());
+}
+
+TEST_CASE("A figure that is no number is within no limit", "[regress]") {
+  core::LayerDifference difference = grey_difference();
+  difference.rms = std::numeric_limits<double>::quiet_NaN();
+  CHECK(beyond(judge(difference, DifferenceUnit::grey, Tolerance{.rms = 100.0})) == Names{"rms"});
+}
