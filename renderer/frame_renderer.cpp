@@ -25,14 +25,6 @@ std::unique_ptr<Caster> make_caster(const World& world, const Sampling& sampling
   return std::make_unique<RayCaster>(world, sampling);
 }
 
-// Bounces always need rays. Beside slices they get as many as rays alone have by default.
-Sampling bounce_sampling(const Sampling& sampling) {
-  Sampling bounces = sampling;
-  if (sampling.caster == CasterKind::profile)
-    bounces.rays_per_cell = std::min(1.0, kDefaultRaysPerCell / sampling.sub_columns);
-  return bounces;
-}
-
 std::vector<double> plus(const std::vector<double>& values, double constant) {
   std::vector<double> result(values);
   for (double& value : result) value += constant;
@@ -53,7 +45,7 @@ FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const
       effects_(effects),
       caster_(std::move(caster)),
       double_bounce_(effects.double_bounce
-                         ? std::make_unique<DoubleBounce>(world, bounce_sampling(sampling))
+                         ? std::make_unique<DoubleBounce>(world, sampling, effects.thermal_noise)
                          : nullptr),
       range_response_(effects.range_response && sensors::has_point_response(world.sensor)
                           ? std::make_unique<RangeResponse>(world.sensor)

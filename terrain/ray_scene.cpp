@@ -209,6 +209,17 @@ void RayScene::intersect(const int* active, RayPacket<16>& packet) const noexcep
   rtcIntersect16(active, library_->scene, &context, reinterpret_cast<RTCRayHit16*>(&packet));
 }
 
+// A ray packet begins as the library's packet of rays without hits.
+void RayScene::find_occluded(const int* active, RayPacket<8>& packet) const noexcept {
+  RTCIntersectContext context = coherent_context();
+  rtcOccluded8(active, library_->scene, &context, reinterpret_cast<RTCRay8*>(&packet));
+}
+
+void RayScene::find_occluded(const int* active, RayPacket<16>& packet) const noexcept {
+  RTCIntersectContext context = coherent_context();
+  rtcOccluded16(active, library_->scene, &context, reinterpret_cast<RTCRay16*>(&packet));
+}
+
 std::optional<SceneHit> RayScene::intersect(const glm::dvec3& origin_m, const glm::dvec3& direction,
                                             double far_m) const {
   check_ray(origin_m, direction, 0.0, far_m);

@@ -94,6 +94,11 @@ class RayScene {
   void intersect(const int* active, RayPacket<8>& packet) const noexcept;
   void intersect(const int* active, RayPacket<16>& packet) const noexcept;
 
+  // The same question without where: `distance` becomes negative for active lanes that meet
+  // something nearer than it, and stays for others.
+  void find_occluded(const int* active, RayPacket<8>& packet) const noexcept;
+  void find_occluded(const int* active, RayPacket<16>& packet) const noexcept;
+
   // Where a packet's ray must start for one that starts here in the scene, and the way back.
   glm::dvec3 in_caster_m(const glm::dvec3& scene_m) const noexcept {
     return {scene_m.x, scene_m.y, scene_m.z - base_m_};

@@ -34,8 +34,8 @@ double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m
 
 }  // namespace
 
-ElevationFan::ElevationFan(const World& world, const Sampling& sampling)
-    : world_(world), sampling_(sampling) {
+ElevationFan::ElevationFan(const World& world, const Sampling& sampling, Nearest nearest)
+    : world_(world), sampling_(sampling), nearest_(nearest) {
   const sensors::Antenna& antenna = world.sensor.antenna;
   const double reach_rad = sensors::reach_rad(antenna.elevation);
   lowest_rad_ = std::max(antenna.boresight_elevation_rad - reach_rad, -core::kPi / 2);
@@ -54,6 +54,7 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
   };
   const double middle_rad = (left_rad + right_rad) / 2;
   if (world_.surfaces->terrain() != nullptr) {
+    if (nearest_ == Nearest::antenna) edges.push_back(lowest_rad_);
     follow_ground(frame, middle_rad, edges);
     // Beside the centre azimuth the horizon may stand a little higher.
     for (const double margin_rad : kHorizonMargin_rad)
@@ -111,6 +112,8 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     if (!level) heading = heading_at(frame, azimuth_rad, elevation_rad, surface);
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
+    } else if (step == 1) {
+      add_until(std::min(elevation_rad, highest_rad_), 1, sampling_.largest_step_rad, edges);
     } else {
       add_until(std::min(elevation_rad, highest_rad_), parts, sampling_.largest_step_rad, edges);
     }

@@ -19,7 +19,9 @@ namespace fanbeam::renderer {
 
 class ElevationFan {
  public:
-  ElevationFan(const World& world, const Sampling& sampling);
+  // What is nearer than the first range cell shows nothing itself, but mirrors.
+  enum class Nearest { first_cell, antenna };
+  ElevationFan(const World& world, const Sampling& sampling, Nearest nearest = Nearest::first_cell);
 
   // Increasing elevations: `edges` bound the intervals that rays stand for. Azimuths from
   // `left_rad` to `right_rad`. Empty when nothing can be seen there.
@@ -35,6 +37,7 @@ class ElevationFan {
 
   const World& world_;
   Sampling sampling_;
+  Nearest nearest_;
   double lowest_rad_ = 0.0;   // the elevation pattern is zero below
   double highest_rad_ = 0.0;  // and above
   // Largest step above the highest ground: a row of the C-scope.

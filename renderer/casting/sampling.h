@@ -59,7 +59,7 @@ Sampling finer_in_elevation(const Sampling& sampling, int times);
 // grey, each crossing every range cell once.
 Sampling refined_sampling(CasterKind caster, double target_grey);
 
-inline constexpr double kDefaultSlicesPerColumn = 8.0;
+inline constexpr double kDefaultSlicesPerColumn = 4.0;
 
 // `slices` azimuth slices per column through the profile caster, at least 1; each crosses every
 // range cell once.

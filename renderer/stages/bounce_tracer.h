@@ -29,16 +29,17 @@
 namespace fanbeam::renderer {
 
 // An echo with its power per solid angle of the first ray, at azimuth gain 1 around `azimuth_rad`,
-// the mean of the first and the last direction.
+// the mean of the first and the last direction. The rates are derivatives by the first ray's
+// elevation, on planes through the facets that were hit: what a ray stands for in elevation lies
+// along them.
 struct BounceEcho {
-  double range_m = 0.0;
-  double azimuth_rad = 0.0;
-  double elevation_rad = 0.0;
+  double range_m = 0.0, range_m_per_rad = 0.0;
+  double azimuth_rad = 0.0, azimuth_rate = 0.0;
+  double elevation_rad = 0.0, elevation_rate = 0.0;
   double density_W_per_rad2 = 0.0;
 };
 
 struct Bounce {
-  bool met = false;  // a mirrored ray met something, whether or not anything came back
   BounceEcho pair;   // O A B O with O B A O
   BounceEcho image;  // O A B A O
 };
@@ -50,31 +51,59 @@ struct AntennaRay {
 
 class BounceTracer {
  public:
-  // `world` must outlive the tracer.
-  explicit BounceTracer(const World& world);
+  // `world` must outlive the tracer. `noise`: the receiver's mean noise is in every cell that shows.
+  BounceTracer(const World& world, bool noise);
 
   bool any() const { return mirrors_.any(); }
 
-  static constexpr int kAtOnce = 8;
-  // Traces `count` rays, at most kAtOnce. Returns the number of rays cast. Thread-safe.
-  std::uint64_t trace(const sensors::AntennaFrame& antenna, const AntennaRay* rays, int count,
-                      Bounce* bounces) const;
+  // What each of `rays` brings back that `bounces` does not hold yet, as the last ones. Neighbours in
+  // the list are best neighbours in angle too. Returns the number of rays cast. Thread-safe.
+  std::uint64_t trace(const sensors::AntennaFrame& antenna, const std::vector<AntennaRay>& rays,
+                      std::vector<Bounce>& bounces) const;
 
  private:
+  struct Hit;
   struct Lane;
-  bool mirror(const sensors::AntennaFrame& antenna, const terrain::RayPacket<kAtOnce>& packet,
-              int i, Lane& lane) const;
-  // True when a shadow ray was cast.
+  struct Return;
+  struct Scratch;
+  template <int N>
+  class Packets;
+  template <int N>
+  std::uint64_t trace_packets(const sensors::AntennaFrame& antenna,
+                              const std::vector<AntennaRay>& rays,
+                              std::vector<Bounce>& bounces) const;
+  template <int N>
+  void find_mirrors(const sensors::AntennaFrame& antenna, const std::vector<AntennaRay>& rays,
+                    std::size_t first, Packets<N>& packets, std::vector<Lane>& lanes) const;
+  template <int N>
+  void follow(const sensors::AntennaFrame& antenna, const std::vector<AntennaRay>& rays,
+              const std::vector<Lane>& lanes, Packets<N>& packets, std::vector<Bounce>& bounces,
+              std::vector<Return>& returns) const;
+  template <int N>
+  void look_back(const sensors::AntennaFrame& antenna, const std::vector<Return>& returns,
+                 Packets<N>& packets, std::vector<Bounce>& bounces) const;
+  bool is_cone() const { return world_.sensor.scan.surface == sensors::ScanSurface::cone; }
+  bool mirror(const sensors::AntennaFrame& antenna, const Hit& hit, Lane& lane) const;
   bool weigh(const sensors::AntennaFrame& antenna, const AntennaRay& ray, const Lane& lane,
-             const terrain::RayPacket<kAtOnce>& packet, int i, Bounce& bounce) const;
-  double loss_factor(const glm::dvec3& a_m, const glm::dvec3& b_m, double length_m) const;
+             const Hit& hit, Bounce& bounce) const;
+  BounceEcho image_of(const AntennaRay& ray, const Lane& lane, const Hit& hit) const;
+  // Without asking whether B sees O.
+  BounceEcho pair_of(const sensors::AntennaFrame& antenna, const AntennaRay& ray, const Lane& lane,
+                     const Hit& hit) const;
+  bool within_beam(const sensors::AntennaFrame& antenna, const glm::dvec3& first,
+                   const glm::dvec3& last) const;
+  // Whether an echo can show, were the whole beam as bright.
+  bool shows(const BounceEcho& echo) const;
+  double loss_dB(const glm::dvec3& a_m, const glm::dvec3& b_m, double length_m) const;
 
   const World& world_;
   std::vector<BistaticNrcs> nrcs_;  // by material id
   Mirrors mirrors_;
   sensors::TwoWayTable elevation_gain_;
+  double beam_tangent_ = 0.0;
   double radar_constant_W_m2_ = 0.0;
-  double faintest_ = 0.0;  // a mirror that keeps less is not followed
+  std::vector<double> faintest_W_per_rad2_;  // echo by range cell: less need not be followed
+  double faintest_mirror_ = 0.0;             // that keeps less is not followed
 };
 
 }  // namespace fanbeam::renderer

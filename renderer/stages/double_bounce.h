@@ -3,25 +3,20 @@
 // bounce_tracer.h says what one direction brings back; this stage chooses the directions and adds
 // the echoes to the fan before the azimuth beam.
 //
-// How it samples: first one ray per picture column and every second elevation of the fan, only to
-// see where mirrored rays meet anything at all; around these places one ray for every two
-// sub-columns and every elevation (the reference: in each, jittered, in every pass). A corner seen
-// over fewer than two elevations of the fan and narrower than a column may be missed, but not where
-// samples of several levels are averaged: levels from 2 on search nothing and cast all. An echo
-// lies in one range cell and in one sub-column, that of the mean of its first and last azimuth. It
-// is not spread over the ranges up to its neighbours in elevation, as the casters' hits are: each
-// has an azimuth of its own, and the range of a corner changes faster with that (measured:
-// docs/performance-notes.md).
+// How it samples (bounce_strip.h): azimuths and elevations of its own, as many as the caster's
+// samples ask for, and more where they show beside what the cell holds already. The fan begins at
+// the lowest elevation of the beam: what is nearer than the first range cell shows nothing itself,
+// but mirrors. Levels from 2 on cast several such fans, each at other places.
 //
 // Deterministic: each strip of sub-columns is one thread's; echoes that lie in another strip are
 // added afterwards, in the order of the strips.
-// Cost: a quarter of the frame's rays at the default sampling, plus the places that matter;
-// docs/physics/double-bounce.md gives milliseconds.
+// Cost: docs/physics/double-bounce.md gives milliseconds.
 #pragma once
 
 #include "renderer/casting/caster.h"
 #include "renderer/casting/elevation_fan.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/stages/bounce_strip.h"
 #include "renderer/stages/bounce_tracer.h"
 #include "renderer/world.h"
 
@@ -29,16 +24,23 @@ namespace fanbeam::renderer {
 
 class DoubleBounce {
  public:
-  // `world` must outlive the stage.
-  DoubleBounce(const World& world, const Sampling& sampling);
+  // `world` must outlive the stage. `noise`: as in bounce_tracer.h.
+  DoubleBounce(const World& world, const Sampling& sampling, bool noise);
 
   // Adds to what the caster left in `sums`; thread-safe. Changes nothing in a world that does not
-  // reflect. Samples of level 0 by default, or of a further one alone (CastPass).
-  void add(const sensors::AntennaFrame& antenna, FanSums& sums, int level = 0) const;
+  // reflect.
+  void add(const sensors::AntennaFrame& antenna, FanSums& sums) const {
+    add(antenna, 0, sums, sums);
+  }
+  // The same from the samples of one level alone (CastPass), beside what `surfaces` holds.
+  void add(const sensors::AntennaFrame& antenna, int level, const FanSums& surfaces,
+           FanSums& sums) const;
 
  private:
   const World& world_;
-  Sampling sampling_;
+  BounceSampling sampling_;
+  int sub_columns_;
+  bool noise_;
   ElevationFan fan_;
   BounceTracer tracer_;
 };

@@ -43,11 +43,11 @@ std::vector<double> bounces_W(const renderer::World& world, renderer::Sampling s
   renderer::RayCaster(world, sampling).cast(antenna, false, {}, sum, none);
   std::fill(sum.range_W_per_rad.begin(), sum.range_W_per_rad.end(), 0.0);
   const renderer::FanSums empty = sum;
-  const renderer::DoubleBounce stage(world, sampling);
-  stage.add(antenna, sum);
+  const renderer::DoubleBounce stage(world, sampling, false);
+  stage.add(antenna, 0, empty, sum);
   for (int level = 1; level < levels; ++level) {
     renderer::FanSums fresh = empty;
-    stage.add(antenna, fresh, level);
+    stage.add(antenna, level, empty, fresh);
     for (std::size_t i = 0; i < sum.range_W_per_rad.size(); ++i)
       sum.range_W_per_rad[i] = (sum.range_W_per_rad[i] + fresh.range_W_per_rad[i]) / 2;
   }

@@ -1,0 +1,66 @@
+// The bounces of one picture column's worth of azimuths.
+//
+// The fan is cut into intervals of elevation and blocks of azimuth, with one ray in each, at a
+// place of its own. Where the rays around it differ by what shows in their cell, an interval gets
+// more. On planes through the facets that it met, a ray's echo is spread over the ranges and rows
+// between the ends of what it stands for in elevation; in azimuth it counts where it is. Rays of a
+// reference are jittered instead, and count where they were sent.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "renderer/casting/caster.h"
+#include "renderer/casting/elevation_fan.h"
+#include "renderer/stages/bounce_floor.h"
+#include "renderer/stages/bounce_tracer.h"
+
+namespace fanbeam::renderer {
+
+// How finely bounces are sampled.
+struct BounceSampling {
+  int azimuths = 3;            // blocks per picture column
+  double rays_per_cell = 0.5;  // range cells of ground, per block: without those for what differs
+  // Of what a cell shows: where neighbours differ by more, an interval gets a ray for each of it.
+  double smallest_change = 0.04;
+  double most_rays = 8.0;        // of an interval
+  double longest_reach_m = 0.0;  // of what one ray stands for, to either side of it
+  // Of a reference: see Sampling.
+  int jittered_passes = 0;
+  std::uint64_t seed = 0;
+};
+
+// Where the rays of one pass lie beside those of others, and how much they count.
+struct BouncePlaces {
+  std::uint32_t shift = 0;       // of azimuths, in parts of 2^32 of a block
+  double first_elevation = 0.5;  // in the intervals of block 0
+  double weight = 1.0;           // one over the passes that are averaged
+};
+
+// What all strips of a pass share.
+struct BounceFrame {
+  const sensors::Sensor& sensor;
+  const BounceSampling& sampling;
+  const ElevationFan& fan;
+  const BounceTracer& tracer;
+  const BounceFloor& floor;
+  const sensors::AntennaFrame& antenna;
+  BouncePlaces places;
+  int sub_columns;  // of a strip
+};
+
+// What one echo gives to one sub-column, evenly between two ends of range and of elevation.
+struct BounceShare {
+  int sub_column = 0;
+  double cells[2] = {}, power_W_per_rad = 0.0;
+  double rows[2] = {}, power_W_m3_per_rad = 0.0;
+
+  void deposit_in(FanSums& sums) const;
+};
+
+// Adds the echoes of strip number `strip` to `sums`, and to `foreign` what belongs to other strips.
+// Returns the number of rays cast.
+std::uint64_t cast_bounce_strip(const BounceFrame& frame, int strip, FanSums& sums,
+                                std::vector<BounceShare>& foreign);
+
+}  // namespace fanbeam::renderer
