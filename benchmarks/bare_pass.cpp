@@ -100,7 +100,7 @@ BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling,
   for (const RayPacket<16>& packet : recorded)
     for (int lane = 0; lane < 16; ++lane) rays += holds_ray(packet, lane) ? 1 : 0;
 
-  const FrameClock clock(view, sampling);
+  const FrameClock clock(view.world(), view.pose, view.scene->noise(), sampling);
   renderer::Frame frame;
   clock.frame_ms(&frame);
   if (frame.rays != rays)

@@ -30,6 +30,12 @@ void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 bool BenchScene::noise() const { return scene->plan.runs(renderer::kThermalNoise); }
 
+renderer::Effects BenchScene::effects() const {
+  renderer::Effects effects = renderer::effects_of(scene->plan, 1);
+  effects.speckle = effects.swerling = false;
+  return effects;
+}
+
 std::string data_folder() {
   const char* variable = std::getenv("FANBEAM_DATA");
   if (variable != nullptr && *variable != '\0') return variable;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "renderer/plan/effects.h"
 #include "scenes/scene.h"
 #include "sensors/antenna/antenna_frame.h"
 
@@ -22,6 +23,8 @@ struct BenchScene {
   double peak_memory_bytes = 0.0;
 
   bool noise() const;
+  // All that the plan asks for, as expected power: the whole picture.
+  renderer::Effects effects() const;
 };
 
 // FANBEAM_DATA, else ../shared/data beside the source tree.

@@ -22,11 +22,13 @@ class FrameClock {
   // `world` must outlive the clock.
   FrameClock(const renderer::World& world, const renderer::FramePose& pose,
              const renderer::Effects& effects, const renderer::Sampling& sampling);
+  // Surfaces and point targets alone.
   FrameClock(const renderer::World& world, const renderer::FramePose& pose, bool noise,
              const renderer::Sampling& sampling);
+  // The whole picture.
   FrameClock(const View& view, const renderer::Sampling& sampling)
-      : FrameClock(view.world(), view.pose, view.scene->noise(), sampling) {}
-  // About `rays` naive rays.
+      : FrameClock(view.world(), view.pose, view.scene->effects(), sampling) {}
+  // About `rays` naive rays, and the same effects.
   FrameClock(const View& view, renderer::NaiveKind kind, double rays,
              const renderer::ElevationSpan& span);
 

@@ -49,6 +49,7 @@ class ViewBench {
 
   void measure_reference_error();
   void measure_caster(CasterKind caster);
+  void measure_surfaces();
   void measure_agreement();
   void measure_bare();
   void measure_naive();
@@ -63,9 +64,18 @@ class ViewBench {
   void tell(const char* what) const {
     fmt::print(stderr, "{} at {:.0f} m: {}\n", view_.scene->name, view_.distance_m, what);
   }
-  SamplingFigures measure(const renderer::Sampling& sampling, double fineness,
-                          const Repetitions& repetitions) const;
-  SamplingFigures finest_within(CasterKind caster, double budget_ms) const;
+  // What is measured: all effects, or surfaces alone against their own reference.
+  struct Picture {
+    renderer::Effects effects;
+    const GreyReference& reference;
+  };
+  Picture whole() const { return {view_.scene->effects(), *reference_}; }
+  SamplingFigures measure(const Picture& picture, const renderer::Sampling& sampling,
+                          double fineness, const Repetitions& repetitions) const;
+  SamplingFigures finest_within(const Picture& picture, CasterKind caster, double budget_ms) const;
+  FrameClock clock(const Picture& picture, const renderer::Sampling& sampling) const {
+    return FrameClock(view_.world(), view_.pose, picture.effects, sampling);
+  }
   ThreadFigures measure_threads(const renderer::Sampling& sampling) const;
 
   const View& view_;
@@ -73,19 +83,20 @@ class ViewBench {
   FramePower reference_power_;
   std::optional<GreyReference> reference_;
   ViewFigures figures_;
+  renderer::Sampling surface_rays_;  // at 16 Hz
 };
 
-SamplingFigures ViewBench::measure(const renderer::Sampling& sampling, double fineness,
-                                   const Repetitions& repetitions) const {
-  const FrameClock clock(view_, sampling);
+SamplingFigures ViewBench::measure(const Picture& picture, const renderer::Sampling& sampling,
+                                   double fineness, const Repetitions& repetitions) const {
+  const FrameClock timed = clock(picture, sampling);
   SamplingFigures figures;
   figures.sampling = sampling;
   figures.fineness = fineness;
   renderer::Frame frame;
-  figures.frame_ms = median_ms(repetitions, [&] { clock.frame_ms(&frame); });
+  figures.frame_ms = median_ms(repetitions, [&] { timed.frame_ms(&frame); });
   figures.rays = frame.rays;
   figures.slices = frame.slices;
-  figures.error = reference_->error_of(power_of(std::move(frame)));
+  figures.error = picture.reference.error_of(power_of(std::move(frame)));
   return figures;
 }
 
@@ -101,20 +112,21 @@ void ViewBench::measure_reference_error() {
 }
 
 // Bisection over the quickest of a few frames, then full measurements downwards until one holds.
-SamplingFigures ViewBench::finest_within(CasterKind caster, double budget_ms) const {
+SamplingFigures ViewBench::finest_within(const Picture& picture, CasterKind caster,
+                                         double budget_ms) const {
   const std::vector<double> steps = candidates(caster);
   std::size_t low = 0;
   std::size_t high = steps.size();
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
-    const FrameClock clock(view_, renderer::sampling_for(caster, steps[middle]));
-    double quickest_ms = clock.frame_ms();
-    for (int i = 0; i < 4; ++i) quickest_ms = std::min(quickest_ms, clock.frame_ms());
+    const FrameClock timed = clock(picture, renderer::sampling_for(caster, steps[middle]));
+    double quickest_ms = timed.frame_ms();
+    for (int i = 0; i < 4; ++i) quickest_ms = std::min(quickest_ms, timed.frame_ms());
     (quickest_ms <= budget_ms ? low : high) = middle;
   }
   for (;; --low) {
-    SamplingFigures figures =
-        measure(renderer::sampling_for(caster, steps[low]), steps[low], effort_.operating_point);
+    SamplingFigures figures = measure(picture, renderer::sampling_for(caster, steps[low]),
+                                      steps[low], effort_.operating_point);
     if (figures.frame_ms <= budget_ms || low == 0) return figures;
   }
 }
@@ -137,11 +149,23 @@ void ViewBench::measure_caster(CasterKind caster) {
   tell(rays ? "rays" : "slices");
   for (const double fineness : rays ? effort_.rays_per_cell : effort_.slices)
     figures.ladder.push_back(
-        measure(renderer::sampling_for(caster, fineness), fineness, effort_.ladder));
-  tell(rays ? "rays at 16 Hz and 90 Hz" : "slices at 16 Hz and 90 Hz");
-  figures.at_16Hz = finest_within(caster, kBudget16Hz_ms);
-  figures.at_90Hz = finest_within(caster, kBudget90Hz_ms);
+        measure(whole(), renderer::sampling_for(caster, fineness), fineness, effort_.ladder));
+  tell(rays ? "rays at 16, 45 and 90 Hz" : "slices at 16, 45 and 90 Hz");
+  figures.at_16Hz = finest_within(whole(), caster, kBudget16Hz_ms);
+  figures.at_45Hz = finest_within(whole(), caster, kBudget45Hz_ms);
+  figures.at_90Hz = finest_within(whole(), caster, kBudget90Hz_ms);
   figures.threads = measure_threads(figures.at_16Hz.sampling);
+}
+
+void ViewBench::measure_surfaces() {
+  tell("surfaces alone");
+  const renderer::Effects effects{.thermal_noise = view_.scene->noise()};
+  const GreyReference reference(
+      view_.sensor(), FrameClock(view_.world(), view_.pose, effects, effort_.reference(1)).power());
+  const Picture picture{effects, reference};
+  figures_.surfaces.at_16Hz = finest_within(picture, CasterKind::profile, kBudget16Hz_ms);
+  figures_.surfaces.at_90Hz = finest_within(picture, CasterKind::profile, kBudget90Hz_ms);
+  surface_rays_ = finest_within(picture, CasterKind::rays, kBudget16Hz_ms).sampling;
 }
 
 void ViewBench::measure_agreement() {
@@ -150,7 +174,7 @@ void ViewBench::measure_agreement() {
 
 void ViewBench::measure_bare() {
   tell("bare pass");
-  figures_.bare = measure_bare_pass(view_, figures_.rays.at_16Hz.sampling, effort_.turns);
+  figures_.bare = measure_bare_pass(view_, surface_rays_, effort_.turns);
 }
 
 void ViewBench::measure_naive() {
@@ -180,7 +204,8 @@ void ViewBench::measure_splits() {
     renderer::Sampling sampling = renderer::sampling_for(renderer::kDefaultRaysPerCell);
     sampling.sub_columns = sub_columns;
     sampling.rays_per_cell = renderer::kDefaultRaysPerCell / sub_columns;
-    figures_.splits.push_back(measure(sampling, renderer::kDefaultRaysPerCell, effort_.ladder));
+    figures_.splits.push_back(
+        measure(whole(), sampling, renderer::kDefaultRaysPerCell, effort_.ladder));
   }
 }
 
@@ -192,6 +217,7 @@ ViewFigures measure_view(const View& view, const Effort& effort, const Extras& e
   bench.measure_agreement();
   for (const CasterKind caster : {CasterKind::rays, CasterKind::profile})
     bench.measure_caster(caster);
+  bench.measure_surfaces();
   bench.measure_bare();
   bench.measure_naive();
   if (extras.splits) bench.measure_splits();

@@ -1,4 +1,4 @@
-// The figures of one view: error and time for each way of sampling.
+// The figures of one view: error and time for each way of sampling, of the whole picture.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 namespace fanbeam::benchmarks {
 
 inline constexpr double kBudget16Hz_ms = 62.5;
+inline constexpr double kBudget45Hz_ms = 1000.0 / 45.0;
 inline constexpr double kBudget90Hz_ms = 1000.0 / 90.0;
 
 // One way to sample a frame, its price and what it buys.
@@ -45,8 +46,8 @@ struct ThreadFigures {
 // One of the two casters in one view.
 struct CasterFigures {
   std::vector<SamplingFigures> ladder;
-  SamplingFigures at_16Hz, at_90Hz;  // the finest that fits, or the coarsest there is
-  ThreadFigures threads;             // at_16Hz
+  SamplingFigures at_16Hz, at_45Hz, at_90Hz;  // the finest that fits, or the coarsest there is
+  ThreadFigures threads;                      // at_16Hz
 };
 
 struct ViewFigures {
@@ -56,7 +57,8 @@ struct ViewFigures {
   // A second reference with another seed against the first.
   std::optional<FrameError> reference_error;
   std::optional<AgreementFigures> reference_agreement;
-  CasterFigures rays, slices;
+  CasterFigures rays, slices;         // of the whole picture
+  CasterFigures surfaces;             // slices, without effects: at 16 Hz and at 90 Hz alone
   AgreementFigures slices_agreement;  // converged ones with the reference
   BarePass bare;                      // rays.at_16Hz
   std::vector<NaiveFigures> naive;

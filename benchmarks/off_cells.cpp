@@ -53,7 +53,7 @@ FramePower completed_slices(const View& view, const Effort& effort,
       1, reference.jittered_passes * reference.sub_columns / std::max(1, sampling.sub_columns));
   reference.sub_columns = sampling.sub_columns;
   const renderer::FrameRenderer renderer(
-      view.world(), sampling, {}, {.thermal_noise = view.scene->noise()},
+      view.world(), sampling, {}, view.scene->effects(),
       std::make_unique<CompletedSlices>(view.world(), sampling, reference));
   return power_of(renderer.render(view.pose));
 }

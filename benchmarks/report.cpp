@@ -39,9 +39,10 @@ constexpr const char* kWords =
     "One grey level is 60/255 = 0.235 dB. The reference, for both casters, is made of rays: 256\n"
     "jittered azimuths per column and 8 rays per range cell; in one view per scene a second one\n"
     "with another seed states its own error.\n\n"
-    "Errors, sampling steps and bare-pass ratios are of surfaces and point targets alone: double "
-    "bounce and\nground multipath are off there. Frames written to disk run every effect that the "
-    "plan asks for.\n\n";
+    "Errors, times and sampling steps are of the **whole picture**: every effect that the plan "
+    "asks "
+    "for\nis on, in the picture and in its reference. Where a row says *surfaces alone*, double "
+    "bounce and\nground multipath are off in both.\n\n";
 
 constexpr const char* kQuickHead =
     "**A quick run: few repetitions against a coarse reference. The figures mean nothing.**\n\n";

@@ -9,14 +9,15 @@ namespace {
 
 std::string rate_cell(const SamplingFigures& figures, const std::string& unit) {
   const FrameError& error = figures.error;
-  return fmt::format("{} grey, {:.3g} {}{} in {:.1f} ms",
+  return fmt::format("{}, {} grey, {:.3g} {}{} in {:.1f} ms",
                      pair_text(error.bscope.with_noise.rms, error.bscope.noise_free.rms),
+                     pair_text(error.cscope.with_noise.rms, error.cscope.noise_free.rms),
                      figures.fineness, unit, figures.fineness == 1.0 ? "" : "s", figures.frame_ms);
 }
 
 std::string rates(const Report& report) {
   std::string out =
-      "| surfaces alone, B-scope error | 16 Hz, slices | 16 Hz, rays | 90 Hz, slices |\n"
+      "| whole picture, B-scope and C-scope error | 16 Hz, slices | 16 Hz, rays | 90 Hz, slices |\n"
       "| --- | --- | --- | --- |\n";
   for (const SceneFigures& scene : report.scenes)
     for (const ViewFigures& view : scene.views)

@@ -23,6 +23,7 @@ struct Caster {
 };
 constexpr Caster kSlices{"slices", &ViewFigures::slices, 0.05};
 constexpr Caster kRays{"rays", &ViewFigures::rays, 0.25};
+constexpr Caster kSurfaces{"slices, surfaces alone", &ViewFigures::surfaces, 0.05};
 
 struct Rate {
   const char* name;
@@ -30,6 +31,7 @@ struct Rate {
   SamplingFigures CasterFigures::*figures;
 };
 constexpr Rate k16Hz{"16 Hz", kBudget16Hz_ms, &CasterFigures::at_16Hz};
+constexpr Rate k45Hz{"45 Hz", kBudget45Hz_ms, &CasterFigures::at_45Hz};
 constexpr Rate k90Hz{"90 Hz", kBudget90Hz_ms, &CasterFigures::at_90Hz};
 
 struct RateTarget {
@@ -41,21 +43,28 @@ struct RateTarget {
 };
 
 constexpr RateTarget kRateTargets[] = {
-    {kDefaultScene, kSlices, k16Hz, {0.8, 1.3}, {{0.4, 0.8}}},
-    {kDefaultScene, kSlices, k90Hz, {2.3, 4.2}, {{1.2, 2.0}}},
-    {kDefaultScene, kRays, k16Hz, {1.0, 2.0}, {{0.5, 1.0}}},
-    {kDefaultScene, kRays, k90Hz, {3.0, 6.0}, {}},
-    {kCityScene, kSlices, k16Hz, {0.8, 1.3}, {{0.4, 0.8}}},
-    {kCityScene, kSlices, k90Hz, {2.3, 4.2}, {{1.2, 2.0}}},
-    {kCityScene, kRays, k16Hz, {2.0, 3.5}, {{1.5, 2.5}}},
+    {kDefaultScene, kSlices, k16Hz, {0.5, 0.8}, {{0.2, 0.4}}},
+    {kDefaultScene, kSlices, k90Hz, {2.0, 3.0}, {{1.2, 2.0}}},
+    {kDefaultScene, kRays, k16Hz, {0.5, 0.8}, {{0.2, 0.4}}},
+    {kDefaultScene, kRays, k90Hz, {2.0, 3.0}, {{1.2, 2.0}}},
+    {kDefaultScene, kSurfaces, k16Hz, {0.2, 0.3}, {}},
+    {kDefaultScene, kSurfaces, k90Hz, {2.3, 3.4}, {}},
+    {kCityScene, kSlices, k16Hz, {1.0, 1.6}, {{0.5, 0.8}}},
+    {kCityScene, kSlices, k45Hz, {2.0, 3.2}, {}},
+    {kCityScene, kRays, k16Hz, {1.0, 1.6}, {{0.5, 0.8}}},
+    {kCityScene, kRays, k45Hz, {2.0, 3.2}, {}},
+    {kCityScene, kSurfaces, k16Hz, {0.2, 0.3}, {}},
+    {kCityScene, kSurfaces, k90Hz, {2.3, 3.4}, {}},
 };
 
-constexpr Target kBareRatio{1.5, 1.2};
+constexpr Target kBesideLibrary_ns{25.0, 20.0};
+constexpr ErrorTarget kReferenceOwn{0.25, 0.4};
+constexpr double kLongestReference_s = 120.0;
 constexpr Target kThreadGain{1.8, 1.8, true};
 constexpr double kMostBuild_s = 15.0;
 constexpr double kMostMemory_bytes = 1e9;
 constexpr Target kWritten_Hz{16.0, 16.0, true};
-constexpr Target kAgreement_grey{0.5, 0.5};
+constexpr Target kAgreement_grey{0.5, 0.5}, kAgreementNoiseFree_grey{0.8, 0.8};
 constexpr Target kAgreement_dB{0.02, 0.02};
 constexpr Target kScaling{3.0, 3.0};
 constexpr Target kPlanTime_ms{20.0, 20.0};
@@ -112,12 +121,37 @@ std::string naive_row(const SceneFigures& scene, const Caster& caster, double rm
   return row.markdown();
 }
 
-std::string bare_row(const SceneFigures& scene) {
-  TargetRow row(scene.scene->name + ", rays, 16 Hz, frame time over bare pass",
-                fmt::format("{:.1f}", kBareRatio.must), fmt::format("{:.1f}", kBareRatio.aim));
+std::string bare_row(const SceneFigures& scene, int threads) {
+  TargetRow row(scene.scene->name +
+                    ", rays, surfaces alone, 16 Hz, processor time a ray beside the library's, ns",
+                fmt::format("{:.0f}", kBesideLibrary_ns.must),
+                fmt::format("{:.0f}", kBesideLibrary_ns.aim));
   for (const ViewFigures& view : scene.views) {
-    row.add(fmt::format("{:.2f}", view.bare.ratio()) + at(view));
-    row.judge(view.bare.ratio(), kBareRatio);
+    row.add(fmt::format("{:.1f} (frame over bare pass {:.2f})", view.bare.beside_ns(threads),
+                        view.bare.ratio()) +
+            at(view));
+    row.judge(view.bare.beside_ns(threads), kBesideLibrary_ns);
+  }
+  return row.markdown();
+}
+
+// Of two references with other seeds, each has its share of what they are apart.
+std::string reference_row(const SceneFigures& scene) {
+  TargetRow row(scene.scene->name + ", reference, own error, grey RMS, and time",
+                target_text(kReferenceOwn) + fmt::format(", {:.0f} s", kLongestReference_s));
+  for (const ViewFigures& view : scene.views) {
+    row.judge(view.reference_s, {kLongestReference_s, kLongestReference_s});
+    if (!view.reference_error) continue;
+    std::string text;
+    for (const PictureError* error :
+         {&view.reference_error->bscope, &view.reference_error->cscope}) {
+      const double with_noise = error->with_noise.rms / std::sqrt(2.0);
+      const double noise_free = error->noise_free.rms / std::sqrt(2.0);
+      row.judge(with_noise, {kReferenceOwn.with_noise, kReferenceOwn.with_noise});
+      row.judge(noise_free, {kReferenceOwn.noise_free, kReferenceOwn.noise_free});
+      text += (text.empty() ? "B-scope " : ", C-scope ") + pair_text(with_noise, noise_free);
+    }
+    row.add(text + fmt::format(", {:.0f} s", view.reference_s) + at(view));
   }
   return row.markdown();
 }
@@ -158,17 +192,17 @@ std::string sequence_row(const SceneFigures& scene, const SequenceFigures& seque
 std::string agreement_rows(const std::string& scene, const std::vector<AgreementFigures>& lines) {
   std::string out;
   for (const auto picture : {&FrameAgreement::bscope, &FrameAgreement::cscope}) {
-    TargetRow row(
-        fmt::format("{}, converged slices against rays, {}, grey RMS and mean", scene,
-                    picture == &FrameAgreement::bscope ? "B-scope" : "C-scope"),
-        fmt::format("{:.1f}, {:.2f} dB either way", kAgreement_grey.must, kAgreement_dB.must));
+    TargetRow row(fmt::format("{}, converged slices against rays, {}, grey RMS and mean", scene,
+                              picture == &FrameAgreement::bscope ? "B-scope" : "C-scope"),
+                  fmt::format("{:.1f} / {:.1f}, {:.2f} dB either way", kAgreement_grey.must,
+                              kAgreementNoiseFree_grey.must, kAgreement_dB.must));
     for (const AgreementFigures& line : lines) {
       const PictureAgreement& figures = line.agreement.*picture;
       row.add(fmt::format("{}, {:+.3f} dB at {:.0f} m",
                           pair_text(figures.error.with_noise.rms, figures.error.noise_free.rms),
                           figures.mean_dB, line.distance_m));
       row.judge(figures.error.with_noise.rms, kAgreement_grey);
-      row.judge(figures.error.noise_free.rms, kAgreement_grey);
+      row.judge(figures.error.noise_free.rms, kAgreementNoiseFree_grey);
       row.judge(std::abs(figures.mean_dB), kAgreement_dB);
     }
     out += row.markdown();
@@ -245,7 +279,8 @@ std::string targets_markdown(const Report& report) {
       "## Targets and measured figures\n\n"
       "Set for two cores. Errors are with noise / noise-free, rates mean the finest sampling "
       "whose\n"
-      "median frame fits 62.5 ms (16 Hz) or 11.1 ms (90 Hz); every view has to hold. Targets are\n"
+      "median frame fits 62.5 ms (16 Hz), 22.2 ms (45 Hz) or 11.1 ms (90 Hz); every view has to "
+      "hold. Errors are of\nthe whole picture where a row does not say otherwise. Targets are\n"
       "upper limits where they do not say otherwise.\n\n"
       "| what | must | aim | measured | |\n| --- | --- | --- | --- | --- |\n";
   for (const SceneFigures& scene : report.scenes) {
@@ -256,7 +291,7 @@ std::string targets_markdown(const Report& report) {
     }
     for (const Caster& caster : {kSlices, kRays})
       for (const double rms : kEqualErrors) out += naive_row(scene, caster, rms);
-    out += bare_row(scene);
+    out += bare_row(scene, report.threads) + reference_row(scene);
     for (const Caster& caster : {kSlices, kRays}) out += threads_row(scene, caster, report.threads);
     out += agreement_rows(scene.scene->name, of_slices(scene));
     if (scene.scene->name == kCityScene) out += build_row(scene);

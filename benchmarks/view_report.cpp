@@ -56,6 +56,7 @@ std::string ladder_rows(const CasterFigures& figures, const Row& row) {
                step);
   };
   point(figures.at_16Hz, kBudget16Hz_ms, "16 Hz");
+  point(figures.at_45Hz, kBudget45Hz_ms, "45 Hz");
   point(figures.at_90Hz, kBudget90Hz_ms, "90 Hz");
   return out;
 }
@@ -78,16 +79,22 @@ std::string rays_markdown(const ViewFigures& figures, int threads) {
                    *figures.reference_error);
   return out + "\n" + threads_line(figures.rays, "rays per cell", threads) +
          fmt::format(
-             "- bare pass over the same {:.3f} M rays: {:.1f} ms ({}, {:.1f} Mray/s) beside frames "
-             "of\n  {:.1f} ms: ratio {:.2f}\n\n",
+             "- surfaces alone, bare pass over the {:.3f} M rays that fit 16 Hz: {:.1f} ms ({}, "
+             "{:.1f} Mray/s)\n  beside frames of {:.1f} ms: ratio {:.2f}, {:.1f} ns a ray beside "
+             "the library's own\n\n",
              static_cast<double>(bare.rays) / 1e6, bare.bare_ms, bare.shape,
-             static_cast<double>(bare.rays) / bare.bare_ms / 1000.0, bare.frame_ms, bare.ratio());
+             static_cast<double>(bare.rays) / bare.bare_ms / 1000.0, bare.frame_ms, bare.ratio(),
+             bare.beside_ns(threads));
 }
 
 std::string slices_markdown(const ViewFigures& figures, int threads) {
   return "### Slices\n\n" + table_head("slices per column", "slices", "us per slice") +
-         ladder_rows(figures.slices, slice_row) + "\n" +
-         threads_line(figures.slices, "slices per column", threads) + "\n";
+         ladder_rows(figures.slices, slice_row) +
+         slice_row("surfaces alone, 16 Hz: " + core::number_text(figures.surfaces.at_16Hz.fineness),
+                   figures.surfaces.at_16Hz) +
+         slice_row("surfaces alone, 90 Hz: " + core::number_text(figures.surfaces.at_90Hz.fineness),
+                   figures.surfaces.at_90Hz) +
+         "\n" + threads_line(figures.slices, "slices per column", threads) + "\n";
 }
 
 std::string naive_markdown(const ViewFigures& figures) {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
+#include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -33,10 +34,11 @@ double steepest_square(const HeightField& ground, int i, int j) {
 // Directions of the fan and a sphere: false only where they certainly miss each other.
 class Fan {
  public:
-  Fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor)
+  // `wider_rad` on both sides.
+  Fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor, double wider_rad = 0.0)
       : antenna_(antenna), cone_(sensor.scan.surface == sensors::ScanSurface::cone) {
     const double half_rad = sensor.scan.field_of_view_rad / 2 + sensor.antenna.azimuth.cut_rad +
-                            kMarginColumns * sensor.scan.column_width_rad();
+                            kMarginColumns * sensor.scan.column_width_rad() + wider_rad;
     all_round_ = half_rad >= core::kPi / 2;
     sine_ = std::sin(std::min(half_rad, core::kPi / 2));
     cosine_ = std::cos(std::min(half_rad, core::kPi / 2));
@@ -56,6 +58,20 @@ class Fan {
   bool cone_, all_round_ = false;
   double sine_ = 0.0, cosine_ = 0.0;
 };
+
+// How far ground whose facets rise at most `slope` turns a ray of the beam to the side: the mirrored
+// direction is d + 2 sin(psi) n, the level part of d at least cos(steepest ray), that of n at most
+// sin(slope). Pi where it may turn it anywhere.
+double largest_turn_rad(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
+                        double slope_rad) {
+  const double tilt_rad = std::acos(std::clamp(antenna.up.z, -1.0, 1.0));
+  const double ray_rad = sensors::reach_rad(sensor.antenna.elevation) +
+                         std::abs(sensor.antenna.boresight_elevation_rad) + tilt_rad;
+  const double grazing_rad = ray_rad + slope_rad;
+  if (grazing_rad >= core::kPi / 2) return core::kPi;
+  const double sine = 2.0 * std::sin(grazing_rad) * std::sin(slope_rad) / std::cos(ray_rad);
+  return sine < 1.0 ? std::asin(sine) : core::kPi;
+}
 
 }  // namespace
 
@@ -156,11 +172,16 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
   const glm::dvec3& at_m = antenna.position_m;
   const double far_m = sensor.range.maximum_m() + kMarginCells * sensor.range.cell_m + kMargin_m;
   Seen seen{at_m.z, at_m.z};
-  bool bodies = false;
+  bool bodies_mirror = false;
   bool ground_in_fan = false;
   double steepest = 0.0;
   double steepest_mirror = 0.0;
   double highest_mirror_m = -1e300;
+  std::vector<const Tile*> bodies;  // within range
+  const auto may_meet = [](const Fan& directions, const Tile& tile) {
+    return directions.may_meet((tile.low_m + tile.high_m) / 2.0,
+                               glm::length(tile.high_m - tile.low_m) / 2.0 + kMargin_m);
+  };
   for (const Tile& tile : tiles_) {
     const double east_m = std::max({tile.low_m.x - at_m.x, at_m.x - tile.high_m.x, 0.0});
     const double north_m = std::max({tile.low_m.y - at_m.y, at_m.y - tile.high_m.y, 0.0});
@@ -168,25 +189,28 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
     seen.lowest_ground_m = std::min(seen.lowest_ground_m, tile.lowest_ground_m);
     seen.highest_ground_m = std::max(seen.highest_ground_m, tile.highest_ground_m);
     steepest = std::max(steepest, tile.steepest);
-    bodies = bodies || tile.has_bodies;
+    if (tile.has_bodies) bodies.push_back(&tile);
     seen.ground_mirrors = seen.ground_mirrors || tile.ground_mirrors;
     if (!tile.ground_mirrors && !tile.bodies_mirror) continue;
-    if (!fan.may_meet((tile.low_m + tile.high_m) / 2.0,
-                      glm::length(tile.high_m - tile.low_m) / 2.0 + kMargin_m))
-      continue;
+    if (!may_meet(fan, tile)) continue;
     seen.mirrors = true;
+    bodies_mirror = bodies_mirror || tile.bodies_mirror;
     if (!tile.ground_mirrors) continue;
     ground_in_fan = true;
     steepest_mirror = std::max(steepest_mirror, tile.steepest);
     highest_mirror_m = std::max(highest_mirror_m, tile.highest_ground_m);
   }
+  const Fan turned(antenna, sensor, largest_turn_rad(antenna, sensor, std::atan(steepest_mirror)));
+  const bool meets_bodies = std::any_of(bodies.begin(), bodies.end(), [&](const Tile* tile) {
+    return bodies_mirror || (ground_in_fan && may_meet(turned, *tile));
+  });
   bool ground_meets_ground = false;
   if (ground_in_fan) {
     const double down_rad =
         std::asin(std::clamp((at_m.z - highest_mirror_m - kMargin_m) / far_m, -1.0, 1.0));
     ground_meets_ground = !(down_rad - 2.0 * std::atan(steepest_mirror) > std::atan(steepest));
   }
-  seen.mirrored_rays_end = bodies || ground_meets_ground;
+  seen.mirrored_rays_end = meets_bodies || ground_meets_ground;
   return seen;
 }
 

@@ -8,7 +8,8 @@
 // What a frame sees of mirrors. Double bounce follows the fan's rays from what they meet first
 // (bounce_tracer.h), so without a mirror inside the fan and the farthest range it has nothing to
 // add. Behind a mirror it needs something to meet: a body, which lies within the farthest range of
-// the antenna because |OB| <= R1 + R2; or the ground. A ray that comes down at the angle d onto
+// the antenna because |OB| <= R1 + R2, and, where the ground alone mirrors, no farther beside the fan
+// than its slopes turn a ray; or the ground. A ray that comes down at the angle d onto
 // ground of slope s leaves at the angle d - 2 s or more, and what it meets lies at a chord of the
 // ground that is nowhere steeper than its steepest facet, t: with
 //     d - 2 s > t ,   sin d >= (antenna - highest mirroring ground) / farthest range

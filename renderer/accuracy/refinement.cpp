@@ -26,7 +26,7 @@ struct Factors {
   double of_new(int level) const { return level == 1 ? of_first_new : of_later_new; }
 };
 constexpr Factors kSlices{1.0, 0.5, 0.5, 1.0}, kRays{0.78, 0.55, 0.70, 0.5};
-constexpr Factors kBounces{0.58, 0.50, 0.58, 0.5};
+constexpr Factors kBounces{0.70, 0.50, 0.58, 0.5};
 Factors factors_of(CasterKind caster) { return caster == CasterKind::profile ? kSlices : kRays; }
 
 double rms(const std::vector<double>& squares) {

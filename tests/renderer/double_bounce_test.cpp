@@ -165,6 +165,24 @@ TEST_CASE("A wall on smooth ground: the corner's cell gains the power of the clo
   }
 }
 
+// The ground mirrors up to 200 m before the wall.
+TEST_CASE("Mirrors nearer than the first range cell count", "[bounce]") {
+  renderer::Sampling reference = renderer::reference_sampling(1);
+  reference.jittered_passes = 4;
+  for (const double gate_m : {700.0, 900.0, 990.0})
+    for (const renderer::Sampling& sampling : {reference, renderer::sampling_for(4.0)}) {
+      renderer::World world = corner_world();
+      world.sensor.range.minimum_m = gate_m;
+      world.sensor.range.cells = 100;
+      const Dihedral expected = dihedral_W(world.sensor);
+      double total_W = 0.0;
+      for (const double value : added_W(world, sampling)) total_W += value;
+      CAPTURE(gate_m, sampling.jittered_passes);
+      CHECK(dB(total_W / (expected.pair_W + expected.image_W)) ==
+            Approx(0.0).margin(sampling.jittered_passes > 0 ? 0.1 : 0.3));
+    }
+}
+
 TEST_CASE("An inner corner of two walls seen at 45 deg returns in the corner's cell", "[bounce]") {
   // Two polished and rough walls of length 8 m meet at a right angle at (0, D) and open towards the
   // sensor, which looks level at their middle height. No ground.
