@@ -234,14 +234,14 @@ ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
     // Added as a frame without an estimate does it, to the last bit.
     FanSums fresh = sums;
     bounces_->add(antenna, sums);
-    bounces_->add(antenna, 1, fresh, fresh);
+    bounces_->add(antenna, 1, fresh);
     return estimate_of(difference.between(sums, fresh), kBounces.of_old, 1);
   }
   FanSums echoes = empty_like(sums);
-  bounces_->add(antenna, 0, sums, echoes);
+  bounces_->add(antenna, echoes);
   for (int level = 1;; ++level) {
     FanSums fresh = empty_like(sums);
-    bounces_->add(antenna, level, sums, fresh);
+    bounces_->add(antenna, level, fresh);
     const ColumnError::Squares apart = difference.between(plus(sums, echoes), plus(sums, fresh));
     combine_groups(fresh, 0.5, groups_of(sums), 0.5, echoes);
     add_counts(fresh, echoes);

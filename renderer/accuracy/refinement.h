@@ -14,7 +14,7 @@
 // Rays and double bounces: each level puts as many new samples as there were before between them.
 // The picture of the old samples and that of the new ones are two answers to the same question,
 // equally good; their mean is better than both:
-//   error of the old         =  0.78 D for rays, 0.58 D for double bounces
+//   error of the old         =  0.78 D for rays, 0.70 D for double bounces
 //   error of the first mean  =  0.55 D for rays, 0.50 D for double bounces
 //   error of later means     =  0.70 D for rays, 0.58 D for double bounces
 // For errors that are independent the factors would be 0.71 and 0.50. Rays have a part in common that

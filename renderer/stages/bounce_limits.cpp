@@ -39,6 +39,23 @@ std::vector<double> faintest_echoes_W_per_rad2(const sensors::Sensor& sensor, bo
   return faintest;
 }
 
+std::vector<double> shown_powers_W(const sensors::Sensor& sensor) {
+  constexpr double kUpWindow = 0.4;
+  // Rows of the C-scope that lie below the horizon hold some hundred times their noise.
+  constexpr double kHeld = 100.0;
+  const sensors::GreyScale scale(sensor);
+  const double up_window = std::pow(10.0, kUpWindow * scale.window_dB() / 10.0);
+  const double row_W_m3 =
+      kHeld * std::max(scale.cscope_floor_W_m3(), sensors::cscope_noise_W_m3(sensor));
+  std::vector<double> shown;
+  for (int cell = 0; cell < sensor.range.cells; ++cell) {
+    const double range_m = sensors::range_middle_m(sensor.range, cell);
+    shown.push_back(std::min(up_window * scale.bscope_floor_W(cell),
+                             row_W_m3 / (range_m * range_m * range_m)));
+  }
+  return shown;
+}
+
 double faintest_mirror(const sensors::Sensor& sensor, const std::vector<BistaticNrcs>& nrcs,
                        const std::vector<double>& faintest_W_per_rad2) {
   double brightest = 0.0;

@@ -27,7 +27,7 @@ struct StripScratch {
   std::vector<Stands> stands;    // each ray's
   std::vector<Bounce> bounces;
 };
-StripScratch& scratch_of_thread() {
+StripScratch& strip_scratch() {
   thread_local StripScratch scratch;
   return scratch;
 }
@@ -39,7 +39,7 @@ class Strip {
       : frame_(frame),
         sampling_(frame.sampling),
         sums_(sums),
-        scratch_(scratch_of_thread()),
+        scratch_(strip_scratch()),
         strip_(strip),
         first_(strip * frame.sub_columns),
         end_(std::min(first_ + frame.sub_columns, sums.sub_columns)),
@@ -99,7 +99,8 @@ class Strip {
 
   // More rays where what the first ones bring back differs by what shows. Decided for several
   // intervals and all blocks at once, from them and what lies beside: were it decided ray by ray,
-  // those that meet a narrow thing would count for less, those that miss it would not, and it would lose power.
+  // those that meet a narrow thing would count for less and those that miss it would not, and it
+  // would lose power. Without losses in the air: no weather moves a ray.
   void refine() {
     for (int begin = 0; begin < intervals_; begin += kTogether) {
       const int end = std::min(begin + kTogether, intervals_);
@@ -144,7 +145,7 @@ class Strip {
 
   double shown(const BounceEcho& echo) const {
     return echo.density_W_per_rad2 > 0.0
-               ? echo.density_W_per_rad2 / frame_.floor.power_W(strip_, echo.range_m)
+               ? echo.density_W_per_rad2 / sampling_.shown_W[cell_at(echo.range_m)]
                : 0.0;
   }
 
@@ -181,8 +182,8 @@ class Strip {
     share.sub_column =
         static_cast<int>(std::floor((echo.azimuth_rad - sums_.first_azimuth_rad) / sums_.step_rad));
     const Stands& stands = scratch_.stands[ray];
-    share.power_W_per_rad =
-        echo.density_W_per_rad2 * stands.solid_rad2 / sums_.step_rad * frame_.places.weight;
+    share.power_W_per_rad = echo.density_W_per_rad2 * echo.left * stands.solid_rad2 /
+                            sums_.step_rad * frame_.places.weight;
     for (int end = 0; end < 2; ++end) {
       const double ahead_rad =
           (end == 0 ? stands.low_rad : stands.high_rad) - scratch_.rays[ray].elevation_rad;
@@ -212,6 +213,11 @@ class Strip {
            std::clamp(ahead_m, -sampling_.longest_reach_m, sampling_.longest_reach_m);
   }
 
+  std::size_t cell_at(double range_m) const {
+    const sensors::RangeGate& gate = frame_.sensor.range;
+    return static_cast<std::size_t>(
+        std::clamp((range_m - gate.minimum_m) / gate.cell_m, 0.0, gate.cells - 1.0));
+  }
   double low_rad(int j) const { return scratch_.edges[static_cast<std::size_t>(j)]; }
   double high_rad(int j) const { return scratch_.edges[static_cast<std::size_t>(j) + 1]; }
   double span_rad(int j) const { return high_rad(j) - low_rad(j); }

@@ -12,7 +12,6 @@
 
 #include "renderer/casting/caster.h"
 #include "renderer/casting/elevation_fan.h"
-#include "renderer/stages/bounce_floor.h"
 #include "renderer/stages/bounce_tracer.h"
 
 namespace fanbeam::renderer {
@@ -25,6 +24,7 @@ struct BounceSampling {
   double smallest_change = 0.04;
   double most_rays = 8.0;        // of an interval
   double longest_reach_m = 0.0;  // of what one ray stands for, to either side of it
+  std::vector<double> shown_W;   // bounce_limits.h
   // Of a reference: see Sampling.
   int jittered_passes = 0;
   std::uint64_t seed = 0;
@@ -43,7 +43,6 @@ struct BounceFrame {
   const BounceSampling& sampling;
   const ElevationFan& fan;
   const BounceTracer& tracer;
-  const BounceFloor& floor;
   const sensors::AntennaFrame& antenna;
   BouncePlaces places;
   int sub_columns;  // of a strip

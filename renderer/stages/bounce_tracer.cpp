@@ -85,7 +85,7 @@ glm::dvec3 in_scene(const sensors::AntennaFrame& antenna, const AxisWeights& w) 
   return w.forward * antenna.forward + w.right * antenna.right + w.up * antenna.up;
 }
 
-AxisWeights weights_of(const AntennaRay& ray, bool cone) {
+AxisWeights ray_weights(const AntennaRay& ray, bool cone) {
   double ce = 0.0, se = 0.0, ca = 0.0, sa = 0.0;
   core::series_cosine_sine(ray.elevation_rad, ce, se);
   core::series_cosine_sine(ray.azimuth_rad, ca, sa);
@@ -96,7 +96,8 @@ AxisWeights weights_of(const AntennaRay& ray, bool cone) {
 struct AngleParts {
   double ce, se, ca, sa;
 };
-AngleParts parts_of(const sensors::AntennaFrame& antenna, const glm::dvec3& direction, bool cone) {
+AngleParts angle_parts(const sensors::AntennaFrame& antenna, const glm::dvec3& direction,
+                       bool cone) {
   const double forward = glm::dot(direction, antenna.forward);
   const double right = glm::dot(direction, antenna.right);
   const double up = glm::dot(direction, antenna.up);
@@ -195,7 +196,7 @@ void BounceTracer::find_mirrors(const sensors::AntennaFrame& antenna,
   packets.intersect(
       rays.size() - first,
       [&](terrain::RayPacket<N>& packet, int lane, std::size_t i) {
-        packet.aim(lane, antenna_m, in_scene(antenna, weights_of(rays[first + i], cone)), far_m);
+        packet.aim(lane, antenna_m, in_scene(antenna, ray_weights(rays[first + i], cone)), far_m);
       },
       [&](const terrain::RayPacket<N>& packet, int lane, std::size_t i) {
         if (packet.geometry[lane] == terrain::kNoHit) return;
@@ -257,13 +258,12 @@ bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay&
   const double there_dB = lane.first_dB + loss_dB(lane.mirror_m, hit.point_m, hit.distance_m);
   if (image_shows) {
     bounce.image = image;
-    bounce.image.density_W_per_rad2 *= power_left(2.0 * there_dB);
+    bounce.image.left = power_left(2.0 * there_dB);
   }
   if (!pair_shows) return false;
   const double back_m = glm::distance(hit.point_m, antenna.position_m);
   bounce.pair = pair;
-  bounce.pair.density_W_per_rad2 *=
-      power_left(there_dB + loss_dB(hit.point_m, antenna.position_m, back_m));
+  bounce.pair.left = power_left(there_dB + loss_dB(hit.point_m, antenna.position_m, back_m));
   return true;
 }
 
@@ -279,7 +279,7 @@ bool BounceTracer::mirror(const sensors::AntennaFrame& antenna, const Hit& hit, 
   lane.first_dB = loss_dB(antenna.position_m, hit.point_m, hit.distance_m);
   lane.start_m = terrain::secondary_origin_m(hit.point_m, hit.normal, hit.distance_m);
   lane.direction = hit.direction + 2.0 * hit.sin_grazing * hit.normal;
-  const AngleParts p = parts_of(antenna, hit.direction, is_cone());
+  const AngleParts p = angle_parts(antenna, hit.direction, is_cone());
   const glm::dvec3 higher =
       in_scene(antenna, elevation_derivative(is_cone(), p.ce, p.se, p.ca, p.sa));
   lane.higher = higher - 2.0 * glm::dot(higher, hit.normal) * hit.normal;
@@ -361,7 +361,7 @@ BounceEcho BounceTracer::pair_of(const sensors::AntennaFrame& antenna, const Ant
   const double there_rate = there_m * glm::dot(lane.higher, hit.normal) / hit.sin_grazing;
   const glm::dvec3 moves = there_m * lane.higher + there_rate * hit.direction;  // B's point
   const glm::dvec3 turns = (moves - glm::dot(moves, line) * line) / back_m;
-  const AngleParts p = parts_of(antenna, line, cone);
+  const AngleParts p = angle_parts(antenna, line, cone);
   const glm::dvec3 up = in_scene(antenna, elevation_derivative(cone, p.ce, p.se, p.ca, p.sa));
   const glm::dvec3 right = in_scene(antenna, azimuth_derivative(cone, p.ce, p.se, p.ca, p.sa));
 

@@ -29,14 +29,14 @@
 namespace fanbeam::renderer {
 
 // An echo with its power per solid angle of the first ray, at azimuth gain 1 around `azimuth_rad`,
-// the mean of the first and the last direction. The rates are derivatives by the first ray's
+// the mean of the first and the last direction; of it `left` comes through the air. The rates are derivatives by the first ray's
 // elevation, on planes through the facets that were hit: what a ray stands for in elevation lies
 // along them.
 struct BounceEcho {
   double range_m = 0.0, range_m_per_rad = 0.0;
   double azimuth_rad = 0.0, azimuth_rate = 0.0;
   double elevation_rad = 0.0, elevation_rate = 0.0;
-  double density_W_per_rad2 = 0.0;
+  double density_W_per_rad2 = 0.0, left = 1.0;
 };
 
 struct Bounce {

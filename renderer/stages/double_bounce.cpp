@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "renderer/casting/radical_inverse.h"
+#include "renderer/stages/bounce_limits.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -42,6 +43,7 @@ BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& su
   sampling.azimuths = std::clamp(static_cast<int>(std::lround(1.5 * std::sqrt(samples))), 1, 64);
   sampling.rays_per_cell = 0.375 * samples / sampling.azimuths;
   sampling.smallest_change = 0.9 * std::pow(samples, -1.5);
+  sampling.shown_W = shown_powers_W(sensor);
   sampling.longest_reach_m =
       surfaces.gap_cells / 2 * std::max(1.0, 1.0 / sampling.rays_per_cell) * sensor.range.cell_m;
   return sampling;
@@ -53,22 +55,19 @@ DoubleBounce::DoubleBounce(const World& world, const Sampling& sampling, bool no
     : world_(world),
       sampling_(bounce_sampling(world.sensor, sampling)),
       sub_columns_(sampling.sub_columns),
-      noise_(noise),
       fan_(world, fan_sampling(sampling, sampling_), ElevationFan::Nearest::antenna),
       tracer_(world, noise) {}
 
-void DoubleBounce::add(const sensors::AntennaFrame& antenna, int level, const FanSums& surfaces,
-                       FanSums& sums) const {
+void DoubleBounce::add(const sensors::AntennaFrame& antenna, int level, FanSums& sums) const {
   if (!tracer_.any()) return;
   const int passes = level < 2 ? 1 : 1 << (level - 1);
   BouncePlaces places;
   places.weight = 1.0 / (passes * std::max(sampling_.jittered_passes, 1));
-  const BounceFloor floor(world_.sensor, noise_, surfaces, sub_columns_);
   for (int pass = 0; pass < passes; ++pass) {
     const PassPlace place = pass_place(level < 2 ? level : passes + pass);
     places.shift = place.azimuth_shift;
     places.first_elevation = place.elevation;
-    add_pass({world_.sensor, sampling_, fan_, tracer_, floor, antenna, places, sub_columns_}, sums);
+    add_pass({world_.sensor, sampling_, fan_, tracer_, antenna, places, sub_columns_}, sums);
   }
 }
 

@@ -29,18 +29,14 @@ class DoubleBounce {
 
   // Adds to what the caster left in `sums`; thread-safe. Changes nothing in a world that does not
   // reflect.
-  void add(const sensors::AntennaFrame& antenna, FanSums& sums) const {
-    add(antenna, 0, sums, sums);
-  }
-  // The same from the samples of one level alone (CastPass), beside what `surfaces` holds.
-  void add(const sensors::AntennaFrame& antenna, int level, const FanSums& surfaces,
-           FanSums& sums) const;
+  void add(const sensors::AntennaFrame& antenna, FanSums& sums) const { add(antenna, 0, sums); }
+  // The same from the samples of one level alone (CastPass).
+  void add(const sensors::AntennaFrame& antenna, int level, FanSums& sums) const;
 
  private:
   const World& world_;
   BounceSampling sampling_;
   int sub_columns_;
-  bool noise_;
   ElevationFan fan_;
   BounceTracer tracer_;
 };

@@ -44,10 +44,10 @@ std::vector<double> bounces_W(const renderer::World& world, renderer::Sampling s
   std::fill(sum.range_W_per_rad.begin(), sum.range_W_per_rad.end(), 0.0);
   const renderer::FanSums empty = sum;
   const renderer::DoubleBounce stage(world, sampling, false);
-  stage.add(antenna, 0, empty, sum);
+  stage.add(antenna, sum);
   for (int level = 1; level < levels; ++level) {
     renderer::FanSums fresh = empty;
-    stage.add(antenna, level, empty, fresh);
+    stage.add(antenna, level, fresh);
     for (std::size_t i = 0; i < sum.range_W_per_rad.size(); ++i)
       sum.range_W_per_rad[i] = (sum.range_W_per_rad[i] + fresh.range_W_per_rad[i]) / 2;
   }
