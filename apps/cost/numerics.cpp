@@ -9,6 +9,8 @@
 namespace fanbeam::apps {
 namespace {
 
+// As many slices per column, split otherwise.
+constexpr int kSlicesSplit = 8;
 constexpr int kSubColumns[] = {1, 2, 4, 8};
 
 struct Candidate {
@@ -32,8 +34,7 @@ std::vector<Candidate> candidates(const CostBench& bench, const scenes::Scene& f
   for (const int sub_columns : kSubColumns) {
     renderer::Sampling sampling = renderer::profile_sampling_for(renderer::kDefaultSlicesPerColumn);
     sampling.sub_columns = sub_columns;
-    sampling.slices_per_sub_column =
-        static_cast<int>(renderer::kDefaultSlicesPerColumn) / sub_columns;
+    sampling.slices_per_sub_column = kSlicesSplit / sub_columns;
     result.push_back({"sub_columns_slices", std::to_string(sub_columns), &world, sampling});
   }
   return result;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/constants.h"
 #include "core/series.h"
 #include "renderer/casting/ray_aim.h"
 #include "renderer/plan/largest_echo.h"
@@ -88,7 +89,12 @@ glm::dvec3 in_scene(const sensors::AntennaFrame& antenna, const AxisWeights& w) 
 AxisWeights ray_weights(const AntennaRay& ray, bool cone) {
   double ce = 0.0, se = 0.0, ca = 0.0, sa = 0.0;
   core::series_cosine_sine(ray.elevation_rad, ce, se);
-  core::series_cosine_sine(ray.azimuth_rad, ca, sa);
+  if (std::abs(ray.azimuth_rad) <= core::kPi / 2) {
+    core::series_cosine_sine(ray.azimuth_rad, ca, sa);
+  } else {  // of a fan wider than the series
+    ca = std::cos(ray.azimuth_rad);
+    sa = std::sin(ray.azimuth_rad);
+  }
   return direction_weights(cone, ce, se, ca, sa);
 }
 

@@ -18,7 +18,8 @@ namespace {
 constexpr double kStep_s = 0.02;
 constexpr double kDerotation_s = 4.0;
 constexpr double kCalmBelow_m = 30.0;
-// Lukla (VNLK) rises by 11.85 % from end to end, the steepest part of Courchevel (LFLJ) by 18.6 %.
+// Lukla (VNLK) rises by 11.85 % from end to end, the steepest part of Courchevel (LFLJ) by 18.6 %
+// [recalled].
 constexpr double kSteepestRunway = 0.2;
 
 void check(const IlsApproach& approach) {

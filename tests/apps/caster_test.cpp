@@ -124,9 +124,9 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
   CHECK(truck["azimuths_left_to_rays"]["rays_per_cell_and_sub_column"] == 1.0);
   CHECK_FALSE(truck.contains("rays_per_cell_and_sub_column"));
 
-  // Without a number of its own, 8; above 8, what at most 8 sub-columns make.
+  // Without a number of its own, 4; above 8, what at most 8 sub-columns make.
   for (const auto& [asked, used] :
-       std::vector<std::pair<std::string, int>>{{"", 8},
+       std::vector<std::pair<std::string, int>>{{"", 4},
                                                 {"--rays-per-cell 0.1", 1},
                                                 {"--rays-per-cell 9", 10},
                                                 {"--rays-per-cell 12", 12}}) {
