@@ -22,7 +22,6 @@ void add_common_options(CLI::App& command, CommonOptions& common);
 // --accuracy, of one range wherever it is asked for.
 CLI::Option* add_accuracy_option(CLI::App& command, double& accuracy_grey, const std::string& what);
 
-
 class CommandLine {
  public:
   CommandLine();

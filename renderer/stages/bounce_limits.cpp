@@ -50,8 +50,8 @@ std::vector<double> shown_powers_W(const sensors::Sensor& sensor) {
   std::vector<double> shown;
   for (int cell = 0; cell < sensor.range.cells; ++cell) {
     const double range_m = sensors::range_middle_m(sensor.range, cell);
-    shown.push_back(std::min(up_window * scale.bscope_floor_W(cell),
-                             row_W_m3 / (range_m * range_m * range_m)));
+    shown.push_back(
+        std::min(up_window * scale.bscope_floor_W(cell), row_W_m3 / (range_m * range_m * range_m)));
   }
   return shown;
 }
