@@ -14,9 +14,6 @@ namespace {
 // Ranges before the first and behind the last cell that still get rays, so that border cells are
 // full.
 constexpr int kMarginCells = 2;
-// Between rays that meet mirrors before the first cell and nothing that shows: a reference, which
-// jitters them, needs no finer ones.
-constexpr double kMirrorStep_rad = 1e-3;
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
 
 glm::dvec2 heading_at(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
@@ -116,8 +113,7 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
     } else if (step == 1) {
-      add_until(std::min(elevation_rad, highest_rad_), 1,
-                std::max(sampling_.largest_step_rad, kMirrorStep_rad), edges);
+      add_until(std::min(elevation_rad, highest_rad_), 1, sampling_.largest_step_rad, edges);
     } else {
       add_until(std::min(elevation_rad, highest_rad_), parts, sampling_.largest_step_rad, edges);
     }
