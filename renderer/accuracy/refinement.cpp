@@ -26,7 +26,7 @@ struct Factors {
   double of_new(int level) const { return level == 1 ? of_first_new : of_later_new; }
 };
 constexpr Factors kSlices{1.0, 0.5, 0.5, 1.0}, kRays{0.78, 0.55, 0.70, 0.5};
-constexpr Factors kBounces{0.70, 0.50, 0.58, 0.5};
+constexpr Factors kBounces{0.85, 0.55, 0.55, 1.0};
 Factors factors_of(CasterKind caster) { return caster == CasterKind::profile ? kSlices : kRays; }
 
 double rms(const std::vector<double>& squares) {
@@ -243,7 +243,7 @@ ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
     FanSums fresh = empty_like(sums);
     bounces_->add(antenna, level, fresh);
     const ColumnError::Squares apart = difference.between(plus(sums, echoes), plus(sums, fresh));
-    combine_groups(fresh, 0.5, groups_of(sums), 0.5, echoes);
+    combine_groups(fresh, kBounces.share, groups_of(sums), 1.0 - kBounces.share, echoes);
     add_counts(fresh, echoes);
     ErrorEstimate reached = estimate_of(apart, kBounces.of_new(level), level + 1);
     reached.reached = reached.largest_grey() <= target_grey;

@@ -10,7 +10,7 @@
 namespace fanbeam::renderer {
 namespace {
 
-void add_pass(const BounceFrame& frame, FanSums& sums) {
+void add_fan(const BounceFrame& frame, FanSums& sums) {
   const int strips = (sums.sub_columns + frame.sub_columns - 1) / frame.sub_columns;
   std::vector<std::vector<BounceShare>> foreign(static_cast<std::size_t>(strips));
   std::vector<std::uint64_t> cast(foreign.size(), 0);
@@ -29,17 +29,19 @@ Sampling fan_sampling(const Sampling& surfaces, const BounceSampling& bounces) {
   return sampling;
 }
 
-BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& surfaces) {
+BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& surfaces, int level) {
   BounceSampling sampling;
   sampling.jittered_passes = surfaces.jittered_passes;
   sampling.seed = surfaces.seed;
   sampling.azimuths = surfaces.sub_columns;
   sampling.rays_per_cell = surfaces.rays_per_cell;
   if (surfaces.jittered_passes > 0) return sampling;
-  // Measured (docs/performance-notes.md): azimuth first, and few rays before refinement.
-  const double samples = surfaces.caster == CasterKind::profile
-                             ? surfaces.sub_columns * surfaces.slices_per_sub_column
-                             : surfaces.sub_columns * surfaces.rays_per_cell;
+  // Measured (docs/performance-notes.md): half as many as surfaces have, azimuth first, and few rays
+  // before refinement.
+  const double per_sub_column = surfaces.caster == CasterKind::profile
+                                    ? surfaces.slices_per_sub_column
+                                    : surfaces.rays_per_cell;
+  const double samples = std::ldexp(surfaces.sub_columns * per_sub_column / 2.0, level);
   sampling.azimuths = std::clamp(static_cast<int>(std::lround(1.5 * std::sqrt(samples))), 1, 64);
   sampling.rays_per_cell = 0.375 * samples / sampling.azimuths;
   sampling.smallest_change = 0.9 * std::pow(samples, -1.5);
@@ -52,23 +54,16 @@ BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& su
 }  // namespace
 
 DoubleBounce::DoubleBounce(const World& world, const Sampling& sampling, bool noise)
-    : world_(world),
-      sampling_(bounce_sampling(world.sensor, sampling)),
-      sub_columns_(sampling.sub_columns),
-      fan_(world, fan_sampling(sampling, sampling_), ElevationFan::Nearest::antenna),
-      tracer_(world, noise) {}
+    : world_(world), sampling_(sampling), tracer_(world, noise) {}
 
 void DoubleBounce::add(const sensors::AntennaFrame& antenna, int level, FanSums& sums) const {
   if (!tracer_.any()) return;
-  const int passes = level < 2 ? 1 : 1 << (level - 1);
-  BouncePlaces places;
-  places.weight = 1.0 / (passes * std::max(sampling_.jittered_passes, 1));
-  for (int pass = 0; pass < passes; ++pass) {
-    const PassPlace place = pass_place(level < 2 ? level : passes + pass);
-    places.shift = place.azimuth_shift;
-    places.first_elevation = place.elevation;
-    add_pass({world_.sensor, sampling_, fan_, tracer_, antenna, places, sub_columns_}, sums);
-  }
+  const BounceSampling sampling = bounce_sampling(world_.sensor, sampling_, level);
+  const ElevationFan fan(world_, fan_sampling(sampling_, sampling), ElevationFan::Nearest::antenna);
+  const PassPlace place = pass_place(level);
+  const BouncePlaces places{place.azimuth_shift, place.elevation,
+                            1.0 / std::max(sampling.jittered_passes, 1)};
+  add_fan({world_.sensor, sampling, fan, tracer_, antenna, places, sampling_.sub_columns}, sums);
 }
 
 }  // namespace fanbeam::renderer

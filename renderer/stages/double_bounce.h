@@ -6,7 +6,8 @@
 // How it samples (bounce_strip.h): azimuths and elevations of its own, as many as the caster's
 // samples ask for, and more where they show beside what the cell holds already. The fan begins at
 // the lowest elevation of the beam: what is nearer than the first range cell shows nothing itself,
-// but mirrors. Levels from 2 on cast several such fans, each at other places.
+// but mirrors. A level has twice as many samples as the one before and replaces it: the mean of
+// several coarse fans would keep what their intervals blur.
 //
 // Deterministic: each strip of sub-columns is one thread's; echoes that lie in another strip are
 // added afterwards, in the order of the strips.
@@ -30,14 +31,12 @@ class DoubleBounce {
   // Adds to what the caster left in `sums`; thread-safe. Changes nothing in a world that does not
   // reflect.
   void add(const sensors::AntennaFrame& antenna, FanSums& sums) const { add(antenna, 0, sums); }
-  // The same from the samples of one level alone (CastPass).
+  // The same with twice as many samples for each level.
   void add(const sensors::AntennaFrame& antenna, int level, FanSums& sums) const;
 
  private:
   const World& world_;
-  BounceSampling sampling_;
-  int sub_columns_;
-  ElevationFan fan_;
+  Sampling sampling_;  // of surfaces
   BounceTracer tracer_;
 };
 
