@@ -6,6 +6,7 @@
 #include <set>
 
 #include "apps/figure/difference_map.h"
+#include "apps/image_files.h"
 #include "core/files.h"
 #include "core/image_compare.h"
 #include "core/text.h"
@@ -14,18 +15,6 @@ namespace fanbeam::apps {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool is_image(const fs::path& path) {
-  return path.extension() == ".png" || path.extension() == ".exr";
-}
-
-std::set<fs::path> images_below(const fs::path& folder) {
-  std::set<fs::path> images;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file() && is_image(entry.path()))
-      images.insert(entry.path().lexically_relative(folder));
-  return images;
-}
 
 // Grey pictures are judged in grey levels, float layers in dB where both are positive.
 bool judge(const std::string& name, const core::LayerDifference& difference, bool grey,
@@ -93,8 +82,8 @@ void refuse_map_among(const fs::path& image_or_folder, const fs::path& map) {
 
 bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions& options,
                      bool quiet) {
-  const std::set<fs::path> in_a = images_below(a);
-  const std::set<fs::path> in_b = images_below(b);
+  const std::set<fs::path> in_a = image_files_below(a);
+  const std::set<fs::path> in_b = image_files_below(b);
   bool same = true;
   std::size_t pairs = 0;
   for (const fs::path& name : in_a) {

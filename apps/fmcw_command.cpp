@@ -11,6 +11,7 @@
 #include "apps/fmcw/products.h"
 #include "apps/fmcw/record.h"
 #include "apps/frame_choice.h"
+#include "apps/option_lists.h"
 #include "apps/output_folder.h"
 #include "apps/progress.h"
 #include "apps/stop_on_signals.h"
@@ -39,21 +40,11 @@ constexpr const char* kScan = "bscope";
 std::set<std::string> chosen_products(const std::string& text, const FmcwRadar& radar) {
   if (text.empty() && !radar.maps) return {"beat"};
   if (text.empty()) return {"range-doppler", "range-azimuth", "top-view", "detections"};
-  std::vector<std::string_view> known;
-  for (const Product& product : kFmcwProducts) known.push_back(product.name);
-  std::set<std::string> products;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const std::string name = text.substr(from, comma - from);
-    from = comma + 1;
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
-                              fmt::format("a list of {}", fmt::join(known, ", ")));
+  const std::set<std::string> products = products_in(text, kFmcwProducts);
+  for (const std::string& name : products)
     if (name != "beat" && name != kScan && !radar.maps)
       core::throw_input_error(core::ErrorClass::unsupported, "--products", "\"" + name + "\"",
                               "beat or bscope: maps and detections need a chirp sequence");
-    products.insert(name);
-  }
   return products;
 }
 
@@ -124,25 +115,17 @@ class Run {
     record.index = index;
     record.time_s =
         scene_.trajectory.frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
-    if (products_.contains(kScan)) {
-      record.scan = scan(index);
-      record.files.insert(record.scan->files.begin(), record.scan->files.end());
-    }
+    if (products_.contains(kScan)) record.scan = scan(index, record.files);
     records_.push_back(std::move(record));
   }
 
-  FmcwScanCounts scan(int index) const {
+  FmcwScanCounts scan(int index, std::set<std::string>& files) const {
     Clock::time_point begin = Clock::now();
     const SignalBscope bscope = fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
-    return {bscope.looks,
-            bscope.rays,
-            bscope.scatterers,
-            bscope.phase_noise_rad,
-            bscope.clipped,
-            bscope.plan,
-            ms,
-            write_bscope(output_.path(), scene_.description.sensor, index, bscope)};
+    files.merge(write_bscope(output_.path(), scene_.description.sensor, index, bscope));
+    return {bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
+            bscope.plan,  ms};
   }
 
   FmcwFrameRecord chain(int index) const {

@@ -122,26 +122,26 @@ void FrameWriter::run() {
 
 void FrameWriter::write_plan_views(const FrameOutput& output) const {
   using Up = sensors::PpiView::Up;
-  for (const auto& [product, up] : {std::pair{"ppi", Up::track}, std::pair{"ppi_north", Up::north},
-                                    std::pair{"ppi_figure", Up::track}}) {
-    if (!products_.contains(product)) continue;
+  for (const auto& [product, up] :
+       {std::pair{"ppi", Up::track}, std::pair{"ppi_north", Up::north}}) {
+    const bool figure = up == Up::track && products_.contains("ppi_figure");
+    if (!products_.contains(product) && !figure) continue;
     const sensors::PpiView view = sensors::ppi_view(sensor_, up, kPpiSize_px, output.heading_rad);
     const core::Picture8 picture = sensors::ppi_picture(
         view, sensors::ppi_grey(sensor_, output.frame.bscope_grey, output.heading_rad, view));
-    const std::filesystem::path path = frame_path(folder_, product, output.index);
     core::Metadata metadata = output.metadata;
     metadata.emplace_back("fanbeam:ppi", fmt::format("{} m per pixel, antenna at column {}, row {}",
                                                      core::number_text(view.metres_per_pixel),
                                                      core::number_text(view.antenna_column),
                                                      core::number_text(view.antenna_row)));
-    if (product == std::string_view("ppi_figure")) {
-      const Box place = plan_figure_layout(view).ppi;
-      metadata.emplace_back("fanbeam:figure_ppi",
-                            fmt::format("left {}, top {}", place.left, place.top));
-      core::write_png(path, plan_figure(sensor_, output.figure, view, picture), metadata);
-    } else {
-      core::write_png(path, picture, metadata);
-    }
+    if (products_.contains(product))
+      core::write_png(frame_path(folder_, product, output.index), picture, metadata);
+    if (!figure) continue;
+    const Box place = plan_figure_layout(view).ppi;
+    metadata.emplace_back("fanbeam:figure_ppi",
+                          fmt::format("left {}, top {}", place.left, place.top));
+    core::write_png(frame_path(folder_, "ppi_figure", output.index),
+                    plan_figure(sensor_, output.figure, view, picture), metadata);
   }
 }
 

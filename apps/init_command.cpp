@@ -1,7 +1,6 @@
 #include "apps/init_command.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
@@ -95,9 +94,7 @@ std::string source_of(const InitOptions& options) {
 // The scene while nobody can see it yet; goes away with the object.
 class Staging {
  public:
-  explicit Staging(const fs::path& folder)
-      : path_(folder.parent_path() /
-              fmt::format(".{}.{}.tmp", folder.filename().string(), getpid())) {
+  explicit Staging(const fs::path& folder) : path_(core::temporary_beside(folder)) {
     for (fs::path above = folder.parent_path(); !fs::exists(above); above = above.parent_path())
       made_.push_back(above);
     fs::create_directories(folder.parent_path());

@@ -1,10 +1,15 @@
 // What --products and --effects say and offer, the same for every command that has them.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "apps/render_command.h"
+#include "core/errors.h"
 #include "renderer/plan/effect_catalogue.h"
 
 namespace fanbeam::apps {
@@ -14,6 +19,23 @@ std::vector<std::string> names_of(const Products& products) {
   std::vector<std::string> names;
   for (const Product& product : products) names.emplace_back(product.name);
   return names;
+}
+
+// The names in a list with commas. Throws InputError E-REF for one that is none of `known`.
+template <class Products>
+std::set<std::string> products_in(const std::string& text, const Products& known) {
+  const std::vector<std::string> names = names_of(known);
+  std::set<std::string> products;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string name = text.substr(from, comma - from);
+    from = comma + 1;
+    if (std::find(names.begin(), names.end(), name) == names.end())
+      core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
+                              fmt::format("a list of {}", fmt::join(names, ", ")));
+    products.insert(name);
+  }
+  return products;
 }
 
 // "A list of bscope (range over azimuth, PNG), ..."

@@ -13,6 +13,7 @@
 #include "apps/frame_metadata.h"
 #include "apps/frame_writer.h"
 #include "apps/obstacle_product.h"
+#include "apps/option_lists.h"
 #include "apps/output_folder.h"
 #include "apps/preview.h"
 #include "apps/progress.h"
@@ -37,22 +38,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
-}
-
-ProductSet parse_products(const std::string& text) {
-  std::vector<std::string_view> known;
-  for (const Product& product : kProducts) known.push_back(product.name);
-  ProductSet products;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const std::string name = text.substr(from, comma - from);
-    from = comma + 1;
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      core::throw_input_error(core::ErrorClass::ref, "--products", "\"" + name + "\"",
-                              fmt::format("a list of {}", fmt::join(known, ", ")));
-    products.insert(name);
-  }
-  return products;
 }
 
 // Effects that the sequence runs and this frame does not.
@@ -229,17 +214,17 @@ FrameOutput Run::render_frame(const renderer::FrameRenderer& frame_renderer,
 
 void Run::print_summary() const {
   if (common_.quiet) return;
-  std::vector<fs::path> places;
+  std::vector<ProductPlace> places;
   for (const std::string& product : products_)
-    places.push_back(product == "preview" ? film() : output_.path() / product);
-  places.push_back(output_.path() / "run.json");
+    places.push_back({product, product == "preview" ? film() : output_.path() / product});
+  places.push_back({"record", output_.path() / "run.json"});
   print_render_summary(record_, scene_, options_.accuracy_grey, places);
 }
 
 }  // namespace
 
 int render(const RenderOptions& options, const CommonOptions& common) {
-  ProductSet products = parse_products(options.products);
+  ProductSet products = products_in(options.products, kProducts);
   if (!options.range_unit.empty() && !products.contains("figure") &&
       !products.contains("ppi_figure"))
     core::throw_input_error(core::ErrorClass::ref, "--range-unit", options.range_unit,

@@ -42,7 +42,7 @@ void print_accuracy(const RunRecord& record, double accuracy_grey) {
 }  // namespace
 
 void print_render_summary(const RunRecord& record, const scenes::Scene& scene, double accuracy_grey,
-                          const std::vector<fs::path>& places) {
+                          const std::vector<ProductPlace>& places) {
   const auto resumed = std::count_if(record.frames.begin(), record.frames.end(),
                                      [](const FrameRecord& f) { return f.resumed; });
   fmt::print("{} {} in {:.1f} s", record.frames.size(),
@@ -53,9 +53,8 @@ void print_render_summary(const RunRecord& record, const scenes::Scene& scene, d
   print_accuracy(record, accuracy_grey);
   for (const core::EffectDecision& decision : scene.plan.decisions)
     fmt::print("  {:14} {:3}  {}\n", decision.effect, decision.on ? "on" : "off", decision.reason);
-  for (const fs::path& place : places)
-    fmt::print("{:10} {}\n", place.stem().string() == "run" ? "record" : place.stem().string(),
-               fs::absolute(place).lexically_normal().string());
+  for (const ProductPlace& place : places)
+    fmt::print("{:10} {}\n", place.name, fs::absolute(place.path).lexically_normal().string());
 }
 
 }  // namespace fanbeam::apps

@@ -10,6 +10,7 @@
 #include "apps/common.h"
 #include "apps/decision_json.h"
 #include "apps/fingerprint.h"
+#include "apps/resolved_json.h"
 #include "core/machine.h"
 #include "core/median.h"
 #include "core/units.h"
@@ -19,13 +20,6 @@ namespace fanbeam::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json resolved_json(const core::ResolvedConfig& resolved) {
-  Json json = Json::object();
-  for (const auto& [path, value] : resolved)
-    std::visit([&, &key = path](const auto& v) { json[key] = v; }, value);
-  return json;
-}
 
 int slices_per_column(const renderer::Sampling& sampling) {
   return sampling.sub_columns * sampling.slices_per_sub_column;

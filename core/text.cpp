@@ -10,13 +10,21 @@
 namespace fanbeam::core {
 namespace {
 
-struct Character {
-  std::uint32_t code = 0;
-  std::size_t bytes = 1;
-  bool valid = false;
-};
+bool may_be_shown(const Character& character) {
+  const std::uint32_t code = character.code;
+  return character.valid && code >= 0x20 && !(code >= 0x7F && code < 0xA0) && code != 0x2028 &&
+         code != 0x2029 && !(code >= 0x202A && code <= 0x202E) &&
+         !(code >= 0x2066 && code <= 0x2069);
+}
 
-// The first character of a text that is not empty; one byte where it is no UTF-8 (RFC 3629).
+bool is_plain(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+}
+
+constexpr std::size_t kLongestWord = 64;
+
+}  // namespace
+
 Character first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const std::uint32_t first = byte(0);
@@ -33,21 +41,6 @@ Character first_character(std::string_view text) {
   if (code < kLeast.at(bytes) || code > 0x10FFFF || surrogate) return {first, 1, false};
   return {code, bytes, true};
 }
-
-bool may_be_shown(const Character& character) {
-  const std::uint32_t code = character.code;
-  return character.valid && code >= 0x20 && !(code >= 0x7F && code < 0xA0) && code != 0x2028 &&
-         code != 0x2029 && !(code >= 0x202A && code <= 0x202E) &&
-         !(code >= 0x2066 && code <= 0x2069);
-}
-
-bool is_plain(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-}
-
-constexpr std::size_t kLongestWord = 64;
-
-}  // namespace
 
 std::string printable_text(std::string_view text) {
   std::string shown;

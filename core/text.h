@@ -2,6 +2,8 @@
 // folders, and what may be printed.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,6 +22,14 @@ struct ParsedNumber {
 ParsedNumber parse_number(std::string_view text);
 
 std::string_view trimmed(std::string_view text);
+
+struct Character {
+  std::uint32_t code = 0;  // of Unicode, or the byte that is none
+  std::size_t bytes = 1;
+  bool valid = false;
+};
+// The first character of a text that is not empty; one byte where it is no UTF-8 (RFC 3629).
+Character first_character(std::string_view text);
 
 // `text` as a terminal, a log or a page may show it: control characters (C0, DEL, C1), the ones that
 // turn the direction of writing (U+202A to U+202E, U+2066 to U+2069), line separators and bytes that

@@ -25,14 +25,17 @@ int pixel_of(const Axis& axis, double value) {
   return std::clamp(static_cast<int>(std::floor(place + kRounding_px)), 0, axis.pixels - 1);
 }
 
-double tick_step(const Axis& axis, int spacing_px) {
-  const double least = std::abs(axis.last - axis.first) / axis.pixels * spacing_px;
+double rounded_up(double value) {
   double power = 1.0;
-  while (power > least) power /= 10.0;
-  while (power * 10.0 <= least) power *= 10.0;
+  while (power > value) power /= 10.0;
+  while (power * 10.0 <= value) power *= 10.0;
   for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= least * (1.0 - 1e-9)) return factor * power;
+    if (factor * power >= value * (1.0 - 1e-9)) return factor * power;
   return 10.0 * power;
+}
+
+double tick_step(const Axis& axis, int spacing_px) {
+  return rounded_up(std::abs(axis.last - axis.first) / axis.pixels * spacing_px);
 }
 
 std::vector<Tick> ticks(const Axis& axis, int spacing_px) {

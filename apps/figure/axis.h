@@ -20,7 +20,10 @@ struct Axis {
 // last pixel.
 int pixel_of(const Axis& axis, double value);
 
-// The least of 1, 2 and 5 times a power of ten whose ticks are at least `spacing_px` apart.
+// The least of 1, 2 and 5 times a power of ten that is no smaller; `value` above 0.
+double rounded_up(double value);
+
+// Such a step whose ticks are at least `spacing_px` apart.
 double tick_step(const Axis& axis, int spacing_px);
 
 struct Tick {

@@ -228,10 +228,7 @@ Colour diverging_colour(double depth) {
 }
 
 double difference_limit(double largest, DifferenceUnit unit) {
-  double power = unit == DifferenceUnit::grey ? 1.0 : 0.1;
-  for (;; power *= 10.0)
-    for (const double factor : {1.0, 2.0, 5.0})
-      if (factor * power >= largest * (1.0 - 1e-9)) return factor * power;
+  return rounded_up(std::max(largest, unit == DifferenceUnit::grey ? 1.0 : 0.1));
 }
 
 Colour difference_colour(double a, double b, DifferenceUnit unit, double limit) {

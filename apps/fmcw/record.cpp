@@ -5,6 +5,7 @@
 
 #include "apps/decision_json.h"
 #include "apps/fmcw/signal_bscope.h"
+#include "apps/resolved_json.h"
 #include "apps/waveform_figures.h"
 #include "core/machine.h"
 #include "renderer/plan/effect_catalogue.h"
@@ -155,10 +156,7 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwOptions& options
                     {"design_probability", radar.detection.cfar.design_probability}};
   }
   if (!frames.empty() && frames.front().scan) json["bscope"] = scan_json(scene.description.sensor);
-  Json input = Json::object();
-  for (const auto& [path, value] : scene.description.resolved)
-    std::visit([&, &key = path](const auto& v) { input[key] = v; }, value);
-  json["input"] = input;
+  json["input"] = resolved_json(scene.description.resolved);
   json["accuracy_grey"] = scene.accuracy_grey;
   json["plan"] = decisions_json(plan_of_echoes(scene.plan));
   json["frames"] = Json::array();

@@ -28,7 +28,6 @@ struct FmcwScanCounts {  // of product bscope
   std::size_t clipped = 0;
   core::EffectPlan plan;
   double ms = 0.0;  // for timing.json
-  std::set<std::string> files;
 };
 
 struct FmcwFrameRecord {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "apps/image_files.h"
 #include "core/errors.h"
 
 namespace fanbeam::apps {
@@ -14,15 +15,7 @@ namespace fs = std::filesystem;
 
 std::set<std::string> pictures_below(const fs::path& folder) {
   std::set<std::string> files;
-  std::error_code status;
-  for (fs::recursive_directory_iterator entry(folder, status), end; !status && entry != end;
-       entry.increment(status))
-    if (entry->is_regular_file() &&
-        (entry->path().extension() == ".png" || entry->path().extension() == ".exr"))
-      files.insert(entry->path().lexically_relative(folder).generic_string());
-  if (status && fs::exists(folder))
-    core::throw_input_error(core::ErrorClass::io, core::Place{folder.string()}, "",
-                            status.message(), "a folder that can be read");
+  for (const fs::path& image : image_files_below(folder)) files.insert(image.generic_string());
   return files;
 }
 

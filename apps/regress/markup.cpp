@@ -2,41 +2,30 @@
 
 #include <cstdint>
 
+#include "core/text.h"
+
 namespace fanbeam::apps {
 namespace {
 
 constexpr std::string_view kReplacement = "\xEF\xBF\xBD";
 
-// Length of the UTF-8 sequence that begins here and stands for a character of XML; 0 for none.
-std::size_t character_at(std::string_view bytes, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(bytes[at + i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return first >= 0x20 ? (first == 0x7f ? 0 : 1) : 0;
-  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-  if (first < 0xC2 || first > 0xF4 || at + length > bytes.size()) return 0;
-  std::uint32_t character = first & (0xFFU >> (length + 1));
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xC0U) != 0x80U) return 0;
-    character = character << 6U | (byte(i) & 0x3FU);
-  }
-  constexpr std::uint32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-  const bool surrogate = character >= 0xD800 && character <= 0xDFFF;
-  const bool outside = character < kLeast[length] || character > 0x10FFFF || character == 0xFFFE ||
-                       character == 0xFFFF;
-  const bool control = character < 0xA0;
-  return surrogate || outside || control ? 0 : length;
+// Whether XML knows the character, and a page may show it.
+bool may_be_marked_up(const core::Character& character) {
+  const std::uint32_t code = character.code;
+  return character.valid && code >= 0x20 && !(code >= 0x7F && code < 0xA0) && code != 0xFFFE &&
+         code != 0xFFFF;
 }
 
 }  // namespace
 
 std::string markup_text(std::string_view bytes) {
   std::string text;
-  for (std::size_t at = 0; at < bytes.size();) {
-    const char c = bytes[at];
-    const std::size_t length = character_at(bytes, at);
+  while (!bytes.empty()) {
+    const char c = bytes.front();
+    const core::Character character = core::first_character(bytes);
     if (c == '\t' || c == '\n') {
       text += c;
-    } else if (length == 0) {
+    } else if (!may_be_marked_up(character)) {
       text += kReplacement;
     } else if (c == '&') {
       text += "&amp;";
@@ -49,9 +38,9 @@ std::string markup_text(std::string_view bytes) {
     } else if (c == '\'') {
       text += "&#39;";
     } else {
-      text += bytes.substr(at, length);
+      text += bytes.substr(0, character.bytes);
     }
-    at += length == 0 ? 1 : length;
+    bytes.remove_prefix(character.bytes);
   }
   return text;
 }

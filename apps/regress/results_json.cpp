@@ -2,18 +2,12 @@
 
 #include "apps/common.h"
 #include "apps/regress/report.h"
+#include "apps/resolved_json.h"
 
 namespace fanbeam::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json suite_json(const Suite& suite) {
-  Json json = Json::object();
-  for (const auto& [path, value] : suite.resolved)
-    std::visit([&, &key = path](const auto& v) { json[key] = v; }, value);
-  return json;
-}
 
 Json figures_json(const LayerJudgement& layer) {
   Json json = {{"layer", layer.layer}, {"within", layer.within}};
@@ -66,10 +60,11 @@ Json case_json(const CaseResult& result) {
 
 std::string results_json(const Suite& suite, const std::vector<CaseResult>& results) {
   const Verdict verdict = verdict_of(results);
-  Json json = {
-      {"version", version_text()}, {"commit", commit_text()},    {"suite", suite.name},
-      {"passed", verdict.passed},  {"differs", verdict.differs}, {"unapproved", verdict.unapproved},
-      {"failed", verdict.failed},  {"input", suite_json(suite)}, {"cases", Json::array()}};
+  Json json = {{"version", version_text()},  {"commit", commit_text()},
+               {"suite", suite.name},        {"passed", verdict.passed},
+               {"differs", verdict.differs}, {"unapproved", verdict.unapproved},
+               {"failed", verdict.failed},   {"input", resolved_json(suite.resolved)},
+               {"cases", Json::array()}};
   for (const CaseResult& result : results) json["cases"].push_back(case_json(result));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }

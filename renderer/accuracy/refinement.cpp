@@ -243,8 +243,8 @@ ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
     FanSums fresh = empty_like(sums);
     bounces_->add(antenna, level, fresh);
     const ColumnError::Squares apart = difference.between(plus(sums, echoes), plus(sums, fresh));
-    combine_groups(fresh, kBounces.share, groups_of(sums), 1.0 - kBounces.share, echoes);
-    add_counts(fresh, echoes);
+    add_counts(echoes, fresh);
+    echoes = std::move(fresh);
     ErrorEstimate reached = estimate_of(apart, kBounces.of_new(level), level + 1);
     reached.reached = reached.largest_grey() <= target_grey;
     if (!reached.reached && level < kFinestBounces) continue;

@@ -112,8 +112,6 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     if (!level) heading = heading_at(frame, azimuth_rad, elevation_rad, surface);
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
-    } else if (step == 1) {
-      add_until(std::min(elevation_rad, highest_rad_), 1, sampling_.largest_step_rad, edges);
     } else {
       add_until(std::min(elevation_rad, highest_rad_), parts, sampling_.largest_step_rad, edges);
     }

@@ -20,9 +20,9 @@ double faintest_mirror(const sensors::Sensor& sensor, const std::vector<Bistatic
                        const std::vector<double>& faintest_W_per_rad2);
 
 // By range cell, the power that a change of what bounces add is held against when they are sampled:
-// two fifths up the display's window (-31 dB of the default one), or less where a C-scope would show less. It has nothing of the
-// weather or of the other surfaces in it, or the plan's effects would decide where rays go, and a
-// faint one that is left out would be seen in the noise of sampling.
+// two fifths up the display's window (-31 dB of the default one), or less where a C-scope would show
+// less. It has nothing of the weather or of the other surfaces in it, or the plan's effects would
+// decide where rays go, and a faint one that is left out would be seen in the noise of sampling.
 std::vector<double> shown_powers_W(const sensors::Sensor& sensor);
 
 // Tangent of the angle between two directions that a beam in their middle still sees.

@@ -13,6 +13,7 @@ namespace {
 
 // Intervals of elevation that get more rays together, and those beside that have a say.
 constexpr int kTogether = 4, kBeside = 2;
+constexpr double kMostRays = 8.0;  // of an interval in one block
 
 // What a ray stands for: a part of the power of the elevations from low to high.
 struct Stands {
@@ -91,8 +92,8 @@ class Strip {
     for (int j = 0; j < intervals_; ++j)
       for (int block = 0; block < sampling_.azimuths; ++block) {
         const int place = place_of(block);
-        add_ray(block, dither(static_cast<std::uint32_t>(j), place, frame_.places.shift),
-                low_rad(j) + elevation_place(place, frame_.places.first_elevation) * span_rad(j),
+        add_ray(block, dither(static_cast<std::uint32_t>(j), place, frame_.place.azimuth_shift),
+                low_rad(j) + elevation_place(place, frame_.place.elevation) * span_rad(j),
                 {low_rad(j), high_rad(j), span_rad(j) * block_rad_});
       }
   }
@@ -106,7 +107,7 @@ class Strip {
       const int end = std::min(begin + kTogether, intervals_);
       const double change = change_within(begin - kBeside, end + kBeside);
       const double rays =
-          std::min(std::ceil(change / sampling_.smallest_change), sampling_.most_rays);
+          std::min(std::ceil(change / sampling_.smallest_change), kMostRays);
       if (!(rays > 1.0)) continue;
       for (int j = begin; j < end; ++j)
         for (int block = 0; block < sampling_.azimuths; ++block)
@@ -120,12 +121,12 @@ class Strip {
     scratch_.stands[first_ray(interval, block)].solid_rad2 = solid_rad2;
     const int place = place_of(block);
     const double step_rad = span_rad(interval) / more;
-    const double first_place = elevation_place(place, frame_.places.first_elevation);
+    const double first_place = elevation_place(place, frame_.place.elevation);
     for (int i = 0; i < more; ++i) {
       const double from_rad = low_rad(interval) + i * step_rad;
       // A sequence of its own for every interval.
       const auto index = static_cast<std::uint32_t>(0x9E3779B9U * (interval + 1) + i);
-      add_ray(block, dither(index, place, frame_.places.shift), from_rad + first_place * step_rad,
+      add_ray(block, dither(index, place, frame_.place.azimuth_shift), from_rad + first_place * step_rad,
               {from_rad, from_rad + step_rad, solid_rad2});
     }
   }
@@ -145,7 +146,7 @@ class Strip {
 
   double shown(const BounceEcho& echo) const {
     return echo.density_W_per_rad2 > 0.0
-               ? echo.density_W_per_rad2 / sampling_.shown_W[cell_at(echo.range_m)]
+               ? echo.density_W_per_rad2 / frame_.shown_W[cell_at(echo.range_m)]
                : 0.0;
   }
 
@@ -163,7 +164,8 @@ class Strip {
             static_cast<std::uint32_t>(j));
         const double elevation_rad = low_rad(j) + core::uniform_from(words[1]) * span_rad(j);
         add_ray(block, core::uniform_from(words[0]), elevation_rad,
-                {elevation_rad, elevation_rad, span_rad(j) * block_rad_});
+                {elevation_rad, elevation_rad,
+                 span_rad(j) * block_rad_ / sampling_.jittered_passes});
       }
   }
 
@@ -182,8 +184,8 @@ class Strip {
     share.sub_column =
         static_cast<int>(std::floor((echo.azimuth_rad - sums_.first_azimuth_rad) / sums_.step_rad));
     const Stands& stands = scratch_.stands[ray];
-    share.power_W_per_rad = echo.density_W_per_rad2 * echo.left * stands.solid_rad2 /
-                            sums_.step_rad * frame_.places.weight;
+    share.power_W_per_rad =
+        echo.density_W_per_rad2 * echo.left * stands.solid_rad2 / sums_.step_rad;
     for (int end = 0; end < 2; ++end) {
       const double ahead_rad =
           (end == 0 ? stands.low_rad : stands.high_rad) - scratch_.rays[ray].elevation_rad;

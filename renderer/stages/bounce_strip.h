@@ -12,39 +12,32 @@
 
 #include "renderer/casting/caster.h"
 #include "renderer/casting/elevation_fan.h"
+#include "renderer/casting/radical_inverse.h"
 #include "renderer/stages/bounce_tracer.h"
 
 namespace fanbeam::renderer {
 
 // How finely bounces are sampled.
 struct BounceSampling {
-  int azimuths = 3;            // blocks per picture column
-  double rays_per_cell = 0.5;  // range cells of ground, per block: without those for what differs
+  int azimuths = 1;            // blocks per picture column
+  double rays_per_cell = 1.0;  // range cells of ground, per block: without those for what differs
   // Of what a cell shows: where neighbours differ by more, an interval gets a ray for each of it.
-  double smallest_change = 0.04;
-  double most_rays = 8.0;        // of an interval
+  double smallest_change = 0.0;
   double longest_reach_m = 0.0;  // of what one ray stands for, to either side of it
-  std::vector<double> shown_W;   // bounce_limits.h
   // Of a reference: see Sampling.
   int jittered_passes = 0;
   std::uint64_t seed = 0;
 };
 
-// Where the rays of one pass lie beside those of others, and how much they count.
-struct BouncePlaces {
-  std::uint32_t shift = 0;       // of azimuths, in parts of 2^32 of a block
-  double first_elevation = 0.5;  // in the intervals of block 0
-  double weight = 1.0;           // one over the passes that are averaged
-};
-
-// What all strips of a pass share.
+// What all strips of a fan share.
 struct BounceFrame {
   const sensors::Sensor& sensor;
   const BounceSampling& sampling;
+  const std::vector<double>& shown_W;  // bounce_limits.h
   const ElevationFan& fan;
   const BounceTracer& tracer;
   const sensors::AntennaFrame& antenna;
-  BouncePlaces places;
+  PassPlace place;  // of its rays beside those of other levels
   int sub_columns;  // of a strip
 };
 

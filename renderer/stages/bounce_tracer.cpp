@@ -43,12 +43,17 @@ struct BounceTracer::Lane {
   std::size_t ray = 0;  // that it comes from
   glm::dvec3 mirror_m{0.0};
   glm::dvec3 first_direction{0.0};
-  double first_m = 0.0;   // R1
-  double first_dB = 0.0;  // one-way loss over it
+  glm::dvec3 normal{0.0};  // of the mirror
+  double first_m = 0.0;    // R1
   double reflection = 0.0;
   glm::dvec3 start_m{0.0};
   glm::dvec3 direction{0.0};
-  glm::dvec3 higher{0.0};  // its derivative by the ray's elevation
+};
+
+// From the antenna by way of the mirror to what was met.
+struct BounceTracer::Way {
+  double length_m = 0.0, m_per_rad = 0.0;  // and its derivative by the ray's elevation
+  glm::dvec3 point_m_per_rad{0.0};         // that of the point
 };
 
 // The way back of a pair that would show.
@@ -254,14 +259,29 @@ void BounceTracer::look_back(const sensors::AntennaFrame& antenna,
       });
 }
 
+// The image of the antenna looks along the mirrored ray, at the plane of the facet that was met.
+BounceTracer::Way BounceTracer::way_to(const sensors::AntennaFrame& antenna, const Lane& lane,
+                                       const Hit& hit) const {
+  const AngleParts p = angle_parts(antenna, lane.first_direction, is_cone());
+  glm::dvec3 higher = in_scene(antenna, elevation_derivative(is_cone(), p.ce, p.se, p.ca, p.sa));
+  higher -= 2.0 * glm::dot(higher, lane.normal) * lane.normal;
+  Way way;
+  way.length_m = lane.first_m + hit.distance_m;
+  way.m_per_rad = way.length_m * glm::dot(higher, hit.normal) / hit.sin_grazing;
+  way.point_m_per_rad = way.length_m * higher + way.m_per_rad * hit.direction;
+  return way;
+}
+
 // True when there is a pair.
 bool BounceTracer::weigh(const sensors::AntennaFrame& antenna, const AntennaRay& ray,
                          const Lane& lane, const Hit& hit, Bounce& bounce) const {
-  const BounceEcho image = image_of(ray, lane, hit);
-  const BounceEcho pair = pair_of(antenna, ray, lane, hit);
+  const Way way = way_to(antenna, lane, hit);
+  const BounceEcho image = image_of(ray, lane, hit, way);
+  const BounceEcho pair = pair_of(antenna, ray, lane, hit, way);
   const bool image_shows = shows(image), pair_shows = shows(pair);
   if (!image_shows && !pair_shows) return false;
-  const double there_dB = lane.first_dB + loss_dB(lane.mirror_m, hit.point_m, hit.distance_m);
+  const double there_dB = loss_dB(antenna.position_m, lane.mirror_m, lane.first_m) +
+                          loss_dB(lane.mirror_m, hit.point_m, hit.distance_m);
   if (image_shows) {
     bounce.image = image;
     bounce.image.left = power_left(2.0 * there_dB);
@@ -282,13 +302,9 @@ bool BounceTracer::mirror(const sensors::AntennaFrame& antenna, const Hit& hit, 
   lane.mirror_m = hit.point_m;
   lane.first_m = hit.distance_m;
   lane.first_direction = hit.direction;
-  lane.first_dB = loss_dB(antenna.position_m, hit.point_m, hit.distance_m);
+  lane.normal = hit.normal;
   lane.start_m = terrain::secondary_origin_m(hit.point_m, hit.normal, hit.distance_m);
   lane.direction = hit.direction + 2.0 * hit.sin_grazing * hit.normal;
-  const AngleParts p = angle_parts(antenna, hit.direction, is_cone());
-  const glm::dvec3 higher =
-      in_scene(antenna, elevation_derivative(is_cone(), p.ce, p.se, p.ca, p.sa));
-  lane.higher = higher - 2.0 * glm::dot(higher, hit.normal) * hit.normal;
   return true;
 }
 
@@ -300,6 +316,11 @@ double BounceTracer::loss_dB(const glm::dvec3& a_m, const glm::dvec3& b_m, doubl
   return one_way_dB;
 }
 
+// As in ray_caster.h.
+double BounceTracer::jacobian(const AntennaRay& ray) const {
+  return is_cone() ? std::cos(ray.azimuth_rad) : 1.0;
+}
+
 bool BounceTracer::shows(const BounceEcho& echo) const {
   const sensors::RangeGate& gate = world_.sensor.range;
   // What a ray stands for may reach beyond it by a cell or two.
@@ -309,22 +330,19 @@ bool BounceTracer::shows(const BounceEcho& echo) const {
   return echo.density_W_per_rad2 > faintest_W_per_rad2_[at];
 }
 
-BounceEcho BounceTracer::image_of(const AntennaRay& ray, const Lane& lane, const Hit& hit) const {
-  const bool cone = is_cone();
-  const double jacobian = cone ? std::cos(ray.azimuth_rad) : 1.0;  // as in ray_caster.h
+BounceEcho BounceTracer::image_of(const AntennaRay& ray, const Lane& lane, const Hit& hit,
+                                  const Way& way) const {
   const double gain =
       elevation_gain_(ray.elevation_rad - world_.sensor.antenna.boresight_elevation_rad);
-  const double there_m = lane.first_m + hit.distance_m;
   BounceEcho echo;
-  echo.range_m = there_m;
-  // The image of the antenna looks along the mirrored ray.
-  echo.range_m_per_rad = there_m * glm::dot(lane.higher, hit.normal) / hit.sin_grazing;
+  echo.range_m = way.length_m;
+  echo.range_m_per_rad = way.m_per_rad;
   echo.azimuth_rad = ray.azimuth_rad;
   echo.elevation_rad = ray.elevation_rad;
   echo.elevation_rate = 1.0;
   echo.density_W_per_rad2 = radar_constant_W_m2_ * gain * lane.reflection * lane.reflection *
                             nrcs_[hit.material].monostatic().sigma0_over_sine(hit.sin_grazing) *
-                            jacobian / (there_m * there_m);
+                            jacobian(ray) / (way.length_m * way.length_m);
   return echo;
 }
 
@@ -340,7 +358,7 @@ bool BounceTracer::within_beam(const sensors::AntennaFrame& antenna, const glm::
 }
 
 BounceEcho BounceTracer::pair_of(const sensors::AntennaFrame& antenna, const AntennaRay& ray,
-                                 const Lane& lane, const Hit& hit) const {
+                                 const Lane& lane, const Hit& hit, const Way& way) const {
   const sensors::Sensor& sensor = world_.sensor;
   const double boresight_rad = sensor.antenna.boresight_elevation_rad;
   const bool cone = is_cone();
@@ -363,23 +381,19 @@ BounceEcho BounceTracer::pair_of(const sensors::AntennaFrame& antenna, const Ant
   const double scatter = nrcs_[hit.material].sigma0_over_sine(
       hit.sin_grazing, -glm::dot(line, hit.normal), glm::dot(half, hit.normal) / half_length);
 
-  const double there_m = lane.first_m + hit.distance_m;
-  const double there_rate = there_m * glm::dot(lane.higher, hit.normal) / hit.sin_grazing;
-  const glm::dvec3 moves = there_m * lane.higher + there_rate * hit.direction;  // B's point
+  const glm::dvec3& moves = way.point_m_per_rad;
   const glm::dvec3 turns = (moves - glm::dot(moves, line) * line) / back_m;
   const AngleParts p = angle_parts(antenna, line, cone);
   const glm::dvec3 up = in_scene(antenna, elevation_derivative(cone, p.ce, p.se, p.ca, p.sa));
-  const glm::dvec3 right = in_scene(antenna, azimuth_derivative(cone, p.ce, p.se, p.ca, p.sa));
 
   BounceEcho echo;
-  echo.range_m = (there_m + back_m) / 2;
-  echo.range_m_per_rad = (there_rate + glm::dot(moves, line)) / 2;
+  echo.range_m = (way.length_m + back_m) / 2;
+  echo.range_m_per_rad = (way.m_per_rad + glm::dot(moves, line)) / 2;
   echo.azimuth_rad = (ray.azimuth_rad + last->azimuth_rad) / 2;
-  echo.azimuth_rate = glm::dot(turns, right) / std::max(glm::dot(right, right), 1e-6) / 2;
   echo.elevation_rad = (ray.elevation_rad + last->elevation_rad) / 2;
   echo.elevation_rate = (1.0 + glm::dot(turns, up) / std::max(glm::dot(up, up), 1e-6)) / 2;
   echo.density_W_per_rad2 = 4.0 * radar_constant_W_m2_ * gain * lane.reflection * scatter *
-                            (cone ? std::cos(ray.azimuth_rad) : 1.0) / (back_m * back_m);
+                            jacobian(ray) / (back_m * back_m);
   return echo;
 }
 

@@ -34,7 +34,7 @@ namespace fanbeam::renderer {
 // along them.
 struct BounceEcho {
   double range_m = 0.0, range_m_per_rad = 0.0;
-  double azimuth_rad = 0.0, azimuth_rate = 0.0;
+  double azimuth_rad = 0.0;
   double elevation_rad = 0.0, elevation_rate = 0.0;
   double density_W_per_rad2 = 0.0, left = 1.0;
 };
@@ -65,6 +65,7 @@ class BounceTracer {
   struct Hit;
   struct Lane;
   struct Return;
+  struct Way;
   struct Scratch;
   template <int N>
   class Packets;
@@ -86,10 +87,13 @@ class BounceTracer {
   bool mirror(const sensors::AntennaFrame& antenna, const Hit& hit, Lane& lane) const;
   bool weigh(const sensors::AntennaFrame& antenna, const AntennaRay& ray, const Lane& lane,
              const Hit& hit, Bounce& bounce) const;
-  BounceEcho image_of(const AntennaRay& ray, const Lane& lane, const Hit& hit) const;
+  Way way_to(const sensors::AntennaFrame& antenna, const Lane& lane, const Hit& hit) const;
+  double jacobian(const AntennaRay& ray) const;
+  BounceEcho image_of(const AntennaRay& ray, const Lane& lane, const Hit& hit,
+                      const Way& way) const;
   // Without asking whether B sees O.
   BounceEcho pair_of(const sensors::AntennaFrame& antenna, const AntennaRay& ray, const Lane& lane,
-                     const Hit& hit) const;
+                     const Hit& hit, const Way& way) const;
   bool within_beam(const sensors::AntennaFrame& antenna, const glm::dvec3& first,
                    const glm::dvec3& last) const;
   // Whether an echo can show, were the whole beam as bright.

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "renderer/casting/radical_inverse.h"
 #include "renderer/stages/bounce_limits.h"
 
 namespace fanbeam::renderer {
@@ -45,7 +44,6 @@ BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& su
   sampling.azimuths = std::clamp(static_cast<int>(std::lround(1.5 * std::sqrt(samples))), 1, 64);
   sampling.rays_per_cell = 0.375 * samples / sampling.azimuths;
   sampling.smallest_change = 0.9 * std::pow(samples, -1.5);
-  sampling.shown_W = shown_powers_W(sensor);
   sampling.longest_reach_m =
       surfaces.gap_cells / 2 * std::max(1.0, 1.0 / sampling.rays_per_cell) * sensor.range.cell_m;
   return sampling;
@@ -54,16 +52,18 @@ BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& su
 }  // namespace
 
 DoubleBounce::DoubleBounce(const World& world, const Sampling& sampling, bool noise)
-    : world_(world), sampling_(sampling), tracer_(world, noise) {}
+    : world_(world),
+      sampling_(sampling),
+      shown_W_(shown_powers_W(world.sensor)),
+      tracer_(world, noise) {}
 
 void DoubleBounce::add(const sensors::AntennaFrame& antenna, int level, FanSums& sums) const {
   if (!tracer_.any()) return;
   const BounceSampling sampling = bounce_sampling(world_.sensor, sampling_, level);
   const ElevationFan fan(world_, fan_sampling(sampling_, sampling), ElevationFan::Nearest::antenna);
-  const PassPlace place = pass_place(level);
-  const BouncePlaces places{place.azimuth_shift, place.elevation,
-                            1.0 / std::max(sampling.jittered_passes, 1)};
-  add_fan({world_.sensor, sampling, fan, tracer_, antenna, places, sampling_.sub_columns}, sums);
+  add_fan({world_.sensor, sampling, shown_W_, fan, tracer_, antenna, pass_place(level),
+           sampling_.sub_columns},
+          sums);
 }
 
 }  // namespace fanbeam::renderer

@@ -37,6 +37,7 @@ class DoubleBounce {
  private:
   const World& world_;
   Sampling sampling_;  // of surfaces
+  std::vector<double> shown_W_;
   BounceTracer tracer_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/constants.h"
 #include "core/units.h"
 #include "scenes/trajectory/trajectory_transplant.h"
 #include "terrain/geoid.h"
@@ -21,7 +22,6 @@ constexpr double kBesideShare = 0.2;
 constexpr double kHighest_m = 1500.0;
 constexpr double kShallowest_rad = core::radians(0.5);
 constexpr double kSteepest_rad = core::radians(15.0);
-constexpr double kEarthRadius_m = 6371008.8;  // IUGG mean radius of WGS 84
 
 RunwayEnd landing_on(const SceneDescription& scene, const RunwayDescription& runway, int end) {
   const RunwayEndDescription& near = runway.ends[end];
@@ -61,7 +61,8 @@ bool fit(const std::vector<RunwayRelative>& path, std::size_t last, bool round_e
     farthest_m = at.before_threshold_m;
     if (at.height_m < kAboveFlare_m) continue;
     const double s_m = at.before_threshold_m;
-    const double h_m = at.height_m - (round_earth ? s_m * s_m / (2.0 * kEarthRadius_m) : 0.0);
+    const double h_m =
+        at.height_m - (round_earth ? s_m * s_m / (2.0 * core::kMeanEarthRadius_m) : 0.0);
     nearest_m = std::min(nearest_m, s_m);
     n += 1.0;
     sum_s += s_m;

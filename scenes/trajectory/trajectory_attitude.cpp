@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/constants.h"
 #include "scenes/trajectory/trajectory_checks.h"
 #include "scenes/trajectory/trajectory_kinematics.h"
 #include "scenes/trajectory/trajectory_smoothing.h"
@@ -22,7 +23,6 @@ constexpr double kLongestGap_s = 60.0;
 // Two rows a day apart would make a million poses that nobody flew.
 constexpr double kMostBridged_s = 6.0 * 3600.0;
 constexpr double kVelocityHalfWindow_s = 0.5;
-constexpr double kMeanEarthRadius_m = 6371008.8;  // IUGG mean radius of WGS 84
 
 void check(const AttitudeAssumptions& assumed) {
   core::ProblemList problems;
@@ -91,7 +91,7 @@ class SmoothPath {
     state.position = frame_.to_geodetic(foot_m);
     state.position.height_m = height.value;
     const glm::dmat3 here_from_local = glm::transpose(frame_.north_east_down_at(state.position));
-    const double stretch = 1.0 + height.value / kMeanEarthRadius_m;
+    const double stretch = 1.0 + height.value / core::kMeanEarthRadius_m;
     state.v_N_mps = stretch * (here_from_local * rate_mps);
     state.a_N_mps2 = stretch * (here_from_local * acceleration_mps2);
     state.v_N_mps.z = -height.rate_per_s;

@@ -2,26 +2,13 @@
 #include <regex>
 #include <vector>
 
+#include "tests/apps/plain_scene.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam::tests;
 namespace fs = std::filesystem;
 
 namespace {
-
-// 60 m over level grass that ends 3 km north of the antenna.
-const std::string kPlain = R"([scene]
-name = "plain"
-origin = { latitude_deg = 52.0, longitude_deg = 10.0, height_m = 0.0 }
-vertical_datum = "scene"
-[terrain]
-half_extent_m = 3000.0
-spacing_m = 100.0
-)";
-const std::string kOverGrass = R"([trajectory.fixed]
-at = { latitude_deg = 52.0, longitude_deg = 10.0 }
-above_ground_m = 60.0
-)";
 
 std::string display(const std::string& mapping, double low_dB, double high_dB) {
   return "[display]\nmapping = \"" + mapping + "\"\nlow_dB = " + std::to_string(low_dB) +

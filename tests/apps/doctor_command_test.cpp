@@ -3,23 +3,13 @@
 #include <regex>
 
 #include "tests/apps/busy_scene.h"
+#include "tests/apps/plain_scene.h"
 
 using namespace fanbeam::tests;
 namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kPlain = R"([scene]
-name = "plain"
-origin = { latitude_deg = 52.0, longitude_deg = 10.0, height_m = 0.0 }
-vertical_datum = "scene"
-[terrain]
-half_extent_m = 3000.0
-spacing_m = 100.0
-[trajectory.fixed]
-at = { latitude_deg = 52.0, longitude_deg = 10.0 }
-above_ground_m = 60.0
-)";
 const std::string kBuried = R"([[target]]
 name = "buried"
 at = { latitude_deg = 52.01, longitude_deg = 10.0 }
@@ -32,7 +22,7 @@ rcs = { shape = "constant", rcs_dBsm = 0.0 }
 TEST_CASE("doctor tells the worst first, at most 100 columns wide, and writes the same as JSON",
           "[doctor]") {
   const TemporaryFolder folder;
-  folder.write("scene.toml", kPlain + kBuried);
+  folder.write("scene.toml", kPlainOverGrass + kBuried);
   const fs::path file = folder.path() / "findings.json";
   const Result result =
       run_fanbeam("doctor " + quoted(folder.path()) + " --accuracy 0.1 --json " + quoted(file));
@@ -63,13 +53,13 @@ TEST_CASE("doctor tells the worst first, at most 100 columns wide, and writes th
 TEST_CASE("doctor exits with 0 when nothing is worse than delicate, with 3 for bad input",
           "[doctor]") {
   const TemporaryFolder folder;
-  folder.write("scene.toml", kPlain);
+  folder.write("scene.toml", kPlainOverGrass);
   const Result delicate = run_fanbeam("doctor " + quoted(folder.path()));
   INFO(delicate.output);
   CHECK(delicate.exit_code == 0);
   CHECK(delicate.output.find("delicate  beyond-terrain") != std::string::npos);
   CHECK(run_fanbeam("doctor flat-grass").output == "flat-grass: 0 wrong, 0 delicate, 0 to note\n");
-  folder.write("scene.toml", kPlain + "nonsense = 1\n");
+  folder.write("scene.toml", kPlainOverGrass + "nonsense = 1\n");
   CHECK(run_fanbeam("doctor " + quoted(folder.path())).exit_code == 3);
   CHECK(run_fanbeam("doctor flat-grass --accuracy no").exit_code == 2);
 }
@@ -82,7 +72,8 @@ TEST_CASE("doctor tells an approach's height, offset and glide angle, with units
       "0.0 }\nsecond = { name = \"18\", latitude_deg = 52.009, longitude_deg = 10.0, elevation_m = "
       "0.0 }\n[trajectory.ils]\nrunway = \"36\"\nstart_distance_m = 1500.0\n";
   const TemporaryFolder folder;
-  folder.write("scene.toml", kPlain.substr(0, kPlain.find("[trajectory")) + runway);
+  folder.write("scene.toml",
+               kPlainOverGrass.substr(0, kPlainOverGrass.find("[trajectory")) + runway);
   const fs::path file = folder.path() / "findings.json";
   const Result result = run_fanbeam("doctor " + quoted(folder.path()) + " --json " + quoted(file));
   INFO(result.output);
@@ -93,7 +84,7 @@ TEST_CASE("doctor tells an approach's height, offset and glide angle, with units
   CHECK(approach["runway"] == "36");
   CHECK(approach["glide_angle_deg"].get<double>() == Approx(3.0).margin(0.01));
   CHECK(approach["height_over_threshold_m"].get<double>() == Approx(15.0).margin(0.05));
-  folder.write("scene.toml", kPlain);
+  folder.write("scene.toml", kPlainOverGrass);
   run_fanbeam("doctor " + quoted(folder.path()) + " --json " + quoted(file));
   CHECK(json_of(file)["approach"].is_null());
 }
