@@ -106,8 +106,7 @@ class Strip {
     for (int begin = 0; begin < intervals_; begin += kTogether) {
       const int end = std::min(begin + kTogether, intervals_);
       const double change = change_within(begin - kBeside, end + kBeside);
-      const double rays =
-          std::min(std::ceil(change / sampling_.smallest_change), kMostRays);
+      const double rays = std::min(std::ceil(change / sampling_.smallest_change), kMostRays);
       if (!(rays > 1.0)) continue;
       for (int j = begin; j < end; ++j)
         for (int block = 0; block < sampling_.azimuths; ++block)
@@ -126,8 +125,8 @@ class Strip {
       const double from_rad = low_rad(interval) + i * step_rad;
       // A sequence of its own for every interval.
       const auto index = static_cast<std::uint32_t>(0x9E3779B9U * (interval + 1) + i);
-      add_ray(block, dither(index, place, frame_.place.azimuth_shift), from_rad + first_place * step_rad,
-              {from_rad, from_rad + step_rad, solid_rad2});
+      add_ray(block, dither(index, place, frame_.place.azimuth_shift),
+              from_rad + first_place * step_rad, {from_rad, from_rad + step_rad, solid_rad2});
     }
   }
 
@@ -163,9 +162,9 @@ class Strip {
             static_cast<std::uint64_t>(place_of(block)) * passes + static_cast<std::uint64_t>(pass),
             static_cast<std::uint32_t>(j));
         const double elevation_rad = low_rad(j) + core::uniform_from(words[1]) * span_rad(j);
-        add_ray(block, core::uniform_from(words[0]), elevation_rad,
-                {elevation_rad, elevation_rad,
-                 span_rad(j) * block_rad_ / sampling_.jittered_passes});
+        add_ray(
+            block, core::uniform_from(words[0]), elevation_rad,
+            {elevation_rad, elevation_rad, span_rad(j) * block_rad_ / sampling_.jittered_passes});
       }
   }
 
