@@ -59,7 +59,6 @@ int explain_plan(const PlanOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
-  build.frame_plans = options.per_frame;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);

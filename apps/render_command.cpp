@@ -234,7 +234,6 @@ int render(const RenderOptions& options, const CommonOptions& common) {
   scenes::SceneDescription description = read_chosen_scene(options, problems);
   if (!options.realisation.empty()) description.sample = options.realisation == "sample";
   scenes::BuildOptions build;
-  build.frame_plans = options.plan_per_frame;
   if (options.accuracy_grey > 0.0) build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   if (options.reference) {

@@ -1,7 +1,7 @@
 // The plan of a single frame: what of the sequence's plan it can go without.
 //
-// On request (BuildOptions::frame_plans); a sequence is planned once by default, so that all its
-// frames go through the same stages. Rendering a frame by its plan changes its pixels by at most
+// On request; a sequence is planned once by default, so that all its frames go through the same
+// stages. Rendering a frame by its plan changes its pixels by at most
 // half of the accuracy asked for, so nothing is seen to switch (renderer::frame_plan).
 #pragma once
 
@@ -11,8 +11,7 @@
 
 namespace fanbeam::scenes {
 
-// Pure functions of the scene and the frame's pose, in any order and from any thread. Both throw
-// InternalError for a scene that was built without frame plans.
+// Pure functions of the scene and the frame's pose, in any order and from any thread.
 renderer::SceneFacts frame_facts(const Scene& scene, int frame_index);
 core::EffectPlan frame_plan(const Scene& scene, int frame_index);
 

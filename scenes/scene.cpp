@@ -1,17 +1,18 @@
 #include "scenes/scene.h"
 
 #include <chrono>
-#include <glm/matrix.hpp>
 
 #include "materials/library/material_library.h"
 #include "renderer/stages/side_lobes.h"
 #include "scenes/flight_window.h"
+#include "scenes/frame_sight.h"
 #include "scenes/ground.h"
 #include "scenes/model_materials.h"
 #include "scenes/objects.h"
 #include "scenes/scene_caster.h"
 #include "scenes/scene_facts.h"
 #include "scenes/scene_mirrors.h"
+#include "scenes/scene_pose.h"
 #include "scenes/scene_surfaces.h"
 #include "scenes/trajectory/trajectory_builder.h"
 #include "scenes/weather_placement.h"
@@ -72,22 +73,21 @@ void record_model_materials(const ModelMaterials& materials, Scene& scene) {
 
 // What is known before the world is built.
 struct Planned {
+  SightMap sight;
   renderer::SceneFacts facts;
   core::EffectPlan plan;
   double plan_s = 0.0;
-  std::optional<SightMap> sight;
 };
 
 Planned plan_scene(const SceneParts& parts, const atmosphere::Weather& weather,
                    const atmosphere::VolumeEcho& volume_echo, const BuildOptions& options) {
   const auto begin = Clock::now();
-  Planned planned;
-  planned.facts = facts_of(parts, weather, volume_echo.largest_eta_m2_per_m3());
-  planned.plan = renderer::plan(planned.facts, options.accuracy_grey, options.wishes);
+  Planned planned{
+      {parts.ground, parts.patches, parts.meshes, mirroring_materials(parts.mirrors)}, {}, {}, 0.0};
+  const renderer::SceneFacts all = facts_of(parts, weather, volume_echo.largest_eta_m2_per_m3());
+  planned.facts = sequence_facts(parts, all, planned.sight);
+  planned.plan = renderer::plan(all, planned.facts, options.accuracy_grey, options.wishes);
   planned.plan_s = seconds_since(begin);
-  if (options.frame_plans)
-    planned.sight.emplace(parts.ground, parts.patches, parts.meshes,
-                          mirroring_materials(parts.mirrors));
   return planned;
 }
 
@@ -126,18 +126,10 @@ core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
 
 }  // namespace
 
-renderer::FramePose Scene::pose_at(const core::Pose& pose) const {
-  return {.time_s = pose.time_s,
-          .position_m = frame.to_local_m(pose.position),
-          .north_east_down = frame.north_east_down_at(pose.position),
-          .q_NB = pose.q_NB};
-}
+renderer::FramePose Scene::pose_at(const core::Pose& pose) const { return pose_in(frame, pose); }
 
 renderer::FramePose Scene::frame_pose(int frame_index) const {
-  renderer::FramePose pose = pose_at(
-      trajectory.at(trajectory.frame_time_s(frame_index, description.sensor.scan.frame_rate_Hz)));
-  pose.frame_index = static_cast<std::uint64_t>(frame_index);
-  return pose;
+  return scenes::frame_pose(frame, trajectory, description.sensor, frame_index);
 }
 
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,

@@ -44,12 +44,12 @@ struct Scene {
   // Building parts that do not reach the ground; those over open air are triangles and boxes, but
   // no solids of `world`.
   std::size_t raised_buildings = 0, floating_buildings = 0;
-  // What the plan was made of, and how long that took: gathering the facts, and the plan.
+  // What the plan was made of, the scene as its frames see it, and how long that took.
   renderer::SceneFacts facts{};
   renderer::EffectWishes wishes{};
   double accuracy_grey = 0.5;
   double plan_s = 0.0;
-  std::optional<SightMap> sight{};  // with BuildOptions::frame_plans
+  std::optional<SightMap> sight{};
   std::vector<RunwayPlace> runways{};
 
   int frame_count() const { return trajectory.frame_count(description.sensor.scan.frame_rate_Hz); }
@@ -63,7 +63,6 @@ struct BuildOptions {
   double accuracy_grey = 0.5;
   std::string instruction_set;  // see RayScene
   bool robust = true;           // see RayScene
-  bool frame_plans = false;     // prepare what frame_plan.h looks at
 };
 
 // Loads what the description names and puts the world together. Everything wrong is collected in

@@ -31,6 +31,10 @@ double steepest_square(const HeightField& ground, int i, int j) {
   return std::max(square(se - sw, ne - se), square(ne - nw, nw - sw));
 }
 
+double farthest_m(const sensors::Sensor& sensor) {
+  return sensor.range.maximum_m() + kMarginCells * sensor.range.cell_m + kMargin_m;
+}
+
 // Directions of the fan and a sphere: false only where they certainly miss each other.
 class Fan {
  public:
@@ -51,6 +55,17 @@ class Fan {
     if (cone_) return right_m <= (glm::length(to_m) + radius_m) * sine_ + radius_m;
     // Distance from the nearer side of the wedge.
     return right_m * cosine_ - glm::dot(to_m, antenna_.forward) * sine_ <= radius_m;
+  }
+
+  // The same of all that a vertical column holds within `far_m`.
+  bool may_meet_column(const glm::dvec2& centre_m, double radius_m, double far_m) const {
+    if (all_round_) return true;
+    const glm::dvec2 to_m = centre_m - glm::dvec2(antenna_.position_m);
+    const double right_m = std::abs(glm::dot(to_m, glm::dvec2(antenna_.right)));
+    const double right_up_m = far_m * std::abs(antenna_.right.z);
+    if (cone_) return right_m - right_up_m - radius_m <= far_m * sine_;
+    return right_m * cosine_ - glm::dot(to_m, glm::dvec2(antenna_.forward)) * sine_ <=
+           radius_m + right_up_m * cosine_ + far_m * std::abs(antenna_.forward.z) * sine_;
   }
 
  private:
@@ -77,7 +92,10 @@ double largest_turn_rad(const sensors::AntennaFrame& antenna, const sensors::Sen
 
 SightMap::SightMap(const HeightField& ground, const std::vector<terrain::SurfacePatch>& patches,
                    const std::vector<terrain::PlacedMesh>& meshes, const std::vector<bool>& mirrors)
-    : west_m_(ground.west_m), south_m_(ground.south_m) {
+    : west_m_(ground.west_m),
+      south_m_(ground.south_m),
+      east_m_(ground.east_m()),
+      north_m_(ground.north_m()) {
   posts_per_tile_ = std::max(1, static_cast<int>(kTile_m / ground.spacing_m));
   tile_m_ = posts_per_tile_ * ground.spacing_m;
   columns_ = (ground.columns - 2) / posts_per_tile_ + 1;
@@ -166,11 +184,23 @@ void SightMap::add_mesh(const terrain::PlacedMesh& placed, const std::vector<boo
   }
 }
 
+bool SightMap::fan_may_meet(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
+                            const glm::dvec2& centre_m, double radius_m) const {
+  return Fan(antenna, sensor).may_meet_column(centre_m, radius_m, farthest_m(sensor));
+}
+
+bool SightMap::ends_within_range(const sensors::AntennaFrame& antenna,
+                                 const sensors::Sensor& sensor) const {
+  const glm::dvec3& at_m = antenna.position_m;
+  return std::min({at_m.x - west_m_, east_m_ - at_m.x, at_m.y - south_m_, north_m_ - at_m.y}) <=
+         farthest_m(sensor);
+}
+
 SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
                                    const sensors::Sensor& sensor) const {
   const Fan fan(antenna, sensor);
   const glm::dvec3& at_m = antenna.position_m;
-  const double far_m = sensor.range.maximum_m() + kMarginCells * sensor.range.cell_m + kMargin_m;
+  const double far_m = farthest_m(sensor);
   Seen seen{at_m.z, at_m.z};
   bool bodies_mirror = false;
   bool ground_in_fan = false;

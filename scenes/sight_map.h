@@ -1,5 +1,5 @@
-// Where in a scene the things stand that decide over effects, coarsely, so that a frame can tell
-// what it cannot see: renderer::FrameSight.
+// Where in a scene the things stand that decide over effects, coarsely, so that a frame or a
+// sequence can tell what it cannot see: renderer::FrameSight.
 //
 // The terrain is cut into tiles of about 128 m. A tile knows the heights in it, its steepest facet,
 // and whether ground or bodies in it mirror. Everything is rounded towards more: a tile within reach
@@ -44,6 +44,11 @@ class SightMap {
     bool ground_mirrors = false;  // within range, at any azimuth
   };
   Seen seen_from(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor) const;
+  // Whether the fan may see a vertical column within the farthest range.
+  bool fan_may_meet(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
+                    const glm::dvec2& centre_m, double radius_m) const;
+  // Whether the ground ends within the farthest range.
+  bool ends_within_range(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor) const;
 
  private:
   struct Tile {
@@ -58,7 +63,7 @@ class SightMap {
   template <class Use>
   void for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use);
 
-  double west_m_ = 0.0, south_m_ = 0.0, tile_m_ = 0.0;
+  double west_m_ = 0.0, south_m_ = 0.0, east_m_ = 0.0, north_m_ = 0.0, tile_m_ = 0.0;
   int posts_per_tile_ = 1, columns_ = 0, rows_ = 0;
   std::vector<Tile> tiles_;  // [row][column]
 };

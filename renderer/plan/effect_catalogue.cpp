@@ -57,7 +57,7 @@ double longest_path_dB(const SceneFacts& facts, std::string_view effect) {
   // What falls echoes as high and, off the edge of the terrain, as low as the beam reaches.
   if (facts.largest_eta_m2_per_m3 > 0.0) {
     const auto [down, up] = sines_of_beam(facts.sensor);
-    lowest_m -= kMargin_m + std::max(0.0, -range_m * down);
+    if (facts.leaves_ground) lowest_m -= kMargin_m + std::max(0.0, -range_m * down);
     highest_m += std::max(0.0, range_m * up);
   }
   const double layers_dB_per_km = path.largest_one_way_dB_per_km(lowest_m, highest_m);
@@ -100,8 +100,8 @@ double whole_window_dB(const SceneFacts& facts) { return window_dB(facts.sensor)
 
 // The same holds for what another state makes of mirrors.
 double surface_state_dB(const SceneFacts& facts) {
-  return facts.state_changes_mirrors && has_unbounded_echo(facts) ? whole_window_dB(facts)
-                                                                  : facts.surface_change_dB;
+  return facts.state_changes_mirrors && has_mirrored_echo(facts) ? whole_window_dB(facts)
+                                                                 : facts.surface_change_dB;
 }
 
 bool shows_sample(const SceneFacts& facts) { return facts.sample; }

@@ -110,7 +110,7 @@ std::string multipath_cause(const SceneFacts& facts, double) {
 }
 
 std::string surface_state_cause(const SceneFacts& facts, double bound_dB) {
-  if (facts.state_changes_mirrors && has_unbounded_echo(facts))
+  if (facts.state_changes_mirrors && has_mirrored_echo(facts))
     return "wet or snow-covered surfaces mirror otherwise than dry ones, which can change " +
            window_text(facts);
   return "wet or snow-covered surfaces differ from dry ones by up to " + dB_text(bound_dB);

@@ -1,8 +1,9 @@
-// What one frame can see of a scene, and the scene's facts narrowed to that.
+// What one frame, or the frames of a sequence together, can see of a scene, and the scene's facts
+// narrowed to that.
 //
-// Conservative: whoever fills in FrameSight may name more than the frame sees, never less. Then
-// every bound of the effect catalogue that uses the narrowed facts is a bound for that frame, and
-// at most that of the sequence. What FrameSight does not name stays as in the sequence: the
+// Conservative: whoever fills in FrameSight may name more than is seen, never less. Then every bound
+// of the effect catalogue that uses the narrowed facts is a bound for what sees so much, and at most
+// that of the facts before. What FrameSight does not name stays: the
 // materials, their state, the sensor, and the echoing area of the targets while any is in view.
 #pragma once
 
@@ -13,7 +14,7 @@
 namespace fanbeam::renderer {
 
 struct FrameSight {
-  // Heights that rays of the frame pass, above the scene's origin: of the antenna, the ground
+  // Heights that rays pass, above the scene's origin: of the antenna, the ground
   // within range and the targets in view.
   double lowest_m = 0.0;
   double highest_m = 0.0;
@@ -25,8 +26,9 @@ struct FrameSight {
   bool point_targets = false;                    // inside the range gate and the beam
   std::vector<atmosphere::RainCell> rain_cells;  // within range
   double largest_eta_m2_per_m3 = 0.0;            // of rain and snow within range and beam
+  bool leaves_ground = false;                    // the rim of the ground is within range
 };
 
-SceneFacts frame_facts(const SceneFacts& sequence, const FrameSight& sight);
+SceneFacts seen_facts(const SceneFacts& scene, const FrameSight& sight);
 
 }  // namespace fanbeam::renderer

@@ -18,9 +18,22 @@ double lobe_level_integral_rad(const sensors::BeamCut& cut, double most_rad) {
   return level * std::clamp(2.0 * (cut.side_lobe_extent_rad - cut.cut_rad), 0.0, most_rad);
 }
 
+// Two paths, both ways.
+constexpr double kMirrored = 16.0;
+
 double over(double value, double divisor) {
   if (value == 0.0) return 0.0;
   return divisor > 0.0 ? std::min(value / divisor, kUnlimited) : kUnlimited;
+}
+
+// The largest r^3 over the square of the product of two paths whose mean is r.
+double mirrored_per_m(const sensors::RangeGate& gate) {
+  const auto at = [&](double range_m) {
+    const double paths_m2 = gate.minimum_m * (2.0 * range_m - gate.minimum_m);
+    return over(range_m * range_m * range_m, paths_m2 * paths_m2);
+  };
+  // It falls, then rises.
+  return std::max(at(gate.minimum_m), at(gate.maximum_m()));
 }
 
 }  // namespace
@@ -32,7 +45,9 @@ bool mirrored_targets_possible(const SceneFacts& facts) {
 }
 
 EchoSources all_sources(const SceneFacts& facts) {
-  return {facts.largest_sigma0_over_sine, facts.largest_eta_m2_per_m3, facts.rcs_sum_m2};
+  const bool mirrored = mirrored_targets_possible(facts);
+  return {facts.largest_sigma0_over_sine, facts.largest_eta_m2_per_m3,
+          mirrored ? 0.0 : facts.rcs_sum_m2, mirrored ? facts.rcs_sum_m2 : 0.0};
 }
 
 double azimuth_level_rad(const sensors::Sensor& sensor) {
@@ -78,7 +93,10 @@ AddedPower largest_echo(const EchoSources& sources, const BeamPart& part,
                        : over(sources.sigma0_over_sine, 0.0);
     // The stage leaves a cell that begins at the antenna empty.
     const double air_per_m = near_m > 0.0 ? gate.cell_m / (near_m * far_m) : 0.0;
-    const double targets = over(sources.rcs_m2 * part.gain, near_m * near_m * near_m * near_m);
+    const double paths_m2 = gate.minimum_m * (2.0 * near_m - gate.minimum_m);
+    const double targets =
+        over(sources.rcs_m2 * part.gain, near_m * near_m * near_m * near_m) +
+        over(kMirrored * sources.mirrored_rcs_m2 * part.gain, paths_m2 * paths_m2);
     added.cell_W.push_back(
         constant_W_m2 * (surfaces + sources.eta_m2_per_m3 * part.solid_rad2 * air_per_m + targets));
     air_m += air_per_m * middle_m * middle_m * middle_m;
@@ -86,7 +104,8 @@ AddedPower largest_echo(const EchoSources& sources, const BeamPart& part,
   added.row_W_m3 =
       constant_W_m2 * (part.row_solid_rad2 * (sources.sigma0_over_sine * gate.maximum_m() +
                                               sources.eta_m2_per_m3 * air_m) +
-                       over(sources.rcs_m2 * part.gain, gate.minimum_m));
+                       over(sources.rcs_m2 * part.gain, gate.minimum_m) +
+                       kMirrored * sources.mirrored_rcs_m2 * part.gain * mirrored_per_m(gate));
   return added;
 }
 

@@ -11,8 +11,10 @@
 // A row of the C-scope of true elevation sums P R^3 over range: K G Omega_row R_max (each elevation
 // has one range, R^3 / R^2 <= R_max), K eta Omega_row sum(R^3 cell / (R1 R2)), K g^2 sigma / R_min.
 //
-// Not in here: double bounce and ground multipath, which have no bound below the whole window
-// (effect_catalogue.cpp); where they are possible, neither has what depends on the largest echo.
+// Over ground that mirrors a target has up to 16 times its power (both ways over two paths in
+// phase), in the cell of the mean r of its paths: their product is at least R_min (2 r - R_min).
+// Not in here: double bounce, which has no bound below the whole window (effect_catalogue.cpp); where
+// it is possible, nothing has that depends on the largest echo.
 // Cost: a microsecond.
 #pragma once
 
@@ -24,7 +26,7 @@ namespace fanbeam::renderer {
 // A wall and the ground as a corner, or a point target and its mirror image.
 bool corners_possible(const SceneFacts& facts);
 bool mirrored_targets_possible(const SceneFacts& facts);
-inline bool has_unbounded_echo(const SceneFacts& facts) {
+inline bool has_mirrored_echo(const SceneFacts& facts) {
   return corners_possible(facts) || mirrored_targets_possible(facts);
 }
 
@@ -37,6 +39,7 @@ struct EchoSources {
   double sigma0_over_sine = 0.0;
   double eta_m2_per_m3 = 0.0;
   double rcs_m2 = 0.0;
+  double mirrored_rcs_m2 = 0.0;  // over ground that mirrors
 };
 
 EchoSources all_sources(const SceneFacts& facts);

@@ -14,7 +14,6 @@ bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Of 255 levels at most.
 std::string grey_text(double bound_grey) {
   if (bound_grey >= 255.0) return "all 255 grey levels";
   return figure_text(bound_grey) + (bound_grey == 1.0 ? " grey level" : " grey levels");
@@ -59,7 +58,7 @@ Open weighed(const Effect& effect, const SceneFacts& facts, const Greys& greys,
              core::EffectDecision& decision) {
   const double own_dB = effect.bound_dB(facts);
   decision.bound_dB = own_dB > 0.0 && tips_over(facts) ? std::max(own_dB, greys.window_dB) : own_dB;
-  decision.bound_grey = decision.bound_dB / greys.dB_per_grey;
+  decision.bound_grey = std::min(decision.bound_dB / greys.dB_per_grey, 255.0);
   return {&effect, &decision, own_dB};
 }
 
@@ -107,9 +106,16 @@ bool noise_runs(const SceneFacts& facts, double accuracy_grey, const EffectWishe
   return decision.bound_grey > accuracy_grey / 2.0;
 }
 
-// What wishes and possibility leave open, `left_grey` decides.
-core::EffectPlan decided(const std::vector<Effect>& catalogue, const SceneFacts& facts,
-                         const Greys& greys, const EffectWishes& wishes, double left_grey) {
+std::string why_without(const Effect& effect, const SceneFacts& scene) {
+  if (!effect.possible(scene)) return std::string(effect.why_impossible);
+  return effect.why_unseen.empty() ? "the scene has it, but nothing of it is in view"
+                                   : std::string(effect.why_unseen);
+}
+
+// What wishes and possibility leave open, `left_grey` decides. `facts`: what is seen of `scene`.
+core::EffectPlan decided(const std::vector<Effect>& catalogue, const SceneFacts& scene,
+                         const SceneFacts& facts, const Greys& greys, const EffectWishes& wishes,
+                         double left_grey) {
   core::EffectPlan result;
   result.decisions.resize(catalogue.size());
   std::vector<Open> open;
@@ -123,7 +129,7 @@ core::EffectPlan decided(const std::vector<Effect>& catalogue, const SceneFacts&
     if (contains(wishes.forced_off, effect.name)) {
       decision.reason = by_user("switched off by the user", decision);
     } else if (!possible) {
-      decision.reason = effect.why_impossible;
+      decision.reason = why_without(effect, scene);
     } else if (contains(wishes.forced_on, effect.name) || wishes.base == EffectWishes::Base::all) {
       decision.on = true;
       decision.reason = by_user("switched on by the user", decision);
@@ -184,10 +190,16 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
 }
 
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {
-  SceneFacts facts = with_realisation(scene, wishes);
+  return plan(scene, scene, accuracy_grey, wishes);
+}
+
+core::EffectPlan plan(const SceneFacts& scene, const SceneFacts& seen, double accuracy_grey,
+                      const EffectWishes& wishes) {
+  SceneFacts facts = with_realisation(seen, wishes);
   const Greys greys = greys_of(facts);
   facts.noise_shown = noise_runs(facts, accuracy_grey, wishes, greys);
-  return decided(effect_catalogue(), facts, greys, wishes, accuracy_grey / 2.0);
+  return decided(effect_catalogue(), with_realisation(scene, wishes), facts, greys, wishes,
+                 accuracy_grey / 2.0);
 }
 
 core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& frame,
@@ -222,7 +234,7 @@ core::EffectPlan signal_plan(const core::EffectPlan& sequence, const SceneFacts&
   facts.noise_shown =
       !contains(wishes.forced_off, kReceiverNoise) &&
       (wishes.base != EffectWishes::Base::none || contains(wishes.forced_on, kReceiverNoise));
-  return decided(effect_catalogue(Touches::samples), facts, greys_of(facts), wishes,
+  return decided(effect_catalogue(Touches::samples), facts, facts, greys_of(facts), wishes,
                  left_of_budget_grey(sequence, accuracy_grey, wishes));
 }
 

@@ -25,6 +25,9 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched = Touc
 // unless its bound, added to the bounds of those already left out (smallest first), stays within
 // that half. Speckle or fluctuating targets forced on ask for a realisation where the scene does not.
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes);
+// Of a scene of which the frames together see only `seen` (seen_facts() of it): decided by that.
+core::EffectPlan plan(const SceneFacts& scene, const SceneFacts& seen, double accuracy_grey,
+                      const EffectWishes& wishes);
 
 // The plan of one frame, inside the plan of its sequence (of the same wishes): `frame` from
 // frame_facts.h. A world is built for the sequence, so that everything keeps its state but stages

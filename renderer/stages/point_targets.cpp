@@ -38,40 +38,59 @@ glm::dvec3 PointTarget::velocity_at(double time_s) const {
 
 namespace {
 
+// Where a target stands that has an echo, and how bright.
+struct View {
+  glm::dvec3 position_m{0.0};
+  double range_m = 0.0;
+  sensors::AntennaAngles angles{};
+  double rcs_m2 = 0.0;
+  double elevation_gain = 0.0;  // two-way
+};
+
 // Counts a target that has no direction.
-std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFrame& antenna,
-                                  double time_s, std::size_t index, std::uint64_t& unprojected) {
-  const sensors::Sensor& sensor = world.sensor;
+std::optional<View> view_of(const sensors::Sensor& sensor, const PointTarget& target,
+                            const sensors::AntennaFrame& antenna, double time_s,
+                            std::uint64_t& unprojected) {
   const sensors::Antenna& beams = sensor.antenna;
-  const PointTarget& target = world.targets[index];
-  const glm::dvec3 position_m = target.position_at(time_s);
-  const glm::dvec3 path_m = position_m - antenna.position_m;
+  View view;
+  view.position_m = target.position_at(time_s);
+  const glm::dvec3 path_m = view.position_m - antenna.position_m;
   const auto angles = sensors::angles(antenna, path_m, sensor.scan.surface);
   if (!angles) {
     ++unprojected;
     return std::nullopt;
   }
-  const double range_m = glm::length(path_m);
-  if (range_m < sensor.range.minimum_m || range_m >= sensor.range.maximum_m()) return std::nullopt;
-  const glm::dvec3 direction = path_m / range_m;
+  view.angles = *angles;
+  view.range_m = glm::length(path_m);
+  if (view.range_m < sensor.range.minimum_m || view.range_m >= sensor.range.maximum_m())
+    return std::nullopt;
   const double reach_rad = sensor.scan.field_of_view_rad / 2 + sensors::reach_rad(beams.azimuth);
   if (std::abs(angles->azimuth_rad) > reach_rad) return std::nullopt;
-  const double elevation_gain = sensors::two_way_gain_with_side_lobes(
+  view.elevation_gain = sensors::two_way_gain_with_side_lobes(
       beams.elevation, angles->elevation_rad - beams.boresight_elevation_rad);
-  const double rcs_m2 = materials::rcs_m2(target.rcs, glm::transpose(target.axes) * -direction,
-                                          sensor.wavelength_m());
-  if (!(elevation_gain * rcs_m2 > 0.0)) return std::nullopt;
+  const glm::dvec3 direction = path_m / view.range_m;
+  view.rcs_m2 = materials::rcs_m2(target.rcs, glm::transpose(target.axes) * -direction,
+                                  sensor.wavelength_m());
+  if (!(view.elevation_gain * view.rcs_m2 > 0.0)) return std::nullopt;
+  return view;
+}
+
+std::optional<core::Echo> echo_of(const World& world, const sensors::AntennaFrame& antenna,
+                                  double time_s, std::size_t index, std::uint64_t& unprojected) {
+  const auto view = view_of(world.sensor, world.targets[index], antenna, time_s, unprojected);
+  if (!view) return std::nullopt;
+  const double range_m = view->range_m;
   core::Echo echo;
   echo.range_m = range_m;
-  echo.azimuth_rad = angles->azimuth_rad;
-  echo.elevation_rad = angles->elevation_rad;
+  echo.azimuth_rad = view->angles.azimuth_rad;
+  echo.elevation_rad = view->angles.elevation_rad;
   echo.object_id = static_cast<std::uint32_t>(index);
   echo.power_W =
-      sensor.radar_constant_W_m2() * rcs_m2 * elevation_gain *
-      world.attenuation.two_way_power_factor(antenna.position_m.z, position_m.z, range_m) /
+      world.sensor.radar_constant_W_m2() * view->rcs_m2 * view->elevation_gain *
+      world.attenuation.two_way_power_factor(antenna.position_m.z, view->position_m.z, range_m) /
       (range_m * range_m * range_m * range_m);
   if (world.rain_cells)
-    echo.power_W *= world.rain_cells->two_way_power_factor(antenna.position_m, position_m);
+    echo.power_W *= world.rain_cells->two_way_power_factor(antenna.position_m, view->position_m);
   return echo;
 }
 
@@ -111,6 +130,12 @@ TargetEchoes unobstructed_echoes(const World& world, const sensors::AntennaFrame
     if (const auto echo = echo_of(world, antenna, time_s, i, found.unprojected))
       found.echoes.push_back(*echo);
   return found;
+}
+
+bool in_view(const sensors::Sensor& sensor, const PointTarget& target,
+             const sensors::AntennaFrame& antenna, double time_s) {
+  std::uint64_t unprojected = 0;
+  return view_of(sensor, target, antenna, time_s, unprojected).has_value();
 }
 
 SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes, double time_s) {

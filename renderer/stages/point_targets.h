@@ -31,6 +31,10 @@ struct TargetEchoes {
 TargetEchoes unobstructed_echoes(const World& world, const sensors::AntennaFrame& antenna,
                                  double time_s);
 
+// Whether that has an echo of `target`.
+bool in_view(const sensors::Sensor& sensor, const PointTarget& target,
+             const sensors::AntennaFrame& antenna, double time_s);
+
 // Lines of sight to the targets of `echoes`, to be answered by a caster.
 SightLines sight_lines(const World& world, const std::vector<core::Echo>& echoes, double time_s);
 

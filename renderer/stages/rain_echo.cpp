@@ -270,8 +270,8 @@ void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
 }
 
 double rain_echo_bound_dB(const SceneFacts& facts) {
-  AddedPower added =
-      largest_echo({0.0, facts.largest_eta_m2_per_m3, 0.0}, whole_beam(facts.sensor), facts.sensor);
+  AddedPower added = largest_echo({.eta_m2_per_m3 = facts.largest_eta_m2_per_m3},
+                                  whole_beam(facts.sensor), facts.sensor);
   added.cell_W = largest_spread(facts.sensor, added.cell_W);
   return largest_change_dB(added, facts);
 }

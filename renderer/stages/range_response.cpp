@@ -158,7 +158,7 @@ std::vector<double> largest_spread(const sensors::Sensor& sensor, std::vector<do
 
 double range_response_bound_dB(const SceneFacts& facts) {
   const sensors::Sensor& sensor = facts.sensor;
-  if (has_unbounded_echo(facts)) return window_dB(sensor);
+  if (corners_possible(facts)) return window_dB(sensor);
   const RangeResponse response(sensor);
   double least_kept = 1.0;
   for (int column = 0; column < sensor.scan.columns; ++column)

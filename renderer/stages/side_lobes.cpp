@@ -119,7 +119,12 @@ bool has_side_lobes(const SceneFacts& facts) {
 }
 
 double side_lobe_bound_dB(const SceneFacts& facts) {
-  if (has_unbounded_echo(facts)) return window_dB(facts.sensor);
+  // Lobes in elevation change how the two paths to a target cancel.
+  const sensors::BeamCut& elevation = facts.sensor.antenna.elevation;
+  const bool elevation_lobes =
+      sensors::reach_rad(elevation) > sensors::main_beam(elevation).cut_rad;
+  if (corners_possible(facts) || (elevation_lobes && mirrored_targets_possible(facts)))
+    return window_dB(facts.sensor);
   AddedPower added = largest_echo(all_sources(facts), side_lobes(facts.sensor), facts.sensor);
   added.cell_W = largest_spread(facts.sensor, added.cell_W);
   return std::max(largest_change_dB(added, facts), scale_change_dB(facts.sensor));

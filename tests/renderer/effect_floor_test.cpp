@@ -122,7 +122,7 @@ TEST_CASE("The largest echo of a wall across the beam is what the kernel deposit
   const sensors::Sensor sensor = tests::hivision(4);
   const double range_m = sensors::range_edge_m(sensor.range, 100);
   const renderer::AddedPower most =
-      renderer::largest_echo({0.3, 0.0, 0.0}, renderer::whole_beam(sensor), sensor);
+      renderer::largest_echo({.sigma0_over_sine = 0.3}, renderer::whole_beam(sensor), sensor);
   const double spread_m = range_m - renderer::kSpreadCells * sensor.range.cell_m;
   CHECK(most.cell_W[100] ==
         Approx(sensor.radar_constant_W_m2() * 0.3 * sensors::two_way_width(sensor.antenna.azimuth) *

@@ -70,7 +70,6 @@ inline std::unique_ptr<scenes::Scene> built_for_frames(const TemporaryFolder& fo
   const scenes::SceneDescription description =
       scenes::read_scene(folder.path(), {FANBEAM_SOURCE_DIR, {}, {}}, problems);
   scenes::BuildOptions options;
-  options.frame_plans = true;
   options.accuracy_grey = accuracy_grey;
   if (!effects.empty()) options.wishes = renderer::parse_effect_wishes(effects);
   return scenes::build_scene(description, options, problems);

@@ -223,10 +223,4 @@ TEST_CASE("What the sequence leaves out takes its share of a frame's budget firs
             .runs("rain-echo"));
 }
 
-TEST_CASE("A scene that was built without frame plans says so", "[scenes][frame_plan]") {
-  const TemporaryFolder folder;
-  const auto scene = good_scene(folder, kSmallScene);
-  CHECK_THROWS_AS(scenes::frame_plan(*scene, 0), core::InternalError);
-}
-
 }  // namespace fanbeam::tests

@@ -1,0 +1,157 @@
+#include "scenes/frame_sight.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <iterator>
+
+#include "atmosphere/volume_echo.h"
+#include "core/constants.h"
+#include "renderer/plan/largest_echo.h"
+#include "renderer/stages/point_targets.h"
+#include "scenes/scene_pose.h"
+#include "sensors/antenna/beam_pattern.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+using atmosphere::RainCell;
+
+double reach_m(const RainCell& cell) {
+  return cell.radius_m > 0.0 ? cell.radius_m : std::hypot(cell.length_m, cell.width_m) / 2.0;
+}
+
+template <class May>
+std::vector<RainCell> those(const std::vector<RainCell>& cells, const May& may) {
+  std::vector<RainCell> result;
+  std::copy_if(cells.begin(), cells.end(), std::back_inserter(result), may);
+  return result;
+}
+
+// Whether direct rays, and with `mirrored` mirrored ones as well, may pass the cell.
+bool may_pass(const RainCell& cell, const SightMap& map, const sensors::Sensor& sensor,
+              const sensors::AntennaFrame& antenna, bool mirrored) {
+  const double away_m = glm::distance(cell.centre_m, glm::dvec2(antenna.position_m));
+  if (away_m > sensor.range.maximum_m() + reach_m(cell)) return false;
+  return mirrored || map.fan_may_meet(antenna, sensor, cell.centre_m, reach_m(cell));
+}
+
+// Between the lowest and the highest place that the beam reaches. Level at the aircraft is not level
+// at the scene's origin, and an antenna that is not stabilised is not level at all.
+double largest_eta_m2_per_m3(const atmosphere::Weather& weather, const sensors::Sensor& sensor,
+                             const sensors::AntennaFrame& antenna) {
+  const double turn_rad = std::acos(std::clamp(antenna.up.z, -1.0, 1.0));
+  const double reach_rad = sensors::reach_rad(sensor.antenna.elevation) + turn_rad;
+  const double boresight_rad = sensor.antenna.boresight_elevation_rad;
+  const double range_m = sensor.range.maximum_m();
+  const auto height_m = [&](double elevation_rad) {
+    return antenna.position_m.z +
+           range_m * std::sin(std::clamp(elevation_rad, -core::kPi / 2.0, core::kPi / 2.0));
+  };
+  return atmosphere::VolumeEcho(weather, sensor.waveform.frequency_Hz)
+      .largest_eta_m2_per_m3(std::min(antenna.position_m.z, height_m(boresight_rad - reach_rad)),
+                             std::max(antenna.position_m.z, height_m(boresight_rad + reach_rad)));
+}
+
+// Adds what one frame sees of mirrors; the heights are its own.
+void see_mirrors(const SightMap& map, const sensors::Sensor& sensor,
+                 const sensors::AntennaFrame& antenna, renderer::FrameSight& sight) {
+  const SightMap::Seen seen = map.seen_from(antenna, sensor);
+  sight.lowest_m = std::min(seen.lowest_ground_m, antenna.position_m.z);
+  sight.highest_m = std::max(seen.highest_ground_m, antenna.position_m.z);
+  sight.mirrors |= seen.mirrors;
+  sight.mirrored_rays_end |= seen.mirrored_rays_end;
+  sight.ground_mirrors |= seen.ground_mirrors;
+}
+
+bool mirrors_are_seen(const renderer::SceneFacts& scene, const renderer::FrameSight& sight) {
+  return (!renderer::corners_possible(scene) || (sight.mirrors && sight.mirrored_rays_end)) &&
+         (!renderer::mirrored_targets_possible(scene) || sight.ground_mirrors);
+}
+
+// Weather that some frame sees: the cells in `facts`, and the largest eta of what lies in the fan.
+void narrow_weather(const SceneParts& parts, const SightMap& map,
+                    const std::vector<renderer::FramePose>& poses, renderer::SceneFacts& facts) {
+  const std::vector<RainCell> cells = facts.weather.rain_cells;
+  if (cells.empty()) return;
+  const sensors::Sensor& sensor = parts.description.sensor;
+  const bool mirrored = renderer::has_mirrored_echo(facts);
+  const auto seen_with = [&](bool beside) {
+    return those(cells, [&](const RainCell& cell) {
+      return std::any_of(poses.begin(), poses.end(), [&](const auto& pose) {
+        return may_pass(cell, map, sensor, renderer::antenna_of(sensor, pose), beside);
+      });
+    });
+  };
+  facts.weather.rain_cells = seen_with(false);
+  if (facts.weather.rain_cells.size() < cells.size())
+    facts.largest_eta_m2_per_m3 =
+        std::min(facts.largest_eta_m2_per_m3,
+                 atmosphere::VolumeEcho(facts.weather, sensor.waveform.frequency_Hz)
+                     .largest_eta_m2_per_m3());
+  if (mirrored) facts.weather.rain_cells = seen_with(true);
+}
+
+}  // namespace
+
+renderer::FrameSight frame_sight(const renderer::SceneFacts& scene, const SightMap& map,
+                                 const std::vector<renderer::PointTarget>& targets,
+                                 const sensors::AntennaFrame& antenna, double time_s) {
+  const sensors::Sensor& sensor = scene.sensor;
+  renderer::FrameSight sight;
+  see_mirrors(map, sensor, antenna, sight);
+  for (const renderer::PointTarget& target : targets) {
+    if (!renderer::in_view(sensor, target, antenna, time_s)) continue;
+    const double height_m = target.position_at(time_s).z;
+    sight.point_targets = true;
+    sight.lowest_m = std::min(sight.lowest_m, height_m);
+    sight.highest_m = std::max(sight.highest_m, height_m);
+  }
+  sight.leaves_ground = map.ends_within_range(antenna, sensor);
+  const std::vector<RainCell>& cells = scene.weather.rain_cells;
+  atmosphere::Weather weather = scene.weather;
+  const auto passed = [&](bool mirrored) {
+    return those(cells, [&](const RainCell& cell) {
+      return may_pass(cell, map, sensor, antenna, mirrored);
+    });
+  };
+  weather.rain_cells = passed(false);
+  if (scene.largest_eta_m2_per_m3 > 0.0)
+    sight.largest_eta_m2_per_m3 = largest_eta_m2_per_m3(weather, sensor, antenna);
+  sight.rain_cells =
+      renderer::has_mirrored_echo(scene) ? passed(true) : std::move(weather.rain_cells);
+  return sight;
+}
+
+renderer::SceneFacts sequence_facts(const SceneParts& parts, const renderer::SceneFacts& scene,
+                                    const SightMap& map) {
+  const sensors::Sensor& sensor = parts.description.sensor;
+  std::vector<renderer::FramePose> poses;
+  for (int frame = 0; frame < parts.trajectory.frame_count(sensor.scan.frame_rate_Hz); ++frame)
+    poses.push_back(frame_pose(parts.frame, parts.trajectory, sensor, frame));
+  renderer::FrameSight sight;
+  bool all_mirrors = mirrors_are_seen(scene, sight);
+  for (const renderer::FramePose& pose : poses) {
+    const sensors::AntennaFrame antenna = renderer::antenna_of(sensor, pose);
+    if (!all_mirrors) {
+      see_mirrors(map, sensor, antenna, sight);
+      all_mirrors = mirrors_are_seen(scene, sight);
+    }
+    if (!sight.point_targets)
+      sight.point_targets =
+          std::any_of(parts.targets.begin(), parts.targets.end(), [&](const auto& target) {
+            return renderer::in_view(sensor, target, antenna, pose.time_s);
+          });
+    sight.leaves_ground = sight.leaves_ground || map.ends_within_range(antenna, sensor);
+    if (all_mirrors && sight.leaves_ground && (sight.point_targets || parts.targets.empty())) break;
+  }
+  sight.lowest_m = scene.lowest_m;
+  sight.highest_m = scene.highest_m;
+  sight.rain_cells = scene.weather.rain_cells;
+  sight.largest_eta_m2_per_m3 = scene.largest_eta_m2_per_m3;
+  renderer::SceneFacts facts = renderer::seen_facts(scene, sight);
+  narrow_weather(parts, map, poses, facts);
+  return facts;
+}
+
+}  // namespace fanbeam::scenes

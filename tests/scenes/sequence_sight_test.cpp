@@ -1,0 +1,156 @@
+// A sequence goes without what none of its frames sees, and says so.
+#include <catch2/catch.hpp>
+
+#include "renderer/plan/effect_catalogue.h"
+#include "renderer/plan/largest_echo.h"
+#include "renderer/planned_frames.h"
+#include "sensors/sensor_file.h"
+#include "tests/scenes/effect_scene.h"
+#include "tests/scenes/far_approach.h"
+#include "tests/scenes/grey_difference.h"
+
+namespace fanbeam::tests {
+namespace {
+
+struct Change {
+  const char* from;
+  const char* to;
+};
+
+std::unique_ptr<scenes::Scene> approach(const std::vector<Change>& changes,
+                                        const std::string& effects = "") {
+  const TemporaryFolder folder;
+  write_far_approach(folder);
+  std::string scene = core::read_file((folder.path() / "scene.toml").string(), 1U << 20U);
+  for (const Change& change : changes) scene = replaced(scene, change.from, change.to);
+  folder.write("scene.toml", scene);
+  return built_for_frames(folder, 0.5, effects);
+}
+
+const core::EffectDecision& decision_of(const scenes::Scene& scene, std::string_view effect) {
+  return decision_on(scene.plan, effect);
+}
+
+// Of every 60th frame, one plan against the other.
+double largest_change_grey(const scenes::Scene& one, const scenes::Scene& other) {
+  renderer::Sampling sampling;
+  sampling.sub_columns = 1;
+  renderer::PlannedFrames frames(one.world, sampling, {true, true}, 1);
+  renderer::PlannedFrames others(other.world, sampling, {true, true}, 1);
+  double largest = 0.0;
+  for (int frame = 0; frame < one.frame_count(); frame += 60)
+    largest = std::max(largest, largest_difference_grey(
+                                    frames.for_plan(one.plan).render(one.frame_pose(frame)),
+                                    others.for_plan(other.plan).render(other.frame_pose(frame))));
+  return largest;
+}
+
+constexpr Change kNoHangar = {
+    "[[box]]\nname = \"hangar\"\nat = { runway = \"36\", "
+    "behind_threshold_m = 300.0, left_m = 60.0 }\nlength_m = 40.0\n"
+    "width_m = 30.0\nheight_m = 12.0\nwall = \"metal\"\n",
+    ""};
+constexpr Change kNoPost = {
+    "[[target]]\nname = \"post\"\nat = { runway = \"36\", "
+    "behind_threshold_m = -600.0, left_m = 20.0 }\nrcs = { shape = "
+    "\"constant\", rcs_dBsm = 10.0 }\nabove_ground_m = 4.0\n",
+    ""};
+constexpr Change kHangarBehind = {"behind_threshold_m = 300.0, left_m = 60.0",
+                                  "behind_threshold_m = -8500.0, left_m = 60.0"};
+constexpr Change kShowerBeside = {"at = { runway = \"36\", behind_threshold_m = 1500.0 }",
+                                  "at = { runway = \"36\", behind_threshold_m = -3000.0, "
+                                  "left_m = 2500.0 }"};
+
+}  // namespace
+
+// It ran for 19 ms a frame, in every frame.
+TEST_CASE("A building behind the whole flight is no corner, and nothing is lost without",
+          "[scenes][frame_plan]") {
+  const auto scene = approach({kHangarBehind});
+  CHECK_FALSE(scene->plan.runs(renderer::kDoubleBounce));
+  CHECK(decision_of(*scene, renderer::kDoubleBounce).reason ==
+        "within range nothing mirrors, or nothing stands in the way of mirrored rays");
+  CHECK(largest_change_grey(*scene, *approach({kHangarBehind}, "+double-bounce")) == 0.0);
+  CHECK(approach({})->plan.runs(renderer::kDoubleBounce));
+  // A scene without walls says another thing.
+  CHECK(decision_of(*approach({kNoHangar}), renderer::kDoubleBounce).reason.find("no walls") !=
+        std::string::npos);
+}
+
+TEST_CASE("A target that no frame has in view calls for no multipath", "[scenes][frame_plan]") {
+  const Change behind = {"behind_threshold_m = -600.0, left_m = 20.0",
+                         "behind_threshold_m = -8500.0, left_m = 20.0"};
+  const auto scene = approach({behind});
+  CHECK_FALSE(scene->plan.runs(renderer::kMultipath));
+  CHECK(largest_change_grey(*scene, *approach({behind}, "+multipath")) == 0.0);
+}
+
+// It was told as 432 grey levels.
+TEST_CASE("A shower beside the fan is not there for a scene without mirrored rays",
+          "[scenes][frame_plan]") {
+  const auto scene = approach({kNoHangar, kNoPost, kShowerBeside});
+  CHECK_FALSE(scene->plan.runs(renderer::kRain));
+  CHECK_FALSE(scene->plan.runs(renderer::kRainEcho));
+  CHECK(decision_of(*scene, renderer::kRain).reason ==
+        "the scene has it, but nothing of it is in view");
+  CHECK(largest_change_grey(
+            *scene, *approach({kNoHangar, kNoPost, kShowerBeside}, "+rain,+rain-echo")) == 0.0);
+  CHECK(approach({kNoHangar, kNoPost})->plan.runs(renderer::kRain));
+  // Rays that a wall or the ground mirrors may pass it; nothing changes more than the display has.
+  const auto mirrored = approach({kShowerBeside});
+  CHECK(mirrored->plan.runs(renderer::kRain));
+  for (const core::EffectDecision& decision : mirrored->plan.decisions)
+    CHECK(decision.bound_grey <= 255.0);
+}
+
+// It doubled: the beam was followed into the ground.
+TEST_CASE("Rain does not take the bound of gas under a ground that fills the beam",
+          "[scenes][frame_plan]") {
+  const Change none = {"rain_rate_mm_per_h = 20.0", "rain_rate_mm_per_h = 0.0"};
+  const Change wide = {"half_extent_m = 9000.0", "half_extent_m = 14000.0"};
+  const double dry_dB = decision_of(*approach({none, wide}), renderer::kGas).bound_dB;
+  REQUIRE(dry_dB > 0.0);
+  CHECK(decision_of(*approach({wide}), renderer::kGas).bound_dB == Approx(dry_dB).epsilon(0.02));
+  // Over the rim of a small terrain it does go down.
+  const Change small = {"half_extent_m = 9000.0", "half_extent_m = 7000.0"};
+  CHECK(decision_of(*approach({small}), renderer::kGas).bound_dB > 1.1 * dry_dB);
+}
+
+TEST_CASE(
+    "Lobes in azimuth see a mirrored target sixteen times as bright at most, lobes in elevation "
+    "change how its paths cancel",
+    "[effects]") {
+  core::ProblemList problems;
+  renderer::SceneFacts facts;
+  facts.sensor =
+      sensors::read_sensor(std::string(FANBEAM_SOURCE_DIR) + "/sensors/hivision.toml", problems);
+  facts.has_point_targets = facts.ground_reflects = true;
+  facts.rcs_sum_m2 = 10.0;
+  const auto bound_dB = [&] {
+    return decision_on(renderer::plan(facts, 0.5, {}), renderer::kSideLobes).bound_dB;
+  };
+  sensors::Antenna& antenna = facts.sensor.antenna;
+  antenna.azimuth.side_lobe_gain = 1e-5;
+  antenna.azimuth.side_lobe_extent_rad = 1.0;
+  const double mirrored_dB = bound_dB();
+  CHECK(mirrored_dB > 0.0);
+  CHECK(mirrored_dB < 50.0);
+  facts.ground_reflects = false;
+  CHECK(bound_dB() < mirrored_dB);
+  facts.ground_reflects = true;
+  antenna.elevation.side_lobe_gain = 1e-5;
+  antenna.elevation.side_lobe_extent_rad = 1.0;
+  CHECK(bound_dB() == Approx(60.0));
+  // The same largest echo in a row as in a cell: sixteen times, where both paths are shortest.
+  const auto echo = [&](const renderer::EchoSources& sources) {
+    return renderer::largest_echo(sources, renderer::whole_beam(facts.sensor), facts.sensor);
+  };
+  const renderer::AddedPower direct = echo({.rcs_m2 = 1.0});
+  const renderer::AddedPower mirrored = echo({.mirrored_rcs_m2 = 1.0});
+  CHECK(mirrored.cell_W[0] == Approx(16.0 * direct.cell_W[0]));
+  CHECK(mirrored.row_W_m3 >= 16.0 * direct.row_W_m3 * (1.0 - 1e-12));
+  for (std::size_t i = 1; i < direct.cell_W.size(); i += 20)
+    CHECK(mirrored.cell_W[i] > 16.0 * direct.cell_W[i]);
+}
+
+}  // namespace fanbeam::tests
