@@ -137,7 +137,7 @@ CostFigures head_of(const CostBench& bench, const CostOptions& options, int thre
   figures.title = scene.description.title;
   figures.machine = {core::processor_name(), core::name_of(core::instruction_level()), threads};
   figures.caster = renderer::name_of(bench.sampling.caster);
-  if (!bench.slices) figures.why_no_slices = scene.caster.reason;
+  if (!bench.slices) figures.why_no_slices = scene.caster.why_no_slices;
   figures.triangles = scene.world.surfaces->triangle_count();
   figures.dB_per_grey = sensors::GreyScale(scene.world.sensor).dB_per_grey();
   figures.accuracy_grey = scene.accuracy_grey;
@@ -178,7 +178,6 @@ int cost(const CostOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
   scenes::BuildOptions build;
-  build.caster = renderer::CasterWish::automatic;  // tells whether there are slices
   if (options.caster == renderer::name_of(renderer::CasterWish::profile))
     build.caster = renderer::CasterWish::profile;  // refuses where there are none
   const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
@@ -190,7 +189,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
   fs::create_directories(folder);  // before minutes are spent
 
   const auto begin = std::chrono::steady_clock::now();
-  const bool slices = scene->caster.chosen == renderer::CasterKind::profile;
+  const bool slices = scene->caster.why_no_slices.empty();
   const auto rebuild = [&](const scenes::BuildOptions& other) {
     core::ProblemList known;
     return scenes::build_scene(description, other, known);

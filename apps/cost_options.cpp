@@ -43,7 +43,7 @@ CLI::App& add_cost_command(CLI::App& program, CostOptions& options, CommonOption
   command
       .add_option("--caster", options.caster,
                   "Way to sample the frames in which effects are measured (default: the scene's, "
-                  "else rays)")
+                  "else auto)")
       ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
       ->check(whole_number_from(0, 1024));

@@ -51,9 +51,9 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
   const auto& wishes = renderer::kCasterWishes;
   command
       .add_option("--caster", options.caster,
-                  "rays: any geometry, the reference; profile: azimuth slices in closed form, the "
-                  "same error in a fraction of the time; auto: slices where they apply (default: "
-                  "the scene's, else rays)")
+                  "rays: any geometry, the reference; profile: azimuth slices in closed form, over "
+                  "buildings the same error in half of the time; auto: slices where they apply and "
+                  "pay (default: the scene's, else auto)")
       ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
   command
       .add_flag(

@@ -25,8 +25,7 @@ std::vector<Way> ways_of(const scenes::Scene& scene) {
   // Half of an accuracy of 0.5 is sampling's, the other half is for effects left out.
   constexpr double kShare_grey = 0.25;
   std::vector<renderer::CasterKind> casters = {renderer::CasterKind::rays};
-  if (scene.caster.chosen == renderer::CasterKind::profile)
-    casters.push_back(renderer::CasterKind::profile);
+  if (scene.caster.why_no_slices.empty()) casters.push_back(renderer::CasterKind::profile);
   std::vector<Way> ways;
   for (const renderer::CasterKind caster : casters) {
     const std::string name = caster == renderer::CasterKind::rays ? "rays" : "slices";
@@ -87,9 +86,7 @@ std::set<std::string> shipped_scenes() {
 std::vector<EstimateCase> check_estimates(const Effort& effort) {
   std::vector<EstimateCase> cases;
   for (const std::string& name : shipped_scenes()) {
-    scenes::BuildOptions options;
-    options.caster = renderer::CasterWish::automatic;  // tells whether slices can show the scene
-    const auto bench = load(name, options);
+    const auto bench = load(name);
     if (!bench) continue;
     const int frames = std::min(effort.estimate_frames, bench->scene->frame_count());
     for (int i = 0; i < frames; ++i) {

@@ -25,8 +25,12 @@ FrameClock::FrameClock(const View& view, renderer::NaiveKind kind, double rays,
                        const renderer::ElevationSpan& span)
     : sensor_(view.sensor()),
       pose_(view.pose),
-      renderer_(view.world(), renderer::naive_sampling(kind), {}, view.scene->effects(),
-                std::make_unique<renderer::NaiveCaster>(view.world(), kind, rays, span)) {}
+      renderer_(
+          view.world(),
+          renderer::naive_sampling(kind, rays / (view.sensor().scan.columns *
+                                                 static_cast<double>(view.sensor().range.cells))),
+          {}, view.scene->effects(),
+          std::make_unique<renderer::NaiveCaster>(view.world(), kind, rays, span)) {}
 
 double FrameClock::frame_ms(renderer::Frame* frame) const {
   const Clock::time_point begin = Clock::now();

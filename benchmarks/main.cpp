@@ -83,7 +83,7 @@ SceneFigures measure(const BenchScene& scene, bool city, const Effort& effort, i
   SceneFigures figures;
   figures.scene = &scene;
   const View farthest = view_at(scene, kDistances_m[0]);
-  for (const auto wish : {renderer::CasterWish::rays, renderer::CasterWish::automatic})
+  for (const auto wish : {renderer::CasterWish::rays, renderer::CasterWish::profile})
     if (auto sequence = measure_sequence(farthest, wish, effort.sequence_frames, threads))
       figures.sequences.push_back(*sequence);
   for (const double distance_m : kDistances_m) {

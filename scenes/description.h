@@ -196,7 +196,7 @@ struct SceneDescription {
   materials::SurfaceState surface_state = materials::SurfaceState::dry;
   TrajectoryDescription trajectory;
   double rays_per_cell = 0.0;  // of the scene's [accuracy]; 0 when it does not say
-  renderer::CasterWish caster = renderer::CasterWish::rays;
+  renderer::CasterWish caster = renderer::CasterWish::automatic;
   core::Place caster_place;
   bool sample = false;                       // frames show one realisation, not the expected power
   core::ResolvedConfig resolved;             // every setting with its default, for run.json

@@ -10,6 +10,7 @@ renderer::CasterFacts caster_facts(const sensors::Sensor& sensor, const terrain:
                                    const Trajectory& trajectory, const terrain::HeightField& ground,
                                    const terrain::Solids& solids) {
   renderer::CasterFacts facts{.has_ground = !ground.height_m.empty(),
+                              .buildings = solids.prisms.size(),
                               .others = solids.others.size(),
                               .stabilised = sensor.scan.stabilised,
                               .plane_scan = sensor.scan.surface == sensors::ScanSurface::plane};

@@ -224,7 +224,8 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
   scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
   scene.caster = static_cast<renderer::CasterWish>(accuracy.choice(
       "caster",
-      {renderer::kCasterWishes[0], renderer::kCasterWishes[1], renderer::kCasterWishes[2]}, 0));
+      {renderer::kCasterWishes[0], renderer::kCasterWishes[1], renderer::kCasterWishes[2]},
+      static_cast<int>(renderer::CasterWish::automatic)));
   scene.caster_place = accuracy.place("caster");
   scene.sample = accuracy.choice("realisation", {"mean", "sample"}, 0) == 1;
   scene.material_library = root.has("material_library")

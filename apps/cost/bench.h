@@ -35,8 +35,7 @@ struct CostBench {
       if (slices || way != Way::slices) result.push_back(way);
     return result;
   }
-  // As errors of sampling are stated: expected power of surfaces and point targets alone. Double
-  // bounce has rays of its own, whose price is among the effects.
+  // As errors of sampling are stated: of the expected power, with every effect of the plan.
   renderer::Effects effects() const;
   void begin(const std::string& step, double expected_s) const {
     if (progress != nullptr) progress->begin(step, expected_s);

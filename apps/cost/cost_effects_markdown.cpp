@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "apps/cost/cost_markdown.h"
@@ -21,17 +22,45 @@ std::string two_digits(double value) {
   return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
 
+double largest_grey(const EffectPrice& price) {
+  return std::max(price.bscope.largest_grey, price.cscope.largest_grey);
+}
+
 std::string effect_sentence(const EffectPrice& price, double dB_per_grey) {
-  const double largest_grey = std::max(price.bscope.largest_grey, price.cscope.largest_grey);
+  const double largest = largest_grey(price);
   const std::string change =
-      largest_grey > 0.0
-          ? fmt::format("changes pixels by up to {} grey levels ({} dB)", two_digits(largest_grey),
-                        two_digits(largest_grey * dB_per_grey))
-          : std::string("changes no pixel");
+      largest > 0.0 ? fmt::format("changes pixels by up to {} grey levels ({} dB)",
+                                  two_digits(largest), two_digits(largest * dB_per_grey))
+                    : std::string("changes no pixel");
   return price.planned ? fmt::format("* **{}** is in the plan. It costs {}; leaving it out {}.\n",
                                      price.effect, cost_text(price), change)
                        : fmt::format("* **{}** is left out. Forced on it would cost {} and {}.\n",
                                      price.effect, cost_text(price), change);
+}
+
+// As changes of power, in dB; an influence below the share counts as the share.
+double bound_over_influence_dB(const EffectPrice& price, double share_grey, double dB_per_grey) {
+  const auto change = [](double dB) { return std::pow(10.0, dB / 10.0) - 1.0; };
+  return 10.0 * std::log10(change(price.bound_dB) /
+                           change(std::max(largest_grey(price), share_grey) * dB_per_grey));
+}
+
+// Effects that run although they change less than the share that the plan could leave out.
+std::string needless_text(const std::vector<EffectPrice>& prices, double share_grey,
+                          double dB_per_grey) {
+  std::string needless;
+  for (const EffectPrice& price : prices)
+    if (price.planned && price.possible && largest_grey(price) < share_grey)
+      needless +=
+          fmt::format("* **{}** runs and changes less; bound over influence {:.1f} dB.\n",
+                      price.effect, bound_over_influence_dB(price, share_grey, dB_per_grey));
+  if (needless.empty())
+    return fmt::format(
+        "Every effect of the plan changes more than the {:g} grey levels that it could leave "
+        "out.\n\n",
+        share_grey);
+  return fmt::format("Of the {:g} grey levels that the plan could leave out:\n\n", share_grey) +
+         needless + '\n';
 }
 
 std::string effect_row(const EffectPrice& price, double dB_per_grey) {
@@ -95,7 +124,8 @@ std::string robust_part(const CostFigures& figures) {
 std::string effects_section(const CostFigures& figures) {
   if (figures.effects.empty()) return "";
   std::string sentences, rows, impossible;
-  for (const EffectPrice& price : over_frames(figures.effects)) {
+  const std::vector<EffectPrice> prices = over_frames(figures.effects);
+  for (const EffectPrice& price : prices) {
     if (!price.possible) {
       impossible += fmt::format("* {}: {}\n", price.effect, price.reason);
       continue;
@@ -110,7 +140,7 @@ std::string effects_section(const CostFigures& figures) {
           "Far up matters, far left is cheap. Planned for an accuracy of {:g} grey levels, "
           "frames cast by {}.\n\n",
           figures.accuracy_grey, figures.caster) +
-      sentences + '\n';
+      sentences + '\n' + needless_text(prices, figures.accuracy_grey / 2.0, figures.dB_per_grey);
   if (!rows.empty())
     text +=
         "Largest / RMS change over the picture:\n\n"

@@ -32,7 +32,7 @@ FrameWork::FrameWork(const renderer::World& world, const renderer::FramePose& po
     : sensor_(world.sensor),
       pose_(pose),
       renderer_(std::make_unique<renderer::FrameRenderer>(
-          world, renderer::naive_sampling(kind), renderer::Products{}, effects,
+          world, renderer::naive_sampling(kind, rays_per_cell), renderer::Products{}, effects,
           std::make_unique<renderer::NaiveCaster>(world, kind,
                                                   rays_per_cell * cells_of(world.sensor), span))) {}
 

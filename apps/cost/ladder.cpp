@@ -79,7 +79,6 @@ std::optional<double> interpolated(const std::vector<Point>& points, double x) {
 
 renderer::Effects CostBench::effects() const {
   renderer::Effects effects = without_draws(renderer::effects_of(scene.plan, 0));
-  effects.double_bounce = effects.multipath = false;
   // The error adds the noise itself; a C-scope of another mode is worked out from the B-scope.
   const auto mode = scene.world.sensor.display.cscope_mode;
   if (mode != sensors::Display::CScopeMode::true_elevation) effects.thermal_noise = false;

@@ -28,10 +28,10 @@ struct NaiveCaster::Frame {
   bool with_cscope;
 };
 
-Sampling naive_sampling(NaiveKind kind) {
+Sampling naive_sampling(NaiveKind kind, double rays_per_cell) {
   Sampling sampling;
   sampling.sub_columns = kind == NaiveKind::plain ? 1 : 4;
-  sampling.rays_per_cell = 1.0;
+  sampling.rays_per_cell = rays_per_cell / sampling.sub_columns;
   return sampling;
 }
 

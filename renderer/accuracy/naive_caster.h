@@ -1,7 +1,8 @@
 // The renderer people write first, as a yardstick: uniform elevation angles, one ray at a time,
 // each hit put into the one cell it falls in. Radar equation, tables and every stage after the cast
-// are the project's own (it is a caster for FrameRenderer), so that only the sampling differs. The
-// rays are RayScene's checked single ones.
+// are the project's own (it is a caster for FrameRenderer), double bounces sampled as beside as many
+// rays of RayCaster, so that only the sampling of surfaces differs. The rays are RayScene's checked
+// single ones.
 //
 //   plain     one azimuth per picture column, its centre
 //   dithered  four sub-columns per column, every ray at its own azimuth inside its sub-column
@@ -20,9 +21,9 @@ namespace fanbeam::renderer {
 
 enum class NaiveKind { plain, dithered };
 
-// What FrameRenderer has to be told beside the caster itself: its sub-columns per column, and how
-// finely rays are bounced where that effect runs.
-Sampling naive_sampling(NaiveKind kind);
+// What FrameRenderer has to be told beside the caster itself: its sub-columns per column, and the
+// rays per range cell and column, of which double bounces have their share.
+Sampling naive_sampling(NaiveKind kind, double rays_per_cell = 1.0);
 
 // Elevations of the lowest and highest ray that RayCaster sends at default sampling: where uniform
 // angles lose the least. Both 0 when nothing can be seen.

@@ -1,4 +1,4 @@
-// Rays through Embree: any geometry, the default and the reference.
+// Rays through Embree: any geometry, the reference.
 //
 // What it computes: for each sub-column of azimuth the received power per radian (caster.h). A ray
 // at elevation e that hits a facet at slant range R under the local grazing angle psi stands for

@@ -42,11 +42,12 @@ std::string why_no_slices(const CasterFacts& facts) {
 CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts, const core::Place& place) {
   CasterChoice choice;
   choice.wish = wish;
+  choice.why_no_slices = why_no_slices(facts);
+  const std::string& obstacle = choice.why_no_slices;
   if (wish == CasterWish::rays) {
-    choice.reason = "rays are the default and the reference";
+    choice.reason = "asked for";
     return choice;
   }
-  const std::string obstacle = why_no_slices(facts);
   if (!obstacle.empty() && wish == CasterWish::profile)
     core::throw_input_error(core::ErrorClass::unsupported, place, "caster", "\"profile\"",
                             "\"rays\" or \"auto\": " + obstacle);
@@ -54,11 +55,15 @@ CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts, const core
     choice.reason = obstacle;
     return choice;
   }
+  if (wish == CasterWish::automatic && facts.buildings == 0) {
+    choice.reason = "no building stands in the scene, so that rays come as close in the same time";
+    return choice;
+  }
   choice.chosen = CasterKind::profile;
   choice.others = facts.others;
   choice.reason = wish == CasterWish::profile
                       ? "asked for"
-                      : "slices need a fraction of the rays' time at equal error";
+                      : "over buildings slices need half of the rays' time at equal error";
   if (facts.others > 0)
     choice.reason += "; azimuths with " + others_text(facts.others) + " in them go to rays";
   return choice;

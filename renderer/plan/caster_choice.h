@@ -1,9 +1,11 @@
 // Decides which way a scene is seen, by rays or by azimuth slices: a pure function of the user's
 // wish and of facts about the scene.
 //
-// Rays (ray_caster.h) show every geometry; they are the default and the reference that all errors
-// are stated against. Slices (profile/profile_caster.h) need a fraction of their time at equal
-// error (docs/performance.md), so `automatic` takes them wherever they show everything:
+// Rays (ray_caster.h) show every geometry; they are the reference that all errors are stated
+// against. Over buildings slices (profile/profile_caster.h) need half of their time at equal error of
+// the whole picture (docs/performance-notes.md), so `automatic`, the default, takes them wherever they
+// show everything:
+//   no buildings                    both come as close in the same time: rays
 //   without ground                  nothing to cut: rays
 //   a fan wider than 150 deg        headings of slices would meet behind the sensor: rays
 //   nothing but ground and prisms   slices, with any antenna
@@ -26,7 +28,8 @@ enum class CasterWish { rays, profile, automatic };
 
 struct CasterFacts {
   bool has_ground = true;  // a terrain grid
-  std::size_t others = 0;  // models and prisms over open air: Solids::others
+  std::size_t buildings = 1;  // Solids::prisms
+  std::size_t others = 0;     // models and prisms over open air: Solids::others
   bool stabilised = true;  // the antenna, against roll and pitch; others count as tilted
   bool plane_scan = true;
   // Largest angle between the vertical at the aircraft and that of the scene's origin: on a round
@@ -37,8 +40,9 @@ struct CasterFacts {
 
 struct CasterChoice {
   CasterKind chosen = CasterKind::rays;
-  CasterWish wish = CasterWish::rays;
-  std::string reason;      // one sentence
+  CasterWish wish = CasterWish::automatic;
+  std::string reason;         // one sentence
+  std::string why_no_slices;  // empty where they can show the scene
   std::size_t others = 0;  // what stands in azimuths that slices leave to rays
 };
 

@@ -80,12 +80,12 @@ TEST_CASE("Slices give the same bytes for any number of threads and any order of
 TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[caster]") {
   const TemporaryFolder folder;
   const Result slices =
-      render("flat-grass", folder.path() / "auto", "--caster auto --rays-per-cell 4");
+      render("flat-grass", folder.path() / "auto", "--caster profile --rays-per-cell 4");
   const nlohmann::json run = json_of(folder.path() / "auto/run.json");
   CHECK(run["caster"] ==
         nlohmann::json({{"chosen", "profile"},
-                        {"wish", "auto"},
-                        {"reason", "slices need a fraction of the rays' time at equal error"},
+                        {"wish", "profile"},
+                        {"reason", "asked for"},
                         {"slices_per_column", 4},
                         {"objects_left_to_rays", 0}}));
   CHECK(run["sampling"] == nlohmann::json({{"sub_columns", 4}, {"slices_per_sub_column", 1}}));
@@ -97,14 +97,16 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
   const fs::path picture = folder.path() / "auto/bscope/00000.png";
   CHECK(note(picture, "fanbeam:caster") == "profile, 4 slices per column");
   CHECK(note(picture, "fanbeam:slices") == run["frames"][0]["slices"].dump());
-  CHECK(slices.output.find("cast by profile, 4 slices per column: slices need a fraction") !=
+  CHECK(slices.output.find("cast by profile, 4 slices per column: asked for") !=
         std::string::npos);
 
   const Result rays = render("flat-grass", folder.path() / "rays", "");
   CHECK(json_of(folder.path() / "rays/run.json")["caster"] ==
         nlohmann::json({{"chosen", "rays"},
-                        {"wish", "rays"},
-                        {"reason", "rays are the default and the reference"},
+                        {"wish", "auto"},
+                        {"reason",
+                         "no building stands in the scene, so that rays come as close in the same "
+                         "time"},
                         {"rays_per_cell_and_column", 4.0}}));
   const nlohmann::json by_rays = json_of(folder.path() / "rays/run.json")["sampling"];
   CHECK(by_rays["rays_per_cell_and_sub_column"] == 1.0);
@@ -113,7 +115,7 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
   CHECK(json_of(folder.path() / "rays/run.json")["frames"][0]["slices"] == 0);
   CHECK(note(folder.path() / "rays/bscope/00000.png", "fanbeam:caster") ==
         "rays, 4 per range cell and column");
-  CHECK(rays.output.find("cast by rays, 4 per range cell and column: rays are the default") !=
+  CHECK(rays.output.find("cast by rays, 4 per range cell and column: no building stands") !=
         std::string::npos);
 
   // The truck's azimuths are cast by rays, which have settings of their own.
@@ -201,7 +203,7 @@ TEST_CASE("Slices that cannot show the scene are refused with exit code 3 and a 
 
 TEST_CASE("validate says how a scene will be cast", "[caster]") {
   CHECK(run_fanbeam("validate flat-grass")
-            .output.find("  caster      rays: rays are the default and the reference\n") !=
+            .output.find("  caster      rays: no building stands in the scene, so that rays come as ") !=
         std::string::npos);
   CHECK(run_fanbeam("validate flat-grass").output.find("open air") == std::string::npos);
 }

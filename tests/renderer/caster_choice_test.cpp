@@ -49,8 +49,18 @@ TEST_CASE("Rays are taken when asked for, whatever the scene", "[caster_choice]"
   for (const Tilted& scene : scenes) {
     const auto choice = choose_caster(CasterWish::rays, scene.facts);
     CHECK(choice.chosen == CasterKind::rays);
-    CHECK(choice.reason == "rays are the default and the reference");
+    CHECK(choice.reason == "asked for");
   }
+}
+
+TEST_CASE("Over open ground rays are taken, and slices where they are asked for",
+          "[caster_choice]") {
+  const auto automatic = choose_caster(CasterWish::automatic, {.buildings = 0});
+  CHECK(automatic.chosen == CasterKind::rays);
+  CHECK(automatic.reason ==
+        "no building stands in the scene, so that rays come as close in the same time");
+  CHECK(automatic.why_no_slices.empty());
+  CHECK(choose_caster(CasterWish::profile, {.buildings = 0}).chosen == CasterKind::profile);
 }
 
 TEST_CASE("Ground and solid prisms go to slices with any antenna", "[caster_choice]") {
@@ -60,7 +70,7 @@ TEST_CASE("Ground and solid prisms go to slices with any antenna", "[caster_choi
     const auto automatic = choose_caster(CasterWish::automatic, scene.facts);
     CHECK(automatic.chosen == CasterKind::profile);
     CHECK(automatic.others == 0);
-    CHECK(automatic.reason == "slices need a fraction of the rays' time at equal error");
+    CHECK(automatic.reason == "over buildings slices need half of the rays' time at equal error");
     const auto forced = choose_caster(CasterWish::profile, scene.facts);
     CHECK(forced.chosen == CasterKind::profile);
     CHECK(forced.reason == "asked for");

@@ -50,9 +50,11 @@ std::vector<core::Problem> problems_of(const tests::TemporaryFolder& folder,
 
 }  // namespace
 
-TEST_CASE("A scene is seen by rays unless it says otherwise", "[scene_caster]") {
+TEST_CASE("A scene with a building is seen by slices unless it says otherwise", "[scene_caster]") {
   const TruckFolder folder;
-  CHECK(tests::good_scene(folder, with(""))->caster.chosen == CasterKind::rays);
+  const auto left_alone = tests::good_scene(folder, with(""));
+  CHECK(left_alone->caster.chosen == CasterKind::profile);
+  CHECK(left_alone->caster.wish == CasterWish::automatic);
   CHECK(tests::good_scene(folder, with(wish("\"rays\"")))->caster.chosen == CasterKind::rays);
   const auto forced = tests::good_scene(folder, with(wish("\"profile\"")));
   CHECK(forced->caster.chosen == CasterKind::profile);
