@@ -217,18 +217,28 @@ void BounceTracer::find_mirrors(const sensors::AntennaFrame& antenna,
       });
 }
 
+// How far behind the mirror an echo may come from: where R1 + R2 + R3 is twice the farthest range,
+// R3 being the third side of a triangle. The image's range, R1 + R2, is no shorter there.
+double BounceTracer::farthest_m(const Lane& lane) const {
+  constexpr double kMargin_m = 1.0;  // of the mirror's place
+  const sensors::RangeGate& gate = world_.sensor.range;
+  const double range_m = gate.maximum_m() + kSpreadCells * gate.cell_m + kMargin_m;
+  const double turn = glm::dot(lane.first_direction, lane.direction);
+  return 2.0 * range_m * (range_m - lane.first_m) /
+         (2.0 * range_m - lane.first_m * (1.0 - turn));
+}
+
 // What the mirrored rays meet, and which of it has a way back to look for.
 template <int N>
 void BounceTracer::follow(const sensors::AntennaFrame& antenna, const std::vector<AntennaRay>& rays,
                           const std::vector<Lane>& lanes, Packets<N>& packets,
                           std::vector<Bounce>& bounces, std::vector<Return>& returns) const {
   const terrain::RayScene& surfaces = *world_.surfaces;
-  // B is nearer to p than the farthest range: R2 <= R1 + R3 and R1 + R2 + R3 <= 2 range.
-  const double far_m = world_.sensor.range.maximum_m();
   packets.intersect(
       lanes.size(),
       [&](terrain::RayPacket<N>& packet, int lane, std::size_t i) {
-        packet.aim(lane, surfaces.in_caster_m(lanes[i].start_m), lanes[i].direction, far_m);
+        packet.aim(lane, surfaces.in_caster_m(lanes[i].start_m), lanes[i].direction,
+                   farthest_m(lanes[i]));
       },
       [&](const terrain::RayPacket<N>& packet, int lane, std::size_t i) {
         if (packet.geometry[lane] == terrain::kNoHit) return;

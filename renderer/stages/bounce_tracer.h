@@ -85,6 +85,7 @@ class BounceTracer {
                  Packets<N>& packets, std::vector<Bounce>& bounces) const;
   bool is_cone() const { return world_.sensor.scan.surface == sensors::ScanSurface::cone; }
   bool mirror(const sensors::AntennaFrame& antenna, const Hit& hit, Lane& lane) const;
+  double farthest_m(const Lane& lane) const;
   bool weigh(const sensors::AntennaFrame& antenna, const AntennaRay& ray, const Lane& lane,
              const Hit& hit, Bounce& bounce) const;
   Way way_to(const sensors::AntennaFrame& antenna, const Lane& lane, const Hit& hit) const;

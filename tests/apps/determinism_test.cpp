@@ -37,12 +37,14 @@ struct Way {
   std::string words;
 };
 const std::vector<Way> kWays = {
-    {"rays", " --rays-per-cell 2"},
-    {"rays, the expected power", " --rays-per-cell 2 --realisation mean"},
-    {"slices", " --caster profile --rays-per-cell 4"},
-    {"refined to an accuracy", " --accuracy 4"},
-    {"every effect, planned per frame", " --rays-per-cell 1 --effects all --plan-per-frame"},
-    {"with the error estimated", " --rays-per-cell 1 --estimate-error --seed 99"},
+    {"rays", " --caster rays --rays-per-cell 2"},
+    {"rays, the expected power", " --caster rays --rays-per-cell 2 --realisation mean"},
+    {"slices", " --rays-per-cell 4"},
+    {"rays, refined to an accuracy", " --caster rays --accuracy 4"},
+    {"slices, refined to an accuracy", " --accuracy 4"},
+    {"every effect, planned per frame",
+     " --caster rays --rays-per-cell 1 --effects all --plan-per-frame"},
+    {"with the error estimated", " --caster rays --rays-per-cell 1 --estimate-error --seed 99"},
 };
 const std::string kFour = " --frames 0:64:16";
 

@@ -93,6 +93,9 @@ TEST_CASE("doctor --measure tells the error that render reaches, where it is too
           "[doctor]") {
   const TemporaryFolder folder;
   write_busy_scene(folder, 20);
+  std::string by_rays = busy_scene();  // slices reach what rays do not
+  by_rays.insert(by_rays.find("realisation = "), "caster = \"rays\"\n");
+  folder.write("scene.toml", by_rays);
   const fs::path file = folder.path() / "findings.json";
   const auto not_reached = [&](const std::string& accuracy_grey) {
     const Result result = run_fanbeam("doctor " + quoted(folder.path()) + " --measure --accuracy " +

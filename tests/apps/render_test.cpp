@@ -91,7 +91,7 @@ TEST_CASE("run.json and timing.json have their documented keys, pictures the ess
   CHECK(run["scene"] == "obstacle-field");
   CHECK(run["sensor"] == "HiVision");
   CHECK(run["seed"] == 7);
-  CHECK(run["caster"]["chosen"] == "rays");
+  CHECK(run["caster"]["chosen"] == "profile");
   CHECK(run["input"]["weather.visibility_m"] == 200.0);
   CHECK(run["input"]["terrain.spacing_m"] == 10.0);
   CHECK(run["input"]["trajectory.ils.flare_height_m"] == 12.0);  // a default
@@ -109,7 +109,8 @@ TEST_CASE("run.json and timing.json have their documented keys, pictures the ess
           (100.5 + 20.0 * static_cast<double>(i)) / 16.0);  // the middle of the frame
     check_has(frame["pose"], {"latitude_deg", "longitude_deg", "height_m", "roll_deg", "pitch_deg",
                               "heading_deg"});
-    CHECK(frame["rays"] > 10000);
+    CHECK(frame["rays"] > 10000);  // of bounces
+    CHECK(frame["slices"] > 164);
   }
 
   const nlohmann::json timing = json_of(folder.path() / "timing.json");
