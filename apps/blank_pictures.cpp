@@ -28,13 +28,6 @@ struct Picture {
   std::vector<double> noise_dB;  // the noise alone
 };
 
-double height_above_ground_m(const scenes::Scene& scene, const glm::dvec3& at_m) {
-  const terrain::HeightField* ground = scene.world.surfaces->terrain();
-  const std::optional<double> ground_m =
-      ground != nullptr ? ground->height_at(at_m.x, at_m.y) : std::nullopt;
-  return at_m.z - ground_m.value_or(0.0);
-}
-
 std::vector<double> bscope_levels_dB(const sensors::Sensor& sensor,
                                      const std::vector<double>& power_W, double noise_W) {
   const sensors::GreyScale scale(sensor);
@@ -70,7 +63,7 @@ std::vector<Picture> pictures(const scenes::Scene& scene, const renderer::FrameP
          cscope_levels_dB(sensor, std::vector<double>(frame.cscope_W_m3.size()), noise_W_m3)});
   } else {  // drawn from the B-scope with its noise
     const double height_m =
-        height_above_ground_m(scene, renderer::antenna_of(sensor, pose).position_m);
+        scene.world.surfaces->height_above_ground_m(renderer::antenna_of(sensor, pose).position_m);
     const std::vector<double> noise_W_m3 = sensors::flat_earth_cscope_W_m3(
         sensor, std::vector<double>(frame.bscope_W.size(), noise_W), height_m);
     all.push_back({"C-scope", cscope_levels_dB(sensor, frame.cscope_W_m3, 0.0),

@@ -6,6 +6,7 @@
 #include "apps/number_range.h"
 #include "apps/option_lists.h"
 #include "apps/value_words.h"
+#include "renderer/casting/sampling.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "signal/waveform/waveform.h"
 
@@ -96,7 +97,7 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
   command
       .add_option("--rays-per-cell", options.rays_per_cell,
                   "Scatterers per range cell and azimuth column of the sensor")
-      ->check(number_from(0.1, 1000.0))
+      ->check(number_from(renderer::kFewestRaysPerCell, 1000.0))
       ->capture_default_str();
   command
       .add_option("--looks", options.looks,

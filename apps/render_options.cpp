@@ -30,7 +30,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                       "sharper and slower (default: the scene's, else " +
                           core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
                           core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
-          ->check(number_from(0.1, 100000.0));
+          ->check(number_from(renderer::kFewestRaysPerCell, 100000.0));
   CLI::Option* accuracy = add_accuracy_option(
       command, options.accuracy_grey,
       "Error allowed, RMS in grey levels: half of it is for effects left out, half for sampling, "

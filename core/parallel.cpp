@@ -3,6 +3,7 @@
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 
@@ -45,7 +46,11 @@ void run_all(std::size_t count, const std::function<void(std::size_t)>& body) {
 }
 #else
 void run_all(std::size_t count, const std::function<void(std::size_t)>& body) {
-  tbb::parallel_for(std::size_t{0}, count, std::size_t{1}, body, tbb::simple_partitioner());
+  // A thread that waits here for the loop's last bodies takes no task from outside it: that could
+  // be another frame, and overwrite what this thread keeps of its own.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, count, std::size_t{1}, body, tbb::simple_partitioner());
+  });
 }
 #endif
 

@@ -67,16 +67,15 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   if (elevation_resolved)
     frame.cscope_W_m3.assign(columns * static_cast<std::size_t>(sensor.display.cscope_rows), 0.0);
 
-  double height_above_ground_m = antenna.position_m.z;
-  if (const terrain::HeightField* ground = world_.surfaces->terrain(); ground != nullptr) {
-    const auto ground_m = ground->height_at(antenna.position_m.x, antenna.position_m.y);
-    if (ground_m) height_above_ground_m = antenna.position_m.z - *ground_m;
-    if (ground_m && height_above_ground_m <= 0.0) {
-      frame.events.emplace_back("below_terrain");
-      receive({}, pose.frame_index, frame);
-      display(height_above_ground_m, frame);
-      return frame;
-    }
+  const double height_above_ground_m = world_.surfaces->height_above_ground_m(antenna.position_m);
+  const terrain::HeightField* ground = world_.surfaces->terrain();
+  const bool over_ground =
+      ground != nullptr && ground->height_at(antenna.position_m.x, antenna.position_m.y);
+  if (over_ground && height_above_ground_m <= 0.0) {
+    frame.events.emplace_back("below_terrain");
+    receive({}, pose.frame_index, frame);
+    display(height_above_ground_m, frame);
+    return frame;
   }
   // Kept by the calling thread: fresh pages for megabytes of sums would cost a tenth of a frame.
   thread_local FanSums sums;

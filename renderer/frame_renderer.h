@@ -38,7 +38,9 @@ struct Frame {
   // Mean noise that the receiver adds to each cell of bscope_W: 0 without thermal noise, and in a
   // realisation, which holds its draw of it.
   double noise_W = 0.0;
-  std::vector<double> cscope_W_m3;  // the same times R^3, summed over range
+  // The same times R^3, summed over range. In the modes shadow and flat_earth, which draw what the
+  // receiver gives out, from received_W(): the noise is in it.
+  std::vector<double> cscope_W_m3;
   std::vector<double>
       bscope_grey;  // unrounded, 0 to 255, with the mean noise power when noise is on
   std::vector<double> cscope_grey;

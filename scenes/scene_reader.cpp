@@ -222,6 +222,9 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
   read_display(root, scene.sensor.range, scene.sensor.display);
   ConfigTable accuracy = root.table("accuracy");
   scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
+  if (scene.rays_per_cell > 0.0 && scene.rays_per_cell < renderer::kFewestRaysPerCell)
+    accuracy.error(core::ErrorClass::range, "rays_per_cell", core::number_text(scene.rays_per_cell),
+                   "0 or at least " + core::number_text(renderer::kFewestRaysPerCell));
   scene.caster = static_cast<renderer::CasterWish>(accuracy.choice(
       "caster",
       {renderer::kCasterWishes[0], renderer::kCasterWishes[1], renderer::kCasterWishes[2]},

@@ -42,6 +42,18 @@ struct HeightField {
     const double u = (x_m - west_m) / spacing_m;
     const double v = (y_m - south_m) / spacing_m;
     if (!(u >= 0.0 && v >= 0.0 && u <= columns - 1 && v <= rows - 1)) return std::nullopt;
+    return on_triangles(u, v);
+  }
+
+  // The same, and outside the grid the height of the nearest place on its border.
+  double nearest_height(double x_m, double y_m) const {
+    return on_triangles(std::clamp((x_m - west_m) / spacing_m, 0.0, columns - 1.0),
+                        std::clamp((y_m - south_m) / spacing_m, 0.0, rows - 1.0));
+  }
+
+ private:
+  // Spacings east and north of the first post.
+  double on_triangles(double u, double v) const {
     const int i = std::min(static_cast<int>(u), columns - 2);
     const int j = std::min(static_cast<int>(v), rows - 2);
     const double fu = u - i;

@@ -125,6 +125,10 @@ class RayScene {
   std::array<glm::dvec3, 3> triangle(std::uint32_t geometry, std::uint32_t primitive) const;
 
   const HeightField* terrain() const { return has_terrain_ ? &terrain_ : nullptr; }
+  // Over the ground's border where there is none below; over the origin's height without ground.
+  double height_above_ground_m(const glm::dvec3& at_m) const {
+    return has_terrain_ ? at_m.z - terrain_.nearest_height(at_m.x, at_m.y) : at_m.z;
+  }
   const SurfaceMap* surface_map() const { return surface_map_.get(); }
   bool empty() const { return triangle_count_ == 0; }
   bool has_meshes() const { return has_meshes_; }

@@ -8,6 +8,7 @@
 
 #include "core/files.h"
 #include "core/text.h"
+#include "renderer/casting/sampling.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
 
@@ -143,7 +144,7 @@ class CaseReader {
       static_assert(kWishes.size() == 3);
       render.caster = kWishes[table_.choice("caster", {kWishes[0], kWishes[1], kWishes[2]}, 0)];
     }
-    const auto samples = table_.optional_number("rays_per_cell", {0.1, 100000.0});
+    const auto samples = table_.optional_number("rays_per_cell", {renderer::kFewestRaysPerCell, 100000.0});
     const auto accuracy = table_.optional_number("accuracy_grey", {0.01, 100.0});
     render.rays_per_cell = samples.value_or(0.0);
     render.accuracy_grey = accuracy.value_or(0.0);

@@ -43,9 +43,10 @@ FrameGrey grey_of(const sensors::Sensor& sensor, const FramePower& power, bool n
   if (!noise)
     return {sensors::bscope_grey(sensor, power.bscope_W),
             sensors::cscope_grey(sensor, power.cscope_W_m3)};
-  return {
-      sensors::bscope_grey(sensor, plus(power.bscope_W, sensor.noise_power_W())),
-      sensors::cscope_grey(sensor, plus(power.cscope_W_m3, sensors::cscope_noise_W_m3(sensor)))};
+  const bool own_noise = sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
+  return {sensors::bscope_grey(sensor, plus(power.bscope_W, sensor.noise_power_W())),
+          sensors::cscope_grey(sensor, plus(power.cscope_W_m3,
+                                            own_noise ? sensors::cscope_noise_W_m3(sensor) : 0.0))};
 }
 
 GreyReference::GreyReference(const sensors::Sensor& sensor, const FramePower& power)

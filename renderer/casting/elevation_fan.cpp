@@ -82,9 +82,9 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   const bool level = azimuths_are_upright(frame, surface);
   const bool cone = surface == sensors::ScanSurface::cone;
   glm::dvec2 heading = heading_at(frame, azimuth_rad, level || cone ? 0.0 : lowest_rad_, surface);
-  const double below_m =
-      std::abs(sensor.z - ground.height_at(sensor.x, sensor.y).value_or(sensor.z));
+  const double below_m = std::abs(world_.surfaces->height_above_ground_m(sensor));
   double drop_m = below_m;
+  bool met = false;
   int step = 0, settling = cone ? 3 : 0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = gate.minimum_m + gate.cell_m * k;
@@ -94,7 +94,9 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     const double x_m = sensor.x + heading.x * distance_m;
     const double y_m = sensor.y + heading.y * distance_m;
     const std::optional<double> height_m = ground.height_at(x_m, y_m);
-    if (!height_m) break;
+    if (!height_m && met) break;
+    if (!height_m) continue;  // the antenna stands beside the ground's tile
+    met = true;
     drop_m = std::min(std::abs(sensor.z - *height_m), std::max(range_m, below_m));
     const glm::dvec3 relative_m(x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z);
     const double elevation_rad = std::atan(slope_of(frame, relative_m, surface));

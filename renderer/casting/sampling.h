@@ -47,6 +47,8 @@ struct Sampling {
 Sampling reference_sampling(std::uint64_t seed, int passes = 16);
 
 inline constexpr double kDefaultRaysPerCell = 4.0;
+// Below it a ray would give to cells farther away than the plan's bounds count (largest_echo.h).
+inline constexpr double kFewestRaysPerCell = 0.3;
 
 // `rays_per_cell` rays per range cell and column, split between azimuth and range in the proportion
 // that measured best (docs/performance.md): azimuth first.

@@ -104,10 +104,9 @@ class Echo {
   }
 
   double height_above_ground_m() const {
-    const terrain::HeightField* ground = world_.surfaces->terrain();
-    if (ground == nullptr) return 0.0;
-    const auto ground_m = ground->height_at(antenna_.position_m.x, antenna_.position_m.y);
-    return ground_m ? antenna_.position_m.z - *ground_m : 0.0;
+    return world_.surfaces->terrain() == nullptr
+               ? 0.0
+               : world_.surfaces->height_above_ground_m(antenna_.position_m);
   }
 
   // One way, from the antenna to the near edge of a cell.

@@ -133,7 +133,7 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
   // Without a number of its own, 4; above 8, what at most 8 sub-columns make.
   for (const auto& [asked, used] :
        std::vector<std::pair<std::string, int>>{{"", 4},
-                                                {"--rays-per-cell 0.1", 1},
+                                                {"--rays-per-cell 0.3", 1},
                                                 {"--rays-per-cell 9", 10},
                                                 {"--rays-per-cell 12", 12}}) {
     INFO(asked);

@@ -135,7 +135,7 @@ TEST_CASE("PNG and EXR carry the whole pose, as their own formats write text", "
   const TemporaryFolder folder;
   // Turbulence rolls the aircraft.
   render("braunschweig-26", folder.path(),
-         "--frames 700 --rays-per-cell 0.2 -q --products bscope,power");
+         "--frames 700 --rays-per-cell 0.3 -q --products bscope,power");
   const nlohmann::json pose = json_of(folder.path() / "run.json")["frames"][0]["pose"];
   const std::string png = bytes_of(folder.path() / "bscope/00700.png");
   const std::string exr = bytes_of(folder.path() / "power/00700.exr");

@@ -1,0 +1,84 @@
+// An antenna beside the ground's tile, looking at it.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+
+#include "renderer/accuracy/grey_error.h"
+#include "tests/renderer/city_world.h"
+
+namespace {
+
+using namespace fanbeam;
+
+const materials::PhongNrcs kMeadow(0.0325, 0.136, 1.99);
+
+// The tile ends 300 m north of the antenna and begins again nowhere behind it.
+renderer::World tile(const sensors::Sensor& sensor, double height_m) {
+  terrain::HeightField field = terrain::make_height_field(-1500.0, 300.0, 1500.0, 3300.0, 30.0);
+  for (double& post_m : field.height_m) post_m = height_m;
+  return tests::world(sensor, std::move(field), {kMeadow});
+}
+
+renderer::Frame frame_of(const renderer::World& world, const renderer::Sampling& sampling,
+                         double height_m) {
+  return renderer::FrameRenderer(world, sampling, {}, {.thermal_noise = true})
+      .render(tests::level_pose(height_m));
+}
+
+// Of a row, over all columns.
+double row_W(const renderer::World& world, const renderer::Frame& frame, int row) {
+  const auto first =
+      frame.bscope_W.begin() + static_cast<std::ptrdiff_t>(row) * world.sensor.scan.columns;
+  return std::accumulate(first, first + world.sensor.scan.columns, 0.0);
+}
+
+}  // namespace
+
+TEST_CASE("An antenna beside the ground's tile sees it by rays as by slices", "[beside_terrain]") {
+  const renderer::World world = tile(tests::hivision(12), 0.0);
+  const renderer::Frame rays = frame_of(world, renderer::sampling_for(16.0), 60.0);
+  const renderer::Frame slices = frame_of(world, renderer::profile_sampling_for(16.0), 60.0);
+  const sensors::RangeGate& gate = world.sensor.range;
+  int lit = 0;
+  for (int row = 0; row < gate.cells; ++row) {
+    const double range_m = gate.minimum_m + gate.cell_m * (row + 0.5);
+    if (range_m < 350.0 || range_m > 3200.0) continue;
+    INFO("range " << range_m << " m");
+    REQUIRE(row_W(world, slices, row) > 0.0);
+    REQUIRE(row_W(world, rays, row) / row_W(world, slices, row) == Approx(1.0).margin(0.02));
+    ++lit;
+  }
+  CHECK(lit > 100);
+  CHECK(rays.events.empty());
+}
+
+TEST_CASE("Height above ground beside the tile is that above its border", "[beside_terrain]") {
+  sensors::Sensor sensor = tests::hivision(12);
+  sensor.display.cscope_mode = sensors::Display::CScopeMode::flat_earth;
+  const renderer::Frame low =
+      frame_of(tile(sensor, 0.0), renderer::profile_sampling_for(4.0), 60.0);
+  const renderer::Frame high =
+      frame_of(tile(sensor, 512.0), renderer::profile_sampling_for(4.0), 572.0);
+  double brightest = 0.0;
+  for (std::size_t i = 0; i < low.cscope_grey.size(); ++i) {
+    REQUIRE(high.cscope_grey[i] == Approx(low.cscope_grey[i]).margin(0.1));
+    brightest = std::max(brightest, low.cscope_grey[i]);
+  }
+  CHECK(brightest > 50.0);
+}
+
+TEST_CASE("A C-scope drawn from the B-scope holds its noise once", "[beside_terrain]") {
+  for (const auto mode :
+       {sensors::Display::CScopeMode::true_elevation, sensors::Display::CScopeMode::shadow,
+        sensors::Display::CScopeMode::flat_earth}) {
+    sensors::Sensor sensor = tests::hivision(12);
+    sensor.display.cscope_mode = mode;
+    const renderer::World world = tile(sensor, 0.0);
+    const renderer::Frame frame = frame_of(world, renderer::profile_sampling_for(2.0), 60.0);
+    const renderer::FrameGrey shown =
+        renderer::grey_of(sensor, {frame.bscope_W, frame.cscope_W_m3}, true);
+    INFO("mode " << static_cast<int>(mode));
+    CHECK(shown.bscope == frame.bscope_grey);
+    CHECK(shown.cscope == frame.cscope_grey);
+  }
+}
