@@ -7,7 +7,7 @@
 #include "apps/run_record.h"
 #include "apps/text_table.h"
 #include "renderer/plan/effect_catalogue.h"
-#include "renderer/plan/effect_causes.h"
+#include "renderer/plan/effect_texts.h"
 
 namespace fanbeam::apps {
 namespace {

@@ -10,7 +10,7 @@
 #include "renderer/frame_pose.h"
 #include "renderer/plan/frame_facts.h"
 #include "renderer/world.h"
-#include "scenes/scene_facts.h"
+#include "scenes/plan_facts.h"
 #include "scenes/sight_map.h"
 
 namespace fanbeam::scenes {

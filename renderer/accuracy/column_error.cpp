@@ -3,7 +3,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "renderer/stages/side_lobes.h"
+#include "renderer/stages/antenna_image.h"
 #include "sensors/display/display.h"
 
 namespace fanbeam::renderer {

@@ -7,7 +7,7 @@
 #include "atmosphere/path_attenuation.h"
 #include "atmosphere/precipitation/rain_cells.h"
 #include "core/constants.h"
-#include "renderer/plan/effect_causes.h"
+#include "renderer/plan/effect_texts.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/plan/signal_effects.h"
 #include "renderer/stages/fluctuation.h"

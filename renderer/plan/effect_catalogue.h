@@ -31,7 +31,7 @@ struct Effect {
   std::string_view source;  // "ITU-R P.840-8"
   bool (*possible)(const SceneFacts&);
   double (*bound_dB)(const SceneFacts&);
-  std::string (*cause)(const SceneFacts&, double bound_dB);  // effect_causes.h
+  std::string (*cause)(const SceneFacts&, double bound_dB);  // effect_texts.h
   std::string_view why_impossible;
   // Why a single frame goes without; empty for what is built into the world or the same in every
   // frame, and so decided for the whole sequence.

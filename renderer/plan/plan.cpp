@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "core/errors.h"
-#include "renderer/plan/effect_causes.h"
+#include "renderer/plan/effect_texts.h"
 #include "sensors/display/grey_scale.h"
 
 namespace fanbeam::renderer {

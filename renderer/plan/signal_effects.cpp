@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "renderer/plan/effect_causes.h"
+#include "renderer/plan/effect_texts.h"
 
 namespace fanbeam::renderer {
 namespace {

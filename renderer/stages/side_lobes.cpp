@@ -5,7 +5,6 @@
 
 #include "core/parallel.h"
 #include "renderer/plan/largest_echo.h"
-#include "renderer/stages/azimuth_beam.h"
 #include "renderer/stages/range_response.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
@@ -102,13 +101,6 @@ void add_azimuth_side_lobes(const std::vector<double>& sums, int bins, const Fan
           level * fan.step_rad *
           (between(left_end, left_cut, bin) + between(right_cut, right_end, bin));
   });
-}
-
-std::vector<double> through_antenna(const std::vector<double>& sums, int bins, const FanSums& fan,
-                                    const sensors::Sensor& sensor, int sub_columns_per_column) {
-  std::vector<double> image = apply_azimuth_beam(sums, bins, fan, sensor, sub_columns_per_column);
-  add_azimuth_side_lobes(sums, bins, fan, sensor, image);
-  return image;
 }
 
 bool has_side_lobes(const SceneFacts& facts) {

@@ -35,10 +35,6 @@ namespace fanbeam::renderer {
 void add_azimuth_side_lobes(const std::vector<double>& sums, int bins, const FanSums& fan,
                             const sensors::Sensor& sensor, std::vector<double>& image);
 
-// The image [bin][column] of `sums`: the azimuth beam and its side lobes.
-std::vector<double> through_antenna(const std::vector<double>& sums, int bins, const FanSums& fan,
-                                    const sensors::Sensor& sensor, int sub_columns_per_column);
-
 // A level is set, or a shape reaches beyond its first null.
 bool has_side_lobes(const SceneFacts& facts);
 double side_lobe_bound_dB(const SceneFacts& facts);

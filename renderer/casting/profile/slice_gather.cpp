@@ -92,7 +92,7 @@ void cast_part(const SliceFrame& frame, std::size_t number, const FanSums& fan, 
   bins.step_rad = fan.step_rad;
   bins.sub_columns = fan.sub_columns;
   bins.reached = marked.marks.data();
-  SliceCaster caster(frame);
+  SliceTracer caster(frame);
   const std::size_t count = frame.slices.size();
   for (std::size_t i = count * number / kParts; i < count * (number + 1) / kParts; ++i) {
     bins.weight = frame.slices[i].width_rad / fan.step_rad;
@@ -121,7 +121,7 @@ void gather_level(const SliceFrame& frame, const std::vector<SubColumnSlices>& c
       bins.elevation_W_m3_per_rad = row_bins.data();
     }
     bins.weight = 1.0 / static_cast<double>(column.end - column.begin);
-    SliceCaster caster(frame);
+    SliceTracer caster(frame);
     for (std::size_t i = column.begin; i < column.end; ++i) caster.cast(i, bins);
     std::copy_n(range_bins.begin(), cells, &sums.range_W_per_rad[column.sub_column * cells]);
     if (rows > 0)

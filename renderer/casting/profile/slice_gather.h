@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "renderer/casting/caster.h"
-#include "renderer/casting/profile/slice_caster.h"
 #include "renderer/casting/profile/slice_layout.h"
+#include "renderer/casting/profile/slice_tracer.h"
 
 namespace fanbeam::renderer {
 

@@ -1,4 +1,4 @@
-#include "renderer/plan/effect_causes.h"
+#include "renderer/plan/effect_texts.h"
 
 #include <algorithm>
 #include <cmath>

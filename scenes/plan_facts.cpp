@@ -1,4 +1,4 @@
-#include "scenes/scene_facts.h"
+#include "scenes/plan_facts.h"
 
 #include <algorithm>
 

@@ -30,9 +30,9 @@ struct SliceFrame {
 };
 
 // For one thread at a time, and cheap to make: its buffers are the thread's.
-class SliceCaster {
+class SliceTracer {
  public:
-  explicit SliceCaster(const SliceFrame& frame);
+  explicit SliceTracer(const SliceFrame& frame);
 
   // Adds what slice `i` of the frame sees to `bins`.
   void cast(std::size_t i, const SliceBins& bins);

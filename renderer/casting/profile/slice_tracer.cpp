@@ -1,4 +1,4 @@
-#include "renderer/casting/profile/slice_caster.h"
+#include "renderer/casting/profile/slice_tracer.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -10,13 +10,13 @@ SweepScratch& scratch_of_thread() {
 
 }  // namespace
 
-SliceCaster::SliceCaster(const SliceFrame& frame)
+SliceTracer::SliceTracer(const SliceFrame& frame)
     : frame_(frame),
       power_(frame.world, frame.antenna, frame.tables, frame.path_loss),
       sweep_(frame.world, frame.antenna.position_m, frame.edges, frame.dark_below,
              scratch_of_thread()) {}
 
-void SliceCaster::cast(std::size_t i, const SliceBins& bins) {
+void SliceTracer::cast(std::size_t i, const SliceBins& bins) {
   thread_local VisiblePieces visible;
   const Slice& slice = frame_.slices[i];
   const auto empty = [&](VisiblePieces& pieces) {
