@@ -5,12 +5,15 @@
 
 #include "core/errors.h"
 #include "core/random.h"
+#include "renderer/accuracy/refinement.h"
 #include "renderer/casting/profile/profile_caster.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/stages/antenna_image.h"
+#include "renderer/stages/double_bounce.h"
 #include "renderer/stages/fluctuation.h"
 #include "renderer/stages/point_targets.h"
 #include "renderer/stages/rain_echo.h"
+#include "renderer/stages/range_response.h"
 #include "sensors/display/display.h"
 #include "sensors/receiver/point_response.h"
 #include "sensors/receiver/receiver_figures.h"
@@ -33,28 +36,60 @@ std::vector<double> plus(const std::vector<double>& values, double constant) {
 
 }  // namespace
 
+// From a pose to pictures; const, so that any number of threads may use it.
+class FrameRenderer::Stages {
+ public:
+  Stages(const World& world, const Sampling& sampling, const Products& products,
+         const Effects& effects, std::unique_ptr<Caster> caster)
+      : world_(world),
+        sampling_(sampling),
+        products_(products),
+        effects_(effects),
+        caster_(std::move(caster)),
+        double_bounce_(effects.double_bounce
+                           ? std::make_unique<DoubleBounce>(world, sampling, effects.thermal_noise)
+                           : nullptr),
+        range_response_(effects.range_response && sensors::has_point_response(world.sensor)
+                            ? std::make_unique<RangeResponse>(world.sensor)
+                            : nullptr),
+        threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {}
+
+  Frame render(const FramePose& pose) const;
+
+ private:
+  // With an estimate, double bounces are in `sums` already.
+  std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
+                                    FanSums& sums, SightLines& sight) const;
+  void receive(const std::vector<core::Echo>& echoes, std::uint64_t frame_index,
+               Frame& frame) const;
+  void display(double height_above_ground_m, Frame& frame) const;
+
+  const World& world_;
+  Sampling sampling_;
+  Products products_;
+  Effects effects_;
+  std::unique_ptr<Caster> caster_;
+  std::unique_ptr<DoubleBounce> double_bounce_;  // when that effect is on
+  std::unique_ptr<RangeResponse> range_response_;
+  double threshold_W_ = 0.0;  // of detections
+};
+
 FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
                              const Effects& effects)
     : FrameRenderer(world, sampling, products, effects, make_caster(world, sampling)) {}
 
 FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
                              const Effects& effects, std::unique_ptr<Caster> caster)
-    : world_(world),
-      sampling_(sampling),
-      products_(products),
-      effects_(effects),
-      caster_(std::move(caster)),
-      double_bounce_(effects.double_bounce
-                         ? std::make_unique<DoubleBounce>(world, sampling, effects.thermal_noise)
-                         : nullptr),
-      range_response_(effects.range_response && sensors::has_point_response(world.sensor)
-                          ? std::make_unique<RangeResponse>(world.sensor)
-                          : nullptr),
-      threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {}
+    : stages_(std::make_unique<Stages>(world, sampling, products, effects, std::move(caster))) {}
+
+FrameRenderer::FrameRenderer(FrameRenderer&&) noexcept = default;
+FrameRenderer::~FrameRenderer() = default;
+
+Frame FrameRenderer::render(const FramePose& pose) const { return stages_->render(pose); }
 
 std::vector<double> Frame::received_W() const { return plus(bscope_W, noise_W); }
 
-Frame FrameRenderer::render(const FramePose& pose) const {
+Frame FrameRenderer::Stages::render(const FramePose& pose) const {
   check(pose);
   const sensors::Sensor& sensor = world_.sensor;
   const sensors::AntennaFrame antenna = antenna_of(sensor, pose);
@@ -105,9 +140,9 @@ Frame FrameRenderer::render(const FramePose& pose) const {
   return frame;
 }
 
-std::optional<ErrorEstimate> FrameRenderer::cast(const sensors::AntennaFrame& antenna,
-                                                 bool with_cscope, FanSums& sums,
-                                                 SightLines& sight) const {
+std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaFrame& antenna,
+                                                         bool with_cscope, FanSums& sums,
+                                                         SightLines& sight) const {
   if (!(sampling_.target_grey > 0.0) && !sampling_.estimate_error) {
     caster_->cast(antenna, with_cscope, CastPass{}, sums, sight);
     if (double_bounce_) double_bounce_->add(antenna, sums);
@@ -118,8 +153,8 @@ std::optional<ErrorEstimate> FrameRenderer::cast(const sensors::AntennaFrame& an
 }
 
 // The last stage before display: targets join the diffuse power, expected or as one realisation.
-void FrameRenderer::receive(const std::vector<core::Echo>& echoes, std::uint64_t frame_index,
-                            Frame& frame) const {
+void FrameRenderer::Stages::receive(const std::vector<core::Echo>& echoes,
+                                    std::uint64_t frame_index, Frame& frame) const {
   const sensors::Sensor& sensor = world_.sensor;
   if (!effects_.speckle && !effects_.swerling) {
     add_echoes(echoes, sensor, frame.bscope_W, frame.cscope_W_m3);
@@ -144,7 +179,7 @@ void FrameRenderer::receive(const std::vector<core::Echo>& echoes, std::uint64_t
             frame.cscope_W_m3);
 }
 
-void FrameRenderer::display(double height_above_ground_m, Frame& frame) const {
+void FrameRenderer::Stages::display(double height_above_ground_m, Frame& frame) const {
   const sensors::Sensor& sensor = world_.sensor;
   const bool mean_noise = effects_.thermal_noise && !effects_.speckle;
   frame.noise_W = mean_noise ? sensor.noise_power_W() : 0.0;

@@ -8,13 +8,10 @@
 
 #include "core/echo.h"
 #include "core/pose.h"
-#include "renderer/accuracy/refinement.h"
-#include "renderer/casting/caster.h"
+#include "renderer/accuracy/error_estimate.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/frame_pose.h"
 #include "renderer/plan/effects.h"
-#include "renderer/stages/double_bounce.h"
-#include "renderer/stages/range_response.h"
 #include "renderer/stages/threshold.h"
 #include "renderer/world.h"
 #include "sensors/antenna/antenna_frame.h"
@@ -59,6 +56,8 @@ struct Frame {
   std::vector<double> received_W() const;
 };
 
+class Caster;
+
 class FrameRenderer {
  public:
   // `world` must outlive the renderer.
@@ -68,26 +67,15 @@ class FrameRenderer {
   // `caster` fills, and for the rays of bounces.
   FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
                 const Effects& effects, std::unique_ptr<Caster> caster);
+  FrameRenderer(FrameRenderer&&) noexcept;
+  ~FrameRenderer();
 
   // Thread-safe. Throws InputError E-NONFINITE or E-RANGE for an impossible pose.
   Frame render(const FramePose& pose) const;
 
  private:
-  // With an estimate, double bounces are in `sums` already.
-  std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
-                                    FanSums& sums, SightLines& sight) const;
-  void receive(const std::vector<core::Echo>& echoes, std::uint64_t frame_index,
-               Frame& frame) const;
-  void display(double height_above_ground_m, Frame& frame) const;
-
-  const World& world_;
-  Sampling sampling_;
-  Products products_;
-  Effects effects_;
-  std::unique_ptr<Caster> caster_;
-  std::unique_ptr<DoubleBounce> double_bounce_;  // when that effect is on
-  std::unique_ptr<RangeResponse> range_response_;
-  double threshold_W_ = 0.0;  // of detections
+  class Stages;
+  std::unique_ptr<const Stages> stages_;
 };
 
 }  // namespace fanbeam::renderer

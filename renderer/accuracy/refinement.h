@@ -39,9 +39,8 @@
 // and without.
 #pragma once
 
-#include <algorithm>
-
 #include "renderer/accuracy/column_error.h"
+#include "renderer/accuracy/error_estimate.h"
 #include "renderer/casting/caster.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/effects.h"
@@ -49,15 +48,6 @@
 #include "renderer/world.h"
 
 namespace fanbeam::renderer {
-
-struct ErrorEstimate {
-  double rms_grey = 0.0;         // of the B-scope, the main figure
-  double cscope_rms_grey = 0.0;  // 0 without one
-  int levels = 1;                // cast, at the column that took most
-  bool reached = true;           // false: the finest level is still coarser than asked for
-
-  double largest_grey() const { return std::max(rms_grey, cscope_rms_grey); }
-};
 
 class Refinement {
  public:

@@ -4,6 +4,7 @@
 
 #include "renderer/plan/plan.h"
 #include "renderer/stages/point_targets.h"
+#include "sensors/antenna/beam_pattern.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {
