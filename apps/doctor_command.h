@@ -9,9 +9,9 @@
 namespace fanbeam::apps {
 
 struct DoctorOptions : SceneChoice {
-  std::string json;  // file to write as well; empty for none
-  double accuracy_grey = 0.5;
-  bool measure = false;  // refine frames to see whether the accuracy can be reached
+  std::string json;            // file to write as well; empty for none
+  double accuracy_grey = 0.0;  // 0: the scene's, else the default
+  bool measure = false;        // refine frames to see whether the accuracy can be reached
 };
 
 // Writes the findings as a table to standard output. Returns kExitDone when none is worse than

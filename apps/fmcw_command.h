@@ -41,7 +41,7 @@ struct FmcwOptions : SceneChoice {
   double dynamic_range_dB = 60.0;
   double line_width_Hz = 0.0;  // of the oscillator; 0: no phase noise
   int adc_bits = 0;            // 0: no quantiser
-  double accuracy_grey = 0.5;  // half of it is for effects left out
+  double accuracy_grey = 0.0;  // 0: the scene's, else the default
   std::string effects;         // --effects; empty: what the scene and its samples call for
   bool refuse_folding = false;
   bool unfold = false;     // speeds of detections

@@ -6,8 +6,10 @@
 #include "apps/number_range.h"
 #include "apps/option_lists.h"
 #include "apps/value_words.h"
+#include "core/text.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "scenes/scene.h"
 #include "signal/waveform/waveform.h"
 
 namespace fanbeam::apps {
@@ -55,9 +57,10 @@ std::string effects_help() {
 }
 
 void add_plan(CLI::App& command, FmcwOptions& options) {
-  add_accuracy_option(command, options.accuracy_grey,
-                      "Grey levels asked for: half of it is for effects left out")
-      ->capture_default_str();
+  add_accuracy_option(
+      command, options.accuracy_grey,
+      "Grey levels asked for: half of it is for effects left out (default: the scene's, else " +
+          core::number_text(scenes::kDefaultAccuracy_grey) + ")");
   command.add_option("--effects", options.effects, effects_help())
       ->type_name("EFFECT")
       ->check(offers(effect_wishes(renderer::Touches::samples)));

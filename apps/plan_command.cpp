@@ -7,6 +7,7 @@
 #include "apps/frame_choice.h"
 #include "apps/plan_report.h"
 #include "apps/render_command.h"
+#include "apps/sampling_choice.h"
 #include "core/parallel.h"
 #include "scenes/frame_plan.h"
 
@@ -34,16 +35,16 @@ void plan_frames(const std::vector<int>& frames, PlanReport& report) {
 }
 
 // As fanbeam render takes it when nothing else is asked for.
-renderer::Sampling sampling_of(const scenes::Scene& scene) {
-  const renderer::CasterKind caster = scene.caster.chosen;
-  const double asked = scene.description.rays_per_cell;
-  return renderer::sampling_for(caster, asked > 0.0 ? asked : renderer::default_samples(caster));
+renderer::Sampling sampling_of(const scenes::Scene& scene, const std::vector<int>& frames) {
+  return choose_sampling(with_accuracy_of(scene.description, {}), scene, {}, frames).sampling;
 }
 
 CostReport measure(const scenes::Scene& scene, const scenes::SceneDescription& description,
                    const std::vector<int>& frames, int repetitions, int threads, bool quiet) {
-  CostReport report{
-      {spread_over(frames, kMeasuredFrames), repetitions, sampling_of(scene)}, threads, 0.0, {}};
+  CostReport report{{spread_over(frames, kMeasuredFrames), repetitions, sampling_of(scene, frames)},
+                    threads,
+                    0.0,
+                    {}};
   report.frame_ms = frame_ms(scene, report.run);
   report.costs = effect_costs(scene, description, report.run, [&](int done) {
     if (!quiet)

@@ -5,6 +5,8 @@
 #include "apps/option_lists.h"
 #include "apps/plan_command.h"
 #include "apps/value_words.h"
+#include "core/text.h"
+#include "scenes/scene.h"
 
 namespace fanbeam::apps {
 
@@ -13,10 +15,10 @@ CLI::App& add_plan_command(CLI::App& program, PlanOptions& options, CommonOption
       "plan", "Tell which effects a scene calls for, why, how much each can change, and its cost");
   add_scene_choice(command, options);
   command.add_flag("--json", options.json, "The same as JSON (docs/plan.md has its keys)");
-  add_accuracy_option(
-      command, options.accuracy_grey,
-      "Grey levels asked for: half of it is for effects left out, half for sampling")
-      ->capture_default_str();
+  add_accuracy_option(command, options.accuracy_grey,
+                      "Grey levels asked for: half of it is for effects left out, half for "
+                      "sampling (default: the scene's, else " +
+                          core::number_text(scenes::kDefaultAccuracy_grey) + ")");
   command
       .add_option("--effects", options.effects,
                   "all, none, or a list such as +rain,-gas; fanbeam list effects names them "

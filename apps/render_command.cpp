@@ -223,18 +223,18 @@ void Run::print_summary() const {
 
 }  // namespace
 
-int render(const RenderOptions& options, const CommonOptions& common) {
-  ProductSet products = products_in(options.products, kProducts);
-  if (!options.range_unit.empty() && !products.contains("figure") &&
-      !products.contains("ppi_figure"))
-    core::throw_input_error(core::ErrorClass::ref, "--range-unit", options.range_unit,
+int render(const RenderOptions& asked, const CommonOptions& common) {
+  ProductSet products = products_in(asked.products, kProducts);
+  if (!asked.range_unit.empty() && !products.contains("figure") && !products.contains("ppi_figure"))
+    core::throw_input_error(core::ErrorClass::ref, "--range-unit", asked.range_unit,
                             "figure or ppi_figure among --products");
-  const core::ThreadLimit threads(options.threads);
+  const core::ThreadLimit threads(asked.threads);
   core::ProblemList problems;
-  scenes::SceneDescription description = read_chosen_scene(options, problems);
+  scenes::SceneDescription description = read_chosen_scene(asked, problems);
+  const RenderOptions options = with_accuracy_of(description, asked);
   if (!options.realisation.empty()) description.sample = options.realisation == "sample";
   scenes::BuildOptions build;
-  if (options.accuracy_grey > 0.0) build.accuracy_grey = options.accuracy_grey;
+  build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   if (options.reference) {
     build.caster = renderer::CasterWish::rays;

@@ -87,6 +87,16 @@ SamplingChoice fit_to_time(const RenderOptions& options, const scenes::Scene& sc
 
 }  // namespace
 
+RenderOptions with_accuracy_of(const scenes::SceneDescription& scene, RenderOptions options) {
+  const bool chosen = options.reference || options.rays_per_cell > 0.0 ||
+                      options.accuracy_grey > 0.0 || options.time_budget_ms > 0.0;
+  if (!(options.accuracy_grey > 0.0)) options.accuracy_grey = scene.accuracy_grey;
+  if (chosen) return options;
+  options.rays_per_cell = scene.rays_per_cell;
+  options.time_budget_ms = scene.time_budget_ms;
+  return options;
+}
+
 double sampling_share_grey(double accuracy_grey) { return accuracy_grey / 2.0; }
 
 SamplingChoice choose_sampling(const RenderOptions& options, const scenes::Scene& scene,
@@ -100,10 +110,9 @@ SamplingChoice choose_sampling(const RenderOptions& options, const scenes::Scene
     choice.sampling =
         renderer::refined_sampling(caster, sampling_share_grey(options.accuracy_grey));
   } else {
-    const double asked =
-        options.rays_per_cell > 0.0 ? options.rays_per_cell : scene.description.rays_per_cell;
-    choice.sampling =
-        renderer::sampling_for(caster, asked > 0.0 ? asked : renderer::default_samples(caster));
+    choice.sampling = renderer::sampling_for(caster, options.rays_per_cell > 0.0
+                                                         ? options.rays_per_cell
+                                                         : renderer::default_samples(caster));
     choice.sampling.estimate_error = options.estimate_error;
   }
   return choice;

@@ -38,6 +38,11 @@ struct SamplingChoice {
 // What `--accuracy` leaves to sampling.
 double sampling_share_grey(double accuracy_grey);
 
+// What the scene's [accuracy] asks for where no option does: an option about sampling replaces all
+// that the scene says of it, but for the grey levels, which are for effects as well.
+RenderOptions with_accuracy_of(const scenes::SceneDescription& scene, RenderOptions options);
+
+// `options` as with_accuracy_of gives them.
 SamplingChoice choose_sampling(const RenderOptions& options, const scenes::Scene& scene,
                                const renderer::Products& products, const std::vector<int>& frames);
 

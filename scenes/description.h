@@ -195,7 +195,8 @@ struct SceneDescription {
   bool allow_extrapolation = false;  // materials may be used outside what their models know
   materials::SurfaceState surface_state = materials::SurfaceState::dry;
   TrajectoryDescription trajectory;
-  double rays_per_cell = 0.0;  // of the scene's [accuracy]; 0 when it does not say
+  // Of the scene's [accuracy]; 0 when it does not say.
+  double rays_per_cell = 0.0, accuracy_grey = 0.0, time_budget_ms = 0.0;
   renderer::CasterWish caster = renderer::CasterWish::automatic;
   core::Place caster_place;
   bool sample = false;                       // frames show one realisation, not the expected power

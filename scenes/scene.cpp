@@ -76,6 +76,7 @@ struct Planned {
   SightMap sight;
   renderer::SceneFacts facts;
   core::EffectPlan plan;
+  double accuracy_grey = 0.0;
   double plan_s = 0.0;
 };
 
@@ -83,10 +84,13 @@ Planned plan_scene(const SceneParts& parts, const atmosphere::Weather& weather,
                    const atmosphere::VolumeEcho& volume_echo, const BuildOptions& options) {
   const auto begin = Clock::now();
   Planned planned{
-      {parts.ground, parts.patches, parts.meshes, mirroring_materials(parts.mirrors)}, {}, {}, 0.0};
+      {parts.ground, parts.patches, parts.meshes, mirroring_materials(parts.mirrors)}, {}, {}};
   const renderer::SceneFacts all = facts_of(parts, weather, volume_echo.largest_eta_m2_per_m3());
   planned.facts = sequence_facts(parts, all, planned.sight);
-  planned.plan = renderer::plan(all, planned.facts, options.accuracy_grey, options.wishes);
+  planned.accuracy_grey = options.accuracy_grey > 0.0             ? options.accuracy_grey
+                          : parts.description.accuracy_grey > 0.0 ? parts.description.accuracy_grey
+                                                                  : kDefaultAccuracy_grey;
+  planned.plan = renderer::plan(all, planned.facts, planned.accuracy_grey, options.wishes);
   planned.plan_s = seconds_since(begin);
   return planned;
 }
@@ -94,7 +98,7 @@ Planned plan_scene(const SceneParts& parts, const atmosphere::Weather& weather,
 void keep(Planned&& planned, const BuildOptions& options, Scene& scene) {
   scene.facts = std::move(planned.facts);
   scene.wishes = options.wishes;
-  scene.accuracy_grey = options.accuracy_grey;
+  scene.accuracy_grey = planned.accuracy_grey;
   scene.plan_s = planned.plan_s;
   scene.sight = std::move(planned.sight);
 }

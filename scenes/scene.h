@@ -32,6 +32,9 @@ struct RunwayPlace {
   End ends[2];
 };
 
+// Grey levels that a picture may be off; half of it is for effects left out.
+inline constexpr double kDefaultAccuracy_grey = 0.5;
+
 struct Scene {
   SceneDescription description;
   terrain::LocalFrame frame;
@@ -47,7 +50,7 @@ struct Scene {
   // What the plan was made of, the scene as its frames see it, and how long that took.
   renderer::SceneFacts facts{};
   renderer::EffectWishes wishes{};
-  double accuracy_grey = 0.5;
+  double accuracy_grey = kDefaultAccuracy_grey;
   double plan_s = 0.0;
   std::optional<SightMap> sight{};
   std::vector<RunwayPlace> runways{};
@@ -60,9 +63,9 @@ struct Scene {
 struct BuildOptions {
   renderer::EffectWishes wishes;
   std::optional<renderer::CasterWish> caster;  // instead of the scene's
-  double accuracy_grey = 0.5;
-  std::string instruction_set;  // see RayScene
-  bool robust = true;           // see RayScene
+  double accuracy_grey = 0.0;                  // 0: the scene's, else the default
+  std::string instruction_set;                 // see RayScene
+  bool robust = true;                          // see RayScene
 };
 
 // Loads what the description names and puts the world together. Everything wrong is collected in

@@ -5,6 +5,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "renderer/casting/sampling.h"
 #include "scenes/data_search.h"
 #include "scenes/object_reader.h"
 #include "scenes/scene_surfaces.h"
@@ -186,6 +187,24 @@ void read_display(ConfigTable& root, const sensors::RangeGate& range, sensors::D
                    static_cast<std::size_t>(display.cscope_mode)));
 }
 
+void read_accuracy(ConfigTable accuracy, SceneDescription& scene) {
+  scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
+  if (scene.rays_per_cell > 0.0 && scene.rays_per_cell < renderer::kFewestRaysPerCell)
+    accuracy.error(core::ErrorClass::range, "rays_per_cell", core::number_text(scene.rays_per_cell),
+                   "0 or at least " + core::number_text(renderer::kFewestRaysPerCell));
+  scene.accuracy_grey = accuracy.optional_number("grey_levels", {0.01, 100.0}).value_or(0.0);
+  scene.time_budget_ms = accuracy.optional_number("time_budget_ms", {0.1, 1e7}).value_or(0.0);
+  if (scene.time_budget_ms > 0.0 && scene.rays_per_cell > 0.0)
+    accuracy.error(core::ErrorClass::ref, "time_budget_ms", "beside rays_per_cell",
+                   "one of the two: how finely, or how long");
+  scene.caster = static_cast<renderer::CasterWish>(accuracy.choice(
+      "caster",
+      {renderer::kCasterWishes[0], renderer::kCasterWishes[1], renderer::kCasterWishes[2]},
+      static_cast<int>(renderer::CasterWish::automatic)));
+  scene.caster_place = accuracy.place("caster");
+  scene.sample = accuracy.choice("realisation", {"mean", "sample"}, 0) == 1;
+}
+
 void list_files(SceneDescription& scene) {
   scene.files.push_back(scene.material_library);
   for (const fs::path& file :
@@ -220,17 +239,7 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
   read_surfaces(root, scene);
   read_trajectory(root, search, scene);
   read_display(root, scene.sensor.range, scene.sensor.display);
-  ConfigTable accuracy = root.table("accuracy");
-  scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
-  if (scene.rays_per_cell > 0.0 && scene.rays_per_cell < renderer::kFewestRaysPerCell)
-    accuracy.error(core::ErrorClass::range, "rays_per_cell", core::number_text(scene.rays_per_cell),
-                   "0 or at least " + core::number_text(renderer::kFewestRaysPerCell));
-  scene.caster = static_cast<renderer::CasterWish>(accuracy.choice(
-      "caster",
-      {renderer::kCasterWishes[0], renderer::kCasterWishes[1], renderer::kCasterWishes[2]},
-      static_cast<int>(renderer::CasterWish::automatic)));
-  scene.caster_place = accuracy.place("caster");
-  scene.sample = accuracy.choice("realisation", {"mean", "sample"}, 0) == 1;
+  read_accuracy(root.table("accuracy"), scene);
   scene.material_library = root.has("material_library")
                                ? search.find(root, "material_library")
                                : options.shipped / "materials" / "library.toml";

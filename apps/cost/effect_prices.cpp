@@ -83,7 +83,7 @@ std::vector<EffectPrice> measure_effects(const CostBench& bench) {
     // Planning costs nothing: whether the effect can occur is known before its scene is built. What
     // only a wish makes possible, as speckle, has its bound there.
     const core::EffectPlan other_plan =
-        renderer::plan(bench.scene.facts, build.accuracy_grey, build.wishes);
+        renderer::plan(bench.scene.facts, bench.scene.accuracy_grey, build.wishes);
     const core::EffectDecision& other_decision = other_plan.decisions[i];
     effect.possible = other_decision.on != decision.on;
     effect.bound_grey = std::max(effect.bound_grey, other_decision.bound_grey);

@@ -261,3 +261,51 @@ TEST_CASE("--estimate-error tells the error and leaves the pictures alone", "[ac
     }
   }
 }
+
+TEST_CASE("A scene's grey_levels is --accuracy, its time_budget_ms --time-budget", "[accuracy]") {
+  const TemporaryFolder folder;
+  folder.write("few.toml", narrow_sensor(2));
+  const auto scene_with = [&](const std::string& accuracy) {
+    folder.write("scene.toml",
+                 "[scene]\nname = \"t\"\norigin = { latitude_deg = 52.0, longitude_deg = 10.0 }\n"
+                 "vertical_datum = \"scene\"\n[terrain]\nhalf_extent_m = 1000.0\n"
+                 "spacing_m = 100.0\n[sensor]\nfile = \"few.toml\"\n" +
+                     accuracy +
+                     "[trajectory.fixed]\nat = { latitude_deg = 52.0, longitude_deg = 10.0 }\n"
+                     "above_ground_m = 60.0\n");
+  };
+  const auto rendered = [&](const std::string& words) {
+    const fs::path out = folder.path() / "out";
+    const Result result = run_fanbeam("render " + quoted(folder.path()) + " -o " + quoted(out) +
+                                      " --overwrite -q --products power " + words);
+    INFO(result.output);
+    REQUIRE(result.exit_code == 0);
+    return std::pair{json_of(out / "run.json"),
+                     core::read_image(out / "power/00000.exr").layers.at(0).values};
+  };
+
+  scene_with("");
+  const auto by_option = rendered("--accuracy 0.2");
+  scene_with("[accuracy]\ngrey_levels = 0.2\n");
+  const auto by_scene = rendered("");
+  CHECK(by_scene.first["sampling"]["refined_to_grey"] == 0.1);
+  CHECK(by_scene.first["sampling"] == by_option.first["sampling"]);
+  CHECK(by_scene.first["plan"] == by_option.first["plan"]);
+  CHECK(by_scene.second == by_option.second);
+  CHECK(rendered("--accuracy 0.4").first["sampling"]["refined_to_grey"] == 0.2);
+  CHECK_FALSE(rendered("--rays-per-cell 2").first["sampling"].contains("refined_to_grey"));
+  CHECK_FALSE(rendered("--reference").first["sampling"].contains("refined_to_grey"));
+  const Result plan = run_fanbeam("plan --json " + quoted(folder.path()));
+  CHECK(nlohmann::json::parse(plan.output)["accuracy"]["grey"] == 0.2);
+
+  scene_with("[accuracy]\ntime_budget_ms = 5000\n");
+  CHECK(rendered("").first["time_budget"]["budget_ms"] == 5000.0);
+  CHECK(rendered("--time-budget 4000").first["time_budget"]["budget_ms"] == 4000.0);
+  CHECK_FALSE(rendered("--rays-per-cell 2").first.contains("time_budget"));
+
+  scene_with("[accuracy]\ntime_budget_ms = 5000\nrays_per_cell = 0.2\n");
+  const Result wrong = run_fanbeam("validate " + quoted(folder.path()));
+  CHECK(wrong.exit_code == 3);
+  for (const char* part : {"one of the two", "0 or at least 0.3"})
+    CHECK(wrong.output.find(part) != std::string::npos);
+}
