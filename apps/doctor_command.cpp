@@ -9,12 +9,13 @@
 
 #include "apps/blank_pictures.h"
 #include "apps/frame_choice.h"
-#include "apps/sampling_choice.h"
 #include "apps/text_table.h"
 #include "core/files.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "renderer/frame_renderer.h"
 #include "renderer/plan/effects.h"
+#include "renderer/plan/plan.h"
 #include "scenes/doctor/approach.h"
 #include "scenes/doctor/scene_doctor.h"
 
@@ -102,7 +103,7 @@ std::string json_text(const scenes::Scene& scene, const std::optional<scenes::Ap
 
 // Frames spread over the flight, refined as --accuracy of render does.
 void add_unreached(const scenes::Scene& scene, Findings& findings) {
-  const double share_grey = sampling_share_grey(scene.accuracy_grey);
+  const double share_grey = renderer::sampling_share_grey(scene.accuracy_grey);
   const renderer::FrameRenderer frames(scene.world,
                                        renderer::refined_sampling(scene.caster.chosen, share_grey),
                                        {}, renderer::effects_of(scene.plan, 0));

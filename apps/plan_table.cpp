@@ -115,7 +115,8 @@ std::string notes_of(const PlanReport& report) {
 }  // namespace
 
 Budget budget_of(const scenes::Scene& scene) {
-  Budget budget{scene.accuracy_grey / 2.0, 0.0, 0.0, scene.accuracy_grey / 2.0};
+  Budget budget{renderer::effects_share_grey(scene.accuracy_grey), 0.0, 0.0,
+                renderer::sampling_share_grey(scene.accuracy_grey)};
   const renderer::EffectWishes& wishes = scene.wishes;
   for (const core::EffectDecision& decision : scene.plan.decisions) {
     if (decision.on) continue;

@@ -5,6 +5,7 @@
 #include "apps/cost/turns.h"
 #include "apps/frame_choice.h"
 #include "renderer/plan/effects.h"
+#include "renderer/plan/plan.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -79,7 +80,8 @@ SamplingChoice fit_to_time(const RenderOptions& options, const scenes::Scene& sc
     if (!fits) break;
     if (!(options.accuracy_grey > 0.0)) continue;
     choice.estimated_error_grey = trial.largest_error_grey(sampling);
-    if (choice.estimated_error_grey <= sampling_share_grey(options.accuracy_grey)) return choice;
+    if (choice.estimated_error_grey <= renderer::sampling_share_grey(options.accuracy_grey))
+      return choice;
   }
   choice.estimated_error_grey = trial.largest_error_grey(choice.sampling);
   return choice;
@@ -97,8 +99,6 @@ RenderOptions with_accuracy_of(const scenes::SceneDescription& scene, RenderOpti
   return options;
 }
 
-double sampling_share_grey(double accuracy_grey) { return accuracy_grey / 2.0; }
-
 SamplingChoice choose_sampling(const RenderOptions& options, const scenes::Scene& scene,
                                const renderer::Products& products, const std::vector<int>& frames) {
   if (options.time_budget_ms > 0.0) return fit_to_time(options, scene, products, frames);
@@ -108,7 +108,7 @@ SamplingChoice choose_sampling(const RenderOptions& options, const scenes::Scene
     choice.sampling = renderer::reference_sampling(options.seed);
   } else if (options.accuracy_grey > 0.0 && !(options.rays_per_cell > 0.0)) {
     choice.sampling =
-        renderer::refined_sampling(caster, sampling_share_grey(options.accuracy_grey));
+        renderer::refined_sampling(caster, renderer::sampling_share_grey(options.accuracy_grey));
   } else {
     choice.sampling = renderer::sampling_for(caster, options.rays_per_cell > 0.0
                                                          ? options.rays_per_cell

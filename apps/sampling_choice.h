@@ -35,9 +35,6 @@ struct SamplingChoice {
   bool fits = true;                   // false: the coarsest sampling is still too slow
 };
 
-// What `--accuracy` leaves to sampling.
-double sampling_share_grey(double accuracy_grey);
-
 // What the scene's [accuracy] asks for where no option does: an option about sampling replaces all
 // that the scene says of it, but for the grey levels, which are for effects as well.
 RenderOptions with_accuracy_of(const scenes::SceneDescription& scene, RenderOptions options);

@@ -6,6 +6,7 @@
 
 #include "apps/cost/cost_markdown.h"
 #include "apps/cost/effect_prices.h"
+#include "renderer/plan/plan.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -140,7 +141,9 @@ std::string effects_section(const CostFigures& figures) {
           "Far up matters, far left is cheap. Planned for an accuracy of {:g} grey levels, "
           "frames cast by {}.\n\n",
           figures.accuracy_grey, figures.caster) +
-      sentences + '\n' + needless_text(prices, figures.accuracy_grey / 2.0, figures.dB_per_grey);
+      sentences + '\n' +
+      needless_text(prices, renderer::effects_share_grey(figures.accuracy_grey),
+                    figures.dB_per_grey);
   if (!rows.empty())
     text +=
         "Largest / RMS change over the picture:\n\n"

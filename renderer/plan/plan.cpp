@@ -103,7 +103,7 @@ bool noise_runs(const SceneFacts& facts, double accuracy_grey, const EffectWishe
   });
   core::EffectDecision decision;
   weighed(*noise, facts, greys, decision);
-  return decision.bound_grey > accuracy_grey / 2.0;
+  return decision.bound_grey > effects_share_grey(accuracy_grey);
 }
 
 std::string why_without(const Effect& effect, const SceneFacts& scene) {
@@ -146,7 +146,7 @@ core::EffectPlan decided(const std::vector<Effect>& catalogue, const SceneFacts&
 // Of half the accuracy, after what the sequence goes without.
 double left_of_budget_grey(const core::EffectPlan& sequence, double accuracy_grey,
                            const EffectWishes& wishes) {
-  double left_grey = accuracy_grey / 2.0;
+  double left_grey = effects_share_grey(accuracy_grey);
   for (const core::EffectDecision& decision : sequence.decisions)
     if (!decision.on && !contains(wishes.forced_off, decision.effect))
       left_grey -= decision.bound_grey;
@@ -199,7 +199,7 @@ core::EffectPlan plan(const SceneFacts& scene, const SceneFacts& seen, double ac
   const Greys greys = greys_of(facts);
   facts.noise_shown = noise_runs(facts, accuracy_grey, wishes, greys);
   return decided(effect_catalogue(), with_realisation(scene, wishes), facts, greys, wishes,
-                 accuracy_grey / 2.0);
+                 effects_share_grey(accuracy_grey));
 }
 
 core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& frame,

@@ -21,6 +21,12 @@ struct EffectWishes {
 // the known ones: those that touch pictures, and for `touched` samples these as well.
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched = Touches::pictures);
 
+// Of the grey levels asked for, what is for effects left out and what for sampling.
+constexpr double effects_share_grey(double accuracy_grey) { return accuracy_grey / 2.0; }
+constexpr double sampling_share_grey(double accuracy_grey) {
+  return accuracy_grey - effects_share_grey(accuracy_grey);
+}
+
 // Half of `accuracy_grey` is for effects left out: an effect that is possible and not forced runs
 // unless its bound, added to the bounds of those already left out (smallest first), stays within
 // that half. Speckle or fluctuating targets forced on ask for a realisation where the scene does not.
