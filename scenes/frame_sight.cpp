@@ -73,7 +73,6 @@ bool mirrors_are_seen(const renderer::SceneFacts& scene, const renderer::FrameSi
 void narrow_weather(const SceneParts& parts, const SightMap& map,
                     const std::vector<renderer::FramePose>& poses, renderer::SceneFacts& facts) {
   const std::vector<RainCell> cells = facts.weather.rain_cells;
-  if (cells.empty()) return;
   const sensors::Sensor& sensor = parts.description.sensor;
   const bool mirrored = renderer::has_mirrored_echo(facts);
   const auto seen_with = [&](bool beside) {
@@ -126,12 +125,14 @@ renderer::FrameSight frame_sight(const renderer::SceneFacts& scene, const SightM
 renderer::SceneFacts sequence_facts(const SceneParts& parts, const renderer::SceneFacts& scene,
                                     const SightMap& map) {
   const sensors::Sensor& sensor = parts.description.sensor;
-  std::vector<renderer::FramePose> poses;
-  for (int frame = 0; frame < parts.trajectory.frame_count(sensor.scan.frame_rate_Hz); ++frame)
-    poses.push_back(frame_pose(parts.frame, parts.trajectory, sensor, frame));
+  const int frames = parts.trajectory.frame_count(sensor.scan.frame_rate_Hz);
+  const auto pose_of = [&](int frame) {
+    return frame_pose(parts.frame, parts.trajectory, sensor, frame);
+  };
   renderer::FrameSight sight;
   bool all_mirrors = mirrors_are_seen(scene, sight);
-  for (const renderer::FramePose& pose : poses) {
+  for (int frame = 0; frame < frames; ++frame) {
+    const renderer::FramePose pose = pose_of(frame);
     const sensors::AntennaFrame antenna = renderer::antenna_of(sensor, pose);
     if (!all_mirrors) {
       see_mirrors(map, sensor, antenna, sight);
@@ -150,6 +151,9 @@ renderer::SceneFacts sequence_facts(const SceneParts& parts, const renderer::Sce
   sight.rain_cells = scene.weather.rain_cells;
   sight.largest_eta_m2_per_m3 = scene.largest_eta_m2_per_m3;
   renderer::SceneFacts facts = renderer::seen_facts(scene, sight);
+  if (facts.weather.rain_cells.empty()) return facts;
+  std::vector<renderer::FramePose> poses;
+  for (int frame = 0; frame < frames; ++frame) poses.push_back(pose_of(frame));
   narrow_weather(parts, map, poses, facts);
   return facts;
 }
