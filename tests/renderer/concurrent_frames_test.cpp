@@ -25,7 +25,7 @@ bool same(const renderer::Frame& a, const renderer::Frame& b) {
 
 }  // namespace
 
-TEST_CASE("Frames rendered at once, inside tasks or threads, are those rendered one by one",
+TEST_CASE("R10 frames rendered at once, inside tasks or threads, are those rendered one by one",
           "[threads][concurrent]") {
   renderer::World world =
       tests::city_world(tests::narrow(16), [](double, double y) { return y > 300.0; });
