@@ -49,6 +49,7 @@ void render_case(const SuiteCase& one, const RegressOptions& options, const fs::
   if (!options.data.empty()) render_options.data = options.data;
   CommonOptions quiet;
   quiet.quiet = true;
+  render_options.repeatable = true;
   render(render_options, quiet);
 }
 

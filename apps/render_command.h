@@ -40,8 +40,9 @@ struct RenderOptions : SceneChoice {
   std::string caster;          // one of kCasterWishes; empty: the scene's
   double rays_per_cell = 0.0;  // or slices per column; 0: the scene's, else the default
   bool reference = false;
-  double accuracy_grey = 0.0;   // 0: not asked for
-  double time_budget_ms = 0.0;  // 0: no limit
+  double accuracy_grey = 0.0;   // 0: the scene's, else not asked for
+  double time_budget_ms = 0.0;  // 0: the scene's, else no limit
+  bool repeatable = false;      // no time budget of the scene's, which depends on the machine
   bool estimate_error = false;
   bool plan_per_frame = false;
   bool resume = false;

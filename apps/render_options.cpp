@@ -27,7 +27,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
       command
           .add_option("--rays-per-cell", options.rays_per_cell,
                       "Rays per range cell and column, or azimuth slices per column: more is "
-                      "sharper and slower (default: the scene's, else " +
+                      "sharper and slower (default: the scene's accuracy, else " +
                           core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
                           core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
           ->check(number_from(renderer::kFewestRaysPerCell, 100000.0));
@@ -35,13 +35,13 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
       command, options.accuracy_grey,
       "Error allowed, RMS in grey levels: half of it is for effects left out, half for sampling, "
       "which is refined frame by frame until its estimate says so; with --rays-per-cell for "
-      "effects alone (one grey level is 0.24 dB with the default display)");
+      "effects alone (one grey level is 0.24 dB with the default display; default: the scene's)");
   CLI::Option* budget =
       command
           .add_option("--time-budget", options.time_budget_ms,
                       "Milliseconds a frame may take from pose to pictures in memory (16 Hz: "
                       "62.5): the finest sampling that fits, and the error it reaches; with "
-                      "--accuracy no finer than that needs")
+                      "--accuracy no finer than that needs (default: the scene's)")
           ->check(number_from(0.1, 1e7))
           ->excludes(rays);
   CLI::Option* estimate =

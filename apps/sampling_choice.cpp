@@ -95,7 +95,7 @@ RenderOptions with_accuracy_of(const scenes::SceneDescription& scene, RenderOpti
   if (!(options.accuracy_grey > 0.0)) options.accuracy_grey = scene.accuracy_grey;
   if (chosen) return options;
   options.rays_per_cell = scene.rays_per_cell;
-  options.time_budget_ms = scene.time_budget_ms;
+  if (!options.estimate_error && !options.repeatable) options.time_budget_ms = scene.time_budget_ms;
   return options;
 }
 

@@ -1,6 +1,6 @@
 // How finely a run samples: as told, as fine as an accuracy needs, or as fine as a time allows.
 //
-//   --rays-per-cell, the scene, or the default   one sampling for all frames; with --rays-per-cell
+//   --rays-per-cell, the scene's, or the default one sampling for all frames; with --rays-per-cell
 //                                                an accuracy is for effects alone
 //   --reference                                  converged
 //   --accuracy GREY                              every frame refined until its estimated error is at
@@ -36,7 +36,8 @@ struct SamplingChoice {
 };
 
 // What the scene's [accuracy] asks for where no option does: an option about sampling replaces all
-// that the scene says of it, but for the grey levels, which are for effects as well.
+// that the scene says of it, but for the grey levels, which are for effects as well. An estimate of
+// the error takes the place of a time budget.
 RenderOptions with_accuracy_of(const scenes::SceneDescription& scene, RenderOptions options);
 
 // `options` as with_accuracy_of gives them.

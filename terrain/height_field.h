@@ -45,10 +45,11 @@ struct HeightField {
     return on_triangles(u, v);
   }
 
-  // The same, and outside the grid the height of the nearest place on its border.
+  // The same, and outside the grid the height of the nearest place on its border. Of a place that is
+  // no number that of a corner: a place in memory in any case.
   double nearest_height(double x_m, double y_m) const {
-    return on_triangles(std::clamp((x_m - west_m) / spacing_m, 0.0, columns - 1.0),
-                        std::clamp((y_m - south_m) / spacing_m, 0.0, rows - 1.0));
+    return on_triangles(std::max(0.0, std::min((x_m - west_m) / spacing_m, columns - 1.0)),
+                        std::max(0.0, std::min((y_m - south_m) / spacing_m, rows - 1.0)));
   }
 
  private:

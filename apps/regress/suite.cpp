@@ -144,7 +144,8 @@ class CaseReader {
       static_assert(kWishes.size() == 3);
       render.caster = kWishes[table_.choice("caster", {kWishes[0], kWishes[1], kWishes[2]}, 0)];
     }
-    const auto samples = table_.optional_number("rays_per_cell", {renderer::kFewestRaysPerCell, 100000.0});
+    const auto samples =
+        table_.optional_number("rays_per_cell", {renderer::kFewestRaysPerCell, 100000.0});
     const auto accuracy = table_.optional_number("accuracy_grey", {0.01, 100.0});
     render.rays_per_cell = samples.value_or(0.0);
     render.accuracy_grey = accuracy.value_or(0.0);

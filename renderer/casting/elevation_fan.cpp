@@ -54,7 +54,9 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
   };
   const double middle_rad = (left_rad + right_rad) / 2;
   if (world_.surfaces->terrain() != nullptr) {
-    if (nearest_ == Nearest::antenna) edges.push_back(lowest_rad_);
+    const glm::dvec3& at_m = frame.position_m;
+    if (nearest_ == Nearest::antenna || !world_.surfaces->terrain()->height_at(at_m.x, at_m.y))
+      edges.push_back(lowest_rad_);
     follow_ground(frame, middle_rad, edges);
     // Beside the centre azimuth the horizon may stand a little higher.
     for (const double margin_rad : kHorizonMargin_rad)
@@ -84,7 +86,6 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   glm::dvec2 heading = heading_at(frame, azimuth_rad, level || cone ? 0.0 : lowest_rad_, surface);
   const double below_m = std::abs(world_.surfaces->height_above_ground_m(sensor));
   double drop_m = below_m;
-  bool met = false;
   int step = 0, settling = cone ? 3 : 0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = gate.minimum_m + gate.cell_m * k;
@@ -94,11 +95,10 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     const double x_m = sensor.x + heading.x * distance_m;
     const double y_m = sensor.y + heading.y * distance_m;
     const std::optional<double> height_m = ground.height_at(x_m, y_m);
-    if (!height_m && met) break;
-    if (!height_m) continue;  // the antenna stands beside the ground's tile
-    met = true;
-    drop_m = std::min(std::abs(sensor.z - *height_m), std::max(range_m, below_m));
-    const glm::dvec3 relative_m(x_m - sensor.x, y_m - sensor.y, *height_m - sensor.z);
+    // Beside the ground its border shows the way to it.
+    const double up_m = height_m ? *height_m : ground.nearest_height(x_m, y_m);
+    drop_m = std::min(std::abs(sensor.z - up_m), std::max(range_m, below_m));
+    const glm::dvec3 relative_m(x_m - sensor.x, y_m - sensor.y, up_m - sensor.z);
     const double elevation_rad = std::atan(slope_of(frame, relative_m, surface));
     if (settling > 0) {  // a cone's first heading needs its elevation, and the other way round
       --settling;
@@ -106,12 +106,13 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
       k -= stride;
       continue;
     }
+    // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
+    if (!level) heading = heading_at(frame, azimuth_rad, elevation_rad, surface);
+    if (!height_m) continue;
     // Rays per step need not be whole: steps take turns.
     ++step;
     const double rays = sampling_.rays_per_cell * stride;
     const int parts = static_cast<int>(std::floor(step * rays) - std::floor((step - 1) * rays));
-    // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
-    if (!level) heading = heading_at(frame, azimuth_rad, elevation_rad, surface);
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
     } else {

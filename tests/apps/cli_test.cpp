@@ -49,7 +49,8 @@ TEST_CASE("render --help names every effect and product", "[cli]") {
 TEST_CASE("Exit code 2: a command line that cannot be understood", "[cli]") {
   for (const char* words :
        {"", "rendr", "render --nope", "render --threads many", "render --threads -1",
-        "render --rays-per-cell 0", "render --rays-per-cell 0.29", "render --reference --rays-per-cell 4", "compare one.png",
+        "render --rays-per-cell 0", "render --rays-per-cell 0.29",
+        "render --reference --rays-per-cell 4", "compare one.png",
         "render flat-grass --caster lidar", "render flat-grass --reference --caster profile",
         "render --log-level loud", "render flat-grass --frames 1:x", "render flat-grass --frames 5",
         "render flat-grass --products bscope,dscope", "render flat-grass --effects +magic",

@@ -15,8 +15,12 @@ namespace {
 
 using namespace fanbeam;
 
+#ifdef __SANITIZE_THREAD__  // which does not understand oneTBB's tasks, and takes its time
+constexpr std::size_t kFrames = 8;
+#else
 constexpr std::size_t kFrames = 64;
 constexpr int kThreads = 8;
+#endif
 
 bool same(const renderer::Frame& a, const renderer::Frame& b) {
   return a.bscope_W == b.bscope_W && a.cscope_W_m3 == b.cscope_W_m3 && a.rays == b.rays &&
@@ -45,6 +49,7 @@ TEST_CASE("R10 frames rendered at once, inside tasks or threads, are those rende
     INFO("caster " << static_cast<int>(sampling.caster) << ", to " << sampling.target_grey);
 
     std::array<bool, kFrames> right{};
+#ifndef __SANITIZE_THREAD__
     // More threads than cores, so that one often waits for what another has begun.
     const core::ThreadLimit limit(kThreads);
     tbb::task_arena(kThreads).execute([&] {
@@ -54,6 +59,7 @@ TEST_CASE("R10 frames rendered at once, inside tasks or threads, are those rende
           tbb::simple_partitioner());
     });
     CHECK(std::count(right.begin(), right.end(), false) == 0);
+#endif
 
     right.fill(false);
     std::vector<std::thread> callers;
