@@ -138,7 +138,7 @@ CostFigures head_of(const CostBench& bench, const CostOptions& options, int thre
   figures.machine = {core::processor_name(), core::name_of(core::instruction_level()), threads};
   figures.caster = renderer::name_of(bench.sampling.caster);
   if (!bench.slices) figures.why_no_slices = scene.caster.why_no_slices;
-  figures.triangles = scene.world.surfaces->triangle_count();
+  figures.triangles = scene.world.surfaces().triangle_count();
   figures.dB_per_grey = sensors::GreyScale(scene.world.sensor).dB_per_grey();
   figures.accuracy_grey = scene.accuracy_grey;
   figures.quick = options.quick;

@@ -18,6 +18,7 @@
 #include "renderer/plan/plan.h"
 #include "scenes/doctor/approach.h"
 #include "scenes/doctor/scene_doctor.h"
+#include "session/session.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -139,7 +140,7 @@ int examine_scene(const DoctorOptions& options, const CommonOptions& common) {
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
-  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
+  const auto scene = session::Session(description, {.build = build}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
   Findings findings = scenes::examine(*scene, problems.all());
   add_blank_pictures(*scene, findings);

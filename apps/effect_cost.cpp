@@ -64,7 +64,7 @@ EffectCost difference(const FrameRenderer& with, const FrameRenderer& without,
 }
 
 EffectCost cost_of(const core::EffectDecision& decision, const scenes::Scene& scene,
-                   const scenes::SceneDescription& description, const CostRun& run) {
+                   const CostRun& run) {
   const Effects planned = renderer::effects_of(scene.plan, kSeed);
   const FrameRenderer as_planned(scene.world, run.sampling, kPictures, planned);
   Effects turned = planned;
@@ -72,12 +72,7 @@ EffectCost cost_of(const core::EffectDecision& decision, const scenes::Scene& sc
   if (bool* flag = switch_of(decision.effect, turned, scene.world)) {
     *flag = !decision.on;
   } else {
-    core::ProblemList problems;
-    scenes::BuildOptions options;
-    options.wishes = all_but(scene.plan, decision.effect);
-    options.caster = scene.caster.wish;
-    options.accuracy_grey = scene.accuracy_grey;
-    rebuilt = scenes::build_scene(description, options, problems);
+    rebuilt = scenes::under_conditions(scene, {.wishes = all_but(scene.plan, decision.effect)});
     turned = renderer::effects_of(rebuilt->plan, kSeed);
   }
   const FrameRenderer other(rebuilt ? rebuilt->world : scene.world, run.sampling, kPictures,
@@ -96,17 +91,14 @@ renderer::EffectWishes all_but(const core::EffectPlan& plan, std::string_view fl
   return wishes;
 }
 
-std::vector<std::optional<EffectCost>> effect_costs(const scenes::Scene& scene,
-                                                    const scenes::SceneDescription& description,
-                                                    const CostRun& run,
+std::vector<std::optional<EffectCost>> effect_costs(const scenes::Scene& scene, const CostRun& run,
                                                     const std::function<void(int)>& after_each) {
   std::vector<std::optional<EffectCost>> costs;
   for (const core::EffectDecision& decision : scene.plan.decisions) {
     const core::EffectPlan turned =
         renderer::plan(scene.facts, scene.accuracy_grey, all_but(scene.plan, decision.effect));
     const bool possible = turned.runs(decision.effect) != decision.on;
-    costs.push_back(possible ? std::optional(cost_of(decision, scene, description, run))
-                             : std::nullopt);
+    costs.push_back(possible ? std::optional(cost_of(decision, scene, run)) : std::nullopt);
     after_each(static_cast<int>(costs.size()));
   }
   return costs;

@@ -31,12 +31,9 @@ struct CostRun {
   renderer::Sampling sampling;
 };
 
-// By decision of the scene's plan; nothing for effects that are not possible in it. `description`
-// is what the scene was built from: what is built into a world is built once more the other way.
-// `after_each` hears how many effects are done.
-std::vector<std::optional<EffectCost>> effect_costs(const scenes::Scene& scene,
-                                                    const scenes::SceneDescription& description,
-                                                    const CostRun& run,
+// By decision of the scene's plan; nothing for effects that are not possible in it. `after_each`
+// hears how many effects are done.
+std::vector<std::optional<EffectCost>> effect_costs(const scenes::Scene& scene, const CostRun& run,
                                                     const std::function<void(int)>& after_each);
 
 // Median time of a frame as planned.

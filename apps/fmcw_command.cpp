@@ -19,6 +19,7 @@
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "scenes/scene.h"
+#include "session/session.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -114,7 +115,7 @@ class Run {
     if (runs_chain()) record = chain(index);
     record.index = index;
     record.time_s =
-        scene_.trajectory.frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
+        scene_.trajectory->frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
     if (products_.contains(kScan)) record.scan = scan(index, record.files);
     records_.push_back(std::move(record));
   }
@@ -134,7 +135,7 @@ class Run {
     const double echoes_ms = ms_since(begin);
     const FmcwFrame frame =
         fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, products_,
-                   {scene_.plan, scene_.accuracy_grey, scene_.wishes});
+                   {scene_.plan, scene_.accuracy_grey, scene_.options.wishes});
     const double signal_ms = ms_since(begin);
     FmcwFrameRecord record = fmcw_record(scene_, index, paths, frame);
     record.files = write_fmcw_products(
@@ -167,7 +168,7 @@ int fmcw(const FmcwOptions& options, const CommonOptions& common) {
   build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty())
     build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::samples);
-  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
+  const auto scene = session::Session(description, {.build = build}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
   const StopOnSignals stop_on_signals;
   try {

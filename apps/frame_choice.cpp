@@ -33,6 +33,10 @@ std::vector<std::optional<long>> numbers_between_colons(const std::string& text)
 }  // namespace
 
 std::vector<int> parse_frames(const std::string& text, int count) {
+  if (count == 0)
+    core::throw_input_error(core::ErrorClass::ref, "trajectory", "missing",
+                            "[trajectory] in the scene: the frames of a flight are what is asked "
+                            "for");
   const std::vector<std::optional<long>> parts = numbers_between_colons(text);
   const long total = count;
   const auto from_end = [&](long index) {

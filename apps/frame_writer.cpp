@@ -6,6 +6,7 @@
 #include "apps/figure/frame_figure.h"
 #include "apps/figure/plan_figure.h"
 #include "apps/frame_table.h"
+#include "apps/layers_product.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/stop.h"
@@ -43,7 +44,8 @@ std::vector<double> farthest_on_top(const std::vector<double>& values, int colum
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,
                                  int index) {
-  return folder / product / fmt::format("{:05}.{}", index, product == "power" ? "exr" : "png");
+  const bool exr = product == "power" || product == "layers" || product == "cscope_layers";
+  return folder / product / fmt::format("{:05}.{}", index, exr ? "exr" : "png");
 }
 
 core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& right) {
@@ -69,6 +71,7 @@ FrameWriter::FrameWriter(std::filesystem::path folder, ProductSet products,
     : folder_(std::move(folder)),
       products_(std::move(products)),
       sensor_(sensor),
+      stop_(core::StopScope::current()),
       thread_([this] { run(); }) {}
 
 FrameWriter::~FrameWriter() {
@@ -95,6 +98,7 @@ void FrameWriter::finish() {
 }
 
 void FrameWriter::run() {
+  const core::StopScope scope(stop_);
   for (;;) {
     FrameOutput output;
     {
@@ -179,6 +183,12 @@ void FrameWriter::write(const FrameOutput& output) const {
     image.layers.push_back({"power_W", farthest_on_top(frame.received_W(), sensor_.scan.columns)});
     core::write_exr(frame_path(folder_, "power", output.index), image, output.metadata);
   }
+  if (products_.contains("layers"))
+    core::write_exr(frame_path(folder_, "layers", output.index),
+                    bscope_layers(frame.layers->bscope, sensor_), output.metadata);
+  if (products_.contains("cscope_layers"))
+    core::write_exr(frame_path(folder_, "cscope_layers", output.index),
+                    cscope_layers(frame.layers->cscope, sensor_), output.metadata);
 }
 
 }  // namespace fanbeam::apps

@@ -14,6 +14,7 @@
 
 #include "apps/figure/figure_facts.h"
 #include "core/image.h"
+#include "core/stop.h"
 #include "renderer/frame_renderer.h"
 #include "sensors/sensor.h"
 
@@ -31,7 +32,7 @@ struct FrameOutput {
 };
 
 // Names of products: "bscope", "cscope", "pair" (both side by side), "figure" (both with scales),
-// "power", "ppi" (track up), "ppi_north" (north up), "ppi_figure" (ppi with scales), "preview",
+// "power", "layers" and "cscope_layers" (ground truth), "ppi" (track up), "ppi_north" (north up), "ppi_figure" (ppi with scales), "preview",
 // "detections" (mask and table), "obstacles" (table).
 using ProductSet = std::set<std::string>;
 
@@ -63,6 +64,7 @@ class FrameWriter {
   std::filesystem::path folder_;
   ProductSet products_;
   const sensors::Sensor& sensor_;
+  core::StopToken stop_;  // of whoever made the writer
   std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<FrameOutput> queue_;

@@ -183,8 +183,8 @@ void print_next_steps(const InitOptions& options, const scenes::Scene& scene) {
   const std::string folder = plain ? options.folder : "'" + options.folder + "'";
   const std::string data = options.data.empty() ? "" : " --data " + options.data;
   fmt::print("\nvalid: {} frames, {:.1f} s of flight, {} triangles\n", scene.frame_count(),
-             scene.trajectory.end_s() - scene.trajectory.begin_s(),
-             scene.world.surfaces->triangle_count());
+             scene.trajectory->end_s() - scene.trajectory->begin_s(),
+             scene.world.surfaces().triangle_count());
   fmt::print("next:  fanbeam render {}{} --frames 0\n       fanbeam doctor {}{}\n", folder, data,
              folder, data);
 }

@@ -10,6 +10,7 @@
 #include "apps/sampling_choice.h"
 #include "core/parallel.h"
 #include "scenes/frame_plan.h"
+#include "session/session.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -39,14 +40,14 @@ renderer::Sampling sampling_of(const scenes::Scene& scene, const std::vector<int
   return choose_sampling(with_accuracy_of(scene.description, {}), scene, {}, frames).sampling;
 }
 
-CostReport measure(const scenes::Scene& scene, const scenes::SceneDescription& description,
-                   const std::vector<int>& frames, int repetitions, int threads, bool quiet) {
+CostReport measure(const scenes::Scene& scene, const std::vector<int>& frames, int repetitions,
+                   int threads, bool quiet) {
   CostReport report{{spread_over(frames, kMeasuredFrames), repetitions, sampling_of(scene, frames)},
                     threads,
                     0.0,
                     {}};
   report.frame_ms = frame_ms(scene, report.run);
-  report.costs = effect_costs(scene, description, report.run, [&](int done) {
+  report.costs = effect_costs(scene, report.run, [&](int done) {
     if (!quiet)
       fmt::print(stderr, "measured {} of {} effects\n", done, scene.plan.decisions.size());
   });
@@ -62,14 +63,15 @@ int explain_plan(const PlanOptions& options, const CommonOptions& common) {
   build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
-  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
+  const auto scene = session::Session(description, {.build = build}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
-  const std::vector<int> frames = parse_frames(options.frames, scene->frame_count());
+  const bool by_frames = options.per_frame || options.measure || !options.frames.empty();
+  const std::vector<int> frames =
+      by_frames ? parse_frames(options.frames, scene->frame_count()) : std::vector<int>();
   PlanReport report{*scene, {}, {}, 0.0};
   if (options.per_frame) plan_frames(frames, report);
   if (options.measure)
-    report.measured =
-        measure(*scene, description, frames, options.repetitions, threads.threads(), common.quiet);
+    report.measured = measure(*scene, frames, options.repetitions, threads.threads(), common.quiet);
   fmt::print("{}", options.json ? plan_json(report) : plan_table(report, !common.quiet));
   return kExitDone;
 }

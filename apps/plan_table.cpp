@@ -117,7 +117,7 @@ std::string notes_of(const PlanReport& report) {
 Budget budget_of(const scenes::Scene& scene) {
   Budget budget{renderer::effects_share_grey(scene.accuracy_grey), 0.0, 0.0,
                 renderer::sampling_share_grey(scene.accuracy_grey)};
-  const renderer::EffectWishes& wishes = scene.wishes;
+  const renderer::EffectWishes& wishes = scene.options.wishes;
   for (const core::EffectDecision& decision : scene.plan.decisions) {
     if (decision.on) continue;
     const bool forced = wishes.base == renderer::EffectWishes::Base::none ||

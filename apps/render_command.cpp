@@ -12,6 +12,7 @@
 #include "apps/frame_choice.h"
 #include "apps/frame_metadata.h"
 #include "apps/frame_writer.h"
+#include "apps/layers_product.h"
 #include "apps/obstacle_product.h"
 #include "apps/option_lists.h"
 #include "apps/output_folder.h"
@@ -25,10 +26,10 @@
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "core/units.h"
-#include "renderer/planned_frames.h"
 #include "scenes/frame_plan.h"
 #include "scenes/scene.h"
 #include "sensors/display/display.h"
+#include "session/session.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -39,6 +40,8 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
+
+constexpr const char* kLayersFile = "layers.json";
 
 // Effects that the sequence runs and this frame does not.
 std::vector<std::string> left_out(const core::EffectPlan& sequence, const core::EffectPlan& frame) {
@@ -63,17 +66,21 @@ RunRecord record_of(const RenderOptions& options, const scenes::Scene& scene,
 
 class Run {
  public:
-  Run(const RenderOptions& options, const CommonOptions& common, const scenes::Scene& scene,
+  Run(const RenderOptions& options, const CommonOptions& common, session::Session& session,
       ProductSet products, int threads)
       : options_(options),
         common_(common),
-        scene_(scene),
+        session_(session),
+        shown_(session.scene()),
+        scene_(*shown_),
         products_(std::move(products)),
-        record_(record_of(options, scene, wanted(), threads)),
-        fingerprint_(input_fingerprint(scene, record_)),
-        output_(options.output.empty() ? core::default_output_folder(scene.description.name)
+        record_(record_of(options, scene_, wanted(), threads)),
+        fingerprint_(input_fingerprint(scene_, record_)),
+        output_(options.output.empty() ? core::default_output_folder(scene_.description.name)
                                        : fs::path(options.output),
-                fingerprint_, options.overwrite) {}
+                fingerprint_, options.overwrite) {
+    session_.set(record_.choice.sampling);
+  }
 
   void render_frames();
   void write_records();
@@ -86,21 +93,26 @@ class Run {
   FrameRecord frame_record(int index, const core::EffectPlan& plan) const;
   void take_over_frames();
   void remove_leftovers() const;
-  FrameOutput render_frame(const renderer::FrameRenderer& frame_renderer,
-                           FrameRecord& record) const;
+  FrameOutput render_frame(const core::EffectPlan& plan, FrameRecord& record) const;
   renderer::Products wanted() const {
     const bool both =
         products_.contains("pair") || products_.contains("figure") || products_.contains("preview");
     const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north") ||
                            products_.contains("ppi_figure");
-    return {both || plan_view || products_.contains("bscope"), both || products_.contains("cscope"),
-            products_.contains("detections"), products_.contains("obstacles")};
+    return {both || plan_view || products_.contains("bscope"),
+            both || products_.contains("cscope"),
+            products_.contains("detections"),
+            products_.contains("obstacles"),
+            products_.contains("layers"),
+            products_.contains("cscope_layers")};
   }
 
   fs::path film() const { return output_.path() / ("preview." + options_.preview_format); }
 
   const RenderOptions& options_;
   const CommonOptions& common_;
+  session::Session& session_;
+  std::shared_ptr<const scenes::Scene> shown_;
   const scenes::Scene& scene_;
   ProductSet products_;
   RunRecord record_;
@@ -112,7 +124,6 @@ void Run::render_frames() {
   const sensors::Sensor& sensor = scene_.description.sensor;
   const std::vector<int> frames = parse_frames(options_.frames, scene_.frame_count());
   if (options_.resume) remove_leftovers();
-  renderer::PlannedFrames renderers(scene_.world, record_.choice.sampling, wanted(), options_.seed);
   FrameWriter writer(output_.path(), products_, sensor);
   std::optional<Preview> preview;
   if (products_.contains("preview"))
@@ -126,7 +137,7 @@ void Run::render_frames() {
     const core::EffectPlan plan = plan_of(index);
     FrameRecord record = frame_record(index, plan);
     if (!options_.resume || !take_over(output_.path(), products_, fingerprint_, record)) {
-      FrameOutput output = render_frame(renderers.for_plan(plan), record);
+      FrameOutput output = render_frame(plan, record);
       if (preview)
         preview->add(side_by_side(sensors::bscope_picture(sensor, output.frame.bscope_grey),
                                   sensors::cscope_picture(sensor, output.frame.cscope_grey)));
@@ -147,8 +158,8 @@ FrameRecord Run::frame_record(int index, const core::EffectPlan& plan) const {
   FrameRecord record;
   record.index = index;
   record.time_s =
-      scene_.trajectory.frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
-  record.pose = scene_.trajectory.at(record.time_s);
+      scene_.trajectory->frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
+  record.pose = scene_.trajectory->at(record.time_s);
   record.left_out = left_out(scene_.plan, plan);
   return record;
 }
@@ -172,6 +183,10 @@ void Run::take_over_frames() {
 
 void Run::write_records() {
   take_over_frames();
+  if (products_.contains("layers") || products_.contains("cscope_layers")) {
+    core::write_file_atomically(output_.path() / kLayersFile, layers_json(scene_));
+    record_.films.insert(kLayersFile);
+  }
   std::set<std::string> files = record_.films;
   for (const FrameRecord& record : record_.frames)
     files.insert(record.files.begin(), record.files.end());
@@ -187,12 +202,11 @@ void Run::remove_leftovers() const {
     core::remove_abandoned_temporaries(output_.path() / product);
 }
 
-FrameOutput Run::render_frame(const renderer::FrameRenderer& frame_renderer,
-                              FrameRecord& record) const {
+FrameOutput Run::render_frame(const core::EffectPlan& plan, FrameRecord& record) const {
   const Clock::time_point begin = Clock::now();
   FrameOutput output{record.index,
                      core::attitude_from(record.pose.q_NB).heading_rad,
-                     frame_renderer.render(scene_.frame_pose(record.index)),
+                     session_.render_flown(record.index, plan, wanted()),
                      {}};
   record.frame_ms = 1000.0 * seconds_since(begin);
   record.rays = output.frame.rays;
@@ -233,7 +247,8 @@ int render(const RenderOptions& asked, const CommonOptions& common) {
   scenes::SceneDescription description = read_chosen_scene(asked, problems);
   const RenderOptions options = with_accuracy_of(description, asked);
   if (!options.realisation.empty()) description.sample = options.realisation == "sample";
-  scenes::BuildOptions build;
+  session::Setup setup{.seed = options.seed};
+  scenes::BuildOptions& build = setup.build;
   build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   if (options.reference) {
@@ -241,13 +256,14 @@ int render(const RenderOptions& asked, const CommonOptions& common) {
   } else if (!options.caster.empty()) {
     build.caster = renderer::caster_wish(options.caster);
   }
-  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
+  session::Session session(description, setup, problems);
+  const std::shared_ptr<const scenes::Scene> scene = session.scene();
   if (!common.quiet) print_problems(problems.all());
-  if (scene->trajectory.attitude_derived)
+  if (scene->trajectory->attitude_derived)
     spdlog::info("the trajectory has no full attitude: missing angles are derived from its path");
   const StopOnSignals stop_on_signals;
   try {
-    Run run(options, common, *scene, std::move(products), threads.threads());
+    Run run(options, common, session, std::move(products), threads.threads());
     run.render_frames();
     run.write_records();
     run.print_summary();

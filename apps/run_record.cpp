@@ -172,9 +172,9 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
                                         {"asked", outside.asked},
                                         {"known", outside.known}});
   }
-  json["attitude_derived"] = scene.trajectory.attitude_derived;
+  json["attitude_derived"] = scene.trajectory->attitude_derived;
   if (scene.description.trajectory.columns.outliers == scenes::OutlierPolicy::reject)
-    json["trajectory_rows_rejected"] = rejected_json(scene.trajectory.rejected);
+    json["trajectory_rows_rejected"] = rejected_json(scene.trajectory->rejected);
   return json;
 }
 

@@ -8,7 +8,12 @@
 namespace fanbeam::apps {
 namespace {
 
-extern "C" void stop_on_signal(int signal) { core::request_stop(signal); }
+core::StopSource& source() {
+  static core::StopSource source;
+  return source;
+}
+
+extern "C" void stop_on_signal(int signal) { source().request(signal); }
 
 void handle(int signal) {
   struct sigaction before {};
@@ -30,7 +35,7 @@ void release(int signal) {
 
 }  // namespace
 
-StopOnSignals::StopOnSignals() {
+StopOnSignals::StopOnSignals() : token_(source().token()), scope_(token_) {
   handle(SIGINT);
   handle(SIGTERM);
 }
@@ -41,7 +46,7 @@ StopOnSignals::~StopOnSignals() {
 }
 
 int end_by_stop_signal() {
-  const int signal = core::stop_signal();
+  const int signal = source().token().reason();
   std::fflush(nullptr);
   std::signal(signal, SIG_DFL);
   std::raise(signal);

@@ -2,22 +2,28 @@
 
 #include <fmt/core.h>
 
-#include "scenes/scene.h"
+#include "session/session.h"
 
 namespace fanbeam::apps {
 
 int validate(const ValidateOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
-  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, {}, problems);
+  const auto scene = session::Session(description, {}, problems).scene();
   print_problems(problems.all());
   if (common.quiet) return kExitDone;
   const sensors::Sensor& radar = description.sensor;
   fmt::print("{}: valid\n", description.name);
   fmt::print("  title       {}\n", description.title);
-  fmt::print("  frames      {} at {:.3g} Hz, {:.1f} s of flight\n", scene->frame_count(),
-             radar.scan.frame_rate_Hz, scene->trajectory.end_s() - scene->trajectory.begin_s());
-  fmt::print("  surfaces    {} triangles\n", scene->world.surfaces->triangle_count());
+  if (scene->trajectory)
+    fmt::print("  frames      {} at {:.3g} Hz, {:.1f} s of flight\n", scene->frame_count(),
+               radar.scan.frame_rate_Hz, scene->trajectory->end_s() - scene->trajectory->begin_s());
+  else
+    fmt::print(
+        "  frames      none: no [trajectory]; planned for flights {:.0f} to {:.0f} m above "
+        "the origin\n",
+        scene->volume.lowest_m, scene->volume.highest_m);
+  fmt::print("  surfaces    {} triangles\n", scene->world.surfaces().triangle_count());
   if (scene->raised_buildings > 0)
     fmt::print("  buildings   {} of {} raised parts hang over open air and are left to rays\n",
                scene->floating_buildings, scene->raised_buildings);

@@ -81,7 +81,7 @@ BarePass measure_shape(const View& view, const FrameClock& clock, const PacketSe
   for (int i = 0; i <= turns; ++i) {
     packets = set.packets;
     const Clock::time_point begin = Clock::now();
-    cast(*view.world().surfaces, set, packets);
+    cast(view.world().surfaces(), set, packets);
     const double bare = milliseconds_since(begin);
     const double frame = clock.frame_ms();
     if (i == 0) continue;  // warm-up

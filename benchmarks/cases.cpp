@@ -3,10 +3,10 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/frame_clock.h"
-#include "renderer/casting/nrcs_table.h"
 #include "renderer/casting/path_loss_table.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/stages/azimuth_beam.h"
+#include "renderer/surfaces/nrcs_table.h"
 
 namespace fanbeam::benchmarks {
 namespace {
@@ -67,7 +67,7 @@ void path_loss(State& state, const BenchScene& scene) {
 }
 
 void nrcs_table(State& state, const BenchScene& scene) {
-  const renderer::NrcsTable table(scene.scene->world.nrcs.front());
+  const renderer::NrcsTable& table = scene.scene->world.nrcs.tables().front();
   double sum = 0.0;
   for ([[maybe_unused]] const auto& iteration : state)
     for (int i = 0; i < kLookups; ++i) sum += table.sigma0_over_sine((i + 0.5) / kLookups);

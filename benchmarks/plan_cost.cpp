@@ -106,6 +106,36 @@ void measure_absence(const View& view, const Effort& effort, PlanFigures& figure
   figures.off_over_absent = median(ratios);
 }
 
+void measure_conditions(const View& view, const Effort& effort, PlanFigures& figures) {
+  const scenes::Scene& scene = *view.scene->scene;
+  const renderer::Sampling sampling =
+      renderer::sampling_for(scene.caster.chosen, renderer::default_samples(scene.caster.chosen));
+  std::vector<double> conditions_ms, plain_ms, layers_ms;
+  for (int turn = 0; turn < std::max(effort.turns, 2); ++turn) {
+    scenes::Conditions other{.weather = scene.weather};
+    other.weather->rain_rate_mm_per_h = 1.0 + turn;
+    const auto begin = Clock::now();
+    const auto rainy = scenes::under_conditions(scene, other);
+    const renderer::FrameRenderer stages(rainy->world, sampling, {},
+                                         renderer::effects_of(rainy->plan, 0));
+    conditions_ms.push_back(milliseconds_since(begin));
+  }
+  const renderer::Effects effects = renderer::effects_of(scene.plan, 0);
+  const renderer::FrameRenderer plain(scene.world, sampling, {}, effects);
+  const renderer::FrameRenderer layered(scene.world, sampling,
+                                        {.layers = true, .cscope_layers = true}, effects);
+  for (int turn = -1; turn < std::max(effort.turns, 2); ++turn)
+    for (const auto& [renderer, times_ms] :
+         {std::pair(&plain, &plain_ms), std::pair(&layered, &layers_ms)}) {
+      const auto begin = Clock::now();
+      renderer->render(view.pose);
+      if (turn >= 0) times_ms->push_back(milliseconds_since(begin));
+    }
+  figures.conditions_ms = median(conditions_ms);
+  figures.plain_ms = median(plain_ms);
+  figures.layers_ms = median(layers_ms);
+}
+
 }  // namespace
 
 PlanFigures measure_plan(const View& view, const Effort& effort) {
@@ -116,6 +146,7 @@ PlanFigures measure_plan(const View& view, const Effort& effort) {
   for (int i = 0; i < kBuilds; ++i)
     plan_ms.push_back(1000.0 * build_with(view.scene->scene->description, "")->plan_s);
   figures.plan_ms = median(plan_ms);
+  measure_conditions(view, effort, figures);
   measure_saving(view, effort, figures);
   measure_absence(view, effort, figures);
   return figures;

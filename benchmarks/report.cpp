@@ -81,7 +81,7 @@ std::string compiler_name() {
 std::string machine_markdown(const Report& report) {
   const double memory_bytes =
       static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  const int native_packet = report.scenes.front().scene->scene->world.surfaces->native_packet();
+  const int native_packet = report.scenes.front().scene->scene->world.surfaces().native_packet();
   return fmt::format(
       "## Machine\n\n"
       "| | |\n| --- | --- |\n"
@@ -116,7 +116,7 @@ std::string scenes_markdown(const Report& report) {
     const BenchScene& scene = *figures.scene;
     const renderer::World& world = scene.scene->world;
     out += fmt::format("| {} | {:.2f} M | {} | {:.2f} s | {:.2f} GB |\n", scene.name,
-                       static_cast<double>(world.surfaces->triangle_count()) / 1e6,
+                       static_cast<double>(world.surfaces().triangle_count()) / 1e6,
                        world.targets.size(), scene.scene->build_s, scene.peak_memory_bytes / 1e9);
   }
   out +=

@@ -50,9 +50,10 @@ terrain::HeightField resampled(const terrain::HeightField& ground, int cells) {
 struct Candidate {
   Candidate(const View& view, terrain::HeightField ground)
       : spacing_m(ground.spacing_m),
-        world{.surfaces = std::make_unique<terrain::RayScene>(
-                  std::move(ground), view.world().surfaces->surface_map()->patches(),
-                  std::vector<terrain::PlacedMesh>{}),
+        world{.geometry = std::make_shared<renderer::Geometry>(
+                  renderer::Geometry{std::make_unique<terrain::RayScene>(
+                      std::move(ground), view.world().surfaces().surface_map()->patches(),
+                      std::vector<terrain::PlacedMesh>{})}),
               .nrcs = view.world().nrcs,
               .attenuation = view.world().attenuation,
               .sensor = view.sensor()},
@@ -75,7 +76,7 @@ std::vector<ScalingStep> measure_scaling(const View& view, const Effort& effort)
   std::vector<std::unique_ptr<Candidate>> candidates;
   for (const int cells : effort.scaling_cells)
     candidates.push_back(
-        std::make_unique<Candidate>(view, resampled(*view.world().surfaces->terrain(), cells)));
+        std::make_unique<Candidate>(view, resampled(*view.world().surfaces().terrain(), cells)));
   for (int turn = 0; turn < effort.scaling_turns; ++turn) {
     for (const auto& candidate : candidates) {
       candidate->rays_ms.push_back(candidate->rays.second_frame_ms());
@@ -84,7 +85,7 @@ std::vector<ScalingStep> measure_scaling(const View& view, const Effort& effort)
   }
   std::vector<ScalingStep> steps;
   for (const auto& candidate : candidates)
-    steps.push_back({candidate->spacing_m, candidate->world.surfaces->triangle_count(),
+    steps.push_back({candidate->spacing_m, candidate->world.surfaces().triangle_count(),
                      median(candidate->rays_ms), median(candidate->slices_ms)});
   return steps;
 }

@@ -68,6 +68,8 @@ constexpr Target kAgreement_grey{0.5, 0.5}, kAgreementNoiseFree_grey{0.8, 0.8};
 constexpr Target kAgreement_dB{0.02, 0.02};
 constexpr Target kScaling{3.0, 3.0};
 constexpr Target kPlanTime_ms{20.0, 20.0};
+constexpr Target kConditions_ms{20.0, 20.0};
+constexpr Target kLayers{1.25, 1.25};
 constexpr Target kPlanSaving{0.3, 0.3, true};
 constexpr Target kOffOverAbsent{1.01, 1.01};
 constexpr Target kEstimatesWithin{0.95, 0.95, true};
@@ -238,6 +240,16 @@ std::string plan_rows(const PlanFigures& plan) {
   time.add(fmt::format("{:.2f}", plan.plan_ms));
   time.judge(plan.plan_ms, kPlanTime_ms);
   std::string out = time.markdown();
+  TargetRow conditions(name + ", other weather until the stages of its first frame stand, ms",
+                       fmt::format("{:.0f}", kConditions_ms.must));
+  conditions.add(fmt::format("{:.1f}", plan.conditions_ms));
+  conditions.judge(plan.conditions_ms, kConditions_ms);
+  TargetRow layers(name + ", frame with layers of both scopes over one without, default sampling",
+                   fmt::format("{:.2f}", kLayers.must));
+  layers.add(fmt::format("{:.2f} ({:.1f} and {:.1f} ms)", plan.layers_ms / plan.plain_ms,
+                         plan.layers_ms, plan.plain_ms));
+  layers.judge(plan.layers_ms / plan.plain_ms, kLayers);
+  out += conditions.markdown() + layers.markdown();
   // What it saves depends on what a scene needs: the target is the default scene's.
   if (name == kDefaultScene) {
     TargetRow saving(name +

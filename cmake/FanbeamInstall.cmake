@@ -8,7 +8,7 @@ install(TARGETS fanbeam)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}")
 install(FILES "${PROJECT_BINARY_DIR}/completion.bash" RENAME fanbeam
         DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
-foreach(folder core materials atmosphere terrain sensors signal tracking renderer scenes)
+foreach(folder core materials atmosphere terrain sensors signal tracking renderer scenes session)
   install(TARGETS fanbeam_${folder} EXPORT fanbeamTargets)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fanbeam"
           FILES_MATCHING PATTERN "*.h" PATTERN "*_private.h" EXCLUDE)

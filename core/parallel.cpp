@@ -1,6 +1,5 @@
 #include "core/parallel.h"
 
-#include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
@@ -18,7 +17,16 @@
 #endif
 
 namespace fanbeam::core {
+
+struct ThreadLimit::Arena {
+  explicit Arena(int count) : threads(count), arena(count) {}
+  int threads;
+  tbb::task_arena arena;
+};
+
 namespace {
+
+thread_local ThreadLimit::Arena* innermost = nullptr;
 
 #ifdef __SANITIZE_THREAD__
 // The packaged oneTBB is not instrumented: the thread sanitizer cannot see what it puts in order,
@@ -36,8 +44,8 @@ void run_all(std::size_t count, const std::function<void(std::size_t)>& body) {
       next = count;
     }
   };
-  const std::size_t threads = std::min(
-      count, tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  const int limit = innermost != nullptr ? innermost->threads : tbb::info::default_concurrency();
+  const std::size_t threads = std::min(count, static_cast<std::size_t>(limit));
   std::vector<std::thread> others;
   for (std::size_t i = 1; i < threads; ++i) others.emplace_back(work);
   work();
@@ -48,28 +56,36 @@ void run_all(std::size_t count, const std::function<void(std::size_t)>& body) {
 void run_all(std::size_t count, const std::function<void(std::size_t)>& body) {
   // A thread that waits here for the loop's last bodies takes no task from outside it: that could
   // be another frame, and overwrite what this thread keeps of its own.
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(std::size_t{0}, count, std::size_t{1}, body, tbb::simple_partitioner());
-  });
+  const auto loop = [&] {
+    tbb::this_task_arena::isolate([&] {
+      tbb::parallel_for(std::size_t{0}, count, std::size_t{1}, body, tbb::simple_partitioner());
+    });
+  };
+  if (innermost == nullptr) return loop();
+  innermost->arena.execute(loop);
 }
 #endif
 
 }  // namespace
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
-  run_all(count, [&body](std::size_t i) {
+  const StopToken token = StopScope::current();
+  run_all(count, [&](std::size_t i) {
+    const StopScope scope(token);
     throw_if_stopped();
     body(i);
   });
 }
 
 ThreadLimit::ThreadLimit(int threads)
-    : control_(nullptr),
-      threads_(threads > 0 ? threads : std::max(1, tbb::info::default_concurrency())) {
-  control_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                     static_cast<std::size_t>(threads_));
+    : arena_(std::make_unique<Arena>(threads > 0 ? threads
+                                                 : std::max(1, tbb::info::default_concurrency()))),
+      before_(innermost) {
+  innermost = arena_.get();
 }
 
-ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+ThreadLimit::~ThreadLimit() { innermost = before_; }
+
+int ThreadLimit::threads() const { return arena_->threads; }
 
 }  // namespace fanbeam::core

@@ -4,28 +4,31 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace fanbeam::core {
 
 // Runs body(i) for every i in [0, count), on oneTBB's workers. Exceptions of the body reach the
-// caller; a request to stop does as Stopped (core/stop.h). May be called from inside a task of
-// oneTBB: a thread that waits for the loop does nothing else meanwhile, so that thread_local
-// variables of a body and of the caller keep their values over it.
+// caller; a request to stop the caller's work does as Stopped (core/stop.h). May be called from
+// inside a task of oneTBB: a thread that waits for the loop does nothing else meanwhile, so that
+// thread_local variables of a body and of the caller keep their values over it.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
-// Limits every parallel loop of the process while it lives. 0 means as many threads as the machine
-// has.
+// While it lives, loops that this thread starts run on at most so many threads, in an arena of
+// their own: nothing else in the process is limited. 0 means as many threads as the machine has.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
-  int threads() const { return threads_; }
+  int threads() const;
+
+  struct Arena;
 
  private:
-  void* control_;
-  int threads_;
+  std::unique_ptr<Arena> arena_;
+  Arena* before_;
 };
 
 }  // namespace fanbeam::core

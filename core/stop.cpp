@@ -1,26 +1,20 @@
 #include "core/stop.h"
 
-#include <atomic>
-
 namespace fanbeam::core {
 namespace {
 
-std::atomic<int> requested{0};
-static_assert(std::atomic<int>::is_always_lock_free);  // or a signal handler could not use it
+thread_local const StopToken* innermost = nullptr;
 
 }  // namespace
 
-void request_stop(int signal) noexcept {
-  int none = 0;
-  requested.compare_exchange_strong(none, signal);
-}
+StopScope::StopScope(const StopToken& token) noexcept : before_(innermost) { innermost = &token; }
 
-int stop_signal() noexcept { return requested.load(std::memory_order_relaxed); }
+StopScope::~StopScope() { innermost = before_; }
+
+StopToken StopScope::current() { return innermost != nullptr ? *innermost : StopToken(); }
 
 void throw_if_stopped() {
-  if (stop_signal() != 0) throw Stopped();
+  if (innermost != nullptr && innermost->reason() != 0) throw Stopped();
 }
-
-void forget_stop() noexcept { requested = 0; }
 
 }  // namespace fanbeam::core

@@ -52,14 +52,26 @@ class FrameRenderer::Stages {
         range_response_(effects.range_response && sensors::has_point_response(world.sensor)
                             ? std::make_unique<RangeResponse>(world.sensor)
                             : nullptr),
-        threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {}
+        threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {
+    if (products.cscope_layers && !shows_elevation())
+      core::throw_input_error(core::ErrorClass::unsupported, "C-scope layers",
+                              "of a C-scope that draws no elevations",
+                              "cscope_mode = \"true_elevation\"");
+  }
 
   Frame render(const FramePose& pose) const;
 
  private:
+  bool wants_layers() const { return products_.layers || products_.cscope_layers; }
+  bool shows_elevation() const {
+    return world_.sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
+  }
   // With an estimate, double bounces are in `sums` already.
+  // `direct`, unless null, receives the sums without double bounces.
   std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
-                                    FanSums& sums, SightLines& sight) const;
+                                    FanSums& sums, SightLines& sight, FanSums* direct) const;
+  void add_layers(const sensors::AntennaFrame& antenna, const std::vector<core::Echo>& echoes,
+                  const FanSums* direct, Frame& frame) const;
   void receive(const std::vector<core::Echo>& echoes, std::uint64_t frame_index,
                Frame& frame) const;
   void display(double height_above_ground_m, Frame& frame) const;
@@ -94,20 +106,20 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
   const sensors::Sensor& sensor = world_.sensor;
   const sensors::AntennaFrame antenna = antenna_of(sensor, pose);
   const bool elevation_resolved =
-      products_.cscope &&
-      sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
+      (products_.cscope || products_.cscope_layers) && shows_elevation();
   const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   Frame frame;
   frame.bscope_W.assign(columns * static_cast<std::size_t>(sensor.range.cells), 0.0);
   if (elevation_resolved)
     frame.cscope_W_m3.assign(columns * static_cast<std::size_t>(sensor.display.cscope_rows), 0.0);
 
-  const double height_above_ground_m = world_.surfaces->height_above_ground_m(antenna.position_m);
-  const terrain::HeightField* ground = world_.surfaces->terrain();
+  const double height_above_ground_m = world_.surfaces().height_above_ground_m(antenna.position_m);
+  const terrain::HeightField* ground = world_.surfaces().terrain();
   const bool over_ground =
       ground != nullptr && ground->height_at(antenna.position_m.x, antenna.position_m.y);
   if (over_ground && height_above_ground_m <= 0.0) {
     frame.events.emplace_back("below_terrain");
+    if (wants_layers()) frame.layers = empty_layers(sensor, products_.cscope_layers);
     receive({}, pose.frame_index, frame);
     display(height_above_ground_m, frame);
     return frame;
@@ -116,9 +128,13 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
   thread_local FanSums sums;
   const TargetEchoes targets = unobstructed_echoes(world_, antenna, pose.time_s);
   SightLines sight = sight_lines(world_, targets.echoes, pose.time_s);
-  frame.error = cast(antenna, elevation_resolved, sums, sight);
-  if (effects_.rain_echo && world_.volume_echo)
+  thread_local FanSums direct;
+  const bool tell_apart = wants_layers() && double_bounce_;
+  frame.error = cast(antenna, elevation_resolved, sums, sight, tell_apart ? &direct : nullptr);
+  if (effects_.rain_echo && world_.volume_echo) {
     add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
+    if (tell_apart) add_rain_echo(world_, antenna, sampling_.sub_columns, direct);
+  }
   frame.rays = sums.rays;
   frame.slices = sums.slices;
   frame.blanked = sums.blanked;
@@ -134,6 +150,7 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
                                                   : Multipath::mean;
   const std::vector<core::Echo> echoes =
       seen_echoes(world_, antenna, targets.echoes, sight, multipath);
+  if (wants_layers()) add_layers(antenna, echoes, tell_apart ? &direct : nullptr, frame);
   receive(echoes, pose.frame_index, frame);
   if (sums.hits == 0 && echoes.empty()) frame.events.emplace_back("empty_view");
   display(height_above_ground_m, frame);
@@ -142,14 +159,44 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
 
 std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaFrame& antenna,
                                                          bool with_cscope, FanSums& sums,
-                                                         SightLines& sight) const {
+                                                         SightLines& sight, FanSums* direct) const {
   if (!(sampling_.target_grey > 0.0) && !sampling_.estimate_error) {
     caster_->cast(antenna, with_cscope, CastPass{}, sums, sight);
+    if (direct != nullptr) *direct = sums;
     if (double_bounce_) double_bounce_->add(antenna, sums);
     return std::nullopt;
   }
-  return Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_)
-      .cast(antenna, with_cscope, sums, sight);
+  std::optional<ErrorEstimate> error =
+      Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_)
+          .cast(antenna, with_cscope, sums, sight);
+  if (direct == nullptr) return error;
+  // The refined sums hold bounces already: the same once more tells how much they are.
+  *direct = sums;
+  double_bounce_->add(antenna, *direct);
+  const auto taken_off = [](const std::vector<double>& with, std::vector<double>& twice) {
+    for (std::size_t i = 0; i < with.size(); ++i)
+      twice[i] = std::max(2.0 * with[i] - twice[i], 0.0);
+  };
+  taken_off(sums.range_W_per_rad, direct->range_W_per_rad);
+  taken_off(sums.elevation_W_m3_per_rad, direct->elevation_W_m3_per_rad);
+  return error;
+}
+
+// Before targets and the receiver join the powers of `frame`.
+void FrameRenderer::Stages::add_layers(const sensors::AntennaFrame& antenna,
+                                       const std::vector<core::Echo>& echoes, const FanSums* direct,
+                                       Frame& frame) const {
+  frame.layers = frame_layers(world_, antenna, echoes, products_.cscope_layers);
+  if (direct == nullptr) return;
+  const int sub_columns = sampling_.sub_columns;
+  frame.layers->bscope.double_bounce = added_share(
+      through_antenna(direct->range_W_per_rad, direct->cells, *direct, world_.sensor, sub_columns),
+      frame.bscope_W);
+  if (products_.cscope_layers)
+    frame.layers->cscope.double_bounce =
+        added_share(through_antenna(direct->elevation_W_m3_per_rad, direct->rows, *direct,
+                                    world_.sensor, sub_columns),
+                    frame.cscope_W_m3);
 }
 
 // The last stage before display: targets join the diffuse power, expected or as one realisation.

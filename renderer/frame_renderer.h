@@ -12,6 +12,7 @@
 #include "renderer/casting/sampling.h"
 #include "renderer/frame_pose.h"
 #include "renderer/plan/effects.h"
+#include "renderer/stages/frame_layers.h"
 #include "renderer/stages/threshold.h"
 #include "renderer/world.h"
 #include "sensors/antenna/antenna_frame.h"
@@ -25,6 +26,8 @@ struct Products {
   bool cscope = true;
   bool detections = false;
   bool obstacles = false;
+  bool layers = false;  // of the B-scope
+  bool cscope_layers = false;
 };
 
 // Arrays are row-major [row][column]; B-scope row 0 is the nearest range cell, C-scope row 0 the
@@ -47,6 +50,7 @@ struct Frame {
   std::uint64_t slices = 0;
   std::uint64_t blanked = 0;           // hits nearer than the first range cell
   std::uint64_t unprojected = 0;       // point targets abeam of, behind or at the antenna
+  std::optional<FrameLayers> layers;   // when asked for; frame_layers.h
   std::optional<ErrorEstimate> error;  // when the sampling asks for it
   // "below_terrain": the sensor is not above the ground, the picture holds noise alone.
   // "empty_view": nothing was hit.
@@ -60,7 +64,8 @@ class Caster;
 
 class FrameRenderer {
  public:
-  // `world` must outlive the renderer.
+  // `world` must outlive the renderer. Throws InputError E-UNSUPPORTED for C-scope layers of a mode
+  // other than true_elevation: the others draw what a receiver knows, not what stands there.
   FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
                 const Effects& effects);
   // The same around a caster of the caller's; of `sampling` it is asked for the sub-columns that

@@ -1,13 +1,15 @@
-// Renderers for sequences whose frames go through different stages (renderer::frame_plan): one for
-// each combination of stages, made when a frame first asks for it.
+// Renderers of one world, for frames that go through different stages (renderer::frame_plan) or ask
+// for different products: one for each combination, made when a frame first asks for it.
 //
-// All of them look at one world, so switching costs nothing from then on. A combination costs the
-// tables of one FrameRenderer: milliseconds and a few megabytes; there are at most eight.
+// A combination costs the tables of one FrameRenderer: milliseconds and a few megabytes. Plans of
+// one sequence make at most eight, and products sixty-four.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <utility>
 
 #include "core/effect_plan.h"
 #include "renderer/frame_renderer.h"
@@ -17,19 +19,19 @@ namespace fanbeam::renderer {
 class PlannedFrames {
  public:
   // `world` must outlive this, and have been built for what every plan runs.
-  PlannedFrames(const World& world, const Sampling& sampling, const Products& products,
-                std::uint64_t seed)
-      : world_(world), sampling_(sampling), products_(products), seed_(seed) {}
+  PlannedFrames(const World& world, const Sampling& sampling, std::uint64_t seed)
+      : world_(world), sampling_(sampling), seed_(seed) {}
 
-  // Valid as long as this object. Not thread-safe; the renderer is.
-  const FrameRenderer& for_plan(const core::EffectPlan& plan);
+  // Valid as long as this object. Thread-safe; who asks while another renderer is made waits for it.
+  const FrameRenderer& for_plan(const core::EffectPlan& plan, const Products& products);
 
  private:
   const World& world_;
   Sampling sampling_;
-  Products products_;
   std::uint64_t seed_;
-  std::map<unsigned, std::unique_ptr<FrameRenderer>> renderers_;  // by the stages that run
+  std::mutex making_;
+  // By the stages that run and the products.
+  std::map<std::pair<unsigned, unsigned>, std::unique_ptr<FrameRenderer>> renderers_;
 };
 
 }  // namespace fanbeam::renderer

@@ -1,4 +1,7 @@
-// Everything that stays the same while a sequence is rendered, ready for the casters.
+// What a frame is made of beside its pose: geometry, and the conditions that it is seen under.
+//
+// The geometry is shared, so that a world under other conditions (another rain, targets elsewhere)
+// costs a copy of the rest: milliseconds.
 #pragma once
 
 #include <glm/mat3x3.hpp>
@@ -13,11 +16,10 @@
 #include "atmosphere/volume_echo.h"
 #include "core/swerling.h"
 #include "materials/dielectric/specular_surface.h"
-#include "materials/nrcs/nrcs_curve.h"
 #include "materials/rcs/rcs.h"
+#include "renderer/geometry.h"
+#include "renderer/surfaces/reflectivity.h"
 #include "sensors/sensor.h"
-#include "terrain/buildings/solids.h"
-#include "terrain/ray_scene.h"
 
 namespace fanbeam::renderer {
 
@@ -40,9 +42,8 @@ struct PointTarget {
 };
 
 struct World {
-  std::unique_ptr<terrain::RayScene> surfaces;
-  std::vector<materials::NrcsCurve> nrcs{};  // by material id, as the sensor sees them
-  std::vector<std::string> material_names{};
+  std::shared_ptr<const Geometry> geometry;
+  Reflectivity nrcs{};  // by material id, as the sensor sees them
   std::vector<PointTarget> targets{};
   atmosphere::PathAttenuation attenuation;
   sensors::Sensor sensor;
@@ -50,7 +51,9 @@ struct World {
   std::vector<std::optional<materials::SpecularSurface>> specular{};
   std::optional<atmosphere::VolumeEcho> volume_echo{};  // where the effect rain echo runs
   std::optional<atmosphere::RainCells> rain_cells{};    // what they take beyond `attenuation`
-  terrain::Solids solids{};  // the buildings of `surfaces`, for the profile caster
+
+  const terrain::RayScene& surfaces() const { return *geometry->surfaces; }
+  const terrain::Solids& solids() const { return geometry->solids; }
 };
 
 }  // namespace fanbeam::renderer

@@ -45,15 +45,16 @@ std::vector<terrain::MaterialId> ids_of(const terrain::TriangleMesh& mesh,
   return ids;
 }
 
+// `object` by prism.
 void add_prisms(const std::vector<terrain::Prism>& prisms, terrain::Extrusion extrusion,
-                const MaterialNames& names, const core::Place& place, const std::string& field,
-                Bodies& bodies) {
+                std::vector<terrain::ObjectId> object, const MaterialNames& names,
+                const core::Place& place, const std::string& field, Bodies& bodies) {
   std::vector<terrain::MaterialId> ids = ids_of(extrusion.mesh, names, place, field);
   for (const terrain::ExtrudedPolygon& polygon : extrusion.polygons)
     bodies.raised += prisms[polygon.prism].on_ground ? 0 : 1;
   bodies.floating += terrain::add_solids(prisms, extrusion, ids[terrain::kWallSlot],
                                          ids[terrain::kRoofSlot], bodies.solids);
-  bodies.meshes.push_back({std::move(extrusion.mesh), std::move(ids)});
+  bodies.meshes.push_back({std::move(extrusion.mesh), std::move(ids), std::move(object)});
 }
 
 void add_box(const BoxDescription& box, const Ground& ground, const MaterialNames& names,
@@ -78,7 +79,8 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
   prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
   terrain::Extrusion extrusion =
       terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
-  add_prisms({prism}, std::move(extrusion), names, box.place, "box material", bodies);
+  add_prisms({prism}, std::move(extrusion), {added(box.name, bodies.objects)}, names, box.place,
+             "box material", bodies);
 }
 
 // Footprints beyond the terrain are left out with a warning.
@@ -125,7 +127,12 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
   terrain::Extrusion city =
       terrain::extrude(prisms, buildings.file.filename().string(),
                        {buildings.wall_material, buildings.roof_material}, problems);
-  add_prisms(prisms, std::move(city), names, buildings.place, "buildings material", bodies);
+  std::vector<terrain::ObjectId> objects;
+  for (std::size_t i = 0; i < prisms.size(); ++i)
+    objects.push_back(
+        added(buildings.file.filename().string() + " " + std::to_string(i + 1), bodies.objects));
+  add_prisms(prisms, std::move(city), std::move(objects), names, buildings.place,
+             "buildings material", bodies);
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,
@@ -161,6 +168,8 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
                        "no triangle of " + model.file.filename().string() + " has this material" +
                            core::names_there_text(name, used));
   }
+  for (const std::string& part : placed.mesh.part_names)
+    placed.object_of_part.push_back(added(model.name + ": " + part, bodies.objects));
   if (!placed.mesh.vertices_m.empty())
     bodies.solids.others.push_back(terrain::box_around(placed.mesh));
   bodies.meshes.push_back(std::move(placed));
@@ -168,8 +177,14 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
 
 }  // namespace
 
+terrain::ObjectId added(const std::string& name, Objects& objects) {
+  objects.push_back(name);
+  return static_cast<terrain::ObjectId>(objects.size() - 1);
+}
+
 std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
-                                                 const Ground& ground, const MaterialNames& names) {
+                                                 const Ground& ground, const MaterialNames& names,
+                                                 Objects& objects) {
   std::vector<terrain::SurfacePatch> patches;
   for (const SurfaceDescription& surface : scene.surfaces) {
     const auto end = ground.landing_end(surface.runway_end, surface.place);
@@ -182,17 +197,26 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
         centre, end->direction, surface.to_behind_m - surface.from_behind_m,
         surface.to_left_m - surface.from_left_m,
         names.id(surface.material, surface.place, "surface.material")));
+    patches.back().object =
+        added("surface " + std::to_string(&surface - scene.surfaces.data() + 1), objects);
   }
-  for (const terrain::Runway& runway : ground.runways())
-    for (terrain::SurfacePatch& patch : terrain::runway_patches(runway))
+  for (std::size_t i = 0; i < ground.runways().size(); ++i) {
+    const RunwayDescription& described = scene.runways[i];
+    const std::string name = "runway " + described.ends[0].name + "/" + described.ends[1].name;
+    const terrain::ObjectId pavement = added(name, objects);
+    const terrain::ObjectId markings = added(name + " markings", objects);
+    for (terrain::SurfacePatch& patch :
+         terrain::runway_patches(ground.runways()[i], pavement, markings))
       patches.push_back(std::move(patch));
+  }
   return patches;
 }
 
 Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
-                    ModelMaterials& model_materials, core::ProblemList& problems,
+                    ModelMaterials& model_materials, Objects objects, core::ProblemList& problems,
                     std::size_t most_triangles) {
   Bodies bodies;
+  bodies.objects = std::move(objects);
   FileBudget budget;
   std::size_t counted = 0;  // meshes
   std::size_t triangles = 0;

@@ -153,8 +153,8 @@ struct RainCellDescription {
 };
 
 struct TrajectoryDescription {
-  enum class Kind { ils, file, fixed };
-  Kind kind = Kind::fixed;
+  enum class Kind { none, ils, file, fixed };
+  Kind kind = Kind::none;
   // file
   std::filesystem::path file;
   TrajectoryColumns columns;
@@ -172,6 +172,12 @@ struct TrajectoryDescription {
   Spot at;
   double above_ground_m = 0.0, heading_rad = 0.0, pitch_rad = 0.0, roll_rad = 0.0;
   core::Place place;
+};
+
+// [flight_volume]: heights in the scene's datum that an aircraft may have.
+struct FlightHeights {
+  std::optional<double> lowest_m, highest_m;
+  bool stated = false;  // the table is there
 };
 
 struct SceneDescription {
@@ -195,6 +201,7 @@ struct SceneDescription {
   bool allow_extrapolation = false;  // materials may be used outside what their models know
   materials::SurfaceState surface_state = materials::SurfaceState::dry;
   TrajectoryDescription trajectory;
+  FlightHeights flight_heights;
   // Of the scene's [accuracy]; 0 when it does not say.
   double rays_per_cell = 0.0, accuracy_grey = 0.0, time_budget_ms = 0.0;
   renderer::CasterWish caster = renderer::CasterWish::automatic;

@@ -9,7 +9,6 @@
 #include "core/constants.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/point_targets.h"
-#include "scenes/scene_pose.h"
 #include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::scenes {
@@ -70,10 +69,10 @@ bool mirrors_are_seen(const renderer::SceneFacts& scene, const renderer::FrameSi
 }
 
 // Weather that some frame sees: the cells in `facts`, and the largest eta of what lies in the fan.
-void narrow_weather(const SceneParts& parts, const SightMap& map,
-                    const std::vector<renderer::FramePose>& poses, renderer::SceneFacts& facts) {
+void narrow_weather(const SightMap& map, const std::vector<renderer::FramePose>& poses,
+                    renderer::SceneFacts& facts) {
   const std::vector<RainCell> cells = facts.weather.rain_cells;
-  const sensors::Sensor& sensor = parts.description.sensor;
+  const sensors::Sensor& sensor = facts.sensor;
   const bool mirrored = renderer::has_mirrored_echo(facts);
   const auto seen_with = [&](bool beside) {
     return those(cells, [&](const RainCell& cell) {
@@ -122,13 +121,10 @@ renderer::FrameSight frame_sight(const renderer::SceneFacts& scene, const SightM
   return sight;
 }
 
-renderer::SceneFacts sequence_facts(const SceneParts& parts, const renderer::SceneFacts& scene,
-                                    const SightMap& map) {
-  const sensors::Sensor& sensor = parts.description.sensor;
-  const int frames = parts.trajectory.frame_count(sensor.scan.frame_rate_Hz);
-  const auto pose_of = [&](int frame) {
-    return frame_pose(parts.frame, parts.trajectory, sensor, frame);
-  };
+renderer::SceneFacts sequence_facts(const renderer::SceneFacts& scene, const SightMap& map,
+                                    const std::vector<renderer::PointTarget>& targets, int frames,
+                                    const std::function<renderer::FramePose(int)>& pose_of) {
+  const sensors::Sensor& sensor = scene.sensor;
   renderer::FrameSight sight;
   bool all_mirrors = mirrors_are_seen(scene, sight);
   for (int frame = 0; frame < frames; ++frame) {
@@ -139,12 +135,11 @@ renderer::SceneFacts sequence_facts(const SceneParts& parts, const renderer::Sce
       all_mirrors = mirrors_are_seen(scene, sight);
     }
     if (!sight.point_targets)
-      sight.point_targets =
-          std::any_of(parts.targets.begin(), parts.targets.end(), [&](const auto& target) {
-            return renderer::in_view(sensor, target, antenna, pose.time_s);
-          });
+      sight.point_targets = std::any_of(targets.begin(), targets.end(), [&](const auto& target) {
+        return renderer::in_view(sensor, target, antenna, pose.time_s);
+      });
     sight.leaves_ground = sight.leaves_ground || map.ends_within_range(antenna, sensor);
-    if (all_mirrors && sight.leaves_ground && (sight.point_targets || parts.targets.empty())) break;
+    if (all_mirrors && sight.leaves_ground && (sight.point_targets || targets.empty())) break;
   }
   sight.lowest_m = scene.lowest_m;
   sight.highest_m = scene.highest_m;
@@ -154,7 +149,7 @@ renderer::SceneFacts sequence_facts(const SceneParts& parts, const renderer::Sce
   if (facts.weather.rain_cells.empty()) return facts;
   std::vector<renderer::FramePose> poses;
   for (int frame = 0; frame < frames; ++frame) poses.push_back(pose_of(frame));
-  narrow_weather(parts, map, poses, facts);
+  narrow_weather(map, poses, facts);
   return facts;
 }
 

@@ -5,12 +5,12 @@
 // a frame of a large scene that holds a thing that no frame sees. Heights stay those of the scene.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "renderer/frame_pose.h"
 #include "renderer/plan/frame_facts.h"
 #include "renderer/world.h"
-#include "scenes/plan_facts.h"
 #include "scenes/sight_map.h"
 
 namespace fanbeam::scenes {
@@ -20,8 +20,9 @@ renderer::FrameSight frame_sight(const renderer::SceneFacts& scene, const SightM
                                  const std::vector<renderer::PointTarget>& targets,
                                  const sensors::AntennaFrame& antenna, double time_s);
 
-// `scene` narrowed to what the flight of `parts` sees.
-renderer::SceneFacts sequence_facts(const SceneParts& parts, const renderer::SceneFacts& scene,
-                                    const SightMap& map);
+// `scene` narrowed to what the frames of a flight see. `pose_of` a frame is asked lazily.
+renderer::SceneFacts sequence_facts(const renderer::SceneFacts& scene, const SightMap& map,
+                                    const std::vector<renderer::PointTarget>& targets, int frames,
+                                    const std::function<renderer::FramePose(int)>& pose_of);
 
 }  // namespace fanbeam::scenes

@@ -13,9 +13,17 @@
 
 namespace fanbeam::scenes {
 
-// The rectangles of [[surface]] in file order, the runways on top of them.
+// Names of what a scene is made of, by terrain::ObjectId: the terrain first.
+using Objects = std::vector<std::string>;
+
+// The id of another one.
+terrain::ObjectId added(const std::string& name, Objects& objects);
+
+// The rectangles of [[surface]] in file order, the runways on top of them. Adds "surface 1" and so
+// on, "runway 36/18" and "runway 36/18 markings" to `objects`.
 std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
-                                                 const Ground& ground, const MaterialNames& names);
+                                                 const Ground& ground, const MaterialNames& names,
+                                                 Objects& objects);
 
 // Boxes, building files and models, in this order: as triangles for rays, and as what a vertical
 // cut can make of them.
@@ -25,6 +33,9 @@ struct Bodies {
   // Building parts that do not reach the ground, and those of them over open air
   // (terrain/buildings/solid_prisms.h).
   std::size_t raised = 0, floating = 0;
+  // Those before, and "hangar" of a box, "buildings.geojson 17" of a footprint, "truck: cabin" of a
+  // model's node.
+  Objects objects{};
 };
 
 // Of boxes, buildings and models together; the file that exceeds it is the last one read.
@@ -34,7 +45,7 @@ inline constexpr std::size_t kMostPointTargets = 1'000'000;
 
 // E-LIMIT beyond `most_triangles` and for files beyond file_budget.h.
 Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
-                    ModelMaterials& model_materials, core::ProblemList& problems,
+                    ModelMaterials& model_materials, Objects objects, core::ProblemList& problems,
                     std::size_t most_triangles = kMostBodyTriangles);
 
 // The points of one line, of one target, or of the lights or the fence of one runway.

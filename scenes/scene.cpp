@@ -35,77 +35,68 @@ atmosphere::Weather simulated_weather(atmosphere::Weather weather, const core::E
   return weather;
 }
 
-void add_rain(const atmosphere::Weather& simulated, const core::EffectPlan& plan,
-              const atmosphere::VolumeEcho& volume_echo, renderer::World& world) {
-  const atmosphere::RainCells cells(simulated, world.sensor.waveform.frequency_Hz);
-  if (!cells.empty()) world.rain_cells = cells;
-  if (plan.runs(renderer::kRainEcho)) world.volume_echo = volume_echo;
+std::vector<SurfaceRecord> records_of(const Scene& scene, materials::SurfaceState state) {
+  const Site::Parts& parts = scene.site->parts();
+  return record_surfaces(scene.description, parts.library, parts.used, state);
 }
 
-// Behind the library's, where their ids count on.
-void add_model_materials(const ModelMaterials& materials, const sensors::Waveform& waveform,
-                         renderer::World& world) {
-  for (const ModelMaterials::Entry& entry : materials.all()) {
-    world.nrcs.emplace_back(entry.surface, waveform.polarisation, waveform.frequency_Hz);
-    world.material_names.push_back(entry.name);
-  }
-}
-
-// Of the library in a state of the weather, and of the models behind it.
-SpecularSurfaces all_mirrors(const SceneDescription& scene,
-                             const materials::MaterialLibrary& library,
-                             const ModelMaterials& model_materials, materials::SurfaceState state) {
-  SpecularSurfaces mirrors = specular_surfaces(scene, library, state);
-  for (const ModelMaterials::Entry& entry : model_materials.all()) mirrors.push_back(entry.mirror);
-  return mirrors;
-}
-
-void record_model_materials(const ModelMaterials& materials, Scene& scene) {
+void record_model_materials(Scene& scene) {
   const sensors::Waveform& waveform = scene.description.sensor.waveform;
-  for (const ModelMaterials::Entry& entry : materials.all())
+  for (const ModelMaterials::Entry& entry : scene.site->parts().model_materials)
     scene.surfaces.push_back(
         {entry.name, entry.name, std::string(name_of(entry.surface)), "stated by the model's files",
          validity_of(entry.surface).grazing_rad,
          extrapolations_of(entry.surface, waveform.polarisation, waveform.frequency_Hz)});
-  for (const std::filesystem::path& file : materials.files())
-    scene.description.files.push_back(file);
 }
 
-// What is known before the world is built.
-struct Planned {
-  SightMap sight;
-  renderer::SceneFacts facts;
-  core::EffectPlan plan;
-  double accuracy_grey = 0.0;
-  double plan_s = 0.0;
-};
+atmosphere::VolumeEcho volume_echo_of(const Scene& scene) {
+  return {scene.weather, scene.description.sensor.waveform.frequency_Hz};
+}
 
-Planned plan_scene(const SceneParts& parts, const atmosphere::Weather& weather,
-                   const atmosphere::VolumeEcho& volume_echo, const BuildOptions& options) {
+double accuracy_of(const Scene& scene) {
+  if (scene.options.accuracy_grey > 0.0) return scene.options.accuracy_grey;
+  return scene.description.accuracy_grey > 0.0 ? scene.description.accuracy_grey
+                                               : kDefaultAccuracy_grey;
+}
+
+void make_plan(const std::vector<renderer::PointTarget>& targets, Scene& scene) {
   const auto begin = Clock::now();
-  Planned planned{
-      {parts.ground, parts.patches, parts.meshes, mirroring_materials(parts.mirrors)}, {}, {}};
-  const renderer::SceneFacts all = facts_of(parts, weather, volume_echo.largest_eta_m2_per_m3());
-  planned.facts = sequence_facts(parts, all, planned.sight);
-  planned.accuracy_grey = options.accuracy_grey > 0.0             ? options.accuracy_grey
-                          : parts.description.accuracy_grey > 0.0 ? parts.description.accuracy_grey
-                                                                  : kDefaultAccuracy_grey;
-  planned.plan = renderer::plan(all, planned.facts, planned.accuracy_grey, options.wishes);
-  planned.plan_s = seconds_since(begin);
-  return planned;
+  const SceneDescription& description = scene.description;
+  const std::vector<bool> mirroring =
+      mirroring_materials(specular_surfaces(description, *scene.site, materials::SurfaceState::dry),
+                          specular_surfaces(description, *scene.site, description.surface_state));
+  scene.sight = scene.site->parts().sight.with_mirrors(mirroring);
+  scene.all_facts = facts_of(description, *scene.site, scene.volume, scene.weather,
+                             volume_echo_of(scene).largest_eta_m2_per_m3(), targets, mirroring);
+  scene.facts = planned_by_flight(scene)
+                    ? sequence_facts(scene.all_facts, scene.sight, targets, scene.frame_count(),
+                                     [&](int frame) { return scene.frame_pose(frame); })
+                    : scene.all_facts;
+  scene.accuracy_grey = accuracy_of(scene);
+  scene.plan =
+      renderer::plan(scene.all_facts, scene.facts, scene.accuracy_grey, scene.options.wishes);
+  scene.plan_s = seconds_since(begin);
 }
 
-void keep(Planned&& planned, const BuildOptions& options, Scene& scene) {
-  scene.facts = std::move(planned.facts);
-  scene.wishes = options.wishes;
-  scene.accuracy_grey = planned.accuracy_grey;
-  scene.plan_s = planned.plan_s;
-  scene.sight = std::move(planned.sight);
+// All that follows from the site and what is set.
+void settle(std::vector<renderer::PointTarget> targets, Scene& scene, core::ProblemList& problems) {
+  make_plan(targets, scene);
+  const bool wet = scene.plan.runs(renderer::kSurfaceState);
+  scene.surfaces =
+      records_of(scene, wet ? scene.description.surface_state : materials::SurfaceState::dry);
+  if (scene.facts.has_walls || scene.facts.has_point_targets)
+    report_mirrors(scene.description, scene.site->parts().library, scene.surfaces, problems);
+  record_model_materials(scene);
+  scene.world.targets = std::move(targets);
+  scene.world = world_for(scene, scene.plan);
 }
 
-std::vector<std::string> names_of(const materials::MaterialLibrary& library) {
+// By material id.
+std::vector<std::string> names_of(const materials::MaterialLibrary& library,
+                                  const ModelMaterials& model_materials) {
   std::vector<std::string> names;
   for (const materials::Material& material : library.all()) names.push_back(material.name);
+  for (const ModelMaterials::Entry& entry : model_materials.all()) names.push_back(entry.name);
   return names;
 }
 
@@ -128,78 +119,151 @@ core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
   return origin;
 }
 
+FlightVolume flight_volume(const SceneDescription& description, const terrain::LocalFrame& frame,
+                           const std::optional<Trajectory>& trajectory,
+                           const terrain::HeightField& ground) {
+  const bool stated = description.flight_heights.stated || !trajectory;
+  FlightVolume volume = stated ? volume_over(ground, frame, description) : FlightVolume{};
+  if (!trajectory) return volume;
+  const FlightVolume flown = volume_of(*trajectory, frame);
+  return stated ? both(volume, flown) : flown;
+}
+
+void check(const Scene& scene, const Conditions& conditions, core::ProblemList& problems) {
+  const sensors::Waveform& waveform = scene.site->parts().waveform;
+  if (conditions.sensor && (conditions.sensor->waveform.frequency_Hz != waveform.frequency_Hz ||
+                            conditions.sensor->waveform.polarisation != waveform.polarisation))
+    problems.error(core::ErrorClass::unsupported, {}, "sensor", "another carrier or polarisation",
+                   "those that the scene was opened with: open it with that sensor");
+  if (conditions.weather)
+    problems.append(atmosphere::problems_in(*conditions.weather, waveform.frequency_Hz).all());
+  if (conditions.accuracy_grey && !(*conditions.accuracy_grey > 0.0))
+    problems.error(core::ErrorClass::range, {}, "accuracy_grey",
+                   core::number_text(*conditions.accuracy_grey), "grey levels above 0");
+}
+
 }  // namespace
+
+int Scene::frame_count() const {
+  return trajectory ? trajectory->frame_count(description.sensor.scan.frame_rate_Hz) : 0;
+}
+
+bool planned_by_flight(const Scene& scene) {
+  return scene.trajectory && !scene.description.flight_heights.stated;
+}
 
 renderer::FramePose Scene::pose_at(const core::Pose& pose) const { return pose_in(frame, pose); }
 
 renderer::FramePose Scene::frame_pose(int frame_index) const {
-  return scenes::frame_pose(frame, trajectory, description.sensor, frame_index);
+  return scenes::frame_pose(frame, *trajectory, description.sensor, frame_index);
+}
+
+renderer::World world_for(const Scene& scene, const core::EffectPlan& plan) {
+  const SceneDescription& description = scene.description;
+  const double frequency_Hz = description.sensor.waveform.frequency_Hz;
+  const materials::SurfaceState state =
+      plan.runs(renderer::kSurfaceState) ? description.surface_state : materials::SurfaceState::dry;
+  const atmosphere::Weather weather = simulated_weather(scene.weather, plan);
+  renderer::World world{.geometry = scene.site->parts().geometry,
+                        .nrcs = scene.site->reflectivity(state),
+                        .targets = scene.world.targets,
+                        .attenuation = atmosphere::PathAttenuation(weather, frequency_Hz),
+                        .sensor = plan.runs(renderer::kSideLobes)
+                                      ? description.sensor
+                                      : renderer::without_side_lobes(description.sensor),
+                        .specular = specular_surfaces(description, *scene.site, state)};
+  const atmosphere::RainCells cells(weather, frequency_Hz);
+  if (!cells.empty()) world.rain_cells = cells;
+  if (plan.runs(renderer::kRainEcho)) world.volume_echo = volume_echo_of(scene);
+  return world;
+}
+
+std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& conditions) {
+  core::ProblemList problems;
+  check(scene, conditions, problems);
+  problems.throw_if_errors();
+  auto changed = std::make_unique<Scene>(scene);
+  SceneDescription& description = changed->description;
+  if (conditions.sensor) description.sensor = *conditions.sensor;
+  if (conditions.weather) {
+    changed->weather = *conditions.weather;
+    description.weather = *conditions.weather;
+    description.weather.rain_cells.clear();
+  }
+  if (conditions.accuracy_grey) changed->options.accuracy_grey = *conditions.accuracy_grey;
+  if (conditions.wishes) changed->options.wishes = *conditions.wishes;
+  if (conditions.surface_state) description.surface_state = *conditions.surface_state;
+  const Site::Parts& parts = scene.site->parts();
+  if (conditions.surface_state) check_surfaces(description, parts.library, parts.used, problems);
+  changed->caster = scene_caster(description, changed->options.caster, changed->volume,
+                                 parts.geometry->solids, problems);
+  problems.throw_if_errors();
+  settle(conditions.targets.value_or(scene.world.targets), *changed, problems);
+  return changed;
 }
 
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
                                    core::ProblemList& problems) {
   const auto begin = Clock::now();
   problems.throw_if_errors();
-  const materials::MaterialLibrary library =
+  materials::MaterialLibrary library =
       materials::MaterialLibrary::from_file(description.material_library, problems);
   const MaterialNames names(library, problems);
   const terrain::LocalFrame frame(ellipsoidal_origin(description), description.earth);
   const Ground ground(description, frame, names, problems);
-  std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names);
+  Objects objects = {"terrain"};
+  std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names, objects);
   ModelMaterials model_materials(description, library.size(), problems);
-  Bodies bodies = build_bodies(description, ground, names, model_materials, problems);
+  Bodies bodies =
+      build_bodies(description, ground, names, model_materials, std::move(objects), problems);
   std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems).points;
-  const atmosphere::Weather weather = placed_weather(description, ground);
+  atmosphere::Weather weather = placed_weather(description, ground);
   std::optional<Trajectory> trajectory;
   if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);
+  FlightVolume volume;
   renderer::CasterChoice caster;
-  if (trajectory)
-    caster = scene_caster(
-        description, options.caster,
-        caster_facts(description.sensor, frame, *trajectory, ground.field(), bodies.solids),
-        problems);
+  if (!ground.field().height_m.empty()) {
+    volume = flight_volume(description, frame, trajectory, ground.field());
+    caster = scene_caster(description, options.caster, volume, bodies.solids, problems);
+  }
   check_surfaces(description, library, names.used(), problems);
   if (trajectory) check_flight(description, frame, *trajectory, ground.field(), problems);
   problems.throw_if_errors();
 
-  const double frequency_Hz = description.sensor.waveform.frequency_Hz;
-  const atmosphere::VolumeEcho volume_echo(weather, frequency_Hz);
-  const std::vector<SpecularSurfaces> mirrors = {
-      all_mirrors(description, library, model_materials, materials::SurfaceState::dry),
-      all_mirrors(description, library, model_materials, description.surface_state)};
-  Planned planned =
-      plan_scene({description, frame, *trajectory, ground.field(), patches, bodies.meshes, targets,
-                  library, names.used(), model_materials, mirrors},
-                 weather, volume_echo, options);
-  const core::EffectPlan plan = planned.plan;
-  const bool wet = plan.runs(renderer::kSurfaceState);
-  const materials::SurfaceState state =
-      wet ? description.surface_state : materials::SurfaceState::dry;
-  renderer::World world{
-      .surfaces = std::make_unique<terrain::RayScene>(ground.field(), std::move(patches),
-                                                      std::move(bodies.meshes),
-                                                      options.instruction_set, options.robust),
-      .nrcs = library.curves(state, description.sensor.waveform.polarisation, frequency_Hz),
-      .material_names = names_of(library),
-      .targets = std::move(targets),
-      .attenuation = atmosphere::PathAttenuation(simulated_weather(weather, plan), frequency_Hz),
-      .sensor = plan.runs(renderer::kSideLobes) ? description.sensor
-                                                : renderer::without_side_lobes(description.sensor),
-      .specular = mirrors[wet ? 1 : 0],
-      .solids = std::move(bodies.solids)};
-  add_rain(simulated_weather(weather, plan), plan, volume_echo, world);
-  add_model_materials(model_materials, description.sensor.waveform, world);
-  auto scene = std::make_unique<Scene>(
-      Scene{description, frame, std::move(*trajectory), plan, std::move(world), 0.0});
-  scene->raised_buildings = bodies.raised;
-  scene->floating_buildings = bodies.floating;
-  scene->caster = std::move(caster);
-  scene->surfaces = record_surfaces(description, library, names.used(), state);
-  if (planned.facts.has_walls || planned.facts.has_point_targets)
-    report_mirrors(description, library, scene->surfaces, problems);
-  record_model_materials(model_materials, *scene);
-  scene->runways = runway_places(description, ground);
-  keep(std::move(planned), options, *scene);
+  const SightMap sight(ground.field(), patches, bodies.meshes);
+  std::vector<std::string> material_names = names_of(library, model_materials);
+  Site::Parts parts{.library = std::move(library),
+                    .used = names.used(),
+                    .model_materials = model_materials.all(),
+                    .sight = sight,
+                    .facts = SiteFacts(ground.field(), patches, bodies.meshes),
+                    .geometry = nullptr,
+                    .waveform = description.sensor.waveform};
+  parts.geometry = std::make_shared<renderer::Geometry>(renderer::Geometry{
+      std::make_unique<terrain::RayScene>(ground.field(), std::move(patches),
+                                          std::move(bodies.meshes), options.instruction_set,
+                                          options.robust),
+      std::move(bodies.solids), std::move(material_names), std::move(bodies.objects)});
+  auto scene =
+      std::make_unique<Scene>(Scene{.description = description,
+                                    .options = options,
+                                    .frame = frame,
+                                    .site = std::make_shared<const Site>(std::move(parts)),
+                                    .trajectory = std::move(trajectory),
+                                    .volume = volume,
+                                    .weather = std::move(weather),
+                                    .runways = runway_places(description, ground),
+                                    .raised_buildings = bodies.raised,
+                                    .floating_buildings = bodies.floating,
+                                    .caster = std::move(caster),
+                                    .sight = sight,
+                                    .world = {.geometry = nullptr,
+                                              .attenuation = atmosphere::PathAttenuation(
+                                                  {}, description.sensor.waveform.frequency_Hz),
+                                              .sensor = description.sensor}});
+  for (const std::filesystem::path& file : model_materials.files())
+    scene->description.files.push_back(file);
+  settle(std::move(targets), *scene, problems);
   scene->build_s = seconds_since(begin);
   return scene;
 }

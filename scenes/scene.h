@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "atmosphere/weather.h"
 #include "core/effect_plan.h"
 #include "core/errors.h"
 #include "renderer/frame_renderer.h"
@@ -16,8 +17,10 @@
 #include "renderer/plan/scene_facts.h"
 #include "renderer/world.h"
 #include "scenes/description.h"
+#include "scenes/flight_volume.h"
 #include "scenes/scene_surfaces.h"
 #include "scenes/sight_map.h"
+#include "scenes/site.h"
 #include "scenes/trajectory/trajectory.h"
 #include "terrain/local_frame.h"
 
@@ -35,37 +38,45 @@ struct RunwayPlace {
 // Grey levels that a picture may be off; half of it is for effects left out.
 inline constexpr double kDefaultAccuracy_grey = 0.5;
 
-struct Scene {
-  SceneDescription description;
-  terrain::LocalFrame frame;
-  Trajectory trajectory;
-  core::EffectPlan plan;
-  renderer::World world;
-  double build_s = 0.0;
-  renderer::CasterChoice caster{};
-  std::vector<SurfaceRecord> surfaces{};  // materials in use, as shown
-  // Building parts that do not reach the ground; those over open air are triangles and boxes, but
-  // no solids of `world`.
-  std::size_t raised_buildings = 0, floating_buildings = 0;
-  // What the plan was made of, the scene as its frames see it, and how long that took.
-  renderer::SceneFacts facts{};
-  renderer::EffectWishes wishes{};
-  double accuracy_grey = kDefaultAccuracy_grey;
-  double plan_s = 0.0;
-  std::optional<SightMap> sight{};
-  std::vector<RunwayPlace> runways{};
-
-  int frame_count() const { return trajectory.frame_count(description.sensor.scan.frame_rate_Hz); }
-  renderer::FramePose frame_pose(int frame_index) const;
-  renderer::FramePose pose_at(const core::Pose& pose) const;
-};
-
 struct BuildOptions {
   renderer::EffectWishes wishes;
   std::optional<renderer::CasterWish> caster;  // instead of the scene's
   double accuracy_grey = 0.0;                  // 0: the scene's, else the default
   std::string instruction_set;                 // see RayScene
   bool robust = true;                          // see RayScene
+};
+
+// A site under its conditions. Copies share the site; under_conditions() makes others of it.
+struct Scene {
+  SceneDescription description;  // its sensor, weather and surface state are those of now
+  BuildOptions options;
+  terrain::LocalFrame frame;
+  std::shared_ptr<const Site> site;
+  std::optional<Trajectory> trajectory;
+  FlightVolume volume;
+  atmosphere::Weather weather;  // with its rain cells placed
+  std::vector<RunwayPlace> runways{};
+  // Building parts that do not reach the ground; those over open air are triangles and boxes, but
+  // no solids of `world`.
+  std::size_t raised_buildings = 0, floating_buildings = 0;
+  double build_s = 0.0;
+
+  // What follows from all that.
+  renderer::CasterChoice caster{};
+  std::vector<SurfaceRecord> surfaces{};  // materials in use, as shown
+  SightMap sight;
+  // Of the whole flight volume, and narrowed to what the frames of the trajectory see where there is
+  // one and nothing else is stated: what the plan was made of.
+  renderer::SceneFacts all_facts{}, facts{};
+  double accuracy_grey = kDefaultAccuracy_grey;
+  double plan_s = 0.0;
+  core::EffectPlan plan{};
+  renderer::World world;
+
+  // 0 without a trajectory.
+  int frame_count() const;
+  renderer::FramePose frame_pose(int frame_index) const;
+  renderer::FramePose pose_at(const core::Pose& pose) const;
 };
 
 // Loads what the description names and puts the world together. Everything wrong is collected in
@@ -75,5 +86,28 @@ struct BuildOptions {
 // forced on a scene they cannot show.
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
                                    core::ProblemList& problems);
+
+// What of a scene may change in milliseconds; what is not set stays. The sensor keeps its carrier
+// and polarisation: materials and wires were looked up for them.
+struct Conditions {
+  std::optional<sensors::Sensor> sensor{};
+  std::optional<atmosphere::Weather> weather{};  // with its rain cells placed, local metres
+  std::optional<materials::SurfaceState> surface_state{};
+  std::optional<std::vector<renderer::PointTarget>> targets{};
+  std::optional<double> accuracy_grey{};
+  std::optional<renderer::EffectWishes> wishes{};
+};
+
+// The scene's plan was made of what the frames of its trajectory see, not of a stated volume.
+bool planned_by_flight(const Scene& scene);
+
+// The same site under other conditions, planned anew; `scene` stays as it is. Throws InputError with
+// every problem: those of atmosphere::problems_in, E-UNSUPPORTED for another carrier or polarisation
+// and for slices that were forced and no longer can show the scene, E-RANGE for a material that is
+// not known in its new state. Cost: docs/performance.md.
+std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& conditions);
+
+// The world of a plan: what it leaves out is not in it.
+renderer::World world_for(const Scene& scene, const core::EffectPlan& plan);
 
 }  // namespace fanbeam::scenes

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <set>
 #include <string>
 
@@ -42,21 +41,11 @@ double held_frequency_Hz(DielectricMedium medium, double frequency_Hz) {
 
 std::string text_GHz(double frequency_Hz) { return core::number_text(frequency_Hz / 1e9); }
 
-// A facet within 30 deg of the vertical: its normal is within 30 deg of the horizontal.
-bool has_wall(const terrain::TriangleMesh& mesh) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& corner) {
-    const glm::dvec3& a = mesh.vertices_m[corner.x];
-    const glm::dvec3 normal =
-        glm::cross(mesh.vertices_m[corner.y] - a, mesh.vertices_m[corner.z] - a);
-    return 2.0 * std::abs(normal.z) < glm::length(normal);
-  });
-}
-
 }  // namespace
 
-SpecularSurfaces specular_surfaces(const SceneDescription& scene,
-                                   const materials::MaterialLibrary& library,
+SpecularSurfaces specular_surfaces(const SceneDescription& scene, const Site& site,
                                    materials::SurfaceState state) {
+  const materials::MaterialLibrary& library = site.parts().library;
   const double frequency_Hz = scene.sensor.waveform.frequency_Hz;
   const double temperature_K = surface_temperature_K(scene);
   SpecularSurfaces surfaces;
@@ -71,7 +60,16 @@ SpecularSurfaces specular_surfaces(const SceneDescription& scene,
         materials::permittivity_of(*medium, known_Hz, known_temperature_K(*medium, temperature_K)),
         *material.rms_height_m};
   }
+  for (const ModelMaterials::Entry& entry : site.parts().model_materials)
+    surfaces.push_back(entry.mirror);
   return surfaces;
+}
+
+std::vector<bool> mirroring_materials(const SpecularSurfaces& dry, const SpecularSurfaces& shown) {
+  std::vector<bool> mirroring(dry.size());
+  for (std::size_t id = 0; id < dry.size(); ++id)
+    mirroring[id] = dry[id].has_value() || shown[id].has_value();
+  return mirroring;
 }
 
 void report_mirrors(const SceneDescription& scene, const materials::MaterialLibrary& library,
@@ -102,27 +100,15 @@ void report_mirrors(const SceneDescription& scene, const materials::MaterialLibr
   }
 }
 
-void add_mirror_facts(const std::vector<SpecularSurfaces>& specular,
-                      const terrain::HeightField& field,
-                      const std::vector<terrain::SurfacePatch>& patches,
-                      const std::vector<terrain::PlacedMesh>& meshes, bool has_point_targets,
+void add_mirror_facts(const SiteFacts& site, const std::vector<bool>& mirroring,
                       renderer::SceneFacts& facts) {
-  const auto reflects = [&](terrain::MaterialId id) {
-    return std::any_of(specular.begin(), specular.end(), [id](const SpecularSurfaces& surfaces) {
-      return id < surfaces.size() && surfaces[id].has_value();
-    });
+  const auto any = [&](const std::set<terrain::MaterialId>& materials) {
+    return std::any_of(materials.begin(), materials.end(),
+                       [&](terrain::MaterialId id) { return mirroring[id]; });
   };
-  facts.ground_reflects =
-      std::any_of(field.cell_material.begin(), field.cell_material.end(), reflects) ||
-      std::any_of(patches.begin(), patches.end(),
-                  [&](const terrain::SurfacePatch& patch) { return reflects(patch.material); });
-  facts.reflects = facts.ground_reflects;
-  for (const terrain::PlacedMesh& placed : meshes) {
-    facts.has_walls = facts.has_walls || has_wall(placed.mesh);
-    facts.reflects = facts.reflects || std::any_of(placed.material_of_name.begin(),
-                                                   placed.material_of_name.end(), reflects);
-  }
-  facts.has_point_targets = has_point_targets;
+  facts.has_walls = site.has_walls;
+  facts.ground_reflects = any(site.of_ground);
+  facts.reflects = facts.ground_reflects || any(site.of_bodies);
 }
 
 }  // namespace fanbeam::scenes

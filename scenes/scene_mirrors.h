@@ -12,30 +12,29 @@
 #include "renderer/plan/scene_facts.h"
 #include "scenes/description.h"
 #include "scenes/scene_surfaces.h"
-#include "terrain/ray_scene.h"
+#include "scenes/site.h"
 
 namespace fanbeam::scenes {
 
 using SpecularSurfaces = std::vector<std::optional<materials::SpecularSurface>>;
 
-// By index of the dry material: dielectric and rms height of what it is in `state`. Empty without
-// both. A medium that is not known at the sensor's frequency is as at the nearest one that it is
+// By material id, the models' own behind the library's: dielectric and rms height of what the
+// library's material is in `state`. Empty without both. A medium that is not known at the sensor's frequency is as at the nearest one that it is
 // known at where the scene allows extrapolation, else it does not reflect. The medium has
 // surface_temperature_K, or the nearest temperature that its model knows.
-SpecularSurfaces specular_surfaces(const SceneDescription& scene,
-                                   const materials::MaterialLibrary& library,
+SpecularSurfaces specular_surfaces(const SceneDescription& scene, const Site& site,
                                    materials::SurfaceState state);
+
+// By material id: it mirrors in one of the two.
+std::vector<bool> mirroring_materials(const SpecularSurfaces& dry, const SpecularSurfaces& shown);
 
 // W-EXTRAPOLATED for each material of the records whose medium is not known at the sensor's
 // frequency; where the scene allows that, the record lists it as well.
 void report_mirrors(const SceneDescription& scene, const materials::MaterialLibrary& library,
                     std::vector<SurfaceRecord>& records, core::ProblemList& problems);
 
-// Fills the facts on walls, mirrors and point targets; a mirror in either list counts.
-void add_mirror_facts(const std::vector<SpecularSurfaces>& specular,
-                      const terrain::HeightField& field,
-                      const std::vector<terrain::SurfacePatch>& patches,
-                      const std::vector<terrain::PlacedMesh>& meshes, bool has_point_targets,
+// Fills the facts on walls and mirrors.
+void add_mirror_facts(const SiteFacts& site, const std::vector<bool>& mirroring,
                       renderer::SceneFacts& facts);
 
 }  // namespace fanbeam::scenes

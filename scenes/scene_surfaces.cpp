@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "atmosphere/air_column.h"
-#include "renderer/casting/nrcs_table.h"
+#include "renderer/surfaces/nrcs_table.h"
 
 namespace fanbeam::scenes {
 
@@ -13,13 +13,6 @@ using materials::SurfaceState;
 namespace {
 
 constexpr double kNoFiniteChange_dB = 3000.0;
-
-// As the ray caster sees the surface.
-renderer::NrcsTable table_of(const SceneDescription& scene, const materials::SurfaceModel& model) {
-  const sensors::Waveform& waveform = scene.sensor.waveform;
-  return renderer::NrcsTable(
-      materials::NrcsCurve(model, waveform.polarisation, waveform.frequency_Hz));
-}
 
 }  // namespace
 
@@ -57,39 +50,25 @@ std::vector<SurfaceRecord> record_surfaces(const SceneDescription& scene,
   return records;
 }
 
-double state_change_dB(const SceneDescription& scene, const MaterialLibrary& library,
-                       const std::set<std::size_t>& used) {
-  double largest_dB = 0.0;
-  for (const std::size_t index : used) {
-    const std::size_t other = library.in_state(index, scene.surface_state);
-    if (other == index) continue;
-    const double change_dB = table_of(scene, library[other].model)
-                                 .largest_change_dB(table_of(scene, library[index].model));
+void add_surface_facts(const Site& site, SurfaceState state, renderer::SceneFacts& facts) {
+  const MaterialLibrary& library = site.parts().library;
+  const std::vector<renderer::NrcsTable>& dry = site.reflectivity(SurfaceState::dry).tables();
+  const std::vector<renderer::NrcsTable>& shown = site.reflectivity(state).tables();
+  facts.surface_not_dry = state != SurfaceState::dry;
+  for (const std::size_t index : site.parts().used) {
+    const std::size_t turned = library.in_state(index, state);
+    if (turned == index) continue;
     // A perfectly dark material has no finite change: the whole window may be at stake.
-    largest_dB = std::max(largest_dB, std::min(change_dB, kNoFiniteChange_dB));
-  }
-  return largest_dB;
-}
-
-void add_surface_facts(const SceneDescription& scene, const MaterialLibrary& library,
-                       const std::set<std::size_t>& used, const ModelMaterials& model_materials,
-                       renderer::SceneFacts& facts) {
-  facts.surface_not_dry = scene.surface_state != SurfaceState::dry;
-  facts.surface_change_dB = state_change_dB(scene, library, used);
-  const auto brightest = [&](const materials::SurfaceModel& model) {
-    facts.largest_sigma0_over_sine =
-        std::max(facts.largest_sigma0_over_sine, table_of(scene, model).largest());
-  };
-  for (const std::size_t index : used) {
-    const materials::Material& dry = library[index];
-    const materials::Material& turned = library[library.in_state(index, scene.surface_state)];
+    facts.surface_change_dB =
+        std::max(facts.surface_change_dB,
+                 std::min(shown[index].largest_change_dB(dry[index]), kNoFiniteChange_dB));
     facts.state_changes_mirrors = facts.state_changes_mirrors ||
-                                  dry.dielectric != turned.dielectric ||
-                                  dry.rms_height_m != turned.rms_height_m;
-    brightest(dry.model);
-    if (&turned != &dry) brightest(turned.model);
+                                  library[index].dielectric != library[turned].dielectric ||
+                                  library[index].rms_height_m != library[turned].rms_height_m;
   }
-  for (const ModelMaterials::Entry& entry : model_materials.all()) brightest(entry.surface);
+  for (const auto* tables : {&dry, &shown})
+    for (const renderer::NrcsTable& table : *tables)
+      facts.largest_sigma0_over_sine = std::max(facts.largest_sigma0_over_sine, table.largest());
 }
 
 }  // namespace fanbeam::scenes

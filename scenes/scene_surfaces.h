@@ -11,7 +11,7 @@
 #include "materials/library/material_library.h"
 #include "renderer/plan/scene_facts.h"
 #include "scenes/description.h"
-#include "scenes/model_materials.h"
+#include "scenes/site.h"
 
 namespace fanbeam::scenes {
 
@@ -42,15 +42,11 @@ std::vector<SurfaceRecord> record_surfaces(const SceneDescription& scene,
                                            const std::set<std::size_t>& used,
                                            materials::SurfaceState state);
 
-// Largest change of NRCS, either way, from dry to the scene's state: over the materials of `used`
-// and all grazing angles, as the ray caster reads them (nrcs_table.h: 4096 even steps of the sine,
-// finer ones below 1.8 deg, held below 0.001 deg). 3000 dB where one of the two is dark.
-double state_change_dB(const SceneDescription& scene, const materials::MaterialLibrary& library,
-                       const std::set<std::size_t>& used);
-
-// Fills the facts on surfaces: their state, what it changes, and the brightest of them.
-void add_surface_facts(const SceneDescription& scene, const materials::MaterialLibrary& library,
-                       const std::set<std::size_t>& used, const ModelMaterials& model_materials,
+// Fills the facts on surfaces: their state, what it changes, and the brightest of them. The change
+// is the largest of NRCS, either way, from dry to `state`: over the materials that are used and all
+// grazing angles, as the ray caster reads them (nrcs_table.h: 4096 even steps of the sine, finer
+// ones below 1.8 deg, held below 0.001 deg); 3000 dB where one of the two is dark.
+void add_surface_facts(const Site& site, materials::SurfaceState state,
                        renderer::SceneFacts& facts);
 
 }  // namespace fanbeam::scenes

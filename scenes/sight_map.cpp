@@ -90,47 +90,95 @@ double largest_turn_rad(const sensors::AntennaFrame& antenna, const sensors::Sen
 
 }  // namespace
 
+class SightMap::Tiles {
+ public:
+  Tiles(const HeightField& ground, const std::vector<terrain::SurfacePatch>& patches,
+        const std::vector<terrain::PlacedMesh>& meshes)
+      : west_m(ground.west_m),
+        south_m(ground.south_m),
+        east_m(ground.east_m()),
+        north_m(ground.north_m()),
+        posts_per_tile_(std::max(1, static_cast<int>(kTile_m / ground.spacing_m))),
+        tile_m_(posts_per_tile_ * ground.spacing_m),
+        columns_((ground.columns - 2) / posts_per_tile_ + 1),
+        rows_((ground.rows - 2) / posts_per_tile_ + 1) {
+    all.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    add_ground(ground);
+    for (const terrain::SurfacePatch& patch : patches) add_patch(patch);
+    for (const terrain::PlacedMesh& mesh : meshes) add_mesh(mesh);
+  }
+
+  std::uint64_t bits_of(const std::vector<bool>& mirrors) const {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < met_.size(); ++i)
+      if (met_[i] < mirrors.size() && mirrors[met_[i]])
+        bits |= std::uint64_t{1} << std::min(i, kMostBits - 1);
+    return bits;
+  }
+
+  double west_m, south_m, east_m, north_m;
+  std::vector<Tile> all;  // [row][column]
+
+ private:
+  static constexpr std::size_t kMostBits = 64;
+
+  std::uint64_t bit_of(terrain::MaterialId material) {
+    // Neighbours are mostly of one material.
+    if (last_bit_ != 0 && material == last_) return last_bit_;
+    const auto found = std::find(met_.begin(), met_.end(), material);
+    const auto index = static_cast<std::size_t>(found - met_.begin());
+    if (found == met_.end()) met_.push_back(material);
+    last_ = material;
+    last_bit_ = std::uint64_t{1} << std::min(index, kMostBits - 1);
+    return last_bit_;
+  }
+  Tile& at(int column, int row) {
+    return all[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+               static_cast<std::size_t>(column)];
+  }
+  void add_ground(const HeightField& ground);
+  void add_patch(const terrain::SurfacePatch& patch);
+  void add_mesh(const terrain::PlacedMesh& placed);
+  template <class Use>
+  void for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use);
+
+  int posts_per_tile_;
+  double tile_m_;
+  int columns_, rows_;
+  std::vector<terrain::MaterialId> met_;  // in the order of their bits
+  terrain::MaterialId last_ = 0;
+  std::uint64_t last_bit_ = 0;
+};
+
 SightMap::SightMap(const HeightField& ground, const std::vector<terrain::SurfacePatch>& patches,
-                   const std::vector<terrain::PlacedMesh>& meshes, const std::vector<bool>& mirrors)
-    : west_m_(ground.west_m),
-      south_m_(ground.south_m),
-      east_m_(ground.east_m()),
-      north_m_(ground.north_m()) {
-  posts_per_tile_ = std::max(1, static_cast<int>(kTile_m / ground.spacing_m));
-  tile_m_ = posts_per_tile_ * ground.spacing_m;
-  columns_ = (ground.columns - 2) / posts_per_tile_ + 1;
-  rows_ = (ground.rows - 2) / posts_per_tile_ + 1;
-  tiles_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-  add_ground(ground, mirrors);
-  for (const terrain::SurfacePatch& patch : patches)
-    if (patch.material < mirrors.size() && mirrors[patch.material]) add_patch(patch);
-  for (const terrain::PlacedMesh& mesh : meshes) add_mesh(mesh, mirrors);
+                   const std::vector<terrain::PlacedMesh>& meshes)
+    : tiles_(std::make_shared<const Tiles>(ground, patches, meshes)) {}
+
+SightMap SightMap::with_mirrors(const std::vector<bool>& mirrors) const {
+  SightMap map = *this;
+  map.mirrors_ = tiles_->bits_of(mirrors);
+  return map;
 }
 
 template <class Use>
-void SightMap::for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use) {
+void SightMap::Tiles::for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use) {
   // What stands off the terrain belongs to the tile at its edge.
-  const auto at = [this](double value_m, double start_m, int count) {
+  const auto index = [this](double value_m, double start_m, int count) {
     return static_cast<int>(
         std::clamp(std::floor((value_m - start_m) / tile_m_), 0.0, static_cast<double>(count - 1)));
   };
-  for (int row = at(low_m.y - kMargin_m, south_m_, rows_);
-       row <= at(high_m.y + kMargin_m, south_m_, rows_); ++row)
-    for (int column = at(low_m.x - kMargin_m, west_m_, columns_);
-         column <= at(high_m.x + kMargin_m, west_m_, columns_); ++column)
-      use(tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                 static_cast<std::size_t>(column)],
-          column, row);
+  for (int row = index(low_m.y - kMargin_m, south_m, rows_);
+       row <= index(high_m.y + kMargin_m, south_m, rows_); ++row)
+    for (int column = index(low_m.x - kMargin_m, west_m, columns_);
+         column <= index(high_m.x + kMargin_m, west_m, columns_); ++column)
+      use(at(column, row), column, row);
 }
 
-void SightMap::add_ground(const HeightField& ground, const std::vector<bool>& mirrors) {
+void SightMap::Tiles::add_ground(const HeightField& ground) {
   for (int j = 0; j + 1 < ground.rows; ++j)
     for (int i = 0; i + 1 < ground.columns; ++i) {
-      Tile& tile = tiles_[static_cast<std::size_t>(j / posts_per_tile_) *
-                              static_cast<std::size_t>(columns_) +
-                          static_cast<std::size_t>(i / posts_per_tile_)];
-      const terrain::MaterialId material = ground.cell_material[ground.cell(i, j)];
-      tile.ground_mirrors = tile.ground_mirrors || (material < mirrors.size() && mirrors[material]);
+      Tile& tile = at(i / posts_per_tile_, j / posts_per_tile_);
+      tile.of_ground |= bit_of(ground.cell_material[ground.cell(i, j)]);
       tile.steepest = std::max(tile.steepest, steepest_square(ground, i, j));
       for (const std::size_t post : {ground.post(i, j), ground.post(i + 1, j),
                                      ground.post(i, j + 1), ground.post(i + 1, j + 1)}) {
@@ -140,39 +188,38 @@ void SightMap::add_ground(const HeightField& ground, const std::vector<bool>& mi
     }
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column) {
-      Tile& tile = tiles_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                          static_cast<std::size_t>(column)];
+      Tile& tile = at(column, row);
       tile.steepest = std::sqrt(tile.steepest) / ground.spacing_m;
-      tile.low_m = {west_m_ + column * tile_m_, south_m_ + row * tile_m_, tile.lowest_ground_m};
-      tile.high_m = {west_m_ + (column + 1) * tile_m_, south_m_ + (row + 1) * tile_m_,
+      tile.low_m = {west_m + column * tile_m_, south_m + row * tile_m_, tile.lowest_ground_m};
+      tile.high_m = {west_m + (column + 1) * tile_m_, south_m + (row + 1) * tile_m_,
                      tile.highest_ground_m};
     }
 }
 
-void SightMap::add_patch(const terrain::SurfacePatch& patch) {
+void SightMap::Tiles::add_patch(const terrain::SurfacePatch& patch) {
   glm::dvec3 low_m(1e300), high_m(-1e300);
   for (const glm::dvec2& corner : patch.outline_m) {
     low_m = glm::min(low_m, glm::dvec3(corner, 0.0));
     high_m = glm::max(high_m, glm::dvec3(corner, 0.0));
   }
+  const std::uint64_t bit = bit_of(patch.material);
   if (low_m.x <= high_m.x)
-    for_tiles(low_m, high_m, [](Tile& tile, int, int) { tile.ground_mirrors = true; });
+    for_tiles(low_m, high_m, [bit](Tile& tile, int, int) { tile.of_ground |= bit; });
 }
 
-void SightMap::add_mesh(const terrain::PlacedMesh& placed, const std::vector<bool>& mirrors) {
+void SightMap::Tiles::add_mesh(const terrain::PlacedMesh& placed) {
   const terrain::TriangleMesh& mesh = placed.mesh;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const glm::uvec3& corner = mesh.triangles[i];
     const glm::dvec3& a = mesh.vertices_m[corner.x];
     const glm::dvec3& b = mesh.vertices_m[corner.y];
     const glm::dvec3& c = mesh.vertices_m[corner.z];
-    const terrain::MaterialId material = placed.material_of_name[mesh.triangle_material[i]];
-    const bool mirror = material < mirrors.size() && mirrors[material];
+    const std::uint64_t bit = bit_of(placed.material_of_name[mesh.triangle_material[i]]);
     const glm::dvec3 low_m = glm::min(a, glm::min(b, c));
     const glm::dvec3 high_m = glm::max(a, glm::max(b, c));
     for_tiles(low_m, high_m, [&](Tile& tile, int column, int row) {
       tile.has_bodies = true;
-      tile.bodies_mirror = tile.bodies_mirror || mirror;
+      tile.of_bodies |= bit;
       tile.low_m.z = std::min(tile.low_m.z, low_m.z);
       tile.high_m.z = std::max(tile.high_m.z, high_m.z);
       // Off the terrain.
@@ -192,8 +239,8 @@ bool SightMap::fan_may_meet(const sensors::AntennaFrame& antenna, const sensors:
 bool SightMap::ends_within_range(const sensors::AntennaFrame& antenna,
                                  const sensors::Sensor& sensor) const {
   const glm::dvec3& at_m = antenna.position_m;
-  return std::min({at_m.x - west_m_, east_m_ - at_m.x, at_m.y - south_m_, north_m_ - at_m.y}) <=
-         farthest_m(sensor);
+  return std::min({at_m.x - tiles_->west_m, tiles_->east_m - at_m.x, at_m.y - tiles_->south_m,
+                   tiles_->north_m - at_m.y}) <= farthest_m(sensor);
 }
 
 SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
@@ -212,7 +259,7 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
     return directions.may_meet((tile.low_m + tile.high_m) / 2.0,
                                glm::length(tile.high_m - tile.low_m) / 2.0 + kMargin_m);
   };
-  for (const Tile& tile : tiles_) {
+  for (const Tile& tile : tiles_->all) {
     const double east_m = std::max({tile.low_m.x - at_m.x, at_m.x - tile.high_m.x, 0.0});
     const double north_m = std::max({tile.low_m.y - at_m.y, at_m.y - tile.high_m.y, 0.0});
     if (east_m * east_m + north_m * north_m > far_m * far_m) continue;
@@ -220,12 +267,14 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
     seen.highest_ground_m = std::max(seen.highest_ground_m, tile.highest_ground_m);
     steepest = std::max(steepest, tile.steepest);
     if (tile.has_bodies) bodies.push_back(&tile);
-    seen.ground_mirrors = seen.ground_mirrors || tile.ground_mirrors;
-    if (!tile.ground_mirrors && !tile.bodies_mirror) continue;
+    const bool mirroring_ground = (tile.of_ground & mirrors_) != 0;
+    const bool mirroring_bodies = (tile.of_bodies & mirrors_) != 0;
+    seen.ground_mirrors = seen.ground_mirrors || mirroring_ground;
+    if (!mirroring_ground && !mirroring_bodies) continue;
     if (!may_meet(fan, tile)) continue;
     seen.mirrors = true;
-    bodies_mirror = bodies_mirror || tile.bodies_mirror;
-    if (!tile.ground_mirrors) continue;
+    bodies_mirror = bodies_mirror || mirroring_bodies;
+    if (!mirroring_ground) continue;
     ground_in_fan = true;
     steepest_mirror = std::max(steepest_mirror, tile.steepest);
     highest_mirror_m = std::max(highest_mirror_m, tile.highest_ground_m);

@@ -18,10 +18,12 @@
 // of its echo, so within the farthest range at any azimuth.
 //
 // Heights are of the scene's frame. Cost: 5 ms a million cells and 30 ms a million triangles to
-// build; 20 ns per tile and frame.
+// build; 20 ns per tile and frame. Copies share the tiles, whatever mirrors in them.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <vector>
 
 #include "sensors/antenna/antenna_frame.h"
@@ -33,9 +35,12 @@ namespace fanbeam::scenes {
 
 class SightMap {
  public:
-  // `mirrors` by material id: in some state of the weather the material reflects like a mirror.
+  // Nothing in it mirrors yet.
   SightMap(const terrain::HeightField& ground, const std::vector<terrain::SurfacePatch>& patches,
-           const std::vector<terrain::PlacedMesh>& meshes, const std::vector<bool>& mirrors);
+           const std::vector<terrain::PlacedMesh>& meshes);
+  // The same ground and bodies; `mirrors` by material id: the material reflects like a mirror.
+  // Materials from the 63rd on that the map has met count as one.
+  SightMap with_mirrors(const std::vector<bool>& mirrors) const;
 
   struct Seen {
     double lowest_ground_m = 0.0, highest_ground_m = 0.0;  // within range; the antenna if none is
@@ -55,17 +60,13 @@ class SightMap {
     glm::dvec3 low_m{1e300}, high_m{-1e300};  // ground and bodies
     double lowest_ground_m = 1e300, highest_ground_m = -1e300;
     double steepest = 0.0;  // tangent
-    bool ground_mirrors = false, has_bodies = false, bodies_mirror = false;
+    bool has_bodies = false;
+    std::uint64_t of_ground = 0, of_bodies = 0;  // materials: bits by Tiles::bit_of
   };
-  void add_ground(const terrain::HeightField& ground, const std::vector<bool>& mirrors);
-  void add_patch(const terrain::SurfacePatch& patch);
-  void add_mesh(const terrain::PlacedMesh& placed, const std::vector<bool>& mirrors);
-  template <class Use>
-  void for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use);
+  class Tiles;
 
-  double west_m_ = 0.0, south_m_ = 0.0, east_m_ = 0.0, north_m_ = 0.0, tile_m_ = 0.0;
-  int posts_per_tile_ = 1, columns_ = 0, rows_ = 0;
-  std::vector<Tile> tiles_;  // [row][column]
+  std::shared_ptr<const Tiles> tiles_;
+  std::uint64_t mirrors_ = 0;  // bits of the materials that mirror
 };
 
 }  // namespace fanbeam::scenes

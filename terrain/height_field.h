@@ -15,6 +15,9 @@
 namespace fanbeam::terrain {
 
 using MaterialId = std::uint16_t;
+// What a surface belongs to, for ground truth; whoever builds a scene names them.
+using ObjectId = std::uint32_t;
+inline constexpr ObjectId kTerrainObject = 0;
 
 struct HeightField {
   double west_m = 0.0;   // of the first post

@@ -127,10 +127,12 @@ void erase_marked(TriangleMesh& mesh, const std::vector<bool>& removed) {
     if (removed[i]) continue;
     mesh.triangles[kept] = mesh.triangles[i];
     mesh.triangle_material[kept] = mesh.triangle_material[i];
+    if (!mesh.triangle_part.empty()) mesh.triangle_part[kept] = mesh.triangle_part[i];
     ++kept;
   }
   mesh.triangles.resize(kept);
   mesh.triangle_material.resize(kept);
+  if (!mesh.triangle_part.empty()) mesh.triangle_part.resize(kept);
 }
 
 }  // namespace
@@ -138,6 +140,8 @@ void erase_marked(TriangleMesh& mesh, const std::vector<bool>& removed) {
 void check_and_clean(TriangleMesh& mesh, const std::string& file, core::ProblemList& problems) {
   if (mesh.triangle_material.size() != mesh.triangles.size())
     throw core::InternalError("mesh '" + mesh.name + "' needs one material per triangle");
+  if (!mesh.triangle_part.empty() && mesh.triangle_part.size() != mesh.triangles.size())
+    throw core::InternalError("mesh '" + mesh.name + "' needs one part per triangle, or none");
   if (!MeshCheck(mesh, file, problems).passes()) return;
 
   std::vector<bool> removed(mesh.triangles.size(), false);

@@ -11,13 +11,16 @@
 namespace fanbeam::terrain {
 
 // Counter-clockwise seen from outside. `triangle_material[i]` is an index into `material_names`
-// (one entry per triangle).
+// (one entry per triangle). A mesh of several parts (nodes of a model, buildings of a file) says
+// which part each triangle belongs to; empty, all are part 0.
 struct TriangleMesh {
   std::string name;
   std::vector<glm::dvec3> vertices_m;
   std::vector<glm::uvec3> triangles;
   std::vector<std::uint32_t> triangle_material;
   std::vector<std::string> material_names;
+  std::vector<std::uint32_t> triangle_part{};
+  std::vector<std::string> part_names{};  // empty where parts have none
 };
 
 // Largest coordinate a vertex may have: beyond it a float in the ray caster no longer resolves a

@@ -141,6 +141,7 @@ void RayScene::add_terrain() {
   rtcAttachGeometryByID(library_->scene, geometry, kTerrainGeometry);
   rtcReleaseGeometry(geometry);
   mesh_material_.emplace_back();
+  mesh_object_.emplace_back();
   triangle_count_ += 2 * terrain_.cell_material.size();
 }
 
@@ -162,10 +163,16 @@ void RayScene::add_mesh(const PlacedMesh& placed) {
     for (int corner = 0; corner < 3; ++corner) *index++ = mesh.triangles[i][corner];
     materials.push_back(placed.material_of_name.at(mesh.triangle_material[i]));
   }
+  std::vector<ObjectId> objects;
+  if (!placed.object_of_part.empty())
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+      objects.push_back(
+          placed.object_of_part.at(mesh.triangle_part.empty() ? 0 : mesh.triangle_part[i]));
   rtcCommitGeometry(geometry);
   rtcAttachGeometryByID(library_->scene, geometry, static_cast<unsigned>(mesh_material_.size()));
   rtcReleaseGeometry(geometry);
   mesh_material_.push_back(std::move(materials));
+  mesh_object_.push_back(std::move(objects));
   triangle_count_ += mesh.triangles.size();
   has_meshes_ = true;
 }

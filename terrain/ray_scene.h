@@ -67,6 +67,7 @@ struct alignas(N * 4) RayPacket {
 struct PlacedMesh {
   TriangleMesh mesh;
   std::vector<MaterialId> material_of_name;  // parallel to mesh.material_names
+  std::vector<ObjectId> object_of_part{};    // empty: kTerrainObject
 };
 
 struct SceneHit {
@@ -120,6 +121,13 @@ class RayScene {
     return mesh_material_[geometry][primitive];
   }
 
+  // What was hit belongs to: ground and what is painted on it, or a part of a mesh.
+  ObjectId object(std::uint32_t geometry, std::uint32_t primitive, double x_m,
+                  double y_m) const noexcept {
+    if (has_terrain_ && geometry == kTerrainGeometry) return surface_map_->object_at(x_m, y_m);
+    return mesh_object_[geometry].empty() ? kTerrainObject : mesh_object_[geometry][primitive];
+  }
+
   // Corners of a triangle that was hit: the posts of the terrain, or what the library keeps of a
   // mesh (floats). For checks, not for the ray loop.
   std::array<glm::dvec3, 3> triangle(std::uint32_t geometry, std::uint32_t primitive) const;
@@ -153,7 +161,8 @@ class RayScene {
   HeightField terrain_;
   std::unique_ptr<SurfaceMap> surface_map_;
   std::vector<std::vector<MaterialId>>
-      mesh_material_;  // [geometry][triangle]; empty for the terrain
+      mesh_material_;                               // [geometry][triangle]; empty for the terrain
+  std::vector<std::vector<ObjectId>> mesh_object_;  // the same; empty where none was named
   std::size_t triangle_count_ = 0;
   int native_packet_ = 8;
   MeshTops tops_;

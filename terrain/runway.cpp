@@ -55,6 +55,31 @@ void paint_end(const Runway& runway, int end, double landing_length_m,
     if (s_m != aiming_m) paint.pair(s_m, 10.5, 22.5, 3.0);
 }
 
+std::vector<SurfacePatch> pavement_patches(const Runway& runway) {
+  std::vector<SurfacePatch> patches;
+  const glm::dvec2 centre = (runway.ends[0].pavement_end_m + runway.ends[1].pavement_end_m) / 2.0;
+  const glm::dvec2 along = runway.along();
+  const double length_m = runway.length_m();
+  if (runway.shoulder_m > 0.0)
+    patches.push_back(rectangle_patch(centre, along, length_m,
+                                      runway.width_m + 2.0 * runway.shoulder_m,
+                                      runway.materials.shoulder));
+  patches.push_back(
+      rectangle_patch(centre, along, length_m, runway.width_m, runway.materials.surface));
+  return patches;
+}
+
+void paint_markings(const Runway& runway, std::vector<SurfacePatch>& patches) {
+  const double landing_m =
+      runway.length_m() - runway.ends[0].displaced_m - runway.ends[1].displaced_m;
+  paint_end(runway, 0, landing_m, patches);
+  paint_end(runway, 1, landing_m, patches);
+  MarkingPainter paint(runway, 0, patches);
+  for (double s_m = 60.0; s_m + 30.0 < landing_m - 50.0; s_m += 50.0)
+    paint.rectangle(s_m, 0.0, 30.0, 0.9);
+  paint.pair(0.0, runway.width_m / 2 - 0.45, landing_m, 0.9);
+}
+
 }  // namespace
 
 double Runway::length_m() const {
@@ -70,25 +95,13 @@ glm::dvec2 Runway::threshold_m(int end) const {
   return ends[end].pavement_end_m + inwards * ends[end].displaced_m;
 }
 
-std::vector<SurfacePatch> runway_patches(const Runway& runway) {
-  std::vector<SurfacePatch> patches;
-  const glm::dvec2 centre = (runway.ends[0].pavement_end_m + runway.ends[1].pavement_end_m) / 2.0;
-  const glm::dvec2 along = runway.along();
-  const double length_m = runway.length_m();
-  if (runway.shoulder_m > 0.0)
-    patches.push_back(rectangle_patch(centre, along, length_m,
-                                      runway.width_m + 2.0 * runway.shoulder_m,
-                                      runway.materials.shoulder));
-  patches.push_back(
-      rectangle_patch(centre, along, length_m, runway.width_m, runway.materials.surface));
-  if (!runway.markings) return patches;
-  const double landing_m = length_m - runway.ends[0].displaced_m - runway.ends[1].displaced_m;
-  paint_end(runway, 0, landing_m, patches);
-  paint_end(runway, 1, landing_m, patches);
-  MarkingPainter paint(runway, 0, patches);
-  for (double s_m = 60.0; s_m + 30.0 < landing_m - 50.0; s_m += 50.0)
-    paint.rectangle(s_m, 0.0, 30.0, 0.9);
-  paint.pair(0.0, runway.width_m / 2 - 0.45, landing_m, 0.9);
+std::vector<SurfacePatch> runway_patches(const Runway& runway, ObjectId pavement,
+                                         ObjectId markings) {
+  std::vector<SurfacePatch> patches = pavement_patches(runway);
+  for (SurfacePatch& patch : patches) patch.object = pavement;
+  const std::size_t paved = patches.size();
+  if (runway.markings) paint_markings(runway, patches);
+  for (std::size_t i = paved; i < patches.size(); ++i) patches[i].object = markings;
   return patches;
 }
 

@@ -46,8 +46,9 @@ struct Runway {
   glm::dvec2 threshold_m(int end) const;
 };
 
-// Bottom to top: shoulders, pavement, markings.
-std::vector<SurfacePatch> runway_patches(const Runway& runway);
+// Bottom to top: shoulders, pavement, markings; the first two belong to one object.
+std::vector<SurfacePatch> runway_patches(const Runway& runway, ObjectId pavement = kTerrainObject,
+                                         ObjectId markings = kTerrainObject);
 
 // Ground height near a runway: inside the strip the straight line between the published end
 // elevations, outside the natural height, a smooth blend between.

@@ -86,12 +86,26 @@ bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m,
   return crosses_odd(patch.outline_m, x_m, y_m);
 }
 
-MaterialId SurfaceMap::patched_material(std::size_t cell, double x_m, double y_m) const noexcept {
+const SurfacePatch* SurfaceMap::patch_at(std::size_t cell, double x_m, double y_m) const noexcept {
   for (std::uint32_t k = patch_begin_[cell]; k < patch_begin_[cell + 1]; ++k) {
     const std::uint32_t p = patch_index_[k];
-    if (inside(patches_[p], boxes_[p], x_m, y_m)) return patches_[p].material;
+    if (inside(patches_[p], boxes_[p], x_m, y_m)) return &patches_[p];
   }
-  return static_cast<MaterialId>(cells_[cell] & ~kPatched);
+  return nullptr;
+}
+
+MaterialId SurfaceMap::patched_material(std::size_t cell, double x_m, double y_m) const noexcept {
+  const SurfacePatch* const patch = patch_at(cell, x_m, y_m);
+  return patch != nullptr ? patch->material : static_cast<MaterialId>(cells_[cell] & ~kPatched);
+}
+
+ObjectId SurfaceMap::object_at(double x_m, double y_m) const noexcept {
+  const std::size_t cell =
+      static_cast<std::size_t>(row_of(y_m)) * static_cast<std::size_t>(columns_) +
+      static_cast<std::size_t>(column_of(x_m));
+  const SurfacePatch* const patch =
+      (cells_[cell] & kPatched) == 0 ? nullptr : patch_at(cell, x_m, y_m);
+  return patch != nullptr ? patch->object : kTerrainObject;
 }
 
 }  // namespace fanbeam::terrain

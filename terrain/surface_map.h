@@ -20,6 +20,7 @@ namespace fanbeam::terrain {
 struct SurfacePatch {
   std::vector<glm::dvec2> outline_m;
   MaterialId material = 0;
+  ObjectId object = kTerrainObject;
 };
 
 // An axis-free rectangle: `along` is a unit vector.
@@ -33,9 +34,7 @@ class SurfaceMap {
 
   // Point is clamped to the grid.
   MaterialId material_at(double x_m, double y_m) const noexcept {
-    const int i = std::clamp(static_cast<int>((x_m - west_m_) * per_spacing_), 0, columns_ - 1);
-    const int j = std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
-    return material_in_cell(i, j, x_m, y_m);
+    return material_in_cell(column_of(x_m), row_of(y_m), x_m, y_m);
   }
 
   // The same for a point that is known to lie in this cell.
@@ -45,13 +44,23 @@ class SurfaceMap {
     return (cells_[cell] & kPatched) == 0 ? cells_[cell] : patched_material(cell, x_m, y_m);
   }
 
+  // Of the patch on top, else the terrain. Point is clamped to the grid.
+  ObjectId object_at(double x_m, double y_m) const noexcept;
+
   const std::vector<SurfacePatch>& patches() const { return patches_; }
 
  private:
+  int column_of(double x_m) const noexcept {
+    return std::clamp(static_cast<int>((x_m - west_m_) * per_spacing_), 0, columns_ - 1);
+  }
+  int row_of(double y_m) const noexcept {
+    return std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
+  }
   struct Box {
     double west_m, south_m, east_m, north_m;
   };
   bool inside(const SurfacePatch& patch, const Box& box, double x_m, double y_m) const noexcept;
+  const SurfacePatch* patch_at(std::size_t cell, double x_m, double y_m) const noexcept;
   MaterialId patched_material(std::size_t cell, double x_m, double y_m) const noexcept;
 
   double west_m_, south_m_, per_spacing_;

@@ -76,7 +76,7 @@ NumericFigures measure_numerics(const CostBench& bench,
                            renderer::sampling_for(renderer::kDefaultRaysPerCell));
     figures.ranges.push_back(check.ranges(bench.effort.repetitions));
     figures.ranges.back().frame = frame;
-    figures.robust.push_back(check.against(*fragile->world.surfaces));
+    figures.robust.push_back(check.against(fragile->world.surfaces()));
     figures.robust.back().frame = frame;
   }
   return figures;

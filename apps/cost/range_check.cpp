@@ -53,7 +53,7 @@ RangeCheck::RangeCheck(const renderer::World& world, const renderer::FramePose& 
 }
 
 RangeFigures RangeCheck::ranges(int repetitions) const {
-  const terrain::RayScene& surfaces = *world_.surfaces;
+  const terrain::RayScene& surfaces = world_.surfaces();
   std::vector<double> differences_m;
   RangeFigures figures;
   double squares_m2 = 0.0;
@@ -109,7 +109,7 @@ RobustFigures RangeCheck::against(const terrain::RayScene& other) const {
   const double moved_m = 0.01 * world_.sensor.range.cell_m;
   RobustFigures figures;
   for (const RayPacket<kLanes>& sent : packets_) {
-    const RayPacket<kLanes> a = cast(*world_.surfaces, sent), b = cast(other, sent);
+    const RayPacket<kLanes> a = cast(world_.surfaces(), sent), b = cast(other, sent);
     for (int i = 0; i < kLanes; ++i) {
       if (!holds_ray(sent, i)) continue;
       ++figures.rays;

@@ -12,8 +12,8 @@
 namespace fanbeam::apps {
 
 SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwOptions& options) {
-  const core::Pose pose = scene.trajectory.at(
-      scene.trajectory.frame_time_s(frame, scene.description.sensor.scan.frame_rate_Hz));
+  const core::Pose pose = scene.trajectory->at(
+      scene.trajectory->frame_time_s(frame, scene.description.sensor.scan.frame_rate_Hz));
   const renderer::FramePose frame_pose = scene.frame_pose(frame);
   SignalBscopeSettings settings;
   settings.rays_per_cell = options.rays_per_cell;
@@ -21,7 +21,7 @@ SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwOption
   settings.own_velocity_mps = frame_pose.north_east_down * pose.v_N_mps;
   if (scene.plan.runs(renderer::kMultipath)) settings.multipath = renderer::Multipath::coherent;
   settings.swerling = scene.plan.runs(renderer::kSwerling);
-  settings.budget = {scene.plan, scene.accuracy_grey, scene.wishes};
+  settings.budget = {scene.plan, scene.accuracy_grey, scene.options.wishes};
   settings.line_width_Hz = options.line_width_Hz;
   settings.adc_bits = options.adc_bits;
   settings.seed = options.seed;

@@ -30,7 +30,7 @@ double element_gain(const sensors::Sensor& sensor, double azimuth_rad) {
 FmcwPaths fmcw_paths(const scenes::Scene& scene, int frame, const FmcwOptions& options) {
   const sensors::Sensor& sensor = scene.world.sensor;  // with side lobes where they are planned
   const core::Pose pose =
-      scene.trajectory.at(scene.trajectory.frame_time_s(frame, sensor.scan.frame_rate_Hz));
+      scene.trajectory->at(scene.trajectory->frame_time_s(frame, sensor.scan.frame_rate_Hz));
   const renderer::FramePose frame_pose = scene.frame_pose(frame);
   renderer::FrameEchoSettings settings;
   settings.sampling.sub_columns = 1;

@@ -112,7 +112,8 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
   FmcwFrameRecord record;
   record.chain = true;
   record.index = index;
-  record.time_s = scene.trajectory.frame_time_s(index, scene.description.sensor.scan.frame_rate_Hz);
+  record.time_s =
+      scene.trajectory->frame_time_s(index, scene.description.sensor.scan.frame_rate_Hz);
   record.rays = paths.rays;
   record.paths = paths.paths.size();
   for (const signal::ScatterPath& path : paths.paths)

@@ -14,6 +14,8 @@ struct RainCell {
   double heading_rad = 0.0;                 // -2 pi to 2 pi
   double rain_rate_mm_per_h = 0.0;          // 0 to 300
   double base_m = -2000.0, top_m = 3000.0;  // -2000 to 12000, base below top
+
+  bool operator==(const RainCell&) const = default;
 };
 
 }  // namespace fanbeam::atmosphere

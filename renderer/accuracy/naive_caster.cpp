@@ -11,6 +11,7 @@
 #include "renderer/casting/frame_path_loss.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/casting/sub_column.h"
+#include "renderer/surfaces/nrcs_table.h"
 #include "sensors/cells.h"
 
 namespace fanbeam::renderer {
@@ -63,7 +64,6 @@ NaiveCaster::NaiveCaster(const World& world, NaiveKind kind, double rays, const 
     elevations_rad_.push_back(elevation_rad);
     elevation_turns_.push_back({std::cos(elevation_rad), std::sin(elevation_rad)});
   }
-  for (const materials::NrcsCurve& model : world.nrcs) nrcs_.emplace_back(model);
 }
 
 // Power per radian of azimuth, into the one cell and row that hold the hit.
@@ -80,7 +80,7 @@ void NaiveCaster::cast_ray(const Frame& frame, const Turn& azimuth, std::size_t 
            : cosine * (azimuth.cosine * antenna.forward + azimuth.sine * antenna.right) +
                  sine * antenna.up;
   const auto hit =
-      world_.surfaces->intersect(antenna.position_m, direction, sensor.range.maximum_m());
+      world_.surfaces().intersect(antenna.position_m, direction, sensor.range.maximum_m());
   if (!hit) return;
   ++counts.hits;
   const double range_m = hit->distance_m;
@@ -93,7 +93,7 @@ void NaiveCaster::cast_ray(const Frame& frame, const Turn& azimuth, std::size_t 
   double power_W_per_rad =
       frame.radar_constant_W_m2 * step_rad_ * (cone ? azimuth.cosine : cosine) /
       (range_m * range_m) *
-      nrcs_[hit->material].sigma0_over_sine(-glm::dot(hit->normal, direction)) *
+      world_.nrcs.tables()[hit->material].sigma0_over_sine(-glm::dot(hit->normal, direction)) *
       elevation_gain_(elevation_rad - sensor.antenna.boresight_elevation_rad) *
       frame.path_loss.two_way_factor(antenna.position_m.z + direction.z * range_m, range_m);
   if (world_.rain_cells)
@@ -132,7 +132,7 @@ void NaiveCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, c
   if (pass.level != 0 || pass.groups != nullptr)
     throw core::InternalError("a naive renderer refines nothing");
   sight.clear.assign(sight.to_m.size(), kAskRays);
-  look_along_rays(*world_.surfaces, antenna.position_m, sight);
+  look_along_rays(world_.surfaces(), antenna.position_m, sight);
   lay_out_fan(world_, naive_sampling(kind_), with_cscope, sums);
   std::fill(sums.range_W_per_rad.begin(), sums.range_W_per_rad.end(), 0.0);
   std::fill(sums.elevation_W_m3_per_rad.begin(), sums.elevation_W_m3_per_rad.end(), 0.0);

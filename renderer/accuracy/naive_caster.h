@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "renderer/casting/caster.h"
-#include "renderer/casting/nrcs_table.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/world.h"
 #include "sensors/antenna/beam_pattern.h"
@@ -61,7 +60,6 @@ class NaiveCaster : public Caster {
   double step_rad_ = 0.0;  // between elevations
   std::vector<double> elevations_rad_;
   std::vector<Turn> elevation_turns_;
-  std::vector<NrcsTable> nrcs_;  // by material
   sensors::TwoWayTable elevation_gain_;
 };
 

@@ -8,20 +8,19 @@
 #include <vector>
 
 #include "core/series.h"
-#include "renderer/casting/nrcs_table.h"
 #include "renderer/casting/path_loss_table.h"
 #include "renderer/casting/ray_batch.h"
 #include "renderer/casting/ray_chain.h"
+#include "renderer/surfaces/nrcs_table.h"
 #include "renderer/world.h"
 
 namespace fanbeam::renderer {
 
 class EchoDensity {
  public:
-  EchoDensity(const World& world, const std::vector<NrcsTable>& nrcs,
-              const PathLossTable& path_loss, const glm::dvec3& antenna_m)
-      : surfaces_(*world.surfaces),
-        nrcs_(nrcs),
+  EchoDensity(const World& world, const PathLossTable& path_loss, const glm::dvec3& antenna_m)
+      : surfaces_(world.surfaces()),
+        nrcs_(world.nrcs.tables()),
         path_loss_(path_loss),
         antenna_m_(antenna_m),
         radar_constant_W_m2_(world.sensor.radar_constant_W_m2()) {}

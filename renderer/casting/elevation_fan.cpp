@@ -53,9 +53,9 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
     return heading_at(frame, azimuth_rad, 0.0, world_.sensor.scan.surface);
   };
   const double middle_rad = (left_rad + right_rad) / 2;
-  if (world_.surfaces->terrain() != nullptr) {
+  if (world_.surfaces().terrain() != nullptr) {
     const glm::dvec3& at_m = frame.position_m;
-    if (nearest_ == Nearest::antenna || !world_.surfaces->terrain()->height_at(at_m.x, at_m.y))
+    if (nearest_ == Nearest::antenna || !world_.surfaces().terrain()->height_at(at_m.x, at_m.y))
       edges.push_back(lowest_rad_);
     follow_ground(frame, middle_rad, edges);
     // Beside the centre azimuth the horizon may stand a little higher.
@@ -63,7 +63,7 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
       if (!edges.empty())
         add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, object_step_rad_, edges);
   }
-  if (!world_.surfaces->has_meshes()) return;
+  if (!world_.surfaces().has_meshes()) return;
   double top_rad = highest_object_rad(frame, heading(middle_rad));
   top_rad = std::max(top_rad, highest_object_rad(frame, heading(left_rad)));
   top_rad = std::max(top_rad, highest_object_rad(frame, heading(right_rad)));
@@ -76,7 +76,7 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
 
 void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
                                  std::vector<double>& edges) const {
-  const terrain::HeightField& ground = *world_.surfaces->terrain();
+  const terrain::HeightField& ground = *world_.surfaces().terrain();
   const sensors::RangeGate& gate = world_.sensor.range;
   const double stride = std::max(1.0, 1.0 / sampling_.rays_per_cell);
   const glm::dvec3& sensor = frame.position_m;
@@ -84,7 +84,7 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   const bool level = azimuths_are_upright(frame, surface);
   const bool cone = surface == sensors::ScanSurface::cone;
   glm::dvec2 heading = heading_at(frame, azimuth_rad, level || cone ? 0.0 : lowest_rad_, surface);
-  const double below_m = std::abs(world_.surfaces->height_above_ground_m(sensor));
+  const double below_m = std::abs(world_.surfaces().height_above_ground_m(sensor));
   double drop_m = below_m;
   int step = 0, settling = cone ? 3 : 0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
@@ -123,7 +123,7 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
 
 double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
                                         const glm::dvec2& heading) const {
-  const terrain::RayScene& surfaces = *world_.surfaces;
+  const terrain::RayScene& surfaces = world_.surfaces();
   const double square_m = surfaces.tops_spacing_m();
   const glm::dvec3& sensor = frame.position_m;
   double top_slope = -1e30;

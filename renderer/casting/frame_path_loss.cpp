@@ -5,7 +5,7 @@
 namespace fanbeam::renderer {
 
 FramePathLoss::FramePathLoss(const World& world) : world_(world) {
-  const terrain::HeightField* ground = world.surfaces->terrain();
+  const terrain::HeightField* ground = world.surfaces().terrain();
   if (ground == nullptr) return;
   const auto [low, high] = std::minmax_element(ground->height_m.begin(), ground->height_m.end());
   lowest_m_ = *low;

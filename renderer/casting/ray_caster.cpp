@@ -53,14 +53,12 @@ RayCaster::RayCaster(const World& world, const Sampling& sampling)
       sampling_(sampling),
       fan_(world, sampling_),
       elevation_gain_(world.sensor.antenna.elevation),
-      path_loss_(world) {
-  for (const materials::NrcsCurve& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
-}
+      path_loss_(world) {}
 
 void RayCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope, const CastPass& pass,
                      FanSums& sums, SightLines& sight) const {
   sight.clear.assign(sight.to_m.size(), kAskRays);
-  look_along_rays(*world_.surfaces, antenna.position_m, sight);
+  look_along_rays(world_.surfaces(), antenna.position_m, sight);
   lay_out_fan(world_, sampling_, with_cscope, sums);
   cast_groups(antenna, with_cscope, pass.level,
               pass.groups != nullptr ? *pass.groups : groups_of(sums), sums);
@@ -92,9 +90,9 @@ void RayCaster::cast_groups(const sensors::AntennaFrame& antenna, bool with_csco
 void RayCaster::cast_once(const sensors::AntennaFrame& antenna, bool with_cscope, const Pass& pass,
                           const std::vector<std::uint32_t>& groups, FanSums& sums) const {
   const PathLossTable path_loss = path_loss_.from(antenna.position_m.z);
-  const RayFrame frame{world_,          pass.sampling, pass.fan,    nrcs_,      antenna,
+  const RayFrame frame{world_,          pass.sampling, pass.fan,    antenna,
                        elevation_gain_, path_loss,     with_cscope, pass.places};
-  if (world_.surfaces->native_packet() == 16) {
+  if (world_.surfaces().native_packet() == 16) {
     cast_all<16>(frame, groups, sums, nullptr);
   } else {
     cast_all<8>(frame, groups, sums, nullptr);
@@ -105,7 +103,7 @@ std::vector<terrain::RayPacket<16>> RayCaster::packets(const sensors::AntennaFra
   FanSums sums;
   lay_out_fan(world_, sampling_, true, sums);
   const PathLossTable path_loss = path_loss_.from(antenna.position_m.z);
-  const RayFrame frame{world_,          sampling_, fan_, nrcs_,          antenna,
+  const RayFrame frame{world_,          sampling_, fan_, antenna,
                        elevation_gain_, path_loss, true, whole_places(0)};
   std::vector<std::vector<terrain::RayPacket<16>>> groups;
   cast_all<16>(frame, groups_of(sums), sums, &groups);

@@ -28,7 +28,6 @@
 #include "renderer/casting/caster.h"
 #include "renderer/casting/elevation_fan.h"
 #include "renderer/casting/frame_path_loss.h"
-#include "renderer/casting/nrcs_table.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/world.h"
 #include "sensors/antenna/beam_pattern.h"
@@ -61,7 +60,6 @@ class RayCaster : public Caster {
   Sampling sampling_;
   ElevationFan fan_;
   sensors::TwoWayTable elevation_gain_;
-  std::vector<NrcsTable> nrcs_;  // by material id
   FramePathLoss path_loss_;
 };
 

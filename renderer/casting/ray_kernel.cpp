@@ -39,10 +39,10 @@ class GroupCaster {
         group_(group),
         scratch_(scratch),
         sums_(sums),
-        sender_(*frame.world.surfaces, frame.world.sensor.range, frame.antenna.position_m, record),
+        sender_(frame.world.surfaces(), frame.world.sensor.range, frame.antenna.position_m, record),
         aim_(frame.antenna, is_cone(frame.world),
              azimuths_are_upright(frame.antenna, frame.world.sensor.scan.surface)),
-        echo_(frame.world, frame.nrcs, frame.path_loss, frame.antenna.position_m),
+        echo_(frame.world, frame.path_loss, frame.antenna.position_m),
         gap_limit_m_(gap_limit_m(frame)) {
     for (int a = 0; a < kGroupAzimuths; ++a) {
       const double centre_rad =

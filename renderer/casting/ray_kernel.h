@@ -8,7 +8,6 @@
 #include "renderer/casting/caster.h"
 #include "renderer/casting/elevation_fan.h"
 #include "renderer/casting/interval_deposit.h"
-#include "renderer/casting/nrcs_table.h"
 #include "renderer/casting/path_loss_table.h"
 #include "renderer/casting/ray_chain.h"
 #include "renderer/casting/sampling.h"
@@ -36,7 +35,6 @@ struct RayFrame {
   const World& world;
   const Sampling& sampling;
   const ElevationFan& fan;
-  const std::vector<NrcsTable>& nrcs;
   const sensors::AntennaFrame& antenna;
   const sensors::TwoWayTable& elevation_gain;
   const PathLossTable& path_loss;

@@ -20,4 +20,19 @@ SceneFacts seen_facts(const SceneFacts& scene, const FrameSight& sight) {
   return facts;
 }
 
+bool covers(const SceneFacts& planned, const SceneFacts& seen) {
+  const auto within = [](bool part, bool whole) { return !part || whole; };
+  const std::vector<atmosphere::RainCell>& cells = planned.weather.rain_cells;
+  return seen.lowest_m >= planned.lowest_m && seen.highest_m <= planned.highest_m &&
+         within(seen.reflects, planned.reflects) && within(seen.has_walls, planned.has_walls) &&
+         within(seen.ground_reflects, planned.ground_reflects) &&
+         within(seen.has_point_targets, planned.has_point_targets) &&
+         within(seen.leaves_ground, planned.leaves_ground) &&
+         seen.largest_eta_m2_per_m3 <= planned.largest_eta_m2_per_m3 &&
+         std::all_of(seen.weather.rain_cells.begin(), seen.weather.rain_cells.end(),
+                     [&](const atmosphere::RainCell& cell) {
+                       return std::find(cells.begin(), cells.end(), cell) != cells.end();
+                     });
+}
+
 }  // namespace fanbeam::renderer

@@ -31,4 +31,7 @@ struct FrameSight {
 
 SceneFacts seen_facts(const SceneFacts& scene, const FrameSight& sight);
 
+// Whether a plan made of `planned` holds for what `seen` names: both narrowed from the same scene.
+bool covers(const SceneFacts& planned, const SceneFacts& seen);
+
 }  // namespace fanbeam::renderer

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "renderer/stages/bistatic_nrcs.h"
+#include "renderer/surfaces/bistatic_nrcs.h"
 #include "sensors/sensor.h"
 
 namespace fanbeam::renderer {

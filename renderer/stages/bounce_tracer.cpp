@@ -118,17 +118,11 @@ AngleParts angle_parts(const sensors::AntennaFrame& antenna, const glm::dvec3& d
   return {flat, up, forward * inverse, right * inverse};
 }
 
-std::vector<BistaticNrcs> tables(const std::vector<materials::NrcsCurve>& curves) {
-  std::vector<BistaticNrcs> tables;
-  for (const materials::NrcsCurve& curve : curves) tables.emplace_back(NrcsTable(curve));
-  return tables;
-}
-
 }  // namespace
 
 BounceTracer::BounceTracer(const World& world, bool noise)
     : world_(world),
-      nrcs_(tables(world.nrcs)),
+      nrcs_(world.nrcs.bistatic()),
       mirrors_(world.specular, nrcs_, world.sensor.wavelength_m()),
       elevation_gain_(world.sensor.antenna.elevation),
       beam_tangent_(widest_tangent(world.sensor.antenna.azimuth)),
@@ -175,8 +169,8 @@ class BounceTracer::Packets {
 std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna,
                                   const std::vector<AntennaRay>& rays,
                                   std::vector<Bounce>& bounces) const {
-  return world_.surfaces->native_packet() == 16 ? trace_packets<16>(antenna, rays, bounces)
-                                                : trace_packets<8>(antenna, rays, bounces);
+  return world_.surfaces().native_packet() == 16 ? trace_packets<16>(antenna, rays, bounces)
+                                                 : trace_packets<8>(antenna, rays, bounces);
 }
 
 template <int N>
@@ -188,7 +182,7 @@ std::uint64_t BounceTracer::trace_packets(const sensors::AntennaFrame& antenna,
   scratch.returns.clear();
   const std::size_t first = bounces.size();
   bounces.resize(rays.size());
-  Packets<N> packets(*world_.surfaces);
+  Packets<N> packets(world_.surfaces());
   find_mirrors(antenna, rays, first, packets, scratch.lanes);
   follow(antenna, rays, scratch.lanes, packets, bounces, scratch.returns);
   look_back(antenna, scratch.returns, packets, bounces);
@@ -200,7 +194,7 @@ template <int N>
 void BounceTracer::find_mirrors(const sensors::AntennaFrame& antenna,
                                 const std::vector<AntennaRay>& rays, std::size_t first,
                                 Packets<N>& packets, std::vector<Lane>& lanes) const {
-  const terrain::RayScene& surfaces = *world_.surfaces;
+  const terrain::RayScene& surfaces = world_.surfaces();
   const bool cone = is_cone();
   const glm::dvec3 antenna_m = surfaces.in_caster_m(antenna.position_m);
   const double far_m = world_.sensor.range.maximum_m();
@@ -224,8 +218,7 @@ double BounceTracer::farthest_m(const Lane& lane) const {
   const sensors::RangeGate& gate = world_.sensor.range;
   const double range_m = gate.maximum_m() + kSpreadCells * gate.cell_m + kMargin_m;
   const double turn = glm::dot(lane.first_direction, lane.direction);
-  return 2.0 * range_m * (range_m - lane.first_m) /
-         (2.0 * range_m - lane.first_m * (1.0 - turn));
+  return 2.0 * range_m * (range_m - lane.first_m) / (2.0 * range_m - lane.first_m * (1.0 - turn));
 }
 
 // What the mirrored rays meet, and which of it has a way back to look for.
@@ -233,7 +226,7 @@ template <int N>
 void BounceTracer::follow(const sensors::AntennaFrame& antenna, const std::vector<AntennaRay>& rays,
                           const std::vector<Lane>& lanes, Packets<N>& packets,
                           std::vector<Bounce>& bounces, std::vector<Return>& returns) const {
-  const terrain::RayScene& surfaces = *world_.surfaces;
+  const terrain::RayScene& surfaces = world_.surfaces();
   packets.intersect(
       lanes.size(),
       [&](terrain::RayPacket<N>& packet, int lane, std::size_t i) {
@@ -256,7 +249,7 @@ template <int N>
 void BounceTracer::look_back(const sensors::AntennaFrame& antenna,
                              const std::vector<Return>& returns, Packets<N>& packets,
                              std::vector<Bounce>& bounces) const {
-  const terrain::RayScene& surfaces = *world_.surfaces;
+  const terrain::RayScene& surfaces = world_.surfaces();
   const glm::dvec3 antenna_m = surfaces.in_caster_m(antenna.position_m);
   packets.find_occluded(
       returns.size(),

@@ -20,8 +20,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "renderer/stages/bistatic_nrcs.h"
-#include "renderer/stages/mirrors.h"
+#include "renderer/surfaces/bistatic_nrcs.h"
+#include "renderer/surfaces/mirrors.h"
 #include "renderer/world.h"
 #include "sensors/antenna/antenna_frame.h"
 #include "sensors/antenna/beam_pattern.h"
@@ -102,7 +102,7 @@ class BounceTracer {
   double loss_dB(const glm::dvec3& a_m, const glm::dvec3& b_m, double length_m) const;
 
   const World& world_;
-  std::vector<BistaticNrcs> nrcs_;  // by material id
+  const std::vector<BistaticNrcs>& nrcs_;  // by material id
   Mirrors mirrors_;
   sensors::TwoWayTable elevation_gain_;
   double beam_tangent_ = 0.0;

@@ -82,9 +82,7 @@ class SurfaceCaster {
         fan_(world, settings.sampling),
         elevation_gain_(world.sensor.antenna.elevation),
         path_loss_(FramePathLoss(world).from(antenna.position_m.z)),
-        is_cone_(world.sensor.scan.surface == sensors::ScanSurface::cone) {
-    for (const materials::NrcsCurve& nrcs : world.nrcs) nrcs_.emplace_back(nrcs);
-  }
+        is_cone_(world.sensor.scan.surface == sensors::ScanSurface::cone) {}
 
   // `number` names the column's random draws.
   Scatterers cast(const SubColumn& column, int number) const {
@@ -94,10 +92,10 @@ class SurfaceCaster {
     if (edges.size() < 2) return found;
     RayBatch batch;
     RayChain chain;
-    PacketSender<8> sender(*world_.surfaces, world_.sensor.range, antenna_.position_m, nullptr);
+    PacketSender<8> sender(world_.surfaces(), world_.sensor.range, antenna_.position_m, nullptr);
     const RayAim aim(antenna_, is_cone_,
                      azimuths_are_upright(antenna_, world_.sensor.scan.surface));
-    const EchoDensity density(world_, nrcs_, path_loss_, antenna_.position_m);
+    const EchoDensity density(world_, path_loss_, antenna_.position_m);
     for (int lane = 0; lane < kBatchRays; ++lane) batch.set_column(lane, column);
     const int total = (static_cast<int>(edges.size()) - 1) * settings_.passes;
     for (int done = 0; done < total; done += kBatchRays) {
@@ -159,7 +157,7 @@ class SurfaceCaster {
     if (world_.rain_cells)
       echo.power_W *= world_.rain_cells->two_way_power_factor(antenna_.position_m, hit_m);
     echo.material_id =
-        world_.surfaces->material(batch.geometry[lane], batch.primitive[lane], hit_m.x, hit_m.y);
+        world_.surfaces().material(batch.geometry[lane], batch.primitive[lane], hit_m.x, hit_m.y);
     echo.object_id = batch.geometry[lane];
     found.echoes.push_back(echo);
     found.phase_rad.push_back(draw.phase_rad);
@@ -171,7 +169,6 @@ class SurfaceCaster {
   core::RandomKey key_;
   ElevationFan fan_;
   sensors::TwoWayTable elevation_gain_;
-  std::vector<NrcsTable> nrcs_;
   PathLossTable path_loss_;
   bool is_cone_;
 };

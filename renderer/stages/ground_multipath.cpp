@@ -69,7 +69,7 @@ std::optional<Reflection> reflection_point(const terrain::HeightField& ground,
 
 std::optional<GroundPath> ground_path(const World& world, const sensors::AntennaFrame& antenna,
                                       const glm::dvec3& target_m) {
-  const terrain::RayScene& surfaces = *world.surfaces;
+  const terrain::RayScene& surfaces = world.surfaces();
   if (surfaces.terrain() == nullptr) return std::nullopt;
   const auto found = reflection_point(*surfaces.terrain(), antenna.position_m, target_m);
   if (!found) return std::nullopt;

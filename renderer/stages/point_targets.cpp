@@ -167,7 +167,7 @@ std::vector<core::Echo> point_echoes(const World& world, const sensors::AntennaF
   const std::vector<core::Echo> echoes = unobstructed_echoes(world, antenna, time_s).echoes;
   SightLines sight = sight_lines(world, echoes, time_s);
   sight.clear.assign(sight.to_m.size(), kAskRays);
-  look_along_rays(*world.surfaces, antenna.position_m, sight);
+  look_along_rays(world.surfaces(), antenna.position_m, sight);
   return seen_echoes(world, antenna, echoes, sight, multipath);
 }
 

@@ -104,9 +104,9 @@ class Echo {
   }
 
   double height_above_ground_m() const {
-    return world_.surfaces->terrain() == nullptr
+    return world_.surfaces().terrain() == nullptr
                ? 0.0
-               : world_.surfaces->height_above_ground_m(antenna_.position_m);
+               : world_.surfaces().height_above_ground_m(antenna_.position_m);
   }
 
   // One way, from the antenna to the near edge of a cell.
@@ -162,7 +162,7 @@ class Echo {
     const glm::dvec3 along =
         sensors::direction(antenna_, azimuth_rad, elevation_rad, sensor_.scan.surface);
     const auto hit =
-        world_.surfaces->intersect(antenna_.position_m, along, sensor_.range.maximum_m());
+        world_.surfaces().intersect(antenna_.position_m, along, sensor_.range.maximum_m());
     return hit ? hit->distance_m : kUnlimited_m;
   }
 

@@ -81,7 +81,7 @@ bool fit(const std::vector<RunwayRelative>& path, std::size_t last, bool round_e
 class ApproachSearch {
  public:
   explicit ApproachSearch(const Scene& scene) : scene_(scene) {
-    const std::vector<core::Pose>& poses = scene.trajectory.poses();
+    const std::vector<core::Pose>& poses = scene.trajectory->poses();
     const std::size_t count = std::min(poses.size(), kMostPoses);
     for (std::size_t k = 0; k < count; ++k)
       positions_.push_back(poses[count > 1 ? k * (poses.size() - 1) / (count - 1) : 0].position);
@@ -126,7 +126,7 @@ class ApproachSearch {
 }  // namespace
 
 std::optional<Approach> approach_of(const Scene& scene) {
-  if (scene.trajectory.poses().size() < 2) return std::nullopt;
+  if (!scene.trajectory || scene.trajectory->poses().size() < 2) return std::nullopt;
   ApproachSearch search(scene);
   for (const RunwayDescription& runway : scene.description.runways)
     for (const int end : {0, 1}) search.land_on(runway, end);

@@ -44,7 +44,7 @@ std::vector<bool> frames_inside(const DoctorParts& parts) {
   std::vector<bool> within(parts.flight.size(), false);
   Extent flight;
   for (const Sight& sight : parts.flight) flight.hold(glm::dvec2(sight.antenna.position_m));
-  for (const terrain::Solid& solid : parts.scene.world.solids.prisms) {
+  for (const terrain::Solid& solid : parts.scene.world.solids().prisms) {
     Extent outline;
     for (const std::vector<glm::dvec2>& ring_m : solid.rings_m)
       for (const glm::dvec2& corner_m : ring_m) outline.hold(corner_m);

@@ -56,7 +56,7 @@ double reach_m(const terrain::HeightField& field, glm::dvec2 from_m, glm::dvec2 
 std::set<terrain::MaterialId> ground_materials(const DoctorParts& parts) {
   const terrain::HeightField& field = parts.ground.field();
   std::set<terrain::MaterialId> used(field.cell_material.begin(), field.cell_material.end());
-  if (const terrain::SurfaceMap* map = parts.scene.world.surfaces->surface_map())
+  if (const terrain::SurfaceMap* map = parts.scene.world.surfaces().surface_map())
     for (const terrain::SurfacePatch& patch : map->patches()) used.insert(patch.material);
   return used;
 }
@@ -191,8 +191,8 @@ void check_grazing(const DoctorParts& parts, Findings& findings) {
   std::string names;
   double least = 1.0;
   for (const terrain::MaterialId id : ground_materials(parts)) {
-    if (id >= parts.scene.world.material_names.size()) continue;
-    const std::string& name = parts.scene.world.material_names[id];
+    if (id >= parts.scene.world.geometry->material_names.size()) continue;
+    const std::string& name = parts.scene.world.geometry->material_names[id];
     for (const SurfaceRecord& record : parts.scene.surfaces) {
       if (record.material != name) continue;
       const double within = share_within(parts, record.grazing_rad);

@@ -42,7 +42,7 @@ struct DoctorParts {
   const sensors::Sensor& sensor() const { return scene.description.sensor; }
   // Where the ray caster sees a point: it counts heights from near the ground, and keeps floats.
   glm::dvec3 in_caster_m(const glm::dvec3& point_m) const {
-    return scene.world.surfaces->in_caster_m(point_m);
+    return scene.world.surfaces().in_caster_m(point_m);
   }
   // Sine of the depression at the farthest range, from the flight's median height.
   double far_sine = 0.01;

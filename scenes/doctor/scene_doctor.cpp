@@ -22,7 +22,7 @@ std::string rounded(double value, double parts = 1.0) {
 std::vector<Body> bodies_of(const SceneDescription& scene, const Ground& ground,
                             const MaterialNames& names, ModelMaterials& model_materials,
                             core::ProblemList& problems) {
-  Bodies built = build_bodies(scene, ground, names, model_materials, problems);
+  Bodies built = build_bodies(scene, ground, names, model_materials, {}, problems);
   std::vector<Body> bodies;
   const auto take = [&](const core::Place& place, const std::string& name, bool single,
                         bool floating) {

@@ -64,6 +64,8 @@ std::optional<Trajectory> build_trajectory(const SceneDescription& scene, const 
                                            core::ProblemList& problems) {
   try {
     switch (scene.trajectory.kind) {
+      case TrajectoryDescription::Kind::none:
+        break;
       case TrajectoryDescription::Kind::file:
         return from_file(scene, ground, problems);
       case TrajectoryDescription::Kind::ils:

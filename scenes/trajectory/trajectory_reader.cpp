@@ -107,16 +107,29 @@ void read_fixed(ConfigTable& table, TrajectoryDescription& trajectory) {
   trajectory.roll_rad = radians(fixed.number("roll_deg", {-180, 180}, 0.0));
 }
 
+void read_flight_volume(ConfigTable& root, FlightHeights& heights) {
+  constexpr core::NumberRange kFlightHeight_m{-1000, 50000};
+  ConfigTable table = root.table("flight_volume");
+  heights.stated = table.present();
+  heights.lowest_m = table.optional_number("lowest_m", kFlightHeight_m);
+  heights.highest_m = table.optional_number("highest_m", kFlightHeight_m);
+  if (heights.lowest_m && heights.highest_m && *heights.lowest_m > *heights.highest_m)
+    table.error(core::ErrorClass::range, "highest_m", core::number_text(*heights.highest_m),
+                "at least lowest_m, " + core::number_text(*heights.lowest_m));
+}
+
 }  // namespace
 
 void read_trajectory(ConfigTable& root, const DataSearch& search, SceneDescription& scene) {
   ConfigTable table = root.table("trajectory");
   TrajectoryDescription& trajectory = scene.trajectory;
   trajectory.place = root.place("trajectory");
+  read_flight_volume(root, scene.flight_heights);
   const int kinds =
       (table.has("file") ? 1 : 0) + (table.has("ils") ? 1 : 0) + (table.has("fixed") ? 1 : 0);
+  if (!table.present()) return;  // poses come from elsewhere
   if (kinds != 1) {
-    root.error(core::ErrorClass::ref, "trajectory", kinds == 0 ? "missing" : "more than one kind",
+    root.error(core::ErrorClass::ref, "trajectory", kinds == 0 ? "empty" : "more than one kind",
                "exactly one of: file = \"....csv\", [trajectory.ils], [trajectory.fixed]");
     return;
   }

@@ -50,7 +50,7 @@ Extruder::Outcome Extruder::add(const Prism& prism, std::uint32_t index) {
     result_.mesh.vertices_m.resize(vertices);
     result_.mesh.triangles.resize(triangles);
     result_.mesh.triangle_material.resize(triangles);
-    result_.triangle_prism.resize(triangles);
+    result_.mesh.triangle_part.resize(triangles);
     return Outcome::not_triangulated;
   }
   for (Polygon_m& rings_m : polygons) result_.polygons.push_back({std::move(rings_m), index});
@@ -107,7 +107,7 @@ bool Extruder::add_roof(const GEOSGeometry* triangles, const Corners& corners) {
 void Extruder::add_triangle(const glm::uvec3& triangle, std::uint32_t slot) {
   result_.mesh.triangles.push_back(triangle);
   result_.mesh.triangle_material.push_back(slot);
-  result_.triangle_prism.push_back(prism_index_);
+  result_.mesh.triangle_part.push_back(prism_index_);
 }
 
 // An error and false when a coordinate cannot be used.

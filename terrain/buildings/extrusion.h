@@ -41,9 +41,7 @@ struct ExtrudedPolygon {
 };
 
 struct Extrusion {
-  TriangleMesh mesh;
-  // Which prism each triangle belongs to.
-  std::vector<std::uint32_t> triangle_prism;
+  TriangleMesh mesh;  // its parts are the prisms, by index
   std::vector<ExtrudedPolygon> polygons;
   std::size_t failed = 0;
 };

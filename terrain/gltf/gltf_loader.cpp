@@ -52,6 +52,7 @@ class MeshBuilder {
   TriangleMesh build(const std::vector<GltfInstance>& instances) {
     check_size(instances);
     for (const GltfInstance& instance : instances) {
+      mesh_.part_names.push_back(name_of(instance.node));
       for (const Patch& patch : patches_of(instance.mesh)) add(patch, instance.world);
     }
     return std::move(mesh_);
@@ -123,6 +124,11 @@ class MeshBuilder {
     return patch;
   }
 
+  std::string name_of(int node) const {
+    const std::string& name = model_.parts.nodes[node].name;
+    return name.empty() ? "node_" + std::to_string(node) : name;
+  }
+
   std::uint32_t material_slot(int material) {
     std::string name = "default";
     if (material >= 0) name = model_.parts.materials[material].name;
@@ -143,6 +149,7 @@ class MeshBuilder {
     for (const glm::uvec3& t : patch.triangles) {
       mesh_.triangles.push_back(first + (mirrored ? glm::uvec3(t.x, t.z, t.y) : t));
       mesh_.triangle_material.push_back(patch.material);
+      mesh_.triangle_part.push_back(static_cast<std::uint32_t>(mesh_.part_names.size() - 1));
     }
   }
 

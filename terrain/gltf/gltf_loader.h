@@ -26,7 +26,8 @@ namespace fanbeam::terrain {
 
 // The mesh of `file`, named after it, checked and cleaned by check_and_clean. Materials carry
 // glTF's names, "material_<index>" without one, "default" where a primitive has none; materials of
-// the same name share a slot, and only those drawn have one.
+// the same name share a slot, and only those drawn have one. Its parts are the nodes that place a
+// mesh, by their names, "node_<index>" without one.
 //
 // Buffers come only from inside `allowed_folder`, through `read_file`, which also reads `file`.
 // Throws InputError with all problems of the stage that found some: bytes and JSON text (E-PARSE,

@@ -204,7 +204,7 @@ std::vector<GltfInstance> gltf_instances(const GltfModel& model, core::ProblemLi
         problems.warning("DEGENERATE", core::Place{model.file}, path,
                          "a transform without two dimensions", "its mesh is not drawn");
       else
-        instances.push_back({node.mesh, world});
+        instances.push_back({node.mesh, world, next.node});
     }
     put_off(node.children, world);
   }

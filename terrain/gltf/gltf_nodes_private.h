@@ -16,6 +16,7 @@ namespace fanbeam::terrain {
 struct GltfInstance {
   int mesh = -1;
   glm::dmat4 world;
+  int node = -1;
 };
 
 // Errors: E-REF (a node that is its own child, has two parents, lies in a loop, or stands in a

@@ -42,7 +42,8 @@ struct Member {
 
 constexpr Member kAsset[] = {{"version", Kind::text, true}, {"minVersion", Kind::text}};
 constexpr Member kScene[] = {{"nodes", Kind::indices, false, "nodes"}};
-constexpr Member kNode[] = {{"mesh", Kind::index, false, "meshes"},
+constexpr Member kNode[] = {{"name", Kind::text},
+                            {"mesh", Kind::index, false, "meshes"},
                             {"children", Kind::indices, false, "nodes"},
                             {"matrix", Kind::numbers, false, nullptr, 16},
                             {"translation", Kind::numbers, false, nullptr, 3},

@@ -55,8 +55,8 @@ const std::vector<double>& picture_W() {
 }
 
 apps::SignalBscope from_signals(const scenes::Scene& scene, int looks) {
-  const core::Pose pose = scene.trajectory.at(
-      scene.trajectory.frame_time_s(kFrame, scene.description.sensor.scan.frame_rate_Hz));
+  const core::Pose pose = scene.trajectory->at(
+      scene.trajectory->frame_time_s(kFrame, scene.description.sensor.scan.frame_rate_Hz));
   const renderer::FramePose frame_pose = scene.frame_pose(kFrame);
   apps::SignalBscopeSettings settings;
   settings.looks = looks;
@@ -134,8 +134,8 @@ TEST_CASE("Uncompensated, 70 m/s shift the B-scope from signals by 41.5 m", "[sc
   const double before = mean_square_at(best - 1), at = mean_square_at(best);
   const double after = mean_square_at(best + 1);
   const double shift_m = (best + 0.5 * (before - after) / (before - 2.0 * at + after)) * cell_m;
-  const core::Pose pose = scene->trajectory.at(
-      scene->trajectory.frame_time_s(kFrame, description.sensor.scan.frame_rate_Hz));
+  const core::Pose pose = scene->trajectory->at(
+      scene->trajectory->frame_time_s(kFrame, description.sensor.scan.frame_rate_Hz));
   // 41.5 m at 70 m/s, and the trajectory's speed is near it. The ground lies 2 to 15 deg below the
   // flight path: up to 3 % less.
   CHECK(shift_m == Approx(41.5 * glm::length(pose.v_N_mps) / 70.0).margin(0.02 * 41.5));

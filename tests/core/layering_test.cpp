@@ -30,9 +30,11 @@ const std::map<std::string, Names>& layers() {
       {"signal", {"core", "sensors"}},
       {"tracking", {"core", "sensors", "signal"}},
       {"scenes", {"core", "materials", "atmosphere", "terrain", "sensors", "renderer"}},
+      {"session",
+       {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes"}},
       {"apps",
        {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "signal", "tracking",
-        "scenes"}}};
+        "scenes", "session"}}};
   return kLayers;
 }
 

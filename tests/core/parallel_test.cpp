@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <set>
@@ -62,4 +63,20 @@ TEST_CASE("A limit of one keeps the loop on the caller's thread, and ends with i
   }
   const ThreadLimit all(0);
   CHECK(all.threads() >= 1);
+}
+
+TEST_CASE("A limit holds for the loops of its thread alone", "[parallel]") {
+  const ThreadLimit one(1);
+  std::atomic<int> met{0};
+  std::thread([&met] {
+    std::atomic<int> here{0};
+    parallel_for(2, [&](std::size_t) {
+      ++here;
+      // Seen by both only if another thread runs the other one meanwhile.
+      const auto late = std::chrono::steady_clock::now() + std::chrono::seconds(10);
+      while (here < 2 && std::chrono::steady_clock::now() < late) std::this_thread::yield();
+      met += here == 2 ? 1 : 0;
+    });
+  }).join();
+  CHECK(met == 2);
 }

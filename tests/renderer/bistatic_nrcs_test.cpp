@@ -1,12 +1,12 @@
 // Energy, reciprocity and the monostatic limit of the bistatic law, and what is left to mirrors.
-#include "renderer/stages/bistatic_nrcs.h"
+#include "renderer/surfaces/bistatic_nrcs.h"
 
 #include <catch2/catch.hpp>
 
 #include "core/constants.h"
 #include "core/units.h"
 #include "materials/library/material_library.h"
-#include "renderer/stages/mirrors.h"
+#include "renderer/surfaces/mirrors.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {

@@ -127,6 +127,6 @@ TEST_CASE("Groups that are not asked for keep what they hold", "[levels]") {
   check_kept(renderer::sampling_for(4.0));
   check_kept(slices(4));
   // A box in the middle of the fan is left to rays: group 4 is theirs, group 1 is not.
-  world.solids.others = {{{-30.0, 600.0, 0.0}, {10.0, 620.0, 9.0}}};
+  tests::solids_of(world).others = {{{-30.0, 600.0, 0.0}, {10.0, 620.0, 9.0}}};
   check_kept(slices(4));
 }

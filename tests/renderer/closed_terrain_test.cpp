@@ -67,6 +67,7 @@ TEST_CASE("T08: the picture of a mesh with rubbish in it is that of the clean on
                          {2, 2, 2},                        // all equal
                          {count, count + 1, count + 2}});  // on one line, before the box
   mesh.triangle_material.resize(mesh.triangles.size(), mesh.triangle_material.front());
+  mesh.triangle_part.resize(mesh.triangles.size(), 0);
   core::ProblemList problems;
   terrain::check_and_clean(mesh, "box.glb", problems);
   REQUIRE(problems.all().size() == 1);

@@ -50,8 +50,7 @@ TEST_CASE("R10 frames rendered at once, inside tasks or threads, are those rende
 
     std::array<bool, kFrames> right{};
 #ifndef __SANITIZE_THREAD__
-    // More threads than cores, so that one often waits for what another has begun.
-    const core::ThreadLimit limit(kThreads);
+    // More threads than cores (tests/main.cpp), so that one often waits for what another has begun.
     tbb::task_arena(kThreads).execute([&] {
       tbb::parallel_for(
           std::size_t{0}, kFrames, std::size_t{1},

@@ -161,9 +161,8 @@ TEST_CASE("A tilted plane reflects as the level one does, seen from its own norm
           "[multipath]") {
   const double slope = 0.02;
   renderer::World world = flat_world(3000.0, 2.0, kMetal);
-  world.surfaces = std::make_unique<terrain::RayScene>(
-      tests::ground(4000.0, 250.0, [&](double, double y_m) { return slope * y_m; }),
-      std::vector<terrain::SurfacePatch>{}, std::vector<terrain::PlacedMesh>{});
+  world.geometry = tests::geometry(
+      tests::ground(4000.0, 250.0, [&](double, double y_m) { return slope * y_m; }));
   const glm::dvec3 target_m(0.0, 3000.0, slope * 3000.0 + 2.0);
   const auto path = renderer::ground_path(world, antenna_at(200.0), target_m);
   REQUIRE(path);
@@ -247,7 +246,7 @@ TEST_CASE("Frames show the mean without and a phase with a realisation", "[multi
   // The target alone: ground that mirrors but scatters nothing, and no noise.
   const auto ratio = [](double height_m, bool speckle) {
     renderer::World world = flat_world(1000.0, height_m, kMetal);
-    world.nrcs.assign(2, materials::PhongNrcs(0.0, 0.0, 1.0));
+    world.nrcs = std::vector<materials::NrcsCurve>(2, materials::PhongNrcs(0.0, 0.0, 1.0));
     world.sensor.receiver.looks = 1000;
     const double without_W = frame_W(world, {.speckle = speckle});
     return frame_W(world, {.speckle = speckle, .multipath = true}) / without_W;

@@ -39,9 +39,8 @@ renderer::World village(const std::string& instruction_set) {
   renderer::World world = tests::world(
       tests::hivision(), std::nullopt,
       {materials::PhongNrcs(0.0325, 0.136, 1.99), materials::PhongNrcs(0.3, 0.5, 3.0)});
-  world.surfaces = std::make_unique<terrain::RayScene>(tests::ground(4000.0, 40.0, height_m),
-                                                       std::vector<terrain::SurfacePatch>{},
-                                                       std::move(houses), instruction_set);
+  world.geometry = tests::geometry(tests::ground(4000.0, 40.0, height_m), {}, std::move(houses), {},
+                                   instruction_set);
   return world;
 }
 
@@ -59,7 +58,7 @@ TEST_CASE("R11: pictures of SSE4.2, AVX, AVX2 and AVX-512 are statistically one"
     }
     ++sets;
     const renderer::World world = village(set);
-    CHECK(world.surfaces->native_packet() == (std::string(set) == "avx512" ? 16 : 8));
+    CHECK(world.surfaces().native_packet() == (std::string(set) == "avx512" ? 16 : 8));
     const renderer::FrameRenderer renderer(world, renderer::sampling_for(4.0), {true, false}, {});
     std::vector<double> power_W;
     // Many frames: one ray that passes an edge within a float's last bit changes up to ten cells.

@@ -213,7 +213,6 @@ TEST_CASE("R03: nothing diverges at depressions of 89, 89.9, 89.99 and 90 degree
   const renderer::World world = tests::world(
       sensor, tests::ground(200.0, 10.0, [](double, double) { return 0.0; }), {constant});
   const sensors::AntennaFrame antenna = tests::level_antenna({0.0, 0.0, kHeight_m});
-  const std::vector<renderer::NrcsTable> nrcs{renderer::NrcsTable(constant)};
   const renderer::PathLossTable clear = renderer::FramePathLoss(world).from(kHeight_m);
   const std::vector<double> depressions_deg{89.0, 89.9, 89.99, 90.0};
   renderer::RayBatch batch{};
@@ -225,10 +224,11 @@ TEST_CASE("R03: nothing diverges at depressions of 89, 89.9, 89.99 and 90 degree
   }
   batch.close(4);
   renderer::RayAim(antenna, false, true).point(batch);
-  renderer::PacketSender<8>(*world.surfaces, sensor.range, antenna.position_m, nullptr).cast(batch);
+  renderer::PacketSender<8>(world.surfaces(), sensor.range, antenna.position_m, nullptr)
+      .cast(batch);
   renderer::RayChain chain;
   chain.append(4);
-  CHECK(renderer::EchoDensity(world, nrcs, clear, antenna.position_m).shade(batch, 0, chain) == 4);
+  CHECK(renderer::EchoDensity(world, clear, antenna.position_m).shade(batch, 0, chain) == 4);
   for (std::size_t i = 0; i < 4; ++i) {
     // K sigma0 / (sin(psi) R^2) with R = h / sin(psi).
     const double sine = std::sin(core::radians(depressions_deg[i]));

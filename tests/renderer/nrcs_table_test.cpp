@@ -1,5 +1,5 @@
 // The table that the ray loop reads, against the models it was made of.
-#include "renderer/casting/nrcs_table.h"
+#include "renderer/surfaces/nrcs_table.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -63,12 +63,12 @@ double horizon_rad(const renderer::World& world, double ground_heading_rad, doub
   const glm::dvec2 along_ground(std::sin(ground_heading_rad), std::cos(ground_heading_rad));
   const glm::dvec2 along(std::sin(heading_rad), std::cos(heading_rad));
   renderer::GroundCut cut;
-  renderer::cut_ground(*world.surfaces->terrain(), {0.0, 0.0}, along_ground, 3000.0, kHeight_m,
+  renderer::cut_ground(*world.surfaces().terrain(), {0.0, 0.0}, along_ground, 3000.0, kHeight_m,
                        cut);
   double tangent = -1e9;
   for (std::size_t i = 1; i <= cut.pieces; ++i)
     tangent = std::max(tangent, cut.height_m[i] / cut.distance_m[i]);
-  for (const terrain::Solid& solid : world.solids.prisms)
+  for (const terrain::Solid& solid : world.solids().prisms)
     for (const auto& ring : solid.rings_m)
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const glm::dvec2 a = ring[i], step = ring[(i + 1) % ring.size()] - a;
@@ -147,7 +147,7 @@ TEST_CASE("Every range cell of rough ground holds the sum over what is seen of i
       for (int sub = 0; sub < sums.sub_columns; ++sub) {
         const double heading_rad = tests::slice_azimuth_rad(sums, sub);
         renderer::GroundCut cut;
-        renderer::cut_ground(*world.surfaces->terrain(), {3.0, -2.0},
+        renderer::cut_ground(*world.surfaces().terrain(), {3.0, -2.0},
                              {std::sin(heading_rad), std::cos(heading_rad)}, 3000.0, kHeight_m,
                              cut);
         std::vector<tests::VisiblePiece> seen;

@@ -178,7 +178,7 @@ TEST_CASE("A building hides the sign behind it, the sign a building, and ground 
   const auto seen = [](std::vector<tests::Body> bodies, double near_m, double far_m) {
     const renderer::World world = level_world(std::move(bodies));
     const renderer::FanSums sums = hybrid(world, 8.0, tests::level_antenna({0.0, 0.0, kHeight_m}));
-    CHECK((sums.slices == 0) == !world.solids.others.empty());
+    CHECK((sums.slices == 0) == !world.solids().others.empty());
     return power_between(sums, world.sensor, near_m, far_m);
   };
   // The sign is 501 to 504 m away; the line over the front building meets the ground at 1050 m.
@@ -199,7 +199,7 @@ TEST_CASE("Azimuths without a model keep the bytes of their slices, the others a
     const renderer::FanSums found = hybrid(with, slices, antenna);
     const renderer::FanSums alone = hybrid(without, slices, antenna);
     const renderer::FanSums rays = cast<renderer::RayCaster>(with, sampling, antenna);
-    const Span span = span_of(with.solids.others.front(), antenna, with.sensor.range.maximum_m());
+    const Span span = span_of(with.solids().others.front(), antenna, with.sensor.range.maximum_m());
     std::uint64_t sliced = 0;
     for (int sub = 0; sub < found.sub_columns; ++sub) {
       const bool as_alone = same_sub_column(found, alone, sub);
@@ -231,7 +231,7 @@ TEST_CASE("No heading and no place of a box escapes the rays", "[profile]") {
     const double wide_m = trial % 2 == 0 ? 30.0 : 400.0, away_m = trial % 3 == 0 ? 60.0 : 700.0;
     const glm::dvec3 low(away_m * (2.0 * random(1) - 1.0), away_m * (2.0 * random(2) - 1.0), 0.0);
     const terrain::Box_m box{low, low + glm::dvec3(wide_m * random(3), wide_m * random(4), 9.0)};
-    world.solids.others = {box};
+    tests::solids_of(world).others = {box};
     const renderer::FanSums found = hybrid(world, 4.0, antenna);
     const renderer::FanSums rays =
         cast<renderer::RayCaster>(world, renderer::profile_sampling_for(4.0), antenna);
@@ -274,7 +274,7 @@ TEST_CASE("A model behind the sensor, beyond the gate or beside the fan costs no
 
 TEST_CASE("A model around the sensor leaves everything to rays", "[profile]") {
   renderer::World world = yard(false);
-  world.solids.others = {{{-5.0, -5.0, 0.0}, {5.0, 5.0, 10.0}}};
+  tests::solids_of(world).others = {{{-5.0, -5.0, 0.0}, {5.0, 5.0, 10.0}}};
   const sensors::AntennaFrame antenna = tests::level_antenna({1.0, 2.0, kHeight_m}, 0.1);
   const renderer::FanSums found = hybrid(world, 16.0, antenna);
   const renderer::FanSums rays =

@@ -112,12 +112,12 @@ TEST_CASE("No power is negative or not a number, whatever the ground, the buildi
       const double x = 120.0 * (random(100 + i) - 0.5), y = 500.0 * (random(200 + i) - 0.1);
       const double top_m = i % 3 == 0 ? 0.0 : 80.0 * (random(300 + i) - 0.2);
       for (terrain::Solid& each : impossible_solids(x, y, i == 7 ? 1e5 : top_m))
-        world.solids.prisms.push_back(std::move(each));
-      if (i % 8 == 0) world.solids.prisms.pop_back();  // few vast ones
+        tests::solids_of(world).prisms.push_back(std::move(each));
+      if (i % 8 == 0) tests::solids_of(world).prisms.pop_back();  // few vast ones
     }
     const glm::dvec2 place(trial % 7 == 0 ? glm::dvec2(0.0)
                                           : 60.0 * glm::dvec2(random(0), random(1)));
-    const double ground_m = *world.surfaces->terrain()->height_at(place.x, place.y);
+    const double ground_m = *world.surfaces().terrain()->height_at(place.x, place.y);
     sensors::AntennaFrame antenna = tests::level_antenna(
         {place.x, place.y, ground_m + clearances_m[trial % 4]}, trial % 3 == 0 ? 0.0 : random(2));
     if (trial % 6 >= 3) {
@@ -167,10 +167,10 @@ TEST_CASE("A wall exactly along a slice stays where it is", "[profile]") {
       const double right_rad = left_rad + 0.4 * open.step_rad;
       const glm::dvec2 left(std::sin(left_rad), std::cos(left_rad));
       const glm::dvec2 right(std::sin(right_rad), std::cos(right_rad));
-      world.solids.prisms.push_back(
+      tests::solids_of(world).prisms.push_back(
           solid({kFront_m * left, kBack_m * left, kBack_m * right, kFront_m * right}, kTop_m));
-      std::reverse(world.solids.prisms.back().rings_m[0].begin(),
-                   world.solids.prisms.back().rings_m[0].end());
+      std::reverse(tests::solids_of(world).prisms.back().rings_m[0].begin(),
+                   tests::solids_of(world).prisms.back().rings_m[0].end());
     }
     const renderer::FanSums built = tests::cast_profile(world, 1, antenna);
     double largest = 0.0;

@@ -74,8 +74,8 @@ std::vector<glm::dvec3> random_points(const renderer::World& world, std::uint64_
     const std::size_t kind = i % kinds;
     const double distance_m = draw(0, 20.0, kind == beyond_gate ? kGround_m : 620.0);
     const double azimuth_rad = core::radians(draw(1, -2.0, 2.0) * (kind == beside_fan ? 4.0 : 1.0));
-    const terrain::Solid& solid = world.solids.prisms[static_cast<std::size_t>(
-        draw(2, 0.0, static_cast<double>(world.solids.prisms.size())))];
+    const terrain::Solid& solid = world.solids().prisms[static_cast<std::size_t>(
+        draw(2, 0.0, static_cast<double>(world.solids().prisms.size())))];
     glm::dvec2 place = distance_m * glm::dvec2(std::sin(azimuth_rad), std::cos(azimuth_rad));
     if (kind == on_roof || kind == in_building) {
       const std::vector<glm::dvec2>& ring = solid.rings_m.front();
@@ -83,7 +83,7 @@ std::vector<glm::dvec3> random_points(const renderer::World& world, std::uint64_
               draw(4, 0.05, 0.95) * (ring[3] - ring[0]);
     }
     glm::dvec3 at = move(glm::dvec3(place, 0.0));
-    const double ground_m = world.surfaces->terrain()->height_at(at.x, at.y).value_or(0.0);
+    const double ground_m = world.surfaces().terrain()->height_at(at.x, at.y).value_or(0.0);
     at.z = kind == on_roof       ? solid.top_m + draw(5, 0.3, 3.0)
            : kind == in_building ? solid.top_m - draw(5, 0.3, 10.0)
            : kind == on_ground   ? ground_m + 0.3
@@ -109,7 +109,7 @@ Answers ask_slices(const renderer::World& world, const sensors::AntennaFrame& an
 
 bool ray_clear(const renderer::World& world, const sensors::AntennaFrame& antenna,
                const glm::dvec3& to_m) {
-  return !world.surfaces->occluded(antenna.position_m, to_m, renderer::kSightClearance_m);
+  return !world.surfaces().occluded(antenna.position_m, to_m, renderer::kSightClearance_m);
 }
 
 // Whether the ray to the point, or to one 1 mm beside, over or under it, answers `clear`: rays are
@@ -233,7 +233,7 @@ TEST_CASE("Rays answer for what slices do not reach", "[profile]") {
     const sensors::AntennaFrame antenna = tests::level_antenna({3.0, north_m, kHeight_m});
     renderer::World world = random_world(3);
     // A box alone: azimuths 0 to 1.7 deg left of the sensor's.
-    world.solids.others = {{{0.0, north_m + 100.0, 0.0}, {3.0, north_m + 120.0, 10.0}}};
+    tests::solids_of(world).others = {{{0.0, north_m + 100.0, 0.0}, {3.0, north_m + 120.0, 10.0}}};
     const double far_m = world.sensor.range.maximum_m();
     std::vector<glm::dvec3> beyond;
     const auto move = [north_m](const glm::dvec3& at) {

@@ -159,10 +159,8 @@ TEST_CASE("A building hides the rain behind it", "[rain_echo]") {
   const sensors::Sensor sensor = tests::hivision(2);
   renderer::World world = rainy_world(sensor, false, rain(10.0));
   // A screen across the whole beam 1 km ahead: 500 m tall, 200 m wide.
-  world.surfaces = std::make_unique<terrain::RayScene>(
-      std::nullopt, std::vector<terrain::SurfacePatch>{},
-      std::vector<terrain::PlacedMesh>{
-          tests::box({-400.0, 1000.0, -500.0}, {400.0, 1010.0, 800.0}, 0).mesh});
+  world.geometry = tests::geometry(
+      std::nullopt, {}, {tests::box({-400.0, 1000.0, -500.0}, {400.0, 1010.0, 800.0}, 0).mesh});
   const renderer::Frame frame = render(world);
   for (int cell = 0; cell < sensor.range.cells; ++cell) {
     const double power_W = frame.bscope_W[static_cast<std::size_t>(cell * 2)];

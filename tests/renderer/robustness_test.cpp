@@ -164,7 +164,7 @@ TEST_CASE("M02 a perfectly dark surface equals the noise-only picture exactly", 
 
 TEST_CASE("R12 invalid rays are refused before the cast and the process lives", "[robust]") {
   const renderer::World world = tests::world(tests::hivision(2), rolling_ground(), {kGrass});
-  const terrain::RayScene& scene = *world.surfaces;
+  const terrain::RayScene& scene = world.surfaces();
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
   const glm::dvec3 up(0.0, 0.0, 1.0), origin(0.0, 0.0, 50.0);

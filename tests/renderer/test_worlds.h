@@ -84,6 +84,16 @@ inline Body box(glm::dvec3 low, glm::dvec3 high, terrain::MaterialId material) {
                   material);
 }
 
+inline std::shared_ptr<const renderer::Geometry> geometry(
+    std::optional<terrain::HeightField> field, std::vector<terrain::SurfacePatch> patches = {},
+    std::vector<terrain::PlacedMesh> meshes = {}, terrain::Solids solids = {},
+    const std::string& instruction_set = "") {
+  return std::make_shared<renderer::Geometry>(
+      renderer::Geometry{std::make_unique<terrain::RayScene>(std::move(field), std::move(patches),
+                                                             std::move(meshes), instruction_set),
+                         std::move(solids)});
+}
+
 inline renderer::World world(const sensors::Sensor& sensor,
                              std::optional<terrain::HeightField> field,
                              std::vector<materials::NrcsCurve> nrcs, std::vector<Body> bodies = {},
@@ -95,12 +105,16 @@ inline renderer::World world(const sensors::Sensor& sensor,
     for (terrain::Solid& solid : body.solids.prisms) solids.prisms.push_back(std::move(solid));
     for (const terrain::Box_m& other : body.solids.others) solids.others.push_back(other);
   }
-  return {.surfaces = std::make_unique<terrain::RayScene>(std::move(field), std::move(patches),
-                                                          std::move(meshes)),
+  return {.geometry =
+              geometry(std::move(field), std::move(patches), std::move(meshes), std::move(solids)),
           .nrcs = std::move(nrcs),
           .attenuation = clear_air(),
-          .sensor = sensor,
-          .solids = std::move(solids)};
+          .sensor = sensor};
+}
+
+// Of a world made here, to stand other things in it.
+inline terrain::Solids& solids_of(renderer::World& world) {
+  return const_cast<terrain::Solids&>(world.geometry->solids);
 }
 
 // Level, heading north, `height_m` above the origin.

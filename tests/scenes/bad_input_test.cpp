@@ -210,8 +210,8 @@ TEST_CASE("A scene without a name has that of its folder, made a safe word", "[b
 }
 
 TEST_CASE("Exactly one kind of trajectory", "[bad_input]") {
-  check_problems(kIls, "",
-                 "1:1: E-REF trajectory = missing: expected exactly one of: file = \"....csv\", "
+  check_problems(kIls, "[trajectory]\n",
+                 "25:2: E-REF trajectory = empty: expected exactly one of: file = \"....csv\", "
                  "[trajectory.ils], "
                  "[trajectory.fixed]");
   check_problems("[trajectory.ils]", "[trajectory.fixed]\nabove_ground_m = 3\n[trajectory.ils]",

@@ -289,19 +289,19 @@ TEST_CASE("A wrong row stops a scene, or is left out and recorded, or is flown",
 
   const auto highest_m = [](const scenes::Scene& scene) {
     double height_m = 0.0;
-    for (const core::Pose& pose : scene.trajectory.poses())
+    for (const core::Pose& pose : scene.trajectory->poses())
       height_m = std::max(height_m, pose.position.height_m);
     return height_m;
   };
   const std::unique_ptr<scenes::Scene> rejected =
       tests::good_scene(folder, file_trajectory(keys + "outliers = \"reject\"\n"));
   CHECK(highest_m(*rejected) == Approx(304.8));
-  REQUIRE(rejected->trajectory.rejected.size() == 1);
-  CHECK(rejected->trajectory.rejected[0].first_row == 8);
+  REQUIRE(rejected->trajectory->rejected.size() == 1);
+  CHECK(rejected->trajectory->rejected[0].first_row == 8);
   const std::unique_ptr<scenes::Scene> kept =
       tests::good_scene(folder, file_trajectory(keys + "outliers = \"keep\"\n"));
   CHECK(highest_m(*kept) == Approx(35925.0 * 0.3048));
-  CHECK(kept->trajectory.rejected.empty());
+  CHECK(kept->trajectory->rejected.empty());
 }
 
 TEST_CASE("Trajectory files: problems have the file's own line", "[bad_scene]") {

@@ -20,9 +20,9 @@ struct Seen {
 
 // What a ray from 1 km above meets first.
 inline Seen seen_from_above(const scenes::Scene& scene, glm::dvec2 position_m) {
-  const auto hit = scene.world.surfaces->intersect(glm::dvec3(position_m, 1000.0), kDown, 3000.0);
+  const auto hit = scene.world.surfaces().intersect(glm::dvec3(position_m, 1000.0), kDown, 3000.0);
   REQUIRE(hit.has_value());
-  return {1000.0 - hit->distance_m, scene.world.material_names.at(hit->material)};
+  return {1000.0 - hit->distance_m, scene.world.geometry->material_names.at(hit->material)};
 }
 
 inline glm::dvec2 local_m(const scenes::Scene& scene, double latitude_deg, double longitude_deg) {
@@ -31,7 +31,7 @@ inline glm::dvec2 local_m(const scenes::Scene& scene, double latitude_deg, doubl
 }
 
 inline double ground_m(const scenes::Scene& scene, glm::dvec2 position_m) {
-  return scene.world.surfaces->terrain()->height_at(position_m.x, position_m.y).value();
+  return scene.world.surfaces().terrain()->height_at(position_m.x, position_m.y).value();
 }
 
 // Height above the scene's datum of the terrain there.

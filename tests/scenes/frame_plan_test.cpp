@@ -32,10 +32,11 @@ renderer::Sampling few_rays() {
 
 // Of the frame by its own plan against the sequence's.
 double change_of(const scenes::Scene& scene, int frame) {
-  renderer::PlannedFrames renderers(scene.world, few_rays(), {true, true}, 1);
+  renderer::PlannedFrames renderers(scene.world, few_rays(), 1);
   const renderer::FramePose pose = scene.frame_pose(frame);
-  return largest_difference_grey(renderers.for_plan(scene.plan).render(pose),
-                                 renderers.for_plan(scenes::frame_plan(scene, frame)).render(pose));
+  return largest_difference_grey(
+      renderers.for_plan(scene.plan, {true, true}).render(pose),
+      renderers.for_plan(scenes::frame_plan(scene, frame), {true, true}).render(pose));
 }
 
 const core::EffectDecision& decision(const core::EffectPlan& plan, std::string_view effect) {
@@ -127,15 +128,15 @@ TEST_CASE("No switch from frame to frame is seen", "[scenes][frame_plan]") {
     // Once all is in view the stages do matter.
     constexpr int kAllInView = 950;
     REQUIRE(same_stages(scenes::frame_plan(*scene, kAllInView), scene->plan));
-    renderer::PlannedFrames renderers(scene->world, few_rays(), {true, true}, 1);
+    renderer::PlannedFrames renderers(scene->world, few_rays(), 1);
     for (const std::string_view stage : kStages) {
       INFO(stage);
       core::EffectPlan without = scene->plan;
       for (core::EffectDecision& each : without.decisions)
         if (each.effect == stage) each.on = false;
       const renderer::FramePose pose = scene->frame_pose(kAllInView);
-      CHECK(largest_difference_grey(renderers.for_plan(scene->plan).render(pose),
-                                    renderers.for_plan(without).render(pose)) > 0.0);
+      CHECK(largest_difference_grey(renderers.for_plan(scene->plan, {true, true}).render(pose),
+                                    renderers.for_plan(without, {true, true}).render(pose)) > 0.0);
     }
   }
 }

@@ -40,10 +40,10 @@ TEST_CASE("The shipped motorway shows its vehicles where and as fast as the scen
       if (!target.name.starts_with(law.id + ", ") || !target.name.ends_with(", plate")) continue;
       ++plates;
       for (int frame = 0; frame < scene.frame_count(); ++frame) {
-        const core::Pose pose = scene.trajectory.at(scene.trajectory.frame_time_s(frame, 20.0));
+        const core::Pose pose = scene.trajectory->at(scene.trajectory->frame_time_s(frame, 20.0));
         INFO(target.name << " at " << pose.time_s << " s");
         const glm::dvec3 own_m = scene.frame.to_local_m(pose.position);
-        const core::Pose later = scene.trajectory.at(pose.time_s + 0.01);
+        const core::Pose later = scene.trajectory->at(pose.time_s + 0.01);
         const glm::dvec3 own_mps = (scene.frame.to_local_m(later.position) - own_m) / 0.01;
         const glm::dvec3 line_m = target.position_at(pose.time_s) - own_m;
         const core::HighwayTruth truth =

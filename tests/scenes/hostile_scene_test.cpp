@@ -155,7 +155,7 @@ TEST_CASE("R17 triangles of all boxes and models together are E-LIMIT, and no mo
   const auto triangles = [&](std::size_t most) {
     std::size_t sum = 0;
     for (const terrain::PlacedMesh& mesh :
-         scenes::build_bodies(scene, ground, names, model_materials, problems, most).meshes)
+         scenes::build_bodies(scene, ground, names, model_materials, {}, problems, most).meshes)
       sum += mesh.mesh.triangles.size();
     return sum;
   };

@@ -153,7 +153,7 @@ TEST_CASE("A scene of generated data says all that was guessed, and can be built
   // What an airport is called stays one line of text, whatever is in it.
   CHECK(outcome.scene->description.title == "ZZZZ runway 36, Some \"Field\"\\x0ain = \"injected\"");
   // 5 km and the flare at 70 m/s.
-  CHECK(outcome.scene->trajectory.end_s() - outcome.scene->trajectory.begin_s() ==
+  CHECK(outcome.scene->trajectory->end_s() - outcome.scene->trajectory->begin_s() ==
         Approx(5300.0 / 70.0).epsilon(0.05));
 }
 

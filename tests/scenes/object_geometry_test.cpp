@@ -45,11 +45,11 @@ TEST_CASE("A box stands on the ground, without a gap, its length along its headi
   CHECK(seen_from_above(*scene, centre + glm::dvec2(20.5, 0.0)).material == "short_grass");
   CHECK(seen_from_above(*scene, centre + glm::dvec2(0.0, 15.5)).material == "short_grass");
   for (const double above_m : {0.05, 6.0, 11.9}) {
-    const auto hit = scene->world.surfaces->intersect(
+    const auto hit = scene->world.surfaces().intersect(
         glm::dvec3(centre, ground + above_m) - glm::dvec3(60, 0, 0), glm::dvec3(1, 0, 0), 200.0);
     REQUIRE(hit.has_value());
     CHECK(hit->distance_m == Approx(40.0).epsilon(0.0).margin(0.01));
-    CHECK(scene->world.material_names.at(hit->material) == "brick");
+    CHECK(scene->world.geometry->material_names.at(hit->material) == "brick");
     CHECK(hit->normal.x == Approx(-1.0).epsilon(0.0).margin(1e-3));
   }
 }

@@ -71,11 +71,11 @@ double sum_W(const scenes::Scene& scene) {
 }
 
 const materials::NrcsCurve& curve_of(const scenes::Scene& scene, const std::string& name) {
-  const auto& names = scene.world.material_names;
+  const auto& names = scene.world.geometry->material_names;
   const auto found = std::find(names.begin(), names.end(), name);
   INFO(name);
   REQUIRE(found != names.end());
-  return scene.world.nrcs.at(static_cast<std::size_t>(found - names.begin()));
+  return scene.world.nrcs.curves().at(static_cast<std::size_t>(found - names.begin()));
 }
 
 }  // namespace
@@ -85,9 +85,9 @@ TEST_CASE("Names of a mapping become materials of the model, behind the library'
   const TemporaryFolder folder;
   write_model(folder);
   const auto scene = tests::good_scene(folder, wall_scene("open_material = \"block.xoma\""));
-  REQUIRE(scene->world.nrcs.size() == scene->world.material_names.size());
-  CHECK(scene->world.material_names.end()[-2] == "wall.gltf:Steel");
-  CHECK(scene->world.material_names.end()[-1] == "wall.gltf:Panel");
+  REQUIRE(scene->world.nrcs.size() == scene->world.geometry->material_names.size());
+  CHECK(scene->world.geometry->material_names.end()[-2] == "wall.gltf:Steel");
+  CHECK(scene->world.geometry->material_names.end()[-1] == "wall.gltf:Panel");
   // HiVision sends and receives HH at 35 GHz: 0.5 sin + 2 sin^8, and 4 pi 0.05 cos^2 at 60 deg.
   CHECK(curve_of(*scene, "wall.gltf:Steel").sigma0(0.5) == Approx(0.25 + 2.0 / 256.0));
   CHECK(curve_of(*scene, "wall.gltf:Panel").sigma0(1.0) == Approx(4.0 * 3.14159265 * 0.05));
@@ -110,7 +110,7 @@ TEST_CASE("A material with a surface height and a permittivity mirrors; one with
   const std::string text =
       replaced(wall_scene("open_material = \"block.xoma\""), "short_grass", "forest");
   const auto scene = tests::good_scene(folder, text);
-  const auto& names = scene->world.material_names;
+  const auto& names = scene->world.geometry->material_names;
   const auto mirror_of = [&](const std::string& name) {
     const auto at = std::find(names.begin(), names.end(), name);
     REQUIRE(at != names.end());
@@ -178,7 +178,7 @@ TEST_CASE("The scene's own mapping goes before the files, the default behind the
   const auto scene = tests::good_scene(
       folder, wall_scene("open_material = \"block.xomm\"\ndefault_material = \"forest\"\n"
                          "materials = { Steel = \"concrete\" }"));
-  const auto& names = scene->world.material_names;
+  const auto& names = scene->world.geometry->material_names;
   CHECK(std::count_if(names.begin(), names.end(),
                       [](const std::string& name) { return name.starts_with("wall.gltf"); }) == 0);
 }
@@ -202,7 +202,7 @@ TEST_CASE("An asset of the model's own name is used when asked for, and only the
   fs::rename(folder.path() / "block.xoma", folder.path() / "wall.xoma");
   const auto materials_beyond_library = [&](const std::string& keys) {
     const auto scene = tests::good_scene(folder, wall_scene(keys));
-    const auto& names = scene->world.material_names;
+    const auto& names = scene->world.geometry->material_names;
     return std::count_if(names.begin(), names.end(),
                          [](const std::string& name) { return name.starts_with("wall.gltf"); });
   };
@@ -222,7 +222,7 @@ TEST_CASE("Two copies of a model share their materials", "[open_material]") {
   const std::string second =
       one.substr(one.find("[[model]]"), one.find("[weather]") - one.find("[[model]]"));
   const auto scene = tests::good_scene(folder, replaced(one, "[weather]", second + "[weather]"));
-  const auto& names = scene->world.material_names;
+  const auto& names = scene->world.geometry->material_names;
   CHECK(std::count(names.begin(), names.end(), "wall.gltf:Steel") == 1);
 }
 

@@ -234,7 +234,7 @@ TEST_CASE("T03 level ground elsewhere on the ellipsoid changes as its curvature 
       const Seen home = seen(folder, text_at(scene, kHome, EarthModel::wgs84), kind);
       const Seen away = seen(folder, text_at(scene, {0.0, 10.0}, EarthModel::wgs84), kind);
       const sensors::Sensor& sensor = home.scene->world.sensor;
-      const std::vector<std::string>& names = home.scene->world.material_names;
+      const std::vector<std::string>& names = home.scene->world.geometry->material_names;
       const auto name = std::find(names.begin(), names.end(), "short_grass");
       REQUIRE(name != names.end());
       const materials::NrcsCurve& grass =

@@ -66,7 +66,7 @@ class Probe {
   std::array<double, 3> cells_at(double behind_m, double left_m, double above_m) const {
     const glm::dvec2 at =
         threshold_m_ + along_ * behind_m + glm::dvec2(-along_.y, along_.x) * left_m;
-    const double ground_m = *scene_.world.surfaces->terrain()->height_at(at.x, at.y);
+    const double ground_m = *scene_.world.surfaces().terrain()->height_at(at.x, at.y);
     const glm::dvec3 path = glm::dvec3(at, ground_m + above_m) - antenna_.position_m;
     const sensors::Sensor& sensor = scene_.world.sensor;
     const auto angles = sensors::angles(antenna_, path, sensor.scan.surface);

@@ -24,7 +24,7 @@ std::unique_ptr<scenes::Scene> shipped(const std::string& name) {
 
 const std::optional<materials::SpecularSurface>& mirror_of(const scenes::Scene& scene,
                                                            const std::string& material) {
-  const std::vector<std::string>& names = scene.world.material_names;
+  const std::vector<std::string>& names = scene.world.geometry->material_names;
   const auto at = std::find(names.begin(), names.end(), material);
   REQUIRE(at != names.end());
   return scene.world.specular.at(static_cast<std::size_t>(at - names.begin()));

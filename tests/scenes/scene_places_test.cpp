@@ -98,12 +98,12 @@ TEST_CASE("F18 a locale with a decimal comma changes nothing", "[scene_places]")
   CHECK(proof.str() == "1.234,5");
   CHECK((comma.resolved == plain.resolved));
   REQUIRE(comma_scene != nullptr);
-  CHECK(comma_scene->world.surfaces->terrain()->height_m ==
-        plain_scene->world.surfaces->terrain()->height_m);
-  CHECK(comma_scene->world.surfaces->triangle_count() ==
-        plain_scene->world.surfaces->triangle_count());
-  const core::Pose a = plain_scene->trajectory.at(10.0);
-  const core::Pose b = comma_scene->trajectory.at(10.0);
+  CHECK(comma_scene->world.surfaces().terrain()->height_m ==
+        plain_scene->world.surfaces().terrain()->height_m);
+  CHECK(comma_scene->world.surfaces().triangle_count() ==
+        plain_scene->world.surfaces().triangle_count());
+  const core::Pose a = plain_scene->trajectory->at(10.0);
+  const core::Pose b = comma_scene->trajectory->at(10.0);
   CHECK(a.position.latitude_rad == b.position.latitude_rad);
   CHECK(a.position.height_m == b.position.height_m);
 }

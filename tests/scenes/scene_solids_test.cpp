@@ -64,7 +64,7 @@ glm::dvec2 local_on_ground_m(const Scene& scene, const terrain::GeodeticPoint& p
   for (int i = 0; i < 3; ++i) {
     local_m = scene.frame.to_local_m({point.latitude_rad, point.longitude_rad, height_m});
     local_m.z =
-        scene.world.surfaces->terrain()->height_at(local_m.x, local_m.y).value_or(local_m.z);
+        scene.world.surfaces().terrain()->height_at(local_m.x, local_m.y).value_or(local_m.z);
     height_m = scene.frame.to_geodetic(local_m).height_m;
   }
   return local_m;
@@ -77,7 +77,7 @@ bool is_over(const Box_m& box, const glm::dvec2& point) {
 
 // Nothing where an edge is too near, or something that is no solid may be met first.
 std::optional<double> top_of_solids_m(const Scene& scene, const glm::dvec2& point) {
-  const Solids& solids = scene.world.solids;
+  const Solids& solids = scene.world.solids();
   double top_m = tests::ground_m(scene, point);
   for (const Solid& solid : solids.prisms) {
     const Spot spot = spot_in(solid, point);
@@ -113,14 +113,14 @@ TEST_CASE("A box is a solid with its top and materials, and no ray disagrees", "
   const std::unique_ptr<Scene> scene = tests::good_scene(
       folder, tests::replaced(tests::standing(), "height_m = 12.0",
                               "height_m = 12.0\nheading_deg = 30.0\nwall = \"brick\""));
-  REQUIRE(scene->world.solids.prisms.size() == 1);
-  CHECK(scene->world.solids.others.empty());
-  const Solid& hangar = scene->world.solids.prisms.front();
+  REQUIRE(scene->world.solids().prisms.size() == 1);
+  CHECK(scene->world.solids().others.empty());
+  const Solid& hangar = scene->world.solids().prisms.front();
   CHECK(area_m2(hangar.rings_m) == Approx(40.0 * 30.0).epsilon(1e-9));
   CHECK(hangar.top_m ==
         Approx(tests::ground_m(*scene, {-200.0, 300.0}) + 12.0).epsilon(0.0).margin(1e-3));
-  CHECK(scene->world.material_names.at(hangar.wall) == "brick");
-  CHECK(scene->world.material_names.at(hangar.roof) == "roof");
+  CHECK(scene->world.geometry->material_names.at(hangar.wall) == "brick");
+  CHECK(scene->world.geometry->material_names.at(hangar.roof) == "roof");
   check_rays_from_above(*scene, {-200.0, 300.0}, 30.0, 15);
 }
 
@@ -143,7 +143,7 @@ TEST_CASE("A storey over a hall is a solid, a canopy is a box and is counted", "
   const std::unique_ptr<Scene> scene = tests::good_scene(
       folder, tests::replaced(tests::standing(), "[weather]",
                               "[[buildings]]\nfile = \"town.geojson\"\n[weather]"));
-  const Solids& solids = scene->world.solids;
+  const Solids& solids = scene->world.solids();
   CHECK(solids.prisms.size() == 3);  // with the hangar
   REQUIRE(solids.others.size() == 1);
   CHECK(scene->raised_buildings == 2);
@@ -159,15 +159,15 @@ TEST_CASE("A storey over a hall is a solid, a canopy is a box and is counted", "
 
 TEST_CASE("Braunschweig's truck is a box around it, its buildings are solids", "[scene_solids]") {
   const std::unique_ptr<Scene> scene = shipped("braunschweig-26");
-  REQUIRE(scene->world.solids.others.size() == 1);
+  REQUIRE(scene->world.solids().others.size() == 1);
   CHECK(scene->floating_buildings == 0);
-  const Box_m& truck = scene->world.solids.others.front();
+  const Box_m& truck = scene->world.solids().others.front();
   CHECK(truck.high.z - truck.low.z > 2.0);
   CHECK(truck.high.z - truck.low.z < 5.0);
   CHECK(glm::length(glm::dvec2(truck.high) - glm::dvec2(truck.low)) < 25.0);
   const glm::dvec2 middle_m = 0.5 * (glm::dvec2(truck.low) + glm::dvec2(truck.high));
   CHECK(tests::seen_from_above(*scene, middle_m).material == "metal");
-  CHECK(scene->world.solids.prisms.size() > 100);
+  CHECK(scene->world.solids().prisms.size() > 100);
 }
 
 TEST_CASE("Innsbruck's solids are its footprints, less the parts over open air",
@@ -175,7 +175,7 @@ TEST_CASE("Innsbruck's solids are its footprints, less the parts over open air",
   const auto data = tests::shared_data("lowi-innsbruck");
   if (!data) return;
   const std::unique_ptr<Scene> scene = shipped("innsbruck-26", {data->parent_path()});
-  const Solids& solids = scene->world.solids;
+  const Solids& solids = scene->world.solids();
   // 59 features of the file are raised. 55 lie on the terrain; 22 of them stand on others.
   CHECK(scene->raised_buildings == 55);
   CHECK(scene->floating_buildings == 33);
@@ -206,7 +206,7 @@ TEST_CASE("Innsbruck's solids are its footprints, less the parts over open air",
       low = glm::min(low, point);
       high = glm::max(high, point);
       on_terrain =
-          on_terrain && scene->world.surfaces->terrain()->height_at(point.x, point.y).has_value();
+          on_terrain && scene->world.surfaces().terrain()->height_at(point.x, point.y).has_value();
     }
     if (!on_terrain) continue;
     ++polygons;

@@ -65,8 +65,8 @@ renderer::Frame frame_of(const Scene& scene) {
 }
 
 double level_dB(const Scene& scene, const std::string& material, double grazing_deg) {
-  for (std::size_t i = 0; i < scene.world.material_names.size(); ++i)
-    if (scene.world.material_names[i] == material)
+  for (std::size_t i = 0; i < scene.world.geometry->material_names.size(); ++i)
+    if (scene.world.geometry->material_names[i] == material)
       return 10.0 * std::log10(scene.world.nrcs[i].sigma0(std::sin(core::radians(grazing_deg))));
   FAIL("no material " << material);
   return 0.0;

@@ -35,13 +35,14 @@ const core::EffectDecision& decision_of(const scenes::Scene& scene, std::string_
 double largest_change_grey(const scenes::Scene& one, const scenes::Scene& other) {
   renderer::Sampling sampling;
   sampling.sub_columns = 1;
-  renderer::PlannedFrames frames(one.world, sampling, {true, true}, 1);
-  renderer::PlannedFrames others(other.world, sampling, {true, true}, 1);
+  renderer::PlannedFrames frames(one.world, sampling, 1);
+  renderer::PlannedFrames others(other.world, sampling, 1);
   double largest = 0.0;
   for (int frame = 0; frame < one.frame_count(); frame += 60)
-    largest = std::max(largest, largest_difference_grey(
-                                    frames.for_plan(one.plan).render(one.frame_pose(frame)),
-                                    others.for_plan(other.plan).render(other.frame_pose(frame))));
+    largest = std::max(
+        largest, largest_difference_grey(
+                     frames.for_plan(one.plan, {true, true}).render(one.frame_pose(frame)),
+                     others.for_plan(other.plan, {true, true}).render(other.frame_pose(frame))));
   return largest;
 }
 

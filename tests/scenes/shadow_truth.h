@@ -79,7 +79,7 @@ class ShadowTruth {
     const glm::dvec3 path = top - antenna_.position_m;
     if (!(path.z < 0.0)) return std::nullopt;
     const auto hit =
-        scene_.world.surfaces->intersect(antenna_.position_m, glm::normalize(path), 2.0e4);
+        scene_.world.surfaces().intersect(antenna_.position_m, glm::normalize(path), 2.0e4);
     if (!hit || hit->geometry != terrain::kTerrainGeometry) return std::nullopt;
     const glm::dvec3 end = antenna_.position_m + glm::normalize(path) * hit->distance_m;
     const sensors::RangeGate& gate = scene_.world.sensor.range;
@@ -144,7 +144,7 @@ class ShadowTruth {
     for (double rad = -depth_rad(std::max(top_m - 400.0, 1.0)); rad < 0.05; rad += kStep_rad) {
       const glm::dvec3 ahead =
           sensors::direction(antenna_, azimuth_rad, rad, scene_.world.sensor.scan.surface);
-      const auto hit = scene_.world.surfaces->intersect(antenna_.position_m, ahead, 2.0e4);
+      const auto hit = scene_.world.surfaces().intersect(antenna_.position_m, ahead, 2.0e4);
       const double range_m = hit ? hit->distance_m : 2.0e4;
       const double shared_m = std::min(range_m, end_m) - std::max(last_m, top_m);
       if (last_m > top_m - 100.0 && range_m - last_m > kGap_m && shared_m > longest_m) {
@@ -162,7 +162,7 @@ class ShadowTruth {
   }
 
   double ground_m(glm::dvec2 at) const {
-    return scene_.world.surfaces->terrain()->height_at(at.x, at.y).value_or(0.0);
+    return scene_.world.surfaces().terrain()->height_at(at.x, at.y).value_or(0.0);
   }
   glm::dvec2 place_m(const scenes::BoxDescription& box) const {
     return threshold_m_ + along_ * box.at.behind_threshold_m +

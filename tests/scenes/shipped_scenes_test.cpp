@@ -61,7 +61,7 @@ TEST_CASE("Innsbruck builds on the shared terrain, both flights over it", "[ship
   const std::unique_ptr<scenes::Scene> airliner =
       built("innsbruck-26-airliner", {data->parent_path()});
   CHECK(airliner->frame_count() > 800);
-  CHECK(airliner->trajectory.attitude_derived);
+  CHECK(airliner->trajectory->attitude_derived);
 }
 
 TEST_CASE("Keflavik flies the recorded attitude over the simulator's terrain", "[shipped_scenes]") {
@@ -69,5 +69,5 @@ TEST_CASE("Keflavik flies the recorded attitude over the simulator's terrain", "
   if (!data || !tests::shared_data("flightgear")) return;
   const std::unique_ptr<scenes::Scene> keflavik = built("keflavik-10", {data->parent_path()});
   CHECK(keflavik->frame_count() > 1800);
-  CHECK_FALSE(keflavik->trajectory.attitude_derived);
+  CHECK_FALSE(keflavik->trajectory->attitude_derived);
 }

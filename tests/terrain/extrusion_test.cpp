@@ -192,8 +192,8 @@ TEST_CASE("Every triangle names its prism, and prisms that fail leave nothing", 
       extrude({line, square, two_points, upside_down, square}, "city", {"brick", "tar"}, problems);
   CHECK(extrusion.failed == 3);
   CHECK(extrusion.mesh.triangles.size() == 20);
-  CHECK(std::count(extrusion.triangle_prism.begin(), extrusion.triangle_prism.end(), 1U) == 10);
-  CHECK(std::count(extrusion.triangle_prism.begin(), extrusion.triangle_prism.end(), 4U) == 10);
+  CHECK(std::count(extrusion.mesh.triangle_part.begin(), extrusion.mesh.triangle_part.end(), 1U) == 10);
+  CHECK(std::count(extrusion.mesh.triangle_part.begin(), extrusion.mesh.triangle_part.end(), 4U) == 10);
   REQUIRE(extrusion.polygons.size() == 2);
   CHECK(extrusion.polygons[0].prism == 1);
   CHECK(extrusion.polygons[1].prism == 4);

@@ -66,6 +66,17 @@ TEST_CASE("nodes apply scale, rotation, translation, then their parents", "[gltf
     CHECK(glm::length(mesh.vertices_m[i] - by_matrix.vertices_m[i]) < 1e-14);
 }
 
+TEST_CASE("every node that places a mesh is a part with its name", "[gltf]") {
+  json document = triangle_document();
+  document["nodes"] = {{{"children", {1, 2}}},
+                       {{"mesh", 0}, {"name", "cabin"}},
+                       {{"mesh", 0}, {"translation", {5, 0, 0}}}};
+  core::ProblemList warnings;
+  const TriangleMesh mesh = loaded(document, warnings);
+  CHECK(mesh.part_names == std::vector<std::string>{"cabin", "node_2"});
+  CHECK(mesh.triangle_part == std::vector<std::uint32_t>{0, 1});
+}
+
 TEST_CASE("strips and fans keep every triangle's winding", "[gltf]") {
   // A strip of two squares and a fan around its first corner, all facing glTF +Z.
   const std::string strip = tests::floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0});

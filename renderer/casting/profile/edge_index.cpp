@@ -182,13 +182,13 @@ std::vector<std::uint32_t> prisms_around(const std::vector<Found>& found) {
 
 std::vector<PlanRing> plan_rings(const World& world) {
   std::vector<PlanRing> rings;
-  for (std::size_t i = 0; i < world.solids.prisms.size(); ++i) {
-    const terrain::Solid& solid = world.solids.prisms[i];
+  for (std::size_t i = 0; i < world.solids().prisms.size(); ++i) {
+    const terrain::Solid& solid = world.solids().prisms[i];
     for (const auto& ring_m : solid.rings_m)
       rings.push_back(
           plan_ring(solid.rings_m.front(), solid.top_m, ring_m, static_cast<std::uint32_t>(i)));
   }
-  if (const terrain::SurfaceMap* map = world.surfaces->surface_map(); map != nullptr)
+  if (const terrain::SurfaceMap* map = world.surfaces().surface_map(); map != nullptr)
     for (const terrain::SurfacePatch& patch : map->patches())
       rings.push_back(plan_ring(patch.outline_m, 0.0, patch.outline_m, CutEdge::kPaint));
   return rings;

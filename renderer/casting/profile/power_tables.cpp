@@ -8,10 +8,8 @@
 namespace fanbeam::renderer {
 
 PowerTables::PowerTables(const World& world) {
-  for (const materials::NrcsCurve& curve : world.nrcs) {
-    const NrcsTable table(curve);
+  for (const NrcsTable& table : world.nrcs.tables())
     nrcs_.insert(nrcs_.end(), table.values(), table.values() + NrcsTable::kEntries);
-  }
   const sensors::Antenna& antenna = world.sensor.antenna;
   const sensors::Display& display = world.sensor.display;
   const sensors::TwoWayTable gain(antenna.elevation);

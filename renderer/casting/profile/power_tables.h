@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "renderer/casting/nrcs_table.h"
+#include "renderer/surfaces/nrcs_table.h"
 #include "renderer/world.h"
 
 namespace fanbeam::renderer {

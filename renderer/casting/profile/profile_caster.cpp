@@ -55,8 +55,8 @@ ProfileCaster::ProfileCaster(const World& world, const Sampling& sampling)
       rings_(plan_rings(world)),
       tables_(world),
       path_loss_(world) {
-  if (!world.solids.others.empty()) rays_ = std::make_unique<RayCaster>(world, sampling);
-  if (world.surfaces->terrain() == nullptr)
+  if (!world.solids().others.empty()) rays_ = std::make_unique<RayCaster>(world, sampling);
+  if (world.surfaces().terrain() == nullptr)
     throw core::InternalError("slices without a ground to cut");
 }
 
@@ -73,7 +73,7 @@ void ProfileCaster::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
   else
     cast_across(antenna, slices_per_sub_column(pass.level), sums, sight);
   // Beyond the slices, and in azimuths left to rays.
-  look_along_rays(*world_.surfaces, antenna.position_m, sight);
+  look_along_rays(world_.surfaces(), antenna.position_m, sight);
 }
 
 // Calls `gather` with what all slices of a frame share.

@@ -53,7 +53,7 @@ std::vector<std::uint8_t> sub_columns_for_rays(const World& world,
     return static_cast<std::size_t>(
         std::lower_bound(slices.begin(), slices.end(), heading_rad, before) - slices.begin());
   };
-  for (const terrain::Box_m& box : world.solids.others) {
+  for (const terrain::Box_m& box : world.solids().others) {
     const HeadingSpan span = headings_of(box, sensor_m, forward);
     if (span.nearest_m > world.sensor.range.maximum_m()) continue;
     const std::size_t first = slice_at(span.left_rad - beside_rad);

@@ -29,8 +29,8 @@ bool visible(WedgeStrip& strip, ProfilePoint& near, const ProfilePoint& far) {
 SliceSweep::SliceSweep(const World& world, const glm::dvec3& sensor_m, const EdgeIndex& edges,
                        double darkest_tangent, SweepScratch& scratch)
     : world_(world),
-      ground_(world.surfaces->terrain()),
-      map_(world.surfaces->surface_map()),
+      ground_(world.surfaces().terrain()),
+      map_(world.surfaces().surface_map()),
       sensor_m_(sensor_m),
       edges_(edges),
       darkest_tangent_(darkest_tangent),
@@ -47,7 +47,7 @@ void SliceSweep::run(const Slice& slice, const EdgeIndex::Candidates& candidates
   full_ = &full;
   strips_.reset(wedge_.range(), edges_.below_sensor());
   WedgeStrip& whole = *strips_.all().begin();
-  strips_.find_roof(whole, world_.solids.prisms, sensor_m_.z);
+  strips_.find_roof(whole, world_.solids().prisms, sensor_m_.z);
   cut_ground(*ground_, {sensor_m_.x, sensor_m_.y}, slice.along, far_m, sensor_m_.z, cut_);
   // Seen from outside, the grid's rim hides what lies under it.
   if (cut_.pieces > 0 && cut_.distance_m[0] > 0.0)
@@ -145,20 +145,20 @@ void SliceSweep::test(const SightPoint& point, const ProfilePoint& at, std::size
 void SliceSweep::enter(WedgeStrip& strip, const SliceEvent& event, double ground_m) {
   const CutEdge& edge = *event.edge;
   if (!strips_.enter(strip, edge.prism, edge.highest_tangent)) return;
-  const double top_m = world_.solids.prisms[edge.prism].top_m - sensor_m_.z;
+  const double top_m = world_.solids().prisms[edge.prism].top_m - sensor_m_.z;
   if (strip.roofed && top_m <= strip.roof_m) return;
   const double below_m = strip.roofed ? std::max(strip.roof_m, ground_m) : ground_m;
   if (strip.roofed) close_roof(strip, event.distance_m);
   if (top_m > below_m) see_wall(strip, event, below_m, top_m);
   strip.roof_from_m = event.distance_m;
-  strips_.find_roof(strip, world_.solids.prisms, sensor_m_.z);
+  strips_.find_roof(strip, world_.solids().prisms, sensor_m_.z);
 }
 
 void SliceSweep::leave(WedgeStrip& strip, const SliceEvent& event) {
   const CutEdge& edge = *event.edge;
   if (!strips_.leave(strip, edge.prism, edge.highest_tangent)) return;
   close_roof(strip, event.distance_m);
-  strips_.find_roof(strip, world_.solids.prisms, sensor_m_.z);
+  strips_.find_roof(strip, world_.solids().prisms, sensor_m_.z);
 }
 
 void SliceSweep::walk_to(WedgeStrip& strip, const ProfilePoint& at, std::size_t piece) {
@@ -259,7 +259,7 @@ void SliceSweep::see_wall(WedgeStrip& strip, const SliceEvent& event, double low
   const WallPart part = wedge_.wall(edge, strip.range);
   const double from_m = std::max(low_m, horizon_tangent * part.distance_m);
   if (top_m > from_m)
-    add_wall(part, from_m, top_m, share_of(strip), world_.solids.prisms[edge.prism].wall);
+    add_wall(part, from_m, top_m, share_of(strip), world_.solids().prisms[edge.prism].wall);
 }
 
 void SliceSweep::add_wall(const WallPart& part, double from_m, double top_m, double share,

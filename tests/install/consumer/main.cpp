@@ -1,15 +1,17 @@
-// Another project's program: opens a scene, renders one frame, and looks at the watts.
+// Another project's program: opens a scene, changes its weather and moves a target, renders three
+// poses from two threads, and looks at the watts.
 //
 //   consumer SHIPPED SCENE
 //
 // SHIPPED is the folder with scenes/, sensors/ and materials/ (share/fanbeam below the prefix).
 #include <algorithm>
+#include <array>
 #include <cstdio>
+#include <thread>
 
 #include "core/image.h"
-#include "scenes/scene.h"
-#include "scenes/scene_reader.h"
 #include "sensors/display/display.h"
+#include "session/session.h"
 
 using namespace fanbeam;
 
@@ -19,19 +21,41 @@ int main(int argc, char** argv) try {
   core::ProblemList problems;  // everything wrong at once, with file, line and column
 
   // Seconds: terrain, buildings, Embree's tree.
-  const scenes::SceneDescription description =
-      scenes::read_scene(shipped / "scenes" / argv[2], {shipped, {}, {}}, problems);
-  const auto scene = scenes::build_scene(description, {}, problems);
+  session::Session session(shipped / "scenes" / argv[2], {.shipped = shipped}, problems);
 
-  // Milliseconds: a frame of the flight, or scene->pose_at(any pose). Thread-safe.
-  const renderer::FrameRenderer frames(scene->world, renderer::sampling_for(4.0), {},
-                                       renderer::effects_of(scene->plan, 0));
-  const renderer::Frame frame = frames.render(scene->frame_pose(0));
+  // Milliseconds each; frames under way keep the conditions that they began with.
+  const auto opened = session.scene();
+  atmosphere::Weather weather = opened->weather;
+  weather.rain_rate_mm_per_h = 10.0;
+  session.set(weather);
+  const core::Pose first = opened->trajectory->poses().front();
+  session::TargetState truck{.name = "truck", .rcs = materials::ConstantRcs{50.0}};
+  truck.position = opened->frame.to_geodetic(opened->frame.to_local_m(first.position) +
+                                             glm::dvec3(0.0, 1000.0, -10.0));
+  session.set(std::span(&truck, 1));
 
-  core::write_png("bscope.png", sensors::bscope_picture(description.sensor, frame.bscope_grey), {});
-  const double strongest_W = *std::max_element(frame.bscope_W.begin(), frame.bscope_W.end());
-  std::printf("%zu cells, the strongest %.3g W\n", frame.bscope_W.size(), strongest_W);
-  return strongest_W > 0.0 && strongest_W < 1.0 ? 0 : 1;
+  // Any pose, from any thread.
+  std::array<renderer::Frame, 3> frames;
+  const auto render = [&](std::size_t i) {
+    core::Pose pose = first;
+    pose.position.height_m += 10.0 * static_cast<double>(i);
+    frames[i] = session.render(pose, i);
+  };
+  std::thread other([&] { render(1); });
+  render(0);
+  render(2);
+  other.join();
+
+  core::write_png("bscope.png",
+                  sensors::bscope_picture(opened->description.sensor, frames[0].bscope_grey), {});
+  for (const renderer::Frame& frame : frames) {
+    const double strongest_W = *std::max_element(frame.bscope_W.begin(), frame.bscope_W.end());
+    std::printf("%zu cells, the strongest %.3g W%s\n", frame.bscope_W.size(), strongest_W,
+                frame.events.empty() ? "" : ", outside the flight volume");
+    if (!(strongest_W > 0.0 && strongest_W < 1.0)) return 1;
+  }
+  // The scene's flight stands still: the poses above it are not what its plan was made for.
+  return frames[0].events.empty() && !frames[2].events.empty() ? 0 : 1;
 } catch (const core::InputError& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 3;

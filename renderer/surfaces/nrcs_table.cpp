@@ -1,4 +1,4 @@
-#include "renderer/casting/nrcs_table.h"
+#include "renderer/surfaces/nrcs_table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "materials/dielectric/specular_surface.h"
-#include "renderer/stages/bistatic_nrcs.h"
+#include "renderer/surfaces/bistatic_nrcs.h"
 #include "terrain/height_field.h"
 
 namespace fanbeam::renderer {

@@ -1,4 +1,4 @@
-#include "renderer/stages/bistatic_nrcs.h"
+#include "renderer/surfaces/bistatic_nrcs.h"
 
 #include <algorithm>
 #include <utility>
@@ -53,7 +53,8 @@ double integrated_share(double sin_in, const OverSine& over_sine) {
 }  // namespace
 
 BistaticNrcs::BistaticNrcs(NrcsTable monostatic) : monostatic_(std::move(monostatic)) {
-  constexpr double kLowestRoot = 1e-3;
+  constexpr double kLowestRoot = 1e-3, kLowestSine = 1.0 / 32.0;
+  if (monostatic_.largest() == 0.0) return;
   for (int i = 0; i <= kSteps; ++i) {
     const double root = std::max(static_cast<double>(i) / kSteps, kLowestRoot);
     // sqrt(sin psi_i) times the share, so without that root in the denominator.
@@ -64,6 +65,11 @@ BistaticNrcs::BistaticNrcs(NrcsTable monostatic) : monostatic_(std::move(monosta
         });
   }
   rooted_share_[kSteps + 1] = rooted_share_[kSteps];
+  for (int i = 0; i <= kSteps; ++i) {
+    const double sine = std::max(static_cast<double>(i), kLowestSine) / kSteps;
+    share_[static_cast<std::size_t>(i)] = std::fmin(scattered_share(*this, sine), 1.0);
+  }
+  share_[kSteps + 1] = share_[kSteps];
 }
 
 double scattered_share(const BistaticNrcs& nrcs, double sin_in) {

@@ -1,0 +1,20 @@
+// What stands in a scene: seconds to build, then const and shared by all that looks at it.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "terrain/buildings/solids.h"
+#include "terrain/ray_scene.h"
+
+namespace fanbeam::renderer {
+
+struct Geometry {
+  std::unique_ptr<const terrain::RayScene> surfaces;
+  terrain::Solids solids{};                   // the buildings of `surfaces`, for the profile caster
+  std::vector<std::string> material_names{};  // by material id
+  std::vector<std::string> object_names{};    // by terrain::ObjectId
+};
+
+}  // namespace fanbeam::renderer

@@ -1,0 +1,84 @@
+#include "scenes/flight_volume.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "terrain/geoid.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+constexpr FlightVolume kNowhere{1e300, 1e300, -1e300, -1e300, 1e300, -1e300, 0.0};
+
+double turn_rad(const terrain::LocalFrame& frame, const core::Geodetic& at) {
+  const glm::dvec3 down = frame.north_east_down_at(at)[2];
+  return std::atan2(std::hypot(down.x, down.y), -down.z);
+}
+
+// Of a height in the scene's datum, over the place that `at_m` stands for.
+double local_up_m(const terrain::LocalFrame& frame, const SceneDescription& scene,
+                  const glm::dvec3& at_m, double height_m) {
+  core::Geodetic at = frame.to_geodetic(at_m);
+  at.height_m = height_m;
+  if (scene.datum == core::VerticalDatum::egm96)
+    at.height_m += terrain::egm96_geoid_height_m(at.latitude_rad, at.longitude_rad);
+  return frame.to_local_m(at).z;
+}
+
+}  // namespace
+
+FlightVolume both(const FlightVolume& a, const FlightVolume& b) {
+  return {std::min(a.west_m, b.west_m),
+          std::min(a.south_m, b.south_m),
+          std::max(a.east_m, b.east_m),
+          std::max(a.north_m, b.north_m),
+          std::min(a.lowest_m, b.lowest_m),
+          std::max(a.highest_m, b.highest_m),
+          std::max(a.vertical_turn_rad, b.vertical_turn_rad)};
+}
+
+FlightVolume volume_of(const Trajectory& trajectory, const terrain::LocalFrame& frame) {
+  FlightVolume volume = kNowhere;
+  for (const core::Pose& pose : trajectory.poses()) {
+    const glm::dvec3 at_m = frame.to_local_m(pose.position);
+    volume.west_m = std::min(volume.west_m, at_m.x);
+    volume.east_m = std::max(volume.east_m, at_m.x);
+    volume.south_m = std::min(volume.south_m, at_m.y);
+    volume.north_m = std::max(volume.north_m, at_m.y);
+    volume.lowest_m = std::min(volume.lowest_m, at_m.z);
+    volume.highest_m = std::max(volume.highest_m, at_m.z);
+    volume.vertical_turn_rad = std::max(volume.vertical_turn_rad, turn_rad(frame, pose.position));
+  }
+  return volume;
+}
+
+FlightVolume volume_over(const terrain::HeightField& ground, const terrain::LocalFrame& frame,
+                         const SceneDescription& scene) {
+  FlightVolume volume{ground.west_m, ground.south_m, ground.east_m(), ground.north_m()};
+  const auto [lowest, highest] =
+      std::minmax_element(ground.height_m.begin(), ground.height_m.end());
+  volume.lowest_m = *lowest;
+  volume.highest_m = *highest + scene.sensor.range.maximum_m();
+  const std::array<glm::dvec3, 5> places{{{0.0, 0.0, 0.0},
+                                          {volume.west_m, volume.south_m, 0.0},
+                                          {volume.west_m, volume.north_m, 0.0},
+                                          {volume.east_m, volume.south_m, 0.0},
+                                          {volume.east_m, volume.north_m, 0.0}}};
+  double stated_lowest_m = 1e300, stated_highest_m = -1e300;
+  for (const glm::dvec3& at_m : places) {
+    volume.vertical_turn_rad =
+        std::max(volume.vertical_turn_rad, turn_rad(frame, frame.to_geodetic(at_m)));
+    const FlightHeights& stated = scene.flight_heights;
+    if (stated.lowest_m)
+      stated_lowest_m = std::min(stated_lowest_m, local_up_m(frame, scene, at_m, *stated.lowest_m));
+    if (stated.highest_m)
+      stated_highest_m =
+          std::max(stated_highest_m, local_up_m(frame, scene, at_m, *stated.highest_m));
+  }
+  if (scene.flight_heights.lowest_m) volume.lowest_m = stated_lowest_m;
+  if (scene.flight_heights.highest_m) volume.highest_m = stated_highest_m;
+  return volume;
+}
+
+}  // namespace fanbeam::scenes

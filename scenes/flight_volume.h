@@ -1,0 +1,39 @@
+// Where an aircraft may be when a frame is asked for: what a scene's plan counts on beside its
+// ground, weather and sensor.
+//
+// A trajectory fills it; a scene without one states it ([flight_volume]), or has the air over its
+// terrain from the lowest ground to one range window above the highest: from farther up the sensor
+// meets no ground. A plan for a stated volume holds for every attitude.
+#pragma once
+
+#include "scenes/description.h"
+#include "scenes/trajectory/trajectory.h"
+#include "sensors/sensor.h"
+#include "terrain/height_field.h"
+#include "terrain/local_frame.h"
+
+namespace fanbeam::scenes {
+
+// In the scene's frame: heights are of its horizontal plane.
+struct FlightVolume {
+  double west_m = 0.0, south_m = 0.0, east_m = 0.0, north_m = 0.0;
+  double lowest_m = 0.0, highest_m = 0.0;
+  // Largest angle between the vertical of a place in it and that of the scene's origin.
+  double vertical_turn_rad = 0.0;
+
+  bool holds(const glm::dvec3& at_m) const {
+    return at_m.x >= west_m && at_m.x <= east_m && at_m.y >= south_m && at_m.y <= north_m &&
+           at_m.z >= lowest_m && at_m.z <= highest_m;
+  }
+};
+
+// What holds both.
+FlightVolume both(const FlightVolume& a, const FlightVolume& b);
+
+FlightVolume volume_of(const Trajectory& trajectory, const terrain::LocalFrame& frame);
+
+// Over all of `ground`, between the heights that the description states or those above.
+FlightVolume volume_over(const terrain::HeightField& ground, const terrain::LocalFrame& frame,
+                         const SceneDescription& scene);
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,48 @@
+// What a caller says of a session's targets, sensor and sampling: plain data.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "core/pose.h"
+#include "core/swerling.h"
+#include "materials/rcs/rcs.h"
+#include "renderer/casting/sampling.h"
+#include "sensors/sensor.h"
+
+namespace fanbeam::session {
+
+// Where a point scatterer is now. It stands there until told otherwise; its own speed matters to
+// signals alone and is not modelled here.
+struct TargetState {
+  // Of the scene's own targets, all that have it: the lights of a runway share one. Another name is
+  // a new target and needs `rcs`.
+  std::string name;
+  core::Geodetic position;           // ellipsoidal height
+  std::optional<glm::dquat> q_NB{};  // its x axis is the boresight; else as before, or north
+  std::optional<materials::RcsModel> rcs{};
+  std::optional<core::Swerling> swerling{};
+};
+
+// What a pilot's panel and an installer set; the rest of a sensor is its file's.
+struct SensorSettings {
+  std::optional<double> boresight_elevation_rad{};  // tilt, -pi/2 to pi/2; the C-scope goes along
+  std::optional<bool> stabilised{};
+  std::optional<double> low_dB{}, high_dB{};  // of the display's window, low below high
+  std::optional<sensors::Display::CScopeMode> cscope_mode{};
+};
+
+// Rays, or slices, per range cell and column: the same for every frame. 0: the caster's default.
+struct Samples {
+  double per_cell = 0.0;
+};
+// Every frame refined until its estimated error is at most half of it; the other half is for
+// effects that are left out. Above 0.
+struct Accuracy {
+  double grey_levels = 0.5;
+};
+// The last one says every setting of its own: references, estimates, what a time budget chose.
+using SamplingWish = std::variant<Samples, Accuracy, renderer::Sampling>;
+
+}  // namespace fanbeam::session

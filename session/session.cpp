@@ -1,0 +1,221 @@
+#include "session/session.h"
+
+#include <cmath>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "core/parallel.h"
+#include "renderer/plan/effects.h"
+#include "renderer/planned_frames.h"
+#include "scenes/frame_plan.h"
+#include "scenes/scene_caster.h"
+#include "scenes/scene_reader.h"
+#include "session/targets.h"
+
+namespace fanbeam::session {
+namespace {
+
+renderer::Sampling sampling_of(const SamplingWish& wish, renderer::CasterKind caster) {
+  if (const auto* sampling = std::get_if<renderer::Sampling>(&wish)) return *sampling;
+  if (const auto* accuracy = std::get_if<Accuracy>(&wish))
+    return renderer::refined_sampling(caster, renderer::sampling_share_grey(accuracy->grey_levels));
+  const double per_cell = std::get<Samples>(wish).per_cell;
+  return renderer::sampling_for(caster,
+                                per_cell > 0.0 ? per_cell : renderer::default_samples(caster));
+}
+
+// What the scene's [accuracy] says unless the caller does; a time budget is for whoever has a clock.
+SamplingWish wish_of(const scenes::SceneDescription& scene, const scenes::BuildOptions& build) {
+  if (build.accuracy_grey > 0.0) return Accuracy{build.accuracy_grey};
+  if (scene.accuracy_grey > 0.0 && !(scene.rays_per_cell > 0.0))
+    return Accuracy{scene.accuracy_grey};
+  return Samples{scene.rays_per_cell};
+}
+
+void check(const SamplingWish& wish, core::ProblemList& problems) {
+  if (const auto* accuracy = std::get_if<Accuracy>(&wish)) {
+    if (!(accuracy->grey_levels >= 0.01 && accuracy->grey_levels <= 100.0))
+      problems.error(core::ErrorClass::range, {}, "accuracy",
+                     core::number_text(accuracy->grey_levels), "0.01 to 100 grey levels");
+    return;
+  }
+  if (!std::holds_alternative<Samples>(wish)) return;
+  const double per_cell = std::get<Samples>(wish).per_cell;
+  if (per_cell != 0.0 && !(per_cell >= renderer::kFewestRaysPerCell && per_cell <= 10000.0))
+    problems.error(core::ErrorClass::range, {}, "samples per cell", core::number_text(per_cell),
+                   "0, or " + core::number_text(renderer::kFewestRaysPerCell) + " to 10000");
+}
+
+sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& settings,
+                              core::ProblemList& problems) {
+  if (settings.boresight_elevation_rad) {
+    const double tilt_rad = *settings.boresight_elevation_rad;
+    if (!(std::abs(tilt_rad) <= core::kPi / 2))
+      problems.error(core::ErrorClass::range, {}, "boresight_elevation_rad",
+                     core::number_text(tilt_rad), "-pi/2 to pi/2");
+    sensor.display.cscope_top_rad += tilt_rad - sensor.antenna.boresight_elevation_rad;
+    sensor.antenna.boresight_elevation_rad = tilt_rad;
+  }
+  sensors::Display& display = sensor.display;
+  sensor.scan.stabilised = settings.stabilised.value_or(sensor.scan.stabilised);
+  display.cscope_mode = settings.cscope_mode.value_or(display.cscope_mode);
+  display.low_dB = settings.low_dB.value_or(display.low_dB);
+  display.high_dB = settings.high_dB.value_or(display.high_dB);
+  if (!(display.low_dB >= -400.0 && display.high_dB <= 400.0 && display.low_dB < display.high_dB))
+    problems.error(core::ErrorClass::range, {}, "low_dB, high_dB",
+                   core::number_text(display.low_dB) + ", " + core::number_text(display.high_dB),
+                   "-400 to 400, low_dB below high_dB");
+  return sensor;
+}
+
+// What a frame is made under.
+class Work {
+ public:
+  Work(const core::StopToken& stop, int threads) : scope_(stop) {
+    if (threads > 0) limit_.emplace(threads);
+  }
+
+ private:
+  core::StopScope scope_;
+  std::optional<core::ThreadLimit> limit_;
+};
+
+}  // namespace
+
+// Immutable once published, but for renderers that are made when first asked for.
+struct Session::Published {
+  Published(std::shared_ptr<const scenes::Scene> of, const SamplingWish& wish, std::uint64_t seed)
+      : scene(std::move(of)),
+        sampling(sampling_of(wish, scene->caster.chosen)),
+        frames(scene->world, sampling, seed) {}
+
+  std::shared_ptr<const scenes::Scene> scene;
+  renderer::Sampling sampling;
+  mutable renderer::PlannedFrames frames;
+};
+
+// All that was ever set, of which a published scene is made.
+struct Session::Asked {
+  scenes::Conditions conditions;
+  SamplingWish sampling;
+  core::ProblemList problems;
+};
+
+struct Session::Inside {
+  std::uint64_t seed = 0;
+  int threads = 0;
+  std::shared_ptr<const scenes::Scene> opened;
+  std::mutex setting;  // one change after the other
+  Asked asked;
+  mutable std::mutex looking;
+  std::shared_ptr<const Published> published;
+};
+
+Session::Session(const std::filesystem::path& scene, const Setup& setup,
+                 core::ProblemList& problems)
+    : inside_(std::make_unique<Inside>()) {
+  open(scenes::read_scene(scene, {setup.shipped, setup.data_folders, setup.sensor}, problems),
+       setup, problems);
+}
+
+Session::Session(const scenes::SceneDescription& scene, const Setup& setup,
+                 core::ProblemList& problems)
+    : inside_(std::make_unique<Inside>()) {
+  open(scene, setup, problems);
+}
+
+void Session::open(scenes::SceneDescription description, const Setup& setup,
+                   core::ProblemList& problems) {
+  if (setup.sample) description.sample = *setup.sample;
+  inside_->seed = setup.seed;
+  inside_->threads = setup.threads;
+  inside_->opened = scenes::build_scene(description, setup.build, problems);
+  inside_->asked.sampling = wish_of(description, setup.build);
+  inside_->published =
+      std::make_shared<const Published>(inside_->opened, inside_->asked.sampling, setup.seed);
+}
+
+Session::~Session() = default;
+
+std::shared_ptr<const Session::Published> Session::published() const {
+  const std::lock_guard<std::mutex> lock(inside_->looking);
+  return inside_->published;
+}
+
+std::shared_ptr<const scenes::Scene> Session::scene() const { return published()->scene; }
+
+renderer::Sampling Session::sampling() const { return published()->sampling; }
+
+void Session::change(const std::function<void(Asked&)>& ask, bool as_before) {
+  const std::lock_guard<std::mutex> one(inside_->setting);
+  Asked asked = inside_->asked;
+  ask(asked);
+  asked.problems.throw_if_errors();
+  std::shared_ptr<const scenes::Scene> scene =
+      as_before ? published()->scene : scenes::under_conditions(*inside_->opened, asked.conditions);
+  auto next = std::make_shared<const Published>(std::move(scene), asked.sampling, inside_->seed);
+  inside_->asked = std::move(asked);
+  const std::lock_guard<std::mutex> lock(inside_->looking);
+  inside_->published = std::move(next);
+}
+
+void Session::set(const atmosphere::Weather& weather) {
+  change([&](Asked& asked) { asked.conditions.weather = weather; });
+}
+
+void Session::set(materials::SurfaceState state) {
+  change([&](Asked& asked) { asked.conditions.surface_state = state; });
+}
+
+void Session::set(const SensorSettings& settings) {
+  change([&](Asked& asked) {
+    asked.conditions.sensor =
+        with_settings(inside_->opened->description.sensor, settings, asked.problems);
+  });
+}
+
+void Session::set(std::span<const TargetState> targets) {
+  change([&](Asked& asked) {
+    asked.conditions.targets = placed_targets(*inside_->opened, targets, asked.problems);
+  });
+}
+
+void Session::set(const SamplingWish& wish) {
+  const auto* accuracy = std::get_if<Accuracy>(&wish);
+  const auto ask = [&](Asked& asked) {
+    check(wish, asked.problems);
+    asked.sampling = wish;
+    if (accuracy != nullptr) asked.conditions.accuracy_grey = accuracy->grey_levels;
+  };
+  change(ask, accuracy == nullptr);
+}
+
+renderer::Frame Session::render(const core::Pose& pose, std::uint64_t frame_index,
+                                const renderer::Products& wanted,
+                                const core::StopToken& stop) const {
+  const Work work(stop, inside_->threads);
+  const std::shared_ptr<const Published> now = published();
+  renderer::FramePose at = now->scene->pose_at(pose);
+  at.frame_index = frame_index;
+  renderer::check(at);
+  if (scenes::planned_for(*now->scene, at))
+    return now->frames.for_plan(now->scene->plan, wanted).render(at);
+  const core::EffectPlan plan = scenes::plan_alone(*now->scene, at);
+  const renderer::World world = scenes::world_for(*now->scene, plan);
+  renderer::Frame frame = renderer::FrameRenderer(world, now->sampling, wanted,
+                                                  renderer::effects_of(plan, inside_->seed))
+                              .render(at);
+  frame.events.emplace_back("outside_volume");
+  return frame;
+}
+
+renderer::Frame Session::render_flown(int frame, const core::EffectPlan& plan,
+                                      const renderer::Products& wanted,
+                                      const core::StopToken& stop) const {
+  const Work work(stop, inside_->threads);
+  const std::shared_ptr<const Published> now = published();
+  return now->frames.for_plan(plan, wanted).render(now->scene->frame_pose(frame));
+}
+
+}  // namespace fanbeam::session

@@ -1,0 +1,95 @@
+// A scene that any program can drive: open it once, change conditions in milliseconds, ask for a
+// frame at any pose.
+//
+//   core::ProblemList problems;
+//   session::Session session(scene_folder, {.shipped = share}, problems);   // seconds
+//   session.set(weather);                                                   // milliseconds
+//   const renderer::Frame frame = session.render(pose, 0);                  // pictures and watts
+//
+// Thread-safe throughout: any number of threads, or tasks of the caller's own oneTBB, render and set
+// at once. A `set` publishes new conditions; frames under way keep those that they began with, and
+// a frame depends on its conditions, pose and number alone: the bytes are those of a serial run.
+// Nothing here prints, reads the environment, or limits other loops of the process.
+//
+// Errors: InputError with every problem, and then nothing has changed; core::Stopped when a token
+// asks. What is neglected: renderer/frame_renderer.h.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/stop.h"
+#include "renderer/frame_renderer.h"
+#include "scenes/scene.h"
+#include "session/conditions.h"
+
+namespace fanbeam::session {
+
+struct Setup {
+  std::filesystem::path shipped{};                    // holds scenes/, sensors/ and materials/
+  std::vector<std::filesystem::path> data_folders{};  // in the order of preference
+  std::filesystem::path sensor{};                     // instead of the scene's; empty to keep it
+  scenes::BuildOptions build{};                       // wishes about effects, caster, accuracy
+  std::optional<bool> sample{};  // frames show one realisation; else as the scene says
+  std::uint64_t seed = 0;        // of everything random
+  int threads = 0;  // at most so many for a frame; 0: as many as the caller's tasks have
+};
+
+class Session {
+ public:
+  // `scene` is a folder with scene.toml, or that file. Warnings stay in `problems`. A scene needs no
+  // [trajectory] (scenes/flight_volume.h).
+  Session(const std::filesystem::path& scene, const Setup& setup, core::ProblemList& problems);
+  // The same of a scene that was read, and perhaps changed; of `setup` without its folders and
+  // sensor.
+  Session(const scenes::SceneDescription& scene, const Setup& setup, core::ProblemList& problems);
+  ~Session();
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+
+  // Rain cells in local metres of the scene. The weather replaces the one before, all of it.
+  void set(const atmosphere::Weather& weather);
+  // What its weather left on the ground and on buildings.
+  void set(materials::SurfaceState state);
+  // What is not set goes back to the scene's own.
+  void set(const SensorSettings& settings);
+  // The scene's own targets are where it says but for those named; new ones stay until the next call.
+  void set(std::span<const TargetState> targets);
+  // An accuracy is for effects left out as well, and stays for them until the next one.
+  void set(const SamplingWish& wish);
+
+  // `frame_index` keys what is random: live pictures count it up. A frame whose pose the plan was
+  // not made for (scenes/frame_plan.h, planned_for) is made by a plan of its own and has the event
+  // "outside_volume": tens of milliseconds more.
+  renderer::Frame render(const core::Pose& pose, std::uint64_t frame_index,
+                         const renderer::Products& wanted = {},
+                         const core::StopToken& stop = core::StopScope::current()) const;
+  // A frame of the scene's trajectory by `plan`: that of scene(), or of the frame
+  // (scenes::frame_plan).
+  renderer::Frame render_flown(int frame, const core::EffectPlan& plan,
+                               const renderer::Products& wanted = {},
+                               const core::StopToken& stop = core::StopScope::current()) const;
+
+  // The scene as it is now: plan, facts, sensor, trajectory. It stays as it is when conditions
+  // change.
+  std::shared_ptr<const scenes::Scene> scene() const;
+  renderer::Sampling sampling() const;
+
+ private:
+  struct Published;
+  struct Asked;
+  void open(scenes::SceneDescription description, const Setup& setup, core::ProblemList& problems);
+  // `as_before`: the scene stays as it is.
+  void change(const std::function<void(Asked&)>& ask, bool as_before = false);
+  std::shared_ptr<const Published> published() const;
+
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace fanbeam::session

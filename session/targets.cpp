@@ -1,0 +1,82 @@
+#include "session/targets.h"
+
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "core/spelling.h"
+#include "terrain/local_frame.h"
+
+namespace fanbeam::session {
+namespace {
+
+using renderer::PointTarget;
+
+// Boresight to the north of the scene, y to the left of it, z up.
+const glm::dmat3 kNorth(0.0, 1.0, 0.0, -1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+
+bool is_unit(const glm::dquat& q) {
+  return std::abs(glm::dot(q, q) - 1.0) < 1e-3;  // false for what is not finite
+}
+
+void place(const scenes::Scene& scene, const TargetState& state, PointTarget& target) {
+  target.path = {{0.0, scene.frame.to_local_m(state.position)}};
+  if (state.q_NB) {
+    const glm::dmat3 body =
+        scene.frame.north_east_down_at(state.position) * glm::mat3_cast(*state.q_NB);
+    target.axes = {body[0], -body[1], -body[2]};  // x ahead, y left, z up
+  }
+  if (state.rcs) target.rcs = *state.rcs;
+  if (state.swerling) target.swerling = *state.swerling;
+}
+
+bool is_good(const TargetState& state, const std::string& field, core::ProblemList& problems) {
+  const std::size_t before = problems.all().size();
+  try {
+    terrain::check_geodetic(state.position, field.c_str());
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+  }
+  if (state.q_NB && !is_unit(*state.q_NB))
+    problems.error(core::ErrorClass::range, {}, field + ".q_NB", "no attitude",
+                   "a quaternion of length 1");
+  return problems.all().size() == before;
+}
+
+}  // namespace
+
+std::vector<PointTarget> placed_targets(const scenes::Scene& scene,
+                                        std::span<const TargetState> states,
+                                        core::ProblemList& problems) {
+  std::vector<PointTarget> targets = scene.world.targets;
+  const std::size_t own = targets.size();
+  std::set<std::string> named;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const TargetState& state = states[i];
+    const std::string field = "target[" + std::to_string(i) + "]";
+    if (!named.insert(state.name).second)
+      problems.error(core::ErrorClass::ref, {}, field + ".name", "\"" + state.name + "\" again",
+                     "every target once");
+    if (!is_good(state, field, problems)) continue;
+    bool found = false;
+    for (std::size_t k = 0; k < own; ++k) {
+      if (targets[k].name != state.name) continue;
+      found = true;
+      place(scene, state, targets[k]);
+    }
+    if (found) continue;
+    if (!state.rcs) {
+      std::vector<std::string> known;
+      for (const PointTarget& target : scene.world.targets) known.push_back(target.name);
+      problems.error(core::ErrorClass::ref, {}, field + ".name", "\"" + state.name + "\"",
+                     "a target of the scene, or an rcs for a new one" +
+                         core::names_there_text(state.name, known));
+      continue;
+    }
+    targets.push_back({state.name, *state.rcs, {}, kNorth});
+    place(scene, state, targets.back());
+  }
+  return targets;
+}
+
+}  // namespace fanbeam::session

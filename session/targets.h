@@ -1,0 +1,20 @@
+// A scene's point targets with some of them elsewhere.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/errors.h"
+#include "renderer/world.h"
+#include "scenes/scene.h"
+#include "session/conditions.h"
+
+namespace fanbeam::session {
+
+// E-REF for a name that the scene does not have and that comes without `rcs`, and for one that is
+// there twice; E-RANGE and E-NONFINITE for a position or attitude.
+std::vector<renderer::PointTarget> placed_targets(const scenes::Scene& scene,
+                                                  std::span<const TargetState> states,
+                                                  core::ProblemList& problems);
+
+}  // namespace fanbeam::session

@@ -1,0 +1,204 @@
+// Ground truth of a plain with one wall on it, where every figure is known in closed form.
+#include "renderer/stages/frame_layers.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/errors.h"
+#include "core/parallel.h"
+#include "core/units.h"
+#include "sensors/cells.h"
+#include "tests/renderer/test_worlds.h"
+
+namespace {
+
+using namespace fanbeam;
+
+constexpr double kHeight_m = 100.0, kFront_m = 1000.0, kBack_m = 1020.0, kTop_m = 20.0;
+constexpr terrain::ObjectId kShed = 3;
+const materials::PhongNrcs kMeadow(0.0325, 0.136, 1.99), kBright(1.0, 1.0, 1.0);
+
+renderer::World plain_with_shed(const sensors::Sensor& sensor) {
+  tests::Body shed = tests::box({-200.0, kFront_m, -2.0}, {200.0, kBack_m, kTop_m}, 1);
+  shed.mesh.object_of_part = {kShed};
+  renderer::World world =
+      tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
+                   {kMeadow, kBright}, {shed});
+  const_cast<std::vector<std::string>&>(world.geometry->object_names) = {"terrain", "a", "b",
+                                                                         "shed"};
+  return world;
+}
+
+renderer::Frame rendered(const renderer::World& world, const renderer::Sampling& sampling,
+                         const renderer::Effects& effects = {},
+                         const renderer::Products& wanted = {.layers = true,
+                                                             .cscope_layers = true}) {
+  return renderer::FrameRenderer(world, sampling, wanted, effects)
+      .render(tests::level_pose(kHeight_m));
+}
+
+constexpr int kColumns = 8;
+std::size_t at(int row, int column = 3) {
+  return static_cast<std::size_t>(row * kColumns + column);
+}
+
+// Slant range where the line of sight over the shed's far top edge comes down.
+double shadow_ends_m() { return std::hypot(kBack_m * kHeight_m / (kHeight_m - kTop_m), kHeight_m); }
+
+}  // namespace
+
+TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const renderer::World world = plain_with_shed(sensor);
+  const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
+  REQUIRE(frame.layers);
+  const renderer::LayerSet& truth = frame.layers->bscope;
+  const double wall_near_m = std::hypot(kFront_m, kHeight_m - kTop_m);
+  const double wall_far_m = std::hypot(kFront_m, kHeight_m);
+  const double step_m = 2.0 * sensor.range.cell_m;  // of the rays
+  int ground = 0, wall = 0, dark = 0;
+  for (int row = 0; row < sensor.range.cells; ++row) {
+    const double near_m = sensors::range_edge_m(sensor.range, row);
+    const double far_m = sensors::range_edge_m(sensor.range, row + 1);
+    const std::size_t i = at(row);
+    INFO("cell " << near_m << " to " << far_m);
+    // The beam ends at -19.4 deg, 301 m away.
+    if (near_m < 320.0 || far_m > sensor.range.maximum_m() - step_m) continue;
+    if (far_m < wall_near_m - step_m || near_m > shadow_ends_m() + step_m) {
+      ++ground;
+      REQUIRE(truth.visibility[i] == 1.0F);
+      REQUIRE(truth.material[i] == 0);
+      REQUIRE(truth.object[i] == terrain::kTerrainObject);
+      const double least = kHeight_m / far_m, most = kHeight_m / near_m;
+      const auto between = [](double value, double low, double high) {
+        return value >= low * 0.9999 && value <= high * 1.0001;
+      };
+      REQUIRE(between(std::sin(static_cast<double>(truth.grazing_rad[i])), least, most));
+      REQUIRE(between(-std::sin(static_cast<double>(truth.elevation_rad[i])), least, most));
+      REQUIRE(
+          between(static_cast<double>(truth.nrcs[i]), kMeadow.sigma0(least), kMeadow.sigma0(most)));
+    } else if (near_m < wall_far_m && far_m > wall_near_m) {
+      ++wall;
+      REQUIRE(truth.object[i] == kShed);
+      REQUIRE(truth.material[i] == 1);
+      REQUIRE(truth.visibility[i] == 1.0F);
+    } else if (near_m > std::hypot(kBack_m, kHeight_m - kTop_m) &&
+               far_m < shadow_ends_m() - sensor.range.cell_m) {
+      ++dark;
+      REQUIRE(truth.visibility[i] == 0.0F);
+      REQUIRE(truth.material[i] == renderer::kNoMaterial);
+      REQUIRE(truth.nrcs[i] == 0.0F);
+    }
+    REQUIRE(truth.double_bounce[i] == 0.0F);
+  }
+  CHECK(ground > 400);
+  CHECK(wall >= 1);
+  CHECK(dark > 30);
+}
+
+TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_layers]") {
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const renderer::World world = plain_with_shed(sensor);
+  const renderer::Frame frame = rendered(world, renderer::profile_sampling_for(2.0));
+  const renderer::LayerSet& truth = frame.layers->cscope;
+  const double top_rad = -std::atan((kHeight_m - kTop_m) / kBack_m);
+  const double foot_rad = -std::atan(kHeight_m / kFront_m);
+  int ground = 0, wall = 0;
+  for (int row = 0; row < sensor.display.cscope_rows; ++row) {
+    const double high_rad =
+        sensor.display.cscope_top_rad - sensors::cscope_edge_rad(sensor.display, row);
+    const double low_rad =
+        sensor.display.cscope_top_rad - sensors::cscope_edge_rad(sensor.display, row + 1);
+    const std::size_t i = at(row);
+    INFO("row " << core::degrees(low_rad) << " to " << core::degrees(high_rad));
+    const bool above = low_rad > top_rad, below = high_rad < foot_rad;
+    if (truth.visibility[i] == 0.0F) continue;
+    if (above || below) {
+      ++ground;
+      REQUIRE(truth.object[i] == terrain::kTerrainObject);
+      const double range_m = static_cast<double>(truth.range_m[i]);
+      REQUIRE(range_m >= kHeight_m / std::sin(-low_rad) * 0.9999);
+      REQUIRE(range_m <= kHeight_m / std::sin(-high_rad) * 1.0001);
+    } else if (high_rad < -std::atan((kHeight_m - kTop_m) / kFront_m) && low_rad > foot_rad) {
+      ++wall;
+      REQUIRE(truth.object[i] == kShed);
+      REQUIRE(truth.range_m[i] >
+              static_cast<float>(std::hypot(kFront_m, kHeight_m - kTop_m)) - 0.1F);
+      REQUIRE(truth.range_m[i] < static_cast<float>(std::hypot(kFront_m, kHeight_m)) + 0.1F);
+    }
+  }
+  CHECK(ground > 100);
+  CHECK(wall > 30);
+}
+
+TEST_CASE("Rays and slices, and any number of threads, give one truth", "[frame_layers][threads]") {
+  const renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  const renderer::Frame by_rays = rendered(world, renderer::sampling_for(4.0));
+  const core::ThreadLimit one(1);
+  const renderer::Frame by_slices = rendered(world, renderer::profile_sampling_for(4.0));
+  for (const auto& [a, b] : {std::pair(by_rays.layers->bscope, by_slices.layers->bscope),
+                             std::pair(by_rays.layers->cscope, by_slices.layers->cscope)}) {
+    CHECK(a.visibility == b.visibility);
+    CHECK(a.range_m == b.range_m);
+    CHECK(a.grazing_rad == b.grazing_rad);
+    CHECK(a.nrcs == b.nrcs);
+    CHECK(a.elevation_rad == b.elevation_rad);
+    CHECK(a.material == b.material);
+    CHECK(a.object == b.object);
+  }
+}
+
+TEST_CASE("Asking for layers changes no picture, and not asking makes none", "[frame_layers]") {
+  const renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  const renderer::Frame with = rendered(world, renderer::profile_sampling_for(4.0), {},
+                                        {.layers = true, .cscope_layers = true});
+  const renderer::Frame without = rendered(world, renderer::profile_sampling_for(4.0), {}, {});
+  CHECK(with.bscope_W == without.bscope_W);
+  CHECK(with.cscope_W_m3 == without.cscope_W_m3);
+  CHECK_FALSE(without.layers);
+  const renderer::Frame bscope_alone =
+      rendered(world, renderer::profile_sampling_for(4.0), {}, {.layers = true});
+  CHECK(bscope_alone.layers->cscope.visibility.empty());
+}
+
+TEST_CASE("A point target brighter than the ground gives its number", "[frame_layers]") {
+  renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  for (const double north_m : {600.0, 2000.0})
+    world.targets.push_back(
+        {.name = "post", .rcs = materials::ConstantRcs{1e4}, .path = {{0.0, {0.5, north_m, 5.0}}}});
+  const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
+  const sensors::Sensor& sensor = world.sensor;
+  for (const std::size_t k : {0U, 1U}) {
+    const glm::dvec3 to_m = world.targets[k].path[0].position_m - glm::dvec3(0.0, 0.0, kHeight_m);
+    const int row = sensors::range_row(sensor.range, glm::length(to_m));
+    const int column = sensors::azimuth_column(sensor.scan, std::atan2(to_m.x, to_m.y));
+    CHECK(frame.layers->bscope.object[at(row, column)] == 4 + k);
+    CHECK(frame.layers->bscope.material[at(row, column)] == renderer::kNoMaterial);
+    CHECK(frame.layers->bscope.object[at(row, column - 1)] == terrain::kTerrainObject);
+  }
+}
+
+TEST_CASE("Where a wall stands on a mirror most of the power bounces twice", "[frame_layers]") {
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  renderer::World world = plain_with_shed(sensor);
+  world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
+                    materials::SpecularSurface{{1.0, 1e9}, 0.0}};
+  const int corner = sensors::range_row(sensor.range, std::hypot(kFront_m, kHeight_m));
+  const renderer::Effects bounces{.double_bounce = true};
+  for (const renderer::Sampling& sampling :
+       {renderer::profile_sampling_for(4.0),
+        renderer::refined_sampling(renderer::CasterKind::profile, 1.0)}) {
+    const renderer::LayerSet truth = rendered(world, sampling, bounces).layers->bscope;
+    CHECK(truth.double_bounce[at(corner)] > 0.5F);
+    CHECK(truth.double_bounce[at(corner - 20)] == 0.0F);
+    CHECK(*std::max_element(truth.double_bounce.begin(), truth.double_bounce.end()) <= 1.0F);
+  }
+}
+
+TEST_CASE("A C-scope that draws no elevations has no truth by elevation", "[frame_layers]") {
+  renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  world.sensor.display.cscope_mode = sensors::Display::CScopeMode::flat_earth;
+  CHECK_THROWS_AS(rendered(world, renderer::sampling_for(4.0)), core::InputError);
+  CHECK_NOTHROW(rendered(world, renderer::sampling_for(4.0), {}, {.layers = true}));
+}

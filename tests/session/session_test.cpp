@@ -1,0 +1,242 @@
+// A session gives the bytes that a scene built from a file under the same conditions gives, whoever
+// asks, and whatever was set before.
+#include "session/session.h"
+
+#include <array>
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "core/units.h"
+#include "tests/scenes/scene_folder.h"
+
+namespace {
+
+using namespace fanbeam;
+using session::Session;
+using tests::TemporaryFolder;
+
+const std::string kMast = R"(
+[[target]]
+name = "mast"
+at = { latitude_deg = 52.004, longitude_deg = 10.0 }
+rcs = { shape = "constant", rcs_dBsm = 30 }
+above_ground_m = 20.0
+)";
+
+std::filesystem::path written(const TemporaryFolder& folder, const std::string& text) {
+  folder.write("scene.toml", text);
+  return folder.path();
+}
+
+// Two slices a column: enough to differ, quick.
+std::unique_ptr<Session> opened(const std::filesystem::path& scene, session::Setup setup = {}) {
+  core::ProblemList problems;
+  setup.shipped = FANBEAM_SOURCE_DIR;
+  auto session = std::make_unique<Session>(scene, setup, problems);
+  session->set(session::Samples{2.0});
+  return session;
+}
+
+std::unique_ptr<Session> opened_text(const TemporaryFolder& folder, const std::string& text,
+                                     const session::Setup& setup = {}) {
+  return opened(written(folder, text), setup);
+}
+
+core::Pose frame_pose(const Session& session, int frame) {
+  const auto scene = session.scene();
+  return scene->trajectory->at(
+      scene->trajectory->frame_time_s(frame, scene->description.sensor.scan.frame_rate_Hz));
+}
+
+renderer::Frame rendered(const Session& session, int frame = 40) {
+  return session.render(frame_pose(session, frame), static_cast<std::uint64_t>(frame));
+}
+
+bool same(const renderer::Frame& a, const renderer::Frame& b) {
+  return a.bscope_W == b.bscope_W && a.cscope_W_m3 == b.cscope_W_m3 &&
+         a.bscope_grey == b.bscope_grey && a.cscope_grey == b.cscope_grey && a.events == b.events;
+}
+
+atmosphere::Weather rain(const Session& session, double rate_mm_per_h) {
+  atmosphere::Weather weather = session.scene()->weather;
+  weather.rain_rate_mm_per_h = rate_mm_per_h;
+  return weather;
+}
+
+}  // namespace
+
+TEST_CASE("A session's frames are those of the scene built for them", "[session]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene + kMast);
+  const auto scene = tests::good_scene(folder, tests::kSmallScene + kMast);
+  const renderer::FrameRenderer frames(scene->world, session->sampling(), {},
+                                       renderer::effects_of(scene->plan, 0));
+  CHECK(same(rendered(*session), frames.render(scene->frame_pose(40))));
+}
+
+TEST_CASE("Weather set is weather of the file, and the one before comes back", "[session]") {
+  const TemporaryFolder fog, rainy;
+  const auto session = opened_text(fog, tests::kSmallScene);
+  const std::string text = tests::replaced(tests::kSmallScene, "visibility_m = 400.0",
+                                           "visibility_m = 400.0\nrain_rate_mm_per_h = 20.0");
+  const auto from_file = opened_text(rainy, text);
+  const renderer::Frame dry = rendered(*session);
+  const atmosphere::Weather before = session->scene()->weather;
+  session->set(rain(*session, 20.0));
+  CHECK_FALSE(same(rendered(*session), dry));
+  CHECK(same(rendered(*session), rendered(*from_file)));
+  CHECK(session->scene()->plan.runs(renderer::kRain));
+  session->set(before);
+  CHECK(same(rendered(*session), dry));
+}
+
+TEST_CASE("Wet ground set is wet ground of the file", "[session]") {
+  const TemporaryFolder dry, wet;
+  const auto session = opened_text(dry, tests::kSmallScene);
+  const auto from_file = opened_text(
+      wet, tests::replaced(tests::kSmallScene, "[weather]", "[weather]\nsurface = \"wet\""));
+  const renderer::Frame before = rendered(*session);
+  session->set(materials::SurfaceState::wet);
+  CHECK_FALSE(same(rendered(*session), before));
+  CHECK(same(rendered(*session), rendered(*from_file)));
+}
+
+TEST_CASE("A target that moved stands where a file puts it", "[session]") {
+  const TemporaryFolder here, there;
+  const auto session = opened_text(here, tests::kSmallScene + kMast);
+  const auto from_file =
+      opened_text(there, tests::kSmallScene + tests::replaced(kMast, "52.004", "52.002"));
+  const auto place = [&](const Session& of) {
+    const auto scene = of.scene();
+    for (const renderer::PointTarget& target : scene->world.targets)
+      if (target.name == "mast") return scene->frame.to_geodetic(target.path.front().position_m);
+    FAIL("no mast");
+    return core::Geodetic{};
+  };
+  const renderer::Frame before = rendered(*session);
+  const session::TargetState moved{.name = "mast", .position = place(*from_file)};
+  session->set(std::span(&moved, 1));
+  const renderer::Frame after = rendered(*session);
+  const renderer::Frame expected = rendered(*from_file);
+  REQUIRE(after.bscope_W.size() == expected.bscope_W.size());
+  CHECK_FALSE(same(after, before));
+  // The way through latitude and longitude and back costs nanometres.
+  for (std::size_t i = 0; i < after.bscope_W.size(); ++i)
+    REQUIRE(after.bscope_W[i] == Approx(expected.bscope_W[i]).epsilon(1e-6));
+
+  // Another one of a name that the scene has not; the mast goes back to its place.
+  const session::TargetState truck{
+      .name = "truck", .position = place(*from_file), .rcs = materials::ConstantRcs{100.0}};
+  session->set(std::span(&truck, 1));
+  CHECK(session->scene()->world.targets.size() == from_file->scene()->world.targets.size() + 1);
+  session->set(std::span<const session::TargetState>());
+  CHECK(same(rendered(*session), before));
+}
+
+TEST_CASE("A tilted antenna and another window are those of a sensor file", "[session]") {
+  const TemporaryFolder plain, tilted;
+  const auto session = opened_text(plain, tests::kSmallScene);
+  const auto from_file = opened_text(tilted, tests::kSmallScene +
+                                                 "\n[display]\nlow_dB = -50.0\nhigh_dB = 0.0\n"
+                                                 "[sensor]\nstabilised = false\n");
+  const renderer::Frame before = rendered(*session);
+  session->set(session::SensorSettings{.stabilised = false, .low_dB = -50.0, .high_dB = 0.0});
+  CHECK(same(rendered(*session), rendered(*from_file)));
+  session->set(session::SensorSettings{.boresight_elevation_rad = core::radians(-1.0)});
+  const auto scene = session->scene();
+  CHECK(scene->description.sensor.antenna.boresight_elevation_rad == core::radians(-1.0));
+  CHECK(scene->description.sensor.display.low_dB == -55.0);  // back to the scene's own
+  // The C-scope's window goes along: the same rows below and above the boresight.
+  const auto opened_scene = from_file->scene();
+  const sensors::Sensor& own = opened_scene->description.sensor;
+  CHECK(scene->description.sensor.display.cscope_top_rad - core::radians(-1.0) ==
+        Approx(own.display.cscope_top_rad - own.antenna.boresight_elevation_rad));
+  session->set(session::SensorSettings{});
+  CHECK(same(rendered(*session), before));
+}
+
+TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene + kMast);
+  const renderer::Frame before = rendered(*session);
+  const std::array<session::TargetState, 2> targets{
+      session::TargetState{.name = "mats", .position = {core::radians(52.0), 0.17, 50.0}},
+      session::TargetState{.name = "mast", .position = {9.0, 0.17, 50.0}}};
+  const auto problems_of = [](const auto& act) {
+    try {
+      act();
+    } catch (const core::InputError& error) {
+      return error.problems().size();
+    }
+    return std::size_t{0};
+  };
+  CHECK(problems_of([&] { session->set(targets); }) == 2);
+  atmosphere::Weather weather = rain(*session, -1.0);
+  weather.rain_top_m = 1e9;
+  CHECK(problems_of([&] { session->set(weather); }) == 2);
+  CHECK(problems_of([&] {
+          session->set(session::SensorSettings{.boresight_elevation_rad = 4.0, .low_dB = 50.0});
+        }) == 2);
+  CHECK(problems_of([&] { session->set(session::Accuracy{0.0}); }) == 1);
+  CHECK(problems_of([&] { session->set(session::Samples{0.01}); }) == 1);
+  CHECK(problems_of([&] {
+          core::Pose pose = frame_pose(*session, 0);
+          pose.position.height_m = std::nan("");
+          session->render(pose, 0);
+        }) == 1);
+  CHECK(same(rendered(*session), before));
+}
+
+TEST_CASE("Frames keep the conditions that they began with, from any number of threads",
+          "[session][threads]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene + kMast, {.threads = 2});
+  const atmosphere::Weather fog = session->scene()->weather, shower = rain(*session, 50.0);
+  constexpr int kPoses = 4;
+  std::vector<renderer::Frame> in_fog, in_rain;
+  for (int i = 0; i < kPoses; ++i) in_fog.push_back(rendered(*session, 10 * i));
+  session->set(shower);
+  for (int i = 0; i < kPoses; ++i) in_rain.push_back(rendered(*session, 10 * i));
+
+  std::atomic<bool> done{false};
+  std::atomic<int> wrong{0}, foggy{0}, rainy{0};
+  std::vector<std::thread> callers;
+  for (int first = 0; first < 3; ++first)
+    callers.emplace_back([&, first] {
+      for (int i = first; !done || i < first + 2 * kPoses; ++i) {
+        const auto k = static_cast<std::size_t>(i % kPoses);
+        const renderer::Frame frame = rendered(*session, 10 * (i % kPoses));
+        if (same(frame, in_fog[k]))
+          ++foggy;
+        else if (same(frame, in_rain[k]))
+          ++rainy;
+        else
+          ++wrong;
+      }
+    });
+  for (int turn = 0; turn < 6; ++turn) session->set(turn % 2 == 0 ? fog : shower);
+  done = true;
+  for (std::thread& caller : callers) caller.join();
+  CHECK(wrong == 0);
+  CHECK(foggy + rainy >= 3 * 2 * kPoses);
+}
+
+TEST_CASE("A stop ends the frame that it is for, and no other", "[session]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene);
+  core::StopSource stop;
+  stop.request();
+  CHECK_THROWS_AS(session->render(frame_pose(*session, 0), 0, {}, stop.token()), core::Stopped);
+  CHECK_NOTHROW(rendered(*session));
+}
+
+TEST_CASE("The frame number moves speckle, and nothing else", "[session]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene, {.sample = true, .seed = 7});
+  const core::Pose pose = frame_pose(*session, 40);
+  const renderer::Frame one = session->render(pose, 1), again = session->render(pose, 1),
+                        two = session->render(pose, 2);
+  CHECK(same(one, again));
+  CHECK_FALSE(same(one, two));
+}
