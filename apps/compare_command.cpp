@@ -16,26 +16,30 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Grey pictures are judged in grey levels, float layers in dB where both are positive.
-bool judge(const std::string& name, const core::LayerDifference& difference, bool grey,
+// Grey pictures are judged in grey levels, powers in dB where both are positive, ground truth in the
+// unit of its layer.
+bool judge(const fs::path& file, const core::LayerDifference& difference,
            const CompareOptions& options, bool quiet) {
-  const double rms = grey ? difference.rms : difference.rms_dB;
-  const double mean = grey ? difference.mean : difference.mean_dB;
-  const double largest = grey ? difference.largest : difference.largest_dB;
+  const DifferenceUnit unit = difference_unit(file, difference.layer);
+  const bool in_dB = unit == DifferenceUnit::dB;
+  const std::string name = file.filename().string();
+  const double rms = in_dB ? difference.rms_dB : difference.rms;
+  const double mean = in_dB ? difference.mean_dB : difference.mean;
+  const double largest = in_dB ? difference.largest_dB : difference.largest;
   const double percent = 100.0 * static_cast<double>(difference.different) /
                          static_cast<double>(std::max<std::size_t>(difference.cells, 1));
   const bool ok = options.exact ? difference.different == 0
                                 : rms <= options.rms &&
                                       (options.largest <= 0.0 || largest <= options.largest) &&
                                       percent <= options.percent_different &&
-                                      (grey || difference.only_one_positive == 0);
+                                      (!in_dB || difference.only_one_positive == 0);
   if (!quiet || !ok)
     fmt::print(
         "{} {} {}: mean {:+.4f}, RMS {:.4f}, largest {:.3f} {}, {:.3f} % of {} cells differ{}\n",
         ok ? "same  " : "DIFFER", core::printable_text(name),
-        core::printable_text(difference.layer), mean, rms, largest, grey ? "grey" : "dB", percent,
-        difference.cells,
-        difference.only_one_positive > 0
+        core::printable_text(difference.layer), mean, rms, largest,
+        unit_text(unit, difference.layer), percent, difference.cells,
+        in_dB && difference.only_one_positive > 0
             ? fmt::format(", {} lit in one only", difference.only_one_positive)
             : "");
   return ok;
@@ -50,14 +54,12 @@ bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bo
   bool equal = true;
   for (const core::LayerDifference& difference :
        core::compare_images(image_a, image_b, a.string(), b.string())) {
-    same =
-        judge(a.filename().string(), difference, a.extension() == ".png", options, quiet) && same;
+    same = judge(a, difference, options, quiet) && same;
     equal = equal && difference.different == 0;
   }
   if (map.empty() || (equal && !always && !fs::exists(map))) return same;
   core::write_png(map,
-                  difference_map(image_a, image_b, difference_unit(a),
-                                 {b.filename().string() + ": B against A"}),
+                  difference_map(image_a, image_b, a, {b.filename().string() + ": B against A"}),
                   {{"Software", "fanbeam " + version_text() + " " + commit_text()}});
   if (!quiet) fmt::print("map    {}\n", map.string());
   return same;

@@ -104,6 +104,7 @@ std::string json_text(const scenes::Scene& scene, const std::optional<scenes::Ap
 
 // Frames spread over the flight, refined as --accuracy of render does.
 void add_unreached(const scenes::Scene& scene, Findings& findings) {
+  if (scene.frame_count() == 0) return;
   const double share_grey = renderer::sampling_share_grey(scene.accuracy_grey);
   const renderer::FrameRenderer frames(scene.world,
                                        renderer::refined_sampling(scene.caster.chosen, share_grey),

@@ -72,7 +72,9 @@ EffectCost cost_of(const core::EffectDecision& decision, const scenes::Scene& sc
   if (bool* flag = switch_of(decision.effect, turned, scene.world)) {
     *flag = !decision.on;
   } else {
-    rebuilt = scenes::under_conditions(scene, {.wishes = all_but(scene.plan, decision.effect)});
+    core::ProblemList known;
+    rebuilt =
+        scenes::under_conditions(scene, {.wishes = all_but(scene.plan, decision.effect)}, known);
     turned = renderer::effects_of(rebuilt->plan, kSeed);
   }
   const FrameRenderer other(rebuilt ? rebuilt->world : scene.world, run.sampling, kPictures,

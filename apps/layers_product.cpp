@@ -27,8 +27,8 @@ double whole_dB(float nrcs) {
 
 const std::vector<FileLayer>& file_layers() {
   static const std::vector<FileLayer> kLayers = {
-      {"visibility", "share of the column's azimuths that see something in the cell: 0 in shadow",
-       true, true,
+      {"visibility_share",
+       "share of the column's azimuths that see something in the cell: 0 in shadow", true, true,
        [](const LayerSet& set, std::size_t i) { return static_cast<double>(set.visibility[i]); }},
       {"range_m", "mean slant range, weighted with the echo's power", false, true,
        [](const LayerSet& set, std::size_t i) { return static_cast<double>(set.range_m[i]); }},
@@ -50,7 +50,8 @@ const std::vector<FileLayer>& file_layers() {
        }},
       {"object_id", "of the strongest echo; 0, the terrain, where nothing is seen too", true, true,
        [](const LayerSet& set, std::size_t i) { return static_cast<double>(set.object[i]); }},
-      {"double_bounce", "share of the surfaces' power that came by two or three reflections", true,
+      {"double_bounce_share",
+       "share of the power from surfaces and rain that came by two or three reflections", true,
        true, [](const LayerSet& set, std::size_t i) {
          return static_cast<double>(set.double_bounce[i]);
        }}};

@@ -15,6 +15,7 @@ core::Image bscope_layers(const renderer::LayerSet& layers, const sensors::Senso
 core::Image cscope_layers(const renderer::LayerSet& layers, const sensors::Sensor& sensor);
 inline constexpr double kNoNrcs_dB = -400.0;
 
+inline constexpr const char* kLayersFile = "layers.json";
 // Beside the frames: what every layer is, and the names of materials and objects by number; numbers
 // of point targets come after those of all other objects.
 std::string layers_json(const scenes::Scene& scene);

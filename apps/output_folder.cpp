@@ -9,6 +9,7 @@
 
 #include "apps/frame_table.h"
 #include "apps/frame_writer.h"
+#include "apps/layers_product.h"
 #include "apps/render_command.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -111,7 +112,8 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
   const bool has_record = !listed_.empty();
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
-    const bool record = (name == "run.json" && has_record) || name == "timing.json";
+    const bool record =
+        (name == "run.json" && has_record) || name == "timing.json" || name == kLayersFile;
     if (!record && !listed_.contains(name) && !is_of_this_input(relative)) others.push_back(name);
     return others.size() <= kMostNamed;
   });

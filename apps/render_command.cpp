@@ -41,7 +41,11 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-constexpr const char* kLayersFile = "layers.json";
+bool has_layers(const FrameRecord& frame) {
+  return std::any_of(frame.files.begin(), frame.files.end(), [](const std::string& file) {
+    return file.starts_with("layers/") || file.starts_with("cscope_layers/");
+  });
+}
 
 // Effects that the sequence runs and this frame does not.
 std::vector<std::string> left_out(const core::EffectPlan& sequence, const core::EffectPlan& frame) {
@@ -49,6 +53,19 @@ std::vector<std::string> left_out(const core::EffectPlan& sequence, const core::
   for (const core::EffectDecision& decision : sequence.decisions)
     if (decision.on && !frame.runs(decision.effect)) names.push_back(decision.effect);
   return names;
+}
+
+renderer::Products wanted_of(const ProductSet& products) {
+  const bool both =
+      products.contains("pair") || products.contains("figure") || products.contains("preview");
+  const bool plan_view =
+      products.contains("ppi") || products.contains("ppi_north") || products.contains("ppi_figure");
+  return {both || plan_view || products.contains("bscope"),
+          both || products.contains("cscope"),
+          products.contains("detections"),
+          products.contains("obstacles"),
+          products.contains("layers"),
+          products.contains("cscope_layers")};
 }
 
 RunRecord record_of(const RenderOptions& options, const scenes::Scene& scene,
@@ -94,18 +111,7 @@ class Run {
   void take_over_frames();
   void remove_leftovers() const;
   FrameOutput render_frame(const core::EffectPlan& plan, FrameRecord& record) const;
-  renderer::Products wanted() const {
-    const bool both =
-        products_.contains("pair") || products_.contains("figure") || products_.contains("preview");
-    const bool plan_view = products_.contains("ppi") || products_.contains("ppi_north") ||
-                           products_.contains("ppi_figure");
-    return {both || plan_view || products_.contains("bscope"),
-            both || products_.contains("cscope"),
-            products_.contains("detections"),
-            products_.contains("obstacles"),
-            products_.contains("layers"),
-            products_.contains("cscope_layers")};
-  }
+  renderer::Products wanted() const { return wanted_of(products_); }
 
   fs::path film() const { return output_.path() / ("preview." + options_.preview_format); }
 
@@ -183,7 +189,7 @@ void Run::take_over_frames() {
 
 void Run::write_records() {
   take_over_frames();
-  if (products_.contains("layers") || products_.contains("cscope_layers")) {
+  if (std::any_of(record_.frames.begin(), record_.frames.end(), has_layers)) {
     core::write_file_atomically(output_.path() / kLayersFile, layers_json(scene_));
     record_.films.insert(kLayersFile);
   }
@@ -250,6 +256,8 @@ int render(const RenderOptions& asked, const CommonOptions& common) {
   session::Setup setup{.seed = options.seed};
   scenes::BuildOptions& build = setup.build;
   build.accuracy_grey = options.accuracy_grey;
+  const renderer::Products wanted = wanted_of(products);
+  build.heights_shown = wanted.cscope || wanted.obstacles;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   if (options.reference) {
     build.caster = renderer::CasterWish::rays;
@@ -259,7 +267,7 @@ int render(const RenderOptions& asked, const CommonOptions& common) {
   session::Session session(description, setup, problems);
   const std::shared_ptr<const scenes::Scene> scene = session.scene();
   if (!common.quiet) print_problems(problems.all());
-  if (scene->trajectory->attitude_derived)
+  if (scene->trajectory && scene->trajectory->attitude_derived)
     spdlog::info("the trajectory has no full attitude: missing angles are derived from its path");
   const StopOnSignals stop_on_signals;
   try {

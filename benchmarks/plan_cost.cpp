@@ -115,7 +115,8 @@ void measure_conditions(const View& view, const Effort& effort, PlanFigures& fig
     scenes::Conditions other{.weather = scene.weather};
     other.weather->rain_rate_mm_per_h = 1.0 + turn;
     const auto begin = Clock::now();
-    const auto rainy = scenes::under_conditions(scene, other);
+    core::ProblemList known;
+    const auto rainy = scenes::under_conditions(scene, other, known);
     const renderer::FrameRenderer stages(rainy->world, sampling, {},
                                          renderer::effects_of(rainy->plan, 0));
     conditions_ms.push_back(milliseconds_since(begin));

@@ -57,8 +57,11 @@ void run_all(std::size_t count, const std::function<void(std::size_t)>& body) {
   // A thread that waits here for the loop's last bodies takes no task from outside it: that could
   // be another frame, and overwrite what this thread keeps of its own.
   const auto loop = [&] {
+    // Of its own: a host that cancels the group around it would leave bodies out without a word.
+    tbb::task_group_context whole(tbb::task_group_context::isolated);
     tbb::this_task_arena::isolate([&] {
-      tbb::parallel_for(std::size_t{0}, count, std::size_t{1}, body, tbb::simple_partitioner());
+      tbb::parallel_for(std::size_t{0}, count, std::size_t{1}, body, tbb::simple_partitioner(),
+                        whole);
     });
   };
   if (innermost == nullptr) return loop();

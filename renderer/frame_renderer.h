@@ -1,6 +1,7 @@
 // From a pose to pictures: cast, beam, targets, receiver, display.
 #pragma once
 
+#include <compare>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,8 @@ struct Products {
   bool obstacles = false;
   bool layers = false;  // of the B-scope
   bool cscope_layers = false;
+
+  auto operator<=>(const Products&) const = default;
 };
 
 // Arrays are row-major [row][column]; B-scope row 0 is the nearest range cell, C-scope row 0 the

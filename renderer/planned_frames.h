@@ -30,8 +30,7 @@ class PlannedFrames {
   Sampling sampling_;
   std::uint64_t seed_;
   std::mutex making_;
-  // By the stages that run and the products.
-  std::map<std::pair<unsigned, unsigned>, std::unique_ptr<FrameRenderer>> renderers_;
+  std::map<std::pair<Effects, Products>, std::unique_ptr<FrameRenderer>> renderers_;
 };
 
 }  // namespace fanbeam::renderer

@@ -178,6 +178,7 @@ struct TrajectoryDescription {
 struct FlightHeights {
   std::optional<double> lowest_m, highest_m;
   bool stated = false;  // the table is there
+  core::Place place;
 };
 
 struct SceneDescription {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
 
 #include "terrain/geoid.h"
 
@@ -10,6 +12,8 @@ namespace fanbeam::scenes {
 namespace {
 
 constexpr FlightVolume kNowhere{1e300, 1e300, -1e300, -1e300, 1e300, -1e300, 0.0};
+
+constexpr double kBulge_m = 8.0 * 6.33e6;  // d^2 / 8 R, of the smallest radius
 
 double turn_rad(const terrain::LocalFrame& frame, const core::Geodetic& at) {
   const glm::dvec3 down = frame.north_east_down_at(at)[2];
@@ -40,8 +44,15 @@ FlightVolume both(const FlightVolume& a, const FlightVolume& b) {
 
 FlightVolume volume_of(const Trajectory& trajectory, const terrain::LocalFrame& frame) {
   FlightVolume volume = kNowhere;
+  std::optional<glm::dvec3> before_m;
   for (const core::Pose& pose : trajectory.poses()) {
     const glm::dvec3 at_m = frame.to_local_m(pose.position);
+    // Between two poses the path bulges with the Earth.
+    if (before_m)
+      volume.highest_m =
+          std::max(volume.highest_m, std::max(before_m->z, at_m.z) +
+                                         glm::dot(at_m - *before_m, at_m - *before_m) / kBulge_m);
+    before_m = at_m;
     volume.west_m = std::min(volume.west_m, at_m.x);
     volume.east_m = std::max(volume.east_m, at_m.x);
     volume.south_m = std::min(volume.south_m, at_m.y);
@@ -53,13 +64,11 @@ FlightVolume volume_of(const Trajectory& trajectory, const terrain::LocalFrame& 
   return volume;
 }
 
-FlightVolume volume_over(const terrain::HeightField& ground, const terrain::LocalFrame& frame,
-                         const SceneDescription& scene) {
+FlightVolume volume_over(const terrain::HeightField& ground, const SiteFacts& site,
+                         const terrain::LocalFrame& frame, const SceneDescription& scene) {
   FlightVolume volume{ground.west_m, ground.south_m, ground.east_m(), ground.north_m()};
-  const auto [lowest, highest] =
-      std::minmax_element(ground.height_m.begin(), ground.height_m.end());
-  volume.lowest_m = *lowest;
-  volume.highest_m = *highest + scene.sensor.range.maximum_m();
+  volume.lowest_m = site.lowest_ground_m;
+  volume.highest_m = site.highest_ground_m + scene.sensor.range.maximum_m();
   const std::array<glm::dvec3, 5> places{{{0.0, 0.0, 0.0},
                                           {volume.west_m, volume.south_m, 0.0},
                                           {volume.west_m, volume.north_m, 0.0},

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "scenes/description.h"
+#include "scenes/site.h"
 #include "scenes/trajectory/trajectory.h"
 #include "sensors/sensor.h"
 #include "terrain/height_field.h"
@@ -33,7 +34,7 @@ FlightVolume both(const FlightVolume& a, const FlightVolume& b);
 FlightVolume volume_of(const Trajectory& trajectory, const terrain::LocalFrame& frame);
 
 // Over all of `ground`, between the heights that the description states or those above.
-FlightVolume volume_over(const terrain::HeightField& ground, const terrain::LocalFrame& frame,
-                         const SceneDescription& scene);
+FlightVolume volume_over(const terrain::HeightField& ground, const SiteFacts& site,
+                         const terrain::LocalFrame& frame, const SceneDescription& scene);
 
 }  // namespace fanbeam::scenes

@@ -29,7 +29,9 @@ core::EffectPlan frame_plan(const Scene& scene, int frame_index) {
 
 bool planned_for(const Scene& scene, const renderer::FramePose& pose) {
   if (!planned_by_flight(scene)) return scene.volume.holds(pose.position_m);
-  return renderer::covers(scene.facts, seen_from(scene, scene.all_facts, pose));
+  return pose.position_m.z >= scene.volume.lowest_m &&
+         pose.position_m.z <= scene.volume.highest_m &&
+         renderer::covers(scene.facts, seen_from(scene, scene.all_facts, pose));
 }
 
 core::EffectPlan plan_alone(const Scene& scene, const renderer::FramePose& pose) {

@@ -114,10 +114,11 @@ renderer::FrameSight frame_sight(const renderer::SceneFacts& scene, const SightM
     });
   };
   weather.rain_cells = passed(false);
+  sight.rain_cells = weather.rain_cells;
   if (scene.largest_eta_m2_per_m3 > 0.0)
     sight.largest_eta_m2_per_m3 = largest_eta_m2_per_m3(weather, sensor, antenna);
-  sight.rain_cells =
-      renderer::has_mirrored_echo(scene) ? passed(true) : std::move(weather.rain_cells);
+  if (renderer::has_mirrored_echo(renderer::seen_facts(scene, sight)))
+    sight.rain_cells = passed(true);
   return sight;
 }
 

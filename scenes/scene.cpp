@@ -1,6 +1,7 @@
 #include "scenes/scene.h"
 
 #include <chrono>
+#include <cmath>
 
 #include "materials/library/material_library.h"
 #include "renderer/stages/side_lobes.h"
@@ -68,6 +69,7 @@ void make_plan(const std::vector<renderer::PointTarget>& targets, Scene& scene) 
   scene.sight = scene.site->parts().sight.with_mirrors(mirroring);
   scene.all_facts = facts_of(description, *scene.site, scene.volume, scene.weather,
                              volume_echo_of(scene).largest_eta_m2_per_m3(), targets, mirroring);
+  scene.all_facts.heights_shown = scene.options.heights_shown;
   scene.facts = planned_by_flight(scene)
                     ? sequence_facts(scene.all_facts, scene.sight, targets, scene.frame_count(),
                                      [&](int frame) { return scene.frame_pose(frame); })
@@ -121,9 +123,9 @@ core::Geodetic ellipsoidal_origin(const SceneDescription& scene) {
 
 FlightVolume flight_volume(const SceneDescription& description, const terrain::LocalFrame& frame,
                            const std::optional<Trajectory>& trajectory,
-                           const terrain::HeightField& ground) {
+                           const terrain::HeightField& ground, const SiteFacts& site) {
   const bool stated = description.flight_heights.stated || !trajectory;
-  FlightVolume volume = stated ? volume_over(ground, frame, description) : FlightVolume{};
+  FlightVolume volume = stated ? volume_over(ground, site, frame, description) : FlightVolume{};
   if (!trajectory) return volume;
   const FlightVolume flown = volume_of(*trajectory, frame);
   return stated ? both(volume, flown) : flown;
@@ -137,9 +139,10 @@ void check(const Scene& scene, const Conditions& conditions, core::ProblemList& 
                    "those that the scene was opened with: open it with that sensor");
   if (conditions.weather)
     problems.append(atmosphere::problems_in(*conditions.weather, waveform.frequency_Hz).all());
-  if (conditions.accuracy_grey && !(*conditions.accuracy_grey > 0.0))
+  if (conditions.accuracy_grey &&
+      !(*conditions.accuracy_grey >= 0.01 && *conditions.accuracy_grey <= 100.0))
     problems.error(core::ErrorClass::range, {}, "accuracy_grey",
-                   core::number_text(*conditions.accuracy_grey), "grey levels above 0");
+                   core::number_text(*conditions.accuracy_grey), "0.01 to 100 grey levels");
 }
 
 }  // namespace
@@ -155,6 +158,9 @@ bool planned_by_flight(const Scene& scene) {
 renderer::FramePose Scene::pose_at(const core::Pose& pose) const { return pose_in(frame, pose); }
 
 renderer::FramePose Scene::frame_pose(int frame_index) const {
+  if (!trajectory)
+    core::throw_input_error(core::ErrorClass::ref, "frame", frame_index,
+                            "a pose: the scene has no [trajectory], and so no frames of its own");
   return scenes::frame_pose(frame, *trajectory, description.sensor, frame_index);
 }
 
@@ -178,8 +184,8 @@ renderer::World world_for(const Scene& scene, const core::EffectPlan& plan) {
   return world;
 }
 
-std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& conditions) {
-  core::ProblemList problems;
+std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& conditions,
+                                        core::ProblemList& problems) {
   check(scene, conditions, problems);
   problems.throw_if_errors();
   auto changed = std::make_unique<Scene>(scene);
@@ -188,12 +194,14 @@ std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& co
   if (conditions.weather) {
     changed->weather = *conditions.weather;
     description.weather = *conditions.weather;
-    description.weather.rain_cells.clear();
+    description.rain_cells.clear();  // places that nobody has put anything at any more
   }
   if (conditions.accuracy_grey) changed->options.accuracy_grey = *conditions.accuracy_grey;
   if (conditions.wishes) changed->options.wishes = *conditions.wishes;
   if (conditions.surface_state) description.surface_state = *conditions.surface_state;
   const Site::Parts& parts = scene.site->parts();
+  changed->volume = flight_volume(description, scene.frame, scene.trajectory,
+                                  *parts.geometry->surfaces->terrain(), parts.facts);
   if (conditions.surface_state) check_surfaces(description, parts.library, parts.used, problems);
   changed->caster = scene_caster(description, changed->options.caster, changed->volume,
                                  parts.geometry->solids, problems);
@@ -222,8 +230,16 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   if (!problems.has_errors()) trajectory = build_trajectory(description, ground, frame, problems);
   FlightVolume volume;
   renderer::CasterChoice caster;
+  std::optional<SiteFacts> stands;
   if (!ground.field().height_m.empty()) {
-    volume = flight_volume(description, frame, trajectory, ground.field());
+    stands.emplace(ground.field(), patches, bodies.meshes);
+    volume = flight_volume(description, frame, trajectory, ground.field(), *stands);
+    if (volume.lowest_m > volume.highest_m)
+      problems.error(core::ErrorClass::range, description.flight_heights.place, "flight_volume",
+                     core::number_text(std::round(volume.lowest_m)) + " to " +
+                         core::number_text(std::round(volume.highest_m)) + " m above the origin",
+                     "highest_m above lowest_m; what is not stated is the lowest ground, and the "
+                     "highest with the sensor's range above it");
     caster = scene_caster(description, options.caster, volume, bodies.solids, problems);
   }
   check_surfaces(description, library, names.used(), problems);
@@ -236,7 +252,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
                     .used = names.used(),
                     .model_materials = model_materials.all(),
                     .sight = sight,
-                    .facts = SiteFacts(ground.field(), patches, bodies.meshes),
+                    .facts = *stands,
                     .geometry = nullptr,
                     .waveform = description.sensor.waveform};
   parts.geometry = std::make_shared<renderer::Geometry>(renderer::Geometry{

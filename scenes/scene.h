@@ -42,6 +42,7 @@ struct BuildOptions {
   renderer::EffectWishes wishes;
   std::optional<renderer::CasterWish> caster;  // instead of the scene's
   double accuracy_grey = 0.0;                  // 0: the scene's, else the default
+  bool heights_shown = true;                   // false: neither C-scopes nor obstacles are wanted
   std::string instruction_set;                 // see RayScene
   bool robust = true;                          // see RayScene
 };
@@ -104,8 +105,9 @@ bool planned_by_flight(const Scene& scene);
 // The same site under other conditions, planned anew; `scene` stays as it is. Throws InputError with
 // every problem: those of atmosphere::problems_in, E-UNSUPPORTED for another carrier or polarisation
 // and for slices that were forced and no longer can show the scene, E-RANGE for a material that is
-// not known in its new state. Cost: docs/performance.md.
-std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& conditions);
+// not known in its new state; warnings stay in `problems`. Cost: docs/performance-notes.md.
+std::unique_ptr<Scene> under_conditions(const Scene& scene, const Conditions& conditions,
+                                        core::ProblemList& problems);
 
 // The world of a plan: what it leaves out is not in it.
 renderer::World world_for(const Scene& scene, const core::EffectPlan& plan);

@@ -39,7 +39,7 @@ class SightMap {
   SightMap(const terrain::HeightField& ground, const std::vector<terrain::SurfacePatch>& patches,
            const std::vector<terrain::PlacedMesh>& meshes);
   // The same ground and bodies; `mirrors` by material id: the material reflects like a mirror.
-  // Materials from the 63rd on that the map has met count as one.
+  // Materials from the 64th on that the map has met count as one.
   SightMap with_mirrors(const std::vector<bool>& mirrors) const;
 
   struct Seen {

@@ -24,7 +24,7 @@ SiteFacts::SiteFacts(const terrain::HeightField& ground,
                      const std::vector<terrain::PlacedMesh>& meshes) {
   const auto [lowest, highest] =
       std::minmax_element(ground.height_m.begin(), ground.height_m.end());
-  lowest_m = *lowest;
+  lowest_m = lowest_ground_m = *lowest;
   highest_m = highest_ground_m = *highest;
   std::vector<bool> met(std::size_t{1} << 16, false);
   for (const terrain::MaterialId material : ground.cell_material) met[material] = true;

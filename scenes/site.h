@@ -26,7 +26,7 @@ struct SiteFacts {
             const std::vector<terrain::PlacedMesh>& meshes);
 
   double lowest_m = 0.0, highest_m = 0.0;
-  double highest_ground_m = 0.0;
+  double lowest_ground_m = 0.0, highest_ground_m = 0.0;
   bool has_walls = false;  // facets within 30 deg of the vertical
   std::set<terrain::MaterialId> of_ground, of_bodies;
 };

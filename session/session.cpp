@@ -33,6 +33,24 @@ SamplingWish wish_of(const scenes::SceneDescription& scene, const scenes::BuildO
   return Samples{scene.rays_per_cell};
 }
 
+void check(const renderer::Sampling& sampling, core::ProblemList& problems) {
+  const auto within = [&](const char* field, double value, double low, double high) {
+    if (!(value >= low && value <= high))
+      problems.error(core::ErrorClass::range, {}, std::string("sampling.") + field,
+                     core::number_text(value),
+                     core::number_text(low) + " to " + core::number_text(high));
+  };
+  within("slices_per_sub_column", sampling.slices_per_sub_column, 1, 4096);
+  within("sub_columns", sampling.sub_columns, 1, 4096);
+  within("rays_per_cell", sampling.rays_per_cell, 0.01, 10000.0);
+  within("refinement_depth", sampling.refinement_depth, 0, 16);
+  within("gap_cells", sampling.gap_cells, 0.1, 1e6);
+  within("largest_step_rad", sampling.largest_step_rad, 1e-6, 1.0);
+  within("largest_step_rows", sampling.largest_step_rows, 0.01, 1e6);
+  within("jittered_passes", sampling.jittered_passes, 0, 4096);
+  within("target_grey", sampling.target_grey, 0.0, 100.0);
+}
+
 void check(const SamplingWish& wish, core::ProblemList& problems) {
   if (const auto* accuracy = std::get_if<Accuracy>(&wish)) {
     if (!(accuracy->grey_levels >= 0.01 && accuracy->grey_levels <= 100.0))
@@ -40,7 +58,8 @@ void check(const SamplingWish& wish, core::ProblemList& problems) {
                      core::number_text(accuracy->grey_levels), "0.01 to 100 grey levels");
     return;
   }
-  if (!std::holds_alternative<Samples>(wish)) return;
+  if (const auto* sampling = std::get_if<renderer::Sampling>(&wish))
+    return check(*sampling, problems);
   const double per_cell = std::get<Samples>(wish).per_cell;
   if (per_cell != 0.0 && !(per_cell >= renderer::kFewestRaysPerCell && per_cell <= 10000.0))
     problems.error(core::ErrorClass::range, {}, "samples per cell", core::number_text(per_cell),
@@ -67,6 +86,13 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
                    core::number_text(display.low_dB) + ", " + core::number_text(display.high_dB),
                    "-400 to 400, low_dB below high_dB");
   return sensor;
+}
+
+// A plan that counts on nobody asking for heights does not hold for whoever does.
+void check(const renderer::Products& wanted, const scenes::Scene& scene) {
+  if ((wanted.cscope || wanted.obstacles) && !scene.options.heights_shown)
+    core::throw_input_error(core::ErrorClass::ref, "products", "C-scope or obstacles",
+                            "neither, as the session was opened without them (heights_shown)");
 }
 
 // What a frame is made under.
@@ -127,6 +153,7 @@ Session::Session(const scenes::SceneDescription& scene, const Setup& setup,
 
 void Session::open(scenes::SceneDescription description, const Setup& setup,
                    core::ProblemList& problems) {
+  if (setup.build.accuracy_grey != 0.0) check(Accuracy{setup.build.accuracy_grey}, problems);
   if (setup.sample) description.sample = *setup.sample;
   inside_->seed = setup.seed;
   inside_->threads = setup.threads;
@@ -147,48 +174,51 @@ std::shared_ptr<const scenes::Scene> Session::scene() const { return published()
 
 renderer::Sampling Session::sampling() const { return published()->sampling; }
 
-void Session::change(const std::function<void(Asked&)>& ask, bool as_before) {
+core::ProblemList Session::change(const std::function<void(Asked&)>& ask, bool as_before) {
   const std::lock_guard<std::mutex> one(inside_->setting);
   Asked asked = inside_->asked;
   ask(asked);
   asked.problems.throw_if_errors();
+  core::ProblemList warnings;
   std::shared_ptr<const scenes::Scene> scene =
-      as_before ? published()->scene : scenes::under_conditions(*inside_->opened, asked.conditions);
+      as_before ? published()->scene
+                : scenes::under_conditions(*inside_->opened, asked.conditions, warnings);
   auto next = std::make_shared<const Published>(std::move(scene), asked.sampling, inside_->seed);
   inside_->asked = std::move(asked);
   const std::lock_guard<std::mutex> lock(inside_->looking);
   inside_->published = std::move(next);
+  return warnings;
 }
 
-void Session::set(const atmosphere::Weather& weather) {
-  change([&](Asked& asked) { asked.conditions.weather = weather; });
+core::ProblemList Session::set(const atmosphere::Weather& weather) {
+  return change([&](Asked& asked) { asked.conditions.weather = weather; });
 }
 
-void Session::set(materials::SurfaceState state) {
-  change([&](Asked& asked) { asked.conditions.surface_state = state; });
+core::ProblemList Session::set(materials::SurfaceState state) {
+  return change([&](Asked& asked) { asked.conditions.surface_state = state; });
 }
 
-void Session::set(const SensorSettings& settings) {
-  change([&](Asked& asked) {
+core::ProblemList Session::set(const SensorSettings& settings) {
+  return change([&](Asked& asked) {
     asked.conditions.sensor =
         with_settings(inside_->opened->description.sensor, settings, asked.problems);
   });
 }
 
-void Session::set(std::span<const TargetState> targets) {
-  change([&](Asked& asked) {
+core::ProblemList Session::set(std::span<const TargetState> targets) {
+  return change([&](Asked& asked) {
     asked.conditions.targets = placed_targets(*inside_->opened, targets, asked.problems);
   });
 }
 
-void Session::set(const SamplingWish& wish) {
+core::ProblemList Session::set(const SamplingWish& wish) {
   const auto* accuracy = std::get_if<Accuracy>(&wish);
   const auto ask = [&](Asked& asked) {
     check(wish, asked.problems);
     asked.sampling = wish;
     if (accuracy != nullptr) asked.conditions.accuracy_grey = accuracy->grey_levels;
   };
-  change(ask, accuracy == nullptr);
+  return change(ask, accuracy == nullptr);
 }
 
 renderer::Frame Session::render(const core::Pose& pose, std::uint64_t frame_index,
@@ -196,6 +226,7 @@ renderer::Frame Session::render(const core::Pose& pose, std::uint64_t frame_inde
                                 const core::StopToken& stop) const {
   const Work work(stop, inside_->threads);
   const std::shared_ptr<const Published> now = published();
+  check(wanted, *now->scene);
   renderer::FramePose at = now->scene->pose_at(pose);
   at.frame_index = frame_index;
   renderer::check(at);
@@ -215,6 +246,7 @@ renderer::Frame Session::render_flown(int frame, const core::EffectPlan& plan,
                                       const core::StopToken& stop) const {
   const Work work(stop, inside_->threads);
   const std::shared_ptr<const Published> now = published();
+  check(wanted, *now->scene);
   return now->frames.for_plan(plan, wanted).render(now->scene->frame_pose(frame));
 }
 

@@ -52,16 +52,17 @@ class Session {
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
 
+  // Each gives the warnings that the same conditions in a scene's file would have.
   // Rain cells in local metres of the scene. The weather replaces the one before, all of it.
-  void set(const atmosphere::Weather& weather);
+  core::ProblemList set(const atmosphere::Weather& weather);
   // What its weather left on the ground and on buildings.
-  void set(materials::SurfaceState state);
+  core::ProblemList set(materials::SurfaceState state);
   // What is not set goes back to the scene's own.
-  void set(const SensorSettings& settings);
+  core::ProblemList set(const SensorSettings& settings);
   // The scene's own targets are where it says but for those named; new ones stay until the next call.
-  void set(std::span<const TargetState> targets);
+  core::ProblemList set(std::span<const TargetState> targets);
   // An accuracy is for effects left out as well, and stays for them until the next one.
-  void set(const SamplingWish& wish);
+  core::ProblemList set(const SamplingWish& wish);
 
   // `frame_index` keys what is random: live pictures count it up. A frame whose pose the plan was
   // not made for (scenes/frame_plan.h, planned_for) is made by a plan of its own and has the event
@@ -70,7 +71,7 @@ class Session {
                          const renderer::Products& wanted = {},
                          const core::StopToken& stop = core::StopScope::current()) const;
   // A frame of the scene's trajectory by `plan`: that of scene(), or of the frame
-  // (scenes::frame_plan).
+  // (scenes::frame_plan), with no `set` in between.
   renderer::Frame render_flown(int frame, const core::EffectPlan& plan,
                                const renderer::Products& wanted = {},
                                const core::StopToken& stop = core::StopScope::current()) const;
@@ -85,7 +86,7 @@ class Session {
   struct Asked;
   void open(scenes::SceneDescription description, const Setup& setup, core::ProblemList& problems);
   // `as_before`: the scene stays as it is.
-  void change(const std::function<void(Asked&)>& ask, bool as_before = false);
+  core::ProblemList change(const std::function<void(Asked&)>& ask, bool as_before = false);
   std::shared_ptr<const Published> published() const;
 
   struct Inside;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/spelling.h"
+#include "scenes/objects.h"
 #include "terrain/local_frame.h"
 
 namespace fanbeam::session {
@@ -22,8 +23,8 @@ bool is_unit(const glm::dquat& q) {
 void place(const scenes::Scene& scene, const TargetState& state, PointTarget& target) {
   target.path = {{0.0, scene.frame.to_local_m(state.position)}};
   if (state.q_NB) {
-    const glm::dmat3 body =
-        scene.frame.north_east_down_at(state.position) * glm::mat3_cast(*state.q_NB);
+    const glm::dmat3 body = scene.frame.north_east_down_at(state.position) *
+                            glm::mat3_cast(glm::normalize(*state.q_NB));
     target.axes = {body[0], -body[1], -body[2]};  // x ahead, y left, z up
   }
   if (state.rcs) target.rcs = *state.rcs;
@@ -32,11 +33,18 @@ void place(const scenes::Scene& scene, const TargetState& state, PointTarget& ta
 
 bool is_good(const TargetState& state, const std::string& field, core::ProblemList& problems) {
   const std::size_t before = problems.all().size();
-  try {
-    terrain::check_geodetic(state.position, field.c_str());
-  } catch (const core::InputError& error) {
-    problems.append(error.problems());
-  }
+  const auto tried = [&](const auto& check) {
+    try {
+      check();
+    } catch (const core::InputError& error) {
+      for (core::Problem problem : error.problems()) {
+        if (!problem.field.starts_with(field)) problem.field = field + ": " + problem.field;
+        problems.append({problem});
+      }
+    }
+  };
+  tried([&] { terrain::check_geodetic(state.position, field.c_str()); });
+  if (state.rcs) tried([&] { materials::check_rcs_model(*state.rcs); });
   if (state.q_NB && !is_unit(*state.q_NB))
     problems.error(core::ErrorClass::range, {}, field + ".q_NB", "no attitude",
                    "a quaternion of length 1");
@@ -51,6 +59,10 @@ std::vector<PointTarget> placed_targets(const scenes::Scene& scene,
   std::vector<PointTarget> targets = scene.world.targets;
   const std::size_t own = targets.size();
   std::set<std::string> named;
+  if (states.size() > scenes::kMostPointTargets)
+    problems.error(core::ErrorClass::limit, {}, "targets", std::to_string(states.size()),
+                   "at most " + std::to_string(scenes::kMostPointTargets));
+  problems.throw_if_errors();
   for (std::size_t i = 0; i < states.size(); ++i) {
     const TargetState& state = states[i];
     const std::string field = "target[" + std::to_string(i) + "]";

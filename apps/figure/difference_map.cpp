@@ -37,7 +37,7 @@ Colour blend(const Colour& from, const Colour& to, double share) {
 // B - A, or 10 log10(B / A); infinite where one is dark, not a number where there is no such thing.
 double difference_of(double a, double b, DifferenceUnit unit) {
   if (a == b) return 0.0;
-  if (unit == DifferenceUnit::grey) return b - a;
+  if (unit != DifferenceUnit::dB) return b - a;
   if (!(a >= 0.0 && b >= 0.0)) return std::nan("");
   return 10.0 * std::log10(b / a);
 }
@@ -50,6 +50,7 @@ Colour shade_of(double difference, double limit) {
 
 struct MapLayer {
   core::LayerDifference figures;
+  DifferenceUnit unit = DifferenceUnit::grey;
   const std::vector<double>* a = nullptr;
   const std::vector<double>* b = nullptr;
   double limit = 1.0;
@@ -67,7 +68,7 @@ const std::vector<double>& values_of(const core::Image& image, const std::string
 
 MapLayer examined(const core::Image& a, const core::Image& b, const core::LayerDifference& figures,
                   DifferenceUnit unit) {
-  MapLayer layer{figures, &values_of(a, figures.layer), &values_of(b, figures.layer)};
+  MapLayer layer{figures, unit, &values_of(a, figures.layer), &values_of(b, figures.layer)};
   double largest = 0.0;  // that is finite: what the scale has to hold
   for (std::size_t i = 0; i < layer.a->size(); ++i) {
     const double difference = difference_of((*layer.a)[i], (*layer.b)[i], unit);
@@ -89,18 +90,16 @@ MapLayer examined(const core::Image& a, const core::Image& b, const core::LayerD
 
 class DifferenceSheet {
  public:
-  DifferenceSheet(const core::Image& a, const core::Image& b, DifferenceUnit unit,
+  DifferenceSheet(const core::Image& a, const core::Image& b, const std::filesystem::path& file,
                   const DifferenceLabels& labels)
-      : columns_(a.columns), rows_(a.rows), unit_(unit), labels_(labels) {
+      : columns_(a.columns), rows_(a.rows), labels_(labels) {
     for (const core::LayerDifference& figures : core::compare_images(a, b, labels.a, labels.b))
-      layers_.push_back(examined(a, b, figures, unit));
+      layers_.push_back(examined(a, b, figures, difference_unit(file, figures.layer)));
   }
 
   core::ColourPicture draw() const;
 
  private:
-  bool grey() const { return unit_ == DifferenceUnit::grey; }
-  const char* unit_text() const { return grey() ? "grey" : "dB"; }
   int panel_columns(const MapLayer& layer) const;
   int panel_rows(const MapLayer& layer) const {
     return std::max(kLeastMapRows, rows_ * layer.down);
@@ -111,7 +110,6 @@ class DifferenceSheet {
   void draw_panel(Canvas& canvas, const MapLayer& layer, int left, int top) const;
 
   int columns_, rows_;
-  DifferenceUnit unit_;
   const DifferenceLabels& labels_;
   std::vector<MapLayer> layers_;
 };
@@ -119,17 +117,20 @@ class DifferenceSheet {
 // Three lines that say it in words.
 std::vector<std::string> DifferenceSheet::words_of(const MapLayer& layer) const {
   const core::LayerDifference& figures = layer.figures;
+  const bool in_dB = layer.unit == DifferenceUnit::dB;
+  const std::string unit = unit_text(layer.unit, figures.layer);
   if (figures.different == 0) return {"identical", fmt::format("{} cells", figures.cells), ""};
   const std::string worst =
       std::isinf(layer.worst)
           ? fmt::format("lit in {} only", layer.worst > 0.0 ? labels_.b : labels_.a)
-          : fmt::format("{:+.{}f} {}", layer.worst, grey() ? 0 : 3, unit_text());
+          : fmt::format("{:+.{}f} {}", layer.worst, layer.unit == DifferenceUnit::grey ? 0 : 3,
+                        unit);
   std::string count = fmt::format("{} of {} cells differ", figures.different, figures.cells);
-  if (!grey() && figures.only_one_positive > 0)
+  if (in_dB && figures.only_one_positive > 0)
     count += fmt::format(", {} lit in one only", figures.only_one_positive);
   return {fmt::format("worst: {} at column {}, row {}", worst, layer.worst_column, layer.worst_row),
-          fmt::format("mean {:+.4f}, RMS {:.4f} {}", grey() ? figures.mean : figures.mean_dB,
-                      grey() ? figures.rms : figures.rms_dB, unit_text()),
+          fmt::format("mean {:+.4f}, RMS {:.4f} {}", in_dB ? figures.mean_dB : figures.mean,
+                      in_dB ? figures.rms_dB : figures.rms, unit),
           count};
 }
 
@@ -144,7 +145,7 @@ void DifferenceSheet::draw_cells(Canvas& canvas, const MapLayer& layer, const Bo
   for (std::size_t i = 0; i < layer.a->size(); ++i)
     canvas.fill({cells.left + static_cast<int>(i) % columns_ * layer.across,
                  cells.top + static_cast<int>(i) / columns_ * layer.down, layer.across, layer.down},
-                difference_colour((*layer.a)[i], (*layer.b)[i], unit_, layer.limit));
+                difference_colour((*layer.a)[i], (*layer.b)[i], layer.unit, layer.limit));
   canvas.frame(cells, kMapInk);
   const AxisStyle style{kMapInk, 50};
   draw_axis_below(canvas, {0.0, static_cast<double>(columns_), cells.columns, "column"}, cells.left,
@@ -171,9 +172,10 @@ void DifferenceSheet::draw_bar(Canvas& canvas, const MapLayer& layer, const Box&
   canvas.frame(bar, kMapInk);
   draw_axis_right(canvas, {layer.limit, -layer.limit, bar.rows}, bar.right() + 1, bar.top,
                   {kMapInk, 30});
-  canvas.text(bar.right() + kBarText, bar.top - kMapLine - 6,
-              fmt::format("{} - {}, {}", labels_.b, labels_.a, unit_text()),
-              {kMapInk, Align::right});
+  canvas.text(
+      bar.right() + kBarText, bar.top - kMapLine - 6,
+      fmt::format("{} - {}, {}", labels_.b, labels_.a, unit_text(layer.unit, layer.figures.layer)),
+      {kMapInk, Align::right});
 }
 
 void DifferenceSheet::draw_panel(Canvas& canvas, const MapLayer& layer, int left, int top) const {
@@ -216,8 +218,16 @@ core::ColourPicture DifferenceSheet::draw() const {
 
 }  // namespace
 
-DifferenceUnit difference_unit(const std::filesystem::path& image) {
-  return image.extension() == ".exr" ? DifferenceUnit::dB : DifferenceUnit::grey;
+DifferenceUnit difference_unit(const std::filesystem::path& image, const std::string& layer) {
+  if (image.extension() != ".exr") return DifferenceUnit::grey;
+  for (const char* end : {"_deg", "_m", "_dB", "_id", "_share"})
+    if (layer.ends_with(end)) return DifferenceUnit::own;
+  return DifferenceUnit::dB;
+}
+
+std::string unit_text(DifferenceUnit unit, const std::string& layer) {
+  if (unit == DifferenceUnit::own) return layer.substr(layer.rfind('_') + 1);
+  return unit == DifferenceUnit::grey ? "grey" : "dB";
 }
 
 Colour diverging_colour(double depth) {
@@ -228,7 +238,8 @@ Colour diverging_colour(double depth) {
 }
 
 double difference_limit(double largest, DifferenceUnit unit) {
-  return rounded_up(std::max(largest, unit == DifferenceUnit::grey ? 1.0 : 0.1));
+  const double least = unit == DifferenceUnit::grey ? 1.0 : unit == DifferenceUnit::dB ? 0.1 : 1e-3;
+  return rounded_up(std::max(largest, least));
 }
 
 Colour difference_colour(double a, double b, DifferenceUnit unit, double limit) {
@@ -237,13 +248,14 @@ Colour difference_colour(double a, double b, DifferenceUnit unit, double limit) 
   return std::isnan(difference) ? kUndefined : shade_of(difference, limit);
 }
 
-core::ColourPicture difference_map(const core::Image& a, const core::Image& b, DifferenceUnit unit,
+core::ColourPicture difference_map(const core::Image& a, const core::Image& b,
+                                   const std::filesystem::path& file,
                                    const DifferenceLabels& labels) {
   if (std::max(a.columns, a.rows) > kMostCells)
     core::throw_input_error(core::ErrorClass::limit, core::Place{labels.title}, "image size",
                             fmt::format("{} x {}", a.columns, a.rows),
                             fmt::format("at most {} columns and rows", kMostCells));
-  return DifferenceSheet(a, b, unit, labels).draw();
+  return DifferenceSheet(a, b, file, labels).draw();
 }
 
 }  // namespace fanbeam::apps

@@ -19,10 +19,13 @@
 
 namespace fanbeam::apps {
 
-enum class DifferenceUnit { grey, dB };
+enum class DifferenceUnit { grey, dB, own };
 
-// Grey levels for PNG, decibels for EXR.
-DifferenceUnit difference_unit(const std::filesystem::path& image);
+// Grey levels for PNG. In EXR decibels, but for layers of ground truth, whose names end in the unit
+// that they are compared in: _deg, _m, _dB, _id, _share.
+DifferenceUnit difference_unit(const std::filesystem::path& image, const std::string& layer);
+// "grey", "dB", or the end of the layer's name.
+std::string unit_text(DifferenceUnit unit, const std::string& layer);
 
 // `depth` from -1 to 1, clamped: blue, near white, orange.
 core::Colour diverging_colour(double depth);
@@ -37,10 +40,11 @@ struct DifferenceLabels {
   std::string a = "A", b = "B";  // short names of the images: "approved", "new"
 };
 
-// One panel per layer, side by side, the cells untouched by marks. Images that are equal give a near
+// One panel per layer, side by side, the cells untouched by marks. `file` tells the layers' units. Images that are equal give a near
 // white map that says "identical". Throws InputError: E-REF as core::compare_images, E-LIMIT
 // beyond 16384 columns or rows.
-core::ColourPicture difference_map(const core::Image& a, const core::Image& b, DifferenceUnit unit,
+core::ColourPicture difference_map(const core::Image& a, const core::Image& b,
+                                   const std::filesystem::path& file,
                                    const DifferenceLabels& labels);
 
 }  // namespace fanbeam::apps

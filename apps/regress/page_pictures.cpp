@@ -89,7 +89,7 @@ class PageWriter {
         place(picture, PageSide::difference),
         difference_map(only_differing(core::read_image(approved_ / picture.file), picture),
                        only_differing(core::read_image(rendered_ / picture.file), picture),
-                       difference_unit(picture.file), labels),
+                       picture.file, labels),
         {});
   }
 

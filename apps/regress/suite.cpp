@@ -24,16 +24,11 @@ constexpr std::size_t kLongestName = 80;
 constexpr core::NumberRange kLimit{0.0, 1e6};
 constexpr core::NumberRange kPercent{0.0, 100.0};
 
-// Products that are pictures; videos, tables and numbers of objects are not compared.
-bool is_no_picture(std::string_view product) {
-  constexpr std::array<std::string_view, 4> kOthers = {"preview", "obstacles", "layers",
-                                                       "cscope_layers"};
-  return std::find(kOthers.begin(), kOthers.end(), product) != kOthers.end();
-}
+// Products that are pictures; videos and tables are not compared.
 std::vector<std::string> picture_products() {
   std::vector<std::string> names;
   for (const Product& product : kProducts)
-    if (!is_no_picture(product.name)) names.emplace_back(product.name);
+    if (product.name != "preview" && product.name != "obstacles") names.emplace_back(product.name);
   return names;
 }
 

@@ -14,13 +14,13 @@ double percent_of(std::size_t part, std::size_t cells) {
 
 LayerJudgement judge(const core::LayerDifference& difference, DifferenceUnit unit,
                      const std::optional<Tolerance>& tolerance) {
-  const bool grey = unit == DifferenceUnit::grey;
-  const std::string of = grey ? "grey" : "dB";
+  const bool in_dB = unit == DifferenceUnit::dB;
+  const std::string of = unit_text(unit, difference.layer);
   const Tolerance limits = tolerance.value_or(Tolerance{});
   LayerJudgement judged{difference.layer,
                         {},
-                        grey ? difference.largest_column : difference.largest_dB_column,
-                        grey ? difference.largest_row : difference.largest_dB_row};
+                        in_dB ? difference.largest_dB_column : difference.largest_column,
+                        in_dB ? difference.largest_dB_row : difference.largest_row};
   const auto add = [&](const char* name, const std::string& in, double value,
                        std::optional<double> allowed) {
     // A value that is no number is not within anything.
@@ -28,12 +28,12 @@ LayerJudgement judge(const core::LayerDifference& difference, DifferenceUnit uni
     judged.figures.push_back({name, in, value, allowed, within});
     judged.within = judged.within && within;
   };
-  add("mean", of, grey ? difference.mean : difference.mean_dB, limits.mean);
-  add("rms", of, grey ? difference.rms : difference.rms_dB, limits.rms);
-  add("largest", of, grey ? difference.largest : difference.largest_dB, limits.largest);
+  add("mean", of, in_dB ? difference.mean_dB : difference.mean, limits.mean);
+  add("rms", of, in_dB ? difference.rms_dB : difference.rms, limits.rms);
+  add("largest", of, in_dB ? difference.largest_dB : difference.largest, limits.largest);
   add("percent", "%", percent_of(difference.different, difference.cells),
       tolerance ? limits.percent : 0.0);
-  if (!grey)
+  if (in_dB)
     add("lit_in_one_percent", "%", percent_of(difference.only_one_positive, difference.cells),
         limits.lit_in_one_percent.value_or(0.0));
   return judged;

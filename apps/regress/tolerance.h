@@ -10,8 +10,8 @@
 
 namespace fanbeam::apps {
 
-// Limits per layer: grey levels of pictures, dB of power layers, where only cells positive in both
-// have decibels. What is absent is not limited; but the cells of a power layer that are lit in one
+// Limits per layer: grey levels of pictures, the layer's own unit of ground truth, dB of power
+// layers, where only cells positive in both have decibels. What is absent is not limited; but the cells of a power layer that are lit in one
 // picture only are always counted, and none is allowed unless the limit says so.
 struct Tolerance {
   std::optional<double> mean{};  // of |mean of new - approved|
@@ -25,7 +25,7 @@ struct Tolerance {
 // One figure of a layer beside what is allowed.
 struct Figure {
   std::string name;  // as the suite's key
-  std::string unit;  // "grey", "dB", "%"
+  std::string unit;  // "grey", "dB", "deg", "%"
   double value = 0.0;
   std::optional<double> allowed;
   bool within = true;

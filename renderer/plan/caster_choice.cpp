@@ -29,7 +29,6 @@ std::string others_text(std::size_t others) {
 
 // Empty when slices can show the scene.
 std::string why_no_slices(const CasterFacts& facts) {
-  if (!facts.has_ground) return "slices need a ground, and the scene has none";
   if (facts.fan_rad > kWidestFan_rad)
     return "slices span at most 150 deg of azimuth, beam included";
   const std::string tilt = why_not_level(facts);

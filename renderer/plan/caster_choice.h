@@ -27,10 +27,9 @@ namespace fanbeam::renderer {
 enum class CasterWish { rays, profile, automatic };
 
 struct CasterFacts {
-  bool has_ground = true;  // a terrain grid
   std::size_t buildings = 1;  // Solids::prisms
   std::size_t others = 0;     // models and prisms over open air: Solids::others
-  bool stabilised = true;  // the antenna, against roll and pitch; others count as tilted
+  bool stabilised = true;     // the antenna, against roll and pitch; others count as tilted
   bool plane_scan = true;
   // Largest angle between the vertical at the aircraft and that of the scene's origin: on a round
   // Earth even a stabilised antenna is not level in the scene far from its origin.
@@ -43,7 +42,7 @@ struct CasterChoice {
   CasterWish wish = CasterWish::automatic;
   std::string reason;         // one sentence
   std::string why_no_slices;  // empty where they can show the scene
-  std::size_t others = 0;  // what stands in azimuths that slices leave to rays
+  std::size_t others = 0;     // what stands in azimuths that slices leave to rays
 };
 
 // Throws InputError E-UNSUPPORTED of the field "caster" at `place` when slices are forced and cannot

@@ -2,6 +2,7 @@
 // buffer and no random number.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 
 #include "core/effect_plan.h"
@@ -17,6 +18,9 @@ struct Effects {
   bool multipath = false;  // of point targets over reflecting ground
   bool range_response = false;
   std::uint64_t seed = 0;  // of everything random in a frame
+
+  // So that whoever keeps renderers by their effects cannot forget one.
+  auto operator<=>(const Effects&) const = default;
 };
 
 Effects effects_of(const core::EffectPlan& plan, std::uint64_t seed);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "renderer/plan/largest_echo.h"
+
 namespace fanbeam::renderer {
 
 SceneFacts seen_facts(const SceneFacts& scene, const FrameSight& sight) {
@@ -23,9 +25,9 @@ SceneFacts seen_facts(const SceneFacts& scene, const FrameSight& sight) {
 bool covers(const SceneFacts& planned, const SceneFacts& seen) {
   const auto within = [](bool part, bool whole) { return !part || whole; };
   const std::vector<atmosphere::RainCell>& cells = planned.weather.rain_cells;
-  return seen.lowest_m >= planned.lowest_m && seen.highest_m <= planned.highest_m &&
-         within(seen.reflects, planned.reflects) && within(seen.has_walls, planned.has_walls) &&
-         within(seen.ground_reflects, planned.ground_reflects) &&
+  // Of mirrors the bounds ask what they make possible: nobody looks for those that do nothing.
+  return within(corners_possible(seen), corners_possible(planned)) &&
+         within(mirrored_targets_possible(seen), mirrored_targets_possible(planned)) &&
          within(seen.has_point_targets, planned.has_point_targets) &&
          within(seen.leaves_ground, planned.leaves_ground) &&
          seen.largest_eta_m2_per_m3 <= planned.largest_eta_m2_per_m3 &&

@@ -32,6 +32,7 @@ struct FrameSight {
 SceneFacts seen_facts(const SceneFacts& scene, const FrameSight& sight);
 
 // Whether a plan made of `planned` holds for what `seen` names: both narrowed from the same scene.
+// Heights are not looked at: they count from the aircraft, not from what its antenna sees.
 bool covers(const SceneFacts& planned, const SceneFacts& seen);
 
 }  // namespace fanbeam::renderer

@@ -26,12 +26,16 @@ SceneFacts with_realisation(const SceneFacts& scene, const EffectWishes& wishes)
   return facts;
 }
 
+bool raises_obstacles(const SceneFacts& facts) {
+  return facts.heights_shown &&
+         facts.sensor.display.cscope_mode == sensors::Display::CScopeMode::shadow;
+}
+
 // A C-scope of mode shadow raises an obstacle or does not, by thresholds; a realisation lets point
 // targets cancel the ground they stand on. There any change can be one of the whole window.
 bool tips_over(const SceneFacts& facts) {
   if (facts.signal) return false;
-  return facts.sensor.display.cscope_mode == sensors::Display::CScopeMode::shadow ||
-         (facts.sample && facts.has_point_targets);
+  return raises_obstacles(facts) || (facts.sample && facts.has_point_targets);
 }
 
 // Greys of the picture that shows the facts' products.
@@ -65,9 +69,9 @@ Open weighed(const Effect& effect, const SceneFacts& facts, const Greys& greys,
 std::string cause_text(const Open& open, const SceneFacts& facts) {
   const std::string text = open.effect->cause(facts, open.own_dB);
   if (!(open.decision->bound_dB > open.own_dB)) return text;
-  const bool shadow = facts.sensor.display.cscope_mode == sensors::Display::CScopeMode::shadow;
-  return text + (shadow ? ", which in a C-scope of mode shadow can raise or hide a whole obstacle"
-                        : ", which can tip a pixel where a target and the ground cancel");
+  return text + (raises_obstacles(facts)
+                     ? ", which in a C-scope of mode shadow can raise or hide a whole obstacle"
+                     : ", which can tip a pixel where a target and the ground cancel");
 }
 
 // Leaves out what fits into `left_grey`, smallest first.

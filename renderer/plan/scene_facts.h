@@ -20,6 +20,7 @@ struct SceneFacts {
   bool reflects = false;         // a material in the scene reflects like a mirror
   bool ground_reflects = false;  // one of the ground does
   bool sample = false;           // frames show one realisation, not the expected power
+  bool heights_shown = true;     // a C-scope, or obstacles: what mode shadow raises
   // Set by plan(): thermal noise runs whatever else does. By signal_plan(): it runs, or is left out
   // because the display's floor hides it.
   bool noise_shown = false;

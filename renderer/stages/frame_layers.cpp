@@ -7,7 +7,6 @@
 #include "renderer/casting/echo_density.h"
 #include "renderer/casting/elevation_fan.h"
 #include "renderer/casting/fan_layout.h"
-#include "renderer/casting/frame_path_loss.h"
 #include "renderer/casting/packet_sender.h"
 #include "renderer/casting/ray_aim.h"
 #include "renderer/casting/ray_batch.h"
@@ -19,69 +18,89 @@
 namespace fanbeam::renderer {
 namespace {
 
+// What neighbours on one surface step over is theirs up to here, and where their facets agree that it
+// is one slope: behind a crest the next visible ground is farther than they say.
 constexpr int kLargestGap_cells = 4;
+constexpr double kMostOfSlope = 1.5;
+constexpr int kFanColumns = 2;    // that share a fan
+constexpr int kBlockColumns = 8;  // of one task
 
 // One ray that met something.
 struct Seen {
   float range_m = 0.0F, elevation_rad = 0.0F, sin_grazing = 0.0F, nrcs = 0.0F;
-  float power_W = 0.0F;  // at full azimuth gain
+  float range_slope = 0.0F;  // ray_chain.h
+  float power_W = 0.0F;      // at full azimuth gain
   std::uint32_t surface = terrain::kNoHit;
   terrain::MaterialId material = kNoMaterial;
   terrain::ObjectId object = terrain::kTerrainObject;
 };
 
+// Between two rays that met one surface; of the nearer one what has no middle. Ranges of a plane are
+// linear in their inverse.
+Seen between(const Seen& a, const Seen& b, float share) {
+  const auto mix = [share](float x, float y) { return x + share * (y - x); };
+  Seen seen = share < 0.5F ? a : b;
+  seen.range_m = 1.0F / mix(1.0F / a.range_m, 1.0F / b.range_m);
+  seen.elevation_rad = mix(a.elevation_rad, b.elevation_rad);
+  seen.sin_grazing = mix(a.sin_grazing, b.sin_grazing);
+  seen.nrcs = mix(a.nrcs, b.nrcs);
+  seen.power_W = mix(a.power_W, b.power_W);
+  return seen;
+}
+
 // The sums of a column's cells, over one of the two axes.
 class ColumnCells {
  public:
-  void clear(int cells) {
-    const auto count = static_cast<std::size_t>(cells);
-    weight_.assign(count, 0.0F);
-    range_m_.assign(count, 0.0F);
-    sin_grazing_.assign(count, 0.0F);
-    nrcs_.assign(count, 0.0F);
-    azimuths_.assign(count, 0);
-    last_azimuth_.assign(count, -1);
-    strongest_.assign(count, Seen{});
-  }
+  void clear(int cells) { cells_.assign(static_cast<std::size_t>(cells), Cell{}); }
 
-  void add(int cell, int azimuth, const Seen& seen) {
-    const auto i = static_cast<std::size_t>(cell);
-    weight_[i] += seen.power_W;
-    range_m_[i] += seen.power_W * seen.range_m;
-    sin_grazing_[i] += seen.power_W * seen.sin_grazing;
-    nrcs_[i] += seen.power_W * seen.nrcs;
-    if (last_azimuth_[i] != azimuth) {
-      last_azimuth_[i] = azimuth;
-      ++azimuths_[i];
+  void add(int index, int azimuth, const Seen& seen) {
+    Cell& cell = cells_[static_cast<std::size_t>(index)];
+    // What sends nothing counts where nothing else is seen.
+    const double weight = static_cast<double>(seen.power_W) + 1e-60;
+    cell.weight += weight;
+    cell.range_m += weight * static_cast<double>(seen.range_m);
+    cell.sin_grazing += weight * static_cast<double>(seen.sin_grazing);
+    cell.nrcs += weight * static_cast<double>(seen.nrcs);
+    if (cell.last_azimuth != azimuth) {
+      cell.last_azimuth = azimuth;
+      ++cell.azimuths;
     }
-    if (seen.power_W > strongest_[i].power_W) strongest_[i] = seen;
+    if (!cell.any || seen.power_W > cell.strongest.power_W) cell.strongest = seen;
+    cell.any = true;
   }
 
-  void add_target(int cell, const Seen& target) {
-    Seen& strongest = strongest_[static_cast<std::size_t>(cell)];
-    if (target.power_W > strongest.power_W) strongest = target;
+  void add_target(int index, const Seen& target) {
+    Cell& cell = cells_[static_cast<std::size_t>(index)];
+    if (!cell.any || target.power_W > cell.strongest.power_W) cell.strongest = target;
+    cell.any = true;
   }
 
   void write(int column, int columns, LayerSet& set) const {
-    for (std::size_t i = 0; i < weight_.size(); ++i) {
-      if (azimuths_[i] == 0 && !(strongest_[i].power_W > 0.0F)) continue;
+    for (std::size_t i = 0; i < cells_.size(); ++i) {
+      const Cell& cell = cells_[i];
+      if (!cell.any) continue;
       const std::size_t to =
           i * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
-      set.visibility[to] = static_cast<float>(azimuths_[i]) / kLayerAzimuths;
-      set.material[to] = strongest_[i].material;
-      set.object[to] = strongest_[i].object;
-      set.elevation_rad[to] = strongest_[i].elevation_rad;
-      if (!(weight_[i] > 0.0F)) continue;
-      set.range_m[to] = range_m_[i] / weight_[i];
-      set.grazing_rad[to] = std::asin(std::min(sin_grazing_[i] / weight_[i], 1.0F));
-      set.nrcs[to] = nrcs_[i] / weight_[i];
+      set.visibility[to] = static_cast<float>(cell.azimuths) / kLayerAzimuths;
+      set.material[to] = cell.strongest.material;
+      set.object[to] = cell.strongest.object;
+      set.elevation_rad[to] = cell.strongest.elevation_rad;
+      if (cell.azimuths == 0) continue;
+      set.range_m[to] = static_cast<float>(cell.range_m / cell.weight);
+      set.grazing_rad[to] =
+          static_cast<float>(std::asin(std::min(cell.sin_grazing / cell.weight, 1.0)));
+      set.nrcs[to] = static_cast<float>(cell.nrcs / cell.weight);
     }
   }
 
  private:
-  std::vector<float> weight_, range_m_, sin_grazing_, nrcs_;
-  std::vector<int> azimuths_, last_azimuth_;
-  std::vector<Seen> strongest_;
+  struct Cell {
+    double weight = 0.0, range_m = 0.0, sin_grazing = 0.0, nrcs = 0.0;
+    int azimuths = 0, last_azimuth = -1;
+    bool any = false;
+    Seen strongest;
+  };
+  std::vector<Cell> cells_;
 };
 
 // Echoes of targets by column.
@@ -114,20 +133,43 @@ class LayerCaster {
         with_cscope_(with_cscope),
         fan_(world, layer_sampling()),
         elevation_gain_(world.sensor.antenna.elevation),
-        path_loss_(FramePathLoss(world).from(antenna.position_m.z)),
+        // Steps of metres will do where losses weigh a cell's parts against each other.
+        path_loss_(world.attenuation, antenna.position_m.z,
+                   antenna.position_m.z - world.sensor.range.maximum_m(),
+                   antenna.position_m.z + world.sensor.range.maximum_m()),
         beam_rad_(azimuth_width_rad(world.sensor)) {}
 
+  // Columns [first, last), which share a fan in pairs.
   template <int N>
-  void cast(int column, const std::vector<core::Echo>& targets, FrameLayers& layers) const {
-    thread_local ColumnCells ranges, rows;
+  void cast(int first, int last, const std::vector<std::vector<core::Echo>>& targets,
+            FrameLayers& layers) const {
     thread_local std::vector<double> edges;
+    const sensors::Scan& scan = world_.sensor.scan;
+    for (int column = first; column < last; ++column) {
+      if ((column - first) % kFanColumns == 0)
+        fan_.place(antenna_, sensors::column_edge_rad(scan, column),
+                   sensors::column_edge_rad(scan, std::min(column + kFanColumns, last)), edges);
+      cast_column<N>(column, edges, targets[static_cast<std::size_t>(column)], layers);
+    }
+  }
+
+ private:
+  static Sampling layer_sampling() {
+    Sampling sampling;
+    sampling.rays_per_cell = 0.5;
+    return sampling;
+  }
+
+  template <int N>
+  void cast_column(int column, const std::vector<double>& edges,
+                   const std::vector<core::Echo>& targets, FrameLayers& layers) const {
+    thread_local ColumnCells ranges, rows;
     thread_local std::vector<Seen> line;
     const sensors::Sensor& sensor = world_.sensor;
     ranges.clear(sensor.range.cells);
     rows.clear(with_cscope_ ? sensor.display.cscope_rows : 0);
     const double middle_rad = sensors::column_middle_rad(sensor.scan, column);
     const double step_rad = sensor.scan.column_width_rad() / kLayerAzimuths;
-    fan_.place(antenna_, middle_rad - step_rad, middle_rad + step_rad, edges);
     for (int k = 0; k < kLayerAzimuths && edges.size() >= 2; ++k) {
       const double azimuth_rad = middle_rad + (k + 0.5 - 0.5 * kLayerAzimuths) * step_rad;
       look<N>({azimuth_rad, std::cos(azimuth_rad), std::sin(azimuth_rad), step_rad},
@@ -137,13 +179,6 @@ class LayerCaster {
     for (const core::Echo& echo : targets) add(echo, ranges, rows);
     ranges.write(column, sensor.scan.columns, layers.bscope);
     if (with_cscope_) rows.write(column, sensor.scan.columns, layers.cscope);
-  }
-
- private:
-  static Sampling layer_sampling() {
-    Sampling sampling;
-    sampling.rays_per_cell = 0.5;
-    return sampling;
   }
 
   // Rays of one azimuth, from the lowest up.
@@ -189,6 +224,7 @@ class LayerCaster {
     if (batch.geometry[lane] == terrain::kNoHit) return result;
     result.surface = chain.surface[i];
     result.range_m = chain.range_m[i];
+    result.range_slope = chain.range_slope[i];
     result.elevation_rad = static_cast<float>(batch.elevation_rad[lane]);
     result.power_W = static_cast<float>(static_cast<double>(chain.density_W_per_rad2[i]) *
                                         height_rad * beam_rad_ / kLayerAzimuths);
@@ -227,21 +263,43 @@ class LayerCaster {
     if (row != sensors::kOutside) rows.add_target(row, target);
   }
 
-  // Cells that two neighbours on one surface stepped over.
-  static void fill(const Seen& a, int from, const Seen& b, int to, int azimuth,
-                   ColumnCells& ranges) {
+  // Range cells that two neighbours on one surface stepped over.
+  void fill_ranges(const Seen& a, int from, const Seen& b, int to, int azimuth,
+                   ColumnCells& ranges) const {
     const int gap = std::abs(to - from);
-    if (gap < 2 || gap > kLargestGap_cells) return;
-    for (int step = 1; step < gap; ++step) {
-      const float share = static_cast<float>(step) / static_cast<float>(gap);
-      const auto between = [share](float x, float y) { return x + share * (y - x); };
-      Seen seen = share < 0.5F ? a : b;
-      seen.range_m = between(a.range_m, b.range_m);
-      seen.elevation_rad = between(a.elevation_rad, b.elevation_rad);
-      seen.sin_grazing = between(a.sin_grazing, b.sin_grazing);
-      seen.nrcs = between(a.nrcs, b.nrcs);
-      seen.power_W = between(a.power_W, b.power_W);
-      ranges.add(from + (to > from ? step : -step), azimuth, seen);
+    if (a.surface != b.surface || gap < 2 || gap > kLargestGap_cells) return;
+    const double step_rad =
+        static_cast<double>(b.elevation_rad) - static_cast<double>(a.elevation_rad);
+    const auto told_m = [step_rad](const Seen& seen) {
+      return std::abs(static_cast<double>(seen.range_m) * static_cast<double>(seen.range_slope) *
+                      step_rad);
+    };
+    const double apart_m =
+        std::abs(static_cast<double>(b.range_m) - static_cast<double>(a.range_m));
+    if (apart_m > kMostOfSlope * std::max(told_m(a), told_m(b)) + world_.sensor.range.cell_m)
+      return;
+    for (int step = 1; step < gap; ++step)
+      ranges.add(from + (to > from ? step : -step), azimuth,
+                 between(a, b, static_cast<float>(step) / static_cast<float>(gap)));
+  }
+
+  // Counts on above and below the window.
+  int row_of(const Seen& seen) const {
+    const sensors::Display& display = world_.sensor.display;
+    return static_cast<int>(
+        std::floor((display.cscope_top_rad - static_cast<double>(seen.elevation_rad)) /
+                   cscope_row_rad(display)));
+  }
+
+  // Rows between two neighbours: what they both meet, or each its half.
+  void fill_rows(const Seen& a, const Seen& b, int azimuth, ColumnCells& rows) const {
+    const int from = row_of(a), to = row_of(b);
+    const int last = world_.sensor.display.cscope_rows - 1;
+    for (int row = std::max(std::min(from, to) + 1, 0);
+         row <= std::min(std::max(from, to) - 1, last); ++row) {
+      const float share = static_cast<float>(row - from) / static_cast<float>(to - from);
+      rows.add(row, azimuth,
+               a.surface == b.surface ? between(a, b, share) : (share < 0.5F ? a : b));
     }
   }
 
@@ -256,14 +314,15 @@ class LayerCaster {
         continue;
       }
       if (with_cscope_) {
-        const int row = sensors::cscope_row(sensor.display, static_cast<double>(now.elevation_rad));
-        if (row != sensors::kOutside) rows.add(row, azimuth, now);
+        const int row = row_of(now);
+        if (row >= 0 && row < sensor.display.cscope_rows) rows.add(row, azimuth, now);
+        if (last != nullptr) fill_rows(*last, now, azimuth, rows);
       }
       const int cell = sensors::range_row(sensor.range, static_cast<double>(now.range_m));
       if (cell != sensors::kOutside) {
         ranges.add(cell, azimuth, now);
-        if (last != nullptr && last->surface == now.surface && last_cell != sensors::kOutside)
-          fill(*last, last_cell, now, cell, azimuth, ranges);
+        if (last != nullptr && last_cell != sensors::kOutside)
+          fill_ranges(*last, last_cell, now, cell, azimuth, ranges);
       }
       last = &now;
       last_cell = cell;
@@ -294,11 +353,15 @@ FrameLayers frame_layers(const World& world, const sensors::AntennaFrame& antenn
   const std::vector<std::vector<core::Echo>> of_column = by_column(targets, sensor.scan);
   const LayerCaster caster(world, antenna, with_cscope);
   const bool wide = world.surfaces().native_packet() == 16;
-  core::parallel_for(static_cast<std::size_t>(sensor.scan.columns), [&](std::size_t column) {
+  // Neighbours by one thread: their cells lie side by side.
+  const int blocks = (sensor.scan.columns + kBlockColumns - 1) / kBlockColumns;
+  core::parallel_for(static_cast<std::size_t>(blocks), [&](std::size_t block) {
+    const int first = static_cast<int>(block) * kBlockColumns;
+    const int last = std::min(first + kBlockColumns, sensor.scan.columns);
     if (wide)
-      caster.cast<16>(static_cast<int>(column), of_column[column], layers);
+      caster.cast<16>(first, last, of_column, layers);
     else
-      caster.cast<8>(static_cast<int>(column), of_column[column], layers);
+      caster.cast<8>(first, last, of_column, layers);
   });
   return layers;
 }

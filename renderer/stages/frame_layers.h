@@ -13,17 +13,18 @@
 //   elevation_rad  of the strongest single echo (B-scope)
 //   material, object  of the strongest single echo; a point target counts as one, with object
 //                  number Geometry::object_names.size() plus its index and material kNoMaterial
-//   double_bounce  of the picture's power from surfaces, beam and all, the share that came by two or
-//                  three reflections
+//   double_bounce  of the picture's power from surfaces and rain, beam and all, the share that came
+//                  by two or three reflections
 // Means are weighted with the power that surfaces send on the direct way; point targets are not in
 // them.
 //
 // From rays of its own, whichever caster draws the picture, so that the two give the same truth:
 // kLayerAzimuths azimuths a column, dithered along range as in ray_caster.h, half a ray a range cell
 // of visible ground in each and one a C-scope row of what stands above it. What neighbours on one
-// surface step over, up to three cells, is put between them. Accuracy: a thing narrower than half a
-// column, or lower than a ray's step, may be missed. Neglected: rain cells, and all that ray_caster.h neglects.
-// Deterministic, and the same for any number of threads. Cost: docs/performance.md.
+// slope step over, up to three range cells or all rows, is put between them. Accuracy: a thing
+// narrower than half a column, or lower than a ray's step, may be missed; a cell at its foot may be
+// left dark. Neglected: rain cells, and all that ray_caster.h neglects.
+// Deterministic, and the same for any number of threads. Cost: docs/performance-notes.md.
 #pragma once
 
 #include <cstdint>

@@ -111,6 +111,7 @@ void read_flight_volume(ConfigTable& root, FlightHeights& heights) {
   constexpr core::NumberRange kFlightHeight_m{-1000, 50000};
   ConfigTable table = root.table("flight_volume");
   heights.stated = table.present();
+  heights.place = table.place("");
   heights.lowest_m = table.optional_number("lowest_m", kFlightHeight_m);
   heights.highest_m = table.optional_number("highest_m", kFlightHeight_m);
   if (heights.lowest_m && heights.highest_m && *heights.lowest_m > *heights.highest_m)

@@ -89,7 +89,8 @@ TEST_CASE("A map shows every cell in its colour, and nothing on top", "[differen
   std::vector<double> a(800, 100.0), b(800, 100.0);
   b[5 * 40 + 7] = 104.0;
   b[10 * 40 + 8] = 99.0;
-  const core::ColourPicture map = difference_map(layer(40, 20, a), layer(40, 20, b), kGrey, {"t"});
+  const core::ColourPicture map =
+      difference_map(layer(40, 20, a), layer(40, 20, b), "t.png", {"t"});
   std::size_t cells = 0;
   for (const auto& [value, differing] : {std::pair{104.0, 1U}, std::pair{99.0, 1U}}) {
     const std::size_t found = count(map, difference_colour(100.0, value, kGrey, 5.0));
@@ -104,18 +105,18 @@ TEST_CASE("A map shows every cell in its colour, and nothing on top", "[differen
 TEST_CASE("Images that are equal give a neutral map in which no cell is marked",
           "[difference_map]") {
   const core::Image image = layer(40, 20, std::vector<double>(800, 3.0));
-  const core::ColourPicture same = difference_map(image, image, kGrey, {"t"});
+  const core::ColourPicture same = difference_map(image, image, "t.png", {"t"});
   CHECK(count(same, kNeutral) >= 800 * 9 * 16);
   CHECK(same.pixels !=
-        difference_map(image, layer(40, 20, std::vector<double>(800, 4.0)), kGrey, {"t"}).pixels);
+        difference_map(image, layer(40, 20, std::vector<double>(800, 4.0)), "t.png", {"t"}).pixels);
 }
 
 TEST_CASE("Maps of different sizes, other layers and absurd sizes are refused",
           "[difference_map]") {
-  CHECK_THROWS_AS(difference_map(layer(2, 1, {1, 2}), layer(1, 2, {1, 2}), kGrey, {"t"}),
+  CHECK_THROWS_AS(difference_map(layer(2, 1, {1, 2}), layer(1, 2, {1, 2}), "t.png", {"t"}),
                   core::InputError);
   const core::Image line = layer(20000, 1, std::vector<double>(20000, 1.0));
-  CHECK_THROWS_AS(difference_map(line, line, kGrey, {"t"}), core::InputError);
+  CHECK_THROWS_AS(difference_map(line, line, "t.png", {"t"}), core::InputError);
 }
 
 TEST_CASE("compare --heat-map draws two images, and of two folders the pairs that differ",

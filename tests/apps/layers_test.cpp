@@ -49,7 +49,7 @@ TEST_CASE("render writes layers whose numbers layers.json names", "[layers]") {
   CHECK(materials.contains("paint"));
   for (const core::Image::Layer& each : truth.layers) CHECK(names["layers"].contains(each.name));
   // Lit from the first cell that the beam reaches on; the top row is the farthest.
-  const std::vector<double>& lit = layer(truth, "visibility");
+  const std::vector<double>& lit = layer(truth, "visibility_share");
   CHECK(*std::max_element(lit.begin(), lit.end()) == 1.0);
   const std::vector<double>& elevation_deg = layer(truth, "elevation_deg");
   const auto at = [](int row) { return static_cast<std::size_t>(row * 164 + 82); };
@@ -73,4 +73,28 @@ TEST_CASE("Truth by elevation is refused for a C-scope that draws none", "[layer
   CHECK(result.exit_code == 3);
   CHECK(result.output.find("E-UNSUPPORTED C-scope layers") != std::string::npos);
   CHECK(result.output.find("cscope_mode = \"true_elevation\"") != std::string::npos);
+}
+
+TEST_CASE("Truth is compared in its own unit: what has no decibels differs all the same",
+          "[layers]") {
+  fs::create_directories(kOut);
+  const auto written = [](const char* name, const char* layer, double value) {
+    core::write_exr(kOut / name, {2, 1, {{layer, {value, value}}}}, {});
+    return quoted(kOut / name);
+  };
+  const std::string dark = written("a.exr", "nrcs_dB", -30.0);
+  const tests::Result differs =
+      run_fanbeam("compare " + dark + " " + written("b.exr", "nrcs_dB", -20.0));
+  INFO(differs.output);
+  CHECK(differs.exit_code == 1);
+  CHECK(differs.output.find("mean +10.0000, RMS 10.0000, largest 10.000 dB") != std::string::npos);
+  CHECK(run_fanbeam("compare " + dark + " " + dark).exit_code == 0);
+  // A power that doubles is 3 dB; an elevation of twice as much is what it is.
+  for (const auto& [layer, told] : {std::pair{"power_W", "RMS 3.0103, largest 3.010 dB"},
+                                    std::pair{"elevation_deg", "RMS 2.0000, largest 2.000 deg"}}) {
+    const std::string from = written("from.exr", layer, 2.0), to = written("to.exr", layer, 4.0);
+    const tests::Result result = run_fanbeam("compare " + from + " " + to);
+    INFO(result.output);
+    CHECK(result.output.find(told) != std::string::npos);
+  }
 }

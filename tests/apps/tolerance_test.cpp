@@ -66,6 +66,15 @@ TEST_CASE("Cells of power that are lit in one picture only are none, unless a li
   CHECK(judged({.rms = 1.0, .lit_in_one_percent = 0.2}).empty());
 }
 
+TEST_CASE("Ground truth is judged in its own unit, and not by what is lit", "[regress]") {
+  core::LayerDifference difference = grey_difference();
+  difference.layer = "elevation_deg";
+  difference.only_one_positive = 50;
+  const LayerJudgement judged = judge(difference, DifferenceUnit::own, Tolerance{.rms = 1.0});
+  CHECK(beyond(judged) == Names{"rms"});
+  CHECK(judged.figures.front().unit == "deg");
+}
+
 TEST_CASE("A figure that is no number is within no limit", "[regress]") {
   core::LayerDifference difference = grey_difference();
   difference.rms = std::numeric_limits<double>::quiet_NaN();

@@ -45,7 +45,6 @@ void check_refused(const CasterFacts& facts, const std::string& why) {
 TEST_CASE("Rays are taken when asked for, whatever the scene", "[caster_choice]") {
   std::vector<Tilted> scenes = tilted(3);
   scenes.push_back({{}, ""});
-  scenes.push_back({{.has_ground = false, .others = 2}, ""});
   for (const Tilted& scene : scenes) {
     const auto choice = choose_caster(CasterWish::rays, scene.facts);
     CHECK(choice.chosen == CasterKind::rays);
@@ -93,11 +92,6 @@ TEST_CASE("With a level antenna slices leave the azimuths of models to rays", "[
 
 TEST_CASE("Where azimuths are no half-planes models leave everything to rays", "[caster_choice]") {
   for (const Tilted& scene : tilted(2)) check_refused(scene.facts, scene.why);
-}
-
-TEST_CASE("Without ground there is nothing to slice", "[caster_choice]") {
-  check_refused({.has_ground = false}, "the scene has none");
-  check_refused({.has_ground = false, .others = 4, .stabilised = false}, "the scene has none");
 }
 
 TEST_CASE("Words and wishes are each other's inverse", "[caster_choice]") {

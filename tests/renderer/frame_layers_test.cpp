@@ -112,8 +112,12 @@ TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_laye
         sensor.display.cscope_top_rad - sensors::cscope_edge_rad(sensor.display, row + 1);
     const std::size_t i = at(row);
     INFO("row " << core::degrees(low_rad) << " to " << core::degrees(high_rad));
-    const bool above = low_rad > top_rad, below = high_rad < foot_rad;
-    if (truth.visibility[i] == 0.0F) continue;
+    const double step_rad = 0.0015;  // of the rays around the shed
+    const bool above = low_rad > top_rad + step_rad, below = high_rad < foot_rad - step_rad;
+    // The ground ends with the range window, and the beam at -19.4 deg.
+    if (high_rad > -std::asin(kHeight_m / (sensor.range.maximum_m() - 50.0)) || low_rad < -0.33)
+      continue;
+    REQUIRE(truth.visibility[i] == 1.0F);
     if (above || below) {
       ++ground;
       REQUIRE(truth.object[i] == terrain::kTerrainObject);

@@ -129,6 +129,19 @@ TEST_CASE("Every frame of a flight is one that its plan was made for", "[flight_
   }
 }
 
+TEST_CASE("The frames of shipped flights are inside their own volume", "[flight_volume]") {
+  for (const char* name : {"flat-grass", "braunschweig-26", "obstacle-field", "rain-94ghz"}) {
+    core::ProblemList problems;
+    const std::string shipped = FANBEAM_SOURCE_DIR;
+    const session::Session session(shipped + "/scenes/" + name, {.shipped = shipped}, problems);
+    const auto scene = session.scene();
+    for (int frame = 0; frame < scene->frame_count(); frame += 101) {
+      INFO(name << ", frame " << frame);
+      REQUIRE(scenes::planned_for(*scene, scene->frame_pose(frame)));
+    }
+  }
+}
+
 TEST_CASE("A flight volume upside down", "[flight_volume]") {
   const TemporaryFolder folder;
   const tests::Outcome outcome =
@@ -137,4 +150,16 @@ TEST_CASE("A flight volume upside down", "[flight_volume]") {
              Catch::VectorContains(std::string(
                  "@/scene.toml:27:1: E-RANGE flight_volume.highest_m = 100: expected at least "
                  "lowest_m, 500")));
+  // One side alone can be wrong as well.
+  const tests::Outcome high =
+      tests::build_text(folder, live() + "[flight_volume]\nlowest_m = 9000.0\n");
+  REQUIRE(high.scene == nullptr);
+  CHECK(tests::messages(folder, high.problems).front().find("E-RANGE flight_volume = 8949 to ") !=
+        std::string::npos);
+}
+
+TEST_CASE("A scene without a trajectory has no frames of its own", "[flight_volume]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, live());
+  CHECK_THROWS_AS(session->render_flown(0, session->scene()->plan), core::InputError);
 }

@@ -180,6 +180,14 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
         }) == 2);
   CHECK(problems_of([&] { session->set(session::Accuracy{0.0}); }) == 1);
   CHECK(problems_of([&] { session->set(session::Samples{0.01}); }) == 1);
+  renderer::Sampling sampling = renderer::sampling_for(4.0);
+  sampling.sub_columns = 0;
+  sampling.rays_per_cell = std::nan("");
+  CHECK(problems_of([&] { session->set(sampling); }) == 2);
+  const session::TargetState bright{.name = "mast",
+                                    .position = {core::radians(52.0), 0.17, 50.0},
+                                    .rcs = materials::ConstantRcs{std::nan("")}};
+  CHECK(problems_of([&] { session->set(std::span(&bright, 1)); }) == 1);
   CHECK(problems_of([&] {
           core::Pose pose = frame_pose(*session, 0);
           pose.position.height_m = std::nan("");
@@ -239,4 +247,21 @@ TEST_CASE("The frame number moves speckle, and nothing else", "[session]") {
                         two = session->render(pose, 2);
   CHECK(same(one, again));
   CHECK_FALSE(same(one, two));
+}
+
+TEST_CASE("Where nobody asks for heights, a shadow C-scope costs a plan nothing", "[session]") {
+  const TemporaryFolder folder;
+  const std::string text = tests::kSmallScene + "\n[display]\ncscope_mode = \"shadow\"\n";
+  const auto bound_grey = [&](bool heights_shown) {
+    session::Setup setup;
+    setup.build.heights_shown = heights_shown;
+    const auto scene = opened_text(folder, text, setup)->scene();
+    for (const core::EffectDecision& decision : scene->plan.decisions)
+      if (decision.effect == renderer::kGas) return decision.bound_grey;
+    FAIL("no gas");
+    return 0.0;
+  };
+  CHECK(bound_grey(true) == 255.0);  // a little loss may raise or hide a whole obstacle
+  CHECK(bound_grey(false) > 0.0);
+  CHECK(bound_grey(false) < 10.0);
 }

@@ -1,5 +1,5 @@
 // Another project's program: opens a scene, changes its weather and moves a target, renders three
-// poses from two threads, and looks at the watts.
+// poses from two threads, and looks at the watts and at one frame's ground truth.
 //
 //   consumer SHIPPED SCENE
 //
@@ -39,7 +39,7 @@ int main(int argc, char** argv) try {
   const auto render = [&](std::size_t i) {
     core::Pose pose = first;
     pose.position.height_m += 10.0 * static_cast<double>(i);
-    frames[i] = session.render(pose, i);
+    frames[i] = session.render(pose, i, {.layers = i == 0});
   };
   std::thread other([&] { render(1); });
   render(0);
@@ -54,6 +54,16 @@ int main(int argc, char** argv) try {
                 frame.events.empty() ? "" : ", outside the flight volume");
     if (!(strongest_W > 0.0 && strongest_W < 1.0)) return 1;
   }
+  // What stands in each cell: here grass, seen under a grazing angle that falls with range.
+  const renderer::LayerSet& truth = frames[0].layers->bscope;
+  const std::size_t columns = static_cast<std::size_t>(opened->description.sensor.scan.columns);
+  const std::size_t near = 100 * columns + columns / 2, far = 400 * columns + columns / 2;
+  std::printf("%s, %.2f and %.2f deg\n",
+              opened->world.geometry->material_names.at(truth.material[near]).c_str(),
+              57.29578F * truth.grazing_rad[near], 57.29578F * truth.grazing_rad[far]);
+  if (!(truth.grazing_rad[near] > truth.grazing_rad[far] && truth.grazing_rad[far] > 0.0F))
+    return 1;
+
   // The scene's flight stands still: the poses above it are not what its plan was made for.
   return frames[0].events.empty() && !frames[2].events.empty() ? 0 : 1;
 } catch (const core::InputError& error) {
