@@ -50,10 +50,10 @@ ChildProcess::ChildProcess(const std::vector<std::string>& words, Pipe pipe) {
 }
 
 ChildProcess::~ChildProcess() {
+  // First: a program that sees its input end may still write what it has.
+  if (process_ > 0) kill(process_, SIGKILL);
   close_pipe();
-  if (process_ <= 0) return;
-  kill(process_, SIGKILL);
-  waitpid(process_, nullptr, 0);
+  if (process_ > 0) waitpid(process_, nullptr, 0);
 }
 
 void ChildProcess::close_pipe() {

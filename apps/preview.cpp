@@ -63,15 +63,16 @@ bool ends_as_its_kind(const fs::path& film) {
 
 Preview::Preview(fs::path file, int columns, int rows, double frame_rate_Hz)
     : file_(std::move(file)),
-      temporary_(temporary_for(file_)),
-      ffmpeg_(encoder(temporary_, columns, rows, frame_rate_Hz), ChildProcess::Pipe::to_its_input) {
+      temporary_{temporary_for(file_)},
+      ffmpeg_(encoder(temporary_.path, columns, rows, frame_rate_Hz),
+              ChildProcess::Pipe::to_its_input) {
   if (!ffmpeg_.started())
     refuse(file_, "ffmpeg cannot be started", "a working ffmpeg program (Debian package ffmpeg)");
 }
 
-Preview::~Preview() {
+Preview::Temporary::~Temporary() {
   std::error_code ignored;
-  fs::remove(temporary_, ignored);
+  fs::remove(path, ignored);
 }
 
 void Preview::add(const core::Picture8& picture) {
@@ -83,13 +84,13 @@ void Preview::add(const core::Picture8& picture) {
 void Preview::finish() {
   if (!ffmpeg_.succeeded()) refuse(file_, "ffmpeg failed", kRoom);
   if (!is_complete()) refuse(file_, "the film is not complete", kRoom);
-  fs::rename(temporary_, file_);
+  fs::rename(temporary_.path, file_);
 }
 
 // ffmpeg reads its own film and prints a line for each picture.
 bool Preview::is_complete() const {
-  ChildProcess reader({"ffmpeg", "-loglevel", "quiet", "-xerror", "-i", temporary_.string(), "-map",
-                       "0:v:0", "-vsync", "passthrough", "-f", "framecrc", "-"},
+  ChildProcess reader({"ffmpeg", "-loglevel", "quiet", "-xerror", "-i", temporary_.path.string(),
+                       "-map", "0:v:0", "-vsync", "passthrough", "-f", "framecrc", "-"},
                       ChildProcess::Pipe::from_its_output);
   if (!reader.started()) return false;
   int pictures = 0;
@@ -100,7 +101,7 @@ bool Preview::is_complete() const {
       begins = c == '\n';
       if (begins && !comment) ++pictures;
     }
-  return reader.succeeded() && pictures == pictures_ && ends_as_its_kind(temporary_);
+  return reader.succeeded() && pictures == pictures_ && ends_as_its_kind(temporary_.path);
 }
 
 }  // namespace fanbeam::apps

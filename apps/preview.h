@@ -14,7 +14,6 @@ class Preview {
  public:
   // Throws InputError E-IO when ffmpeg cannot be started; the message names the package.
   Preview(std::filesystem::path file, int columns, int rows, double frame_rate_Hz);
-  ~Preview();
   Preview(const Preview&) = delete;
   Preview& operator=(const Preview&) = delete;
 
@@ -27,7 +26,13 @@ class Preview {
  private:
   bool is_complete() const;
 
-  std::filesystem::path file_, temporary_;
+  struct Temporary {
+    std::filesystem::path path;
+    ~Temporary();
+  };
+
+  std::filesystem::path file_;
+  Temporary temporary_;  // outlives ffmpeg, which could make it anew
   int pictures_ = 0;
   ChildProcess ffmpeg_;
 };
