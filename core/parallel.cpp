@@ -80,15 +80,18 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
   });
 }
 
+// Without a limit the caller's own arena does, whose workers wait for the next loop: entering another
+// one for every loop cost some five per cent of a frame.
 ThreadLimit::ThreadLimit(int threads)
-    : arena_(std::make_unique<Arena>(threads > 0 ? threads
-                                                 : std::max(1, tbb::info::default_concurrency()))),
-      before_(innermost) {
-  innermost = arena_.get();
+    : arena_(threads > 0 ? std::make_unique<Arena>(threads) : nullptr), before_(innermost) {
+  if (arena_) innermost = arena_.get();
 }
 
 ThreadLimit::~ThreadLimit() { innermost = before_; }
 
-int ThreadLimit::threads() const { return arena_->threads; }
+int ThreadLimit::threads() const {
+  if (innermost != nullptr) return innermost->threads;
+  return std::max(1, tbb::info::default_concurrency());
+}
 
 }  // namespace fanbeam::core
