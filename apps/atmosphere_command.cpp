@@ -7,12 +7,12 @@
 
 #include "apps/atmosphere_table.h"
 #include "apps/frequency_choice.h"
-#include "apps/gnuplot.h"
 #include "apps/scene_choice.h"
 #include "core/constants.h"
 #include "core/files.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/sensor_file.h"
+#include "session/plots/gnuplot.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -139,13 +139,13 @@ void print_tables(const Question& question, const std::vector<AtmosphereTable>& 
   }
 }
 
-Plot plot_of(const std::vector<AtmosphereTable>& tables) {
-  Plot plot;
+session::Plot plot_of(const std::vector<AtmosphereTable>& tables) {
+  session::Plot plot;
   plot.title = "Two-way loss over range";
   plot.x = {"range [km]", false, 0.0, {}};
   plot.y = {"loss [dB]", false, 0.0, {}};
   for (const AtmosphereTable& table : tables) {
-    PlotSeries total{fmt::format("{} GHz", table.frequency_Hz / 1e9), {}, {}};
+    session::PlotSeries total{fmt::format("{} GHz", table.frequency_Hz / 1e9), {}, {}};
     for (const AtmosphereRow& row : table.rows) {
       total.x.push_back(1e-3 * row.range_m);
       total.y.push_back(row.two_way_dB());
@@ -161,7 +161,7 @@ void write_files(const fs::path& folder, const std::vector<AtmosphereTable>& tab
   core::write_file_atomically(folder / "atmosphere.csv", csv_of(tables));
   core::write_file_atomically(folder / "atmosphere.json", json_of(tables, models));
   for (const char* name : {"atmosphere.svg", "atmosphere.png"})
-    write_plot(plot_of(tables), folder / name);
+    session::write_plot(plot_of(tables), folder / name);
 }
 
 // What only the rain law itu-p838 knows does nothing beside another.

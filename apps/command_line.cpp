@@ -7,6 +7,7 @@
 #include "apps/help/help_formatter.h"
 #include "apps/help/suggestion.h"
 #include "core/machine.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 
@@ -14,7 +15,8 @@ CommandLine::CommandLine()
     : program_(
           "fanbeam renders what an airborne imaging millimetre-wave radar sees on an approach.",
           "fanbeam") {
-  program_.set_version_flag("--version", "fanbeam " + version_text() + " (" + commit_text() + ")");
+  program_.set_version_flag(
+      "--version", "fanbeam " + session::version_text() + " (" + session::commit_text() + ")");
   program_.require_subcommand(1);
   program_.formatter(std::make_shared<HelpFormatter>());
 }

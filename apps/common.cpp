@@ -13,7 +13,6 @@
 #include <tuple>
 
 #include "apps/shipped_names.h"
-#include "apps/version.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -126,9 +125,5 @@ int run_guarded(const std::function<int()>& command) {
     return kExitBug;
   }
 }
-
-std::string version_text() { return kVersion; }
-std::string commit_text() { return kCommit; }
-std::string date_text() { return kDate; }
 
 }  // namespace fanbeam::apps

@@ -57,8 +57,4 @@ int exit_code_of(const std::vector<core::Problem>& problems);
 // Runs a command and turns its exceptions into messages and exit codes.
 int run_guarded(const std::function<int()>& command);
 
-std::string version_text();
-std::string commit_text();
-std::string date_text();  // of the commit, "2026-11-22"; empty where git is missing
-
 }  // namespace fanbeam::apps

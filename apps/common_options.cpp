@@ -3,11 +3,14 @@
 #include "apps/command_line.h"
 #include "apps/common.h"
 #include "apps/number_range.h"
+#include "renderer/plan/plan.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 
 void add_common_options(CLI::App& command, CommonOptions& common) {
-  command.set_version_flag("--version", "fanbeam " + version_text() + " (" + commit_text() + ")");
+  command.set_version_flag(
+      "--version", "fanbeam " + session::version_text() + " (" + session::commit_text() + ")");
   command.add_flag("-q,--quiet", common.quiet,
                    "No progress and no notes: only what was asked for, and errors");
   command.add_option("--log-level", common.log_level, "Least message level shown")
@@ -24,7 +27,8 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
 // No refinement reaches 0, and past 100 of 255 levels there is no picture left to speak of.
 CLI::Option* add_accuracy_option(CLI::App& command, double& accuracy_grey,
                                  const std::string& what) {
-  return command.add_option("--accuracy", accuracy_grey, what)->check(number_from(0.01, 100.0));
+  return command.add_option("--accuracy", accuracy_grey, what)
+      ->check(number_from(renderer::kAccuracies_grey.low, renderer::kAccuracies_grey.high));
 }
 
 }  // namespace fanbeam::apps

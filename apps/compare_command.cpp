@@ -5,11 +5,12 @@
 #include <algorithm>
 #include <set>
 
-#include "apps/figure/difference_map.h"
 #include "apps/image_files.h"
 #include "core/files.h"
 #include "core/image_compare.h"
 #include "core/text.h"
+#include "session/figure/difference_map.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -20,8 +21,8 @@ namespace fs = std::filesystem;
 // unit of its layer.
 bool judge(const fs::path& file, const core::LayerDifference& difference,
            const CompareOptions& options, bool quiet) {
-  const DifferenceUnit unit = difference_unit(file, difference.layer);
-  const bool in_dB = unit == DifferenceUnit::dB;
+  const session::DifferenceUnit unit = session::difference_unit(file, difference.layer);
+  const bool in_dB = unit == session::DifferenceUnit::dB;
   const std::string name = file.filename().string();
   const double rms = in_dB ? difference.rms_dB : difference.rms;
   const double mean = in_dB ? difference.mean_dB : difference.mean;
@@ -38,7 +39,7 @@ bool judge(const fs::path& file, const core::LayerDifference& difference,
         "{} {} {}: mean {:+.4f}, RMS {:.4f}, largest {:.3f} {}, {:.3f} % of {} cells differ{}\n",
         ok ? "same  " : "DIFFER", core::printable_text(name),
         core::printable_text(difference.layer), mean, rms, largest,
-        unit_text(unit, difference.layer), percent, difference.cells,
+        session::unit_text(unit, difference.layer), percent, difference.cells,
         in_dB && difference.only_one_positive > 0
             ? fmt::format(", {} lit in one only", difference.only_one_positive)
             : "");
@@ -58,9 +59,9 @@ bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bo
     equal = equal && difference.different == 0;
   }
   if (map.empty() || (equal && !always && !fs::exists(map))) return same;
-  core::write_png(map,
-                  difference_map(image_a, image_b, a, {b.filename().string() + ": B against A"}),
-                  {{"Software", "fanbeam " + version_text() + " " + commit_text()}});
+  core::write_png(
+      map, session::difference_map(image_a, image_b, a, {b.filename().string() + ": B against A"}),
+      {{"Software", "fanbeam " + session::version_text() + " " + session::commit_text()}});
   if (!quiet) fmt::print("map    {}\n", map.string());
   return same;
 }

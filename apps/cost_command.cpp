@@ -6,23 +6,25 @@
 #include <chrono>
 #include <optional>
 
-#include "apps/cost/bench.h"
 #include "apps/cost/cost_csv.h"
 #include "apps/cost/cost_markdown.h"
-#include "apps/cost/cost_plots.h"
-#include "apps/cost/effect_prices.h"
-#include "apps/cost/frame_work.h"
-#include "apps/cost/ladder.h"
+#include "apps/cost/cost_progress.h"
 #include "apps/cost/levels.h"
 #include "apps/cost/levels_report.h"
-#include "apps/cost/numerics.h"
-#include "apps/cost/turns.h"
-#include "apps/frame_choice.h"
 #include "apps/render_command.h"
 #include "core/files.h"
 #include "core/machine.h"
 #include "core/parallel.h"
+#include "core/turns.h"
+#include "measure/bench.h"
+#include "measure/cost_plots.h"
+#include "measure/effect_prices.h"
+#include "measure/frame_clock.h"
+#include "measure/ladder.h"
+#include "measure/numerics.h"
 #include "sensors/display/grey_scale.h"
+#include "session/frame_choice.h"
+#include "session/session.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -31,8 +33,8 @@ namespace fs = std::filesystem;
 
 // One of each half, so that neither is the first or the last.
 std::vector<int> frames_of(const CostOptions& options, int count) {
-  const std::vector<int> frames = parse_frames(options.frames, count);
-  return options.frames.empty() ? spread_over(frames, count < 4 ? 1 : 2) : frames;
+  const std::vector<int> frames = session::parse_frames(options.frames, count);
+  return options.frames.empty() ? session::spread_over(frames, count < 4 ? 1 : 2) : frames;
 }
 
 renderer::CasterKind effects_caster(const CostOptions& options, const scenes::Scene& scene) {
@@ -45,15 +47,15 @@ renderer::Sampling default_sampling(renderer::CasterKind caster) {
   return renderer::sampling_for(caster, renderer::default_samples(caster));
 }
 
-double time_once_ms(const FrameWork& work) {
-  return time_in_turns({[&work] { work.render(); }}, 1).front().ms;
+double time_once_ms(const measure::FrameClock& work) {
+  return core::time_in_turns({[&work] { work.render(); }}, 1).front().ms;
 }
 
-Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
+measure::Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
   constexpr double kNaiveRays = 2.0;
   const renderer::FramePose pose = scene.frame_pose(frame);
-  const renderer::Effects effects = without_draws(renderer::effects_of(scene.plan, 0));
-  Pace pace;
+  const renderer::Effects effects = measure::without_draws(renderer::effects_of(scene.plan, 0));
+  measure::Pace pace;
   pace.build_s = scene.build_s;
   pace.frame_ms =
       time_once_ms({scene.world, pose, default_sampling(renderer::CasterKind::rays), effects});
@@ -70,12 +72,8 @@ Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
   return pace;
 }
 
-void write_plots(const Plot& plot, const fs::path& folder, const std::string& name) {
-  for (const char* ending : {".svg", ".png"}) write_plot(plot, folder / (name + ending));
-}
-
 // Plots last: whoever lacks gnuplot has the figures.
-void write(const CostFigures& figures, const fs::path& folder) {
+void write(const measure::CostFigures& figures, const fs::path& folder) {
   core::write_file_atomically(folder / "cost.md", cost_markdown(figures));
   if (!figures.ladder.empty()) {
     core::write_file_atomically(folder / "ladder.csv", ladder_csv(figures));
@@ -88,11 +86,12 @@ void write(const CostFigures& figures, const fs::path& folder) {
   if (!figures.levels.empty())
     core::write_file_atomically(folder / "levels.csv", levels_csv(figures));
   if (!figures.ladder.empty()) {
-    write_plots(ladder_plot(figures, false), folder, "ladder");
-    write_plots(ladder_plot(figures, true), folder, "ladder-cscope");
+    session::write_plots(measure::cost_ladder_plot(figures, false), folder / "ladder");
+    session::write_plots(measure::cost_ladder_plot(figures, true), folder / "ladder-cscope");
   }
-  if (!figures.effects.empty()) write_plots(effects_plot(figures), folder, "effects");
-  if (!figures.levels.empty()) write_plots(levels_plot(figures), folder, "levels");
+  if (!figures.effects.empty())
+    session::write_plots(measure::effects_plot(figures), folder / "effects");
+  if (!figures.levels.empty()) session::write_plots(levels_plot(figures), folder / "levels");
 }
 
 struct Parts {
@@ -106,33 +105,34 @@ Parts parts_of(const CostOptions& options) {
   return {asked("ladder"), asked("effects"), asked("numerics"), asked("levels")};
 }
 
-double expected_s(const CostBench& bench, const Parts& parts) {
+double expected_s(const measure::CostBench& bench, const Parts& parts) {
   const auto frames = static_cast<double>(bench.frames.size());
   double total_s = 0.0;
   if (parts.ladder || parts.numerics)
     total_s += frames * 2.0 * bench.pace.reference_s(bench.effort);
   if (parts.ladder) total_s += frames * bench.pace.ladder_s(bench.effort);
-  if (parts.effects) total_s += effects_s(bench);
-  if (parts.numerics) total_s += numerics_s(bench);
+  if (parts.effects) total_s += measure::effects_s(bench);
+  if (parts.numerics) total_s += measure::numerics_s(bench);
   if (parts.levels && why_no_levels(bench).empty()) total_s += levels_s(bench);
   return total_s;
 }
 
-void measure(const CostBench& bench, const Parts& parts, CostFigures& figures) {
+void measure(const measure::CostBench& bench, const Parts& parts, measure::CostFigures& figures) {
   if (parts.ladder || parts.numerics) {
-    const auto references = render_references(bench, figures.references);
-    if (parts.ladder) figures.ladder = measure_ladder(bench, references);
-    if (parts.numerics) figures.numerics = measure_numerics(bench, references);
+    const auto references = measure::render_references(bench, figures.references);
+    if (parts.ladder) figures.ladder = measure::measure_ladder(bench, references);
+    if (parts.numerics) figures.numerics = measure::measure_numerics(bench, references);
   }
-  if (parts.effects) figures.effects = measure_effects(bench);
+  if (parts.effects) figures.effects = measure::measure_effects(bench);
   if (!parts.levels) return;
   figures.why_no_levels = why_no_levels(bench);
   if (figures.why_no_levels.empty()) figures.levels = measure_levels(bench);
 }
 
-CostFigures head_of(const CostBench& bench, const CostOptions& options, int threads) {
+measure::CostFigures head_of(const measure::CostBench& bench, const CostOptions& options,
+                             int threads) {
   const scenes::Scene& scene = bench.scene;
-  CostFigures figures;
+  measure::CostFigures figures;
   figures.scene = scene.description.name;
   figures.title = scene.description.title;
   figures.machine = {core::processor_name(), core::name_of(core::instruction_level()), threads};
@@ -148,8 +148,8 @@ CostFigures head_of(const CostBench& bench, const CostOptions& options, int thre
 }
 
 // Announces how long it will take, and measures.
-CostFigures run(const CostBench& quiet_bench, const CostOptions& options,
-                const CommonOptions& common, int threads) {
+measure::CostFigures run(const measure::CostBench& quiet_bench, const CostOptions& options,
+                         const CommonOptions& common, int threads) {
   const Parts parts = parts_of(options);
   const double total_s = expected_s(quiet_bench, parts);
   const std::string& name = quiet_bench.scene.description.name;
@@ -158,15 +158,17 @@ CostFigures run(const CostBench& quiet_bench, const CostOptions& options,
     fmt::print("{}: {} {}, about {} in all\n", name, frames, frames == 1 ? "frame" : "frames",
                duration_text(total_s));
   CostProgress progress(name, total_s, common.quiet);
-  CostBench bench = quiet_bench;
-  bench.progress = &progress;
-  CostFigures figures = head_of(bench, options, threads);
+  measure::CostBench bench = quiet_bench;
+  bench.progress = [&](const std::string& step, double expected_s) {
+    progress.begin(step, expected_s);
+  };
+  measure::CostFigures figures = head_of(bench, options, threads);
   measure(bench, parts, figures);
   return figures;
 }
 
-CostEffort effort_of(const CostOptions& options) {
-  CostEffort effort = options.quick ? quick_effort() : full_effort();
+measure::Effort effort_of(const CostOptions& options) {
+  measure::Effort effort = options.quick ? measure::quick_effort() : measure::full_effort();
   if (options.repetitions > 0) effort.repetitions = options.repetitions;
   return effort;
 }
@@ -180,7 +182,8 @@ int cost(const CostOptions& options, const CommonOptions& common) {
   scenes::BuildOptions build;
   if (options.caster == renderer::name_of(renderer::CasterWish::profile))
     build.caster = renderer::CasterWish::profile;  // refuses where there are none
-  const std::unique_ptr<scenes::Scene> scene = scenes::build_scene(description, build, problems);
+  std::shared_ptr<const scenes::Scene> scene =
+      session::Session(description, {.build = build}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
   const std::vector<int> frames = frames_of(options, scene->frame_count());
   const fs::path folder = options.output.empty()
@@ -192,7 +195,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
   const bool slices = scene->caster.why_no_slices.empty();
   const auto rebuild = [&](const scenes::BuildOptions& other) {
     core::ProblemList known;
-    return scenes::build_scene(description, other, known);
+    return session::Session(description, {.build = other}, known).scene();
   };
   const auto with_sensor = [&](const sensors::Sensor& sensor) {
     core::ProblemList known;
@@ -200,17 +203,17 @@ int cost(const CostOptions& options, const CommonOptions& common) {
     other.sensor = sensor;
     scenes::BuildOptions rays;
     rays.caster = renderer::CasterWish::rays;
-    return scenes::build_scene(other, rays, known);
+    return session::Session(other, {.build = rays}, known).scene();
   };
-  const CostBench bench{*scene,
-                        rebuild,
-                        with_sensor,
-                        build,
-                        effort_of(options),
-                        measure_pace(*scene, frames.front(), slices),
-                        slices,
-                        default_sampling(effects_caster(options, *scene)),
-                        frames};
+  const measure::CostBench bench{*scene,
+                                 rebuild,
+                                 with_sensor,
+                                 build,
+                                 effort_of(options),
+                                 measure_pace(*scene, frames.front(), slices),
+                                 slices,
+                                 default_sampling(effects_caster(options, *scene)),
+                                 frames};
   write(run(bench, options, common, threads.threads()), folder);
   if (common.quiet) return kExitDone;
   fmt::print("measured in {}{}\n{}\n",

@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "apps/blank_pictures.h"
-#include "apps/frame_choice.h"
 #include "apps/text_table.h"
 #include "core/files.h"
 #include "core/text.h"
@@ -18,7 +16,10 @@
 #include "renderer/plan/plan.h"
 #include "scenes/doctor/approach.h"
 #include "scenes/doctor/scene_doctor.h"
+#include "session/blank_pictures.h"
+#include "session/frame_choice.h"
 #include "session/session.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -83,8 +84,8 @@ nlohmann::ordered_json approach_json(const std::optional<scenes::Approach>& appr
 std::string json_text(const scenes::Scene& scene, const std::optional<scenes::Approach>& approach,
                       const Findings& findings) {
   nlohmann::ordered_json json;
-  json["version"] = version_text();
-  json["commit"] = commit_text();
+  json["version"] = session::version_text();
+  json["commit"] = session::commit_text();
   json["scene"] = scene.description.name;
   json["sensor"] = scene.description.sensor.name;
   json["accuracy_grey"] = scene.accuracy_grey;
@@ -112,7 +113,7 @@ void add_unreached(const scenes::Scene& scene, Findings& findings) {
   double worst_grey = 0.0;
   int worst_frame = 0, missed = 0;
   const std::vector<int> chosen =
-      spread_over(parse_frames("", scene.frame_count()), kFramesMeasured);
+      session::spread_over(session::parse_frames("", scene.frame_count()), kFramesMeasured);
   for (const int frame : chosen) {
     const auto error = frames.render(scene.frame_pose(frame)).error;
     if (!error || error->reached) continue;
@@ -144,7 +145,7 @@ int examine_scene(const DoctorOptions& options, const CommonOptions& common) {
   const auto scene = session::Session(description, {.build = build}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
   Findings findings = scenes::examine(*scene, problems.all());
-  add_blank_pictures(*scene, findings);
+  session::add_blank_pictures(*scene, findings);
   if (options.measure) add_unreached(*scene, findings);
   const std::optional<scenes::Approach> approach = scenes::approach_of(*scene);
   if (!options.json.empty())

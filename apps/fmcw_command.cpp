@@ -7,19 +7,19 @@
 #include <filesystem>
 #include <set>
 
-#include "apps/fmcw/bscope_product.h"
-#include "apps/fmcw/products.h"
-#include "apps/fmcw/record.h"
-#include "apps/frame_choice.h"
 #include "apps/option_lists.h"
-#include "apps/output_folder.h"
 #include "apps/progress.h"
 #include "apps/stop_on_signals.h"
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "scenes/scene.h"
+#include "session/frame_choice.h"
+#include "session/records/output_folder.h"
 #include "session/session.h"
+#include "session/signal/bscope_product.h"
+#include "session/signal/record.h"
+#include "session/signal/signal_files.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -38,10 +38,10 @@ double ms_since(Clock::time_point& begin) {
 constexpr const char* kScan = "bscope";
 
 // Only samples where the waveform has no maps; asking for more is refused.
-std::set<std::string> chosen_products(const std::string& text, const FmcwRadar& radar) {
+std::set<std::string> chosen_products(const std::string& text, const session::FmcwRadar& radar) {
   if (text.empty() && !radar.maps) return {"beat"};
   if (text.empty()) return {"range-doppler", "range-azimuth", "top-view", "detections"};
-  const std::set<std::string> products = products_in(text, kFmcwProducts);
+  const std::set<std::string> products = products_in(text, session::kFmcwProducts);
   for (const std::string& name : products)
     if (name != "beat" && name != kScan && !radar.maps)
       core::throw_input_error(core::ErrorClass::unsupported, "--products", "\"" + name + "\"",
@@ -57,9 +57,9 @@ class Run {
         common_(common),
         scene_(scene),
         threads_(threads),
-        frames_(parse_frames(options.frames, scene.frame_count())),
-        radar_(options.products == kScan ? FmcwRadar{}
-                                         : fmcw_radar(options, scene.description.sensor)),
+        frames_(session::parse_frames(options.frames, scene.frame_count())),
+        radar_(options.products == kScan ? session::FmcwRadar{}
+                                         : session::fmcw_radar(options, scene.description.sensor)),
         products_(chosen_products(options.products, radar_)),
         output_(options.output.empty()
                     ? core::default_output_folder(scene.description.name, "-fmcw")
@@ -74,18 +74,18 @@ class Run {
       progress.step(static_cast<int>(records_.size()));
     }
     std::set<std::string> files;
-    for (const FmcwFrameRecord& frame : records_)
+    for (const session::FmcwFrameRecord& frame : records_)
       files.insert(frame.files.begin(), frame.files.end());
     output_.keep_only(files);
     core::write_file_atomically(output_.path() / "run.json",
-                                fmcw_run_json(scene_, options_, radar_, records_));
+                                session::fmcw_run_json(scene_, options_, radar_, records_));
     core::write_file_atomically(output_.path() / "timing.json",
-                                fmcw_timing_json(threads_, scene_.build_s, records_));
+                                session::fmcw_timing_json(threads_, scene_.build_s, records_));
   }
 
   void print_summary() const {
     if (common_.quiet) return;
-    for (const FmcwFrameRecord& frame : records_) {
+    for (const session::FmcwFrameRecord& frame : records_) {
       print_problems(frame.warnings);
       if (frame.scan)
         fmt::print("frame {}: B-scope of {} {}, {} scatterers from {} rays; {:.0f} ms\n",
@@ -111,7 +111,7 @@ class Run {
   bool runs_chain() const { return products_ != std::set<std::string>{kScan}; }
 
   void process(int index) {
-    FmcwFrameRecord record;
+    session::FmcwFrameRecord record;
     if (runs_chain()) record = chain(index);
     record.index = index;
     record.time_s =
@@ -120,25 +120,25 @@ class Run {
     records_.push_back(std::move(record));
   }
 
-  FmcwScanCounts scan(int index, std::set<std::string>& files) const {
+  session::FmcwScanCounts scan(int index, std::set<std::string>& files) const {
     Clock::time_point begin = Clock::now();
-    const SignalBscope bscope = fmcw_bscope(scene_, index, options_);
+    const session::SignalBscope bscope = session::fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
-    files.merge(write_bscope(output_.path(), scene_.description.sensor, index, bscope));
+    files.merge(session::write_bscope(output_.path(), scene_.description.sensor, index, bscope));
     return {bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
             bscope.plan,  ms};
   }
 
-  FmcwFrameRecord chain(int index) const {
+  session::FmcwFrameRecord chain(int index) const {
     Clock::time_point begin = Clock::now();
-    const FmcwPaths paths = fmcw_paths(scene_, index, options_);
+    const session::FmcwPaths paths = session::fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
-    const FmcwFrame frame =
+    const session::FmcwFrame frame =
         fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, products_,
                    {scene_.plan, scene_.accuracy_grey, scene_.options.wishes});
     const double signal_ms = ms_since(begin);
-    FmcwFrameRecord record = fmcw_record(scene_, index, paths, frame);
-    record.files = write_fmcw_products(
+    session::FmcwFrameRecord record = session::fmcw_record(scene_, index, paths, frame);
+    record.files = session::write_fmcw_products(
         output_.path(), products_, radar_, frame,
         {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
     record.echoes_ms = echoes_ms;
@@ -152,10 +152,10 @@ class Run {
   const scenes::Scene& scene_;
   int threads_;
   std::vector<int> frames_;
-  FmcwRadar radar_;
+  session::FmcwRadar radar_;
   std::set<std::string> products_;
-  OutputFolder output_;
-  std::vector<FmcwFrameRecord> records_;
+  session::OutputFolder output_;
+  std::vector<session::FmcwFrameRecord> records_;
 };
 
 }  // namespace

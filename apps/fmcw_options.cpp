@@ -16,7 +16,7 @@ namespace fanbeam::apps {
 namespace {
 
 void add_radar(CLI::App& command, FmcwOptions& options) {
-  std::vector<std::string> names = {kAutomotive};
+  std::vector<std::string> names = {session::kAutomotive};
   for (const signal::WaveformKind kind : signal::all_waveform_kinds())
     names.emplace_back(signal::name(kind));
   command
@@ -25,8 +25,8 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
                   "of fanbeam waveform (default: automotive-76ghz for sensors of 70 to 82 GHz, "
                   "else chirp-sequence)")
       ->check(CLI::IsMember(names));
-  for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i) {
-    const WaveformNumber& number = kWaveformNumbers[i];
+  for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i) {
+    const session::WaveformNumber& number = session::kWaveformNumbers[i];
     if (std::string_view(number.option) == "--frequency") continue;  // the sensor's
     command.add_option(number.option, options.numbers[i], number.help)
         ->check(number_from(number.least, number.most));
@@ -51,7 +51,7 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
 std::string effects_help() {
   std::string names;
   for (const renderer::Effect& effect : renderer::effect_catalogue(renderer::Touches::samples))
-    names += (names.empty() ? "" : ", ") + std::string(effect.name);
+    names += (names.empty() ? "" : ", ") + std::string(effect.name());
   return "all, none, or a list such as +phase-noise,-gas of the effects " + names +
          " and those of fanbeam render (default: what the scene and its samples call for)";
 }
@@ -86,10 +86,10 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
       ->capture_default_str();
   command
       .add_option("--products", options.products,
-                  products_help(kFmcwProducts) +
+                  products_help(session::kFmcwProducts) +
                       " (default: maps and detections where the waveform has them, else beat)")
       ->type_name("PRODUCT")
-      ->check(offers(names_of(kFmcwProducts)));
+      ->check(offers(names_of(session::kFmcwProducts)));
   add_radar(command, options);
   add_plan(command, options);
   command

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "apps/gnuplot.h"
 #include "atmosphere/path_attenuation.h"
 #include "atmosphere/precipitation/rain_echo.h"
+#include "session/plots/gnuplot.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -55,18 +55,18 @@ std::vector<double> spread(double first, double last, int count) {
   return values;
 }
 
-PlotSeries series(const std::string& title, const std::vector<double>& x,
-                  const std::function<double(double)>& y,
-                  PlotSeries::Style style = PlotSeries::Style::line) {
-  PlotSeries result{title, x, {}, style};
+session::PlotSeries series(const std::string& title, const std::vector<double>& x,
+                           const std::function<double(double)>& y,
+                           session::PlotSeries::Style style = session::PlotSeries::Style::line) {
+  session::PlotSeries result{title, x, {}, style};
   for (const double value : x) result.y.push_back(y(value));
   return result;
 }
 
 std::string name(double frequency_Hz) { return fmt::format("{} GHz", frequency_Hz * 1e-9); }
 
-Plot fog_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
-  Plot plot;
+session::Plot fog_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
+  session::Plot plot;
   plot.title = "Attenuation in fog and its saturated air, one way";
   plot.x = {"visibility [m]", true, 50.0, 1000.0};
   plot.y = {"dB/km", true, {}, {}};
@@ -78,13 +78,13 @@ Plot fog_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
     plot.series.push_back(series(
         name(f) + ", no fog", visibilities,
         [&](double) { return one_way_dB(clear_weather(base), f, 1000.0); },
-        PlotSeries::Style::dashed_line));
+        session::PlotSeries::Style::dashed_line));
   }
   return plot;
 }
 
-Plot rain_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
-  Plot plot;
+session::Plot rain_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
+  session::Plot plot;
   plot.title = "Attenuation in rain, one way";
   plot.x = {"rain rate [mm/h]", true, 0.5, 100.0};
   plot.y = {"dB/km", true, {}, {}};
@@ -97,14 +97,14 @@ Plot rain_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
       plot.series.push_back(series(
           name(f) + ", " + std::string(name_of(law)), rates,
           [&](double rate) { return rain_dB_per_km(weather, rate, f); },
-          law == atmosphere::RainLaw::mie ? PlotSeries::Style::dashed_line
-                                          : PlotSeries::Style::line));
+          law == atmosphere::RainLaw::mie ? session::PlotSeries::Style::dashed_line
+                                          : session::PlotSeries::Style::line));
     }
   return plot;
 }
 
-Plot loss_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
-  Plot plot;
+session::Plot loss_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
+  session::Plot plot;
   plot.title = fmt::format("Two-way loss over {} m, air included", kDistance_m);
   plot.x = {"rain rate [mm/h]", true, 0.5, 100.0};
   plot.y = {"dB", true, {}, {}};
@@ -116,13 +116,13 @@ Plot loss_plot(const Weather& base, const std::vector<double>& frequencies_Hz) {
     plot.series.push_back(series(
         fmt::format("{}, fog {} m", name(f), kFog_m), rates,
         [&](double) { return 2.0 * one_way_dB(foggy(base, kFog_m), f, kDistance_m); },
-        PlotSeries::Style::dashed_line));
+        session::PlotSeries::Style::dashed_line));
   }
   return plot;
 }
 
-Plot balance_plot(const Weather& base, double first_Hz, double second_Hz) {
-  Plot plot;
+session::Plot balance_plot(const Weather& base, double first_Hz, double second_Hz) {
+  session::Plot plot;
   plot.title = fmt::format("Echo of drops per watt: {} over {}", name(second_Hz), name(first_Hz));
   plot.x = {"range [km]", false, 0.0, 4.0};
   plot.y = {"dB", false, {}, {}};
@@ -139,9 +139,10 @@ Plot balance_plot(const Weather& base, double first_Hz, double second_Hz) {
     plot.series.push_back(series(
         fmt::format("rain {} mm/h", rate), ranges_km,
         [&](double km) { return sum(rain_balance(base, rate, 1e3 * km, first_Hz, second_Hz)); },
-        PlotSeries::Style::dashed_line));
+        session::PlotSeries::Style::dashed_line));
   plot.series.push_back(series(
-      "18 dB", ranges_km, [](double) { return -kTubePower_dB; }, PlotSeries::Style::points));
+      "18 dB", ranges_km, [](double) { return -kTubePower_dB; },
+      session::PlotSeries::Style::points));
   return plot;
 }
 
@@ -198,14 +199,13 @@ void compare_frequencies(const Weather& base, double first_Hz, double second_Hz,
   print_figures(base, first_Hz, second_Hz);
   if (folder.empty()) return;
   fs::create_directories(folder);
-  const std::vector<std::pair<std::string, Plot>> plots = {
+  const std::vector<std::pair<std::string, session::Plot>> plots = {
       {"fog", fog_plot(base, {first_Hz, second_Hz})},
       {"rain", rain_plot(base, {first_Hz, second_Hz})},
       {"loss", loss_plot(base, {first_Hz, second_Hz})},
       {"balance", balance_plot(base, first_Hz, second_Hz)}};
   for (const auto& [what, plot] : plots)
-    for (const char* ending : {".svg", ".png"})
-      write_plot(plot, folder / fmt::format("frequency-choice-{}{}", what, ending));
+    session::write_plots(plot, folder / ("frequency-choice-" + what));
 }
 
 }  // namespace fanbeam::apps

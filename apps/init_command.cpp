@@ -18,7 +18,7 @@
 #include "scenes/airport/runway_csv_reader.h"
 #include "scenes/new_scene/new_scene.h"
 #include "scenes/new_scene/words.h"
-#include "scenes/scene.h"
+#include "session/session.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -139,17 +139,15 @@ void check_target(const fs::path& folder, const std::string& name, bool overwrit
 }
 
 // Reads and builds what was staged, exactly as render will.
-std::unique_ptr<scenes::Scene> build_staged(const Staging& staging, const fs::path& folder,
-                                            const InitOptions& options,
-                                            core::ProblemList& problems) {
+std::shared_ptr<const scenes::Scene> build_staged(const Staging& staging, const fs::path& folder,
+                                                  const InitOptions& options,
+                                                  core::ProblemList& problems) {
   std::vector<fs::path> data;
   if (!options.data.empty()) data.emplace_back(options.data);
   core::ProblemList found;
-  std::unique_ptr<scenes::Scene> scene;
+  std::shared_ptr<const scenes::Scene> scene;
   try {
-    const scenes::SceneDescription description =
-        scenes::read_scene(staging.path(), {shipped_folder(), data, {}}, found);
-    scene = scenes::build_scene(description, {}, found);
+    scene = session::Session(staging.path(), {shipped_folder(), data}, found).scene();
   } catch (const core::InputError& error) {
     problems.append(renamed(error.problems(), staging.path(), folder));
     problems.throw_if_errors();
@@ -238,7 +236,7 @@ int make(const InitOptions& options, const CommonOptions& common) {
 
   const Staging staging(folder);
   const std::vector<std::string> names = write_staged(staging, *made);
-  const std::unique_ptr<scenes::Scene> scene = build_staged(staging, folder, options, problems);
+  std::shared_ptr<const scenes::Scene> scene = build_staged(staging, folder, options, problems);
   put_in_place(staging, folder, names);
   if (common.quiet) return kExitDone;
   print_problems(problems.all());

@@ -143,9 +143,9 @@ Listing listed_effects() {
        {renderer::Touches::pictures, renderer::Touches::samples}) {
     const char* where = touched == renderer::Touches::pictures ? "pictures" : "samples";
     for (const renderer::Effect& effect : renderer::effect_catalogue(touched))
-      listing.things.push_back({std::string(effect.name),
+      listing.things.push_back({std::string(effect.name()),
                                 {where, fmt::format("{} ({})", effect.what, effect.source)},
-                                {{"name", effect.name},
+                                {{"name", effect.name()},
                                  {"what", effect.what},
                                  {"source", effect.source},
                                  {"touches", where}}});
@@ -160,7 +160,7 @@ Listing listed_products() {
       "fanbeam render --products NAME,NAME makes them, below the output folder; so does "
       "fanbeam fmcw with its own."};
   const auto add = [&listing](const char* command, const auto& products) {
-    for (const Product& product : products)
+    for (const session::Product& product : products)
       listing.things.push_back({std::string(product.name),
                                 {command, std::string(product.files), std::string(product.what)},
                                 {{"name", product.name},
@@ -168,8 +168,8 @@ Listing listed_products() {
                                  {"what", product.what},
                                  {"files", product.files}}});
   };
-  add("render", kProducts);
-  add("fmcw", kFmcwProducts);
+  add("render", session::kProducts);
+  add("fmcw", session::kFmcwProducts);
   return listing;
 }
 

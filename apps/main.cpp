@@ -7,6 +7,7 @@
 #include "apps/help_command.h"
 #include "apps/init_command.h"
 #include "apps/list_command.h"
+#include "apps/live_command.h"
 #include "apps/materials_command.h"
 #include "apps/plan_command.h"
 #include "apps/regress_command.h"
@@ -23,6 +24,9 @@ int main(int argc, char** argv) {
   line.add(add_render_command, render);
   line.add(add_plan_command, explain_plan);
   line.add(add_cost_command, cost);
+
+  line.heading("Flying");
+  line.add(add_live_command, fly);
 
   line.heading("Scenes and their checks");
   line.add(add_init_command, init_scene);

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.h"
-#include "apps/gnuplot.h"
 #include "apps/measurement_csv.h"
 #include "apps/objects_table.h"
 #include "core/files.h"
@@ -15,6 +14,7 @@
 #include "materials/library/library_text.h"
 #include "materials/library/material_library.h"
 #include "materials/library/model_reader.h"
+#include "session/plots/gnuplot.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -233,7 +233,7 @@ int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plo
   core::ProblemList problems;
   for (const std::string& name : plot.names) library.find(name, {}, "material", problems);
   problems.throw_if_errors();
-  Plot picture;
+  session::Plot picture;
   picture.title = fmt::format("Surface reflectivity at {:g} GHz, {}, {}", options.frequency_GHz,
                               options.polarisation, options.state);
   picture.x = {"grazing angle, deg", true, 0.5, 90.0};
@@ -242,9 +242,9 @@ int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plo
     const bool wanted = plot.names.empty() || std::find(plot.names.begin(), plot.names.end(),
                                                         row.dry.name) != plot.names.end();
     if (!wanted) continue;
-    PlotSeries series;
+    session::PlotSeries series;
     series.title = row.dry.name;
-    if (!row.known) series.style = PlotSeries::Style::dashed_line;
+    if (!row.known) series.style = session::PlotSeries::Style::dashed_line;
     for (int i = 0; i <= kPlaces; ++i) {
       series.x.push_back(0.5 * std::pow(180.0, static_cast<double>(i) / kPlaces));
       series.y.push_back(row.level_dB(std::min(series.x.back(), 90.0)));
@@ -253,7 +253,7 @@ int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plo
   }
   const int key_px = 120 + 22 * static_cast<int>(picture.series.size());
   picture.height_px = std::max(picture.height_px, key_px);
-  write_plot(picture, plot.output);
+  session::write_plot(picture, plot.output);
   return kExitDone;
 }
 

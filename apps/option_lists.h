@@ -8,16 +8,16 @@
 #include <string>
 #include <vector>
 
-#include "apps/render_command.h"
 #include "core/errors.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "session/products/products.h"
 
 namespace fanbeam::apps {
 
 template <class Products>
 std::vector<std::string> names_of(const Products& products) {
   std::vector<std::string> names;
-  for (const Product& product : products) names.emplace_back(product.name);
+  for (const session::Product& product : products) names.emplace_back(product.name);
   return names;
 }
 
@@ -42,7 +42,7 @@ std::set<std::string> products_in(const std::string& text, const Products& known
 template <class Products>
 std::string products_help(const Products& products) {
   std::string text;
-  for (const Product& product : products)
+  for (const session::Product& product : products)
     text.append(text.empty() ? "A list of " : ", ")
         .append(product.name)
         .append(" (")
@@ -56,7 +56,7 @@ inline std::vector<std::string> effect_wishes(renderer::Touches touched) {
   std::vector<std::string> wishes = {"all", "none"};
   const auto add = [&wishes](renderer::Touches kind) {
     for (const renderer::Effect& effect : renderer::effect_catalogue(kind))
-      for (const char* sign : {"+", "-"}) wishes.push_back(sign + std::string(effect.name));
+      for (const char* sign : {"+", "-"}) wishes.push_back(sign + std::string(effect.name()));
   };
   add(renderer::Touches::pictures);
   if (touched == renderer::Touches::samples) add(touched);

@@ -4,12 +4,11 @@
 
 #include <chrono>
 
-#include "apps/frame_choice.h"
 #include "apps/plan_report.h"
-#include "apps/render_command.h"
-#include "apps/sampling_choice.h"
 #include "core/parallel.h"
 #include "scenes/frame_plan.h"
+#include "session/frame_choice.h"
+#include "session/sampling_choice.h"
 #include "session/session.h"
 
 namespace fanbeam::apps {
@@ -37,17 +36,20 @@ void plan_frames(const std::vector<int>& frames, PlanReport& report) {
 
 // As fanbeam render takes it when nothing else is asked for.
 renderer::Sampling sampling_of(const scenes::Scene& scene, const std::vector<int>& frames) {
-  return choose_sampling(with_accuracy_of(scene.description, {}), scene, {}, frames).sampling;
+  return session::choose_sampling(session::with_accuracy_of(scene.description, {}), scene, 0, {},
+                                  session::poses_to_time(scene, frames))
+      .sampling;
 }
 
 CostReport measure(const scenes::Scene& scene, const std::vector<int>& frames, int repetitions,
                    int threads, bool quiet) {
-  CostReport report{{spread_over(frames, kMeasuredFrames), repetitions, sampling_of(scene, frames)},
-                    threads,
-                    0.0,
-                    {}};
-  report.frame_ms = frame_ms(scene, report.run);
-  report.costs = effect_costs(scene, report.run, [&](int done) {
+  CostReport report{
+      {session::spread_over(frames, kMeasuredFrames), repetitions, sampling_of(scene, frames)},
+      threads,
+      0.0,
+      {}};
+  report.frame_ms = measure::frame_ms(scene, report.run);
+  report.costs = measure::effect_costs(scene, report.run, [&](int done) {
     if (!quiet)
       fmt::print(stderr, "measured {} of {} effects\n", done, scene.plan.decisions.size());
   });
@@ -67,7 +69,7 @@ int explain_plan(const PlanOptions& options, const CommonOptions& common) {
   if (!common.quiet) print_problems(problems.all());
   const bool by_frames = options.per_frame || options.measure || !options.frames.empty();
   const std::vector<int> frames =
-      by_frames ? parse_frames(options.frames, scene->frame_count()) : std::vector<int>();
+      by_frames ? session::parse_frames(options.frames, scene->frame_count()) : std::vector<int>();
   PlanReport report{*scene, {}, {}, 0.0};
   if (options.per_frame) plan_frames(frames, report);
   if (options.measure)

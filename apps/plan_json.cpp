@@ -1,11 +1,12 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.h"
-#include "apps/decision_json.h"
 #include "apps/plan_report.h"
-#include "apps/run_record.h"
 #include "core/machine.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "session/records/record_json.h"
+#include "session/records/run_record.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -13,13 +14,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json plan_rows(const PlanReport& report) {
-  Json rows = Json::array();
+  Json rows = Json::parse(session::decisions_json(report.scene.plan));
   const auto& decisions = report.scene.plan.decisions;
   for (std::size_t i = 0; i < decisions.size(); ++i) {
-    Json row = decision_json(decisions[i]);
+    Json& row = rows[i];
     row["bound_dB"] = decisions[i].bound_dB;
     for (const renderer::Effect& effect : renderer::effect_catalogue())
-      if (effect.name == decisions[i].effect) {
+      if (effect.id == decisions[i].effect) {
         row["what"] = effect.what;
         row["source"] = effect.source;
       }
@@ -27,7 +28,6 @@ Json plan_rows(const PlanReport& report) {
       row["cost_ms"] = report.measured->costs[i]->ms;
       row["cost_error_ms"] = report.measured->costs[i]->error_ms;
     }
-    rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -35,10 +35,10 @@ Json plan_rows(const PlanReport& report) {
 Json spans_json(const PlanReport& report) {
   Json spans = Json::array();
   for (const PlanSpan& span : report.spans) {
-    Json off = Json::array();
+    Json off = Json::array(), rows = Json::parse(session::decisions_json(span.plan));
     for (std::size_t i = 0; i < span.plan.decisions.size(); ++i)
       if (span.plan.decisions[i].on != report.scene.plan.decisions[i].on)
-        off.push_back(decision_json(span.plan.decisions[i]));
+        off.push_back(std::move(rows[i]));
     spans.push_back(
         {{"first_frame", span.first}, {"last_frame", span.last}, {"left_out", std::move(off)}});
   }
@@ -51,8 +51,8 @@ std::string plan_json(const PlanReport& report) {
   const scenes::Scene& scene = report.scene;
   const Budget budget = budget_of(scene);
   Json json;
-  json["version"] = version_text();
-  json["commit"] = commit_text();
+  json["version"] = session::version_text();
+  json["commit"] = session::commit_text();
   json["scene"] = scene.description.name;
   json["title"] = scene.description.title;
   json["sensor"] = scene.description.sensor.name;
@@ -72,7 +72,7 @@ std::string plan_json(const PlanReport& report) {
     json["measured"] = {{"frames", report.measured->run.frames},
                         {"repetitions", report.measured->run.repetitions},
                         {"frame_ms", report.measured->frame_ms},
-                        {"sampling", caster_text(report.measured->run.sampling)},
+                        {"sampling", session::caster_text(report.measured->run.sampling)},
                         {"threads", report.measured->threads},
                         {"isa", core::name_of(core::instruction_level())},
                         {"machine", core::processor_name()}};

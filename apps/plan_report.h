@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/effect_cost.h"
+#include "measure/effect_cost.h"
 #include "scenes/scene.h"
 
 namespace fanbeam::apps {
@@ -18,10 +18,10 @@ struct PlanSpan {
 };
 
 struct CostReport {
-  CostRun run;
+  measure::CostRun run;
   int threads = 0;
   double frame_ms = 0.0;
-  std::vector<std::optional<EffectCost>> costs;  // by decision of the plan
+  std::vector<std::optional<measure::EffectCost>> costs;  // by decision of the plan
 };
 
 struct PlanReport {

@@ -4,10 +4,10 @@
 #include <string_view>
 
 #include "apps/plan_report.h"
-#include "apps/run_record.h"
 #include "apps/text_table.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "renderer/plan/effect_texts.h"
+#include "session/records/run_record.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -25,7 +25,7 @@ bool impossible(const core::EffectDecision& decision) {
   if (decision.on || decision.bound_dB > 0.0) return false;
   const auto& catalogue = renderer::effect_catalogue();
   return std::any_of(catalogue.begin(), catalogue.end(), [&](const renderer::Effect& effect) {
-    return effect.name == decision.effect && decision.reason == effect.why_impossible;
+    return effect.id == decision.effect && decision.reason == effect.why_impossible;
   });
 }
 
@@ -52,7 +52,7 @@ std::string head(const PlanReport& report) {
                                             1000.0 * scene.plan_s, scene.build_s));
 }
 
-std::string cost_text(const std::optional<EffectCost>& cost) {
+std::string cost_text(const std::optional<measure::EffectCost>& cost) {
   return cost ? fmt::format("{:.2f} +-{:.2f}", cost->ms, cost->error_ms) : "-";
 }
 
@@ -60,7 +60,7 @@ std::string rows(const PlanReport& report) {
   const auto& decisions = report.scene.plan.decisions;
   std::size_t width = 6;
   for (const core::EffectDecision& decision : decisions)
-    width = std::max(width, decision.effect.size());
+    width = std::max(width, name_of(decision.effect).size());
   const auto row = [&](const std::string& effect, const std::string& on, const std::string& grey,
                        const std::string& dB, const std::string& ms, const std::string& why) {
     std::string lead = fmt::format("{:<{}}  {:<3}  {:>5}  {:>5}", effect, width, on, grey, dB);
@@ -75,7 +75,7 @@ std::string rows(const PlanReport& report) {
       if (none) return std::string("-");
       return value > 0.0 && value < 0.001 ? "<.001" : renderer::figure_text(value);
     };
-    table += row(decision.effect, decision.on ? "on" : "off",
+    table += row(std::string(name_of(decision.effect)), decision.on ? "on" : "off",
                  bound(std::min(decision.bound_grey, 255.0)), bound(decision.bound_dB),
                  report.measured ? cost_text(report.measured->costs[i]) : "", decision.reason);
   }
@@ -89,7 +89,7 @@ std::string along_trajectory(const PlanReport& report) {
     for (std::size_t i = 0; i < span.plan.decisions.size(); ++i) {
       const core::EffectDecision& decision = span.plan.decisions[i];
       if (decision.on == report.scene.plan.decisions[i].on) continue;
-      differs += fmt::format("{}{} off, {}", differs.empty() ? "" : "; ", decision.effect,
+      differs += fmt::format("{}{} off, {}", differs.empty() ? "" : "; ", name_of(decision.effect),
                              decision.reason);
     }
     text +=
@@ -104,11 +104,11 @@ std::string notes_of(const PlanReport& report) {
       "grey, dB: the most that leaving the effect out can change any pixel; 255 grey levels are "
       "the whole display. An effect is left out when its bound fits into what the budget leaves.");
   if (report.measured)
-    text += beside(
-        "", fmt::format("ms: measured on {} frames of this scene, {} times each way, "
-                        "{} threads, {}; +- one standard deviation.",
-                        report.measured->run.frames.size(), report.measured->run.repetitions,
-                        report.measured->threads, caster_text(report.measured->run.sampling)));
+    text += beside("", fmt::format("ms: measured on {} frames of this scene, {} times each way, "
+                                   "{} threads, {}; +- one standard deviation.",
+                                   report.measured->run.frames.size(),
+                                   report.measured->run.repetitions, report.measured->threads,
+                                   session::caster_text(report.measured->run.sampling)));
   return text;
 }
 
@@ -121,8 +121,7 @@ Budget budget_of(const scenes::Scene& scene) {
   for (const core::EffectDecision& decision : scene.plan.decisions) {
     if (decision.on) continue;
     const bool forced = wishes.base == renderer::EffectWishes::Base::none ||
-                        std::find(wishes.forced_off.begin(), wishes.forced_off.end(),
-                                  decision.effect) != wishes.forced_off.end();
+                        wishes.forced_off.contains(decision.effect);
     (forced ? budget.left_out_by_user : budget.left_out) += decision.bound_grey;
   }
   return budget;

@@ -1,7 +1,6 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command_line.h"
-#include "apps/figure/figure_facts.h"
 #include "apps/number_range.h"
 #include "apps/option_lists.h"
 #include "apps/render_command.h"
@@ -10,6 +9,8 @@
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "session/figure/figure_facts.h"
+#include "session/products/preview.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 std::string effects_help() {
   std::string names;
   for (const renderer::Effect& effect : renderer::effect_catalogue())
-    names += (names.empty() ? "" : ", ") + std::string(effect.name);
+    names += (names.empty() ? "" : ", ") + std::string(effect.name());
   return "all, none, or a list such as +rain,-gas of the effects " + names +
          " (default: what the scene calls for)";
 }
@@ -94,9 +95,9 @@ CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOp
       .add_option("--frames", options.frames,
                   "A:B[:STEP], counted like a Python slice, or one frame (default: all)")
       ->type_name(kFramesValue);
-  command.add_option("--products", options.products, products_help(kProducts))
+  command.add_option("--products", options.products, products_help(session::kProducts))
       ->type_name("PRODUCT")
-      ->check(offers(names_of(kProducts)))
+      ->check(offers(names_of(session::kProducts)))
       ->capture_default_str();
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
       ->check(whole_number_from(0, 1024));
@@ -113,14 +114,16 @@ CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOp
                    "Write to a folder that holds other files too: frames of other renders there "
                    "are removed, other files stay (a run's own record is always replaced)");
   command.add_option("--preview-format", options.preview_format, "Form of the preview")
-      ->check(CLI::IsMember({"mp4", "gif", "apng"}))
+      ->check(CLI::IsMember(std::vector<std::string>(session::kPreviewFormats.begin(),
+                                                     session::kPreviewFormats.end())))
       ->capture_default_str();
   command
       .add_option("--range-unit", options.range_unit,
                   "Of the range scale of figure and ppi_figure (default: km for sensors that see "
                   "beyond 2 km, else "
                   "m)")
-      ->check(CLI::IsMember(std::vector<std::string>(kRangeUnits.begin(), kRangeUnits.end())));
+      ->check(CLI::IsMember(
+          std::vector<std::string>(session::kRangeUnits.begin(), session::kRangeUnits.end())));
   add_common_options(command, common);
   return command;
 }

@@ -12,8 +12,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // What was asked for and what was reached, where an accuracy or a time was asked for.
-void print_accuracy(const RunRecord& record, double accuracy_grey) {
-  const SamplingChoice& choice = record.choice;
+void print_accuracy(const session::RunRecord& record, double accuracy_grey) {
+  const session::SamplingChoice& choice = record.choice;
   if (choice.budget_ms > 0.0)
     fmt::print(
         "{:.1f} ms of {:.1f} ms a frame, sampling error {:.2f} grey: the same again with "
@@ -24,7 +24,7 @@ void print_accuracy(const RunRecord& record, double accuracy_grey) {
         choice.fits ? "" : " (the coarsest there is, and too slow)");
   double largest_grey = 0.0;
   std::size_t estimated = 0, missed = 0;
-  for (const FrameRecord& frame : record.frames) {
+  for (const session::FrameRecord& frame : record.frames) {
     if (!frame.error) continue;
     ++estimated;
     largest_grey = std::max(largest_grey, frame.error->largest_grey());
@@ -41,19 +41,21 @@ void print_accuracy(const RunRecord& record, double accuracy_grey) {
 
 }  // namespace
 
-void print_render_summary(const RunRecord& record, const scenes::Scene& scene, double accuracy_grey,
-                          const std::vector<ProductPlace>& places) {
+void print_render_summary(const session::Sequence& sequence, const scenes::Scene& scene,
+                          double accuracy_grey) {
+  const session::RunRecord& record = sequence.record;
   const auto resumed = std::count_if(record.frames.begin(), record.frames.end(),
-                                     [](const FrameRecord& f) { return f.resumed; });
+                                     [](const session::FrameRecord& f) { return f.resumed; });
   fmt::print("{} {} in {:.1f} s", record.frames.size(),
              record.frames.size() == 1 ? "frame" : "frames", record.wall_s);
   if (resumed > 0) fmt::print(" ({} already there)", resumed);
   fmt::print(", scene built in {:.1f} s\n", record.scene_build_s);
-  fmt::print("cast by {}: {}\n", caster_text(record.choice.sampling), scene.caster.reason);
+  fmt::print("cast by {}: {}\n", session::caster_text(record.choice.sampling), scene.caster.reason);
   print_accuracy(record, accuracy_grey);
   for (const core::EffectDecision& decision : scene.plan.decisions)
-    fmt::print("  {:14} {:3}  {}\n", decision.effect, decision.on ? "on" : "off", decision.reason);
-  for (const ProductPlace& place : places)
+    fmt::print("  {:14} {:3}  {}\n", name_of(decision.effect), decision.on ? "on" : "off",
+               decision.reason);
+  for (const session::ProductPlace& place : sequence.places)
     fmt::print("{:10} {}\n", place.name, fs::absolute(place.path).lexically_normal().string());
 }
 

@@ -12,6 +12,7 @@
 #include "core/files.h"
 #include "core/text.h"
 #include "scenes/highway_reader.h"
+#include "session/version.h"
 #include "tracking/simulation/sampled_frame.h"
 #include "tracking/simulation/scenario_run.h"
 #include "tracking/tracker/track_geometry.h"
@@ -215,10 +216,8 @@ void write(const TrackOptions& options, const core::HighwayScenario& scenario,
   core::write_file_atomically(folder / "tracks.csv", outcome.tracks);
   core::write_file_atomically(folder / "measurements.csv", outcome.measurements);
   if (!options.plots) return;
-  for (const char* ending : {".svg", ".png"}) {
-    write_plot(outcome.history.ranges(scenario), folder / (std::string("ranges") + ending));
-    write_plot(outcome.history.errors(scenario), folder / (std::string("errors") + ending));
-  }
+  session::write_plots(outcome.history.ranges(scenario), folder / "ranges");
+  session::write_plots(outcome.history.errors(scenario), folder / "errors");
 }
 
 // The file's radar, as the options change it.
@@ -248,8 +247,8 @@ int track(const TrackOptions& options, const CommonOptions& common) {
           : fs::path(options.output);
   const core::HighwayRadar radar = radar_of(options, file.radar);
   if (options.study) return track_study(chosen, radar, options.seed, folder, common);
-  nlohmann::ordered_json json = {{"version", version_text()},
-                                 {"commit", commit_text()},
+  nlohmann::ordered_json json = {{"version", session::version_text()},
+                                 {"commit", session::commit_text()},
                                  {"seed", options.seed},
                                  {"run", options.run},
                                  {"waveform", options.scheme},

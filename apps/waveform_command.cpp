@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/waveform_choice.h"
-#include "apps/waveform_figures.h"
+#include "session/signal/waveform_choice.h"
+#include "session/signal/waveform_figures.h"
 #include "signal/waveform/doppler.h"
 #include "signal/waveform/folding.h"
 
@@ -50,7 +50,7 @@ std::optional<Target> target_of(const WaveformOptions& options, const signal::Wa
 
 nlohmann::ordered_json json_of(const signal::Waveform& waveform,
                                const std::optional<Target>& target) {
-  nlohmann::ordered_json json = waveform_json(waveform);
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(session::waveform_json(waveform));
   if (!target) return json;
   nlohmann::ordered_json beats = nlohmann::ordered_json::array();
   for (const Beat& beat : target->beats)
@@ -74,7 +74,7 @@ void print_tables(const signal::Waveform& waveform) {
              waveform.duration_s() * 1e3, waveform.complex_baseband ? "complex" : "real");
   for (std::size_t i = 0; i < stages.size(); ++i) {
     fmt::print("\nstage {}, sampled at {:.6g} MHz\n", i, waveform.sample_rate_Hz[i] * 1e-6);
-    for (const WaveformFigure& figure : waveform_figures(stages[i]))
+    for (const session::WaveformFigure& figure : session::waveform_figures(stages[i]))
       if (figure.value)
         fmt::print("  {:<30} {:>14.8g} {}\n", figure.text, *figure.value, figure.unit);
   }
@@ -111,7 +111,7 @@ core::Problem in_words_of_options(core::Problem problem) {
 
 int waveform(const WaveformOptions& options, const CommonOptions& common) {
   try {
-    const signal::Waveform made = chosen_waveform(options);
+    const signal::Waveform made = session::chosen_waveform(options);
     const std::optional<Target> target = target_of(options, made);
     if (options.json) {
       fmt::print("{}\n", json_of(made, target).dump(2));

@@ -1,53 +1,14 @@
 // fanbeam waveform: what a radar waveform can measure, and what it reads for a target.
 #pragma once
 
-#include <array>
 #include <optional>
-#include <string>
 
 #include "apps/common.h"
+#include "session/signal/waveform_settings.h"
 
 namespace fanbeam::apps {
 
-// A parameter that some kinds of waveform have, on the command line in a handy unit.
-struct WaveformNumber {
-  const char* option;
-  const char* help;
-  double least, most;
-  double to_SI;
-};
-inline constexpr std::array kWaveformNumbers = {
-    WaveformNumber{"--frequency", "Centre frequency, GHz (default 76)", 1e-3, 1000.0, 1e9},
-    WaveformNumber{"--bandwidth", "Swept or stepped over, MHz (default 250)", 1e-6, 1e5, 1e6},
-    WaveformNumber{"--sample-rate", "Of the beat, MHz (default: as the kind of waveform needs)",
-                   1e-6, 1e5, 1e6},
-    WaveformNumber{"--fine-sample-rate", "Of two-stage's triangle, MHz (default 0.5)", 1e-6, 1e5,
-                   1e6},
-    WaveformNumber{"--duration", "Of the tone, us (default 20000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--pulse-width", "Of a pulse, ns (default 10)", 1e-3, 1e9, 1e-9},
-    WaveformNumber{"--interval", "From chirp to chirp (default: the ramp) or pulse to pulse, us",
-                   1e-3, 1e9, 1e-6},
-    WaveformNumber{"--pulses", "Pulses of a frame (default 64)", 1, 65536, 1},
-    WaveformNumber{"--ramp", "Of a chirp or a triangle's half, us (default 20, 2000)", 1e-3, 1e9,
-                   1e-6},
-    WaveformNumber{"--second-ramp", "Of the second triangle, us (default 3000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--fine-ramp", "Of two-stage's triangle, us (default 2000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--chirps", "Chirps of each transmitter (default 256)", 1, 65536, 1},
-    WaveformNumber{"--slots", "Transmitters in turn (default 1)", 1, 256, 1},
-    WaveformNumber{"--modulation", "Of sinusoidal modulation, Hz (default 500)", 1e-3, 1e9, 1},
-    WaveformNumber{"--flat", "Flat stretch, us (default 2000)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--hop", "Between the two tones of the flat stretch, kHz (default 700)", 1e-3,
-                   1e9, 1e3},
-    WaveformNumber{"--code-degree", "n of 2^n - 1 chips (default 7)", 3, 12, 1},
-    WaveformNumber{"--steps", "Of each staircase (default 256)", 2, 65536, 1},
-    WaveformNumber{"--step", "Duration of a step, us (default 10)", 1e-3, 1e9, 1e-6},
-    WaveformNumber{"--shift", "Of the second staircase, kHz (default -488.28)", -1e9, 1e9, 1e3},
-};
-
-struct WaveformOptions {
-  std::string kind = "chirp-sequence";
-  std::array<std::optional<double>, kWaveformNumbers.size()> numbers;
-  bool real = false, down_first = false;
+struct WaveformOptions : session::WaveformSettings {
   std::optional<double> range_m, speed_mps;  // of a target
   bool refuse_folding = false;
   bool json = false;

@@ -16,8 +16,8 @@ CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options, Comm
   command.add_option("KIND", options.kind, "Kind of waveform")
       ->check(CLI::IsMember(kinds))
       ->capture_default_str();
-  for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i) {
-    const WaveformNumber& number = kWaveformNumbers[i];
+  for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i) {
+    const session::WaveformNumber& number = session::kWaveformNumbers[i];
     command.add_option(number.option, options.numbers[i], number.help)
         ->check(number_from(number.least, number.most));
   }

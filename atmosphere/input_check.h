@@ -1,4 +1,4 @@
-// Range checks and named choices shared by the models of this folder.
+// Checks of frequencies, and named choices, shared by the models of this folder.
 #pragma once
 
 #include <array>
@@ -10,22 +10,9 @@
 
 namespace fanbeam::atmosphere {
 
-// Closed interval of accepted values with the unit that messages print.
-struct Range {
-  double lowest;
-  double highest;
-  std::string_view unit;
-};
-
-// Adds E-NONFINITE or E-RANGE with the allowed interval in the text when `value` lies outside.
-void check_range(core::ProblemList& problems, std::string_view field, double value,
-                 const Range& range);
-
-// The same for a single input: throws InputError.
-void require_range(std::string_view field, double value, const Range& range);
-
-// The same for a frequency, whose field is "frequency" and whose value and range are told in GHz,
-// as everybody gives them. `whose` tells what has this range: "the fog law centimetre".
+// Adds E-NONFINITE or E-RANGE for a frequency, whose field is "frequency" and whose value and range
+// are told in GHz, as everybody gives them. `whose` tells what has this range: "the fog law
+// centimetre". The other one throws.
 void check_frequency(core::ProblemList& problems, double frequency_Hz, double lowest_Hz,
                      double highest_Hz, std::string_view whose = {});
 void require_frequency(double frequency_Hz, double lowest_Hz, double highest_Hz,

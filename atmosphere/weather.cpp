@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "atmosphere/air_column.h"
-#include "atmosphere/input_check.h"
 #include "core/constants.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
@@ -17,8 +17,8 @@ double liquid_water(const std::optional<double>& visibility_m, const std::option
     core::throw_input_error(core::ErrorClass::range, "liquid_water_g_per_m3", *water,
                             "no value beside visibility_m");
   if (visibility_m) return liquid_water_g_per_m3(model, *visibility_m);
-  require_range("liquid_water_g_per_m3", water.value_or(0.0),
-                {0.0, kLargestLiquidWater_g_per_m3, "g/m3"});
+  core::require_range("liquid_water_g_per_m3", water.value_or(0.0),
+                      {0.0, kLargestLiquidWater_g_per_m3}, "g/m3");
   return water.value_or(0.0);
 }
 

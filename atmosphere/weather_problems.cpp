@@ -6,11 +6,13 @@
 #include "atmosphere/input_check.h"
 #include "atmosphere/weather.h"
 #include "core/constants.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
 
-constexpr Range kHeights{kLowestWeather_m, kHighestWeather_m, "m above the origin"};
+constexpr core::NumberRange kHeights{kLowestWeather_m, kHighestWeather_m};
+constexpr const char* kHeightUnit = "m above the origin";
 
 // Runs one check and keeps what it complains about, its fields below `prefix`.
 template <typename Check>
@@ -31,8 +33,8 @@ std::string entry(const char* list, std::size_t i) {
 
 void check_heights(core::ProblemList& problems, const std::string& prefix, double base_m,
                    double top_m) {
-  check_range(problems, prefix + "base_m", base_m, kHeights);
-  check_range(problems, prefix + "top_m", top_m, kHeights);
+  core::check_range(problems, prefix + "base_m", base_m, kHeights, kHeightUnit);
+  core::check_range(problems, prefix + "top_m", top_m, kHeights, kHeightUnit);
   if (base_m >= top_m)
     problems.error(core::ErrorClass::range, {}, prefix + "top_m", core::number_text(top_m),
                    "above base_m = " + core::number_text(base_m));
@@ -59,18 +61,18 @@ void check_rain_cells(core::ProblemList& problems, const Weather& weather) {
     const RainCell& cell = weather.rain_cells[i];
     const std::string prefix = entry("rain_cell", i);
     check_heights(problems, prefix, cell.base_m, cell.top_m);
-    check_range(problems, prefix + "rain_rate_mm_per_h", cell.rain_rate_mm_per_h,
-                {0.0, kLargestRainRate_mm_per_h, "mm/h"});
-    check_range(problems, prefix + "radius_m", cell.radius_m, {0.0, 1e5, "m"});
-    check_range(problems, prefix + "length_m", cell.length_m, {0.0, 2e5, "m"});
-    check_range(problems, prefix + "width_m", cell.width_m, {0.0, 2e5, "m"});
-    check_range(problems, prefix + "heading_rad", cell.heading_rad,
-                {-2.0 * core::kPi, 2.0 * core::kPi, "rad"});
+    core::check_range(problems, prefix + "rain_rate_mm_per_h", cell.rain_rate_mm_per_h,
+                      {0.0, kLargestRainRate_mm_per_h}, "mm/h");
+    core::check_range(problems, prefix + "radius_m", cell.radius_m, {0.0, 1e5}, "m");
+    core::check_range(problems, prefix + "length_m", cell.length_m, {0.0, 2e5}, "m");
+    core::check_range(problems, prefix + "width_m", cell.width_m, {0.0, 2e5}, "m");
+    core::check_range(problems, prefix + "heading_rad", cell.heading_rad,
+                      {-2.0 * core::kPi, 2.0 * core::kPi}, "rad");
     if (cell.radius_m == 0.0 && (cell.length_m == 0.0 || cell.width_m == 0.0))
       problems.error(core::ErrorClass::ref, {}, prefix + "radius_m", "missing",
                      "radius_m, or length_m and width_m, above 0");
-    check_range(problems, prefix + "east", cell.centre_m.x, {-1e6, 1e6, "m"});
-    check_range(problems, prefix + "north", cell.centre_m.y, {-1e6, 1e6, "m"});
+    core::check_range(problems, prefix + "east", cell.centre_m.x, {-1e6, 1e6}, "m");
+    core::check_range(problems, prefix + "north", cell.centre_m.y, {-1e6, 1e6}, "m");
   }
 }
 
@@ -78,11 +80,12 @@ void check_levels(core::ProblemList& problems, const Weather& weather) {
   for (std::size_t i = 0; i < weather.levels.size(); ++i) {
     const AirLevel& level = weather.levels[i];
     const std::string prefix = entry("level", i);
-    check_range(problems, prefix + "height_m", level.height_m, kHeights);
-    check_range(problems, prefix + "temperature_C", level.temperature_C, {-90.0, 50.0, "C"});
-    check_range(problems, prefix + "humidity", level.humidity, {0.0, 1.0, ""});
+    core::check_range(problems, prefix + "height_m", level.height_m, kHeights, kHeightUnit);
+    core::check_range(problems, prefix + "temperature_C", level.temperature_C, {-90.0, 50.0}, "C");
+    core::check_range(problems, prefix + "humidity", level.humidity, {0.0, 1.0});
     if (level.pressure_hPa)
-      check_range(problems, prefix + "pressure_hPa", *level.pressure_hPa, {100.0, 1100.0, "hPa"});
+      core::check_range(problems, prefix + "pressure_hPa", *level.pressure_hPa, {100.0, 1100.0},
+                        "hPa");
     if (level.pressure_hPa && weather.pressure_hPa)
       problems.error(core::ErrorClass::range, {}, prefix + "pressure_hPa",
                      core::number_text(*level.pressure_hPa),
@@ -101,13 +104,13 @@ void check_levels(core::ProblemList& problems, const Weather& weather) {
 }
 
 void check_snow(core::ProblemList& problems, const Weather& weather) {
-  check_range(problems, "snow_rate_mm_per_h", weather.snow_rate_mm_per_h,
-              {0.0, kLargestSnowRate_mm_per_h, "mm/h"});
-  check_range(problems, "snow_top_m", weather.snow_top_m, kHeights);
+  core::check_range(problems, "snow_rate_mm_per_h", weather.snow_rate_mm_per_h,
+                    {0.0, kLargestSnowRate_mm_per_h}, "mm/h");
+  core::check_range(problems, "snow_top_m", weather.snow_top_m, kHeights, kHeightUnit);
   if (weather.melting_height_m)
-    check_range(
-        problems, "melting_height_m", *weather.melting_height_m,
-        {kLowestWeather_m, kHighestWeather_m - kRainHeightAboveZeroC_m, "m above the origin"});
+    core::check_range(problems, "melting_height_m", *weather.melting_height_m,
+                      {kLowestWeather_m, kHighestWeather_m - kRainHeightAboveZeroC_m},
+                      "m above the origin");
   if (weather.snow_rate_mm_per_h > 0.0 && weather.rain_rate_mm_per_h > 0.0 &&
       !weather.melting_layer && !weather.melting_height_m)
     problems.error(core::ErrorClass::range, {}, "snow_rate_mm_per_h",
@@ -166,15 +169,15 @@ core::ProblemList problems_in(const Weather& weather, double frequency_Hz) {
     StandardAtmosphere(
         {weather.origin_height_m, weather.temperature_C, weather.pressure_hPa, weather.humidity});
   });
-  check_range(problems, "fog_top_m", weather.fog_top_m, kHeights);
-  check_range(problems, "rain_top_m", weather.rain_top_m, kHeights);
+  core::check_range(problems, "fog_top_m", weather.fog_top_m, kHeights, kHeightUnit);
+  core::check_range(problems, "rain_top_m", weather.rain_top_m, kHeights, kHeightUnit);
   collect(problems, "", [&] { fog_liquid_water_g_per_m3(weather); });
-  check_range(problems, "rain_rate_mm_per_h", weather.rain_rate_mm_per_h,
-              {0.0, kLargestRainRate_mm_per_h, "mm/h"});
-  check_range(problems, "polarisation_tilt_rad", weather.polarisation_tilt_rad,
-              {-core::kPi, core::kPi, "rad"});
-  check_range(problems, "rain_path_elevation_rad", weather.rain_path_elevation_rad,
-              {-core::kPi / 2.0, core::kPi / 2.0, "rad"});
+  core::check_range(problems, "rain_rate_mm_per_h", weather.rain_rate_mm_per_h,
+                    {0.0, kLargestRainRate_mm_per_h}, "mm/h");
+  core::check_range(problems, "polarisation_tilt_rad", weather.polarisation_tilt_rad,
+                    {-core::kPi, core::kPi}, "rad");
+  core::check_range(problems, "rain_path_elevation_rad", weather.rain_path_elevation_rad,
+                    {-core::kPi / 2.0, core::kPi / 2.0}, "rad");
   check_fog_layers(problems, weather);
   check_rain_cells(problems, weather);
   check_levels(problems, weather);

@@ -61,10 +61,10 @@ AgreementFigures measure_agreement(const View& view, const Effort& effort,
                                    const FramePower* reference) {
   fmt::print(stderr, "{} at {:.0f} m: slices against rays\n", view.scene->name, view.distance_m);
   FramePower rays;
-  if (reference == nullptr) rays = FrameClock(view, effort.reference(1)).power();
+  if (reference == nullptr) rays = clock_of(view, effort.reference(1)).power();
   if (reference == nullptr) reference = &rays;
   const auto converged = renderer::profile_sampling_for(effort.converged_slices);
-  const FramePower slices = FrameClock(view, converged).power();
+  const FramePower slices = clock_of(view, converged).power();
   return {view.scene->name, view.distance_m,
           fmt::format("{:.0f} slices per column", slices_per_column(converged)),
           agreement_of(view.sensor(), slices, *reference),

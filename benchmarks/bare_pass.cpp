@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "benchmarks/frame_clock.h"
-#include "benchmarks/stopwatch.h"
 #include "core/errors.h"
+#include "core/median.h"
 #include "core/parallel.h"
 #include "renderer/casting/ray_caster.h"
 
@@ -80,15 +80,15 @@ BarePass measure_shape(const View& view, const FrameClock& clock, const PacketSe
   std::vector<double> frame_ms;
   for (int i = 0; i <= turns; ++i) {
     packets = set.packets;
-    const Clock::time_point begin = Clock::now();
+    const measure::Clock::time_point begin = measure::Clock::now();
     cast(view.world().surfaces(), set, packets);
-    const double bare = milliseconds_since(begin);
+    const double bare = measure::milliseconds_since(begin);
     const double frame = clock.frame_ms();
     if (i == 0) continue;  // warm-up
     bare_ms.push_back(bare);
     frame_ms.push_back(frame);
   }
-  return {0, median(bare_ms), median(frame_ms), shape};
+  return {0, core::median(bare_ms), core::median(frame_ms), shape};
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ BarePass measure_bare_pass(const View& view, const renderer::Sampling& sampling,
   for (const RayPacket<16>& packet : recorded)
     for (int lane = 0; lane < 16; ++lane) rays += holds_ray(packet, lane) ? 1 : 0;
 
-  const FrameClock clock(view.world(), view.pose, view.scene->noise(), sampling);
+  const FrameClock clock = surfaces_clock(view.world(), view, sampling);
   renderer::Frame frame;
   clock.frame_ms(&frame);
   if (frame.rays != rays)

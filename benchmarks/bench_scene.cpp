@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "scenes/scene_reader.h"
+#include "session/session.h"
 
 namespace fanbeam::benchmarks {
 namespace {
@@ -28,7 +28,7 @@ void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
 }  // namespace
 
-bool BenchScene::noise() const { return scene->plan.runs(renderer::kThermalNoise); }
+bool BenchScene::noise() const { return scene->plan.runs(core::EffectId::thermal_noise); }
 
 renderer::Effects BenchScene::effects() const {
   renderer::Effects effects = renderer::effects_of(scene->plan, 1);
@@ -42,12 +42,12 @@ std::string data_folder() {
   return (fs::path(FANBEAM_SOURCE_DIR) / ".." / "shared" / "data").lexically_normal().string();
 }
 
-std::unique_ptr<scenes::Scene> build(const std::string& name, const scenes::BuildOptions& options) {
+std::shared_ptr<const scenes::Scene> build(const std::string& name,
+                                           const scenes::BuildOptions& options) {
   const fs::path shipped = FANBEAM_SOURCE_DIR;
   core::ProblemList problems;
-  const scenes::SceneDescription description =
-      scenes::read_scene(shipped / "scenes" / name, {shipped, {data_folder()}, {}}, problems);
-  return scenes::build_scene(description, options, problems);
+  const session::Setup setup{.shipped = shipped, .data_folders = {data_folder()}, .build = options};
+  return session::Session(shipped / "scenes" / name, setup, problems).scene();
 }
 
 std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptions& options) {

@@ -17,7 +17,7 @@ inline constexpr const char* kObstacleScene = "obstacle-field";
 
 struct BenchScene {
   std::string name;
-  std::unique_ptr<scenes::Scene> scene;
+  std::shared_ptr<const scenes::Scene> scene;
   // Highest resident memory while the scene was built and one frame rendered, over what the process
   // held before.
   double peak_memory_bytes = 0.0;
@@ -31,8 +31,8 @@ struct BenchScene {
 std::string data_folder();
 
 // Reads and builds a shipped scene of the source tree. Throws core::InputError.
-std::unique_ptr<scenes::Scene> build(const std::string& name,
-                                     const scenes::BuildOptions& options = {});
+std::shared_ptr<const scenes::Scene> build(const std::string& name,
+                                           const scenes::BuildOptions& options = {});
 
 // The same with its memory; nothing, and a line on stderr, when its data are not there.
 std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptions& options = {});

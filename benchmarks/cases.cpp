@@ -23,7 +23,7 @@ renderer::Sampling default_sampling() {
 
 void frame(State& state, const BenchScene& scene, const renderer::Sampling& sampling) {
   const View view = view_at(scene, kDistance_m);
-  const FrameClock clock(view, sampling);
+  const FrameClock clock = clock_of(view, sampling);
   renderer::Frame frame;
   double rays = 0.0;
   double slices = 0.0;

@@ -14,16 +14,13 @@ std::vector<double> cast_as_asked(std::vector<double> slices) {
 
 }  // namespace
 
-renderer::Sampling Effort::reference(std::uint64_t seed) const {
-  return renderer::reference_sampling(seed, reference_passes);
-}
-
 Effort full_effort() {
   Effort effort;
-  effort.rays_per_cell = {0.5, 1, 2, 4, 8, 16, 32, 64};
+  effort.rays = {0.5, 1, 2, 4, 8, 16, 32, 64};
   effort.slices = cast_as_asked({1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64});
-  effort.naive_rays = {0.1e6, 0.2e6, 0.5e6, 1e6, 2e6, 5e6, 10e6, 20e6};
-  effort.ladder = {3, 21, 400.0};
+  effort.plain_rays = {1, 2, 6, 12, 24, 60};  // more do not help it
+  effort.dithered_rays = {1, 2, 6, 12, 24, 60, 120, 240};
+  effort.step = {3, 21, 400.0};
   effort.operating_point = {11, 21, 600.0};
   effort.naive = {1, 5, 200.0};
   effort.turns = 11;
@@ -37,12 +34,12 @@ Effort full_effort() {
 Effort quick_effort() {
   Effort effort = full_effort();
   effort.quick = true;
-  effort.rays_per_cell = {0.5, 2, 8};
+  effort.rays = {0.5, 2, 8};
   effort.slices = {1, 4, 16};
-  effort.naive_rays = {0.2e6, 1e6, 5e6};
+  effort.plain_rays = effort.dithered_rays = {2, 12, 60};
   effort.converged_slices = 32.0;
   effort.reference_passes = 1;
-  effort.ladder = effort.operating_point = {2, 2, 0.0};
+  effort.step = effort.operating_point = {2, 2, 0.0};
   effort.naive = {1, 1, 0.0};
   effort.turns = effort.scaling_turns = 2;
   effort.sequence_frames = 4;

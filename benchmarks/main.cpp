@@ -8,13 +8,13 @@
 
 #include "benchmarks/cases.h"
 #include "benchmarks/estimate_check.h"
-#include "benchmarks/ladder_plot.h"
 #include "benchmarks/machine_load.h"
 #include "benchmarks/report.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/text.h"
+#include "measure/ladder_plot.h"
 
 namespace fanbeam::benchmarks {
 namespace {
@@ -122,11 +122,41 @@ std::string notes() {
   return text;
 }
 
-void write(Report& report, const fs::path& file) {
+// The error of the B-scope as displayed; the views after the first are dashed.
+session::Plot ladder_plot(const SceneFigures& scene) {
+  std::vector<measure::LadderCurve> curves;
+  for (const ViewFigures& view : scene.views)
+    for (std::size_t i = 0; i < measure::kWays.size(); ++i) {
+      const Way way = measure::kWays[i];
+      const bool first = &view == &scene.views.front();
+      curves.push_back({first ? std::string(measure::words_of(way)) : "", i, !first,
+                        way == Way::slices ? view.slices.ladder
+                        : way == Way::rays ? view.rays.ladder
+                                           : measure::steps_of(view.naive, way),
+                        measure::bscope_with_noise, first});
+    }
+  const std::vector<ViewFigures>& views = scene.views;
+  std::string title =
+      fmt::format("{}, B-scope: error over frame time, {:.0f} m before the threshold",
+                  views.front().view.scene->name, views.front().view.distance_m);
+  if (views.size() > 1) title += fmt::format(" (dashed: {:.0f} m)", views.back().view.distance_m);
+  return measure::ladder_plot(title, curves);
+}
+
+void draw(Report& report, const fs::path& folder) {
   for (const SceneFigures& scene : report.scenes) {
-    const std::string name = draw_ladders(scene.views, fs::absolute(file).parent_path() / "images");
-    if (!name.empty()) report.plots.push_back(name);
+    const std::string name = "performance-" + scene.views.front().view.scene->name;
+    try {
+      session::write_plots(ladder_plot(scene), folder / name);
+      report.plots.push_back(name);
+    } catch (const core::InputError& error) {
+      fmt::print(stderr, "[skipped] {}\n", error.what());
+    }
   }
+}
+
+void write(Report& report, const fs::path& file) {
+  draw(report, fs::absolute(file).parent_path() / "images");
   core::write_file_atomically(file, markdown(report));
 }
 

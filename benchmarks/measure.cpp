@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmarks/equal_error.h"
+#include "core/median.h"
 #include "core/parallel.h"
 
 namespace fanbeam::benchmarks {
@@ -14,8 +14,7 @@ namespace {
 using renderer::CasterKind;
 using renderer::NaiveKind;
 
-constexpr double kMostPlainRays = 5e6;  // more do not help it
-constexpr double kFewNaiveRays = 1e6;   // more take a good part of a second: one frame is enough
+constexpr double kFewNaiveRays = 12;  // more take a good part of a second: one frame is enough
 constexpr int kSubColumns[] = {1, 2, 4, 8, 16};
 
 // What an operating point is chosen from, coarsest first: rays in steps of a quarter of an octave,
@@ -41,7 +40,7 @@ class ViewBench {
   ViewBench(const View& view, const Effort& effort) : view_(view), effort_(effort) {
     tell("reference");
     renderer::Frame frame;
-    figures_.reference_s = FrameClock(view, effort.reference(1)).frame_ms(&frame) / 1000.0;
+    figures_.reference_s = clock_of(view, effort.reference(1)).frame_ms(&frame) / 1000.0;
     figures_.reference_rays = frame.rays;
     reference_power_ = power_of(std::move(frame));
     reference_.emplace(view.sensor(), reference_power_);
@@ -70,11 +69,11 @@ class ViewBench {
     const GreyReference& reference;
   };
   Picture whole() const { return {view_.scene->effects(), *reference_}; }
-  SamplingFigures measure(const Picture& picture, const renderer::Sampling& sampling,
-                          double fineness, const Repetitions& repetitions) const;
-  SamplingFigures finest_within(const Picture& picture, CasterKind caster, double budget_ms) const;
+  LadderStep measure(const Picture& picture, const renderer::Sampling& sampling, double fineness,
+                     const measure::Repetitions& repetitions) const;
+  LadderStep finest_within(const Picture& picture, CasterKind caster, double budget_ms) const;
   FrameClock clock(const Picture& picture, const renderer::Sampling& sampling) const {
-    return FrameClock(view_.world(), view_.pose, picture.effects, sampling);
+    return {view_.world(), view_.pose, sampling, picture.effects};
   }
   ThreadFigures measure_threads(const renderer::Sampling& sampling) const;
 
@@ -86,14 +85,16 @@ class ViewBench {
   renderer::Sampling surface_rays_;  // at 16 Hz
 };
 
-SamplingFigures ViewBench::measure(const Picture& picture, const renderer::Sampling& sampling,
-                                   double fineness, const Repetitions& repetitions) const {
+LadderStep ViewBench::measure(const Picture& picture, const renderer::Sampling& sampling,
+                              double fineness, const measure::Repetitions& repetitions) const {
   const FrameClock timed = clock(picture, sampling);
-  SamplingFigures figures;
+  LadderStep figures;
+  figures.frame = view_.frame;
+  figures.way = sampling.caster == CasterKind::rays ? Way::rays : Way::slices;
   figures.sampling = sampling;
   figures.fineness = fineness;
   renderer::Frame frame;
-  figures.frame_ms = median_ms(repetitions, [&] { timed.frame_ms(&frame); });
+  figures.time = measure::time_of(repetitions, [&] { timed.frame_ms(&frame); });
   figures.rays = frame.rays;
   figures.slices = frame.slices;
   figures.error = picture.reference.error_of(power_of(std::move(frame)));
@@ -102,7 +103,7 @@ SamplingFigures ViewBench::measure(const Picture& picture, const renderer::Sampl
 
 void ViewBench::measure_reference_error() {
   tell("second reference");
-  const FramePower second = FrameClock(view_, effort_.reference(2)).power();
+  const FramePower second = clock_of(view_, effort_.reference(2)).power();
   figures_.reference_error = reference_->error_of(second);
   figures_.reference_agreement = {view_.scene->name,
                                   view_.distance_m,
@@ -112,8 +113,8 @@ void ViewBench::measure_reference_error() {
 }
 
 // Bisection over the quickest of a few frames, then full measurements downwards until one holds.
-SamplingFigures ViewBench::finest_within(const Picture& picture, CasterKind caster,
-                                         double budget_ms) const {
+LadderStep ViewBench::finest_within(const Picture& picture, CasterKind caster,
+                                    double budget_ms) const {
   const std::vector<double> steps = candidates(caster);
   std::size_t low = 0;
   std::size_t high = steps.size();
@@ -125,14 +126,14 @@ SamplingFigures ViewBench::finest_within(const Picture& picture, CasterKind cast
     (quickest_ms <= budget_ms ? low : high) = middle;
   }
   for (;; --low) {
-    SamplingFigures figures = measure(picture, renderer::sampling_for(caster, steps[low]),
-                                      steps[low], effort_.operating_point);
-    if (figures.frame_ms <= budget_ms || low == 0) return figures;
+    LadderStep figures = measure(picture, renderer::sampling_for(caster, steps[low]), steps[low],
+                                 effort_.operating_point);
+    if (figures.time.ms <= budget_ms || low == 0) return figures;
   }
 }
 
 ThreadFigures ViewBench::measure_threads(const renderer::Sampling& sampling) const {
-  const FrameClock clock(view_, sampling);
+  const FrameClock clock = clock_of(view_, sampling);
   std::vector<double> all_ms;
   std::vector<double> one_ms;
   for (int i = 0; i < effort_.turns; ++i) {
@@ -140,16 +141,16 @@ ThreadFigures ViewBench::measure_threads(const renderer::Sampling& sampling) con
     const core::ThreadLimit one_thread(1);
     one_ms.push_back(clock.second_frame_ms());
   }
-  return {median(all_ms), median(one_ms)};
+  return {core::median(all_ms), core::median(one_ms)};
 }
 
 void ViewBench::measure_caster(CasterKind caster) {
   const bool rays = caster == CasterKind::rays;
   CasterFigures& figures = rays ? figures_.rays : figures_.slices;
   tell(rays ? "rays" : "slices");
-  for (const double fineness : rays ? effort_.rays_per_cell : effort_.slices)
+  for (const double fineness : rays ? effort_.rays : effort_.slices)
     figures.ladder.push_back(
-        measure(whole(), renderer::sampling_for(caster, fineness), fineness, effort_.ladder));
+        measure(whole(), renderer::sampling_for(caster, fineness), fineness, effort_.step));
   tell(rays ? "rays at 16, 45 and 90 Hz" : "slices at 16, 45 and 90 Hz");
   figures.at_16Hz = finest_within(whole(), caster, kBudget16Hz_ms);
   figures.at_45Hz = finest_within(whole(), caster, kBudget45Hz_ms);
@@ -161,7 +162,7 @@ void ViewBench::measure_surfaces() {
   tell("surfaces alone");
   const renderer::Effects effects{.thermal_noise = view_.scene->noise()};
   const GreyReference reference(
-      view_.sensor(), FrameClock(view_.world(), view_.pose, effects, effort_.reference(1)).power());
+      view_.sensor(), FrameClock(view_.world(), view_.pose, effort_.reference(1), effects).power());
   const Picture picture{effects, reference};
   figures_.surfaces.at_16Hz = finest_within(picture, CasterKind::profile, kBudget16Hz_ms);
   figures_.surfaces.at_90Hz = finest_within(picture, CasterKind::profile, kBudget90Hz_ms);
@@ -180,20 +181,22 @@ void ViewBench::measure_bare() {
 void ViewBench::measure_naive() {
   tell("naive yardsticks");
   const renderer::ElevationSpan span = renderer::elevation_span(view_.world(), view_.antenna);
-  for (const NaiveKind kind : {NaiveKind::plain, NaiveKind::dithered}) {
-    for (const double rays : effort_.naive_rays) {
-      if (kind == NaiveKind::plain && rays > kMostPlainRays) continue;
-      const FrameClock clock(view_, kind, rays, span);
+  for (const Way way : {Way::naive_plain, Way::naive_dithered}) {
+    const NaiveKind kind = way == Way::naive_plain ? NaiveKind::plain : NaiveKind::dithered;
+    for (const double rays : effort_.ladder(way)) {
+      const FrameClock clock(view_.world(), view_.pose, kind, rays, span, view_.scene->effects());
       renderer::Frame frame;
-      const Repetitions once{1, 1, 0.0, false};
-      NaiveFigures figures;
-      figures.kind = kind;
-      figures.frame_ms =
-          median_ms(rays > kFewNaiveRays ? once : effort_.naive, [&] { clock.frame_ms(&frame); });
+      const measure::Repetitions once{1, 1, 0.0, false};
+      LadderStep figures;
+      figures.frame = view_.frame;
+      figures.way = way;
+      figures.fineness = rays;
+      figures.time = measure::time_of(rays > kFewNaiveRays ? once : effort_.naive,
+                                      [&] { clock.frame_ms(&frame); });
       figures.rays = frame.rays;
       figures.error = reference_->error_of(power_of(std::move(frame)));
       figures_.naive.push_back(figures);
-      if (figures.error.bscope.noise_free.rms < kEqualErrors[1]) break;
+      if (figures.error.bscope.noise_free.rms < kEqualErrors_grey[1]) break;
     }
   }
 }
@@ -205,7 +208,7 @@ void ViewBench::measure_splits() {
     sampling.sub_columns = sub_columns;
     sampling.rays_per_cell = renderer::kDefaultRaysPerCell / sub_columns;
     figures_.splits.push_back(
-        measure(whole(), sampling, renderer::kDefaultRaysPerCell, effort_.ladder));
+        measure(whole(), sampling, renderer::kDefaultRaysPerCell, effort_.step));
   }
 }
 

@@ -11,29 +11,20 @@
 #include "benchmarks/bench_scene.h"
 #include "benchmarks/effort.h"
 #include "benchmarks/frame_clock.h"
+#include "measure/ladder.h"
 #include "renderer/casting/sampling.h"
 
 namespace fanbeam::benchmarks {
 
-inline constexpr double kBudget16Hz_ms = 62.5;
+inline constexpr double kBudget16Hz_ms = measure::kTime16Hz_ms;
 inline constexpr double kBudget45Hz_ms = 1000.0 / 45.0;
-inline constexpr double kBudget90Hz_ms = 1000.0 / 90.0;
+inline constexpr double kBudget90Hz_ms = measure::kTime90Hz_ms;
 
-// One way to sample a frame, its price and what it buys.
-struct SamplingFigures {
-  renderer::Sampling sampling;
-  double fineness = 0.0;  // rays per cell and column, or slices per column
-  double frame_ms = 0.0;
-  std::uint64_t rays = 0, slices = 0;
-  FrameError error;
-};
+using measure::LadderStep;
+using measure::Way;
 
-struct NaiveFigures {
-  renderer::NaiveKind kind = renderer::NaiveKind::plain;
-  double frame_ms = 0.0;
-  std::uint64_t rays = 0;
-  FrameError error;
-};
+// Noise-free B-scope errors at which ways of sampling are compared.
+inline constexpr double kEqualErrors_grey[] = {2.6, 1.2};
 
 // The same frame with all threads of the run and with one, in turns.
 struct ThreadFigures {
@@ -45,9 +36,9 @@ struct ThreadFigures {
 
 // One of the two casters in one view.
 struct CasterFigures {
-  std::vector<SamplingFigures> ladder;
-  SamplingFigures at_16Hz, at_45Hz, at_90Hz;  // the finest that fits, or the coarsest there is
-  ThreadFigures threads;                      // at_16Hz
+  std::vector<LadderStep> ladder;
+  LadderStep at_16Hz, at_45Hz, at_90Hz;  // the finest that fits, or the coarsest there is
+  ThreadFigures threads;                 // at_16Hz
 };
 
 struct ViewFigures {
@@ -61,8 +52,8 @@ struct ViewFigures {
   CasterFigures surfaces;             // slices, without effects: at 16 Hz and at 90 Hz alone
   AgreementFigures slices_agreement;  // converged ones with the reference
   BarePass bare;                      // rays.at_16Hz
-  std::vector<NaiveFigures> naive;
-  std::vector<SamplingFigures> splits;  // the same rays per cell, split otherwise; only where asked
+  std::vector<LadderStep> naive;
+  std::vector<LadderStep> splits;  // the same rays per cell, split otherwise; only where asked
 };
 
 // What need not be measured in every view.

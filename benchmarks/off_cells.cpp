@@ -121,8 +121,8 @@ OffCells explain_off_cells(const View& view, const Effort& effort, const FramePo
       !any_apart(grey.cscope, reference_grey.cscope))
     return {};
   const auto finer = renderer::profile_sampling_for(4.0 * effort.converged_slices);
-  const FrameGrey second = grey_of(sensor, FrameClock(view, effort.reference(2)).power(), false);
-  const FrameGrey fine = grey_of(sensor, FrameClock(view, finer).power(), false);
+  const FrameGrey second = grey_of(sensor, clock_of(view, effort.reference(2)).power(), false);
+  const FrameGrey fine = grey_of(sensor, clock_of(view, finer).power(), false);
   const FrameGrey completed = view.world().solids().others.empty()
                                   ? fine
                                   : grey_of(sensor, completed_slices(view, effort, finer), false);

@@ -7,25 +7,26 @@
 #include <vector>
 
 #include "benchmarks/frame_clock.h"
-#include "benchmarks/stopwatch.h"
+#include "core/median.h"
 #include "scenes/scene_reader.h"
+#include "session/session.h"
 
 namespace fanbeam::benchmarks {
 namespace {
 
 constexpr int kBuilds = 3;
 
-std::unique_ptr<scenes::Scene> build_with(const scenes::SceneDescription& description,
-                                          const std::string& effects) {
+std::shared_ptr<const scenes::Scene> build_with(const scenes::SceneDescription& description,
+                                                const std::string& effects) {
   core::ProblemList problems;
   scenes::BuildOptions options;
   if (!effects.empty()) options.wishes = renderer::parse_effect_wishes(effects);
-  return scenes::build_scene(description, options, problems);
+  return session::Session(description, {.build = options}, problems).scene();
 }
 
 FrameClock clock_of(const scenes::Scene& scene, const renderer::FramePose& pose) {
-  return {scene.world, pose, renderer::effects_of(scene.plan, 1),
-          renderer::sampling_for(renderer::kDefaultRaysPerCell)};
+  return {scene.world, pose, renderer::sampling_for(renderer::kDefaultRaysPerCell),
+          renderer::effects_of(scene.plan, 1)};
 }
 
 std::size_t running(const core::EffectPlan& plan) {
@@ -52,9 +53,9 @@ void measure_saving(const View& view, const Effort& effort, PlanFigures& figures
   std::vector<double> times_ms[3];
   for (int turn = 0; turn < std::max(effort.turns, 2); ++turn)
     for (std::size_t i = 0; i < 3; ++i) times_ms[i].push_back(clocks[i].second_frame_ms());
-  figures.planned_ms = median(times_ms[0]);
-  figures.forced_ms = median(times_ms[1]);
-  figures.forced_sample_ms = median(times_ms[2]);
+  figures.planned_ms = core::median(times_ms[0]);
+  figures.forced_ms = core::median(times_ms[1]);
+  figures.forced_sample_ms = core::median(times_ms[2]);
 }
 
 scenes::SceneDescription with_weather_and_lobes(scenes::SceneDescription scene) {
@@ -78,7 +79,7 @@ void measure_absence(const View& view, const Effort& effort, PlanFigures& figure
   const scenes::SceneDescription& description = view.scene->scene->description;
   const auto build_off = [&] { return build_with(with_weather_and_lobes(description), "none"); };
   const auto build_absent = [&] { return build_with(without_weather(description), "none"); };
-  std::vector<std::unique_ptr<scenes::Scene>> off, absent;
+  std::vector<std::shared_ptr<const scenes::Scene>> off, absent;
   off.push_back(build_off());
   absent.push_back(build_absent());
   absent.push_back(build_absent());
@@ -103,7 +104,7 @@ void measure_absence(const View& view, const Effort& effort, PlanFigures& figure
     ratios.push_back(with_ms / without_ms);
   }
   figures.frames = frames;
-  figures.off_over_absent = median(ratios);
+  figures.off_over_absent = core::median(ratios);
 }
 
 void measure_conditions(const View& view, const Effort& effort, PlanFigures& figures) {
@@ -114,12 +115,12 @@ void measure_conditions(const View& view, const Effort& effort, PlanFigures& fig
   for (int turn = 0; turn < std::max(effort.turns, 2); ++turn) {
     scenes::Conditions other{.weather = scene.weather};
     other.weather->rain_rate_mm_per_h = 1.0 + turn;
-    const auto begin = Clock::now();
+    const auto begin = measure::Clock::now();
     core::ProblemList known;
     const auto rainy = scenes::under_conditions(scene, other, known);
     const renderer::FrameRenderer stages(rainy->world, sampling, {},
                                          renderer::effects_of(rainy->plan, 0));
-    conditions_ms.push_back(milliseconds_since(begin));
+    conditions_ms.push_back(measure::milliseconds_since(begin));
   }
   const renderer::Effects effects = renderer::effects_of(scene.plan, 0);
   const renderer::FrameRenderer plain(scene.world, sampling, {}, effects);
@@ -128,13 +129,13 @@ void measure_conditions(const View& view, const Effort& effort, PlanFigures& fig
   for (int turn = -1; turn < std::max(effort.turns, 2); ++turn)
     for (const auto& [renderer, times_ms] :
          {std::pair(&plain, &plain_ms), std::pair(&layered, &layers_ms)}) {
-      const auto begin = Clock::now();
+      const auto begin = measure::Clock::now();
       renderer->render(view.pose);
-      if (turn >= 0) times_ms->push_back(milliseconds_since(begin));
+      if (turn >= 0) times_ms->push_back(measure::milliseconds_since(begin));
     }
-  figures.conditions_ms = median(conditions_ms);
-  figures.plain_ms = median(plain_ms);
-  figures.layers_ms = median(layers_ms);
+  figures.conditions_ms = core::median(conditions_ms);
+  figures.plain_ms = core::median(plain_ms);
+  figures.layers_ms = core::median(layers_ms);
 }
 
 }  // namespace
@@ -146,7 +147,7 @@ PlanFigures measure_plan(const View& view, const Effort& effort) {
   std::vector<double> plan_ms;
   for (int i = 0; i < kBuilds; ++i)
     plan_ms.push_back(1000.0 * build_with(view.scene->scene->description, "")->plan_s);
-  figures.plan_ms = median(plan_ms);
+  figures.plan_ms = core::median(plan_ms);
   measure_conditions(view, effort, figures);
   measure_saving(view, effort, figures);
   measure_absence(view, effort, figures);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "benchmarks/frame_clock.h"
+#include "core/median.h"
 
 namespace fanbeam::benchmarks {
 namespace {
@@ -57,10 +58,9 @@ struct Candidate {
               .nrcs = view.world().nrcs,
               .attenuation = view.world().attenuation,
               .sensor = view.sensor()},
-        rays(world, view.pose, view.scene->noise(),
-             renderer::sampling_for(renderer::kDefaultRaysPerCell)),
-        slices(world, view.pose, view.scene->noise(),
-               renderer::profile_sampling_for(renderer::kDefaultSlicesPerColumn)) {}
+        rays(surfaces_clock(world, view, renderer::sampling_for(renderer::kDefaultRaysPerCell))),
+        slices(surfaces_clock(world, view,
+                              renderer::profile_sampling_for(renderer::kDefaultSlicesPerColumn))) {}
 
   double spacing_m;
   renderer::World world;
@@ -86,7 +86,7 @@ std::vector<ScalingStep> measure_scaling(const View& view, const Effort& effort)
   std::vector<ScalingStep> steps;
   for (const auto& candidate : candidates)
     steps.push_back({candidate->spacing_m, candidate->world.surfaces().triangle_count(),
-                     median(candidate->rays_ms), median(candidate->slices_ms)});
+                     core::median(candidate->rays_ms), core::median(candidate->slices_ms)});
   return steps;
 }
 

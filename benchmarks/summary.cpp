@@ -7,12 +7,12 @@
 namespace fanbeam::benchmarks {
 namespace {
 
-std::string rate_cell(const SamplingFigures& figures, const std::string& unit) {
+std::string rate_cell(const LadderStep& figures, const std::string& unit) {
   const FrameError& error = figures.error;
   return fmt::format("{}, {} grey, {:.3g} {}{} in {:.1f} ms",
                      pair_text(error.bscope.with_noise.rms, error.bscope.noise_free.rms),
                      pair_text(error.cscope.with_noise.rms, error.cscope.noise_free.rms),
-                     figures.fineness, unit, figures.fineness == 1.0 ? "" : "s", figures.frame_ms);
+                     figures.fineness, unit, figures.fineness == 1.0 ? "" : "s", figures.time.ms);
 }
 
 std::string rates(const Report& report) {

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "benchmarks/equal_error.h"
 #include "benchmarks/report.h"
 #include "benchmarks/verdict.h"
 
@@ -19,16 +18,17 @@ struct ErrorTarget {
 struct Caster {
   const char* name;
   CasterFigures ViewFigures::*figures;
+  measure::Way way;
   double most_of_naive;  // share of naive-dithered's time at equal error
 };
-constexpr Caster kSlices{"slices", &ViewFigures::slices, 0.05};
-constexpr Caster kRays{"rays", &ViewFigures::rays, 0.25};
-constexpr Caster kSurfaces{"slices, surfaces alone", &ViewFigures::surfaces, 0.05};
+constexpr Caster kSlices{"slices", &ViewFigures::slices, Way::slices, 0.05};
+constexpr Caster kRays{"rays", &ViewFigures::rays, Way::rays, 0.25};
+constexpr Caster kSurfaces{"slices, surfaces alone", &ViewFigures::surfaces, Way::slices, 0.05};
 
 struct Rate {
   const char* name;
   double budget_ms;
-  SamplingFigures CasterFigures::*figures;
+  LadderStep CasterFigures::*figures;
 };
 constexpr Rate k16Hz{"16 Hz", kBudget16Hz_ms, &CasterFigures::at_16Hz};
 constexpr Rate k45Hz{"45 Hz", kBudget45Hz_ms, &CasterFigures::at_45Hz};
@@ -89,18 +89,26 @@ std::string error_row(const SceneFigures& scene, const RateTarget& target, const
                 target_text(target.must), target.aim ? target_text(*target.aim) : "");
   const ErrorTarget aim = target.aim.value_or(target.must);
   for (const ViewFigures& view : scene.views) {
-    const SamplingFigures& figures = view.*target.caster.figures.*target.rate.figures;
+    const LadderStep& figures = view.*target.caster.figures.*target.rate.figures;
     const PictureError& error = figures.error.*picture;
     row.judge(error.with_noise.rms, {target.must.with_noise, aim.with_noise});
     row.judge(error.noise_free.rms, {target.must.noise_free, aim.noise_free});
     std::string text = pair_text(error.with_noise.rms, error.noise_free.rms) + at(view);
-    if (figures.frame_ms > target.rate.budget_ms) {
+    if (figures.time.ms > target.rate.budget_ms) {
       row.miss();
-      text += fmt::format(", but in {:.1f} ms, the coarsest sampling", figures.frame_ms);
+      text += fmt::format(", but in {:.1f} ms, the coarsest sampling", figures.time.ms);
     }
     row.add(text);
   }
   return row.markdown();
+}
+
+// Of the coarsest step where that one is good enough already.
+std::optional<double> ms_within(const std::vector<LadderStep>& ladder, Way way, double rms) {
+  const auto first = std::ranges::find(ladder, way, &LadderStep::way);
+  if (first != ladder.end() && measure::bscope_noise_free(first->error) <= rms)
+    return first->time.ms;
+  return measure::ms_at_error(ladder, way, rms, measure::bscope_noise_free);
 }
 
 std::string naive_row(const SceneFigures& scene, const Caster& caster, double rms) {
@@ -108,15 +116,15 @@ std::string naive_row(const SceneFigures& scene, const Caster& caster, double rm
                             scene.scene->name, caster.name, rms),
                 fmt::format("{:.2f}", caster.most_of_naive));
   for (const ViewFigures& view : scene.views) {
-    const auto ours_ms = ms_at_error((view.*caster.figures).ladder, rms);
-    const auto naive_ms = ms_at_error(view.naive, renderer::NaiveKind::dithered, rms);
+    const auto ours_ms = ms_within((view.*caster.figures).ladder, caster.way, rms);
+    const auto naive_ms = ms_within(view.naive, Way::naive_dithered, rms);
     if (!ours_ms) {
       row.add("error not reached" + at(view));
       row.miss();
       continue;
     }
     // A naive ladder that ends before the error is reached bounds the share from above.
-    const double share = *ours_ms / naive_ms.value_or(view.naive.back().frame_ms);
+    const double share = *ours_ms / naive_ms.value_or(view.naive.back().time.ms);
     row.add(fmt::format("{}{:.3f}{}", naive_ms ? "" : "below ", share, at(view)));
     row.judge(share, {caster.most_of_naive, caster.most_of_naive});
   }
@@ -302,7 +310,7 @@ std::string targets_markdown(const Report& report) {
       out += error_row(scene, target, "C-scope", &FrameError::cscope);
     }
     for (const Caster& caster : {kSlices, kRays})
-      for (const double rms : kEqualErrors) out += naive_row(scene, caster, rms);
+      for (const double rms : kEqualErrors_grey) out += naive_row(scene, caster, rms);
     out += bare_row(scene, report.threads) + reference_row(scene);
     for (const Caster& caster : {kSlices, kRays}) out += threads_row(scene, caster, report.threads);
     out += agreement_rows(scene.scene->name, of_slices(scene));

@@ -36,11 +36,11 @@ std::string ray_row(const std::string& first, double frame_ms, std::uint64_t ray
          error_columns(error);
 }
 
-std::string slice_row(const std::string& first, const SamplingFigures& step) {
+std::string slice_row(const std::string& first, const LadderStep& step) {
   const double count = static_cast<double>(step.slices);
-  return fmt::format("| {} | {:.1f} | {:.1f} | {} | {:.1f} |", first, step.frame_ms,
-                     1000.0 / step.frame_ms, step.slices,
-                     count > 0.0 ? 1000.0 * step.frame_ms / count : 0.0) +
+  return fmt::format("| {} | {:.1f} | {:.1f} | {} | {:.1f} |", first, step.time.ms,
+                     1000.0 / step.time.ms, step.slices,
+                     count > 0.0 ? 1000.0 * step.time.ms / count : 0.0) +
          error_columns(step.error);
 }
 
@@ -48,11 +48,10 @@ std::string slice_row(const std::string& first, const SamplingFigures& step) {
 template <class Row>
 std::string ladder_rows(const CasterFigures& figures, const Row& row) {
   std::string out;
-  for (const SamplingFigures& step : figures.ladder)
-    out += row(core::number_text(step.fineness), step);
-  const auto point = [&](const SamplingFigures& step, double budget_ms, const char* name) {
+  for (const LadderStep& step : figures.ladder) out += row(core::number_text(step.fineness), step);
+  const auto point = [&](const LadderStep& step, double budget_ms, const char* name) {
     out += row(fmt::format("{} ({})", core::number_text(step.fineness),
-                           step.frame_ms <= budget_ms ? name : "coarsest"),
+                           step.time.ms <= budget_ms ? name : "coarsest"),
                step);
   };
   point(figures.at_16Hz, kBudget16Hz_ms, "16 Hz");
@@ -71,8 +70,8 @@ std::string threads_line(const CasterFigures& figures, const char* unit, int thr
 std::string rays_markdown(const ViewFigures& figures, int threads) {
   const BarePass& bare = figures.bare;
   std::string out = "### Rays\n\n" + ray_head("rays per cell");
-  out += ladder_rows(figures.rays, [](const std::string& name, const SamplingFigures& step) {
-    return ray_row(name, step.frame_ms, step.rays, step.error);
+  out += ladder_rows(figures.rays, [](const std::string& name, const LadderStep& step) {
+    return ray_row(name, step.time.ms, step.rays, step.error);
   });
   if (figures.reference_error)
     out += ray_row("second reference", figures.reference_s * 1000.0, figures.reference_rays,
@@ -103,9 +102,9 @@ std::string naive_markdown(const ViewFigures& figures) {
       "Uniform elevation angles over the span of the rays above, single rays, each hit into one\n"
       "cell; one azimuth per column (plain) or one per ray (dithered).\n\n" +
       ray_head("kind");
-  for (const NaiveFigures& step : figures.naive)
-    out += ray_row(step.kind == renderer::NaiveKind::plain ? "plain" : "dithered", step.frame_ms,
-                   step.rays, step.error);
+  for (const LadderStep& step : figures.naive)
+    out += ray_row(step.way == Way::naive_plain ? "plain" : "dithered", step.time.ms, step.rays,
+                   step.error);
   return out + "\n";
 }
 
@@ -116,10 +115,10 @@ std::string splits_markdown(const ViewFigures& figures) {
       "Azimuth sub-columns times rays per range cell.\n\n",
       renderer::kDefaultRaysPerCell);
   out += ray_head("sub-columns x rays");
-  for (const SamplingFigures& step : figures.splits)
+  for (const LadderStep& step : figures.splits)
     out += ray_row(fmt::format("{} x {}", step.sampling.sub_columns,
                                core::number_text(step.sampling.rays_per_cell)),
-                   step.frame_ms, step.rays, step.error);
+                   step.time.ms, step.rays, step.error);
   return out + "\n";
 }
 

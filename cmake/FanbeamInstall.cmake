@@ -8,11 +8,18 @@ install(TARGETS fanbeam)
 install(DIRECTORY "${PROJECT_BINARY_DIR}/man1" DESTINATION "${CMAKE_INSTALL_MANDIR}")
 install(FILES "${PROJECT_BINARY_DIR}/completion.bash" RENAME fanbeam
         DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
+install(TARGETS fanbeam_session_signal EXPORT fanbeamTargets)  # its headers lie below session/
 foreach(folder core materials atmosphere terrain sensors signal tracking renderer scenes session)
   install(TARGETS fanbeam_${folder} EXPORT fanbeamTargets)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fanbeam"
           FILES_MATCHING PATTERN "*.h" PATTERN "*_private.h" EXCLUDE)
 endforeach()
+
+# The C interface, of which a program needs nothing but the library: a set of targets of its own.
+install(TARGETS fanbeam_c EXPORT fanbeamCTargets)
+install(FILES "${PROJECT_SOURCE_DIR}/bindings/c/fanbeam.h" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fanbeam")
+install(FILES "${PROJECT_BINARY_DIR}/generated/c/fanbeam.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+install(EXPORT fanbeamCTargets NAMESPACE fanbeam:: DESTINATION "${package}")
 
 foreach(folder materials sensors)
   file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.toml")
@@ -23,6 +30,8 @@ foreach(scene_file IN LISTS scene_files)
   cmake_path(GET scene_file PARENT_PATH scene)
   install(DIRECTORY "${scene}" DESTINATION "${data}/scenes")
 endforeach()
+
+install(DIRECTORY plugins DESTINATION "${data}")
 
 install(EXPORT fanbeamTargets NAMESPACE fanbeam:: DESTINATION "${package}")
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/fanbeamConfigVersion.cmake"

@@ -24,12 +24,20 @@ elseif(FANBEAM_SANITIZER STREQUAL "thread")
   target_link_options(fanbeam_options INTERFACE -fsanitize=thread)
 endif()
 
-# fanbeam_library(core PUBLIC a b PRIVATE c d): sources are all .cpp files in and under the folder.
+# fanbeam_library(core EXCEPT e PUBLIC a b PRIVATE c d): sources are all .cpp files in and under the folder but those of
+# its folder e.
 function(fanbeam_library name)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "EXCEPT" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS "*.cpp")
+  if(ARG_EXCEPT)
+    list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${ARG_EXCEPT}/")
+  endif()
   add_library(fanbeam_${name} STATIC ${sources})
   set_target_properties(fanbeam_${name} PROPERTIES UNITY_BUILD ${FANBEAM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  # Shared libraries hold them too: libfanbeam.so. Hidden, so that code that could stand anywhere costs nothing (no symbol
+  # can be replaced by another library's); programs and libraries that link them statically see no difference.
+  set_target_properties(fanbeam_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   add_library(fanbeam::${name} ALIAS fanbeam_${name})
   set_target_properties(fanbeam_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(fanbeam_${name} PUBLIC

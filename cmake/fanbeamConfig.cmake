@@ -1,3 +1,7 @@
-# find_package(fanbeam) gives fanbeam::core, fanbeam::renderer and the other libraries, named after their folders.
-include("${CMAKE_CURRENT_LIST_DIR}/FanbeamDependencies.cmake")
-include("${CMAKE_CURRENT_LIST_DIR}/fanbeamTargets.cmake")
+# find_package(fanbeam) gives fanbeam::core, fanbeam::renderer and the other libraries, named after their folders, and
+# fanbeam::c. find_package(fanbeam COMPONENTS c) gives fanbeam::c alone and looks for no package that fanbeam is built of.
+include("${CMAKE_CURRENT_LIST_DIR}/fanbeamCTargets.cmake")
+if(NOT "${fanbeam_FIND_COMPONENTS}" STREQUAL "c")
+  include("${CMAKE_CURRENT_LIST_DIR}/FanbeamDependencies.cmake")
+  include("${CMAKE_CURRENT_LIST_DIR}/fanbeamTargets.cmake")
+endif()

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,15 +19,9 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 
 namespace fanbeam::core {
-
-// Closed interval of allowed values, or with `above_low` the half-open (low, high].
-struct NumberRange {
-  double low = -std::numeric_limits<double>::max();
-  double high = std::numeric_limits<double>::max();
-  bool above_low = false;
-};
 
 // One value as the program understood it, defaults included: {"weather.visibility_m", 150.0}.
 using ConfigValue = std::variant<bool, double, std::string>;
@@ -103,8 +96,5 @@ class ConfigTable {
   Place nearby_;  // of a missing table: where it would belong
   bool present_ = false;
 };
-
-// "0 to 10", "above 0, at most 10", "at least 1": for messages.
-std::string to_string(const NumberRange& range);
 
 }  // namespace fanbeam::core

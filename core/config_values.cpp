@@ -14,10 +14,6 @@ namespace {
 // Texts become names on terminals, in pages and in records.
 constexpr const char* kPrintable = "a text without control characters";
 
-bool holds(const NumberRange& range, double value) {
-  return value >= range.low && value <= range.high && !(range.above_low && value == range.low);
-}
-
 }  // namespace
 
 std::string value_text(const toml::node& node) {
@@ -39,18 +35,6 @@ std::string value_text(const toml::node& node) {
   return stream.str();
 }
 
-std::string to_string(const NumberRange& range) {
-  const bool has_low = range.low > -std::numeric_limits<double>::max();
-  const bool has_high = range.high < std::numeric_limits<double>::max();
-  if (!has_low && !has_high) return "a finite number";
-  if (range.above_low)
-    return "above " + number_text(range.low) +
-           (has_high ? ", at most " + number_text(range.high) : "");
-  if (!has_high) return "at least " + number_text(range.low);
-  if (!has_low) return "at most " + number_text(range.high);
-  return number_text(range.low) + " to " + number_text(range.high);
-}
-
 template <class T>
 void ConfigTable::record(std::string_view key, T value) {
   document_->resolved.emplace_back(path(key), ConfigValue(std::move(value)));
@@ -69,7 +53,7 @@ std::optional<double> ConfigTable::checked_number(std::string_view key, NumberRa
     error(ErrorClass::nonfinite, key, number_text(value), to_string(range));
     return std::nullopt;
   }
-  if (!holds(range, value)) {
+  if (!range.holds(value)) {
     error(ErrorClass::range, key, number_text(value), to_string(range));
     return std::nullopt;
   }
@@ -190,7 +174,7 @@ std::vector<double> ConfigTable::numbers(std::string_view key, NumberRange range
   for (const toml::node& element : *array) {
     const std::optional<double> value =
         element.is_number() ? element.value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value) || !holds(range, *value)) {
+    if (!value || !std::isfinite(*value) || !range.holds(*value)) {
       const bool nonfinite = value && !std::isfinite(*value);
       document_->problems->error(!value      ? ErrorClass::parse
                                  : nonfinite ? ErrorClass::nonfinite

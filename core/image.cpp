@@ -8,6 +8,7 @@
 #include "core/colour_picture.h"
 #include "core/errors.h"
 #include "core/files.h"
+#include "core/png_bytes.h"
 #include "core/png_check.h"
 
 namespace fanbeam::core {
@@ -20,21 +21,25 @@ std::size_t cells(int columns, int rows) {
   return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
 }
 
+// `name` has the format's ending.
+std::string encoded(const std::string& name, OIIO::ImageSpec& spec, const Metadata& metadata,
+                    OIIO::TypeDesc type, const void* pixels) {
+  for (const auto& [name, value] : metadata) spec.attribute(name, value);
+  const std::unique_ptr<OIIO::ImageOutput> output =
+      OIIO::ImageOutput::create(name.substr(name.rfind('.') + 1));
+  if (!output) throw InternalError("no writer of " + name + ": " + OIIO::geterror());
+  OIIO::Filesystem::IOVecOutput bytes;
+  if (!output->set_ioproxy(&bytes) || !output->open(name, spec) ||
+      !output->write_image(type, pixels) || !output->close())
+    throw InternalError("writing " + name + " to memory: " + output->geterror());
+  const std::vector<unsigned char>& buffer = bytes.buffer();
+  return {reinterpret_cast<const char*>(buffer.data()), buffer.size()};
+}
+
 // Through memory: the libraries' own file output does not tell when the disk is full.
 void write(const std::filesystem::path& path, OIIO::ImageSpec& spec, const Metadata& metadata,
            OIIO::TypeDesc type, const void* pixels) {
-  for (const auto& [name, value] : metadata) spec.attribute(name, value);
-  const std::unique_ptr<OIIO::ImageOutput> output =
-      OIIO::ImageOutput::create(path.extension().string().substr(1));
-  if (!output)
-    throw InternalError("no writer of " + path.extension().string() + ": " + OIIO::geterror());
-  OIIO::Filesystem::IOVecOutput bytes;
-  if (!output->set_ioproxy(&bytes) || !output->open(path.string(), spec) ||
-      !output->write_image(type, pixels) || !output->close())
-    throw InternalError("writing " + path.filename().string() +
-                        " to memory: " + output->geterror());
-  const std::vector<unsigned char>& buffer = bytes.buffer();
-  write_file_atomically(path, {reinterpret_cast<const char*>(buffer.data()), buffer.size()});
+  write_file_atomically(path, encoded(path.filename().string(), spec, metadata, type, pixels));
 }
 
 // Keeps sizes that a file only claims away from every allocation.
@@ -63,28 +68,34 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
 
 // Of a grey or a coloured picture.
 template <class AnyPicture>
-void write_bytes(const std::filesystem::path& path, const AnyPicture& picture,
-                 const Metadata& metadata) {
+OIIO::ImageSpec png_spec(const AnyPicture& picture) {
   using Pixel = typename decltype(picture.pixels)::value_type;
   if (picture.pixels.size() != cells(picture.columns, picture.rows))
     throw InternalError("picture size");
   OIIO::ImageSpec spec(picture.columns, picture.rows, static_cast<int>(sizeof(Pixel)),
                        OIIO::TypeDesc::UINT8);
   spec.attribute("png:compressionLevel", 2);  // writing must not hold up rendering
-  write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
+  return spec;
 }
 
 }  // namespace
 
 void write_png(const std::filesystem::path& path, const Picture8& picture,
                const Metadata& metadata) {
-  write_bytes(path, picture, metadata);
+  OIIO::ImageSpec spec = png_spec(picture);
+  write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
 }
 
 void write_png(const std::filesystem::path& path, const ColourPicture& picture,
                const Metadata& metadata) {
   static_assert(sizeof(Colour) == 3);
-  write_bytes(path, picture, metadata);
+  OIIO::ImageSpec spec = png_spec(picture);
+  write(path, spec, metadata, OIIO::TypeDesc::UINT8, picture.pixels.data());
+}
+
+std::string png_bytes(const Picture8& picture) {
+  OIIO::ImageSpec spec = png_spec(picture);
+  return encoded("memory.png", spec, {}, OIIO::TypeDesc::UINT8, picture.pixels.data());
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata) {

@@ -19,6 +19,9 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
   for (std::size_t i = 0; i < result.cells; ++i) {
     const double difference = b.values[i] - a.values[i];
     if (difference != 0.0) ++result.different;
+    if (!(std::abs(difference) <=
+          1e-4 * std::max({1.0, std::abs(a.values[i]), std::abs(b.values[i])})))
+      ++result.changed;
     sum += difference;
     squares += difference * difference;
     magnitudes.push_back(std::abs(difference));

@@ -12,6 +12,7 @@ struct LayerDifference {
   std::string layer;
   std::size_t cells = 0;
   std::size_t different = 0;  // values that are not equal
+  std::size_t changed = 0;    // by more than 1e-4 of the larger one, or of 1 where that is more
   double mean = 0.0;          // of B - A, in the layer's own unit (grey levels for 8-bit pictures)
   double rms = 0.0;
   double percentile_99 = 0.0;  // of |B - A|

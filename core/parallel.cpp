@@ -80,8 +80,6 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
   });
 }
 
-// Without a limit the caller's own arena does, whose workers wait for the next loop: entering another
-// one for every loop cost some five per cent of a frame.
 ThreadLimit::ThreadLimit(int threads)
     : arena_(threads > 0 ? std::make_unique<Arena>(threads) : nullptr), before_(innermost) {
   if (arena_) innermost = arena_.get();
@@ -89,7 +87,7 @@ ThreadLimit::ThreadLimit(int threads)
 
 ThreadLimit::~ThreadLimit() { innermost = before_; }
 
-int ThreadLimit::threads() const {
+int ThreadLimit::threads() {
   if (innermost != nullptr) return innermost->threads;
   return std::max(1, tbb::info::default_concurrency());
 }

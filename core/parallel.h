@@ -15,14 +15,15 @@ namespace fanbeam::core {
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 // While it lives, loops that this thread starts run on at most so many threads, in an arena of
-// their own: nothing else in the process is limited. 0 means as many threads as the machine has.
+// their own: nothing else in the process is limited. 0 limits nothing.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
-  int threads() const;
+  // Of the innermost one of this thread, or of the machine.
+  static int threads();
 
   struct Arena;
 

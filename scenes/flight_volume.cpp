@@ -25,12 +25,9 @@ double local_up_m(const terrain::LocalFrame& frame, const SceneDescription& scen
                   const glm::dvec3& at_m, double height_m) {
   core::Geodetic at = frame.to_geodetic(at_m);
   at.height_m = height_m;
-  if (scene.datum == core::VerticalDatum::egm96)
-    at.height_m += terrain::egm96_geoid_height_m(at.latitude_rad, at.longitude_rad);
+  at.height_m = terrain::ellipsoidal_height_m(at, scene.datum);
   return frame.to_local_m(at).z;
 }
-
-}  // namespace
 
 FlightVolume both(const FlightVolume& a, const FlightVolume& b) {
   return {std::min(a.west_m, b.west_m),
@@ -64,6 +61,7 @@ FlightVolume volume_of(const Trajectory& trajectory, const terrain::LocalFrame& 
   return volume;
 }
 
+// Over all of `ground`, between the heights that the description states or those of flight_volume.h.
 FlightVolume volume_over(const terrain::HeightField& ground, const SiteFacts& site,
                          const terrain::LocalFrame& frame, const SceneDescription& scene) {
   FlightVolume volume{ground.west_m, ground.south_m, ground.east_m(), ground.north_m()};
@@ -88,6 +86,18 @@ FlightVolume volume_over(const terrain::HeightField& ground, const SiteFacts& si
   if (scene.flight_heights.lowest_m) volume.lowest_m = stated_lowest_m;
   if (scene.flight_heights.highest_m) volume.highest_m = stated_highest_m;
   return volume;
+}
+
+}  // namespace
+
+FlightVolume flight_volume(const SceneDescription& scene, const terrain::LocalFrame& frame,
+                           const std::optional<Trajectory>& trajectory,
+                           const terrain::HeightField& ground, const SiteFacts& site) {
+  const bool stated = scene.flight_heights.stated || !trajectory;
+  FlightVolume volume = stated ? volume_over(ground, site, frame, scene) : FlightVolume{};
+  if (!trajectory) return volume;
+  const FlightVolume flown = volume_of(*trajectory, frame);
+  return stated ? both(volume, flown) : flown;
 }
 
 }  // namespace fanbeam::scenes

@@ -28,13 +28,9 @@ struct FlightVolume {
   }
 };
 
-// What holds both.
-FlightVolume both(const FlightVolume& a, const FlightVolume& b);
-
-FlightVolume volume_of(const Trajectory& trajectory, const terrain::LocalFrame& frame);
-
-// Over all of `ground`, between the heights that the description states or those above.
-FlightVolume volume_over(const terrain::HeightField& ground, const SiteFacts& site,
-                         const terrain::LocalFrame& frame, const SceneDescription& scene);
+// Of a scene: what it states, else what its trajectory flies through.
+FlightVolume flight_volume(const SceneDescription& scene, const terrain::LocalFrame& frame,
+                           const std::optional<Trajectory>& trajectory,
+                           const terrain::HeightField& ground, const SiteFacts& site);
 
 }  // namespace fanbeam::scenes

@@ -65,9 +65,7 @@ double Ground::level_m() const {
 double Ground::ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad,
                              core::VerticalDatum datum) const {
   if (datum == core::VerticalDatum::scene) datum = scene_.datum;
-  return datum == core::VerticalDatum::egm96
-             ? height_m + terrain::egm96_geoid_height_m(latitude_rad, longitude_rad)
-             : height_m;
+  return terrain::ellipsoidal_height_m({latitude_rad, longitude_rad, height_m}, datum);
 }
 
 glm::dvec2 Ground::local_m(double latitude_rad, double longitude_rad) const {

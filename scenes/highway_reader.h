@@ -7,13 +7,13 @@
 //   {"type": "lane-change",  "t0_s", "t1_s", "lateral_m"}           (to the left)
 // and "circular" has radius_m, azimuth0_rad, angular_rate_rad_s. Members that describe purpose,
 // waveforms, events and acceptance are not read.
-// All problems are told together, each with its path ("scenarios[1].targets[0].rcs_m2"): E-PARSE
-// for what is no JSON, a member that is missing or of the wrong type; E-NONFINITE and E-RANGE for
-// values, fractions where a whole number is asked for and segments below a nanosecond included; E-REF for truth of an unknown
-// target, and for a scenario, target or truth table whose name was used before; E-UNSUPPORTED for
-// another format or version, or an unknown motion; E-LIMIT for more than 64 MiB, a million values,
-// nesting deeper than 64, more than 1000 scenarios, targets, segments or truth rows of one owner;
-// E-IO.
+// All problems are told together, each with its JSON pointer ("/scenarios/1/targets/0/rcs_m2"):
+// E-PARSE for what is no JSON or of the wrong type, E-REF for a member that is missing; E-NONFINITE
+// and E-RANGE for values, fractions where a whole number is asked for and segments below a
+// nanosecond included; E-REF also for truth of an unknown target, and for a scenario, target or
+// truth table whose name was used before; E-UNSUPPORTED for another format or version, or an
+// unknown motion; E-LIMIT for more than 64 MiB, a million values, nesting deeper than 64, more than
+// 1000 scenarios, targets, segments or truth rows of one owner; E-IO.
 #pragma once
 
 #include <filesystem>

@@ -47,23 +47,29 @@ struct BuildOptions {
   bool robust = true;                          // see RayScene
 };
 
-// A site under its conditions. Copies share the site; under_conditions() makes others of it.
-struct Scene {
+// A site and what is said of it now. Copies share the site.
+struct SceneSetting {
   SceneDescription description;  // its sensor, weather and surface state are those of now
   BuildOptions options;
   terrain::LocalFrame frame;
-  std::shared_ptr<const Site> site;
-  std::optional<Trajectory> trajectory;
-  FlightVolume volume;
-  atmosphere::Weather weather;  // with its rain cells placed
+  std::shared_ptr<const Site> site{};
+  std::optional<Trajectory> trajectory{};
+  FlightVolume volume{};
+  atmosphere::Weather weather{};  // with its rain cells placed
   std::vector<RunwayPlace> runways{};
   // Building parts that do not reach the ground; those over open air are triangles and boxes, but
   // no solids of `world`.
   std::size_t raised_buildings = 0, floating_buildings = 0;
-  double build_s = 0.0;
-
-  // What follows from all that.
   renderer::CasterChoice caster{};
+
+  // 0 without a trajectory.
+  int frame_count() const;
+  renderer::FramePose frame_pose(int frame_index) const;
+  renderer::FramePose pose_at(const core::Pose& pose) const;
+};
+
+// The same with all that follows from it; under_conditions() makes others of it.
+struct Scene : SceneSetting {
   std::vector<SurfaceRecord> surfaces{};  // materials in use, as shown
   SightMap sight;
   // Of the whole flight volume, and narrowed to what the frames of the trajectory see where there is
@@ -73,11 +79,7 @@ struct Scene {
   double plan_s = 0.0;
   core::EffectPlan plan{};
   renderer::World world;
-
-  // 0 without a trajectory.
-  int frame_count() const;
-  renderer::FramePose frame_pose(int frame_index) const;
-  renderer::FramePose pose_at(const core::Pose& pose) const;
+  double build_s = 0.0;
 };
 
 // Loads what the description names and puts the world together. Everything wrong is collected in
@@ -87,6 +89,10 @@ struct Scene {
 // forced on a scene they cannot show.
 std::unique_ptr<Scene> build_scene(const SceneDescription& description, const BuildOptions& options,
                                    core::ProblemList& problems);
+
+// What follows from a setting with `targets` in it; warnings of mirrors stay in `problems`.
+std::unique_ptr<Scene> settled(SceneSetting setting, std::vector<renderer::PointTarget> targets,
+                               core::ProblemList& problems);
 
 // What of a scene may change in milliseconds; what is not set stays. The sensor keeps its carrier
 // and polarisation: materials and wires were looked up for them.
@@ -100,7 +106,7 @@ struct Conditions {
 };
 
 // The scene's plan was made of what the frames of its trajectory see, not of a stated volume.
-bool planned_by_flight(const Scene& scene);
+bool planned_by_flight(const SceneSetting& scene);
 
 // The same site under other conditions, planned anew; `scene` stays as it is. Throws InputError with
 // every problem: those of atmosphere::problems_in, E-UNSUPPORTED for another carrier or polarisation

@@ -6,6 +6,7 @@
 #include "core/text.h"
 #include "core/units.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/plan/plan.h"
 #include "scenes/data_search.h"
 #include "scenes/object_reader.h"
 #include "scenes/scene_surfaces.h"
@@ -192,8 +193,10 @@ void read_accuracy(ConfigTable accuracy, SceneDescription& scene) {
   if (scene.rays_per_cell > 0.0 && scene.rays_per_cell < renderer::kFewestRaysPerCell)
     accuracy.error(core::ErrorClass::range, "rays_per_cell", core::number_text(scene.rays_per_cell),
                    "0 or at least " + core::number_text(renderer::kFewestRaysPerCell));
-  scene.accuracy_grey = accuracy.optional_number("grey_levels", {0.01, 100.0}).value_or(0.0);
-  scene.time_budget_ms = accuracy.optional_number("time_budget_ms", {0.1, 1e7}).value_or(0.0);
+  scene.accuracy_grey =
+      accuracy.optional_number("grey_levels", renderer::kAccuracies_grey).value_or(0.0);
+  scene.time_budget_ms =
+      accuracy.optional_number("time_budget_ms", renderer::kTimeBudgets_ms).value_or(0.0);
   if (scene.time_budget_ms > 0.0 && scene.rays_per_cell > 0.0)
     accuracy.error(core::ErrorClass::ref, "time_budget_ms", "beside rays_per_cell",
                    "one of the two: how finely, or how long");

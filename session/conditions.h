@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "core/pose.h"
 #include "core/swerling.h"
@@ -42,7 +43,15 @@ struct Samples {
 struct Accuracy {
   double grey_levels = 0.5;
 };
+// The finest of a ladder (session/sampling_choice.h) with which both pictures of a frame take at most
+// so long on this machine, timed when it is set and kept until the next one. The slowest of `poses`
+// counts; without any, of three frames spread over the scene's trajectory. Too short a time gives
+// the coarsest.
+struct TimeBudget {
+  double ms = 0.0;  // 0.1 to 1e7
+  std::vector<core::Pose> poses{};
+};
 // The last one says every setting of its own: references, estimates, what a time budget chose.
-using SamplingWish = std::variant<Samples, Accuracy, renderer::Sampling>;
+using SamplingWish = std::variant<Samples, Accuracy, TimeBudget, renderer::Sampling>;
 
 }  // namespace fanbeam::session

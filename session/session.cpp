@@ -1,16 +1,18 @@
 #include "session/session.h"
 
-#include <cmath>
 #include <mutex>
+#include <numeric>
 #include <optional>
 #include <utility>
 
+#include "core/number_range.h"
 #include "core/parallel.h"
 #include "renderer/plan/effects.h"
 #include "renderer/planned_frames.h"
 #include "scenes/frame_plan.h"
 #include "scenes/scene_caster.h"
 #include "scenes/scene_reader.h"
+#include "session/sampling_choice.h"
 #include "session/targets.h"
 
 namespace fanbeam::session {
@@ -35,10 +37,7 @@ SamplingWish wish_of(const scenes::SceneDescription& scene, const scenes::BuildO
 
 void check(const renderer::Sampling& sampling, core::ProblemList& problems) {
   const auto within = [&](const char* field, double value, double low, double high) {
-    if (!(value >= low && value <= high))
-      problems.error(core::ErrorClass::range, {}, std::string("sampling.") + field,
-                     core::number_text(value),
-                     core::number_text(low) + " to " + core::number_text(high));
+    core::check_range(problems, std::string("sampling.") + field, value, {low, high});
   };
   within("slices_per_sub_column", sampling.slices_per_sub_column, 1, 4096);
   within("sub_columns", sampling.sub_columns, 1, 4096);
@@ -53,13 +52,13 @@ void check(const renderer::Sampling& sampling, core::ProblemList& problems) {
 
 void check(const SamplingWish& wish, core::ProblemList& problems) {
   if (const auto* accuracy = std::get_if<Accuracy>(&wish)) {
-    if (!(accuracy->grey_levels >= 0.01 && accuracy->grey_levels <= 100.0))
-      problems.error(core::ErrorClass::range, {}, "accuracy",
-                     core::number_text(accuracy->grey_levels), "0.01 to 100 grey levels");
-    return;
+    return core::check_range(problems, "accuracy", accuracy->grey_levels,
+                             renderer::kAccuracies_grey, "grey levels");
   }
   if (const auto* sampling = std::get_if<renderer::Sampling>(&wish))
     return check(*sampling, problems);
+  if (const auto* budget = std::get_if<TimeBudget>(&wish))
+    return core::check_range(problems, "time budget", budget->ms, renderer::kTimeBudgets_ms, "ms");
   const double per_cell = std::get<Samples>(wish).per_cell;
   if (per_cell != 0.0 && !(per_cell >= renderer::kFewestRaysPerCell && per_cell <= 10000.0))
     problems.error(core::ErrorClass::range, {}, "samples per cell", core::number_text(per_cell),
@@ -70,9 +69,8 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
                               core::ProblemList& problems) {
   if (settings.boresight_elevation_rad) {
     const double tilt_rad = *settings.boresight_elevation_rad;
-    if (!(std::abs(tilt_rad) <= core::kPi / 2))
-      problems.error(core::ErrorClass::range, {}, "boresight_elevation_rad",
-                     core::number_text(tilt_rad), "-pi/2 to pi/2");
+    core::check_range(problems, "boresight_elevation_rad", tilt_rad,
+                      {-core::kPi / 2, core::kPi / 2});
     sensor.display.cscope_top_rad += tilt_rad - sensor.antenna.boresight_elevation_rad;
     sensor.antenna.boresight_elevation_rad = tilt_rad;
   }
@@ -98,6 +96,7 @@ void check(const renderer::Products& wanted, const scenes::Scene& scene) {
 // What a frame is made under.
 class Work {
  public:
+  Work(core::StopToken&&, int) = delete;  // which must outlive it
   Work(const core::StopToken& stop, int threads) : scope_(stop) {
     if (threads > 0) limit_.emplace(threads);
   }
@@ -165,14 +164,22 @@ void Session::open(scenes::SceneDescription description, const Setup& setup,
 
 Session::~Session() = default;
 
-std::shared_ptr<const Session::Published> Session::published() const {
+Session::Moment Session::now() const {
   const std::lock_guard<std::mutex> lock(inside_->looking);
   return inside_->published;
 }
 
-std::shared_ptr<const scenes::Scene> Session::scene() const { return published()->scene; }
+std::shared_ptr<const scenes::Scene> Session::scene(const Moment& under) const {
+  return under->scene;
+}
 
-renderer::Sampling Session::sampling() const { return published()->sampling; }
+renderer::Sampling Session::sampling(const Moment& under) const { return under->sampling; }
+
+std::shared_ptr<const scenes::Scene> Session::scene() const { return now()->scene; }
+
+renderer::Sampling Session::sampling() const { return now()->sampling; }
+
+std::uint64_t Session::seed() const { return inside_->seed; }
 
 core::ProblemList Session::change(const std::function<void(Asked&)>& ask, bool as_before) {
   const std::lock_guard<std::mutex> one(inside_->setting);
@@ -181,7 +188,7 @@ core::ProblemList Session::change(const std::function<void(Asked&)>& ask, bool a
   asked.problems.throw_if_errors();
   core::ProblemList warnings;
   std::shared_ptr<const scenes::Scene> scene =
-      as_before ? published()->scene
+      as_before ? now()->scene
                 : scenes::under_conditions(*inside_->opened, asked.conditions, warnings);
   auto next = std::make_shared<const Published>(std::move(scene), asked.sampling, inside_->seed);
   inside_->asked = std::move(asked);
@@ -211,7 +218,37 @@ core::ProblemList Session::set(std::span<const TargetState> targets) {
   });
 }
 
+// What a time budget comes to under the conditions of now.
+renderer::Sampling Session::timed(const TimeBudget& budget) const {
+  const core::StopToken stop = core::StopScope::current();
+  const Work work(stop, inside_->threads);
+  const std::shared_ptr<const scenes::Scene> scene = now()->scene;
+  std::vector<renderer::FramePose> poses;
+  for (const core::Pose& pose : budget.poses) {
+    poses.push_back(scene->pose_at(pose));
+    renderer::check(poses.back());
+  }
+  if (poses.empty() && scene->frame_count() == 0)
+    core::throw_input_error(core::ErrorClass::ref, "time budget", "no poses",
+                            "poses to time, as the scene has no trajectory");
+  if (poses.empty()) {
+    std::vector<int> frames(static_cast<std::size_t>(scene->frame_count()));
+    std::iota(frames.begin(), frames.end(), 0);
+    poses = poses_to_time(*scene, frames);
+  }
+  const bool heights = scene->options.heights_shown;
+  return choose_sampling({.time_budget_ms = budget.ms}, *scene, inside_->seed, {true, heights},
+                         poses)
+      .sampling;
+}
+
 core::ProblemList Session::set(const SamplingWish& wish) {
+  if (const auto* budget = std::get_if<TimeBudget>(&wish)) {
+    core::ProblemList problems;
+    check(wish, problems);
+    problems.throw_if_errors();
+    return set(SamplingWish(timed(*budget)));
+  }
   const auto* accuracy = std::get_if<Accuracy>(&wish);
   const auto ask = [&](Asked& asked) {
     check(wish, asked.problems);
@@ -224,17 +261,22 @@ core::ProblemList Session::set(const SamplingWish& wish) {
 renderer::Frame Session::render(const core::Pose& pose, std::uint64_t frame_index,
                                 const renderer::Products& wanted,
                                 const core::StopToken& stop) const {
+  return render(now(), pose, frame_index, wanted, stop);
+}
+
+renderer::Frame Session::render(const Moment& under, const core::Pose& pose,
+                                std::uint64_t frame_index, const renderer::Products& wanted,
+                                const core::StopToken& stop) const {
   const Work work(stop, inside_->threads);
-  const std::shared_ptr<const Published> now = published();
-  check(wanted, *now->scene);
-  renderer::FramePose at = now->scene->pose_at(pose);
+  check(wanted, *under->scene);
+  renderer::FramePose at = under->scene->pose_at(pose);
   at.frame_index = frame_index;
   renderer::check(at);
-  if (scenes::planned_for(*now->scene, at))
-    return now->frames.for_plan(now->scene->plan, wanted).render(at);
-  const core::EffectPlan plan = scenes::plan_alone(*now->scene, at);
-  const renderer::World world = scenes::world_for(*now->scene, plan);
-  renderer::Frame frame = renderer::FrameRenderer(world, now->sampling, wanted,
+  if (scenes::planned_for(*under->scene, at))
+    return under->frames.for_plan(under->scene->plan, wanted).render(at);
+  const core::EffectPlan plan = scenes::plan_alone(*under->scene, at);
+  const renderer::World world = scenes::world_for(*under->scene, plan);
+  renderer::Frame frame = renderer::FrameRenderer(world, under->sampling, wanted,
                                                   renderer::effects_of(plan, inside_->seed))
                               .render(at);
   frame.events.emplace_back("outside_volume");
@@ -245,9 +287,9 @@ renderer::Frame Session::render_flown(int frame, const core::EffectPlan& plan,
                                       const renderer::Products& wanted,
                                       const core::StopToken& stop) const {
   const Work work(stop, inside_->threads);
-  const std::shared_ptr<const Published> now = published();
-  check(wanted, *now->scene);
-  return now->frames.for_plan(plan, wanted).render(now->scene->frame_pose(frame));
+  const Moment under = now();
+  check(wanted, *under->scene);
+  return under->frames.for_plan(plan, wanted).render(under->scene->frame_pose(frame));
 }
 
 }  // namespace fanbeam::session

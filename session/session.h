@@ -76,18 +76,28 @@ class Session {
                                const renderer::Products& wanted = {},
                                const core::StopToken& stop = core::StopScope::current()) const;
 
+  // Conditions and sampling of now, for frames to be made under whatever is set meanwhile.
+  struct Published;
+  using Moment = std::shared_ptr<const Published>;
+  Moment now() const;
+  std::shared_ptr<const scenes::Scene> scene(const Moment& under) const;
+  renderer::Sampling sampling(const Moment& under) const;
+  renderer::Frame render(const Moment& under, const core::Pose& pose, std::uint64_t frame_index,
+                         const renderer::Products& wanted = {},
+                         const core::StopToken& stop = core::StopScope::current()) const;
+
   // The scene as it is now: plan, facts, sensor, trajectory. It stays as it is when conditions
   // change.
   std::shared_ptr<const scenes::Scene> scene() const;
   renderer::Sampling sampling() const;
+  std::uint64_t seed() const;
 
  private:
-  struct Published;
   struct Asked;
   void open(scenes::SceneDescription description, const Setup& setup, core::ProblemList& problems);
   // `as_before`: the scene stays as it is.
   core::ProblemList change(const std::function<void(Asked&)>& ask, bool as_before = false);
-  std::shared_ptr<const Published> published() const;
+  renderer::Sampling timed(const TimeBudget& budget) const;
 
   struct Inside;
   std::unique_ptr<Inside> inside_;

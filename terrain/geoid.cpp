@@ -58,4 +58,9 @@ double egm96_geoid_height_m(double latitude_rad, double longitude_rad) {
   return grid.height_m(latitude_rad, core::wrap_pi_rad(longitude_rad));
 }
 
+double ellipsoidal_height_m(const core::Geodetic& at, core::VerticalDatum datum) {
+  if (datum != core::VerticalDatum::egm96) return at.height_m;
+  return at.height_m + egm96_geoid_height_m(at.latitude_rad, at.longitude_rad);
+}
+
 }  // namespace fanbeam::terrain

@@ -6,6 +6,8 @@
 // mountains; EGM96 itself is good to 0.5-1 m. Neglected: later geoids (EGM2008), tides.
 #pragma once
 
+#include "core/geodetic.h"
+
 namespace fanbeam::terrain {
 
 // Geoid height N in metres: height above the ellipsoid = height above mean sea level + N.
@@ -13,5 +15,9 @@ namespace fanbeam::terrain {
 // thread opens the grid for itself on its first call.
 // Throws InputError: E-IO when the grid is not installed, E-NONFINITE, E-RANGE.
 double egm96_geoid_height_m(double latitude_rad, double longitude_rad);
+
+// Above the ellipsoid, of a place whose height counts from `datum`; in the unknown datum of a scene
+// heights stay what they are.
+double ellipsoidal_height_m(const core::Geodetic& at, core::VerticalDatum datum);
 
 }  // namespace fanbeam::terrain

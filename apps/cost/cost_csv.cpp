@@ -2,8 +2,8 @@
 
 #include <initializer_list>
 
-#include "apps/cost/ladder.h"
 #include "core/errors.h"
+#include "measure/ladder.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -45,36 +45,36 @@ std::string error_fields(const renderer::FrameError& error) {
 
 constexpr const char* kTimeColumns = "frame_ms,frame_standard_error_ms,repetitions";
 
-std::string time_fields(const MedianTime& time) {
+std::string time_fields(const core::MedianTime& time) {
   return number_text(time.ms) + ',' + number_text(time.error_ms) + ',' +
          std::to_string(time.repetitions);
 }
 
 }  // namespace
 
-std::string ladder_csv(const CostFigures& figures) {
+std::string ladder_csv(const measure::CostFigures& figures) {
   std::string text = std::string("frame,way,fineness,fineness_unit,") + kTimeColumns +
                      ",rays,slices," + kErrorColumns + '\n';
-  for (const LadderStep& step : figures.ladder)
+  for (const measure::LadderStep& step : figures.ladder)
     text +=
         row({std::to_string(step.frame), std::string(name_of(step.way)), number_text(step.fineness),
-             std::string(fineness_of(step.way)), time_fields(step.time), count(step.rays),
+             std::string(measure::fineness_of(step.way)), time_fields(step.time), count(step.rays),
              count(step.slices), error_fields(step.error)});
   // A second reference against the first: how well the errors above are known.
-  for (const ReferenceFigures& reference : figures.references)
+  for (const measure::ReferenceFigures& reference : figures.references)
     text += row({std::to_string(reference.frame), "reference", number_text(reference.rays_per_cell),
                  "rays_per_cell_and_column", number_text(1000.0 * reference.time_s), "", "1",
                  count(reference.rays), "0", error_fields(reference.own_error)});
   return text;
 }
 
-std::string effects_csv(const CostFigures& figures) {
+std::string effects_csv(const measure::CostFigures& figures) {
   std::string text =
       "frame,effect,planned,possible,bound_grey,bound_dB,with_ms,without_ms,cost_ms,"
       "cost_standard_error_ms,repetitions,bscope_largest_grey,bscope_rms_grey,bscope_largest_dB,"
       "bscope_rms_dB,cscope_largest_grey,cscope_rms_grey,cscope_largest_dB,cscope_rms_dB,reason\n";
-  for (const EffectPrice& price : figures.effects) {
-    const auto change = [&](const Change& of) {
+  for (const measure::EffectPrice& price : figures.effects) {
+    const auto change = [&](const measure::Change& of) {
       return number_text(of.largest_grey) + ',' + number_text(of.rms_grey) + ',' +
              number_text(of.largest_grey * figures.dB_per_grey) + ',' +
              number_text(of.rms_grey * figures.dB_per_grey);
@@ -93,14 +93,14 @@ std::string effects_csv(const CostFigures& figures) {
   return text;
 }
 
-std::string numerics_csv(const CostFigures& figures) {
+std::string numerics_csv(const measure::CostFigures& figures) {
   std::string text = std::string("frame,comparison,variant,") + kTimeColumns + ',' + kErrorColumns +
                      ",rays,other_hits,range_median_m,range_rms_m,range_largest_m\n";
-  for (const Variant& variant : figures.numerics.variants)
+  for (const measure::Variant& variant : figures.numerics.variants)
     text += row({std::to_string(variant.frame), variant.comparison, variant.name,
                  time_fields(variant.time), error_fields(variant.error), "", "", "", "", ""});
   const std::string no_errors(11, ',');
-  for (const RangeFigures& range : figures.numerics.ranges) {
+  for (const measure::RangeFigures& range : figures.numerics.ranges) {
     text +=
         row({std::to_string(range.frame), "range_of_rays_alone", "float", time_fields(range.cast),
              no_errors, count(range.hits), count(range.other_cell), number_text(range.median_m),
@@ -109,26 +109,27 @@ std::string numerics_csv(const CostFigures& figures) {
         row({std::to_string(range.frame), "range_of_rays_alone", "double",
              time_fields(range.cast_and_double), no_errors, count(range.hits), "0", "0", "0", "0"});
   }
-  for (const RobustFigures& robust : figures.numerics.robust)
+  for (const measure::RobustFigures& robust : figures.numerics.robust)
     text += row({std::to_string(robust.frame), "robust_flag_hits", "off", "", "", "", no_errors,
                  count(robust.rays), count(robust.lost + robust.moved), "", "", ""});
   return text;
 }
 
-std::string equal_error_csv(const CostFigures& figures) {
+std::string equal_error_csv(const measure::CostFigures& figures) {
   std::string text = "frame,noise,bscope_rms_grey";
-  for (const Way way : kWays) text += ',' + std::string(name_of(way)) + "_ms";
+  for (const measure::Way way : measure::kWays) text += ',' + std::string(name_of(way)) + "_ms";
   text += '\n';
   for (const int frame : figures.frames) {
-    std::vector<LadderStep> steps;
-    for (const LadderStep& step : figures.ladder)
+    std::vector<measure::LadderStep> steps;
+    for (const measure::LadderStep& step : figures.ladder)
       if (step.frame == frame) steps.push_back(step);
     for (const EqualError& equal : kEqualErrors) {
       text += std::to_string(frame) + (equal.with_noise ? ",with," : ",without,") +
               number_text(equal.rms_grey);
-      for (const Way way : kWays) {
-        const auto ms = ms_at_error(steps, way, equal.rms_grey,
-                                    equal.with_noise ? bscope_with_noise : bscope_noise_free);
+      for (const measure::Way way : measure::kWays) {
+        const auto ms = measure::ms_at_error(
+            steps, way, equal.rms_grey,
+            equal.with_noise ? measure::bscope_with_noise : measure::bscope_noise_free);
         text += ',' + (ms ? number_text(*ms) : std::string());
       }
       text += '\n';

@@ -4,14 +4,14 @@
 
 #include <string>
 
-#include "apps/cost/figures.h"
+#include "measure/figures.h"
 
 namespace fanbeam::apps {
 
-std::string ladder_csv(const CostFigures& figures);
-std::string effects_csv(const CostFigures& figures);
-std::string numerics_csv(const CostFigures& figures);
-std::string equal_error_csv(const CostFigures& figures);
+std::string ladder_csv(const measure::CostFigures& figures);
+std::string effects_csv(const measure::CostFigures& figures);
+std::string numerics_csv(const measure::CostFigures& figures);
+std::string equal_error_csv(const measure::CostFigures& figures);
 
 // B-scope errors at which ways of sampling are compared, and whether the receiver's noise is in
 // both pictures.

@@ -5,16 +5,18 @@
 #include <vector>
 
 #include "apps/cost/cost_markdown.h"
-#include "apps/cost/effect_prices.h"
+#include "measure/effect_prices.h"
 #include "renderer/plan/plan.h"
 
 namespace fanbeam::apps {
 namespace {
 
 // A cost of less than twice its uncertainty is none that was measured; a gain is noise too.
-bool measurable(const EffectPrice& price) { return price.cost_ms() > 2.0 * price.cost_error_ms(); }
+bool measurable(const measure::EffectPrice& price) {
+  return price.cost_ms() > 2.0 * price.cost_error_ms();
+}
 
-std::string cost_text(const EffectPrice& price) {
+std::string cost_text(const measure::EffectPrice& price) {
   return measurable(price) ? fmt::format("{:.2f} ms", price.cost_ms())
                            : std::string("no measurable time");
 }
@@ -23,11 +25,11 @@ std::string two_digits(double value) {
   return value < 10.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", value);
 }
 
-double largest_grey(const EffectPrice& price) {
+double largest_grey(const measure::EffectPrice& price) {
   return std::max(price.bscope.largest_grey, price.cscope.largest_grey);
 }
 
-std::string effect_sentence(const EffectPrice& price, double dB_per_grey) {
+std::string effect_sentence(const measure::EffectPrice& price, double dB_per_grey) {
   const double largest = largest_grey(price);
   const std::string change =
       largest > 0.0 ? fmt::format("changes pixels by up to {} grey levels ({} dB)",
@@ -40,17 +42,18 @@ std::string effect_sentence(const EffectPrice& price, double dB_per_grey) {
 }
 
 // As changes of power, in dB; an influence below the share counts as the share.
-double bound_over_influence_dB(const EffectPrice& price, double share_grey, double dB_per_grey) {
+double bound_over_influence_dB(const measure::EffectPrice& price, double share_grey,
+                               double dB_per_grey) {
   const auto change = [](double dB) { return std::pow(10.0, dB / 10.0) - 1.0; };
   return 10.0 * std::log10(change(price.bound_dB) /
                            change(std::max(largest_grey(price), share_grey) * dB_per_grey));
 }
 
 // Effects that run although they change less than the share that the plan could leave out.
-std::string needless_text(const std::vector<EffectPrice>& prices, double share_grey,
+std::string needless_text(const std::vector<measure::EffectPrice>& prices, double share_grey,
                           double dB_per_grey) {
   std::string needless;
-  for (const EffectPrice& price : prices)
+  for (const measure::EffectPrice& price : prices)
     if (price.planned && price.possible && largest_grey(price) < share_grey)
       needless +=
           fmt::format("* **{}** runs and changes less; bound over influence {:.1f} dB.\n",
@@ -64,8 +67,8 @@ std::string needless_text(const std::vector<EffectPrice>& prices, double share_g
          needless + '\n';
 }
 
-std::string effect_row(const EffectPrice& price, double dB_per_grey) {
-  const auto pair = [](const Change& change, double scale) {
+std::string effect_row(const measure::EffectPrice& price, double dB_per_grey) {
+  const auto pair = [](const measure::Change& change, double scale) {
     return fmt::format("{:.3g} / {:.2g}", change.largest_grey * scale, change.rms_grey * scale);
   };
   return fmt::format("| {} | {} | {:+.2f} ± {:.2f} | {} | {} | {} | {:.3g} |\n", price.effect,
@@ -74,14 +77,14 @@ std::string effect_row(const EffectPrice& price, double dB_per_grey) {
                      pair(price.cscope, 1.0), price.bound_grey);
 }
 
-std::string median_text(const MedianTime& time) {
+std::string median_text(const core::MedianTime& time) {
   return fmt::format("{:.2f} ± {:.2f}", time.ms, time.error_ms);
 }
 
-std::string variant_table(const CostFigures& figures, const std::string& comparison,
+std::string variant_table(const measure::CostFigures& figures, const std::string& comparison,
                           const std::string& heading) {
   std::string rows;
-  for (const Variant& variant : figures.numerics.variants)
+  for (const measure::Variant& variant : figures.numerics.variants)
     if (variant.comparison == comparison)
       rows += fmt::format("| {} | {} | {} | {:.2f} / {:.2f} | {:.2f} / {:.2f} |\n", variant.frame,
                           variant.name, median_text(variant.time),
@@ -92,7 +95,7 @@ std::string variant_table(const CostFigures& figures, const std::string& compari
          " | ms | B-scope | C-scope |\n| ---: | --- | ---: | ---: | ---: |\n" + rows + '\n';
 }
 
-std::string range_part(const CostFigures& figures) {
+std::string range_part(const measure::CostFigures& figures) {
   std::string text =
       "### Float against double range\n\n"
       "The range of a hit is the ray-casting library's float. Beside it the range worked out in "
@@ -101,7 +104,7 @@ std::string range_part(const CostFigures& figures) {
       "| frame | hits | median error | RMS | largest | hits in another range cell | rays, ms | "
       "rays "
       "and double, ms |\n| ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
-  for (const RangeFigures& range : figures.numerics.ranges)
+  for (const measure::RangeFigures& range : figures.numerics.ranges)
     text += fmt::format("| {} | {} | {:.2f} mm | {:.2f} mm | {:.1f} mm | {} | {} | {} |\n",
                         range.frame, range.hits, 1000.0 * range.median_m, 1000.0 * range.rms_m,
                         1000.0 * range.largest_m, range.other_cell, median_text(range.cast),
@@ -109,11 +112,11 @@ std::string range_part(const CostFigures& figures) {
   return text + '\n';
 }
 
-std::string robust_part(const CostFigures& figures) {
+std::string robust_part(const measure::CostFigures& figures) {
   std::string text =
       "### The robust flag\n\n"
       "With it the ray-casting library does not lose rays between two triangles.\n\n";
-  for (const RobustFigures& robust : figures.numerics.robust)
+  for (const measure::RobustFigures& robust : figures.numerics.robust)
     text += fmt::format(
         "Without it, {} of {} rays of frame {} hit nothing, and {} hit something else.\n",
         robust.lost, robust.rays, robust.frame, robust.moved);
@@ -122,11 +125,11 @@ std::string robust_part(const CostFigures& figures) {
 
 }  // namespace
 
-std::string effects_section(const CostFigures& figures) {
+std::string effects_section(const measure::CostFigures& figures) {
   if (figures.effects.empty()) return "";
   std::string sentences, rows, impossible;
-  const std::vector<EffectPrice> prices = over_frames(figures.effects);
-  for (const EffectPrice& price : prices) {
+  const std::vector<measure::EffectPrice> prices = measure::over_frames(figures.effects);
+  for (const measure::EffectPrice& price : prices) {
     if (!price.possible) {
       impossible += fmt::format("* {}: {}\n", price.effect, price.reason);
       continue;
@@ -136,7 +139,7 @@ std::string effects_section(const CostFigures& figures) {
   }
   std::string text =
       "## What each effect costs and brings\n\n"
-      "![Change of the picture over cost of each effect](effects.svg)\n\n" +
+      "![measure::Change of the picture over cost of each effect](effects.svg)\n\n" +
       fmt::format(
           "Far up matters, far left is cheap. Planned for an accuracy of {:g} grey levels, "
           "frames cast by {}.\n\n",
@@ -154,7 +157,7 @@ std::string effects_section(const CostFigures& figures) {
   return text;
 }
 
-std::string numerics_section(const CostFigures& figures) {
+std::string numerics_section(const measure::CostFigures& figures) {
   if (figures.numerics.variants.empty()) return "";
   std::string text = "## Arithmetic and beam\n\n" + range_part(figures) + robust_part(figures);
   text +=

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "apps/cost/cost_csv.h"
-#include "apps/cost/ladder.h"
 #include "apps/cost/levels_report.h"
 #include "core/errors.h"
+#include "measure/ladder.h"
 
 namespace fanbeam::apps {
 namespace {
 
 using core::number_text;
 
-std::string head_section(const CostFigures& figures) {
+std::string head_section(const measure::CostFigures& figures) {
   std::string frames;
   for (const int frame : figures.frames)
     frames += (frames.empty() ? "" : ", ") + std::to_string(frame);
@@ -36,11 +36,11 @@ std::string head_section(const CostFigures& figures) {
 }
 
 // The coarsest and the finest step of a way; null where it has none.
-std::pair<const LadderStep*, const LadderStep*> ends_of(const std::vector<LadderStep>& steps,
-                                                        Way way) {
-  const LadderStep* first = nullptr;
-  const LadderStep* last = nullptr;
-  for (const LadderStep& step : steps) {
+std::pair<const measure::LadderStep*, const measure::LadderStep*> ends_of(
+    const std::vector<measure::LadderStep>& steps, measure::Way way) {
+  const measure::LadderStep* first = nullptr;
+  const measure::LadderStep* last = nullptr;
+  for (const measure::LadderStep& step : steps) {
     if (step.way != way) continue;
     if (first == nullptr) first = &step;
     last = &step;
@@ -49,30 +49,32 @@ std::pair<const LadderStep*, const LadderStep*> ends_of(const std::vector<Ladder
 }
 
 // "0.53", "below 0.10" where the ladder ends sooner, nothing where not even its first step fits.
-std::optional<std::string> error_text(const std::vector<LadderStep>& steps, Way way, double ms,
-                                      PickError error) {
+std::optional<std::string> error_text(const std::vector<measure::LadderStep>& steps,
+                                      measure::Way way, double ms, measure::PickError error) {
   const auto [first, last] = ends_of(steps, way);
   if (first == nullptr || first->time.ms > ms) return std::nullopt;
-  if (const auto at = error_at_ms(steps, way, ms, error)) return fmt::format("{:.2f}", *at);
+  if (const auto at = measure::error_at_ms(steps, way, ms, error))
+    return fmt::format("{:.2f}", *at);
   return fmt::format("below {:.2f}", error(last->error));
 }
 
-std::string rate_sentence(const std::vector<LadderStep>& steps, double ms, const char* rate) {
+std::string rate_sentence(const std::vector<measure::LadderStep>& steps, double ms,
+                          const char* rate) {
   std::string text = fmt::format(
       "In {:.3g} ms, the time of a frame at {}, pictures come this close to the "
       "converged one:",
       ms, rate);
   std::string parts, without;
-  for (const Way way : kWays) {
+  for (const measure::Way way : measure::kWays) {
     if (std::none_of(steps.begin(), steps.end(), [&](const auto& s) { return s.way == way; }))
       continue;
-    const auto noisy = error_text(steps, way, ms, bscope_with_noise);
-    const auto clean = error_text(steps, way, ms, bscope_noise_free);
+    const auto noisy = error_text(steps, way, ms, measure::bscope_with_noise);
+    const auto clean = error_text(steps, way, ms, measure::bscope_noise_free);
     if (noisy && clean)
       parts += fmt::format("{} {}: {} grey levels ({} without noise)", parts.empty() ? "" : ";",
-                           words_of(way), *noisy, *clean);
+                           measure::words_of(way), *noisy, *clean);
     else
-      without += (without.empty() ? "" : "; ") + std::string(words_of(way));
+      without += (without.empty() ? "" : "; ") + std::string(measure::words_of(way));
   }
   if (parts.empty()) return text + " none does.\n";
   text += parts + ".";
@@ -80,7 +82,7 @@ std::string rate_sentence(const std::vector<LadderStep>& steps, double ms, const
   return text + '\n';
 }
 
-std::string ladder_table(const std::vector<LadderStep>& steps) {
+std::string ladder_table(const std::vector<measure::LadderStep>& steps) {
   std::string text =
       "| way | fineness | ms | million rays | B-scope | lit cells | lit 99 % | C-scope |\n"
       "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n";
@@ -88,11 +90,11 @@ std::string ladder_table(const std::vector<LadderStep>& steps) {
     return fmt::format("{:.2f} / {:.2f}", error.with_noise.*figure, error.noise_free.*figure);
   };
   using renderer::GreyError;
-  for (const Way way : kWays)
-    for (const LadderStep& step : steps)
+  for (const measure::Way way : measure::kWays)
+    for (const measure::LadderStep& step : steps)
       if (step.way == way)
         text += fmt::format(
-            "| {} | {} | {:.1f} | {} | {} | {} | {} | {} |\n", words_of(way),
+            "| {} | {} | {:.1f} | {} | {} | {} | {} | {} |\n", measure::words_of(way),
             number_text(step.fineness), step.time.ms,
             step.rays > 0 ? fmt::format("{:.2f}", static_cast<double>(step.rays) / 1e6) : "-",
             pair(step.error.bscope, &GreyError::rms), pair(step.error.bscope, &GreyError::lit_rms),
@@ -101,9 +103,9 @@ std::string ladder_table(const std::vector<LadderStep>& steps) {
 }
 
 // "12.3 ms", or on which side of the ladder the error lies.
-std::string equal_error_text(const std::vector<LadderStep>& steps, Way way, double rms_grey,
-                             PickError error) {
-  if (const auto ms = ms_at_error(steps, way, rms_grey, error))
+std::string equal_error_text(const std::vector<measure::LadderStep>& steps, measure::Way way,
+                             double rms_grey, measure::PickError error) {
+  if (const auto ms = measure::ms_at_error(steps, way, rms_grey, error))
     return fmt::format("{:.1f} ms", *ms);
   const auto [first, last] = ends_of(steps, way);
   if (first == nullptr) return "-";
@@ -111,18 +113,19 @@ std::string equal_error_text(const std::vector<LadderStep>& steps, Way way, doub
                                         : fmt::format("over {:.1f} ms", last->time.ms);
 }
 
-std::string equal_error_table(const std::vector<LadderStep>& steps) {
+std::string equal_error_table(const std::vector<measure::LadderStep>& steps) {
   std::string text = "| B-scope error |", rule = "| --- |";
-  for (const Way way : kWays) {
-    text += fmt::format(" {} |", words_of(way));
+  for (const measure::Way way : measure::kWays) {
+    text += fmt::format(" {} |", measure::words_of(way));
     rule += " ---: |";
   }
   text += '\n' + rule + '\n';
   for (const EqualError& equal : kEqualErrors) {
     text += fmt::format("| {} {} |", number_text(equal.rms_grey),
                         equal.with_noise ? "with noise" : "noise-free");
-    const PickError error = equal.with_noise ? bscope_with_noise : bscope_noise_free;
-    for (const Way way : kWays)
+    const measure::PickError error =
+        equal.with_noise ? measure::bscope_with_noise : measure::bscope_noise_free;
+    for (const measure::Way way : measure::kWays)
       text += ' ' + equal_error_text(steps, way, equal.rms_grey, error) + " |";
     text += '\n';
   }
@@ -130,13 +133,14 @@ std::string equal_error_table(const std::vector<LadderStep>& steps) {
 }
 
 // "At an error of 2.6 ... rays need 4 times the time of slices".
-std::string ratio_sentence(const std::vector<LadderStep>& steps) {
+std::string ratio_sentence(const std::vector<measure::LadderStep>& steps) {
   for (const EqualError& equal : kEqualErrors) {
     if (equal.with_noise) continue;
-    const auto at = [&](Way way) {
-      return ms_at_error(steps, way, equal.rms_grey, bscope_noise_free);
+    const auto at = [&](measure::Way way) {
+      return measure::ms_at_error(steps, way, equal.rms_grey, measure::bscope_noise_free);
     };
-    const auto slices = at(Way::slices), rays = at(Way::rays), naive = at(Way::naive_dithered);
+    const auto slices = at(measure::Way::slices), rays = at(measure::Way::rays),
+               naive = at(measure::Way::naive_dithered);
     if (!slices || !rays) continue;
     std::string text = fmt::format(
         "At an equal error of {} grey levels without noise, rays need {:.1f} times the time of "
@@ -148,13 +152,13 @@ std::string ratio_sentence(const std::vector<LadderStep>& steps) {
   return "";
 }
 
-std::string reference_table(const CostFigures& figures) {
+std::string reference_table(const measure::CostFigures& figures) {
   std::string text =
       "How well the converged picture itself is known: a second one with other random places "
       "against\nthe first.\n\n"
       "| frame | seconds | million rays | B-scope | C-scope |\n"
       "| ---: | ---: | ---: | ---: | ---: |\n";
-  for (const ReferenceFigures& r : figures.references)
+  for (const measure::ReferenceFigures& r : figures.references)
     text += fmt::format("| {} | {:.1f} | {:.0f} | {:.2f} / {:.2f} | {:.2f} / {:.2f} |\n", r.frame,
                         r.time_s, static_cast<double>(r.rays) / 1e6,
                         r.own_error.bscope.with_noise.rms, r.own_error.bscope.noise_free.rms,
@@ -162,13 +166,13 @@ std::string reference_table(const CostFigures& figures) {
   return text + '\n';
 }
 
-std::string ladder_section(const CostFigures& figures) {
+std::string ladder_section(const measure::CostFigures& figures) {
   if (figures.ladder.empty()) return "";
-  const std::vector<LadderStep> steps = over_frames(figures.ladder);
+  const std::vector<measure::LadderStep> steps = measure::over_frames(figures.ladder);
   std::string text = "## Error against time\n\n![Error of the B-scope over time](ladder.svg)\n\n";
   text += "Lower is better, and further left is faster. " +
-          rate_sentence(steps, kTime16Hz_ms, "16 Hz") +
-          rate_sentence(steps, kTime90Hz_ms, "90 Hz") + ratio_sentence(steps);
+          rate_sentence(steps, measure::kTime16Hz_ms, "16 Hz") +
+          rate_sentence(steps, measure::kTime90Hz_ms, "90 Hz") + ratio_sentence(steps);
   if (!figures.why_no_slices.empty())
     text += "No slices in this scene: " + figures.why_no_slices + ".\n";
   text += "\n![Error of the C-scope over time](ladder-cscope.svg)\n\n";
@@ -200,7 +204,7 @@ std::string method_section() {
 
 }  // namespace
 
-std::string cost_markdown(const CostFigures& figures) {
+std::string cost_markdown(const measure::CostFigures& figures) {
   return head_section(figures) + ladder_section(figures) + effects_section(figures) +
          numerics_section(figures) + levels_section(figures) + method_section();
 }

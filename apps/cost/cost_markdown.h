@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "apps/cost/figures.h"
+#include "measure/figures.h"
 
 namespace fanbeam::apps {
 
 // Plots are linked as ladder.svg, ladder-cscope.svg and effects.svg beside the page.
-std::string cost_markdown(const CostFigures& figures);
+std::string cost_markdown(const measure::CostFigures& figures);
 
 // Its sections on the effects and on arithmetic (cost_effects_markdown.cpp).
-std::string effects_section(const CostFigures& figures);
-std::string numerics_section(const CostFigures& figures);
+std::string effects_section(const measure::CostFigures& figures);
+std::string numerics_section(const measure::CostFigures& figures);
 
 }  // namespace fanbeam::apps

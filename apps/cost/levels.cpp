@@ -5,11 +5,11 @@
 #include <chrono>
 #include <cmath>
 
-#include "apps/cost/turns.h"
-#include "apps/fmcw/signal_bscope.h"
+#include "core/turns.h"
 #include "renderer/accuracy/swept_picture.h"
 #include "renderer/stages/range_response.h"
 #include "sensors/display/display.h"
+#include "session/signal/signal_bscope.h"
 #include "signal/scan/column_sweep.h"
 
 namespace fanbeam::apps {
@@ -25,7 +25,7 @@ double ms_since(Clock::time_point begin) {
 }
 
 // Converged powers behind the sweep, noise in them.
-std::vector<double> reference_W(const CostBench& bench, const sensors::Sensor& sensor) {
+std::vector<double> reference_W(const measure::CostBench& bench, const sensors::Sensor& sensor) {
   const auto thin = bench.with_sensor(renderer::thin_cells(sensor, kThinParts));
   renderer::Sampling sampling = bench.effort.reference(1);
   sampling.rays_per_cell /= kThinParts;
@@ -58,14 +58,14 @@ class GreyDistance {
   std::vector<double> reference_;
 };
 
-void measure_pictures(const CostBench& bench, const sensors::Sensor& sensor,
-                      const GreyDistance& distance, std::vector<LevelStep>& steps) {
+void measure_pictures(const measure::CostBench& bench, const sensors::Sensor& sensor,
+                      const GreyDistance& distance, std::vector<measure::LevelStep>& steps) {
   const renderer::FramePose pose = bench.scene.frame_pose(bench.frames.front());
   const renderer::RangeResponse response(sensor);
   std::vector<renderer::FrameRenderer> renderers;
   for (const double fineness : bench.effort.rays)
-    renderers.emplace_back(bench.scene.world, sampling_of(Way::rays, fineness), kBscopeAlone,
-                           renderer::Effects{});
+    renderers.emplace_back(bench.scene.world, measure::sampling_of(measure::Way::rays, fineness),
+                           kBscopeAlone, renderer::Effects{});
   const auto render = [&](const renderer::FrameRenderer& frames) {
     std::vector<double> power_W = frames.render(pose).bscope_W;
     response.apply(power_W);
@@ -74,30 +74,31 @@ void measure_pictures(const CostBench& bench, const sensors::Sensor& sensor,
   std::vector<std::function<void()>> works;
   for (const renderer::FrameRenderer& frames : renderers)
     works.emplace_back([&render, &frames] { render(frames); });
-  const std::vector<MedianTime> times = time_in_turns(works, bench.effort.repetitions);
+  const std::vector<core::MedianTime> times = core::time_in_turns(works, bench.effort.repetitions);
   for (std::size_t i = 0; i < renderers.size(); ++i)
     steps.push_back({bench.frames.front(), "picture", bench.effort.rays[i], times[i],
                      distance.rms(render(renderers[i]), sensor.noise_power_W())});
 }
 
-void measure_signals(const CostBench& bench, const GreyDistance& distance,
-                     std::vector<LevelStep>& steps) {
+void measure_signals(const measure::CostBench& bench, const GreyDistance& distance,
+                     std::vector<measure::LevelStep>& steps) {
   const renderer::FramePose pose = bench.scene.frame_pose(bench.frames.front());
   std::vector<double> sum_W, times_ms;
   for (const int looks : bench.effort.looks) {
     while (static_cast<int>(times_ms.size()) < looks) {
-      SignalBscopeSettings settings;
+      session::SignalBscopeSettings settings;
       settings.looks = 1;
       settings.seed = times_ms.size();
       const Clock::time_point begin = Clock::now();
-      const std::vector<double> power_W = signal_bscope(bench.scene.world, pose, settings).power_W;
+      const std::vector<double> power_W =
+          session::signal_bscope(bench.scene.world, pose, settings).power_W;
       times_ms.push_back(ms_since(begin));
       sum_W.resize(power_W.size(), 0.0);
       for (std::size_t i = 0; i < power_W.size(); ++i) sum_W[i] += power_W[i];
     }
     std::vector<double> mean_W = sum_W;
     for (double& power : mean_W) power /= looks;
-    MedianTime time = median_of(times_ms);
+    core::MedianTime time = core::median_of(times_ms);
     time.ms *= looks;
     time.error_ms *= looks;
     steps.push_back({bench.frames.front(), "signal", static_cast<double>(looks), time,
@@ -107,26 +108,26 @@ void measure_signals(const CostBench& bench, const GreyDistance& distance,
 
 }  // namespace
 
-std::string why_no_levels(const CostBench& bench) {
+std::string why_no_levels(const measure::CostBench& bench) {
   return signal::why_no_column_sweep(bench.scene.world.sensor);
 }
 
-double levels_s(const CostBench& bench) {
+double levels_s(const measure::CostBench& bench) {
   // Measured: a look takes as long as some 30 frames of rays at default sampling.
   constexpr double kLookOverFrame = 30.0;
   double rays_ms = 0.0;
   for (const double fineness : bench.effort.rays)
-    rays_ms += bench.pace.step_ms(Way::rays, fineness);
+    rays_ms += bench.pace.step_ms(measure::Way::rays, fineness);
   return bench.pace.build_s + bench.pace.reference_s(bench.effort) +
          (bench.effort.repetitions + 6.0) * rays_ms / 1000.0 +
          bench.effort.looks.back() * kLookOverFrame * bench.pace.frame_ms / 1000.0;
 }
 
-std::vector<LevelStep> measure_levels(const CostBench& bench) {
+std::vector<measure::LevelStep> measure_levels(const measure::CostBench& bench) {
   bench.begin(fmt::format("frame {}, signal level", bench.frames.front()), levels_s(bench));
-  const sensors::Sensor sensor = with_sweep_window(bench.scene.world.sensor);
+  const sensors::Sensor sensor = session::with_sweep_window(bench.scene.world.sensor);
   const GreyDistance distance(sensor, reference_W(bench, sensor));
-  std::vector<LevelStep> steps;
+  std::vector<measure::LevelStep> steps;
   measure_pictures(bench, sensor, distance, steps);
   measure_signals(bench, distance, steps);
   return steps;

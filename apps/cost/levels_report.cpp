@@ -16,7 +16,7 @@ const char* words_of_level(const std::string& level) {
 }
 
 // "4 rays per cell", "1 look".
-std::string fineness_text(const LevelStep& step) {
+std::string fineness_text(const measure::LevelStep& step) {
   const std::string number = number_text(step.fineness);
   if (step.level == kPicture) return number + " rays per cell";
   return number + (step.fineness == 1.0 ? " look" : " looks");
@@ -24,10 +24,10 @@ std::string fineness_text(const LevelStep& step) {
 
 // What the first and the last step of the signal level reach, and how long the first picture of
 // powers takes that is no worse.
-std::string comparison(const std::vector<LevelStep>& steps) {
-  const LevelStep& finest = steps.back();
-  const LevelStep *one = nullptr, *enough = nullptr;
-  for (const LevelStep& step : steps) {
+std::string comparison(const std::vector<measure::LevelStep>& steps) {
+  const measure::LevelStep& finest = steps.back();
+  const measure::LevelStep *one = nullptr, *enough = nullptr;
+  for (const measure::LevelStep& step : steps) {
     if (step.level != kPicture && one == nullptr) one = &step;
     if (step.level == kPicture && enough == nullptr && step.rms_grey <= finest.rms_grey)
       enough = &step;
@@ -47,11 +47,11 @@ std::string comparison(const std::vector<LevelStep>& steps) {
 
 }  // namespace
 
-std::string levels_csv(const CostFigures& figures) {
+std::string levels_csv(const measure::CostFigures& figures) {
   std::string text =
       "frame,level,fineness,fineness_unit,frame_ms,frame_standard_error_ms,repetitions,"
       "bscope_with_noise_rms_grey\n";
-  for (const LevelStep& step : figures.levels)
+  for (const measure::LevelStep& step : figures.levels)
     text += fmt::format(
         "{},{},{},{},{},{},{},{}\n", step.frame, step.level, number_text(step.fineness),
         step.level == kPicture ? "rays_per_cell_and_column" : "looks", number_text(step.time.ms),
@@ -59,30 +59,30 @@ std::string levels_csv(const CostFigures& figures) {
   return text;
 }
 
-Plot levels_plot(const CostFigures& figures) {
-  Plot plot;
+session::Plot levels_plot(const measure::CostFigures& figures) {
+  session::Plot plot;
   plot.title = figures.scene + ", B-scope behind its sweep: error over time";
   plot.x = {"milliseconds per frame", true, {}, {}};
   plot.y = {"error with noise, grey levels RMS", true, {}, {}};
-  for (const LevelStep& step : figures.levels) {
+  for (const measure::LevelStep& step : figures.levels) {
     if (plot.series.empty() || plot.series.back().title != words_of_level(step.level)) {
       plot.series.emplace_back();
       plot.series.back().title = words_of_level(step.level);
-      plot.series.back().style = PlotSeries::Style::line_points;
+      plot.series.back().style = session::PlotSeries::Style::line_points;
     }
     plot.series.back().x.push_back(step.time.ms);
     plot.series.back().y.push_back(step.rms_grey);
     if (step.level != kPicture)
       plot.labels.push_back({step.time.ms, step.rms_grey, fineness_text(step)});
   }
-  plot.marks = {{kTime90Hz_ms, "90 Hz"}, {kTime16Hz_ms, "16 Hz"}};
+  plot.marks = {{measure::kTime90Hz_ms, "90 Hz"}, {measure::kTime16Hz_ms, "16 Hz"}};
   // The last name stands right of its point.
   if (!figures.levels.empty()) plot.x.high = 3.0 * figures.levels.back().time.ms;
   plot.key_below = true;
   return plot;
 }
 
-std::string levels_section(const CostFigures& figures) {
+std::string levels_section(const measure::CostFigures& figures) {
   if (!figures.why_no_levels.empty())
     return "## Picture level and signal level\n\nNo signal level with this sensor: " +
            figures.why_no_levels + ".\n\n";
@@ -97,7 +97,7 @@ std::string levels_section(const CostFigures& figures) {
       "at what its range\nresponse, worked out from whole cells, leaves at edges. Times of n looks "
       "are n times that of one.\n\n"
       "| level | fineness | ms | B-scope, grey |\n| --- | ---: | ---: | ---: |\n";
-  for (const LevelStep& step : figures.levels)
+  for (const measure::LevelStep& step : figures.levels)
     text += fmt::format("| {} | {} | {:.1f} | {:.2f} |\n", words_of_level(step.level),
                         fineness_text(step), step.time.ms, step.rms_grey);
   return text + '\n';

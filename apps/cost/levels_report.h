@@ -3,15 +3,15 @@
 
 #include <string>
 
-#include "apps/cost/figures.h"
-#include "apps/gnuplot.h"
+#include "measure/figures.h"
+#include "session/plots/gnuplot.h"
 
 namespace fanbeam::apps {
 
-std::string levels_csv(const CostFigures& figures);
-Plot levels_plot(const CostFigures& figures);
+std::string levels_csv(const measure::CostFigures& figures);
+session::Plot levels_plot(const measure::CostFigures& figures);
 // The plot is linked as levels.svg. Says why where there is no signal level; empty where it was not
 // asked for.
-std::string levels_section(const CostFigures& figures);
+std::string levels_section(const measure::CostFigures& figures);
 
 }  // namespace fanbeam::apps

@@ -6,6 +6,7 @@
 #include "apps/help/help_formatter.h"
 #include "apps/help/option_text.h"
 #include "apps/value_words.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -142,7 +143,7 @@ std::string table(const std::string& name, const std::string& branches) {
 std::string bash_completion(const CLI::App& program) {
   Tables tables;
   add(program, tables);
-  return "# bash completion for fanbeam " + version_text() +
+  return "# bash completion for fanbeam " + session::version_text() +
          ", written by \"fanbeam help --bash-completion\"\n" + table("commands", tables.commands) +
          table("options", tables.options) + table("kind", tables.kinds) + kScript;
 }

@@ -27,6 +27,15 @@ Examples pictures() {
       {"cost",
        {{"fanbeam cost flat-grass --quick", "a short look, to out/flat-grass-cost"},
         {"fanbeam cost --parts ladder,effects -o /tmp/cost", "without numerics and signals"}}},
+      {"live",
+       {{"fanbeam live", "round the default scene's runway; look at http://127.0.0.1:8416/"},
+        {"fanbeam live keflavik-10 --from native-fdm:5501", "as FlightGear flies it"},
+        {"fanbeam live --lockstep --record flight.jsonl --frames 160",
+         "ten seconds as fast as they are made, kept for --replay"},
+        {"fanbeam live --lockstep --frames 160 --to raw-bscope:frames.gray",
+         "the same as raw video (docs/live.md shows it in ffmpeg)"},
+        {"fanbeam live obstacle-field --from ils --http 0 --to shm:radar --seconds 60",
+         "a minute of the scene's approach, for a program that reads shared memory"}}},
   };
 }
 

@@ -8,6 +8,7 @@
 #include "apps/help/help_formatter.h"
 #include "apps/help/option_text.h"
 #include "core/files.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -139,8 +140,9 @@ std::string man_page(const CLI::App& command) {
   const std::string description = command.get_description();
   const bool is_program = command.get_parent() == nullptr;
   std::string page = ".\\\" Written by \"fanbeam help --man-pages\".\n.TH " +
-                     plain(in_capitals(page_name(command))) + " 1 \"" + plain(date_text()) +
-                     "\" \"fanbeam " + plain(version_text()) + "\" \"User Commands\"\n.nh\n.ad l\n";
+                     plain(in_capitals(page_name(command))) + " 1 \"" +
+                     plain(session::date_text()) + "\" \"fanbeam " +
+                     plain(session::version_text()) + "\" \"User Commands\"\n.nh\n.ad l\n";
   page += section("NAME") + plain(page_name(command)) + " \\- " +
           (is_program ? "renderer of imaging millimetre\\-wave radar" : plain(description)) + "\n";
   page += synopsis(command) + section("DESCRIPTION") +

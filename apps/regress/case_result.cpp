@@ -51,8 +51,8 @@ void compare_pair(const fs::path& approved, const fs::path& rendered, PictureRes
     }
     for (const core::LayerDifference& difference :
          core::compare_images(before, now, "approved", "rendered")) {
-      result.layers.push_back(
-          judge(difference, difference_unit(approved, difference.layer), result.tolerance));
+      result.layers.push_back(judge(
+          difference, session::difference_unit(approved, difference.layer), result.tolerance));
       if (!result.layers.back().within) result.state = PictureState::differs;
     }
   } catch (const core::InputError& error) {

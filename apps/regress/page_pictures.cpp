@@ -84,12 +84,13 @@ class PageWriter {
   }
 
   void write_difference(const PictureResult& picture) const {
-    const DifferenceLabels labels{picture.file + ": new against approved", "approved", "new"};
+    const session::DifferenceLabels labels{picture.file + ": new against approved", "approved",
+                                           "new"};
     core::write_png(
         place(picture, PageSide::difference),
-        difference_map(only_differing(core::read_image(approved_ / picture.file), picture),
-                       only_differing(core::read_image(rendered_ / picture.file), picture),
-                       picture.file, labels),
+        session::difference_map(only_differing(core::read_image(approved_ / picture.file), picture),
+                                only_differing(core::read_image(rendered_ / picture.file), picture),
+                                picture.file, labels),
         {});
   }
 

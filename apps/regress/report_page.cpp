@@ -6,6 +6,7 @@
 #include "apps/regress/markup.h"
 #include "apps/regress/page_style.h"
 #include "apps/regress/report.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -158,8 +159,8 @@ std::string report_page(const Suite& suite, const std::vector<CaseResult>& resul
       "<h1>{0}</h1>\n<p><span class=\"badge {3}\">{1}</span></p>\n"
       "<p class=\"soft\">fanbeam {4} ({5})</p>\n",
       markup_text(suite.name), text_of(verdict), kPageStyle,
-      verdict.all_passed() ? "passed" : "differs", markup_text(version_text()),
-      markup_text(commit_text()));
+      verdict.all_passed() ? "passed" : "differs", markup_text(session::version_text()),
+      markup_text(session::commit_text()));
   text += case_table(results);
   for (std::size_t i = 0; i < results.size(); ++i) text += section(results[i], i + 1, output);
   return text + "</body>\n</html>\n";

@@ -2,7 +2,8 @@
 
 #include "apps/common.h"
 #include "apps/regress/report.h"
-#include "apps/resolved_json.h"
+#include "session/records/record_json.h"
+#include "session/version.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -60,10 +61,14 @@ Json case_json(const CaseResult& result) {
 
 std::string results_json(const Suite& suite, const std::vector<CaseResult>& results) {
   const Verdict verdict = verdict_of(results);
-  Json json = {{"version", version_text()},  {"commit", commit_text()},
-               {"suite", suite.name},        {"passed", verdict.passed},
-               {"differs", verdict.differs}, {"unapproved", verdict.unapproved},
-               {"failed", verdict.failed},   {"input", resolved_json(suite.resolved)},
+  Json json = {{"version", session::version_text()},
+               {"commit", session::commit_text()},
+               {"suite", suite.name},
+               {"passed", verdict.passed},
+               {"differs", verdict.differs},
+               {"unapproved", verdict.unapproved},
+               {"failed", verdict.failed},
+               {"input", Json::parse(session::resolved_json(suite.resolved))},
                {"cases", Json::array()}};
   for (const CaseResult& result : results) json["cases"].push_back(case_json(result));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

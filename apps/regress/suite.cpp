@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <set>
 
@@ -11,6 +12,7 @@
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
+#include "session/products/products.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -27,7 +29,7 @@ constexpr core::NumberRange kPercent{0.0, 100.0};
 // Products that are pictures; videos and tables are not compared.
 std::vector<std::string> picture_products() {
   std::vector<std::string> names;
-  for (const Product& product : kProducts)
+  for (const session::Product& product : session::kProducts)
     if (product.name != "preview" && product.name != "obstacles") names.emplace_back(product.name);
   return names;
 }
@@ -57,9 +59,13 @@ Tolerance read_tolerance(ConfigTable table) {
   tolerance.rms = table.optional_number("rms", kLimit);
   tolerance.largest = table.optional_number("largest", kLimit);
   tolerance.percent = table.optional_number("percent", kPercent);
+  tolerance.changed_percent = table.optional_number("changed_percent", kPercent);
   tolerance.lit_in_one_percent = table.optional_number("lit_in_one_percent", kPercent);
-  if (!table.has("mean") && !table.has("rms") && !table.has("largest") && !table.has("percent"))
-    table.error(ErrorClass::ref, "", "no limit", "at least one of rms, largest, percent and mean");
+  const auto given = [&](const char* limit) { return table.has(limit); };
+  if (std::ranges::none_of(std::array{"mean", "rms", "largest", "percent", "changed_percent"},
+                           given))
+    table.error(ErrorClass::ref, "", "no limit",
+                "at least one of rms, largest, percent, changed_percent and mean");
   tolerance.reason = required_line(table, "reason", 1000);
   return tolerance;
 }
@@ -146,7 +152,7 @@ class CaseReader {
     }
     const auto samples =
         table_.optional_number("rays_per_cell", {renderer::kFewestRaysPerCell, 100000.0});
-    const auto accuracy = table_.optional_number("accuracy_grey", {0.01, 100.0});
+    const auto accuracy = table_.optional_number("accuracy_grey", renderer::kAccuracies_grey);
     render.rays_per_cell = samples.value_or(0.0);
     render.accuracy_grey = accuracy.value_or(0.0);
     if (given(table_, "reference")) render.reference = table_.boolean("reference", false);

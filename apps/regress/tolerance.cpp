@@ -12,10 +12,10 @@ double percent_of(std::size_t part, std::size_t cells) {
 
 }  // namespace
 
-LayerJudgement judge(const core::LayerDifference& difference, DifferenceUnit unit,
+LayerJudgement judge(const core::LayerDifference& difference, session::DifferenceUnit unit,
                      const std::optional<Tolerance>& tolerance) {
-  const bool in_dB = unit == DifferenceUnit::dB;
-  const std::string of = unit_text(unit, difference.layer);
+  const bool in_dB = unit == session::DifferenceUnit::dB;
+  const std::string of = session::unit_text(unit, difference.layer);
   const Tolerance limits = tolerance.value_or(Tolerance{});
   LayerJudgement judged{difference.layer,
                         {},
@@ -33,6 +33,9 @@ LayerJudgement judge(const core::LayerDifference& difference, DifferenceUnit uni
   add("largest", of, in_dB ? difference.largest_dB : difference.largest, limits.largest);
   add("percent", "%", percent_of(difference.different, difference.cells),
       tolerance ? limits.percent : 0.0);
+  if (unit == session::DifferenceUnit::own)
+    add("changed_percent", "%", percent_of(difference.changed, difference.cells),
+        limits.changed_percent);
   if (in_dB)
     add("lit_in_one_percent", "%", percent_of(difference.only_one_positive, difference.cells),
         limits.lit_in_one_percent.value_or(0.0));

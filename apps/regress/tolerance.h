@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/figure/difference_map.h"
 #include "core/image_compare.h"
+#include "session/figure/difference_map.h"
 
 namespace fanbeam::apps {
 
@@ -18,6 +18,7 @@ struct Tolerance {
   std::optional<double> rms{};
   std::optional<double> largest{};             // of any cell
   std::optional<double> percent{};             // of cells that are not equal
+  std::optional<double> changed_percent{};     // of values of ground truth, beyond rounding
   std::optional<double> lit_in_one_percent{};  // of cells
   std::string reason{};                        // why this much is right
 };
@@ -39,7 +40,7 @@ struct LayerJudgement {
 };
 
 // Without a tolerance every value has to be equal.
-LayerJudgement judge(const core::LayerDifference& difference, DifferenceUnit unit,
+LayerJudgement judge(const core::LayerDifference& difference, session::DifferenceUnit unit,
                      const std::optional<Tolerance>& tolerance);
 
 }  // namespace fanbeam::apps

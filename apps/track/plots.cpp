@@ -59,41 +59,42 @@ void TrackHistory::add(const core::HighwayScenario& scenario, const tracking::Sc
   }
 }
 
-Plot TrackHistory::ranges(const core::HighwayScenario& scenario) const {
-  Plot plot;
+session::Plot TrackHistory::ranges(const core::HighwayScenario& scenario) const {
+  session::Plot plot;
   plot.title = scenario.id + ": tracks and truth";
   plot.x.label = "time (s)";
   plot.y.label = "range (m)";
   plot.series.push_back({"measurements", measurements_.x, measurements_.y,
-                         PlotSeries::Style::points, kMeasurementColour});
+                         session::PlotSeries::Style::points, kMeasurementColour});
   for (const auto& [target, line] : truth_)
     plot.series.push_back({name(scenario, target) + ", truth", line.x, line.y,
-                           PlotSeries::Style::dashed_line, colour_of(target)});
+                           session::PlotSeries::Style::dashed_line, colour_of(target)});
   for (const auto& [key, line] : tracks_) {
     const auto [target, id] = key;
     plot.series.push_back(
         {"track " + std::to_string(id) +
              (target < 0 ? std::string(", no target") : ", " + name(scenario, target)),
-         line.x, line.y, PlotSeries::Style::line, colour_of(target)});
+         line.x, line.y, session::PlotSeries::Style::line, colour_of(target)});
   }
   return plot;
 }
 
-Plot TrackHistory::errors(const core::HighwayScenario& scenario) const {
-  Plot plot;
+session::Plot TrackHistory::errors(const core::HighwayScenario& scenario) const {
+  session::Plot plot;
   plot.title = scenario.id + ": errors of range, and twice the standard deviation told";
   plot.x.label = "time (s)";
   plot.y.label = "range of the track less that of its target (mm)";
   std::vector<double> sizes, amounts;  // of bounds, of errors
   for (const auto& [target, line] : errors_) {
     plot.series.push_back({name(scenario, target) + ", error", line.x, line.y,
-                           PlotSeries::Style::line, colour_of(target)});
+                           session::PlotSeries::Style::line, colour_of(target)});
     const Line& sigma = sigmas_.at(target);
     std::vector<double> below = sigma.y;
     for (double& value : below) value = -value;
     for (const auto* side : {&sigma.y, &std::as_const(below)})
       plot.series.push_back({side == &sigma.y ? name(scenario, target) + ", bounds" : std::string(),
-                             sigma.x, *side, PlotSeries::Style::dashed_line, colour_of(target)});
+                             sigma.x, *side, session::PlotSeries::Style::dashed_line,
+                             colour_of(target)});
     sizes.insert(sizes.end(), sigma.y.begin(), sigma.y.end());
     for (const double value : line.y) amounts.push_back(std::abs(value));
   }

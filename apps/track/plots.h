@@ -3,7 +3,7 @@
 
 #include <map>
 
-#include "apps/gnuplot.h"
+#include "session/plots/gnuplot.h"
 #include "tracking/simulation/scenario_run.h"
 
 namespace fanbeam::apps {
@@ -16,10 +16,10 @@ class TrackHistory {
 
   // Truth dashed, one colour for each target; measurements as dots; tracks as points in the colour
   // of the target they follow.
-  Plot ranges(const core::HighwayScenario& scenario) const;
+  session::Plot ranges(const core::HighwayScenario& scenario) const;
   // Range of each track less that of its target; dashed, twice the standard deviation that the
   // track tells.
-  Plot errors(const core::HighwayScenario& scenario) const;
+  session::Plot errors(const core::HighwayScenario& scenario) const;
 
  private:
   struct Line {

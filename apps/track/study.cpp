@@ -13,7 +13,7 @@ int track_study(const std::vector<const core::HighwayScenario*>& scenarios,
   const auto add = [&](const char* what, const StudyPart& part) {
     page += part.text + "\n";
     for (const auto& [name, plot] : part.plots) {
-      for (const char* ending : {".svg", ".png"}) write_plot(plot, folder / (name + ending));
+      session::write_plots(plot, folder / name);
       page += fmt::format("![{}]({}.png)\n\n", plot.title, name);
     }
     if (!common.quiet) fmt::print("{}\n", what);

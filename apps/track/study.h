@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "apps/common.h"
-#include "apps/gnuplot.h"
 #include "core/highway.h"
+#include "session/plots/gnuplot.h"
 
 namespace fanbeam::apps {
 
 // A table of Markdown, and the plots that belong to it, by file name without ending.
 struct StudyPart {
   std::string text;
-  std::vector<std::pair<std::string, Plot>> plots;
+  std::vector<std::pair<std::string, session::Plot>> plots;
 };
 
 // One car of 10 m2 at 100 m that closes at 100 km/h, measured from samples of `triangles` triangles

@@ -117,13 +117,14 @@ StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed) {
       "speed "
       "error, mm/s rms | bound, mm/s | measuring takes, ms | processing, ms |\n"
       "|---|---|---|---|---|---|---|---|\n";
-  Plot plot;
+  session::Plot plot;
   plot.title = "One car at 100 m, 100 km/h closing: error over the ramps in the buffer";
   plot.x = {"ramps of 2 ms in the buffer", true, 1.5, 80.0};
   plot.y = {"error of range (mm rms)", true, {}, {}};
-  plot.series = {{"measured, of its middle", {}, {}, PlotSeries::Style::line_points},
-                 {"bound", {}, {}, PlotSeries::Style::dashed_line},
-                 {"measured, taken as of its end", {}, {}, PlotSeries::Style::line_points}};
+  plot.series = {
+      {"measured, of its middle", {}, {}, session::PlotSeries::Style::line_points},
+      {"bound", {}, {}, session::PlotSeries::Style::dashed_line},
+      {"measured, taken as of its end", {}, {}, session::PlotSeries::Style::line_points}};
   const auto bound = tracking::measurement_bound(radar, kSection_m2, kRange_m, 0.0);
   for (const int triangles : {1, 2, 4, 8, 16, 32}) {
     const Errors errors = errors_of(radar, triangles, seed);
@@ -150,13 +151,13 @@ StudyPart study_noise_figure(const core::HighwayRadar& radar, std::uint64_t seed
   part.text =
       "| noise figure, dB | signal to noise, dB | range error, mm rms | bound, mm | speed error, "
       "mm/s rms | bound, mm/s | wrong peaks of 100 |\n|---|---|---|---|---|---|---|\n";
-  Plot plot;
+  session::Plot plot;
   plot.title = "The same of one triangle: error over the noise figure";
   plot.x = {"noise figure (dB)", false, 0.0, 52.0};
   plot.y = {"error of range (mm rms)", true, {}, {}};
-  plot.series = {{"measured", {}, {}, PlotSeries::Style::line_points},
-                 {"bound", {}, {}, PlotSeries::Style::dashed_line},
-                 {"wrong peaks (of 100)", {}, {}, PlotSeries::Style::points}};
+  plot.series = {{"measured", {}, {}, session::PlotSeries::Style::line_points},
+                 {"bound", {}, {}, session::PlotSeries::Style::dashed_line},
+                 {"wrong peaks (of 100)", {}, {}, session::PlotSeries::Style::points}};
   for (const double figure_dB : {0.1, 1.0, 4.5, 10.0, 20.0, 30.0, 40.0, 44.0, 46.0, 48.0, 50.0}) {
     core::HighwayRadar noisy = radar;
     noisy.noise_figure = core::power_from_dB(figure_dB);

@@ -5,6 +5,7 @@
 #include "atmosphere/input_check.h"
 #include "atmosphere/water_permittivity.h"
 #include "core/constants.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
@@ -39,14 +40,15 @@ FogLaw fog_law_named(std::string_view name) { return choice_named(kFogLawNames, 
 std::string_view name_of(FogLaw law) { return name_in(kFogLawNames, law); }
 
 double fog_coefficient(FogLaw law, double frequency_Hz, double temperature_C) {
-  require_range("temperature_C", temperature_C, {-40.0, 50.0, "C"});
+  core::require_range("temperature_C", temperature_C, {-40.0, 50.0}, "C");
   switch (law) {
     case FogLaw::itu_p840:
       require_frequency(frequency_Hz, 1e9, 200e9, "the fog law itu-p840");
       return itu_p840(frequency_Hz * 1e-9, temperature_C);
     case FogLaw::altshuler: {
       require_wavelength(frequency_Hz, 0.003, 0.010, "altshuler");
-      require_range("temperature_C", temperature_C, {-8.0, 25.0, "C for the fog law altshuler"});
+      core::require_range("temperature_C", temperature_C, {-8.0, 25.0},
+                          "C for the fog law altshuler");
       const double wavelength_mm = core::kSpeedOfLight_mps / frequency_Hz * 1e3;
       return -1.347 + 0.0372 * wavelength_mm + 18.0 / wavelength_mm - 0.022 * temperature_C;
     }
@@ -61,8 +63,8 @@ double fog_coefficient(FogLaw law, double frequency_Hz, double temperature_C) {
 
 double fog_attenuation_dB_per_km(FogLaw law, double liquid_water_g_per_m3, double frequency_Hz,
                                  double temperature_C) {
-  require_range("liquid_water_g_per_m3", liquid_water_g_per_m3,
-                {0.0, kLargestLiquidWater_g_per_m3, "g/m3"});
+  core::require_range("liquid_water_g_per_m3", liquid_water_g_per_m3,
+                      {0.0, kLargestLiquidWater_g_per_m3}, "g/m3");
   return fog_coefficient(law, frequency_Hz, temperature_C) * liquid_water_g_per_m3;
 }
 

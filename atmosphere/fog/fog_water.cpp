@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "atmosphere/input_check.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
@@ -47,7 +48,7 @@ FogWaterModel fog_water_model_named(std::string_view name) {
 std::string_view name_of(FogWaterModel model) { return name_in(kFogWaterModelNames, model); }
 
 double liquid_water_g_per_m3(FogWaterModel model, double visibility_m) {
-  require_range("visibility_m", visibility_m, {10.0, 100000.0, "m"});
+  core::require_range("visibility_m", visibility_m, {10.0, 100000.0}, "m");
   const PowerLaw law = power_law(model);
   return std::pow(law.c_km / (visibility_m * 1e-3), law.n);
 }

@@ -5,7 +5,7 @@
 
 #include "atmosphere/gas/gases.h"
 #include "atmosphere/gas/geopotential.h"
-#include "atmosphere/input_check.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
@@ -42,12 +42,12 @@ double saturation_vapour_density_g_per_m3(double temperature_K, double pressure_
 
 StandardAtmosphere::StandardAtmosphere(const SurfaceAir& surface) {
   core::ProblemList problems;
-  check_range(problems, "origin_height_m", surface.height_m, {-500.0, 6000.0, "m"});
+  core::check_range(problems, "origin_height_m", surface.height_m, {-500.0, 6000.0}, "m");
   if (surface.temperature_C)
-    check_range(problems, "temperature_C", *surface.temperature_C, {-60.0, 50.0, "C"});
+    core::check_range(problems, "temperature_C", *surface.temperature_C, {-60.0, 50.0}, "C");
   if (surface.pressure_hPa)
-    check_range(problems, "pressure_hPa", *surface.pressure_hPa, {300.0, 1100.0, "hPa"});
-  if (surface.humidity) check_range(problems, "humidity", *surface.humidity, {0.0, 1.0, ""});
+    core::check_range(problems, "pressure_hPa", *surface.pressure_hPa, {300.0, 1100.0}, "hPa");
+  if (surface.humidity) core::check_range(problems, "humidity", *surface.humidity, {0.0, 1.0});
   problems.throw_if_errors();
 
   surface_height_m_ = surface.height_m;
@@ -66,7 +66,7 @@ StandardAtmosphere::StandardAtmosphere(const SurfaceAir& surface) {
 }
 
 AirState StandardAtmosphere::at(double height_m) const {
-  require_range("height_m", height_m, {kLowest_m, kHighest_m, "m above mean sea level"});
+  core::require_range("height_m", height_m, {kLowest_m, kHighest_m}, "m above mean sea level");
   const double h_km = geopotential_km(height_m);
   AirState air;
   air.temperature_K = temperature_K(h_km, temperature_shift_K_);

@@ -7,6 +7,7 @@
 #include "atmosphere/precipitation/rain.h"
 #include "atmosphere/water_permittivity.h"
 #include "core/constants.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
@@ -26,7 +27,7 @@ double simpson_weight(int i) {
 DropScattering::DropScattering(double frequency_Hz, double temperature_C) {
   core::ProblemList problems;
   check_frequency(problems, frequency_Hz, 1e9, 1e12);
-  check_range(problems, "temperature_C", temperature_C, {0.0, 40.0, "C for drops of rain"});
+  core::check_range(problems, "temperature_C", temperature_C, {0.0, 40.0}, "C for drops of rain");
   problems.throw_if_errors();
 
   const std::complex<double> index = std::sqrt(water_permittivity(frequency_Hz, temperature_C));
@@ -42,7 +43,8 @@ DropScattering::DropScattering(double frequency_Hz, double temperature_C) {
 
 double DropScattering::over_all_drops(const std::vector<double>& section_m2_mm, DropSizes sizes,
                                       double rain_rate_mm_per_h) const {
-  require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.0, kLargestRainRate_mm_per_h, "mm/h"});
+  core::require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.0, kLargestRainRate_mm_per_h},
+                      "mm/h");
   double sum = 0.0;
   for (std::size_t i = 0; i < section_m2_mm.size(); ++i)
     sum += section_m2_mm[i] * drops_per_m3_mm(sizes, rain_rate_mm_per_h, diameter_mm(i));

@@ -7,6 +7,7 @@
 #include "atmosphere/input_check.h"
 #include "atmosphere/precipitation/drop_scattering.h"
 #include "core/constants.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
@@ -61,10 +62,10 @@ RainCoefficients rain_coefficients(double frequency_Hz, double path_elevation_ra
                                    double polarisation_tilt_rad) {
   core::ProblemList problems;
   check_frequency(problems, frequency_Hz, 1e9, 1e12);
-  check_range(problems, "path_elevation_rad", path_elevation_rad,
-              {-core::kPi / 2, core::kPi / 2, "rad"});
-  check_range(problems, "polarisation_tilt_rad", polarisation_tilt_rad,
-              {-core::kPi, core::kPi, "rad"});
+  core::check_range(problems, "path_elevation_rad", path_elevation_rad,
+                    {-core::kPi / 2, core::kPi / 2}, "rad");
+  core::check_range(problems, "polarisation_tilt_rad", polarisation_tilt_rad,
+                    {-core::kPi, core::kPi}, "rad");
   problems.throw_if_errors();
 
   const double x = std::log10(frequency_Hz * 1e-9);
@@ -84,7 +85,8 @@ RainCoefficients rain_coefficients(double frequency_Hz, double path_elevation_ra
 double rain_attenuation_dB_per_km(RainLaw law, double rain_rate_mm_per_h, double frequency_Hz,
                                   double path_elevation_rad, double polarisation_tilt_rad,
                                   const RainDrops& drops) {
-  require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.0, kLargestRainRate_mm_per_h, "mm/h"});
+  core::require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.0, kLargestRainRate_mm_per_h},
+                      "mm/h");
   RainCoefficients coefficients =
       rain_coefficients(frequency_Hz, path_elevation_rad, polarisation_tilt_rad);
   if (law == RainLaw::georgia_tech_95) {

@@ -5,6 +5,7 @@
 
 #include "atmosphere/input_check.h"
 #include "atmosphere/precipitation/drop_scattering.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
@@ -57,7 +58,8 @@ std::string_view name_of(RainEchoLaw law) { return name_in(kRainEchoLawNames, la
 
 double rain_eta_m2_per_m3(RainEchoLaw law, double rain_rate_mm_per_h, double frequency_Hz,
                           const RainDrops& drops) {
-  require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.0, kLargestRainRate_mm_per_h, "mm/h"});
+  core::require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.0, kLargestRainRate_mm_per_h},
+                      "mm/h");
   switch (law) {
     case RainEchoLaw::mie:
       return DropScattering(frequency_Hz, drops.temperature_C)
@@ -65,8 +67,8 @@ double rain_eta_m2_per_m3(RainEchoLaw law, double rain_rate_mm_per_h, double fre
     case RainEchoLaw::mie_fit: {
       const Fit& fit = entry_for(kMieFits, frequency_Hz, name_of(law));
       if (rain_rate_mm_per_h == 0.0) return 0.0;
-      require_range("rain_rate_mm_per_h", rain_rate_mm_per_h,
-                    {0.5, 100.0, "mm/h (or 0) for the rain echo law mie-fit"});
+      core::require_range("rain_rate_mm_per_h", rain_rate_mm_per_h, {0.5, 100.0},
+                          "mm/h (or 0) for the rain echo law mie-fit");
       const double x = std::log10(rain_rate_mm_per_h);
       return std::pow(10.0, fit.q0 + x * (fit.q1 + x * fit.q2));
     }

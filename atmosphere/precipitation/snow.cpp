@@ -4,6 +4,7 @@
 
 #include "atmosphere/input_check.h"
 #include "core/constants.h"
+#include "core/number_range.h"
 
 namespace fanbeam::atmosphere {
 namespace {
@@ -11,8 +12,8 @@ namespace {
 void require_snow(double snow_rate_mm_per_h, double frequency_Hz, double highest_Hz,
                   std::string_view whose) {
   core::ProblemList problems;
-  check_range(problems, "snow_rate_mm_per_h", snow_rate_mm_per_h,
-              {0.0, kLargestSnowRate_mm_per_h, "mm/h"});
+  core::check_range(problems, "snow_rate_mm_per_h", snow_rate_mm_per_h,
+                    {0.0, kLargestSnowRate_mm_per_h}, "mm/h");
   check_frequency(problems, frequency_Hz, 1e9, highest_Hz, whose);
   problems.throw_if_errors();
 }

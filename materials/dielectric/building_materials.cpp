@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "materials/checks.h"
+#include "core/number_range.h"
 
 namespace fanbeam::materials {
 namespace {
@@ -42,7 +42,7 @@ Interval building_frequencies_Hz(BuildingMaterial material) {
 Permittivity building_permittivity(BuildingMaterial material, double frequency_Hz) {
   const BuildingRow& row = kBuilding[static_cast<std::size_t>(material)];
   const Interval range_Hz = building_frequencies_Hz(material);
-  require_range("frequency_Hz", frequency_Hz, range_Hz.low, range_Hz.high);
+  core::require_range("frequency_Hz", frequency_Hz, {range_Hz.low, range_Hz.high});
   const double frequency_GHz = frequency_Hz / 1e9;
   const double conductivity_S_per_m = row.c_S_per_m * std::pow(frequency_GHz, row.d);
   return {row.a * std::pow(frequency_GHz, row.b), 17.98 * conductivity_S_per_m / frequency_GHz};

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "core/errors.h"
-#include "materials/checks.h"
+#include "core/number_range.h"
 #include "materials/dielectric/building_materials.h"
 #include "materials/dielectric/snow.h"
 #include "materials/dielectric/soil.h"
@@ -69,8 +69,8 @@ Permittivity permittivity_of(DielectricMedium medium, double frequency_Hz, doubl
     case DielectricMedium::ice:
       return ice_permittivity(frequency_Hz, temperature_K);
     case DielectricMedium::dry_snow:
-      require_range("frequency_Hz", frequency_Hz, kDrySnowFrequencies_Hz.low,
-                    kDrySnowFrequencies_Hz.high);
+      core::require_range("frequency_Hz", frequency_Hz,
+                          {kDrySnowFrequencies_Hz.low, kDrySnowFrequencies_Hz.high});
       return dry_snow_permittivity(kDrySnowDensity_kg_per_m3);
     case DielectricMedium::wet_snow:
       return wet_snow_permittivity({}, frequency_Hz);

@@ -3,13 +3,13 @@
 #include <cmath>
 
 #include "core/constants.h"
-#include "materials/checks.h"
+#include "core/number_range.h"
 
 namespace fanbeam::materials {
 
 FresnelReflection fresnel_reflection(const Permittivity& permittivity, double incidence_rad) {
   check_permittivity(permittivity);
-  require_range("incidence_rad", incidence_rad, 0.0, core::kPi / 2.0);
+  core::require_range("incidence_rad", incidence_rad, {0.0, core::kPi / 2.0});
   // Without a boundary nothing is reflected, also at grazing, where the formulas read 0/0.
   if (permittivity.real == 1.0 && permittivity.loss == 0.0) return {0.0, 0.0};
 

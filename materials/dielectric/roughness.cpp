@@ -3,28 +3,20 @@
 #include <cmath>
 
 #include "core/constants.h"
-#include "materials/checks.h"
+#include "core/number_range.h"
 
 namespace fanbeam::materials {
 namespace {
 
 // Height seen along the line of sight, in wavelengths.
 double height_in_wavelengths(double rms_height_m, double wavelength_m, double grazing_rad) {
-  require_range("rms_height_m", rms_height_m, 0.0, 1e3);
-  require_range("wavelength_m", wavelength_m, 1e-6, 1e3);
-  require_range("grazing_rad", grazing_rad, 0.0, core::kPi / 2.0);
+  core::require_range("rms_height_m", rms_height_m, {0.0, 1e3});
+  core::require_range("wavelength_m", wavelength_m, {1e-6, 1e3});
+  core::require_range("grazing_rad", grazing_rad, {0.0, core::kPi / 2.0});
   return rms_height_m * std::sin(grazing_rad) / wavelength_m;
 }
 
 }  // namespace
-
-bool is_smooth_rayleigh(double rms_height_m, double wavelength_m, double grazing_rad) {
-  return 8.0 * height_in_wavelengths(rms_height_m, wavelength_m, grazing_rad) < 1.0;
-}
-
-bool is_smooth_fraunhofer(double rms_height_m, double wavelength_m, double grazing_rad) {
-  return 32.0 * height_in_wavelengths(rms_height_m, wavelength_m, grazing_rad) < 1.0;
-}
 
 double coherent_power_factor(double rms_height_m, double wavelength_m, double grazing_rad) {
   const double phase_rad =

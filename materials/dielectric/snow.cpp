@@ -2,21 +2,21 @@
 
 #include <cmath>
 
-#include "materials/checks.h"
+#include "core/number_range.h"
 
 namespace fanbeam::materials {
 
 Permittivity dry_snow_permittivity(double density_kg_per_m3) {
-  require_range("density_kg_per_m3", density_kg_per_m3, 0.0, 500.0);
+  core::require_range("density_kg_per_m3", density_kg_per_m3, {0.0, 500.0});
   const double density_g_per_cm3 = density_kg_per_m3 / 1000.0;
   return {1.0 + 1.7 * density_g_per_cm3 + 0.7 * density_g_per_cm3 * density_g_per_cm3, 0.0};
 }
 
 Permittivity wet_snow_permittivity(const WetSnow& snow, double frequency_Hz) {
-  require_range("dry_density_kg_per_m3", snow.dry_density_kg_per_m3, 90.0, 380.0);
-  require_range("liquid_volume_fraction", snow.liquid_volume_fraction, 0.01, 0.12);
-  require_range("frequency_Hz", frequency_Hz, kWetSnowFrequencies_Hz.low,
-                kWetSnowFrequencies_Hz.high);
+  core::require_range("dry_density_kg_per_m3", snow.dry_density_kg_per_m3, {90.0, 380.0});
+  core::require_range("liquid_volume_fraction", snow.liquid_volume_fraction, {0.01, 0.12});
+  core::require_range("frequency_Hz", frequency_Hz,
+                      {kWetSnowFrequencies_Hz.low, kWetSnowFrequencies_Hz.high});
   const double f_GHz = frequency_Hz / 1e9;
   const double density_g_per_cm3 = snow.dry_density_kg_per_m3 / 1000.0;
   const double water_percent = 100.0 * snow.liquid_volume_fraction;

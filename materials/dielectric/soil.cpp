@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "materials/checks.h"
+#include "core/number_range.h"
 #include "materials/dielectric/water_ice.h"
 
 namespace fanbeam::materials {
@@ -12,15 +12,16 @@ namespace {
 constexpr double kShape = 0.65;
 
 void check_soil(const Soil& soil, double frequency_Hz, double temperature_K) {
-  require_range("sand_mass_fraction", soil.sand_mass_fraction, 0.0, 1.0);
-  require_range("clay_mass_fraction", soil.clay_mass_fraction, 0.0, 1.0);
-  require_range("sand and clay mass fractions", soil.sand_mass_fraction + soil.clay_mass_fraction,
-                0.0, 1.0);
-  require_range("bulk_density_kg_per_m3", soil.bulk_density_kg_per_m3, 800.0, 2000.0);
-  require_range("grain_density_kg_per_m3", soil.grain_density_kg_per_m3, 2500.0, 2800.0);
-  require_range("moisture_volume_fraction", soil.moisture_volume_fraction, 0.01, 0.5);
-  require_range("frequency_Hz", frequency_Hz, kSoilFrequencies_Hz.low, kSoilFrequencies_Hz.high);
-  require_range("temperature_K", temperature_K, 273.15, 313.15);
+  core::require_range("sand_mass_fraction", soil.sand_mass_fraction, {0.0, 1.0});
+  core::require_range("clay_mass_fraction", soil.clay_mass_fraction, {0.0, 1.0});
+  core::require_range("sand and clay mass fractions",
+                      soil.sand_mass_fraction + soil.clay_mass_fraction, {0.0, 1.0});
+  core::require_range("bulk_density_kg_per_m3", soil.bulk_density_kg_per_m3, {800.0, 2000.0});
+  core::require_range("grain_density_kg_per_m3", soil.grain_density_kg_per_m3, {2500.0, 2800.0});
+  core::require_range("moisture_volume_fraction", soil.moisture_volume_fraction, {0.01, 0.5});
+  core::require_range("frequency_Hz", frequency_Hz,
+                      {kSoilFrequencies_Hz.low, kSoilFrequencies_Hz.high});
+  core::require_range("temperature_K", temperature_K, {273.15, 313.15});
 }
 
 }  // namespace

@@ -2,13 +2,14 @@
 
 #include <cmath>
 
-#include "materials/checks.h"
+#include "core/number_range.h"
 
 namespace fanbeam::materials {
 
 Permittivity water_permittivity(double frequency_Hz, double temperature_K) {
-  require_range("frequency_Hz", frequency_Hz, kWaterFrequencies_Hz.low, kWaterFrequencies_Hz.high);
-  require_range("temperature_K", temperature_K, 253.15, 333.15);
+  core::require_range("frequency_Hz", frequency_Hz,
+                      {kWaterFrequencies_Hz.low, kWaterFrequencies_Hz.high});
+  core::require_range("temperature_K", temperature_K, {253.15, 333.15});
   const double theta = 1.0 - 300.0 / temperature_K;
   const double static_value = 77.66 - 103.3 * theta;
   const double middle_value = 0.0671 * static_value;
@@ -24,8 +25,9 @@ Permittivity water_permittivity(double frequency_Hz, double temperature_K) {
 }
 
 Permittivity ice_permittivity(double frequency_Hz, double temperature_K) {
-  require_range("frequency_Hz", frequency_Hz, kIceFrequencies_Hz.low, kIceFrequencies_Hz.high);
-  require_range("temperature_K", temperature_K, 240.0, 273.15);
+  core::require_range("frequency_Hz", frequency_Hz,
+                      {kIceFrequencies_Hz.low, kIceFrequencies_Hz.high});
+  core::require_range("temperature_K", temperature_K, {240.0, 273.15});
   const double frequency_GHz = frequency_Hz / 1e9;
   const double theta = 300.0 / temperature_K - 1.0;
   const double alpha_GHz = (0.00504 + 0.0062 * theta) * std::exp(-22.1 * theta);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "materials/checks.h"
+#include "core/number_range.h"
 
 namespace fanbeam::materials {
 namespace {
@@ -14,21 +14,18 @@ struct Row {
   double a;
   double b;
   double c_rad;
-  std::string_view confidence;
 };
 
 constexpr std::array<double, 3> kBand_Hz = {10e9, 35e9, 95e9};
 
 // By band, then in the order of GitTerrain.
 constexpr std::array<std::array<std::optional<Row>, 6>, 3> kRows = {{
-    {{Row{0.023, 1.5, 0.012, "medium"}, Row{0.006, 1.5, 0.012, "medium"},
-      Row{0.002, 0.64, 0.002, "medium"}, Row{0.0246, 1.7, 0.0016, "medium"},
-      Row{0.195, 1.7, 0.0016, "medium"}, Row{2.0, 1.8, 0.015, "medium"}}},
-    {{Row{0.125, 1.5, 0.012, "medium"}, Row{0.125, 1.5, 0.012, "medium"},
-      Row{0.036, 0.64, 0.012, "medium"}, Row{0.195, 1.7, 0.008, "medium"},
-      Row{2.45, 1.7, 0.0016, "low"}, std::nullopt}},
-    {{Row{0.30, 1.5, 0.012, "low"}, Row{0.30, 1.5, 0.012, "low"}, Row{0.08, 0.64, 0.012, "low"},
-      Row{1.138, 0.83, 0.008, "low"}, Row{3.6, 0.83, 0.0016, "low"}, std::nullopt}},
+    {{Row{0.023, 1.5, 0.012}, Row{0.006, 1.5, 0.012}, Row{0.002, 0.64, 0.002},
+      Row{0.0246, 1.7, 0.0016}, Row{0.195, 1.7, 0.0016}, Row{2.0, 1.8, 0.015}}},
+    {{Row{0.125, 1.5, 0.012}, Row{0.125, 1.5, 0.012}, Row{0.036, 0.64, 0.012},
+      Row{0.195, 1.7, 0.008}, Row{2.45, 1.7, 0.0016}, std::nullopt}},
+    {{Row{0.30, 1.5, 0.012}, Row{0.30, 1.5, 0.012}, Row{0.08, 0.64, 0.012}, Row{1.138, 0.83, 0.008},
+      Row{3.6, 0.83, 0.0016}, std::nullopt}},
 }};
 
 const std::optional<Row>& row_of(GitTerrain terrain, std::size_t band) {
@@ -49,11 +46,6 @@ Interval git_land_frequency_Hz(GitTerrain terrain) {
   return {kBand_Hz[0], kBand_Hz[highest]};
 }
 
-std::string_view git_land_confidence(GitTerrain terrain, GitBand band) {
-  const std::optional<Row>& row = row_of(terrain, static_cast<std::size_t>(band));
-  return row ? row->confidence : "none";
-}
-
 double git_land_sigma0(GitTerrain terrain, GitBand band, double grazing_rad) {
   const auto index = static_cast<std::size_t>(band);
   const std::optional<Row>& row = row_of(terrain, index);
@@ -66,7 +58,7 @@ double git_land_sigma0(GitTerrain terrain, GitBand band, double grazing_rad) {
 
 double git_land_sigma0(GitTerrain terrain, double frequency_Hz, double grazing_rad) {
   const Interval known = git_land_frequency_Hz(terrain);
-  require_range("frequency_Hz", frequency_Hz, known.low, known.high);
+  core::require_range("frequency_Hz", frequency_Hz, {known.low, known.high});
   for (std::size_t band = 0; band < kBand_Hz.size(); ++band)
     if (frequency_Hz == kBand_Hz[band]) return evaluate(*row_of(terrain, band), grazing_rad);
   const std::size_t lower = frequency_Hz < kBand_Hz[1] ? 0 : 1;

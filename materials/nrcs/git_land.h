@@ -9,7 +9,7 @@
 // 0.25 and as 0.025. Bands of 10, 35 and 95 GHz. Between two bands sigma0 in dB is a straight line
 // over the logarithm of frequency; that line is ours, not the source's. Grazing angles roughly 1 to
 // 60 deg; at psi = 0 the model has a floor A C^B. Polarisation is not told apart. Accuracy: a
-// terrain class spreads by +-5 dB; confidence per row: git_land_confidence.
+// terrain class spreads by +-5 dB; how sure we are of each row: docs/physics/git-land.md.
 #pragma once
 
 #include <array>
@@ -35,9 +35,6 @@ inline constexpr std::array<std::string_view, 6> kGitTerrainNames = {
 
 // From the lowest to the highest band that has a row for the terrain.
 Interval git_land_frequency_Hz(GitTerrain terrain);
-
-// "medium" or "low": how sure we are of the recalled row; "none" where there is none.
-std::string_view git_land_confidence(GitTerrain terrain, GitBand band);
 
 // Zero at negative grazing angles (back faces). Throws InputError E-RANGE for a band without a row,
 // or a frequency outside git_land_frequency_Hz.

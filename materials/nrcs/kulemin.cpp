@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "core/number_range.h"
 #include "core/units.h"
-#include "materials/checks.h"
 
 namespace fanbeam::materials {
 namespace {
@@ -34,7 +34,7 @@ const Coefficients& coefficients(KuleminTerrain terrain) {
 }  // namespace
 
 double kulemin_sigma0(KuleminTerrain terrain, double frequency_Hz, double grazing_rad) {
-  require_range("frequency_Hz", frequency_Hz, kKuleminLowest_Hz, kKuleminHighest_Hz);
+  core::require_range("frequency_Hz", frequency_Hz, {kKuleminLowest_Hz, kKuleminHighest_Hz});
   if (!(grazing_rad > 0.0)) return 0.0;
   // As powers rather than decibels: no logarithm of an angle that may be tiny.
   const Coefficients& row = coefficients(terrain);

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "core/number_range.h"
 #include "core/units.h"
-#include "materials/checks.h"
 
 namespace fanbeam::materials {
 namespace {
@@ -18,8 +18,8 @@ constexpr SeaCoefficients kVertical = {-50.796, 25.93, 0.7093, 21.588, 0.00211};
 
 double nrl_sea_sigma0(Polarisation polarisation, double sea_state, double frequency_Hz,
                       double grazing_rad) {
-  require_range("frequency_Hz", frequency_Hz, kNrlSeaLowest_Hz, kNrlSeaHighest_Hz);
-  require_range("sea_state", sea_state, 0.0, 6.0);
+  core::require_range("frequency_Hz", frequency_Hz, {kNrlSeaLowest_Hz, kNrlSeaHighest_Hz});
+  core::require_range("sea_state", sea_state, {0.0, 6.0});
   if (!(grazing_rad > 0.0)) return 0.0;
   const SeaCoefficients& k = polarisation == Polarisation::horizontal ? kHorizontal : kVertical;
   const double psi_deg = core::degrees(grazing_rad);

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/constants.h"
-#include "materials/checks.h"
+#include "core/number_range.h"
 #include "materials/dielectric/fresnel.h"
 
 namespace fanbeam::materials {
@@ -12,9 +12,9 @@ namespace fanbeam::materials {
 OhNrcs oh1992_sigma0(const Permittivity& permittivity, double rms_height_m, double wavelength_m,
                      double grazing_rad) {
   check_permittivity(permittivity);
-  require_range("rms_height_m", rms_height_m, 0.0, 1.0);
-  require_range("wavelength_m", wavelength_m, 1e-6, 1e3);
-  require_range("grazing_rad", grazing_rad, -core::kPi / 2.0, core::kPi / 2.0);
+  core::require_range("rms_height_m", rms_height_m, {0.0, 1.0});
+  core::require_range("wavelength_m", wavelength_m, {1e-6, 1e3});
+  core::require_range("grazing_rad", grazing_rad, {-core::kPi / 2.0, core::kPi / 2.0});
   const double normal = normal_reflectivity(permittivity);
   const double ks = 2.0 * core::kPi / wavelength_m * rms_height_m;
   // A surface that is smooth or has no contrast scatters nothing; the limits of the formulas are

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "core/constants.h"
+#include "core/number_range.h"
 #include "core/units.h"
-#include "materials/checks.h"
 
 namespace fanbeam::materials {
 namespace {
@@ -124,10 +124,10 @@ class DecibelFit {
 }  // namespace
 
 PhongFit fit_phong(const std::vector<NrcsSample>& samples) {
-  require_range("samples", static_cast<double>(samples.size()), 3.0, 1e6);
+  core::require_range("samples", static_cast<double>(samples.size()), {3.0, 1e6});
   for (const NrcsSample& sample : samples) {
-    require_range("grazing_rad", sample.grazing_rad, 1e-6, core::kPi / 2.0);
-    require_range("sigma0", sample.sigma0, 1e-30, 1e6);
+    core::require_range("grazing_rad", sample.grazing_rad, {1e-6, core::kPi / 2.0});
+    core::require_range("sigma0", sample.sigma0, {1e-30, 1e6});
   }
   const Candidate best = DecibelFit(samples).best();
   PhongFit fit{PhongNrcs(best.a, best.b, best.c), best.rms_dB, 0.0};

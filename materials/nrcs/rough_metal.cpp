@@ -3,14 +3,14 @@
 #include <cmath>
 
 #include "core/constants.h"
-#include "materials/checks.h"
+#include "core/number_range.h"
 #include "materials/dielectric/roughness.h"
 
 namespace fanbeam::materials {
 
 double rough_metal_sigma0(const RoughMetal& surface, double wavelength_m, double grazing_rad) {
-  require_range("rms_slope", surface.rms_slope, 0.01, 1.0);
-  require_range("grazing_rad", grazing_rad, -core::kPi / 2.0, core::kPi / 2.0);
+  core::require_range("rms_slope", surface.rms_slope, {0.01, 1.0});
+  core::require_range("grazing_rad", grazing_rad, {-core::kPi / 2.0, core::kPi / 2.0});
   const double coherent =
       coherent_power_factor(surface.rms_height_m, wavelength_m, core::kPi / 2.0);
   const double sin_grazing = std::sin(grazing_rad);

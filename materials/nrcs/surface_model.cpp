@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/number_range.h"
 #include "core/units.h"
-#include "materials/checks.h"
 #include "materials/nrcs/nrl_sea.h"
 #include "materials/nrcs/oh1992.h"
 
@@ -163,7 +163,8 @@ std::vector<Extrapolation> extrapolations_of(const SurfaceModel& model, Polarisa
 
 double sigma0(const SurfaceModel& model, Polarisation polarisation, double frequency_Hz,
               double grazing_rad) {
-  if (!std::isfinite(frequency_Hz)) require_range("frequency_Hz", frequency_Hz, 0.0, kHighest_Hz);
+  if (!std::isfinite(frequency_Hz))
+    core::require_range("frequency_Hz", frequency_Hz, {0.0, kHighest_Hz});
   for (const Extrapolation& outside : extrapolations_of(model, polarisation, frequency_Hz))
     core::throw_input_error(core::ErrorClass::range, outside.quantity, outside.asked,
                             outside.known + " (model " + std::string(name_of(model)) + ")");
@@ -172,8 +173,8 @@ double sigma0(const SurfaceModel& model, Polarisation polarisation, double frequ
 
 double continued_sigma0(const SurfaceModel& model, Polarisation polarisation, double frequency_Hz,
                         double grazing_rad) {
-  require_range("frequency_Hz", frequency_Hz, kLowest_Hz, kHighest_Hz);
-  require_range("grazing_rad", grazing_rad, -core::kPi / 2.0, core::kPi / 2.0);
+  core::require_range("frequency_Hz", frequency_Hz, {kLowest_Hz, kHighest_Hz});
+  core::require_range("grazing_rad", grazing_rad, {-core::kPi / 2.0, core::kPi / 2.0});
   if (grazing_rad <= 0.0) return 0.0;
   const ModelValidity known = validity_of(model);
   Formula formula{polarisation, frequency_Hz, grazing_rad};

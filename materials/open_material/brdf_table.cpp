@@ -36,11 +36,11 @@ std::vector<double> grazing_grid_rad() {
 
 BrdfTable BrdfTable::from_file(const std::filesystem::path& file, core::ProblemList& problems) {
   BrdfTable table;
-  const auto json = read_json_file(file, kLargestTableFile_bytes, problems);
+  const auto json = core::read_json_file(file, kLargestTableFile_bytes, kJsonLimits, problems);
   if (!json) return table;
-  const JsonNode root(*json, problems);
+  const core::JsonNode root(*json, problems);
   check_metadata(root, "materialVersion");
-  const JsonNode brdf = root.required("brdf");
+  const core::JsonNode brdf = root.required("brdf");
   brdf.required("wavelengths").numbers(kTableWavelength_m, kMostTableRows);
   const std::vector<TableRow> rows =
       read_number_table(brdf.required("lookupTable"), {kTableWavelength_m,

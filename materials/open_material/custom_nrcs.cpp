@@ -17,7 +17,7 @@ constexpr double kDefaultReach = 0.1;
 constexpr core::NumberRange kFrequency_GHz{0.1, 300.0};
 
 // E-REF for what is not among `known`: a misspelt key of ours would go unnoticed otherwise.
-void refuse_other_keys(const JsonNode& node, std::initializer_list<std::string_view> known) {
+void refuse_other_keys(const core::JsonNode& node, std::initializer_list<std::string_view> known) {
   std::string expected = "one of";
   for (const std::string_view key : known) expected.append(" ").append(key);
   for (const std::string& key : node.keys())
@@ -26,7 +26,7 @@ void refuse_other_keys(const JsonNode& node, std::initializer_list<std::string_v
                             "unknown key", expected);
 }
 
-std::optional<Polarisation> read_polarisation(const JsonNode& node) {
+std::optional<Polarisation> read_polarisation(const core::JsonNode& node) {
   const std::string name = node.text().value_or("any");
   if (name == "HH") return Polarisation::horizontal;
   if (name == "VV") return Polarisation::vertical;
@@ -34,17 +34,17 @@ std::optional<Polarisation> read_polarisation(const JsonNode& node) {
   return std::nullopt;
 }
 
-Interval read_frequency_range_Hz(const JsonNode& node, double frequency_Hz) {
+Interval read_frequency_range_Hz(const core::JsonNode& node, double frequency_Hz) {
   if (!node.present())
     return {frequency_Hz * (1.0 - kDefaultReach), frequency_Hz * (1.0 + kDefaultReach)};
   const std::vector<double> ends_GHz = node.numbers(kFrequency_GHz, 2);
   if (ends_GHz.size() == 2 && ends_GHz[0] <= ends_GHz[1])
     return {ends_GHz[0] * 1e9, ends_GHz[1] * 1e9};
-  if (node.value().is_array()) node.error(ErrorClass::range, "[low, high] in GHz");
+  if (node.is_array()) node.error(ErrorClass::range, "[low, high] in GHz");
   return {frequency_Hz, frequency_Hz};
 }
 
-PhongNrcs read_phong(const JsonNode& node) {
+PhongNrcs read_phong(const core::JsonNode& node) {
   const core::NumberRange coefficient{0.0, kLargestPhongCoefficient};
   const double a = node.required("a").number(coefficient).value_or(0.0);
   const double b = node.member("b").number(coefficient).value_or(0.0);
@@ -52,8 +52,8 @@ PhongNrcs read_phong(const JsonNode& node) {
   return {a, b, c};
 }
 
-TabulatedNrcs read_table(const JsonNode& node) {
-  const JsonNode angles = node.required("grazing_deg"), values = node.required("sigma0_dB");
+TabulatedNrcs read_table(const core::JsonNode& node) {
+  const core::JsonNode angles = node.required("grazing_deg"), values = node.required("sigma0_dB");
   const std::vector<double> grazing_deg = angles.numbers({0.0, 90.0, true}, kMostAngles);
   const std::vector<double> sigma0_dB = values.numbers({-200.0, 60.0}, kMostAngles);
   std::vector<NrcsSample> rows;
@@ -74,7 +74,7 @@ TabulatedNrcs read_table(const JsonNode& node) {
   return TabulatedNrcs(good ? std::move(rows) : std::vector<NrcsSample>{{core::kPi / 2.0, 0.0}});
 }
 
-CustomNrcs read_entry(const JsonNode& node) {
+CustomNrcs read_entry(const core::JsonNode& node) {
   CustomNrcs entry;
   entry.frequency_Hz = node.required("frequency_GHz").number(kFrequency_GHz).value_or(35.0) * 1e9;
   entry.polarisation = read_polarisation(node.member("polarisation"));
@@ -107,17 +107,17 @@ std::size_t error_count(const core::ProblemList& problems) {
 
 }  // namespace
 
-std::vector<CustomNrcs> read_custom_nrcs(const JsonNode& custom_properties) {
+std::vector<CustomNrcs> read_custom_nrcs(const core::JsonNode& custom_properties) {
   std::vector<CustomNrcs> entries;
-  const JsonNode ours = custom_properties.member("fanbeam");
+  const core::JsonNode ours = custom_properties.member("fanbeam");
   refuse_other_keys(ours, {"nrcs"});
-  const JsonNode nrcs = ours.member("nrcs");
-  const bool single = nrcs.present() && nrcs.value().is_object();
+  const core::JsonNode nrcs = ours.member("nrcs");
+  const bool single = nrcs.present() && nrcs.is_object();
   const std::size_t count = single ? 1 : nrcs.size(kMostEntries);
   for (std::size_t i = 0; i < count; ++i) {
-    const JsonNode node = single ? nrcs : nrcs.element(i);
+    const core::JsonNode node = single ? nrcs : nrcs.element(i);
     const std::size_t before = error_count(node.problems());
-    if (!node.present() || !node.value().is_object()) {
+    if (!node.present() || !node.is_object()) {
       node.problems().error(ErrorClass::parse, node.place(), node.pointer(), "another value",
                             "an object");
       continue;

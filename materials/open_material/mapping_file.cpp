@@ -1,8 +1,8 @@
 #include "materials/open_material/mapping_file.h"
 
+#include "core/json_node.h"
 #include "core/relative_uri.h"
 #include "core/spelling.h"
-#include "materials/open_material/json_node_private.h"
 #include "materials/open_material/metadata_private.h"
 
 namespace fanbeam::materials {
@@ -14,10 +14,10 @@ constexpr std::uint64_t kLargestMappingFile_bytes = 1u << 20;
 constexpr std::size_t kMostRows = 4096;
 
 // A row of texts; empty after reporting.
-std::vector<std::string> read_row(const JsonNode& node, std::size_t length) {
+std::vector<std::string> read_row(const core::JsonNode& node, std::size_t length) {
   std::vector<std::string> row = node.texts(kMostRows);
   if (row.size() == length) return row;
-  const bool told = node.present() && (!node.value().is_array() || node.value().size() == length);
+  const bool told = node.present() && (!node.is_array() || node.elements() == length);
   if (!told)
     node.problems().error(ErrorClass::parse, node.place(), node.pointer(), "another row",
                           "exactly " + std::to_string(length) + " texts");
@@ -26,16 +26,16 @@ std::vector<std::string> read_row(const JsonNode& node, std::size_t length) {
 
 void read_mapping(const std::filesystem::path& file, core::ProblemList& problems,
                   OpenMapping& mapping) {
-  const auto json = read_json_file(file, kLargestMappingFile_bytes, problems);
+  const auto json = core::read_json_file(file, kLargestMappingFile_bytes, kJsonLimits, problems);
   mapping.file = file;
   mapping.files.push_back(file);
   if (!json) return;
-  const JsonNode root(*json, problems);
+  const core::JsonNode root(*json, problems);
   check_metadata(root, "mappingVersion");
-  const JsonNode rows = root.required("materialMapping");
+  const core::JsonNode rows = root.required("materialMapping");
   const std::size_t count = rows.size(kMostRows);
   for (std::size_t i = 0; i < count; ++i) {
-    const JsonNode node = rows.element(i);
+    const core::JsonNode node = rows.element(i);
     const std::vector<std::string> row = read_row(node, 3);
     if (row.empty()) continue;
     if (!row[1].ends_with(".xomp"))
@@ -52,11 +52,11 @@ std::string names_there(const std::string& wanted, const OpenMapping& mapping) {
   return core::names_there_text(wanted, names);
 }
 
-void replace_names(const JsonNode& replacements, OpenMapping& mapping) {
+void replace_names(const core::JsonNode& replacements, OpenMapping& mapping) {
   std::map<std::string, NamedUri> replaced = mapping.material_of_name;
   const std::size_t count = replacements.size(kMostRows);
   for (std::size_t i = 0; i < count; ++i) {
-    const JsonNode node = replacements.element(i);
+    const core::JsonNode node = replacements.element(i);
     const std::vector<std::string> row = read_row(node, 2);
     if (row.empty()) continue;
     const auto key = mapping.material_of_name.find(row[1]);
@@ -72,11 +72,11 @@ void replace_names(const JsonNode& replacements, OpenMapping& mapping) {
 void read_asset(const std::filesystem::path& file, const std::filesystem::path& allowed_folder,
                 core::ProblemList& problems, OpenMapping& mapping) {
   mapping.files.push_back(file);
-  const auto json = read_json_file(file, kLargestMappingFile_bytes, problems);
+  const auto json = core::read_json_file(file, kLargestMappingFile_bytes, kJsonLimits, problems);
   if (!json) return;
-  const JsonNode root(*json, problems);
+  const core::JsonNode root(*json, problems);
   check_metadata(root, "assetVersion");
-  const JsonNode uri = root.required("materialMappingUri");
+  const core::JsonNode uri = root.required("materialMappingUri");
   if (root.member("materialTextureAssignment").present())
     problems.warning("SKIPPED", uri.place(), "/materialTextureAssignment", "assignment textures",
                      "not read: materials are found by name only");

@@ -11,7 +11,7 @@ using core::ErrorClass;
 constexpr std::uint64_t kLargestMaterialFile_bytes = 1u << 20;
 constexpr std::size_t kMostTables = 64;
 
-std::optional<NamedUri> read_uri(const JsonNode& node, const std::string& ending) {
+std::optional<NamedUri> read_uri(const core::JsonNode& node, const std::string& ending) {
   const auto uri = node.text();
   if (!uri) return std::nullopt;
   if (!uri->ends_with(ending)) {
@@ -21,7 +21,7 @@ std::optional<NamedUri> read_uri(const JsonNode& node, const std::string& ending
   return NamedUri{*uri, node.pointer()};
 }
 
-std::vector<NamedUri> read_uris(const JsonNode& node, const std::string& ending) {
+std::vector<NamedUri> read_uris(const core::JsonNode& node, const std::string& ending) {
   std::vector<NamedUri> uris;
   const std::size_t count = node.size(kMostTables);
   for (std::size_t i = 0; i < count; ++i)
@@ -33,13 +33,13 @@ std::vector<NamedUri> read_uris(const JsonNode& node, const std::string& ending)
 
 std::optional<OpenMaterialFile> read_open_material_file(const std::filesystem::path& file,
                                                         core::ProblemList& problems) {
-  const auto json = read_json_file(file, kLargestMaterialFile_bytes, problems);
+  const auto json = core::read_json_file(file, kLargestMaterialFile_bytes, kJsonLimits, problems);
   if (!json) return std::nullopt;
-  const JsonNode root(*json, problems);
+  const core::JsonNode root(*json, problems);
   OpenMaterialFile material;
   material.name = check_metadata(root, "materialVersion");
-  const JsonNode properties = root.required("materialProperties");
-  const JsonNode roughness = properties.member("surfaceRoughness");
+  const core::JsonNode properties = root.required("materialProperties");
+  const core::JsonNode roughness = properties.member("surfaceRoughness");
   // As far as roughness factors are defined; a metre is far beyond any surface.
   material.rms_height_m = roughness.required("surfaceHeightRms").number({0.0, 1.0});
   material.permittivity = read_uri(properties.member("electromagneticPropertiesUri"), "_emp.xompt");

@@ -35,24 +35,24 @@ bool is_version(const std::string& text) {
   return dots == 2 && before != '.';
 }
 
-void check_texts(const JsonNode& node) {
+void check_texts(const core::JsonNode& node) {
   if (!node.present()) return;
-  if (node.texts(1000).empty() && node.value().is_array() && node.value().empty())
+  if (node.texts(1000).empty() && node.is_array() && node.elements() == 0)
     node.error(ErrorClass::parse, "at least one text");
 }
 
 }  // namespace
 
-std::string check_metadata(const JsonNode& root, const char* version_key) {
-  const JsonNode metadata = root.required("metadata");
+std::string check_metadata(const core::JsonNode& root, const char* version_key) {
+  const core::JsonNode metadata = root.required("metadata");
   const std::string name = metadata.required("name").text().value_or("");
-  const JsonNode uuid = metadata.required("uuid");
+  const core::JsonNode uuid = metadata.required("uuid");
   if (const auto text = uuid.text(); text && !is_uuid(*text))
     uuid.error(ErrorClass::parse, "32 hexadecimal digits as 8-4-4-4-12");
-  const JsonNode version = metadata.required(version_key);
+  const core::JsonNode version = metadata.required(version_key);
   if (const auto text = version.text(); text && !is_version(*text))
     version.error(ErrorClass::parse, "a version such as \"1.0.0\"");
-  const JsonNode standard = metadata.required("openMaterial3dVersion");
+  const core::JsonNode standard = metadata.required("openMaterial3dVersion");
   if (const auto text = standard.text()) {
     if (!is_version(*text))
       standard.error(ErrorClass::parse, "a version such as \"1.0.0\"");

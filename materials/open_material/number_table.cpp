@@ -15,8 +15,9 @@ bool belongs_before(const TableRow& row, const TableRow& above) {
 }
 
 // Whether the row can be used.
-bool read_row(const JsonNode& node, const std::vector<core::NumberRange>& columns, TableRow& row) {
-  if (!node.present() || !node.value().is_array() || node.value().size() != columns.size()) {
+bool read_row(const core::JsonNode& node, const std::vector<core::NumberRange>& columns,
+              TableRow& row) {
+  if (node.elements() != columns.size()) {
     node.problems().error(ErrorClass::parse, node.place(), node.pointer(), "another row",
                           "an array of " + std::to_string(columns.size()) + " numbers or nulls");
     return false;
@@ -24,7 +25,7 @@ bool read_row(const JsonNode& node, const std::vector<core::NumberRange>& column
   bool usable = true;
   row.clear();
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    const JsonNode cell = node.element(i);
+    const core::JsonNode cell = node.element(i);
     row.push_back(cell.number(columns[i]));
     usable = usable && (row.back() || !cell.present());
   }
@@ -33,7 +34,7 @@ bool read_row(const JsonNode& node, const std::vector<core::NumberRange>& column
 
 }  // namespace
 
-std::vector<TableRow> read_number_table(const JsonNode& table,
+std::vector<TableRow> read_number_table(const core::JsonNode& table,
                                         const std::vector<core::NumberRange>& columns) {
   std::vector<TableRow> rows;
   TableRow row;
@@ -41,7 +42,7 @@ std::vector<TableRow> read_number_table(const JsonNode& table,
   const std::size_t count = table.size(kMostTableRows);
   rows.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const JsonNode node = table.element(i);
+    const core::JsonNode node = table.element(i);
     if (!read_row(node, columns, row)) continue;
     if (sorted && !rows.empty() && belongs_before(row, rows.back())) {
       sorted = false;  // told once

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "materials/open_material/json_node_private.h"
+#include "core/json_node.h"
 
 namespace fanbeam::materials {
 
@@ -20,7 +20,7 @@ using TableRow = std::vector<std::optional<double>>;  // nothing where the file 
 // E-PARSE (no array, a row of another length, a value that is no number or null), E-RANGE (a value
 // outside its column, a row that belongs before the one above it), E-LIMIT (kMostTableRows). Rows
 // with a problem are left out.
-std::vector<TableRow> read_number_table(const JsonNode& table,
+std::vector<TableRow> read_number_table(const core::JsonNode& table,
                                         const std::vector<core::NumberRange>& columns);
 
 }  // namespace fanbeam::materials

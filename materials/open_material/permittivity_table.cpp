@@ -25,9 +25,9 @@ bool differs_from_one(const std::optional<double>& real, const std::optional<dou
 PermittivityTable PermittivityTable::from_file(const std::filesystem::path& file,
                                                core::ProblemList& problems) {
   PermittivityTable table;
-  const auto json = read_json_file(file, kLargestTableFile_bytes, problems);
+  const auto json = core::read_json_file(file, kLargestTableFile_bytes, kJsonLimits, problems);
   if (!json) return table;
-  const JsonNode root(*json, problems);
+  const core::JsonNode root(*json, problems);
   check_metadata(root, "materialVersion");
   const core::NumberRange positive{0.0, kLargestPermittivity};
   const std::vector<TableRow> rows = read_number_table(

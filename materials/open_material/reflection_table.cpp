@@ -6,11 +6,11 @@
 namespace fanbeam::materials {
 
 void check_reflection_table(const std::filesystem::path& file, core::ProblemList& problems) {
-  const auto json = read_json_file(file, kLargestTableFile_bytes, problems);
+  const auto json = core::read_json_file(file, kLargestTableFile_bytes, kJsonLimits, problems);
   if (!json) return;
-  const JsonNode root(*json, problems);
+  const core::JsonNode root(*json, problems);
   check_metadata(root, "materialVersion");
-  const JsonNode table = root.required("reflectionCoefficient");
+  const core::JsonNode table = root.required("reflectionCoefficient");
   table.required("wavelengths").numbers(kTableWavelength_m, kMostTableRows);
   read_number_table(table.required("lookupTable"), {kTableWavelength_m,
                                                     kTableZenith_rad,

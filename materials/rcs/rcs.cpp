@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
-#include "materials/checks.h"
+#include "core/number_range.h"
 #include "materials/rcs/lobe.h"
 #include "materials/rcs/round_wire.h"
 #include "materials/rcs/sphere.h"
@@ -110,9 +110,13 @@ double squared_size_m2(const RectangularPlate& p) { return square(p.width_m) + s
 double squared_size_m2(const Cylinder& c) { return square(c.length_m); }
 double squared_size_m2(const RoundWire& w) { return square(coherent_length_m(w)); }
 
-void check_size(const char* field, double size_m) { require_range(field, size_m, 1e-6, 1e3); }
+void check_size(const char* field, double size_m) {
+  core::require_range(field, size_m, {1e-6, 1e3});
+}
 
-void check(const ConstantRcs& constant) { require_range("rcs_m2", constant.rcs_m2, 0.0, 1e9); }
+void check(const ConstantRcs& constant) {
+  core::require_range("rcs_m2", constant.rcs_m2, {0.0, 1e9});
+}
 void check(const Sphere& sphere) { check_size("radius_m", sphere.radius_m); }
 void check(const TriangularTrihedral& trihedral) { check_size("edge_m", trihedral.edge_m); }
 void check(const SquareTrihedral& trihedral) { check_size("edge_m", trihedral.edge_m); }
@@ -131,17 +135,17 @@ void check(const Cylinder& cylinder) {
 void check(const RoundWire& wire) {
   check_size("radius_m", wire.radius_m);
   check_size("length_m", wire.length_m);
-  require_range("polarisation_rad", wire.polarisation_rad, -2.0 * kPi, 2.0 * kPi);
+  core::require_range("polarisation_rad", wire.polarisation_rad, {-2.0 * kPi, 2.0 * kPi});
   if (wire.coherence_length_m != 0.0) check_size("coherence_length_m", wire.coherence_length_m);
 }
 void check(const LobedRcs& object) {
-  require_range("floor_m2", object.floor_m2, 0.0, 1e9);
+  core::require_range("floor_m2", object.floor_m2, {0.0, 1e9});
   for (const AspectLobe& lobe : object.lobes) {
-    require_range("azimuth_rad", lobe.azimuth_rad, -2.0 * kPi, 2.0 * kPi);
-    require_range("azimuth_width_rad", lobe.azimuth_width_rad, 0.0, 100.0);
-    require_range("elevation_rad", lobe.elevation_rad, -kPi / 2.0, kPi / 2.0);
-    require_range("elevation_width_rad", lobe.elevation_width_rad, 1e-6, 100.0);
-    require_range("peak_m2", lobe.peak_m2, 0.0, 1e9);
+    core::require_range("azimuth_rad", lobe.azimuth_rad, {-2.0 * kPi, 2.0 * kPi});
+    core::require_range("azimuth_width_rad", lobe.azimuth_width_rad, {0.0, 100.0});
+    core::require_range("elevation_rad", lobe.elevation_rad, {-kPi / 2.0, kPi / 2.0});
+    core::require_range("elevation_width_rad", lobe.elevation_width_rad, {1e-6, 100.0});
+    core::require_range("peak_m2", lobe.peak_m2, {0.0, 1e9});
   }
 }
 
@@ -153,21 +157,21 @@ void check_rcs_model(const RcsModel& model) {
 
 double rcs_m2(const RcsModel& model, const glm::dvec3& direction_to_radar_in_target_axes,
               double wavelength_m) {
-  require_range("wavelength_m", wavelength_m, 1e-6, 1e3);
+  core::require_range("wavelength_m", wavelength_m, {1e-6, 1e3});
   const double length = glm::length(direction_to_radar_in_target_axes);
-  require_range("length of direction_to_radar", length, 1e-100, 1e100);
+  core::require_range("length of direction_to_radar", length, {1e-100, 1e100});
   const glm::dvec3 direction = direction_to_radar_in_target_axes / length;
   return std::visit([&](const auto& shape) { return evaluate(shape, direction, wavelength_m); },
                     model);
 }
 
 double largest_rcs_m2(const RcsModel& model, double wavelength_m) {
-  require_range("wavelength_m", wavelength_m, 1e-6, 1e3);
+  core::require_range("wavelength_m", wavelength_m, {1e-6, 1e3});
   return std::visit([&](const auto& shape) { return largest(shape, wavelength_m); }, model);
 }
 
 double far_field_distance_m(const RcsModel& model, double wavelength_m) {
-  require_range("wavelength_m", wavelength_m, 1e-6, 1e3);
+  core::require_range("wavelength_m", wavelength_m, {1e-6, 1e3});
   return std::visit([](const auto& shape) { return 2.0 * squared_size_m2(shape); }, model) /
          wavelength_m;
 }

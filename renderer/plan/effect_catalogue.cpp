@@ -43,12 +43,12 @@ std::pair<double, double> sines_of_beam(const sensors::Sensor& sensor) {
 
 // The largest loss per kilometre at any height that is seen, all the way to the farthest range that
 // shows in a cell.
-double longest_path_dB(const SceneFacts& facts, std::string_view effect) {
+double longest_path_dB(const SceneFacts& facts, core::EffectId effect) {
   Weather weather = facts.weather;
-  weather.simulate_gas = effect == kGas;
-  weather.simulate_fog = effect == kFog;
-  weather.simulate_rain = effect == kRain;
-  weather.simulate_snow = effect == kSnow;
+  weather.simulate_gas = effect == core::EffectId::gas;
+  weather.simulate_fog = effect == core::EffectId::fog;
+  weather.simulate_rain = effect == core::EffectId::rain;
+  weather.simulate_snow = effect == core::EffectId::snow;
   const double frequency_Hz = facts.sensor.waveform.frequency_Hz;
   const double range_m = facts.sensor.range.maximum_m() + kSpreadCells * facts.sensor.range.cell_m;
   const atmosphere::PathAttenuation path(weather, frequency_Hz);
@@ -70,10 +70,10 @@ bool has_fog(const SceneFacts& facts) { return atmosphere::has_fog(facts.weather
 bool has_rain(const SceneFacts& facts) { return atmosphere::has_rain(facts.weather); }
 bool has_snow(const SceneFacts& facts) { return atmosphere::has_snow(facts.weather); }
 
-double gas_dB(const SceneFacts& facts) { return longest_path_dB(facts, kGas); }
-double fog_dB(const SceneFacts& facts) { return longest_path_dB(facts, kFog); }
-double rain_dB(const SceneFacts& facts) { return longest_path_dB(facts, kRain); }
-double snow_dB(const SceneFacts& facts) { return longest_path_dB(facts, kSnow); }
+double gas_dB(const SceneFacts& facts) { return longest_path_dB(facts, core::EffectId::gas); }
+double fog_dB(const SceneFacts& facts) { return longest_path_dB(facts, core::EffectId::fog); }
+double rain_dB(const SceneFacts& facts) { return longest_path_dB(facts, core::EffectId::rain); }
+double snow_dB(const SceneFacts& facts) { return longest_path_dB(facts, core::EffectId::snow); }
 
 bool has_echo(const SceneFacts& facts) { return facts.largest_eta_m2_per_m3 > 0.0; }
 
@@ -114,20 +114,21 @@ double fluctuation_dB(const SceneFacts&) { return kLargestFluctuation_dB; }
 
 const std::vector<Effect>& sample_effects() {
   static const std::vector<Effect> kCatalogue = {
-      {kReceiverNoise, "noise of each physical receiver in its samples",
+      {core::EffectId::receiver_noise, "noise of each physical receiver in its samples",
        "k T0 F fs, IEEE Std 686 noise figure", always, receiver_noise_dB, receiver_noise_cause, ""},
-      {kPhaseNoise, "phase noise of the oscillator", "Budge and Burt 1993", has_phase_noise,
-       phase_noise_bound_dB, phase_noise_cause,
+      {core::EffectId::phase_noise, "phase noise of the oscillator", "Budge and Burt 1993",
+       has_phase_noise, phase_noise_bound_dB, phase_noise_cause,
        "no line width of the oscillator was given (--line-width), or nothing echoes"},
-      {kQuantiser, "rounding of the samples", "Widrow and Kollar 2008", has_quantiser,
-       quantiser_bound_dB, quantiser_cause, "no number of bits was given (--adc-bits)"},
+      {core::EffectId::quantiser, "rounding of the samples", "Widrow and Kollar 2008",
+       has_quantiser, quantiser_bound_dB, quantiser_cause,
+       "no number of bits was given (--adc-bits)"},
   };
   return kCatalogue;
 }
 
 const std::vector<Effect>& picture_effects() {
   static const std::vector<Effect> kCatalogue = {
-      {kGas,
+      {core::EffectId::gas,
        "two-way loss in oxygen and water vapour",
        "ITU-R P.676-13 Annex 1 on the P.835-6 standard atmosphere",
        always,
@@ -136,7 +137,7 @@ const std::vector<Effect>& picture_effects() {
        "",
        {},
        true},
-      {kFog,
+      {core::EffectId::fog,
        "two-way loss in fog droplets",
        "ITU-R P.840-8",
        has_fog,
@@ -145,7 +146,7 @@ const std::vector<Effect>& picture_effects() {
        "the scene has no fog",
        {},
        true},
-      {kRain,
+      {core::EffectId::rain,
        "two-way loss in rain, rain cells and the melting layer",
        "ITU-R P.838-3",
        has_rain,
@@ -154,7 +155,7 @@ const std::vector<Effect>& picture_effects() {
        "the scene has no rain",
        {},
        true},
-      {kSnow,
+      {core::EffectId::snow,
        "two-way loss in dry snow",
        "Gunn and East 1954",
        has_snow,
@@ -163,20 +164,20 @@ const std::vector<Effect>& picture_effects() {
        "the scene has no snow",
        {},
        true},
-      {kRainEcho, "echo of rain and snow in the air",
+      {core::EffectId::rain_echo, "echo of rain and snow in the air",
        "Mie scattering over drop sizes, volume radar equation", has_echo, rain_echo_bound_dB,
        rain_echo_cause, "nothing falls in this scene", "neither rain nor snow falls within range"},
-      {kDoubleBounce, "wall and ground, or two walls, seen through each other",
+      {core::EffectId::double_bounce, "wall and ground, or two walls, seen through each other",
        "mirror and bistatic NRCS, docs/physics/double-bounce.md", corners_possible, whole_window_dB,
        double_bounce_cause,
        "the scene has no walls, or nothing that is known to mirror at this frequency",
        "within range nothing mirrors, or nothing stands in the way of mirrored rays"},
-      {kMultipath, "point targets mirrored in the ground",
+      {core::EffectId::multipath, "point targets mirrored in the ground",
        "two-ray propagation factor, docs/physics/multipath.md", mirrored_targets_possible,
        whole_window_dB, multipath_cause,
        "the scene has no point targets, or no ground that is known to mirror at this frequency",
        "no point target is in view, or no ground mirrors within range", true},
-      {kSurfaceState,
+      {core::EffectId::surface_state,
        "wet or snow-covered surfaces instead of dry ones",
        "rows of the material library, docs/physics/surface-state.md",
        has_surface_state,
@@ -185,7 +186,7 @@ const std::vector<Effect>& picture_effects() {
        "the scene's surfaces are dry",
        {},
        true},
-      {kSideLobes,
+      {core::EffectId::side_lobes,
        "antenna gain outside the main beam",
        "uniform level, Skolnik, Introduction to Radar Systems, 3rd ed., chapter 9",
        has_side_lobes,
@@ -194,15 +195,15 @@ const std::vector<Effect>& picture_effects() {
        "the antenna has no side lobes (antenna.*.side_lobe_level_dB)",
        {},
        true},
-      {kRangeResponse, "spread of echoes along range by the sweep's window",
+      {core::EffectId::range_response, "spread of echoes along range by the sweep's window",
        "Harris 1978; docs/physics/range-response.md", has_range_response, range_response_bound_dB,
        range_response_cause, "range cells are ideal (waveform.window, scan.sweep)"},
-      {kThermalNoise, "mean noise power of the receiver",
+      {core::EffectId::thermal_noise, "mean noise power of the receiver",
        "k T0 F / dwell, IEEE Std 686 noise figure", always, noise_dB, noise_cause, ""},
-      {kSpeckle, "a realisation of ground and noise instead of their expected power",
+      {core::EffectId::speckle, "a realisation of ground and noise instead of their expected power",
        "gamma law of N looks, Goodman 1975", shows_sample, fluctuation_dB, speckle_cause,
        "frames show the expected power ([accuracy] realisation)"},
-      {kSwerling,
+      {core::EffectId::swerling,
        "fluctuation of point targets",
        "Swerling 1954, cases 1 to 4",
        targets_fluctuate,

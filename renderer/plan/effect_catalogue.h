@@ -8,13 +8,14 @@
 // decide over a large one plan.cpp takes the whole window instead.
 // What touches pictures is planned once for a sequence, from the scene. What touches samples alone
 // is planned for each set of them, from their power (signal_effects.h).
-// New effects are new rows: nothing else lists them.
+// New effects are new rows, of a new core::EffectId: nothing else lists them.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/effect_plan.h"
 #include "renderer/plan/scene_facts.h"
 
 namespace fanbeam::renderer {
@@ -26,7 +27,7 @@ enum class Touches {
 };
 
 struct Effect {
-  std::string_view name;
+  core::EffectId id;
   std::string_view what;    // "two-way loss in fog"
   std::string_view source;  // "ITU-R P.840-8"
   bool (*possible)(const SceneFacts&);
@@ -38,24 +39,9 @@ struct Effect {
   std::string_view why_unseen = {};
   // The scene's echoes have it, and so the samples that are made of them.
   bool in_echoes = false;
-};
 
-inline constexpr std::string_view kGas = "gas";
-inline constexpr std::string_view kFog = "fog";
-inline constexpr std::string_view kRain = "rain";
-inline constexpr std::string_view kSnow = "snow";
-inline constexpr std::string_view kRainEcho = "rain-echo";
-inline constexpr std::string_view kDoubleBounce = "double-bounce";
-inline constexpr std::string_view kMultipath = "multipath";
-inline constexpr std::string_view kSurfaceState = "surface-state";
-inline constexpr std::string_view kSideLobes = "side-lobes";
-inline constexpr std::string_view kRangeResponse = "range-response";
-inline constexpr std::string_view kThermalNoise = "thermal-noise";
-inline constexpr std::string_view kSpeckle = "speckle";
-inline constexpr std::string_view kSwerling = "swerling";
-inline constexpr std::string_view kReceiverNoise = "receiver-noise";
-inline constexpr std::string_view kPhaseNoise = "phase-noise";
-inline constexpr std::string_view kQuantiser = "quantiser";
+  std::string_view name() const { return core::name_of(id); }
+};
 
 const std::vector<Effect>& effect_catalogue(Touches touched = Touches::pictures);
 

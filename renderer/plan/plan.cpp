@@ -10,10 +10,6 @@
 namespace fanbeam::renderer {
 namespace {
 
-bool contains(const std::vector<std::string>& names, std::string_view name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 std::string grey_text(double bound_grey) {
   if (bound_grey >= 255.0) return "all 255 grey levels";
   return figure_text(bound_grey) + (bound_grey == 1.0 ? " grey level" : " grey levels");
@@ -21,8 +17,8 @@ std::string grey_text(double bound_grey) {
 
 SceneFacts with_realisation(const SceneFacts& scene, const EffectWishes& wishes) {
   SceneFacts facts = scene;
-  facts.sample =
-      scene.sample || contains(wishes.forced_on, kSpeckle) || contains(wishes.forced_on, kSwerling);
+  facts.sample = scene.sample || wishes.forced_on.contains(core::EffectId::speckle) ||
+                 wishes.forced_on.contains(core::EffectId::swerling);
   return facts;
 }
 
@@ -98,12 +94,12 @@ std::string by_user(const std::string& verdict, const core::EffectDecision& deci
 // Noise that is shown for certain is part of the floor of every other effect.
 bool noise_runs(const SceneFacts& facts, double accuracy_grey, const EffectWishes& wishes,
                 const Greys& greys) {
-  if (contains(wishes.forced_off, kThermalNoise)) return false;
-  if (contains(wishes.forced_on, kThermalNoise)) return true;
+  if (wishes.forced_off.contains(core::EffectId::thermal_noise)) return false;
+  if (wishes.forced_on.contains(core::EffectId::thermal_noise)) return true;
   if (wishes.base != EffectWishes::Base::as_needed) return wishes.base == EffectWishes::Base::all;
   const auto& catalogue = effect_catalogue();
   const auto noise = std::find_if(catalogue.begin(), catalogue.end(), [](const Effect& effect) {
-    return effect.name == kThermalNoise;
+    return effect.id == core::EffectId::thermal_noise;
   });
   core::EffectDecision decision;
   weighed(*noise, facts, greys, decision);
@@ -126,15 +122,15 @@ core::EffectPlan decided(const std::vector<Effect>& catalogue, const SceneFacts&
   for (std::size_t i = 0; i < catalogue.size(); ++i) {
     const Effect& effect = catalogue[i];
     core::EffectDecision& decision = result.decisions[i];
-    decision.effect = effect.name;
+    decision.effect = effect.id;
     const bool possible = effect.possible(facts);
     Open weighing;
     if (possible) weighing = weighed(effect, facts, greys, decision);
-    if (contains(wishes.forced_off, effect.name)) {
+    if (wishes.forced_off.contains(effect.id)) {
       decision.reason = by_user("switched off by the user", decision);
     } else if (!possible) {
       decision.reason = why_without(effect, scene);
-    } else if (contains(wishes.forced_on, effect.name) || wishes.base == EffectWishes::Base::all) {
+    } else if (wishes.forced_on.contains(effect.id) || wishes.base == EffectWishes::Base::all) {
       decision.on = true;
       decision.reason = by_user("switched on by the user", decision);
     } else if (wishes.base == EffectWishes::Base::none) {
@@ -152,23 +148,23 @@ double left_of_budget_grey(const core::EffectPlan& sequence, double accuracy_gre
                            const EffectWishes& wishes) {
   double left_grey = effects_share_grey(accuracy_grey);
   for (const core::EffectDecision& decision : sequence.decisions)
-    if (!decision.on && !contains(wishes.forced_off, decision.effect))
+    if (!decision.on && !wishes.forced_off.contains(decision.effect))
       left_grey -= decision.bound_grey;
   return left_grey;
 }
 
-std::vector<std::string_view> known_names(Touches touched) {
-  std::vector<std::string_view> names;
-  for (const Effect& effect : effect_catalogue()) names.push_back(effect.name);
+std::vector<core::EffectId> known_effects(Touches touched) {
+  std::vector<core::EffectId> known;
+  for (const Effect& effect : effect_catalogue()) known.push_back(effect.id);
   if (touched == Touches::samples)
-    for (const Effect& effect : effect_catalogue(touched)) names.push_back(effect.name);
-  return names;
+    for (const Effect& effect : effect_catalogue(touched)) known.push_back(effect.id);
+  return known;
 }
 
 }  // namespace
 
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
-  const std::vector<std::string_view> names = known_names(touched);
+  const std::vector<core::EffectId> effects = known_effects(touched);
   EffectWishes wishes;
   std::size_t from = 0;
   while (from <= text.size()) {
@@ -181,13 +177,15 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
       wishes.base = EffectWishes::Base::none;
     } else {
       std::string known;
-      for (const std::string_view name : names) known += " +" + std::string(name);
-      const bool found =
-          word.size() > 1 && std::find(names.begin(), names.end(), word.substr(1)) != names.end();
-      if (!found || (word[0] != '+' && word[0] != '-'))
+      for (const core::EffectId effect : effects) known.append(" +").append(name_of(effect));
+      const auto found =
+          word.empty() ? effects.end()
+                       : std::ranges::find(effects, std::string_view(word).substr(1),
+                                           [](core::EffectId effect) { return name_of(effect); });
+      if (found == effects.end() || (word[0] != '+' && word[0] != '-'))
         core::throw_input_error(core::ErrorClass::ref, "--effects", "\"" + word + "\"",
                                 "all, none, or + or - before one of" + known);
-      (word[0] == '+' ? wishes.forced_on : wishes.forced_off).push_back(word.substr(1));
+      (word[0] == '+' ? wishes.forced_on : wishes.forced_off).insert(*found);
     }
   }
   return wishes;
@@ -211,15 +209,15 @@ core::EffectPlan frame_plan(const core::EffectPlan& sequence, const SceneFacts& 
   core::EffectPlan result = sequence;
   if (wishes.base != EffectWishes::Base::as_needed) return result;
   SceneFacts facts = with_realisation(frame, wishes);
-  facts.noise_shown = result.runs(kThermalNoise);
+  facts.noise_shown = result.runs(core::EffectId::thermal_noise);
   const Greys greys = greys_of(facts);
   std::vector<Open> open;
   for (core::EffectDecision& decision : result.decisions) {
     const auto effect =
         std::find_if(effect_catalogue().begin(), effect_catalogue().end(),
-                     [&](const Effect& each) { return each.name == decision.effect; });
+                     [&](const Effect& each) { return each.id == decision.effect; });
     if (!decision.on || effect == effect_catalogue().end() || effect->why_unseen.empty() ||
-        contains(wishes.forced_on, decision.effect))
+        wishes.forced_on.contains(decision.effect))
       continue;
     if (!effect->possible(facts)) {
       decision = {decision.effect, false, std::string(effect->why_unseen)};
@@ -235,9 +233,9 @@ core::EffectPlan signal_plan(const core::EffectPlan& sequence, const SceneFacts&
                              double accuracy_grey, const EffectWishes& wishes) {
   if (!samples.signal) throw core::InternalError("a plan of samples without their facts");
   SceneFacts facts = samples;
-  facts.noise_shown =
-      !contains(wishes.forced_off, kReceiverNoise) &&
-      (wishes.base != EffectWishes::Base::none || contains(wishes.forced_on, kReceiverNoise));
+  facts.noise_shown = !wishes.forced_off.contains(core::EffectId::receiver_noise) &&
+                      (wishes.base != EffectWishes::Base::none ||
+                       wishes.forced_on.contains(core::EffectId::receiver_noise));
   return decided(effect_catalogue(Touches::samples), facts, facts, greys_of(facts), wishes,
                  left_of_budget_grey(sequence, accuracy_grey, wishes));
 }

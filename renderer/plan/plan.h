@@ -3,23 +3,28 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "core/effect_plan.h"
+#include "core/number_range.h"
 #include "renderer/plan/effect_catalogue.h"
 
 namespace fanbeam::renderer {
 
-// What the user forces, by effect name; `base` is what happens to effects not named.
+// What the user forces; `base` is what happens to other effects.
 struct EffectWishes {
   enum class Base { as_needed, all, none };
   Base base = Base::as_needed;
-  std::vector<std::string> forced_on, forced_off;
+  core::EffectSet forced_on, forced_off;
 };
 
 // "all", "none", "+rain,-gas", "all,-fog". Throws InputError E-REF for an unknown effect, naming
 // the known ones: those that touch pictures, and for `touched` samples these as well.
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched = Touches::pictures);
+
+// That may be asked for, in grey levels.
+inline constexpr core::NumberRange kAccuracies_grey{0.01, 100.0};
+// Allowed times for a frame.
+inline constexpr core::NumberRange kTimeBudgets_ms{0.1, 1e7};
 
 // Of the grey levels asked for, what is for effects left out and what for sampling.
 constexpr double effects_share_grey(double accuracy_grey) { return accuracy_grey / 2.0; }

@@ -9,16 +9,11 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "core/random.h"
-#include "renderer/casting/echo_density.h"
 #include "renderer/casting/elevation_fan.h"
-#include "renderer/casting/fan_layout.h"
 #include "renderer/casting/frame_path_loss.h"
-#include "renderer/casting/packet_sender.h"
-#include "renderer/casting/ray_aim.h"
-#include "renderer/casting/ray_batch.h"
+#include "renderer/casting/ray_line.h"
 #include "renderer/stages/fluctuation.h"
 #include "renderer/stages/point_targets.h"
-#include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -81,8 +76,7 @@ class SurfaceCaster {
         key_{settings.seed, core::kStreamFrameEcho, frame_index},
         fan_(world, settings.sampling),
         elevation_gain_(world.sensor.antenna.elevation),
-        path_loss_(FramePathLoss(world).from(antenna.position_m.z)),
-        is_cone_(world.sensor.scan.surface == sensors::ScanSurface::cone) {}
+        path_loss_(FramePathLoss(world).from(antenna.position_m.z)) {}
 
   // `number` names the column's random draws.
   Scatterers cast(const SubColumn& column, int number) const {
@@ -90,27 +84,15 @@ class SurfaceCaster {
     std::vector<double> edges;
     fan_.place(antenna_, column.centre_rad, column.centre_rad, edges);
     if (edges.size() < 2) return found;
-    RayBatch batch;
-    RayChain chain;
-    PacketSender<8> sender(world_.surfaces(), world_.sensor.range, antenna_.position_m, nullptr);
-    const RayAim aim(antenna_, is_cone_,
-                     azimuths_are_upright(antenna_, world_.sensor.scan.surface));
-    const EchoDensity density(world_, path_loss_, antenna_.position_m);
-    for (int lane = 0; lane < kBatchRays; ++lane) batch.set_column(lane, column);
     const int total = (static_cast<int>(edges.size()) - 1) * settings_.passes;
-    for (int done = 0; done < total; done += kBatchRays) {
-      const int count = std::min(kBatchRays, total - done);
-      Draw draws[kBatchRays];
-      for (int lane = 0; lane < count; ++lane)
-        draws[lane] = place(edges, column, number, done + lane, lane, batch);
-      batch.close(count);
-      aim.point(batch);
-      sender.cast(batch);
-      chain.clear();
-      chain.append(kBatchRays);
-      density.shade(batch, 0, chain);
-      for (int lane = 0; lane < count; ++lane) keep(batch, chain, lane, draws[lane], found);
-    }
+    Draw draws[kBatchRays];
+    const auto aim = [&](int ray, int) {
+      return place(edges, column, number, ray, draws[ray % kBatchRays]);
+    };
+    const auto look = [&](int ray, int, const RayBatch& batch, const RayChain& chain, int lane) {
+      keep(batch, chain, lane, draws[ray % kBatchRays], found);
+    };
+    RayLine(world_, antenna_, elevation_gain_, path_loss_).cast({&column, 1}, total, aim, look);
     found.rays = static_cast<std::uint64_t>(total);
     return found;
   }
@@ -121,19 +103,16 @@ class SurfaceCaster {
     double phase_rad = 0.0;
   };
 
-  Draw place(const std::vector<double>& edges, const SubColumn& column, int number, int ray,
-             int lane, RayBatch& batch) const {
+  RayPlace place(const std::vector<double>& edges, const SubColumn& column, int number, int ray,
+                 Draw& draw) const {
     const auto row = static_cast<std::size_t>(ray / settings_.passes);
     const auto pass = static_cast<std::uint64_t>(ray % settings_.passes);
     const std::uint64_t cell = static_cast<std::uint64_t>(number) * 64 + pass;
     const auto words = core::random_words(key_, cell, static_cast<std::uint32_t>(row));
     const double height_rad = edges[row + 1] - edges[row];
-    batch.elevation_rad[lane] = edges[row] + core::uniform_from(words[1]) * height_rad;
-    batch.gain[lane] =
-        elevation_gain_(batch.elevation_rad[lane] - world_.sensor.antenna.boresight_elevation_rad);
-    batch.offset_rad[lane] = column.offset_rad(core::uniform_from(words[0]));
-    return {height_rad * column.step_rad / settings_.passes,
+    draw = {height_rad * column.step_rad / settings_.passes,
             2.0 * core::kPi * core::uniform_from(words[2])};
+    return {edges[row] + core::uniform_from(words[1]) * height_rad, core::uniform_from(words[0])};
   }
 
   void keep(const RayBatch& batch, const RayChain& chain, int lane, const Draw& draw,
@@ -170,7 +149,6 @@ class SurfaceCaster {
   ElevationFan fan_;
   sensors::TwoWayTable elevation_gain_;
   PathLossTable path_loss_;
-  bool is_cone_;
 };
 
 void add_targets(const World& world, const sensors::AntennaFrame& antenna, const FramePose& pose,

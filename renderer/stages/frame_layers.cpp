@@ -1,18 +1,14 @@
 #include "renderer/stages/frame_layers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
-#include "renderer/casting/echo_density.h"
 #include "renderer/casting/elevation_fan.h"
-#include "renderer/casting/fan_layout.h"
-#include "renderer/casting/packet_sender.h"
-#include "renderer/casting/ray_aim.h"
-#include "renderer/casting/ray_batch.h"
+#include "renderer/casting/ray_line.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/surfaces/nrcs_table.h"
-#include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 
 namespace fanbeam::renderer {
@@ -137,19 +133,23 @@ class LayerCaster {
         path_loss_(world.attenuation, antenna.position_m.z,
                    antenna.position_m.z - world.sensor.range.maximum_m(),
                    antenna.position_m.z + world.sensor.range.maximum_m()),
-        beam_rad_(azimuth_width_rad(world.sensor)) {}
+        beam_rad_(azimuth_width_rad(world.sensor)),
+        row_rad_(cscope_row_rad(world.sensor.display)) {}
 
   // Columns [first, last), which share a fan in pairs.
-  template <int N>
   void cast(int first, int last, const std::vector<std::vector<core::Echo>>& targets,
             FrameLayers& layers) const {
     thread_local std::vector<double> edges;
+    RayLine rays(world_, antenna_, elevation_gain_, path_loss_);
     const sensors::Scan& scan = world_.sensor.scan;
-    for (int column = first; column < last; ++column) {
-      if ((column - first) % kFanColumns == 0)
-        fan_.place(antenna_, sensors::column_edge_rad(scan, column),
-                   sensors::column_edge_rad(scan, std::min(column + kFanColumns, last)), edges);
-      cast_column<N>(column, edges, targets[static_cast<std::size_t>(column)], layers);
+    for (int column = first; column < last; column += kFanColumns) {
+      const int abreast = std::min(kFanColumns, last - column);
+      fan_.place(antenna_, sensors::column_edge_rad(scan, column),
+                 sensors::column_edge_rad(scan, column + abreast), edges);
+      look(column, abreast, edges, rays);
+      for (int i = 0; i < abreast; ++i)
+        fill_column(column + i, edges.size() >= 2 ? i * kLayerAzimuths : kNoLines,
+                    targets[static_cast<std::size_t>(column + i)], layers);
     }
   }
 
@@ -160,62 +160,58 @@ class LayerCaster {
     return sampling;
   }
 
-  template <int N>
-  void cast_column(int column, const std::vector<double>& edges,
-                   const std::vector<core::Echo>& targets, FrameLayers& layers) const {
+  using Line = std::vector<Seen>;
+  static constexpr int kLines = kFanColumns * kLayerAzimuths;
+  static constexpr int kNoLines = -1;
+  // Of the columns that share a fan, from the left.
+  static std::array<Line, kLines>& lines() {
+    thread_local std::array<Line, kLines> of_thread;
+    return of_thread;
+  }
+
+  // From the lines that begin with `first`.
+  void fill_column(int column, int first, const std::vector<core::Echo>& targets,
+                   FrameLayers& layers) const {
     thread_local ColumnCells ranges, rows;
-    thread_local std::vector<Seen> line;
     const sensors::Sensor& sensor = world_.sensor;
     ranges.clear(sensor.range.cells);
     rows.clear(with_cscope_ ? sensor.display.cscope_rows : 0);
-    const double middle_rad = sensors::column_middle_rad(sensor.scan, column);
-    const double step_rad = sensor.scan.column_width_rad() / kLayerAzimuths;
-    for (int k = 0; k < kLayerAzimuths && edges.size() >= 2; ++k) {
-      const double azimuth_rad = middle_rad + (k + 0.5 - 0.5 * kLayerAzimuths) * step_rad;
-      look<N>({azimuth_rad, std::cos(azimuth_rad), std::sin(azimuth_rad), step_rad},
-              column * kLayerAzimuths + k, edges, line);
-      deposit(line, k, ranges, rows);
-    }
+    for (int k = 0; k < kLayerAzimuths && first != kNoLines; ++k)
+      deposit(lines()[static_cast<std::size_t>(first + k)], k, ranges, rows);
     for (const core::Echo& echo : targets) add(echo, ranges, rows);
     ranges.write(column, sensor.scan.columns, layers.bscope);
     if (with_cscope_) rows.write(column, sensor.scan.columns, layers.cscope);
   }
 
-  // Rays of one azimuth, from the lowest up.
-  template <int N>
-  void look(const SubColumn& column, int number, const std::vector<double>& edges,
-            std::vector<Seen>& line) const {
-    const bool cone = world_.sensor.scan.surface == sensors::ScanSurface::cone;
-    const RayAim aim(antenna_, cone, azimuths_are_upright(antenna_, world_.sensor.scan.surface));
-    PacketSender<N> sender(world_.surfaces(), world_.sensor.range, antenna_.position_m, nullptr);
-    const EchoDensity density(world_, path_loss_, antenna_.position_m);
-    thread_local RayBatch batch;
-    thread_local RayChain chain;
-    for (int lane = 0; lane < kBatchRays; ++lane) batch.set_column(lane, column);
-    const int total = static_cast<int>(edges.size()) - 1;
-    const double place = elevation_place(number, 0.5);
-    line.resize(static_cast<std::size_t>(total));
-    for (int done = 0; done < total; done += kBatchRays) {
-      const int count = std::min(kBatchRays, total - done);
-      for (int lane = 0; lane < count; ++lane) {
-        const auto row = static_cast<std::size_t>(done + lane);
-        const double e_rad = edges[row] + place * (edges[row + 1] - edges[row]);
-        batch.elevation_rad[lane] = e_rad;
-        batch.gain[lane] = elevation_gain_(e_rad - world_.sensor.antenna.boresight_elevation_rad);
-        batch.offset_rad[lane] =
-            column.offset_rad(dither(static_cast<std::uint32_t>(row), number, 0));
-      }
-      batch.close(count);
-      aim.point(batch);
-      sender.cast(batch);
-      chain.clear();
-      chain.append(kBatchRays);
-      density.shade(batch, 0, chain);
-      for (int lane = 0; lane < count; ++lane) {
-        const auto row = static_cast<std::size_t>(done + lane);
-        line[row] = seen(batch, chain, lane, edges[row + 1] - edges[row]);
-      }
+  // Rays of all azimuths of some columns, from the lowest up.
+  void look(int column, int columns, const std::vector<double>& edges, RayLine& rays) const {
+    const sensors::Scan& scan = world_.sensor.scan;
+    const double step_rad = scan.column_width_rad() / kLayerAzimuths;
+    const int total = std::max(static_cast<int>(edges.size()) - 1, 0);
+    std::array<SubColumn, kLines> azimuths;
+    std::array<double, kLines> share;
+    const int first = column * kLayerAzimuths, count = columns * kLayerAzimuths;
+    for (int i = 0; i < count; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const double azimuth_rad = sensors::column_middle_rad(scan, column + i / kLayerAzimuths) +
+                                 (i % kLayerAzimuths + 0.5 - 0.5 * kLayerAzimuths) * step_rad;
+      azimuths[at] = {azimuth_rad, std::cos(azimuth_rad), std::sin(azimuth_rad), step_rad};
+      share[at] = elevation_place(first + i, 0.5);
+      lines()[at].resize(static_cast<std::size_t>(total));
     }
+    const auto aim = [&](int ray, int i) {
+      const auto row = static_cast<std::size_t>(ray);
+      return RayPlace{
+          edges[row] + share[static_cast<std::size_t>(i)] * (edges[row + 1] - edges[row]),
+          dither(static_cast<std::uint32_t>(ray), first + i, 0)};
+    };
+    std::array<Line, kLines>& seen_by = lines();
+    const auto keep = [&](int ray, int i, const RayBatch& batch, const RayChain& chain, int lane) {
+      const auto row = static_cast<std::size_t>(ray);
+      seen_by[static_cast<std::size_t>(i)][row] =
+          seen(batch, chain, lane, edges[row + 1] - edges[row]);
+    };
+    rays.cast({azimuths.data(), static_cast<std::size_t>(count)}, total, aim, keep);
   }
 
   Seen seen(const RayBatch& batch, const RayChain& chain, int lane, double height_rad) const {
@@ -287,13 +283,12 @@ class LayerCaster {
   int row_of(const Seen& seen) const {
     const sensors::Display& display = world_.sensor.display;
     return static_cast<int>(
-        std::floor((display.cscope_top_rad - static_cast<double>(seen.elevation_rad)) /
-                   cscope_row_rad(display)));
+        std::floor((display.cscope_top_rad - static_cast<double>(seen.elevation_rad)) / row_rad_));
   }
 
   // Rows between two neighbours: what they both meet, or each its half.
-  void fill_rows(const Seen& a, const Seen& b, int azimuth, ColumnCells& rows) const {
-    const int from = row_of(a), to = row_of(b);
+  void fill_rows(const Seen& a, int from, const Seen& b, int to, int azimuth,
+                 ColumnCells& rows) const {
     const int last = world_.sensor.display.cscope_rows - 1;
     for (int row = std::max(std::min(from, to) + 1, 0);
          row <= std::min(std::max(from, to) - 1, last); ++row) {
@@ -306,7 +301,7 @@ class LayerCaster {
   void deposit(const std::vector<Seen>& line, int azimuth, ColumnCells& ranges,
                ColumnCells& rows) const {
     const sensors::Sensor& sensor = world_.sensor;
-    int last_cell = sensors::kOutside;
+    int last_cell = sensors::kOutside, last_row = 0;
     const Seen* last = nullptr;
     for (const Seen& now : line) {
       if (now.surface == terrain::kNoHit) {
@@ -316,7 +311,8 @@ class LayerCaster {
       if (with_cscope_) {
         const int row = row_of(now);
         if (row >= 0 && row < sensor.display.cscope_rows) rows.add(row, azimuth, now);
-        if (last != nullptr) fill_rows(*last, now, azimuth, rows);
+        if (last != nullptr) fill_rows(*last, last_row, now, row, azimuth, rows);
+        last_row = row;
       }
       const int cell = sensors::range_row(sensor.range, static_cast<double>(now.range_m));
       if (cell != sensors::kOutside) {
@@ -335,7 +331,7 @@ class LayerCaster {
   ElevationFan fan_;
   sensors::TwoWayTable elevation_gain_;
   PathLossTable path_loss_;
-  double beam_rad_;
+  double beam_rad_, row_rad_;
 };
 
 }  // namespace
@@ -352,16 +348,12 @@ FrameLayers frame_layers(const World& world, const sensors::AntennaFrame& antenn
   FrameLayers layers = empty_layers(sensor, with_cscope);
   const std::vector<std::vector<core::Echo>> of_column = by_column(targets, sensor.scan);
   const LayerCaster caster(world, antenna, with_cscope);
-  const bool wide = world.surfaces().native_packet() == 16;
   // Neighbours by one thread: their cells lie side by side.
   const int blocks = (sensor.scan.columns + kBlockColumns - 1) / kBlockColumns;
   core::parallel_for(static_cast<std::size_t>(blocks), [&](std::size_t block) {
     const int first = static_cast<int>(block) * kBlockColumns;
     const int last = std::min(first + kBlockColumns, sensor.scan.columns);
-    if (wide)
-      caster.cast<16>(first, last, of_column, layers);
-    else
-      caster.cast<8>(first, last, of_column, layers);
+    caster.cast(first, last, of_column, layers);
   });
   return layers;
 }

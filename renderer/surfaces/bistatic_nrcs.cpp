@@ -30,52 +30,91 @@ const std::array<Turn, 48>& turns() {
   return kTurns;
 }
 
-// `over_sine(sin_out, normal_on_half)` is sigma_B / sin(psi_i).
-template <class OverSine>
-double integrated_share(double sin_in, const OverSine& over_sine) {
-  constexpr int kSines = 32;
+constexpr int kSines = 32;
+
+double sine_out(std::size_t i) { return (static_cast<double>(i) + 0.5) / kSines; }
+
+// n.h of every direction of the sums below.
+using HalfWays = std::array<std::array<double, 48>, kSines>;
+
+HalfWays half_ways(double sin_in) {
+  HalfWays on_half;
   const double cos_in = std::sqrt(std::fmax(1.0 - sin_in * sin_in, 0.0));
-  double sum = 0.0;
-  for (int i = 0; i < kSines; ++i) {
-    const double sin_out = (i + 0.5) / kSines;
+  for (std::size_t i = 0; i < kSines; ++i) {
+    const double sin_out = sine_out(i);
     const double cos_out = std::sqrt(1.0 - sin_out * sin_out);
-    for (const Turn& turn : turns()) {
+    for (std::size_t k = 0; k < turns().size(); ++k) {
       // |sum of the two unit vectors out of the surface|^2 = 2 (1 + their product).
-      const double product = sin_in * sin_out - cos_in * cos_out * turn.cosine;
+      const double product = sin_in * sin_out - cos_in * cos_out * turns()[k].cosine;
       const double length = std::sqrt(std::fmax(2.0 * (1.0 + product), 1e-30));
-      const double on_half = std::fmin((sin_in + sin_out) / length, 1.0);
-      sum += over_sine(sin_out, on_half) * turn.width_rad;
+      on_half[i][k] = std::fmin((sin_in + sin_out) / length, 1.0);
     }
   }
+  return on_half;
+}
+
+// `factor(sin_out)` is sigma_B / sin(psi_i) over gamma(n.h).
+template <class Factor>
+double integrated_share(const NrcsTable& gamma, const HalfWays& on_half, const Factor& factor) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < kSines; ++i) {
+    double row = 0.0;
+    for (std::size_t k = 0; k < turns().size(); ++k)
+      row += gamma.sigma0_over_sine(on_half[i][k]) * turns()[k].width_rad;
+    sum += factor(sine_out(i)) * row;
+  }
   return 2.0 * sum / kSines / (4.0 * core::kPi);
+}
+
+// The directions that every material's tables look at: worked out once, which takes as long as one
+// of them.
+constexpr int kTabulated = 33;
+
+double root_in(int i) { return std::max(static_cast<double>(i) / (kTabulated - 1), 1e-3); }
+
+double sine_in(int i) { return std::max(static_cast<double>(i), 1.0 / 32.0) / (kTabulated - 1); }
+
+struct Tabulated {
+  std::array<HalfWays, kTabulated> by_root, by_sine;
+};
+
+const Tabulated& tabulated() {
+  static const Tabulated kTabulatedWays = [] {
+    Tabulated ways;
+    for (int i = 0; i < kTabulated; ++i) {
+      const auto to = static_cast<std::size_t>(i);
+      ways.by_root[to] = half_ways(root_in(i) * root_in(i));
+      ways.by_sine[to] = half_ways(sine_in(i));
+    }
+    return ways;
+  }();
+  return kTabulatedWays;
 }
 
 }  // namespace
 
 BistaticNrcs::BistaticNrcs(NrcsTable monostatic) : monostatic_(std::move(monostatic)) {
-  constexpr double kLowestRoot = 1e-3, kLowestSine = 1.0 / 32.0;
+  static_assert(kTabulated == kSteps + 1);
   if (monostatic_.largest() == 0.0) return;
-  for (int i = 0; i <= kSteps; ++i) {
-    const double root = std::max(static_cast<double>(i) / kSteps, kLowestRoot);
+  for (std::size_t i = 0; i <= kSteps; ++i)
     // sqrt(sin psi_i) times the share, so without that root in the denominator.
-    rooted_share_[static_cast<std::size_t>(i)] =
-        (1.0 + kIntegralError) *
-        integrated_share(root * root, [&](double sin_out, double normal_on_half) {
-          return monostatic_.sigma0_over_sine(normal_on_half) * std::sqrt(sin_out);
-        });
-  }
+    rooted_share_[i] = (1.0 + kIntegralError) *
+                       integrated_share(monostatic_, tabulated().by_root[i],
+                                        [](double sin_out) { return std::sqrt(sin_out); });
   rooted_share_[kSteps + 1] = rooted_share_[kSteps];
-  for (int i = 0; i <= kSteps; ++i) {
-    const double sine = std::max(static_cast<double>(i), kLowestSine) / kSteps;
-    share_[static_cast<std::size_t>(i)] = std::fmin(scattered_share(*this, sine), 1.0);
-  }
+  for (std::size_t i = 0; i <= kSteps; ++i)
+    share_[i] = std::fmin(share_at(sine_in(static_cast<int>(i)), tabulated().by_sine[i]), 1.0);
   share_[kSteps + 1] = share_[kSteps];
 }
 
-double scattered_share(const BistaticNrcs& nrcs, double sin_in) {
-  return integrated_share(sin_in, [&](double sin_out, double normal_on_half) {
-    return nrcs.sigma0_over_sine(sin_in, sin_out, normal_on_half);
-  });
+template <class Ways>
+double BistaticNrcs::share_at(double sin_in, const Ways& ways) const {
+  return integrated_share(monostatic_, ways,
+                          [&](double sin_out) { return factor(sin_in, sin_out); });
+}
+
+double BistaticNrcs::scattered_share(double sin_in) const {
+  return share_at(sin_in, half_ways(sin_in));
 }
 
 }  // namespace fanbeam::renderer

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
+
 namespace fanbeam::renderer {
 
 using materials::Polarisation;
 
 Mirrors::Mirrors(const std::vector<std::optional<materials::SpecularSurface>>& specular,
                  const std::vector<BistaticNrcs>& nrcs, double wavelength_m) {
-  for (std::size_t material = 0; material < specular.size(); ++material) {
-    tables_.emplace_back();
-    if (!specular[material]) continue;
-    std::vector<Sample>& table = tables_.back();
+  tables_.resize(specular.size());
+  core::parallel_for(specular.size(), [&](std::size_t material) {
+    if (!specular[material]) return;
+    std::vector<Sample>& table = tables_[material];
     double most = 0.0;
     for (int i = 0; i <= kSteps; ++i) {
       const double sine = static_cast<double>(i) / kSteps;
@@ -28,12 +30,10 @@ Mirrors::Mirrors(const std::vector<std::optional<materials::SpecularSurface>>& s
       most = std::max({most, table.back()[0], table.back()[1]});
     }
     table.push_back(table.back());  // so that the right end needs no branch
-    if (most > 0.0) {
-      any_ = true;
-    } else {
-      table.clear();
-    }
-  }
+    if (most == 0.0) table.clear();
+  });
+  any_ = std::any_of(tables_.begin(), tables_.end(),
+                     [](const std::vector<Sample>& table) { return !table.empty(); });
 }
 
 }  // namespace fanbeam::renderer

@@ -14,8 +14,8 @@ namespace fanbeam::renderer {
 class BistaticNrcs;
 class NrcsTable;
 
-// Cost: 0.1 ms a material, and 1.5 ms more with the first call of bistatic(); nothing for a material
-// that is not met.
+// Cost: 0.1 ms a material, and 0.25 ms more with the first call of bistatic(); nothing for a
+// material that is not met.
 class Reflectivity {
  public:
   Reflectivity() : Reflectivity(std::vector<materials::NrcsCurve>{}) {}

@@ -33,9 +33,7 @@ RunwayEnd landing_on(const SceneDescription& scene, const RunwayDescription& run
   core::Geodetic& threshold = landing.threshold;
   threshold.height_m = std::lerp(near.pavement_end.height_m, far.pavement_end.height_m,
                                  near.displaced_m / line.length_m);
-  if (scene.datum == core::VerticalDatum::egm96)
-    threshold.height_m +=
-        terrain::egm96_geoid_height_m(threshold.latitude_rad, threshold.longitude_rad);
+  threshold.height_m = terrain::ellipsoidal_height_m(threshold, scene.datum);
   return landing;
 }
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "core/random.h"
 #include "core/units.h"
-#include "scenes/trajectory/trajectory_checks.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -47,8 +47,8 @@ Pair across_steady(const Pair& normal) { return {normal[0], 0.5 * normal[0] + 0.
 
 DrydenScales dryden_scales(double height_m, double wind_at_20ft_mps) {
   core::ProblemList problems;
-  check_in(problems, "height_m", height_m, -1000.0, 20000.0);
-  check_in(problems, "wind_at_20ft_mps", wind_at_20ft_mps, 0.0, 60.0);
+  core::check_range(problems, "height_m", height_m, {-1000.0, 20000.0});
+  core::check_range(problems, "wind_at_20ft_mps", wind_at_20ft_mps, {0.0, 60.0});
   problems.throw_if_errors();
   const double height_ft = std::max(height_m / core::kFoot_m, kLowest_ft);
   const double low_ft = std::min(height_ft, kTopOfLowAltitude_ft);
@@ -68,16 +68,16 @@ DrydenScales dryden_scales(double height_m, double wind_at_20ft_mps) {
 
 DrydenGusts::DrydenGusts(std::uint64_t seed, double step_s) : seed_(seed), step_s_(step_s) {
   core::ProblemList problems;
-  check_in(problems, "step_s", step_s, 1e-4, 1.0);
+  core::check_range(problems, "step_s", step_s, {1e-4, 1.0});
   problems.throw_if_errors();
 }
 
 glm::dvec3 DrydenGusts::next(const DrydenScales& scales, double airspeed_mps) {
   core::ProblemList problems;
-  check_in(problems, "airspeed_mps", airspeed_mps, 1.0, 500.0);
+  core::check_range(problems, "airspeed_mps", airspeed_mps, {1.0, 500.0});
   for (int axis = 0; axis < 3; ++axis) {
-    check_in(problems, "length_m", scales.length_m[axis], 1.0, 1e4);
-    check_in(problems, "deviation_mps", scales.deviation_mps[axis], 0.0, 100.0);
+    core::check_range(problems, "length_m", scales.length_m[axis], {1.0, 1e4});
+    core::check_range(problems, "deviation_mps", scales.deviation_mps[axis], {0.0, 100.0});
   }
   problems.throw_if_errors();
   const core::RandomKey key{seed_, core::kStreamTurbulence, 0};

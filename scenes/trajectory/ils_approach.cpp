@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "scenes/trajectory/dryden.h"
-#include "scenes/trajectory/trajectory_checks.h"
 #include "scenes/trajectory/trajectory_ils_path.h"
 #include "scenes/trajectory/trajectory_kinematics.h"
 #include "scenes/trajectory/trajectory_turbulence.h"
@@ -32,37 +32,44 @@ void check(const IlsApproach& approach) {
   const double bearing_deg = core::degrees(approach.runway_bearing_rad);
   const double course_deg =
       core::degrees(approach.localiser_course_rad.value_or(approach.runway_bearing_rad));
-  check_in(problems, "runway_bearing_deg", bearing_deg, -360.0, 360.0);
-  check_in(problems, "localiser_course_deg", course_deg, -360.0, 360.0);
+  core::check_range(problems, "runway_bearing_deg", bearing_deg, {-360.0, 360.0});
+  core::check_range(problems, "localiser_course_deg", course_deg, {-360.0, 360.0});
   if (!problems.has_errors())
-    check_in(problems, "localiser_course_deg less bearing",
-             core::degrees(core::wrap_pi_rad(core::radians(course_deg - bearing_deg))), -30.0,
-             30.0);
-  check_in(problems, "runway_slope", approach.runway_slope, -kSteepestRunway, kSteepestRunway);
-  check_in(problems, "crossing_distance_m", approach.crossing_distance_m.value_or(0.0), 0.0, 20e3);
-  check_in(problems, "glide_path_deg", core::degrees(approach.glide_path_rad), 1.0, 10.0);
+    core::check_range(problems, "localiser_course_deg less bearing",
+                      core::degrees(core::wrap_pi_rad(core::radians(course_deg - bearing_deg))),
+                      {-30.0, 30.0});
+  core::check_range(problems, "runway_slope", approach.runway_slope,
+                    {-kSteepestRunway, kSteepestRunway});
+  core::check_range(problems, "crossing_distance_m", approach.crossing_distance_m.value_or(0.0),
+                    {0.0, 20e3});
+  core::check_range(problems, "glide_path_deg", core::degrees(approach.glide_path_rad),
+                    {1.0, 10.0});
   if (approach.runway_slope + std::tan(approach.glide_path_rad) < std::tan(core::radians(0.9)))
     problems.error(core::ErrorClass::range, {}, "runway_slope",
                    core::number_text(approach.runway_slope),
                    "a runway less steep than the glide path");
-  check_in(problems, "threshold_crossing_height_m", approach.threshold_crossing_height_m, 5.0,
-           50.0);
-  check_in(problems, "start_distance_m", approach.start_distance_m, 0.0, 100e3);
-  check_in(problems, "speed_mps", approach.speed_mps, 15.0, 150.0);
-  check_in(problems, "wind_speed_mps", approach.wind_speed_mps, 0.0, 40.0);
-  check_in(problems, "wind_from_deg", core::degrees(approach.wind_from_rad), -360.0, 360.0);
-  check_in(problems, "turbulence_wind_20ft_mps", approach.turbulence_wind_20ft_mps, 0.0, 60.0);
-  check_in(problems, "angle_of_attack_deg", core::degrees(approach.angle_of_attack_rad), -10.0,
-           20.0);
-  check_in(problems, "largest_bank_deg", core::degrees(approach.largest_bank_rad), 1.0, 45.0);
-  check_in(problems, "decision_height_m", approach.decision_height_m, 20.0, 300.0);
-  check_in(problems, "flare_height_m", approach.flare_height_m, 1.0, 50.0);
-  check_in(problems, "touchdown_sink_mps", approach.touchdown_sink_mps, 0.1, 3.0);
-  check_in(problems, "touchdown_pitch_deg", core::degrees(approach.touchdown_pitch_rad), -5.0,
-           15.0);
-  check_in(problems, "height_on_ground_m", approach.height_on_ground_m, 0.0, 15.0);
-  check_in(problems, "rollout_deceleration_mps2", approach.rollout_deceleration_mps2, 0.5, 5.0);
-  check_in(problems, "begin_s", approach.begin_s, -1e12, 1e12);
+  core::check_range(problems, "threshold_crossing_height_m", approach.threshold_crossing_height_m,
+                    {5.0, 50.0});
+  core::check_range(problems, "start_distance_m", approach.start_distance_m, {0.0, 100e3});
+  core::check_range(problems, "speed_mps", approach.speed_mps, {15.0, 150.0});
+  core::check_range(problems, "wind_speed_mps", approach.wind_speed_mps, {0.0, 40.0});
+  core::check_range(problems, "wind_from_deg", core::degrees(approach.wind_from_rad),
+                    {-360.0, 360.0});
+  core::check_range(problems, "turbulence_wind_20ft_mps", approach.turbulence_wind_20ft_mps,
+                    {0.0, 60.0});
+  core::check_range(problems, "angle_of_attack_deg", core::degrees(approach.angle_of_attack_rad),
+                    {-10.0, 20.0});
+  core::check_range(problems, "largest_bank_deg", core::degrees(approach.largest_bank_rad),
+                    {1.0, 45.0});
+  core::check_range(problems, "decision_height_m", approach.decision_height_m, {20.0, 300.0});
+  core::check_range(problems, "flare_height_m", approach.flare_height_m, {1.0, 50.0});
+  core::check_range(problems, "touchdown_sink_mps", approach.touchdown_sink_mps, {0.1, 3.0});
+  core::check_range(problems, "touchdown_pitch_deg", core::degrees(approach.touchdown_pitch_rad),
+                    {-5.0, 15.0});
+  core::check_range(problems, "height_on_ground_m", approach.height_on_ground_m, {0.0, 15.0});
+  core::check_range(problems, "rollout_deceleration_mps2", approach.rollout_deceleration_mps2,
+                    {0.5, 5.0});
+  core::check_range(problems, "begin_s", approach.begin_s, {-1e12, 1e12});
   problems.throw_if_errors();
 }
 

@@ -135,23 +135,10 @@ int Trajectory::frame_count(double frame_rate_Hz) const {
   return static_cast<int>(frames);
 }
 
-double Trajectory::frame_start_s(int frame, double frame_rate_Hz) const {
-  check_rate(frame_rate_Hz);
-  if (frame < 0) core::throw_input_error(ErrorClass::range, "frame", frame, "0 or more");
-  return begin_s() + frame / frame_rate_Hz;
-}
-
 double Trajectory::frame_time_s(int frame, double frame_rate_Hz) const {
   check_rate(frame_rate_Hz);
   if (frame < 0) core::throw_input_error(ErrorClass::range, "frame", frame, "0 or more");
   return begin_s() + (frame + 0.5) / frame_rate_Hz;
-}
-
-double Trajectory::ground_length_m() const {
-  double length_m = 0.0;
-  for (std::size_t i = 1; i < poses_.size(); ++i)
-    length_m += terrain::geodesic_between(poses_[i - 1].position, poses_[i].position).length_m;
-  return length_m;
 }
 
 }  // namespace fanbeam::scenes

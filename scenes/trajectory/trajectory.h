@@ -38,11 +38,7 @@ class Trajectory {
   // Throws InputError: E-RANGE for a rate outside 1e-3 to 1e6 Hz or a negative frame, E-NONFINITE,
   // E-LIMIT for more than 2^31 - 1 frames.
   int frame_count(double frame_rate_Hz) const;
-  double frame_start_s(int frame, double frame_rate_Hz) const;
   double frame_time_s(int frame, double frame_rate_Hz) const;
-
-  // Sum of the geodesics between neighbours at height 0.
-  double ground_length_m() const;
 
   const std::vector<core::Pose>& poses() const { return poses_; }
 

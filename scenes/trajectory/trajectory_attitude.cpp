@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/constants.h"
-#include "scenes/trajectory/trajectory_checks.h"
+#include "core/number_range.h"
 #include "scenes/trajectory/trajectory_kinematics.h"
 #include "scenes/trajectory/trajectory_smoothing.h"
 #include "terrain/local_frame.h"
@@ -27,16 +27,16 @@ constexpr double kVelocityHalfWindow_s = 0.5;
 void check(const AttitudeAssumptions& assumed) {
   core::ProblemList problems;
   const PathSmoothing& smoothing = assumed.smoothing;
-  check_in(problems, "angle_of_attack_deg", core::degrees(assumed.angle_of_attack_rad), -10.0,
-           20.0);
-  check_in(problems, "slowest_mps", assumed.slowest_mps, 0.1, 50.0);
-  check_in(problems, "step_s", assumed.step_s, 0.01, 1.0);
-  check_in(problems, "position_noise_m", smoothing.position_noise_m, 0.01, 1000.0);
-  check_in(problems, "height_noise_m", smoothing.height_noise_m, 0.01, 1000.0);
-  check_in(problems, "horizontal_jerk_density_m2_per_s5",
-           smoothing.horizontal_jerk_density_m2_per_s5, 1e-6, 1e3);
-  check_in(problems, "vertical_jerk_density_m2_per_s5", smoothing.vertical_jerk_density_m2_per_s5,
-           1e-6, 1e3);
+  core::check_range(problems, "angle_of_attack_deg", core::degrees(assumed.angle_of_attack_rad),
+                    {-10.0, 20.0});
+  core::check_range(problems, "slowest_mps", assumed.slowest_mps, {0.1, 50.0});
+  core::check_range(problems, "step_s", assumed.step_s, {0.01, 1.0});
+  core::check_range(problems, "position_noise_m", smoothing.position_noise_m, {0.01, 1000.0});
+  core::check_range(problems, "height_noise_m", smoothing.height_noise_m, {0.01, 1000.0});
+  core::check_range(problems, "horizontal_jerk_density_m2_per_s5",
+                    smoothing.horizontal_jerk_density_m2_per_s5, {1e-6, 1e3});
+  core::check_range(problems, "vertical_jerk_density_m2_per_s5",
+                    smoothing.vertical_jerk_density_m2_per_s5, {1e-6, 1e3});
   problems.throw_if_errors();
 }
 

@@ -1,13 +1,18 @@
 #include "sensors/receiver/detection.h"
 
 #include <algorithm>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 
 #include "core/errors.h"
-#include "sensors/receiver/integer_gamma.h"
 
 namespace fanbeam::sensors {
 namespace {
+
+namespace math = boost::math;
+
+// In double throughout, as everything else.
+using InDouble = math::policies::policy<math::policies::promote_double<false>>;
 
 constexpr int kMostLooks = 1000;
 constexpr double kLargestSnr = 1e15;
@@ -42,6 +47,11 @@ int gamma_order(core::Swerling target, int looks) {
   }
 }
 
+// e^-x x^k / k!
+double poisson_probability(int k, double x) {
+  return math::gamma_p_derivative(k + 1.0, x, InDouble());
+}
+
 // w_k of the header, for a summed signal-to-noise ratio above 0.
 double weight(int order, int k, double sum_snr) {
   if (order == 0) return poisson_probability(k, sum_snr);
@@ -55,14 +65,15 @@ double weight(int order, int k, double sum_snr) {
 double detection_threshold(double false_alarm_probability, int looks) {
   check_probability("false-alarm probability", false_alarm_probability);
   check_looks(looks);
-  return upper_gamma_inverse(looks, false_alarm_probability);
+  return math::gamma_q_inv(static_cast<double>(looks), false_alarm_probability, InDouble());
 }
 
 double detection_probability(core::Swerling target, double snr, int looks, double threshold) {
   check_looks(looks);
   check("signal-to-noise ratio", snr, snr >= 0.0, "0 or more");
   check("threshold", threshold, threshold >= 0.0, "0 or more");
-  double exceeded = upper_gamma(looks, threshold);  // Q(N + k, T)
+  double exceeded =  // Q(N + k, T)
+      threshold > 0.0 ? math::gamma_q(static_cast<double>(looks), threshold, InDouble()) : 1.0;
   const double sum_snr = looks * snr;
   if (!(sum_snr > 0.0)) return exceeded;
   const int order = gamma_order(target, looks);

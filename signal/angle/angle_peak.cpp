@@ -12,7 +12,6 @@ namespace fanbeam::signal {
 namespace {
 
 using Snapshot = std::vector<std::complex<double>>;
-constexpr double kQuarterTurn_rad = 0.5 * core::kPi;
 
 struct Beamformer {
   const Snapshot& snapshot;
@@ -98,39 +97,6 @@ AnglePeak azimuth_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& 
       [&](double azimuth_rad) { return beam.power(azimuth_rad, elevation_rad); },
       angle_of_step(std::max(0, best - 1), steps), angle_of_step(std::min(steps, best + 1), steps));
   peak.power = beam.power(peak.azimuth_rad, elevation_rad);
-  return peak;
-}
-
-AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
-                         double wavelength_m) {
-  const Beamformer beam{snapshot, elements_m, wavelength_m};
-  check_input(beam);
-  const int steps = beam.scan_steps();
-  AnglePeak peak;
-  peak.power = -1.0;
-  for (int row = 0; row <= steps; ++row)
-    for (int column = 0; column <= steps; ++column) {
-      const double azimuth_rad = angle_of_step(column, steps);
-      const double elevation_rad = angle_of_step(row, steps);
-      const double power = beam.power(azimuth_rad, elevation_rad);
-      if (power > peak.power) peak = {azimuth_rad, elevation_rad, power};
-    }
-  // In turns along each angle: the two are nearly independent for arrays that are not skew.
-  double reach_rad = 4.0 / steps;
-  for (int round = 0; round < 40 && reach_rad > 1e-10; ++round) {
-    const AnglePeak before = peak;
-    peak.azimuth_rad = climbed([&](double az) { return beam.power(az, peak.elevation_rad); },
-                               std::max(-kQuarterTurn_rad, peak.azimuth_rad - reach_rad),
-                               std::min(kQuarterTurn_rad, peak.azimuth_rad + reach_rad));
-    peak.elevation_rad = climbed([&](double el) { return beam.power(peak.azimuth_rad, el); },
-                                 std::max(-kQuarterTurn_rad, peak.elevation_rad - reach_rad),
-                                 std::min(kQuarterTurn_rad, peak.elevation_rad + reach_rad));
-    const double moved_rad = std::max(std::abs(peak.azimuth_rad - before.azimuth_rad),
-                                      std::abs(peak.elevation_rad - before.elevation_rad));
-    if (moved_rad < 1e-9) break;
-    reach_rad = std::max(2.0 * moved_rad, 1e-7);
-  }
-  peak.power = beam.power(peak.azimuth_rad, peak.elevation_rad);
   return peak;
 }
 

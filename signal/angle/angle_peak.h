@@ -5,13 +5,12 @@
 // error follows sigma_azimuth = sqrt(6 / (rho N (N^2 - 1))) / (pi cos azimuth) for a line of N at
 // half a wavelength and signal-to-noise ratio rho per element, above the threshold of about 10 dB
 // in N rho (P. Stoica, A. Nehorai, IEEE Trans. ASSP-37, 1989). Two sources closer than a beamwidth
-// merge: see signal/angle/spatial_spectrum.h. Azimuths are searched from -pi/2 to pi/2, elevations
-// likewise.
+// merge: see signal/angle/spatial_spectrum.h. Azimuths are searched from -pi/2 to pi/2, at a given
+// elevation.
 //
 // Inputs: as many values as elements, at least one, finite. E-RANGE, E-NONFINITE otherwise.
 // Accuracy of the climb: 1e-7 rad. Cost: a scan of 16 x L / wavelength + 1 sums over the elements, L
-// the distance of the farthest element from the first (9 to 20001 sums; squared for two angles),
-// and 45 for a climb.
+// the distance of the farthest element from the first (9 to 20001 sums), and 45 for a climb.
 #pragma once
 
 #include <complex>
@@ -29,9 +28,5 @@ struct AnglePeak {
 AnglePeak azimuth_peak(const std::vector<std::complex<double>>& snapshot,
                        const std::vector<glm::dvec3>& elements_m, double wavelength_m,
                        double elevation_rad = 0.0);
-
-// Both angles; for arrays with elements at different heights.
-AnglePeak direction_peak(const std::vector<std::complex<double>>& snapshot,
-                         const std::vector<glm::dvec3>& elements_m, double wavelength_m);
 
 }  // namespace fanbeam::signal

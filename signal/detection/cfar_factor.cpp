@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
-#include "core/random.h"
 #include "signal/checks_private.h"
 #include "signal/detection/cfar_window_private.h"
 #include "signal/detection/falling_root_private.h"
@@ -105,36 +103,6 @@ double cfar_factor(const CfarReference& reference, double false_alarm_probabilit
   }
   return factor_root(
       [&](double factor) { return log_false_alarm(reference, factor) - log_probability; });
-}
-
-double cfar_detection_probability(const CfarReference& reference, double factor, double snr) {
-  if (!(snr >= 0.0)) refuse("snr", snr, "0 or more");
-  return cfar_false_alarm_probability(reference, factor / (1.0 + snr));
-}
-
-double amplitude_factor(int reference_cells, double false_alarm_probability) {
-  check_probability(false_alarm_probability);
-  if (reference_cells < 1 || reference_cells > 1000)
-    refuse("reference_cells", reference_cells, "1 to 1000");
-  constexpr int kBackgrounds = 200000;
-  const core::RandomKey key{.seed = 0, .stream = core::kStreamCfarCalibration};
-  std::vector<double> squares(kBackgrounds);
-  for (int i = 0; i < kBackgrounds; ++i) {
-    double sum = 0.0;
-    for (int cell = 0; cell < reference_cells; cell += 4) {
-      const auto words = core::random_words(key, static_cast<std::uint64_t>(i),
-                                            static_cast<std::uint32_t>(cell / 4));
-      for (int w = 0; w < std::min(4, reference_cells - cell); ++w)
-        sum += std::sqrt(-std::log(core::uniform_from(words[static_cast<std::size_t>(w)])));
-    }
-    squares[static_cast<std::size_t>(i)] = (sum / reference_cells) * (sum / reference_cells);
-  }
-  // Given the background, the cell exceeds it with a known probability: only that is averaged.
-  return factor_root([&](double factor) {
-    double sum = 0.0;
-    for (const double square : squares) sum += std::exp(-factor * factor * square);
-    return sum / kBackgrounds - false_alarm_probability;
-  });
 }
 
 }  // namespace fanbeam::signal

@@ -14,7 +14,6 @@
 //
 // Trap: these are factors on power. The square root on amplitudes is wrong, since the mean
 // amplitude is not the root of the mean power: Pfa 3.6e-3 instead of 1e-3 for N = 16.
-// `amplitude_factor` is the right one for cell averaging of amplitudes.
 //
 // Sources: H. M. Finn, R. S. Johnson, RCA Rev. 29, 1968; H. Rohling, IEEE Trans. AES-19, 1983; V.
 // G. Hansen, J. H. Sawyers, IEEE Trans. AES-16, 1980; G. V. Trunk, IEEE Trans. AES-14, 1978.
@@ -43,12 +42,5 @@ struct CfarReference {
 
 double cfar_false_alarm_probability(const CfarReference& reference, double factor);
 double cfar_factor(const CfarReference& reference, double false_alarm_probability);
-
-// Swerling 1 target, snr linear and mean, 0 or more.
-double cfar_detection_probability(const CfarReference& reference, double factor, double snr);
-
-// Cell averaging of amplitudes (linear detector), by 2e5 random backgrounds that are the same in
-// every run: 0.3 % at probabilities of 1e-4 or more, 3 % at 1e-6.
-double amplitude_factor(int reference_cells, double false_alarm_probability);
 
 }  // namespace fanbeam::signal

@@ -104,13 +104,4 @@ Tone strongest_tone(const std::vector<std::complex<double>>& samples,
   return refined_tone({samples}, (static_cast<double>(peak) + offset) / kPadding, weights);
 }
 
-double two_bin_hann(std::complex<double> left, std::complex<double> centre,
-                    std::complex<double> right) {
-  if (centre == 0.0) return 0.0;
-  const bool to_right = std::norm(right) > std::norm(left);
-  const double ratio = std::abs((to_right ? right : left) / centre);
-  const double offset = (2.0 * ratio - 1.0) / (ratio + 1.0);
-  return to_right ? offset : -offset;
-}
-
 }  // namespace fanbeam::signal

@@ -10,11 +10,6 @@
 // keeps neighbouring tones from pulling: use it when others are within some ten bins. Records share
 // b and have amplitudes of their own (channels of a cube).
 //
-// `two_bin_hann` takes the ratio of the two highest lines under a periodic Hann window:
-// delta = +-(2 a - 1) / (a + 1). Of a lone tone in N samples the ratio is
-//   sin(pi (1 + delta) / N) cos(pi (1 - delta) / N) / (sin(pi (2 - delta) / N) cos(pi delta / N)),
-// (1 + delta) / (2 - delta) but for terms in 1 / N^4: delta is exact to 1 / N^4, 2e-10 for N = 256.
-//
 // Inputs: two samples or more, finite, records of one size; weights none or as many as samples.
 // E-RANGE, E-NONFINITE otherwise. Accuracy of the climb: 1e-10 bins. Cost: some 6 sums over the
 // samples.
@@ -39,10 +34,5 @@ Tone refined_tone(const ToneRecords& records, double near_bin,
 // The strongest tone of one record, from its padded spectrum.
 Tone strongest_tone(const std::vector<std::complex<double>>& samples,
                     const std::vector<double>& weights = {});
-
-// Place of the tone relative to the centre line; its neighbours are one bin away. 0 where the
-// centre is 0.
-double two_bin_hann(std::complex<double> left, std::complex<double> centre,
-                    std::complex<double> right);
 
 }  // namespace fanbeam::signal

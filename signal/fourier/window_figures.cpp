@@ -8,7 +8,6 @@
 #include "core/constants.h"
 #include "signal/checks_private.h"
 #include "signal/fourier/fft.h"
-#include "signal/fourier/peak_fit.h"
 
 namespace fanbeam::signal {
 namespace {
@@ -90,19 +89,6 @@ WindowFigures window_figures(const std::vector<double>& weights) {
   figures.scalloping_dB = -10.0 * std::log10(response(weights, 0.5));
   figures.variance_ratio = square_moment * plain_moment / (moment * moment);
   return figures;
-}
-
-double tone_bias_bins(const std::vector<double>& weights, int padding) {
-  if (padding < 1) refuse("padding", padding, "1 or more");
-  constexpr int kPlaces = 50;
-  double worst = 0.0;
-  for (int i = 0; i <= kPlaces; ++i) {
-    const double place = 0.5 * i / kPlaces;  // in padded bins
-    const auto line = [&](int k) { return response(weights, (k - place) / padding); };
-    const double found = log_parabola_peak(line(-1), line(0), line(1)).offset;
-    worst = std::max(worst, std::abs(found - place) / padding);
-  }
-  return worst;
 }
 
 }  // namespace fanbeam::signal

@@ -11,8 +11,6 @@
 //   scalloping_dB           |W(0)|^2 / |W(1/2)|^2: loss of a tone between two bins
 //   variance_ratio          [sum t^2 w^2][sum t^2] / [sum t^2 w]^2: variance of the frequency at the
 //                           windowed peak, over the Cramer-Rao bound
-//   tone_bias_bins          largest error of the parabola through the logarithms of the three
-//                           highest lines, without noise
 //
 // Source: F. J. Harris, Proc. IEEE 66, 1978; the variance ratio follows from the derivative of
 // |W|^2 at its peak under white noise, for high signal-to-noise ratios. Accuracy: 1e-6 relative.
@@ -33,9 +31,5 @@ struct WindowFigures {
 
 // `weights` need three values or more and a positive sum; E-RANGE otherwise.
 WindowFigures window_figures(const std::vector<double>& weights);
-
-// `padding` 1 or more: length of the transform over the length of the window. Bins are of the
-// unpadded transform.
-double tone_bias_bins(const std::vector<double>& weights, int padding);
 
 }  // namespace fanbeam::signal

@@ -29,12 +29,6 @@ double received_power_W(const Link& link, double range_m, double cross_section_m
          spread / (four_pi * link.loss);
 }
 
-double aperture_gain(double aperture_m2, double wavelength_m) {
-  check_positive("aperture_m2", aperture_m2);
-  check_positive("wavelength_m", wavelength_m);
-  return 4.0 * core::kPi * aperture_m2 / (wavelength_m * wavelength_m);
-}
-
 double noise_density_W_per_Hz(double noise_figure) {
   check_least("noise_figure", noise_figure, 1.0);
   return core::kBoltzmann_J_per_K * core::kNoiseReferenceTemperature_K * noise_figure;

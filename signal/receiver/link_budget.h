@@ -20,9 +20,6 @@ struct Link {
 // below 1.
 double received_power_W(const Link& link, double range_m, double cross_section_m2);
 
-// Of an aperture without loss: 4 pi A / lambda^2.
-double aperture_gain(double aperture_m2, double wavelength_m);
-
 // k T0 F; `noise_figure` as a power ratio of 1 or more.
 double noise_density_W_per_Hz(double noise_figure);
 

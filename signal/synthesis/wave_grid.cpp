@@ -11,8 +11,8 @@ namespace {
 
 // First cell of a point at `place`, and the weights of it and the next seven (zero beyond the
 // width).
-FANBEAM_LANES_INLINE int weigh(const float* taps, int powers, int width, double place,
-                               Lanes<float>& weights) {
+FANBEAM_LANES_INLINE int weigh_taps(const float* taps, int powers, int width, double place,
+                                    Lanes<float>& weights) {
   const double begin = place - 0.5 * width;
   const double first = std::ceil(begin);
   const auto u = static_cast<float>(2.0 * (first - begin) - 1.0);
@@ -36,11 +36,11 @@ FANBEAM_HOT(void, add_point,
              const GridPlanes& target),
             (taps, powers, width, point, target)) {
   Lanes<float> by_rate, by_sine, by_delay;
-  const int rate = weigh(taps, powers, width, point.rate_cell, by_rate);
-  const int sine = weigh(taps, powers, width, point.sine_cell, by_sine);
+  const int rate = weigh_taps(taps, powers, width, point.rate_cell, by_rate);
+  const int sine = weigh_taps(taps, powers, width, point.sine_cell, by_sine);
   const double turned = point.delay_cell - 0.5 * width;
   const double place = turned - target.delays * std::floor(turned / target.delays);
-  const int delay = weigh(taps, powers, width, place + 0.5 * width, by_delay);
+  const int delay = weigh_taps(taps, powers, width, place + 0.5 * width, by_delay);
   float run[2 * kLanes];
   const auto re = static_cast<float>(point.value.real());
   const auto im = static_cast<float>(point.value.imag());

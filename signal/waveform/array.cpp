@@ -3,7 +3,6 @@
 #include <cmath>
 #include <string>
 
-#include "core/constants.h"
 #include "signal/checks_private.h"
 
 namespace fanbeam::signal {
@@ -58,10 +57,6 @@ void check(const Array& array) {
 glm::dvec3 direction(double azimuth_rad, double elevation_rad) {
   const double level = std::cos(elevation_rad);
   return {level * std::cos(azimuth_rad), level * std::sin(azimuth_rad), std::sin(elevation_rad)};
-}
-
-double slot_phase_rad(double radial_speed_mps, double slot_period_s, double wavelength_m) {
-  return 4.0 * core::kPi * radial_speed_mps * slot_period_s / wavelength_m;
 }
 
 }  // namespace fanbeam::signal

@@ -56,8 +56,4 @@ void check(const Array& array);
 // Unit vector towards a direction.
 glm::dvec3 direction(double azimuth_rad, double elevation_rad);
 
-// Phase by which a scatterer's motion turns the beat from one transmitter's slot to the next,
-// 4 pi v Ts / lambda: to be taken off channel t times t before angles are estimated.
-double slot_phase_rad(double radial_speed_mps, double slot_period_s, double wavelength_m);
-
 }  // namespace fanbeam::signal

@@ -199,28 +199,4 @@ Waveform stepped(const SteppedParameters& parameters) {
   return checked(waveform);
 }
 
-Waveform default_waveform(WaveformKind kind) {
-  switch (kind) {
-    case WaveformKind::continuous:
-      return continuous({});
-    case WaveformKind::pulsed:
-      return pulsed({});
-    case WaveformKind::chirp_sequence:
-      return chirp_sequence({});
-    case WaveformKind::triangle:
-      return triangle({});
-    case WaveformKind::sinusoidal:
-      return sinusoidal({});
-    case WaveformKind::two_slopes:
-      return two_slopes({});
-    case WaveformKind::two_stage:
-      return two_stage({});
-    case WaveformKind::coded_triangle:
-      return coded_triangle({});
-    case WaveformKind::stepped:
-      return stepped({});
-  }
-  throw core::InternalError("waveform kind without defaults");
-}
-
 }  // namespace fanbeam::signal

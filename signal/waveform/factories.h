@@ -100,7 +100,4 @@ struct SteppedParameters {
 };
 Waveform stepped(const SteppedParameters& parameters);
 
-// The kind with its defaults.
-Waveform default_waveform(WaveformKind kind);
-
 }  // namespace fanbeam::signal

@@ -120,8 +120,4 @@ double beat_Hz(const Segment& segment, double range_m, double radial_speed_mps) 
   return segment.slope_Hz_per_s * delay_s * (1.0 - rate) + segment.middle_frequency_Hz() * rate;
 }
 
-double beat_drift_Hz(const Segment& segment, double radial_speed_mps) {
-  return 4.0 * segment.slope_Hz_per_s * segment.duration_s * radial_speed_mps / c_mps;
-}
-
 }  // namespace fanbeam::signal

@@ -45,7 +45,5 @@ std::vector<StageFigures> figures(const Waveform& waveform);
 
 // Beat at the middle of a segment; range and speed at that moment.
 double beat_Hz(const Segment& segment, double range_m, double radial_speed_mps);
-// What it drifts over the segment: 2 S tau' T.
-double beat_drift_Hz(const Segment& segment, double radial_speed_mps);
 
 }  // namespace fanbeam::signal

@@ -2,8 +2,8 @@
 #include <filesystem>
 #include <regex>
 
-#include "apps/render_command.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "session/products/products.h"
 #include "tests/apps/commands.h"
 
 using namespace fanbeam::tests;
@@ -41,8 +41,8 @@ TEST_CASE("render --help names every effect and product", "[cli]") {
   const std::string help =
       std::regex_replace(run_fanbeam("render --help").output, std::regex("\\s+"), " ");
   for (const fanbeam::renderer::Effect& effect : fanbeam::renderer::effect_catalogue())
-    CHECK(help.find(effect.name) != std::string::npos);
-  for (const fanbeam::apps::Product& product : fanbeam::apps::kProducts)
+    CHECK(help.find(effect.name()) != std::string::npos);
+  for (const fanbeam::session::Product& product : fanbeam::session::kProducts)
     CHECK(help.find(std::string(product.name) + " (") != std::string::npos);
 }
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <set>
 
-#include "apps/render_command.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "session/products/products.h"
 #include "tests/apps/commands.h"
 
 using namespace fanbeam::tests;
@@ -77,9 +77,9 @@ TEST_CASE("bash completes values of options, also behind an equals sign and in l
   CHECK((bash.offered("fanbeam render --caster =") == Words{"rays", "profile", "auto"}));
   CHECK((bash.offered("fanbeam render --caster rays --realisation m") == Words{"mean"}));
   Words products, wishes = {"all", "none"};
-  for (const auto& product : fanbeam::apps::kProducts) products.emplace(product.name);
+  for (const auto& product : fanbeam::session::kProducts) products.emplace(product.name);
   for (const auto& effect : fanbeam::renderer::effect_catalogue())
-    for (const char* sign : {"+", "-"}) wishes.insert(sign + std::string(effect.name));
+    for (const char* sign : {"+", "-"}) wishes.insert(sign + std::string(effect.name()));
   CHECK((bash.offered("fanbeam render --products ''") == products));
   CHECK((bash.offered("fanbeam render --products bscope,cs") ==
          Words{"bscope,cscope", "bscope,cscope_layers"}));

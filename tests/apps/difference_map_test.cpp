@@ -1,5 +1,5 @@
 // Difference maps: colours at known differences, and what the command line makes of them.
-#include "apps/figure/difference_map.h"
+#include "session/figure/difference_map.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -11,7 +11,7 @@
 #include "tests/apps/program.h"
 
 using namespace fanbeam;
-using namespace fanbeam::apps;
+using namespace fanbeam::session;
 using namespace fanbeam::tests;
 using core::Colour;
 

@@ -1,13 +1,13 @@
 // The receiving chain of fanbeam fmcw inside the program: draws of noise, and what is left out.
 #include <cmath>
 
-#include "apps/fmcw/chain.h"
 #include "renderer/plan/plan.h"
 #include "sensors/sensor_file.h"
+#include "session/signal/chain.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam;
-using namespace fanbeam::apps;
+using namespace fanbeam::session;
 
 namespace {
 
@@ -37,7 +37,7 @@ double correlation(const signal::FloatCube& a, const signal::FloatCube& b) {
 
 TEST_CASE("The noise of a stage is that of no other stage, frame or seed", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwOptions options;
+  FmcwSettings options;
   options.waveform = "two-slopes";
   const FmcwRadar radar = fmcw_radar(options, sensor);
   std::vector<signal::FloatCube> beats;
@@ -59,7 +59,7 @@ TEST_CASE("The noise of a stage is that of no other stage, frame or seed", "[fmc
 
 TEST_CASE("A frame holds what its products need and nothing else", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwOptions options;
+  FmcwSettings options;
   options.numbers[11] = 16.0;
   REQUIRE(std::string(kWaveformNumbers[11].option) == "--chirps");
   const FmcwRadar radar = fmcw_radar(options, sensor);
@@ -90,7 +90,7 @@ TEST_CASE("A frame holds what its products need and nothing else", "[fmcw]") {
 
 TEST_CASE("Receiver effects of zero magnitude, and pruned ones, change no byte", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
-  FmcwOptions options;
+  FmcwSettings options;
   options.numbers[11] = 16.0;
   const FmcwRadar radar = fmcw_radar(options, sensor);
   signal::ScatterPath path;
@@ -116,6 +116,6 @@ TEST_CASE("Receiver effects of zero magnitude, and pruned ones, change no byte",
   for (const double power_W : forced.range_doppler.values_W) forced_W += power_W;
   CHECK(std::abs(10.0 * std::log10(forced_W / pruned_W)) < 0.25 * 60.0 / 255.0);
   options.adc_bits = 3;  // steps longer than the noise's standard deviation
-  CHECK(made("").plan.runs("quantiser"));
-  CHECK_FALSE(made("-quantiser").plan.runs("quantiser"));
+  CHECK(made("").plan.runs(core::EffectId::quantiser));
+  CHECK_FALSE(made("-quantiser").plan.runs(core::EffectId::quantiser));
 }

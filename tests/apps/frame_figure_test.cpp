@@ -1,20 +1,20 @@
 // The figure of a frame: its scopes are the scopes, and its scales say what lies where.
-#include "apps/figure/frame_figure.h"
+#include "session/figure/frame_figure.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "apps/figure/plan_figure.h"
-#include "apps/figure/runway_view.h"
 #include "core/units.h"
 #include "sensors/display/display.h"
+#include "session/figure/plan_figure.h"
+#include "session/figure/runway_view.h"
 #include "tests/apps/program.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
-using namespace fanbeam::apps;
+using namespace fanbeam::session;
 using namespace fanbeam::tests;
 using core::radians;
 

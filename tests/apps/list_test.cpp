@@ -3,8 +3,8 @@
 #include <iostream>
 #include <set>
 
-#include "apps/render_command.h"
 #include "renderer/plan/effect_catalogue.h"
+#include "session/products/products.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam::tests;
@@ -111,7 +111,7 @@ TEST_CASE("list materials and effects name what the library and the plan know", 
   for (const auto touched :
        {fanbeam::renderer::Touches::pictures, fanbeam::renderer::Touches::samples})
     for (const auto& effect : fanbeam::renderer::effect_catalogue(touched))
-      effects.emplace(effect.name);
+      effects.emplace(effect.name());
   CHECK((names_of(listed("effects")) == effects));
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("A product that list products names is made, in the files that it name
       ++found;
     }
   }
-  CHECK(found >= fanbeam::apps::kProducts.size());
+  CHECK(found >= fanbeam::session::kProducts.size());
 }
 
 TEST_CASE("list alone names everything; --names gives bare names; another kind is refused",

@@ -1,9 +1,9 @@
 // `fanbeam materials` as a user meets it: list, plot, fit.
 #include <filesystem>
 
-#include "apps/gnuplot.h"
 #include "apps/measurement_csv.h"
 #include "core/units.h"
+#include "session/plots/gnuplot.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam::tests;
@@ -79,7 +79,7 @@ TEST_CASE("fanbeam materials plot draws SVG and PNG through gnuplot", "[cli][mat
 
 TEST_CASE("A plot's script quotes texts, leaves gaps and does not depend on anything else",
           "[cli][gnuplot]") {
-  using namespace fanbeam::apps;
+  using namespace fanbeam::session;
   Plot plot;
   plot.title = "it's\nhere";
   plot.x = {"x", true, 1.0, {}};

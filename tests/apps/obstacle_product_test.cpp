@@ -1,5 +1,5 @@
 // The product "obstacles" of fanbeam render, and the C-scope of mode shadow.
-#include "apps/obstacle_product.h"
+#include "session/products/obstacle_product.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -23,12 +23,12 @@ TEST_CASE("A table of obstacles names its columns, its input and what is a lower
   obstacle.truncated = true;
   sensors::ShadowObstacle uncertain = obstacle;
   uncertain.uncertain = true;
-  CHECK(
-      apps::obstacle_table({obstacle, uncertain}, {{"fanbeam:input", "abc"}, {"fanbeam:x", ""}}) ==
-      "# obstacles, heights estimated from radar shadows\n# fanbeam:input abc\n# fanbeam:x \n"
-      "range_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged,uncertain\n"
-      "2084.28,5.730,8.09,0.26,188.4,1,0,0\n"
-      "2084.28,5.730,,,188.4,1,0,1\n");
+  CHECK(session::obstacle_table({obstacle, uncertain},
+                                {{"fanbeam:input", "abc"}, {"fanbeam:x", ""}}) ==
+        "# obstacles, heights estimated from radar shadows\n# fanbeam:input abc\n# fanbeam:x \n"
+        "range_m,azimuth_deg,height_m,error_m,shadow_m,truncated,merged,uncertain\n"
+        "2084.28,5.730,8.09,0.26,188.4,1,0,0\n"
+        "2084.28,5.730,,,188.4,1,0,1\n");
 }
 
 TEST_CASE("render writes obstacles and raises them in a C-scope of mode shadow", "[render]") {

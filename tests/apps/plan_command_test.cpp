@@ -64,7 +64,7 @@ TEST_CASE("The table fits 100 columns and names every effect with its reason", "
     CHECK_FALSE(line.ends_with(' '));
   }
   for (const fanbeam::renderer::Effect& effect : fanbeam::renderer::effect_catalogue())
-    CHECK(result.output.find("\n" + std::string(effect.name) + " ") != std::string::npos);
+    CHECK(result.output.find("\n" + std::string(effect.name()) + " ") != std::string::npos);
   for (const char* word :
        {"scene        far", "sensor       HiVision", "0.5 grey levels: 0.25 for",
         "caster       profile: over buildings slices need", "planned in   ", "the scene has no fog",
@@ -111,7 +111,8 @@ TEST_CASE("--per-frame tells what the frames' plans say, frame by frame", "[plan
     for (const Json& off : spans[span]["left_out"]) told += off["effect"].get<std::string>() + " ";
     const core::EffectPlan own = scenes::frame_plan(*scene, frame);
     for (const core::EffectDecision& decision : own.decisions)
-      if (decision.on != scene->plan.runs(decision.effect)) expected += decision.effect + " ";
+      if (decision.on != scene->plan.runs(decision.effect))
+        expected += std::string(name_of(decision.effect)) + " ";
     CHECK(told == expected);
   }
   CHECK(span + 1 == spans.size());

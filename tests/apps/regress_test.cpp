@@ -373,5 +373,5 @@ TEST_CASE("Markup holds any bytes as text", "[regress]") {
   CHECK(markup_text("\xC0\xBC"
                     "script") == unknown + unknown + "script");       // overlong '<'
   CHECK(markup_text("\xED\xA0\x80") == unknown + unknown + unknown);  // half a surrogate pair
-  CHECK(markup_text("\xEF\xBF\xBF") == unknown);  // U+FFFF
+  CHECK(markup_text("\xEF\xBF\xBF") == unknown);                      // U+FFFF
 }

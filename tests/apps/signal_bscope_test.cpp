@@ -1,6 +1,6 @@
 // The B-scope made from beat signals against the B-scope of powers, on the shipped approach cropped
 // to a few columns; and as product of fanbeam fmcw.
-#include "apps/fmcw/signal_bscope.h"
+#include "session/signal/signal_bscope.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -39,7 +39,7 @@ std::unique_ptr<scenes::Scene> built(const scenes::SceneDescription& description
 
 // The converged B-scope of powers with the sweep's range response, without noise.
 std::vector<double> converged_W(scenes::SceneDescription description) {
-  const sensors::Sensor sensor = apps::with_sweep_window(description.sensor);
+  const sensors::Sensor sensor = session::with_sweep_window(description.sensor);
   description.sensor = renderer::thin_cells(description.sensor, kParts);
   const auto scene = built(description);
   renderer::Sampling sampling = renderer::reference_sampling(1, 4);
@@ -54,15 +54,15 @@ const std::vector<double>& picture_W() {
   return kPicture;
 }
 
-apps::SignalBscope from_signals(const scenes::Scene& scene, int looks) {
+session::SignalBscope from_signals(const scenes::Scene& scene, int looks) {
   const core::Pose pose = scene.trajectory->at(
       scene.trajectory->frame_time_s(kFrame, scene.description.sensor.scan.frame_rate_Hz));
   const renderer::FramePose frame_pose = scene.frame_pose(kFrame);
-  apps::SignalBscopeSettings settings;
+  session::SignalBscopeSettings settings;
   settings.looks = looks;
   settings.own_velocity_mps = frame_pose.north_east_down * pose.v_N_mps;
   CHECK(glm::length(settings.own_velocity_mps) > 65.0);
-  return apps::signal_bscope(scene.world, frame_pose, settings);
+  return session::signal_bscope(scene.world, frame_pose, settings);
 }
 
 struct Agreement {
@@ -93,7 +93,7 @@ TEST_CASE("Signal level and picture level show the same B-scope", "[scan]") {
   const scenes::SceneDescription description = approach();
   const auto scene = built(description);
   const std::vector<double>& expected_W = picture_W();
-  const apps::SignalBscope bscope = from_signals(*scene, 256);
+  const session::SignalBscope bscope = from_signals(*scene, 256);
   CHECK(bscope.looks == 256);
   const Agreement found =
       agreement(bscope.power_W, expected_W, scene->world.sensor.noise_power_W());
@@ -111,7 +111,7 @@ TEST_CASE("Uncompensated, 70 m/s shift the B-scope from signals by 41.5 m", "[sc
   const std::vector<double>& expected_W = picture_W();
   description.sensor.waveform.doppler_compensated = false;
   const auto scene = built(description);
-  const apps::SignalBscope bscope = from_signals(*scene, 32);
+  const session::SignalBscope bscope = from_signals(*scene, 32);
   const double noise_W = scene->world.sensor.noise_power_W();
   const double cell_m = scene->world.sensor.range.cell_m;
   // Least mean square difference in dB over shifts by whole cells, a parabola between them.

@@ -8,6 +8,7 @@
 
 using namespace fanbeam;
 using namespace fanbeam::apps;
+using fanbeam::session::DifferenceUnit;
 
 namespace {
 
@@ -73,6 +74,25 @@ TEST_CASE("Ground truth is judged in its own unit, and not by what is lit", "[re
   const LayerJudgement judged = judge(difference, DifferenceUnit::own, Tolerance{.rms = 1.0});
   CHECK(beyond(judged) == Names{"rms"});
   CHECK(judged.figures.front().unit == "deg");
+}
+
+TEST_CASE("Truth that went dark is told although its values are small", "[regress]") {
+  core::Image before, after;
+  before.columns = after.columns = 100;
+  before.rows = after.rows = 10;
+  before.layers = {{"double_bounce", std::vector<double>(1000, 1e-6)}};
+  after.layers = before.layers;
+  before.layers[0].values[7] = 0.02;
+  after.layers[0].values[8] = 1e-5;  // as a library of mathematics rounds
+  const core::LayerDifference difference = core::compare_images(before, after, "a", "b").front();
+  CHECK(difference.different == 2);
+  CHECK(difference.changed == 1);
+  const auto judged = [&](const Tolerance& tolerance) {
+    return beyond(judge(difference, DifferenceUnit::own, tolerance));
+  };
+  CHECK(judged({.changed_percent = 0.1}).empty());
+  CHECK(judged({.changed_percent = 0.09}) == Names{"changed_percent"});
+  CHECK(judged({.mean = 1e-3, .rms = 1e-3}).empty());  // which see nothing
 }
 
 TEST_CASE("A figure that is no number is within no limit", "[regress]") {

@@ -1,6 +1,6 @@
 # Installs into a folder whose name holds a space, renders a frame of the default scene with the installed program from
-# elsewhere, then configures, builds and runs another project against the installed package.
-# Called with -D BUILD, SCRATCH, SOURCE, CXX.
+# elsewhere, then configures, builds and runs two other projects against the installed package, in C++ and through C.
+# Called with -D BUILD, SCRATCH, SOURCE, CXX, CC.
 set(prefix "${SCRATCH}/the prefix")
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}/elsewhere")
@@ -46,5 +46,41 @@ endforeach()
 run("${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}/tests/install/consumer" -B "${SCRATCH}/consumer"
     "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}" -DCMAKE_BUILD_TYPE=Release)
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/consumer")
+# FFTW is GPL: fanbeam::session comes without it.
+execute_process(COMMAND readelf -d "${SCRATCH}/consumer/consumer" OUTPUT_VARIABLE needed COMMAND_ERROR_IS_FATAL ANY)
+if(needed MATCHES "fftw" OR NOT needed MATCHES "libembree")
+  message(FATAL_ERROR "fanbeam::session links FFTW, or nothing is known of what it links:\n${needed}")
+endif()
 run("${SCRATCH}/consumer/consumer" "${prefix}/share/fanbeam" flat-grass)
+
+# The C interface, by the example in C99 and a program in C++, which need libfanbeam.so and no package that it is built of.
+set(scene "${prefix}/share/fanbeam/scenes/flat-grass")
+run("${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}/tests/install/consumer_c" -B "${SCRATCH}/consumer_c"
+    "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_C_COMPILER=${CC}" "-DCMAKE_CXX_COMPILER=${CXX}"
+    -DCMAKE_BUILD_TYPE=Release "-DEXAMPLE=${SOURCE}/bindings/c/example.c")
+run("${CMAKE_COMMAND}" --build "${SCRATCH}/consumer_c")
+run("${SCRATCH}/consumer_c/consumer" "${prefix}/share/fanbeam" "${scene}")
+run("${SCRATCH}/consumer_c/example" "${prefix}/share/fanbeam" "${scene}")
+file(SIZE "${SCRATCH}/elsewhere/bscope.pgm" bytes)
+if(NOT bytes EQUAL 85951)  # "P5\n164 524\n255\n" and 164 x 524
+  message(FATAL_ERROR "bscope.pgm has ${bytes} bytes")
+endif()
+execute_process(COMMAND readelf -d "${SCRATCH}/consumer_c/example" OUTPUT_VARIABLE needed COMMAND_ERROR_IS_FATAL ANY)
+if(needed MATCHES "fftw|libembree" OR NOT needed MATCHES "libfanbeam\\.so\\.0\\]")
+  message(FATAL_ERROR "the example needs more than libfanbeam.so.0, or not that:\n${needed}")
+endif()
+
+# The same without CMake.
+find_program(PKG_CONFIG pkg-config)
+if(PKG_CONFIG)
+  file(GLOB_RECURSE description "${prefix}/*/fanbeam.pc")
+  cmake_path(GET description PARENT_PATH folder)
+  execute_process(COMMAND "${CMAKE_COMMAND}" -E env "PKG_CONFIG_PATH=${folder}" "${PKG_CONFIG}" --cflags --libs fanbeam
+                  OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run("${CC}" -std=c99 "${SOURCE}/bindings/c/example.c" ${flags} -o "${SCRATCH}/by_pkg_config")
+  cmake_path(GET folder PARENT_PATH folder)
+  run("${CMAKE_COMMAND}" -E env "LD_LIBRARY_PATH=${folder}" "${SCRATCH}/by_pkg_config"
+      "${prefix}/share/fanbeam" "${scene}")
+endif()
 file(REMOVE_RECURSE "${SCRATCH}")

@@ -1,4 +1,4 @@
-// Roughness criteria, Oh's model and the rough-metal model.
+// The coherent factor of rough surfaces, Oh's model and the rough-metal model.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -21,17 +21,6 @@ using tests::refuses;
 constexpr double kWavelength_m = core::kSpeedOfLight_mps / 35e9;
 
 double level_dB(double power) { return 10.0 * std::log10(power); }
-
-TEST_CASE("Rayleigh and Fraunhofer criteria switch at lambda/8 and lambda/32 times 1/sin",
-          "[materials][roughness]") {
-  const double limit_m = kWavelength_m / 8.0 / std::sin(radians(30.0));
-  REQUIRE(is_smooth_rayleigh(0.999 * limit_m, kWavelength_m, radians(30.0)));
-  REQUIRE_FALSE(is_smooth_rayleigh(1.001 * limit_m, kWavelength_m, radians(30.0)));
-  REQUIRE(is_smooth_fraunhofer(0.999 * limit_m / 4.0, kWavelength_m, radians(30.0)));
-  REQUIRE_FALSE(is_smooth_fraunhofer(1.001 * limit_m / 4.0, kWavelength_m, radians(30.0)));
-  // At grazing everything is smooth; no division by sin(0).
-  REQUIRE(is_smooth_fraunhofer(10.0, kWavelength_m, 0.0));
-}
 
 TEST_CASE("Coherent power falls to exp(-pi^2/4) at the Rayleigh limit and stays 1 at grazing",
           "[materials][roughness]") {

@@ -200,9 +200,6 @@ TEST_CASE("GIT gives its rows at 10, 35 and 95 GHz and a straight line in dB bet
         Approx((level_dB(grass(10e9)) + level_dB(grass(35e9))) / 2.0).epsilon(1e-12));
   CHECK(level_dB(grass(76e9)) > level_dB(grass(35e9)));
   CHECK(level_dB(grass(76e9)) < level_dB(grass(95e9)));
-  CHECK(git_land_confidence(GitTerrain::grass, GitBand::w_95GHz) == "low");
-  CHECK(git_land_confidence(GitTerrain::grass, GitBand::ka_35GHz) == "medium");
-  CHECK(git_land_confidence(GitTerrain::urban, GitBand::ka_35GHz) == "none");
 }
 
 TEST_CASE("Every model says what it knows", "[materials][models]") {

@@ -334,7 +334,7 @@ TEST_CASE("Double bounce runs where walls stand beside something that reflects",
     return renderer::plan(
                facts, 0.5,
                wishes == nullptr ? renderer::EffectWishes{} : renderer::parse_effect_wishes(wishes))
-        .runs(renderer::kDoubleBounce);
+        .runs(core::EffectId::double_bounce);
   };
   CHECK_FALSE(runs(nullptr));
   facts.has_walls = true;

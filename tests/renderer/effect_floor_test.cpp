@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "renderer/plan/effect_catalogue.h"
+#include "core/effect_plan.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/plan/plan.h"
 #include "sensors/antenna/beam_pattern.h"
@@ -104,7 +104,7 @@ TEST_CASE("Noise is part of the floor where the plan shows it for certain", "[pl
              facts, accuracy_grey,
              *wishes == 0 ? renderer::EffectWishes{} : renderer::parse_effect_wishes(wishes))
              .decisions)
-      if (each.effect == renderer::kRainEcho) return each.bound_dB;
+      if (each.effect == core::EffectId::rain_echo) return each.bound_dB;
     return -1.0;
   };
   const double over_noise_dB = rain_dB("+thermal-noise", 0.5);

@@ -204,7 +204,7 @@ TEST_CASE("Multipath runs where point targets stand over ground that reflects",
     return renderer::plan(
                facts, 0.5,
                wishes == nullptr ? renderer::EffectWishes{} : renderer::parse_effect_wishes(wishes))
-        .runs(renderer::kMultipath);
+        .runs(core::EffectId::multipath);
   };
   facts.has_point_targets = true;
   facts.reflects = true;  // a wall does

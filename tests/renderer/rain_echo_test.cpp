@@ -184,7 +184,7 @@ TEST_CASE("The plan runs the rain echo where it shows and says why not", "[rain_
   const auto decision = [&](double eta) {
     facts.largest_eta_m2_per_m3 = eta;
     for (const core::EffectDecision& found : renderer::plan(facts, 0.5, {}).decisions)
-      if (found.effect == renderer::kRainEcho) return found;
+      if (found.effect == core::EffectId::rain_echo) return found;
     return core::EffectDecision{};
   };
   CHECK_FALSE(decision(0.0).on);

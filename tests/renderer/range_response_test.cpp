@@ -205,13 +205,13 @@ TEST_CASE("the plan runs the range response only where a window or a whole scan 
   facts.largest_sigma0_over_sine = 0.17;  // grass
   const auto runs = [&](const char* wishes) {
     return renderer::plan(facts, 0.5, renderer::parse_effect_wishes(wishes))
-        .runs(renderer::kRangeResponse);
+        .runs(core::EffectId::range_response);
   };
   const renderer::EffectWishes as_needed;
-  CHECK_FALSE(renderer::plan(facts, 0.5, as_needed).runs(renderer::kRangeResponse));
+  CHECK_FALSE(renderer::plan(facts, 0.5, as_needed).runs(core::EffectId::range_response));
   CHECK_FALSE(runs("all"));
   facts.sensor.waveform.window = Window::hamming;
-  CHECK(renderer::plan(facts, 0.5, as_needed).runs(renderer::kRangeResponse));
+  CHECK(renderer::plan(facts, 0.5, as_needed).runs(core::EffectId::range_response));
   CHECK_FALSE(runs("none"));
   CHECK(runs("none,+range-response"));
   const double bound_dB = renderer::range_response_bound_dB(facts);
@@ -219,7 +219,7 @@ TEST_CASE("the plan runs the range response only where a window or a whole scan 
   CHECK(bound_dB <= 60.0);
   facts.sensor.waveform.window = Window::none;
   facts.sensor.scan.sweep = sensors::Scan::Sweep::whole_scan;
-  CHECK(renderer::plan(facts, 0.5, as_needed).runs(renderer::kRangeResponse));
+  CHECK(renderer::plan(facts, 0.5, as_needed).runs(core::EffectId::range_response));
 }
 
 TEST_CASE("without a window the effect switched on changes no byte, nor do more threads",

@@ -42,7 +42,7 @@ bool same(const renderer::Frame& a, const renderer::Frame& b) {
 const renderer::Effects kSample{
     .thermal_noise = true, .speckle = true, .swerling = true, .seed = 3};
 
-core::EffectDecision decision(const renderer::SceneFacts& facts, std::string_view effect,
+core::EffectDecision decision(const renderer::SceneFacts& facts, core::EffectId effect,
                               const std::string& wishes = "") {
   const core::EffectPlan plan = renderer::plan(
       facts, 0.5,
@@ -64,23 +64,23 @@ renderer::SceneFacts facts(bool sample, bool fluctuating) {
 
 TEST_CASE("Speckle and Swerling run when a realisation is asked for, and say why when not",
           "[plan]") {
-  const core::EffectDecision off = decision(facts(false, true), renderer::kSpeckle);
+  const core::EffectDecision off = decision(facts(false, true), core::EffectId::speckle);
   CHECK_FALSE(off.on);
   CHECK(off.reason == "frames show the expected power ([accuracy] realisation)");
-  CHECK_FALSE(decision(facts(false, true), renderer::kSwerling).on);
-  CHECK_FALSE(decision(facts(false, true), renderer::kSpeckle, "all").on);
+  CHECK_FALSE(decision(facts(false, true), core::EffectId::swerling).on);
+  CHECK_FALSE(decision(facts(false, true), core::EffectId::speckle, "all").on);
 
-  const core::EffectDecision on = decision(facts(true, false), renderer::kSpeckle);
+  const core::EffectDecision on = decision(facts(true, false), core::EffectId::speckle);
   CHECK(on.on);
   CHECK(on.bound_dB ==
         Approx(330.0 * std::log10(2.0)).epsilon(0.0).margin(1e-4));  // of the smallest u, 2^-33
-  CHECK_FALSE(decision(facts(true, false), renderer::kSwerling).on);
-  CHECK(decision(facts(true, true), renderer::kSwerling).on);
+  CHECK_FALSE(decision(facts(true, false), core::EffectId::swerling).on);
+  CHECK(decision(facts(true, true), core::EffectId::swerling).on);
 
-  CHECK(decision(facts(false, false), renderer::kSpeckle, "+speckle").on);
-  CHECK(decision(facts(false, true), renderer::kSwerling, "+speckle").on);
-  CHECK_FALSE(decision(facts(true, true), renderer::kSpeckle, "-speckle").on);
-  CHECK(decision(facts(true, true), renderer::kSwerling, "-speckle").on);
+  CHECK(decision(facts(false, false), core::EffectId::speckle, "+speckle").on);
+  CHECK(decision(facts(false, true), core::EffectId::swerling, "+speckle").on);
+  CHECK_FALSE(decision(facts(true, true), core::EffectId::speckle, "-speckle").on);
+  CHECK(decision(facts(true, true), core::EffectId::swerling, "-speckle").on);
 }
 
 TEST_CASE("M06 a realisation is the same for any thread count and order of frames", "[M06]") {

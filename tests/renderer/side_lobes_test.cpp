@@ -136,7 +136,7 @@ TEST_CASE("the plan runs side lobes when they are there and matter", "[side_lobe
   facts.sensor = tests::hivision();
   const renderer::EffectWishes as_needed;
   const auto runs = [&] {
-    return renderer::plan(facts, 0.5, as_needed).runs(renderer::kSideLobes);
+    return renderer::plan(facts, 0.5, as_needed).runs(core::EffectId::side_lobes);
   };
   CHECK_FALSE(renderer::has_side_lobes(facts));
   CHECK_FALSE(runs());

@@ -20,7 +20,7 @@ renderer::SceneFacts samples() {
   return facts;
 }
 
-const core::EffectDecision& row(const core::EffectPlan& plan, std::string_view effect) {
+const core::EffectDecision& row(const core::EffectPlan& plan, core::EffectId effect) {
   for (const core::EffectDecision& each : plan.decisions)
     if (each.effect == effect) return each;
   throw core::InternalError("no such row");
@@ -55,27 +55,27 @@ TEST_CASE("Steps that noise hides add a twelfth of their square", "[effects]") {
 TEST_CASE("The plan of samples decides by noise, budget and wishes", "[effects]") {
   renderer::SceneFacts facts = samples();
   core::EffectPlan plan = renderer::signal_plan({}, facts, 0.5, {});
-  CHECK(plan.runs(renderer::kReceiverNoise));
-  CHECK(row(plan, renderer::kQuantiser).reason == "no number of bits was given (--adc-bits)");
-  CHECK(row(plan, renderer::kPhaseNoise).reason.find("no line width") == 0);
+  CHECK(plan.runs(core::EffectId::receiver_noise));
+  CHECK(row(plan, core::EffectId::quantiser).reason == "no number of bits was given (--adc-bits)");
+  CHECK(row(plan, core::EffectId::phase_noise).reason.find("no line width") == 0);
   facts.signal->largest_sample_sqrtW = 128.0 - 6.77;
   facts.signal->adc_bits = 9;
-  CHECK(renderer::signal_plan({}, facts, 0.5, {}).runs(renderer::kQuantiser));  // 0.09 dB
+  CHECK(renderer::signal_plan({}, facts, 0.5, {}).runs(core::EffectId::quantiser));  // 0.09 dB
   facts.signal->adc_bits = 12;
-  CHECK_FALSE(renderer::signal_plan({}, facts, 0.5, {}).runs(renderer::kQuantiser));
+  CHECK_FALSE(renderer::signal_plan({}, facts, 0.5, {}).runs(core::EffectId::quantiser));
   // What the sequence leaves out comes first; samples that are asked for show every step.
-  const core::EffectPlan spent{{{"gas", false, "", 0.25, 0.0}}};
-  CHECK(renderer::signal_plan(spent, facts, 0.5, {}).runs(renderer::kQuantiser));
+  const core::EffectPlan spent{{{core::EffectId::gas, false, "", 0.25, 0.0}}};
+  CHECK(renderer::signal_plan(spent, facts, 0.5, {}).runs(core::EffectId::quantiser));
   facts.signal->samples_asked = true;
-  CHECK(renderer::signal_plan({}, facts, 0.5, {}).runs(renderer::kQuantiser));
+  CHECK(renderer::signal_plan({}, facts, 0.5, {}).runs(core::EffectId::quantiser));
   facts.signal->samples_asked = false;
   const auto wished = [&](const char* text) {
     return renderer::signal_plan({}, facts, 0.5,
                                  renderer::parse_effect_wishes(text, renderer::Touches::samples));
   };
-  CHECK(wished("+quantiser").runs(renderer::kQuantiser));
+  CHECK(wished("+quantiser").runs(core::EffectId::quantiser));
   plan = wished("-receiver-noise");  // nothing hides the steps
-  CHECK_FALSE(plan.runs(renderer::kReceiverNoise));
-  CHECK(plan.runs(renderer::kQuantiser));
+  CHECK_FALSE(plan.runs(core::EffectId::receiver_noise));
+  CHECK(plan.runs(core::EffectId::quantiser));
   CHECK_THROWS_AS(renderer::parse_effect_wishes("+quantiser"), core::InputError);
 }

@@ -27,7 +27,7 @@ std::vector<double> speckle(const Fluctuation& fluctuation, std::size_t count) {
 }
 
 double gamma_survival(int order, double mean_one) {
-  return sensors::upper_gamma(order, order * mean_one);
+  return boost::math::gamma_q(order, order * mean_one);
 }
 
 // A picture of `count` cells with one target of mean power `signal` in each, `noise` in all.

@@ -1,13 +1,12 @@
 // Judging samples: moments and chi-square against cells of equal probability.
 #pragma once
 
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <span>
 #include <vector>
-
-#include "sensors/receiver/integer_gamma.h"
 
 namespace fanbeam::tests {
 
@@ -47,11 +46,8 @@ inline double chi_square_64(std::span<const double> values,
   return sum;
 }
 
-// What chi-square of 63 degrees exceeds with probability 0.0025: between those of 62 and 64, which
-// have a closed form.
-inline double chi_square_64_limit() {
-  return sensors::upper_gamma_inverse(31, 0.0025) + sensors::upper_gamma_inverse(32, 0.0025);
-}
+// What chi-square of 63 degrees exceeds with probability 0.0025.
+inline double chi_square_64_limit() { return 2.0 * boost::math::gamma_q_inv(31.5, 0.0025); }
 
 // Four standard deviations of a measured probability.
 inline double binomial_margin(double probability, double count) {

@@ -18,26 +18,28 @@ renderer::Frame frame_of(const renderer::World& world, const renderer::FramePose
 
 TEST_CASE("Weather and surfaces of no consequence: forced on equals off, byte for byte",
           "[effects]") {
-  const auto check = [](std::string_view effect, const Set& set) {
+  const auto check = [](core::EffectId effect, const Set& set) {
     INFO(effect);
     EffectScene scene;
     scene.weather().temperature_C = -5.0;
     set(scene, 0.0);
-    const std::string name(effect);
+    const std::string name(name_of(effect));
     const Shown on = shown(scene, "none,+" + name), off = shown(scene, "none,-" + name);
     CHECK(same_pictures(on.frame, off.frame));
     // The rest of the picture does not mind either.
     CHECK(same_pictures(shown(scene, "all,+" + name).frame, shown(scene, "all,-" + name).frame));
   };
-  check(renderer::kFog, [](EffectScene& s, double x) { s.weather().liquid_water_g_per_m3 = x; });
-  check(renderer::kRain, [](EffectScene& s, double x) { s.weather().rain_rate_mm_per_h = x; });
-  check(renderer::kSnow, [](EffectScene& s, double x) { s.weather().snow_rate_mm_per_h = x; });
-  check(renderer::kRainEcho, [](EffectScene& s, double x) { s.weather().rain_rate_mm_per_h = x; });
-  check(renderer::kSurfaceState, [](EffectScene& s, double x) {
+  check(core::EffectId::fog,
+        [](EffectScene& s, double x) { s.weather().liquid_water_g_per_m3 = x; });
+  check(core::EffectId::rain, [](EffectScene& s, double x) { s.weather().rain_rate_mm_per_h = x; });
+  check(core::EffectId::snow, [](EffectScene& s, double x) { s.weather().snow_rate_mm_per_h = x; });
+  check(core::EffectId::rain_echo,
+        [](EffectScene& s, double x) { s.weather().rain_rate_mm_per_h = x; });
+  check(core::EffectId::surface_state, [](EffectScene& s, double x) {
     s.description.surface_state = materials::SurfaceState::wet;
     s.folder.write("library.toml", effect_materials(0.05, 1.0 + x));
   });
-  check(renderer::kSideLobes, [](EffectScene& s, double x) {
+  check(core::EffectId::side_lobes, [](EffectScene& s, double x) {
     s.sensor().antenna.azimuth.side_lobe_gain = x;
     s.sensor().antenna.azimuth.side_lobe_extent_rad = core::radians(90.0);
   });
@@ -52,9 +54,9 @@ TEST_CASE("Cloud out of every path's way runs through the shipped kernels withou
   cloud.top_m = 2000.0;
   scene.weather().fog_layers = {cloud};
   const Shown off = shown(scene, "none"), on = shown(scene, "none,+fog");
-  CHECK(on.plan.runs(renderer::kFog));
-  CHECK(decision_on(on.plan, renderer::kFog).bound_grey == 0.0);
-  CHECK_FALSE(shown(scene, "").plan.runs(renderer::kFog));
+  CHECK(on.plan.runs(core::EffectId::fog));
+  CHECK(decision_on(on.plan, core::EffectId::fog).bound_grey == 0.0);
+  CHECK_FALSE(shown(scene, "").plan.runs(core::EffectId::fog));
   CHECK(same_pictures(on.frame, off.frame));
 }
 
@@ -124,8 +126,8 @@ TEST_CASE("docs/effects.md has a section on every effect", "[effects]") {
   const std::string page =
       core::read_file(std::string(FANBEAM_SOURCE_DIR) + "/docs/effects.md", 1U << 20U);
   for (const renderer::Effect& effect : renderer::effect_catalogue()) {
-    INFO(effect.name);
-    CHECK(page.find("\n## " + std::string(effect.name) + "\n") != std::string::npos);
+    INFO(effect.name());
+    CHECK(page.find("\n## " + std::string(effect.name()) + "\n") != std::string::npos);
   }
 }
 

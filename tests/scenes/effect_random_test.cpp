@@ -22,7 +22,7 @@ double left_out_grey(const core::EffectPlan& plan) {
 
 TEST_CASE("200 random scenes: the planned picture is that with everything on to a grey level",
           "[effects][random]") {
-  std::map<std::string, int> left_out;
+  std::map<core::EffectId, int> left_out;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     EffectScene scene;
     draw_scene(seed, scene);
@@ -31,9 +31,9 @@ TEST_CASE("200 random scenes: the planned picture is that with everything on to 
     const Shown planned = shown(scene, "", accuracy_grey);
     INFO(plan_text(planned.plan));
     const Shown all = shown(scene, "all", accuracy_grey);
-    const bool other_rays =
-        planned.plan.runs(renderer::kSideLobes) != all.plan.runs(renderer::kSideLobes) &&
-        detail::lobes_move_rays(scene.sensor().antenna);
+    const bool other_rays = planned.plan.runs(core::EffectId::side_lobes) !=
+                                all.plan.runs(core::EffectId::side_lobes) &&
+                            detail::lobes_move_rays(scene.sensor().antenna);
     const double change_grey = largest_difference_grey(planned.frame, all.frame);
     CHECK(left_out_grey(planned.plan) <= accuracy_grey / 2.0);
     CHECK(change_grey <= 1.0);
@@ -43,10 +43,11 @@ TEST_CASE("200 random scenes: the planned picture is that with everything on to 
   }
   // The draws do reach what they are meant for.
   for (const auto effect :
-       {renderer::kGas, renderer::kFog, renderer::kRain, renderer::kSnow, renderer::kRainEcho,
-        renderer::kSurfaceState, renderer::kSideLobes, renderer::kThermalNoise}) {
+       {core::EffectId::gas, core::EffectId::fog, core::EffectId::rain, core::EffectId::snow,
+        core::EffectId::rain_echo, core::EffectId::surface_state, core::EffectId::side_lobes,
+        core::EffectId::thermal_noise}) {
     INFO(effect);
-    CHECK(left_out[std::string(effect)] >= 5);
+    CHECK(left_out[effect] >= 5);
   }
 }
 

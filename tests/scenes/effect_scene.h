@@ -101,7 +101,7 @@ inline Shown shown(const EffectScene& scene, const std::string& effects,
 }
 
 inline const core::EffectDecision& decision_on(const core::EffectPlan& plan,
-                                               std::string_view effect) {
+                                               core::EffectId effect) {
   const auto found =
       std::find_if(plan.decisions.begin(), plan.decisions.end(),
                    [&](const core::EffectDecision& each) { return each.effect == effect; });
@@ -115,10 +115,10 @@ inline bool same_pictures(const renderer::Frame& a, const renderer::Frame& b) {
 }
 
 // "+this,-all-others": the budget decides on nothing else.
-inline std::string others_off(std::string_view effect) {
+inline std::string others_off(core::EffectId effect) {
   std::string wishes;
   for (const renderer::Effect& each : renderer::effect_catalogue())
-    if (each.name != effect) wishes += (wishes.empty() ? "-" : ",-") + std::string(each.name);
+    if (each.id != effect) wishes += (wishes.empty() ? "-" : ",-") + std::string(each.name());
   return wishes;
 }
 
@@ -127,7 +127,7 @@ inline std::string plan_text(const core::EffectPlan& plan) {
   std::string text;
   for (const core::EffectDecision& each : plan.decisions)
     if (each.on || each.bound_grey > 0.0)
-      text += (each.on ? "  on  " : "  off ") + each.effect + " " +
+      text += (each.on ? "  on  " : "  off ") + std::string(name_of(each.effect)) + " " +
               core::number_text(each.bound_grey) + " grey\n";
   return text;
 }

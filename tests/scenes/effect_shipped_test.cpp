@@ -18,7 +18,7 @@ const std::filesystem::path kSource = FANBEAM_SOURCE_DIR;
 std::set<std::string> running(const core::EffectPlan& plan) {
   std::set<std::string> names;
   for (const core::EffectDecision& each : plan.decisions)
-    if (each.on) names.insert(each.effect);
+    if (each.on) names.emplace(name_of(each.effect));
   return names;
 }
 
@@ -43,10 +43,10 @@ std::vector<renderer::Frame> pictures(const scenes::Scene& scene, const core::Ef
 // anew.
 void leave_out_losses(const core::EffectPlan& plan, scenes::Scene& scene) {
   atmosphere::Weather weather = scene.facts.weather;
-  weather.simulate_gas = plan.runs(renderer::kGas);
-  weather.simulate_fog = plan.runs(renderer::kFog);
-  weather.simulate_rain = plan.runs(renderer::kRain);
-  weather.simulate_snow = plan.runs(renderer::kSnow);
+  weather.simulate_gas = plan.runs(core::EffectId::gas);
+  weather.simulate_fog = plan.runs(core::EffectId::fog);
+  weather.simulate_rain = plan.runs(core::EffectId::rain);
+  weather.simulate_snow = plan.runs(core::EffectId::snow);
   const double frequency_Hz = scene.world.sensor.waveform.frequency_Hz;
   scene.world.attenuation = atmosphere::PathAttenuation(weather, frequency_Hz);
   scene.world.rain_cells.reset();
@@ -82,8 +82,9 @@ bool check_scene(const std::filesystem::path& folder,
     if (running(plan) == running(scene->plan)) continue;
     left_out = true;
     // Stages are left out by pictures(); what else can differ would have to be built.
-    REQUIRE(plan.runs(renderer::kSurfaceState) == scene->plan.runs(renderer::kSurfaceState));
-    REQUIRE(plan.runs(renderer::kSideLobes) == scene->plan.runs(renderer::kSideLobes));
+    REQUIRE(plan.runs(core::EffectId::surface_state) ==
+            scene->plan.runs(core::EffectId::surface_state));
+    REQUIRE(plan.runs(core::EffectId::side_lobes) == scene->plan.runs(core::EffectId::side_lobes));
     leave_out_losses(plan, *scene);
     const std::vector<renderer::Frame> planned = pictures(*scene, plan);
     for (std::size_t i = 0; i < planned.size(); ++i) {

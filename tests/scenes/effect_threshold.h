@@ -17,7 +17,7 @@ using Set = std::function<void(EffectScene&, double)>;
 
 // The magnitude at which the bound has this value: secants over logarithms, bounds being about
 // powers of the magnitude.
-inline double magnitude_at(double grey, EffectScene& scene, std::string_view effect,
+inline double magnitude_at(double grey, EffectScene& scene, core::EffectId effect,
                            const std::string& wishes, const Set& set, double start) {
   double x = start, x_before = 0.0, bound_before = 0.0;
   for (int i = 0; i < 40; ++i) {
@@ -37,10 +37,10 @@ inline double magnitude_at(double grey, EffectScene& scene, std::string_view eff
 }
 
 // Sets the scene just under the threshold and returns the largest change there.
-inline double change_under_threshold(EffectScene& scene, std::string_view effect, const Set& set,
+inline double change_under_threshold(EffectScene& scene, core::EffectId effect, const Set& set,
                                      double start, const std::string& wishes) {
   INFO(effect);
-  const std::string name(effect);
+  const std::string name(name_of(effect));
   set(scene, magnitude_at(1.002 * kBudget_grey, scene, effect, wishes, set, start));
   CHECK(built(scene, wishes)->plan.runs(effect));
   set(scene, magnitude_at(0.998 * kBudget_grey, scene, effect, wishes, set, start));
@@ -53,15 +53,15 @@ inline double change_under_threshold(EffectScene& scene, std::string_view effect
   return change_grey;
 }
 
-inline double change_under_threshold(EffectScene& scene, std::string_view effect, const Set& set,
+inline double change_under_threshold(EffectScene& scene, core::EffectId effect, const Set& set,
                                      double start) {
   return change_under_threshold(scene, effect, set, start, others_off(effect));
 }
 
-inline std::string off_but(std::string_view effect, std::string_view other) {
+inline std::string off_but(core::EffectId effect, core::EffectId other) {
   std::string wishes = others_off(effect);
-  const std::string word = "-" + std::string(other);
-  return wishes.replace(wishes.find(word), word.size(), "+" + std::string(other));
+  const std::string word = "-" + std::string(name_of(other));
+  return wishes.replace(wishes.find(word), word.size(), "+" + std::string(name_of(other)));
 }
 
 // Makes what a cell shows without any effect the display's black.

@@ -15,20 +15,21 @@ TEST_CASE("Losses under their threshold: the farthest cell of level ground takes
   scene.weather().temperature_C = -5.0;
   scene.weather().fog_top_m = scene.weather().rain_top_m = scene.weather().snow_top_m = 3000.0;
   CHECK(change_under_threshold(
-            scene, renderer::kGas, [](EffectScene& s, double x) { s.weather().pressure_hPa = x; },
+            scene, core::EffectId::gas,
+            [](EffectScene& s, double x) { s.weather().pressure_hPa = x; },
             500.0) > 0.9 * kBudget_grey);
   CHECK(change_under_threshold(
-            scene, renderer::kFog,
+            scene, core::EffectId::fog,
             [](EffectScene& s, double x) { s.weather().liquid_water_g_per_m3 = x; },
             0.01) > 0.9 * kBudget_grey);
   scene.weather().liquid_water_g_per_m3.reset();
   CHECK(change_under_threshold(
-            scene, renderer::kSnow,
+            scene, core::EffectId::snow,
             [](EffectScene& s, double x) { s.weather().snow_rate_mm_per_h = x; },
             0.1) > 0.9 * kBudget_grey);
   scene.weather().snow_rate_mm_per_h = 0.0;
   CHECK(change_under_threshold(
-            scene, renderer::kRain,
+            scene, core::EffectId::rain,
             [](EffectScene& s, double x) { s.weather().rain_rate_mm_per_h = x; },
             0.1) > 0.9 * kBudget_grey);
 }
@@ -42,7 +43,7 @@ TEST_CASE("A rain cell that fills the path takes all of its bound", "[effects]")
   scene.description.rain_cells = {shower};
   CHECK(
       change_under_threshold(
-          scene, renderer::kRain,
+          scene, core::EffectId::rain,
           [](EffectScene& s, double x) { s.description.rain_cells[0].cell.rain_rate_mm_per_h = x; },
           0.1) > 0.9 * kBudget_grey);
 }
@@ -51,7 +52,7 @@ TEST_CASE("Surface state under its threshold changes every lit pixel by its boun
   EffectScene scene;
   scene.description.surface_state = materials::SurfaceState::wet;
   CHECK(change_under_threshold(
-            scene, renderer::kSurfaceState,
+            scene, core::EffectId::surface_state,
             [](EffectScene& s, double x) {
               s.folder.write("library.toml", effect_materials(0.05, 1.0 + x));
             },
@@ -64,7 +65,7 @@ TEST_CASE("Rain echo under its threshold, over ground at the display's black", "
   scene.sensor().antenna.boresight_elevation_rad = core::radians(8.0);
   blacken(scene, scene.sensor().range.cells - 1, 4);
   CHECK(change_under_threshold(
-            scene, renderer::kRainEcho,
+            scene, core::EffectId::rain_echo,
             [](EffectScene& s, double x) { s.weather().rain_rate_mm_per_h = x; },
             1e-5) > 0.9 * kBudget_grey);
 }
@@ -72,12 +73,13 @@ TEST_CASE("Rain echo under its threshold, over ground at the display's black", "
 TEST_CASE("Rain echo under its threshold where noise is the floor", "[effects]") {
   EffectScene scene;
   scene.sensor().antenna.boresight_elevation_rad = core::radians(10.0);
-  const std::string wishes = off_but(renderer::kRainEcho, renderer::kThermalNoise);
+  const std::string wishes = off_but(core::EffectId::rain_echo, core::EffectId::thermal_noise);
   const Set rain = [](EffectScene& s, double x) { s.weather().rain_rate_mm_per_h = x; };
-  CHECK(change_under_threshold(scene, renderer::kRainEcho, rain, 1e-5, wishes) >
+  CHECK(change_under_threshold(scene, core::EffectId::rain_echo, rain, 1e-5, wishes) >
         0.9 * kBudget_grey);
   // Without noise the floor is the display's, and the same rain would be above the threshold.
-  CHECK(decision_on(built(scene, others_off(renderer::kRainEcho))->plan, renderer::kRainEcho)
+  CHECK(decision_on(built(scene, others_off(core::EffectId::rain_echo))->plan,
+                    core::EffectId::rain_echo)
             .bound_grey > 2.0 * kBudget_grey);
 }
 
@@ -85,7 +87,7 @@ TEST_CASE("Thermal noise under its threshold, over ground at the display's black
   EffectScene scene;
   blacken(scene, scene.sensor().range.cells - 1, 4);
   CHECK(change_under_threshold(
-            scene, renderer::kThermalNoise,
+            scene, core::EffectId::thermal_noise,
             [](EffectScene& s, double x) { s.sensor().waveform.transmit_power_W = 1.0 / x; },
             1e-4) > 0.9 * kBudget_grey);
 }
@@ -95,7 +97,7 @@ TEST_CASE("Side lobes under their threshold, of a bright target in the nearest c
   blacken(scene, 0, 20);
   add_target(scene, 202.0, -3.8, 1e4);
   CHECK(change_under_threshold(
-            scene, renderer::kSideLobes,
+            scene, core::EffectId::side_lobes,
             [](EffectScene& s, double x) {
               s.sensor().antenna.azimuth.side_lobe_gain = x;
               s.sensor().antenna.azimuth.side_lobe_extent_rad = core::radians(90.0);
@@ -110,10 +112,10 @@ TEST_CASE("Lobes inside the cut widen the beam that the display counts in", "[ef
   sensors::BeamCut& beam = scene.sensor().antenna.azimuth;
   beam.shape = sensors::BeamCut::Shape::sinc_squared;
   beam.cut_rad = core::radians(5.0);
-  const std::string wishes = off_but(renderer::kSideLobes, renderer::kThermalNoise);
+  const std::string wishes = off_but(core::EffectId::side_lobes, core::EffectId::thermal_noise);
   const Shown without = shown(scene, wishes + ",-side-lobes");
   const Shown with = shown(scene, wishes + ",+side-lobes");
-  const double bound_grey = decision_on(with.plan, renderer::kSideLobes).bound_grey;
+  const double bound_grey = decision_on(with.plan, core::EffectId::side_lobes).bound_grey;
   const double change_grey = largest_difference_grey(without.frame, with.frame);
   CHECK(change_grey > 0.02);
   CHECK(change_grey <= bound_grey + 1e-9);  // the display's logarithm is a series
@@ -130,7 +132,7 @@ TEST_CASE("Range response under its threshold, of a faint target in the nearest 
   add_target(scene, 200.5, 16.0, 1e-4);
   blacken(scene, 0, 4, 0.1);
   CHECK(change_under_threshold(
-            scene, renderer::kRangeResponse,
+            scene, core::EffectId::range_response,
             [](EffectScene& s, double x) { s.sensor().waveform.bandwidth_Hz = 1e9 / x; },
             0.7) > 0.5 * kBudget_grey);
 }
@@ -148,8 +150,8 @@ TEST_CASE("What has no bound runs at every accuracy that leaves a picture", "[ef
   scene.description.targets[0].swerling = core::Swerling::case1;
   scene.description.sample = true;
   const core::EffectPlan plan = built(scene, "", 500.0)->plan;
-  for (const auto effect :
-       {renderer::kDoubleBounce, renderer::kMultipath, renderer::kSpeckle, renderer::kSwerling}) {
+  for (const auto effect : {core::EffectId::double_bounce, core::EffectId::multipath,
+                            core::EffectId::speckle, core::EffectId::swerling}) {
     INFO(effect);
     CHECK(plan.runs(effect));
     CHECK(decision_on(plan, effect).bound_grey >= 255.0 * (1.0 - 1e-12));

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "renderer/plan/effect_catalogue.h"
+#include "core/effect_plan.h"
 #include "renderer/plan/plan.h"
 #include "renderer/planned_frames.h"
 #include "sensors/sensor_file.h"
@@ -15,8 +15,8 @@
 namespace fanbeam::tests {
 namespace {
 
-constexpr std::string_view kStages[] = {renderer::kRainEcho, renderer::kDoubleBounce,
-                                        renderer::kMultipath};
+constexpr core::EffectId kStages[] = {core::EffectId::rain_echo, core::EffectId::double_bounce,
+                                      core::EffectId::multipath};
 
 bool same_stages(const core::EffectPlan& a, const core::EffectPlan& b) {
   for (std::size_t i = 0; i < a.decisions.size(); ++i)
@@ -39,7 +39,7 @@ double change_of(const scenes::Scene& scene, int frame) {
       renderers.for_plan(scenes::frame_plan(scene, frame), {true, true}).render(pose));
 }
 
-const core::EffectDecision& decision(const core::EffectPlan& plan, std::string_view effect) {
+const core::EffectDecision& decision(const core::EffectPlan& plan, core::EffectId effect) {
   for (const core::EffectDecision& found : plan.decisions)
     if (found.effect == effect) return found;
   FAIL("no effect " << effect);
@@ -57,13 +57,13 @@ TEST_CASE("A frame goes without what lies out of its range, and runs what lies w
   const auto place_m = [&](double north_of_threshold_m) {
     return glm::dvec3(0.0, north_of_threshold_m, 0.0);
   };
-  for (const std::string_view stage : kStages) REQUIRE(scene->plan.runs(stage));
+  for (const core::EffectId stage : kStages) REQUIRE(scene->plan.runs(stage));
   int checked = 0;
   for (int frame = 0; frame < scene->frame_count(); frame += 40) {
     INFO("frame " << frame);
     const core::EffectPlan plan = scenes::frame_plan(*scene, frame);
     const glm::dvec3 at_m = scene->frame_pose(frame).position_m;
-    const auto check = [&](std::string_view stage, double place, double size_m, double coarse_m) {
+    const auto check = [&](core::EffectId stage, double place, double size_m, double coarse_m) {
       const double distance_m = glm::distance(at_m, place_m(place));
       INFO(stage << " at " << distance_m << " m");
       if (distance_m > range_m + size_m + coarse_m) CHECK_FALSE(plan.runs(stage));
@@ -71,11 +71,11 @@ TEST_CASE("A frame goes without what lies out of its range, and runs what lies w
       if (distance_m < range_m - 100.0 && distance_m > 1000.0) CHECK(plan.runs(stage));
       checked += distance_m > range_m + size_m + coarse_m ? 1 : 1000;
     };
-    check(renderer::kDoubleBounce, 300.0, 70.0, 250.0);
-    check(renderer::kMultipath, -600.0, 0.0, 50.0);
-    check(renderer::kRainEcho, 1500.0, 400.0, 50.0);
-    if (!plan.runs(renderer::kMultipath))
-      CHECK(decision(plan, renderer::kMultipath).reason ==
+    check(core::EffectId::double_bounce, 300.0, 70.0, 250.0);
+    check(core::EffectId::multipath, -600.0, 0.0, 50.0);
+    check(core::EffectId::rain_echo, 1500.0, 400.0, 50.0);
+    if (!plan.runs(core::EffectId::multipath))
+      CHECK(decision(plan, core::EffectId::multipath).reason ==
             "no point target is in view, or no ground mirrors within range");
   }
   // Both answers came up.
@@ -129,7 +129,7 @@ TEST_CASE("No switch from frame to frame is seen", "[scenes][frame_plan]") {
     constexpr int kAllInView = 950;
     REQUIRE(same_stages(scenes::frame_plan(*scene, kAllInView), scene->plan));
     renderer::PlannedFrames renderers(scene->world, few_rays(), 1);
-    for (const std::string_view stage : kStages) {
+    for (const core::EffectId stage : kStages) {
       INFO(stage);
       core::EffectPlan without = scene->plan;
       for (core::EffectDecision& each : without.decisions)
@@ -188,8 +188,9 @@ TEST_CASE("A building behind the antenna, or beside its fan, is no corner of lev
     const double along_m = glm::dot(to_m, antenna.forward);
     INFO("frame " << frame << ", building " << along_m << " m ahead");
     const core::EffectPlan plan = scenes::frame_plan(*scene, frame);
-    if (along_m < 1000.0) CHECK_FALSE(plan.runs(renderer::kDoubleBounce));
-    if (along_m > 2700.0 && glm::length(to_m) < 3400.0) CHECK(plan.runs(renderer::kDoubleBounce));
+    if (along_m < 1000.0) CHECK_FALSE(plan.runs(core::EffectId::double_bounce));
+    if (along_m > 2700.0 && glm::length(to_m) < 3400.0)
+      CHECK(plan.runs(core::EffectId::double_bounce));
     behind += along_m < 1000.0 ? 1 : 0;
     ahead += along_m > 2700.0 && glm::length(to_m) < 3400.0 ? 1 : 0;
   }
@@ -205,7 +206,8 @@ TEST_CASE("What the sequence leaves out takes its share of a frame's budget firs
       sensors::read_sensor(std::string(FANBEAM_SOURCE_DIR) + "/sensors/hivision.toml", problems);
   facts.weather.rain_rate_mm_per_h = 0.01;
   core::EffectPlan sequence;
-  sequence.decisions = {{"gas", false, "", 0.0, 0.0}, {"rain-echo", true, "", 50.0, 12.0}};
+  sequence.decisions = {{core::EffectId::gas, false, "", 0.0, 0.0},
+                        {core::EffectId::rain_echo, true, "", 50.0, 12.0}};
   const auto with_gas = [&](double gas_grey) {
     sequence.decisions[0].bound_grey = gas_grey;
     return renderer::frame_plan(sequence, facts, 0.5, {}).decisions[1];
@@ -221,7 +223,7 @@ TEST_CASE("What the sequence leaves out takes its share of a frame's budget firs
   facts.largest_eta_m2_per_m3 = 0.0;
   CHECK_FALSE(with_gas(0.0).on);
   CHECK(renderer::frame_plan(sequence, facts, 0.5, renderer::parse_effect_wishes("+rain-echo"))
-            .runs("rain-echo"));
+            .runs(core::EffectId::rain_echo));
 }
 
 }  // namespace fanbeam::tests

@@ -122,7 +122,7 @@ TEST_CASE("A material with a surface height and a permittivity mirrors; one with
   CHECK(concrete->permittivity.real == Approx(5.24).epsilon(0.0).margin(0.05));
   CHECK_FALSE(mirror_of("wall.gltf:Steel").has_value());  // a height, but no permittivity
   // Forest mirrors nothing: this wall alone makes corners worth a look.
-  CHECK(scene->plan.runs(renderer::kDoubleBounce));
+  CHECK(scene->plan.runs(core::EffectId::double_bounce));
 }
 
 TEST_CASE("The wall's echo is as strong as its material says", "[open_material]") {

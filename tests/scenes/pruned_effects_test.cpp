@@ -9,7 +9,7 @@
 
 #include "core/files.h"
 #include "renderer/frame_renderer.h"
-#include "renderer/plan/effect_catalogue.h"
+#include "core/effect_plan.h"
 #include "tests/scenes/grey_difference.h"
 #include "tests/scenes/scene_folder.h"
 
@@ -110,7 +110,7 @@ Shown shown(const TemporaryFolder& folder, const std::string& effects) {
   return {frames.render(scene->frame_pose(0)), scene->plan};
 }
 
-double bound_of(const core::EffectPlan& plan, const std::string& effect) {
+double bound_of(const core::EffectPlan& plan, core::EffectId effect) {
   for (const core::EffectDecision& decision : plan.decisions)
     if (decision.effect == effect) return decision.bound_grey;
   return -1.0;
@@ -126,12 +126,12 @@ std::map<std::string, double> check_bounds(const Case& c, bool among_others) {
   const Shown all = shown(folder, "all");
   std::map<std::string, double> worst;
   for (const core::EffectDecision& decision : as_needed.plan.decisions) {
-    const std::string effect(decision.effect);
-    if (!all.plan.runs(effect)) continue;
-    const double sampling = effect == renderer::kSideLobes ? kSampling_grey : 0.0;
+    const std::string effect(name_of(decision.effect));
+    if (!all.plan.runs(decision.effect)) continue;
+    const double sampling = decision.effect == core::EffectId::side_lobes ? kSampling_grey : 0.0;
     // Noise that is shown is part of the floor: each bound is that of its own plan.
     const auto check = [&](const Shown& from, const std::string& changed) {
-      const double bound_grey = bound_of(from.plan, effect);
+      const double bound_grey = bound_of(from.plan, decision.effect);
       INFO(effect << ", " << changed << ", bound " << bound_grey << " grey");
       const double change = largest_difference_grey(from.frame, shown(folder, changed).frame);
       CHECK(change <= std::min(bound_grey, 255.0) + sampling + 1e-9);
@@ -215,7 +215,7 @@ TEST_CASE("A state that changes mirrors alone has no bound where targets are mir
     write_case(folder, with);
     const Shown as_needed = shown(folder, "");
     for (const core::EffectDecision& decision : as_needed.plan.decisions)
-      if (decision.effect == renderer::kSurfaceState) return decision.bound_dB;
+      if (decision.effect == core::EffectId::surface_state) return decision.bound_dB;
     return -1.0;
   };
   CHECK(bound_dB(c) == 0.0);

@@ -19,18 +19,18 @@ std::string scene_text(const std::string& target_key, const std::string& accurac
 TEST_CASE("realisation and swerling reach the plan and the targets", "[scene]") {
   const tests::TemporaryFolder folder;
   const auto mean = tests::good_scene(folder, scene_text("swerling = 3", ""));
-  CHECK_FALSE(mean->plan.runs(renderer::kSpeckle));
-  CHECK_FALSE(mean->plan.runs(renderer::kSwerling));
+  CHECK_FALSE(mean->plan.runs(core::EffectId::speckle));
+  CHECK_FALSE(mean->plan.runs(core::EffectId::swerling));
   CHECK(mean->world.targets.back().swerling == core::Swerling::case3);
   CHECK(mean->world.targets.front().swerling == core::Swerling::steady);  // a runway light
 
   const auto sample =
       tests::good_scene(folder, scene_text("swerling = 3", "realisation = \"sample\""));
-  CHECK(sample->plan.runs(renderer::kSpeckle));
-  CHECK(sample->plan.runs(renderer::kSwerling));
+  CHECK(sample->plan.runs(core::EffectId::speckle));
+  CHECK(sample->plan.runs(core::EffectId::swerling));
   const auto steady = tests::good_scene(folder, scene_text("", "realisation = \"sample\""));
-  CHECK(steady->plan.runs(renderer::kSpeckle));
-  CHECK_FALSE(steady->plan.runs(renderer::kSwerling));
+  CHECK(steady->plan.runs(core::EffectId::speckle));
+  CHECK_FALSE(steady->plan.runs(core::EffectId::swerling));
 }
 
 TEST_CASE("realisation and swerling refuse other values", "[scene]") {

@@ -7,7 +7,7 @@
 
 #include "core/files.h"
 #include "materials/dielectric/dielectric_medium.h"
-#include "renderer/plan/effect_catalogue.h"
+#include "core/effect_plan.h"
 #include "tests/scenes/scene_folder.h"
 
 namespace {
@@ -53,7 +53,7 @@ file = "radar.toml"
 [weather])");
 }
 
-std::string reason_of(const scenes::Scene& scene, std::string_view effect) {
+std::string reason_of(const scenes::Scene& scene, core::EffectId effect) {
   for (const core::EffectDecision& decision : scene.plan.decisions)
     if (decision.effect == effect) return decision.reason;
   return "";
@@ -79,11 +79,11 @@ TEST_CASE("Materials mirror as their rows say; canopies do not", "[mirrors]") {
 
 TEST_CASE("Walls, targets and mirrors decide which reflections run", "[mirrors]") {
   const auto field = shipped("obstacle-field");
-  CHECK(field->plan.runs(renderer::kDoubleBounce));
-  CHECK(field->plan.runs(renderer::kMultipath));
+  CHECK(field->plan.runs(core::EffectId::double_bounce));
+  CHECK(field->plan.runs(core::EffectId::multipath));
   const auto grass = shipped("flat-grass");
-  CHECK_FALSE(grass->plan.runs(renderer::kDoubleBounce));
-  CHECK_FALSE(grass->plan.runs(renderer::kMultipath));
+  CHECK_FALSE(grass->plan.runs(core::EffectId::double_bounce));
+  CHECK_FALSE(grass->plan.runs(core::EffectId::multipath));
 }
 
 TEST_CASE("A medium that is not known at the frequency is missed, and the plan tells the truth",
@@ -101,9 +101,9 @@ TEST_CASE("A medium that is not known at the frequency is missed, and the plan t
   CHECK(told[0].field == "material 'asphalt_worn' at frequency_GHz of dielectric asphalt");
   CHECK(told[0].value == "76");
   CHECK(told[0].expected.starts_with("known for 1 to 40; does not mirror"));
-  CHECK_FALSE(outcome.scene->plan.runs(renderer::kMultipath));
-  CHECK(reason_of(*outcome.scene, renderer::kMultipath).find("known to mirror at this frequency") !=
-        std::string::npos);
+  CHECK_FALSE(outcome.scene->plan.runs(core::EffectId::multipath));
+  CHECK(reason_of(*outcome.scene, core::EffectId::multipath)
+            .find("known to mirror at this frequency") != std::string::npos);
   for (const scenes::SurfaceRecord& record : outcome.scene->surfaces)
     CHECK(record.extrapolations.empty());
 }
@@ -122,7 +122,7 @@ TEST_CASE(
       permittivity_of(materials::DielectricMedium::asphalt, 40e9, 288.15);
   CHECK(asphalt->permittivity.real == at_40_GHz.real);
   CHECK(asphalt->permittivity.loss == at_40_GHz.loss);
-  CHECK(outcome.scene->plan.runs(renderer::kMultipath));
+  CHECK(outcome.scene->plan.runs(core::EffectId::multipath));
   const std::vector<core::Problem> told = about_mirrors(outcome);
   REQUIRE(told.size() == 1);
   CHECK(told[0].expected == "known for 1 to 40; mirrors as at 40 GHz");

@@ -76,13 +76,13 @@ TEST_CASE("A wet scene shows the wet rows, and says so", "[scenes][surfaces]") {
   const TemporaryFolder folder;
   const auto dry = built(folder, plain("short_grass"));
   const auto wet = built(folder, plain("short_grass", "[weather]\nsurface = \"wet\"\n"));
-  CHECK_FALSE(dry->plan.runs("surface-state"));
-  CHECK(wet->plan.runs("surface-state"));
+  CHECK_FALSE(dry->plan.runs(core::EffectId::surface_state));
+  CHECK(wet->plan.runs(core::EffectId::surface_state));
   CHECK(level_dB(*wet, "short_grass", 3.0) - level_dB(*dry, "short_grass", 3.0) ==
         Approx(2.0).epsilon(0.0).margin(0.01));
   // Only the grass is in use: its 2 dB are the bound, 8.5 grey levels of 60 / 255 dB.
   for (const core::EffectDecision& decision : wet->plan.decisions)
-    if (decision.effect == "surface-state")
+    if (decision.effect == core::EffectId::surface_state)
       CHECK(decision.bound_dB == Approx(2.0).epsilon(0.0).margin(0.01));
   REQUIRE(wet->surfaces.size() == 1);
   CHECK(wet->surfaces[0].material == "short_grass");
@@ -105,8 +105,8 @@ TEST_CASE("A state that changes no material is the dry picture byte for byte",
   const std::string wet_scene = plain("water_calm", "[weather]\nsurface = \"wet\"\n");
   const auto as_needed = built(folder, wet_scene);
   const auto forced = built(folder, wet_scene, "+surface-state");
-  CHECK_FALSE(as_needed->plan.runs("surface-state"));
-  CHECK(forced->plan.runs("surface-state"));
+  CHECK_FALSE(as_needed->plan.runs(core::EffectId::surface_state));
+  CHECK(forced->plan.runs(core::EffectId::surface_state));
   CHECK(frame_of(*forced).bscope_W == frame_of(*dry).bscope_W);
   CHECK(frame_of(*as_needed).bscope_grey == frame_of(*dry).bscope_grey);
 }
@@ -127,8 +127,8 @@ TEST_CASE("A state pruned by the plan differs from the forced one by less than t
       plain("moor", "[weather]\nsurface = \"wet\"\n", "material_library = \"library.toml\"\n");
   const auto pruned = built(folder, scene);
   const auto forced = built(folder, scene, "+surface-state");
-  CHECK_FALSE(pruned->plan.runs("surface-state"));
-  CHECK(forced->plan.runs("surface-state"));
+  CHECK_FALSE(pruned->plan.runs(core::EffectId::surface_state));
+  CHECK(forced->plan.runs(core::EffectId::surface_state));
   const std::vector<double> without = frame_of(*pruned).bscope_grey;
   const std::vector<double> with = frame_of(*forced).bscope_grey;
   double largest = 0.0;

@@ -1,7 +1,7 @@
 // A sequence goes without what none of its frames sees, and says so.
 #include <catch2/catch.hpp>
 
-#include "renderer/plan/effect_catalogue.h"
+#include "core/effect_plan.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/planned_frames.h"
 #include "sensors/sensor_file.h"
@@ -27,7 +27,7 @@ std::unique_ptr<scenes::Scene> approach(const std::vector<Change>& changes,
   return built_for_frames(folder, 0.5, effects);
 }
 
-const core::EffectDecision& decision_of(const scenes::Scene& scene, std::string_view effect) {
+const core::EffectDecision& decision_of(const scenes::Scene& scene, core::EffectId effect) {
   return decision_on(scene.plan, effect);
 }
 
@@ -68,21 +68,22 @@ constexpr Change kShowerBeside = {"at = { runway = \"36\", behind_threshold_m = 
 TEST_CASE("A building behind the whole flight is no corner, and nothing is lost without",
           "[scenes][frame_plan]") {
   const auto scene = approach({kHangarBehind});
-  CHECK_FALSE(scene->plan.runs(renderer::kDoubleBounce));
-  CHECK(decision_of(*scene, renderer::kDoubleBounce).reason ==
+  CHECK_FALSE(scene->plan.runs(core::EffectId::double_bounce));
+  CHECK(decision_of(*scene, core::EffectId::double_bounce).reason ==
         "within range nothing mirrors, or nothing stands in the way of mirrored rays");
   CHECK(largest_change_grey(*scene, *approach({kHangarBehind}, "+double-bounce")) == 0.0);
-  CHECK(approach({})->plan.runs(renderer::kDoubleBounce));
+  CHECK(approach({})->plan.runs(core::EffectId::double_bounce));
   // A scene without walls says another thing.
-  CHECK(decision_of(*approach({kNoHangar}), renderer::kDoubleBounce).reason.find("no walls") !=
-        std::string::npos);
+  CHECK(
+      decision_of(*approach({kNoHangar}), core::EffectId::double_bounce).reason.find("no walls") !=
+      std::string::npos);
 }
 
 TEST_CASE("A target that no frame has in view calls for no multipath", "[scenes][frame_plan]") {
   const Change behind = {"behind_threshold_m = -600.0, left_m = 20.0",
                          "behind_threshold_m = -8500.0, left_m = 20.0"};
   const auto scene = approach({behind});
-  CHECK_FALSE(scene->plan.runs(renderer::kMultipath));
+  CHECK_FALSE(scene->plan.runs(core::EffectId::multipath));
   CHECK(largest_change_grey(*scene, *approach({behind}, "+multipath")) == 0.0);
 }
 
@@ -90,16 +91,16 @@ TEST_CASE("A target that no frame has in view calls for no multipath", "[scenes]
 TEST_CASE("A shower beside the fan is not there for a scene without mirrored rays",
           "[scenes][frame_plan]") {
   const auto scene = approach({kNoHangar, kNoPost, kShowerBeside});
-  CHECK_FALSE(scene->plan.runs(renderer::kRain));
-  CHECK_FALSE(scene->plan.runs(renderer::kRainEcho));
-  CHECK(decision_of(*scene, renderer::kRain).reason ==
+  CHECK_FALSE(scene->plan.runs(core::EffectId::rain));
+  CHECK_FALSE(scene->plan.runs(core::EffectId::rain_echo));
+  CHECK(decision_of(*scene, core::EffectId::rain).reason ==
         "the scene has it, but nothing of it is in view");
   CHECK(largest_change_grey(
             *scene, *approach({kNoHangar, kNoPost, kShowerBeside}, "+rain,+rain-echo")) == 0.0);
-  CHECK(approach({kNoHangar, kNoPost})->plan.runs(renderer::kRain));
+  CHECK(approach({kNoHangar, kNoPost})->plan.runs(core::EffectId::rain));
   // Rays that a wall or the ground mirrors may pass it; nothing changes more than the display has.
   const auto mirrored = approach({kShowerBeside});
-  CHECK(mirrored->plan.runs(renderer::kRain));
+  CHECK(mirrored->plan.runs(core::EffectId::rain));
   for (const core::EffectDecision& decision : mirrored->plan.decisions)
     CHECK(decision.bound_grey <= 255.0);
 }
@@ -109,12 +110,13 @@ TEST_CASE("Rain does not take the bound of gas under a ground that fills the bea
           "[scenes][frame_plan]") {
   const Change none = {"rain_rate_mm_per_h = 20.0", "rain_rate_mm_per_h = 0.0"};
   const Change wide = {"half_extent_m = 9000.0", "half_extent_m = 14000.0"};
-  const double dry_dB = decision_of(*approach({none, wide}), renderer::kGas).bound_dB;
+  const double dry_dB = decision_of(*approach({none, wide}), core::EffectId::gas).bound_dB;
   REQUIRE(dry_dB > 0.0);
-  CHECK(decision_of(*approach({wide}), renderer::kGas).bound_dB == Approx(dry_dB).epsilon(0.02));
+  CHECK(decision_of(*approach({wide}), core::EffectId::gas).bound_dB ==
+        Approx(dry_dB).epsilon(0.02));
   // Over the rim of a small terrain it does go down.
   const Change small = {"half_extent_m = 9000.0", "half_extent_m = 7000.0"};
-  CHECK(decision_of(*approach({small}), renderer::kGas).bound_dB > 1.1 * dry_dB);
+  CHECK(decision_of(*approach({small}), core::EffectId::gas).bound_dB > 1.1 * dry_dB);
 }
 
 TEST_CASE(
@@ -128,7 +130,7 @@ TEST_CASE(
   facts.has_point_targets = facts.ground_reflects = true;
   facts.rcs_sum_m2 = 10.0;
   const auto bound_dB = [&] {
-    return decision_on(renderer::plan(facts, 0.5, {}), renderer::kSideLobes).bound_dB;
+    return decision_on(renderer::plan(facts, 0.5, {}), core::EffectId::side_lobes).bound_dB;
   };
   sensors::Antenna& antenna = facts.sensor.antenna;
   antenna.azimuth.side_lobe_gain = 1e-5;

@@ -29,7 +29,7 @@ TEST_CASE("faint side lobes are left out of the scene's antenna, strong ones sta
     const auto scene = tests::good_scene(folder, open + "[sensor]\nfile = \"lobes.toml\"\n");
     CHECK(scene->description.sensor.antenna.azimuth.side_lobe_gain > 0.0);
     const double level = scene->world.sensor.antenna.azimuth.side_lobe_gain;
-    CHECK(scene->plan.runs("side-lobes") == (level > 0.0));
+    CHECK(scene->plan.runs(core::EffectId::side_lobes) == (level > 0.0));
     return level;
   };
   CHECK(simulated("-45.0") == Approx(std::pow(10.0, -4.5)));

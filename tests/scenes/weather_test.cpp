@@ -17,7 +17,7 @@ std::string with_weather(const std::string& weather) {
   return tests::replaced(tests::kSmallScene, kFog, "[weather]\n" + weather);
 }
 
-core::EffectDecision decision(const scenes::Scene& scene, const std::string& effect) {
+core::EffectDecision decision(const scenes::Scene& scene, core::EffectId effect) {
   for (const core::EffectDecision& found : scene.plan.decisions)
     if (found.effect == effect) return found;
   FAIL("no effect " << effect);
@@ -83,28 +83,28 @@ rain_rate_mm_per_h = 5.0
   const glm::dvec3 middle(-100.0, 500.0, 100.0);
   CHECK(scene->world.rain_cells->one_way_dB(middle, middle + glm::dvec3(0.0, 1000.0, 0.0)) ==
         Approx(0.3 * per_km).epsilon(1e-6));
-  CHECK(decision(*scene, "rain").on);
+  CHECK(decision(*scene, core::EffectId::rain).on);
   // The snow begins at 1860 m: nothing in the scene is seen through it.
-  CHECK_FALSE(decision(*scene, "snow").on);
-  CHECK(decision(*scene, "snow").bound_dB == 0.0);
-  CHECK_FALSE(decision(*scene, "snow").reason == "the scene has no snow");
+  CHECK_FALSE(decision(*scene, core::EffectId::snow).on);
+  CHECK(decision(*scene, core::EffectId::snow).bound_dB == 0.0);
+  CHECK_FALSE(decision(*scene, core::EffectId::snow).reason == "the scene has no snow");
 }
 
 TEST_CASE("Only cells make the rain effect possible, and none costs nothing", "[weather]") {
   const TemporaryFolder folder;
   const auto dry = tests::good_scene(folder, tests::kSmallScene);
   CHECK_FALSE(dry->world.rain_cells);
-  CHECK(decision(*dry, "rain").reason == "the scene has no rain");
-  CHECK(decision(*dry, "snow").reason == "the scene has no snow");
+  CHECK(decision(*dry, core::EffectId::rain).reason == "the scene has no rain");
+  CHECK(decision(*dry, core::EffectId::snow).reason == "the scene has no snow");
   const std::string cell =
       "[[weather.rain_cell]]\nat = { runway = \"36\", behind_threshold_m = 0.0 }\n"
       "radius_m = 500.0\nrain_rate_mm_per_h = 40.0\n";
   const auto shower = tests::good_scene(folder, with_weather(cell));
-  REQUIRE(decision(*shower, "rain").on);
+  REQUIRE(decision(*shower, core::EffectId::rain).on);
   REQUIRE(shower->world.rain_cells);
   // The bound holds for the worst path of all.
   CHECK(2.0 * shower->world.rain_cells->one_way_dB({0.0, -3000.0, 100.0}, {0.0, 3000.0, 0.0}) <=
-        decision(*shower, "rain").bound_dB);
+        decision(*shower, core::EffectId::rain).bound_dB);
 }
 
 TEST_CASE("Snow costs what its bound allows, and nothing when there is none", "[weather]") {
@@ -118,7 +118,7 @@ TEST_CASE("Snow costs what its bound allows, and nothing when there is none", "[
     options.wishes = renderer::parse_effect_wishes(effects);
     const auto scene = scenes::build_scene(description, options, problems);
     const renderer::FrameRenderer frames(scene->world, renderer::Sampling{}, {}, {});
-    return std::pair(frames.render(scene->frame_pose(0)), decision(*scene, "snow"));
+    return std::pair(frames.render(scene->frame_pose(0)), decision(*scene, core::EffectId::snow));
   };
   const auto [without, none] = frame_of("", "-snow");
   CHECK(frame_of("snow_rate_mm_per_h = 0.0\n", "+snow").first.bscope_W == without.bscope_W);

@@ -32,7 +32,7 @@ renderer::FramePower power_of(const scenes::Scene& scene, int frame,
 
 // Against a quarter of the reference, whose own error over Innsbruck is 0.18 and 0.14 grey.
 void check_convergence(const scenes::Scene& scene, int frame) {
-  REQUIRE(scene.plan.runs("double-bounce"));
+  REQUIRE(scene.plan.runs(core::EffectId::double_bounce));
   const renderer::GreyReference reference(
       scene.world.sensor, power_of(scene, frame, renderer::reference_sampling(1, 4)));
   const auto error_of = [&](double slices) {

@@ -97,7 +97,7 @@ roof = "metal"
   const TemporaryFolder flight, anywhere;
   const auto session = opened_text(flight, text);
   REQUIRE(session->scene()->frame_count() > 0);
-  REQUIRE_FALSE(session->scene()->plan.runs(renderer::kDoubleBounce));
+  REQUIRE_FALSE(session->scene()->plan.runs(core::EffectId::double_bounce));
   const auto scene = session->scene();
   const core::Pose flown = scene->trajectory->at(scene->trajectory->begin_s() + 1.0);
   const renderer::Frame before = session->render(flown, 3);
@@ -108,13 +108,13 @@ roof = "metal"
   CHECK(is_outside(seen));
   // As a session that counts on any pose shows it.
   const auto wide = opened_text(anywhere, text + "\n[flight_volume]\n");
-  REQUIRE(wide->scene()->plan.runs(renderer::kDoubleBounce));
+  REQUIRE(wide->scene()->plan.runs(core::EffectId::double_bounce));
   const renderer::Frame expected = wide->render(back, 0);
   CHECK_FALSE(is_outside(expected));
   CHECK(tests::largest_difference_grey(seen, expected) < 0.5);
   // It leaves no trace.
   CHECK(session->render(flown, 3).bscope_W == before.bscope_W);
-  CHECK_FALSE(session->scene()->plan.runs(renderer::kDoubleBounce));
+  CHECK_FALSE(session->scene()->plan.runs(core::EffectId::double_bounce));
 }
 
 TEST_CASE("Every frame of a flight is one that its plan was made for", "[flight_volume]") {

@@ -86,7 +86,7 @@ TEST_CASE("Weather set is weather of the file, and the one before comes back", "
   session->set(rain(*session, 20.0));
   CHECK_FALSE(same(rendered(*session), dry));
   CHECK(same(rendered(*session), rendered(*from_file)));
-  CHECK(session->scene()->plan.runs(renderer::kRain));
+  CHECK(session->scene()->plan.runs(core::EffectId::rain));
   session->set(before);
   CHECK(same(rendered(*session), dry));
 }
@@ -180,6 +180,8 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
         }) == 2);
   CHECK(problems_of([&] { session->set(session::Accuracy{0.0}); }) == 1);
   CHECK(problems_of([&] { session->set(session::Samples{0.01}); }) == 1);
+  CHECK(problems_of([&] { session->set(session::TimeBudget{0.0}); }) == 1);
+  CHECK(problems_of([&] { session->set(session::TimeBudget{10.0, {core::Pose{}}}); }) == 1);
   renderer::Sampling sampling = renderer::sampling_for(4.0);
   sampling.sub_columns = 0;
   sampling.rays_per_cell = std::nan("");
@@ -239,6 +241,30 @@ TEST_CASE("A stop ends the frame that it is for, and no other", "[session]") {
   CHECK_NOTHROW(rendered(*session));
 }
 
+TEST_CASE("A time budget chooses a sampling of the ladder, and frames by it repeat its bytes",
+          "[session]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene);
+  const renderer::CasterKind caster = session->scene()->caster.chosen;
+  const double coarsest_samples = caster == renderer::CasterKind::profile ? 1.0 : 0.5;
+  const auto alike = [](const renderer::Sampling& a, const renderer::Sampling& b) {
+    return a.slices_per_sub_column == b.slices_per_sub_column && a.sub_columns == b.sub_columns &&
+           a.rays_per_cell == b.rays_per_cell;
+  };
+  session->set(session::TimeBudget{0.1});
+  CHECK(alike(session->sampling(), renderer::sampling_for(caster, coarsest_samples)));  // none fits
+  const renderer::Frame coarsest = rendered(*session);
+  session->set(session::TimeBudget{1e7, {frame_pose(*session, 40)}});
+  CHECK(alike(session->sampling(), renderer::sampling_for(caster, 64.0)));
+  session->set(session::Samples{coarsest_samples});
+  CHECK(same(rendered(*session), coarsest));
+  const TemporaryFolder parked;
+  std::string text = tests::kSmallScene;
+  text.erase(text.find("[trajectory.ils]"));
+  const auto standing = opened_text(parked, text);
+  CHECK_THROWS_AS(standing->set(session::TimeBudget{10.0}), core::InputError);
+}
+
 TEST_CASE("The frame number moves speckle, and nothing else", "[session]") {
   const TemporaryFolder folder;
   const auto session = opened_text(folder, tests::kSmallScene, {.sample = true, .seed = 7});
@@ -257,7 +283,7 @@ TEST_CASE("Where nobody asks for heights, a shadow C-scope costs a plan nothing"
     setup.build.heights_shown = heights_shown;
     const auto scene = opened_text(folder, text, setup)->scene();
     for (const core::EffectDecision& decision : scene->plan.decisions)
-      if (decision.effect == renderer::kGas) return decision.bound_grey;
+      if (decision.effect == core::EffectId::gas) return decision.bound_grey;
     FAIL("no gas");
     return 0.0;
   };

@@ -10,6 +10,7 @@
 #include "signal/synthesis/reference.h"
 #include "signal/waveform/factories.h"
 #include "signal/waveform/figures.h"
+#include "tests/signal/slot_phase.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
@@ -141,9 +142,9 @@ TEST_CASE("Magnitudes of a slow ramp's beats give a wrong target", "[pairing]") 
 
 TEST_CASE("Time division turns the phase by 3.6505 degrees per m/s and 20 us slot", "[beat]") {
   const double wavelength_m = c_mps / 76e9;
-  CHECK(slot_phase_rad(1.0, 20e-6, wavelength_m) * 180.0 / core::kPi ==
+  CHECK(tests::slot_phase_rad(1.0, 20e-6, wavelength_m) * 180.0 / core::kPi ==
         Approx(3.6505).margin(1e-4).epsilon(0.0));
-  CHECK(slot_phase_rad(100.0 / 3.6, 20e-6, wavelength_m) * 180.0 / core::kPi ==
+  CHECK(tests::slot_phase_rad(100.0 / 3.6, 20e-6, wavelength_m) * 180.0 / core::kPi ==
         Approx(101.40).margin(0.005).epsilon(0.0));
 
   ChirpSequenceParameters parameters;
@@ -153,7 +154,7 @@ TEST_CASE("Time division turns the phase by 3.6505 degrees per m/s and 20 us slo
   array.transmitters_m = {glm::dvec3(0.0), glm::dvec3(0.0)};
   const DoubleCube cube = reference_beat(chirp_sequence(parameters), 0, array, {path_at(50, 5.0)});
   const double turn_rad = std::arg(cube.at(1, 0, 200) / cube.at(0, 0, 200));
-  CHECK(turn_rad == Approx(slot_phase_rad(5.0, 20e-6, wavelength_m)).epsilon(1e-3));
+  CHECK(turn_rad == Approx(tests::slot_phase_rad(5.0, 20e-6, wavelength_m)).epsilon(1e-3));
 }
 
 TEST_CASE("Virtual elements are half a wavelength apart and a target to the right turns them back",

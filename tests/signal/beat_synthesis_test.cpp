@@ -12,6 +12,7 @@
 #include "signal/synthesis/reference.h"
 #include "signal/synthesis/spreading_kernel.h"
 #include "signal/waveform/factories.h"
+#include "tests/signal/default_waveform.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
@@ -136,7 +137,7 @@ TEST_CASE("Triangles, steps and coded stretches are synthesised by their own pha
   for (const WaveformKind kind :
        {WaveformKind::continuous, WaveformKind::triangle, WaveformKind::two_slopes,
         WaveformKind::coded_triangle, WaveformKind::stepped, WaveformKind::sinusoidal}) {
-    const Waveform waveform = default_waveform(kind);
+    const Waveform waveform = tests::default_waveform(kind);
     for (int stage = 0; stage < waveform.stages(); ++stage) {
       INFO(std::string(name(kind)) << " stage " << stage);
       const DoubleCube exact = reference_beat(waveform, stage, {}, paths);

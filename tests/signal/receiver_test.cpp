@@ -1,4 +1,4 @@
-// Link budget, two rays, noise and quantisation of the reference radar.
+// Link budget, noise and quantisation of the reference radar.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -8,7 +8,6 @@
 #include "core/parallel.h"
 #include "signal/receiver/link_budget.h"
 #include "signal/receiver/receiver_noise.h"
-#include "signal/receiver/two_ray.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
@@ -52,30 +51,9 @@ TEST_CASE("Link budget of the reference radar to 0.01 dB", "[receiver]") {
       CHECK(dB(power_W / noise_W) == Approx(row.snr_dB[i]).margin(0.01).epsilon(0.0));
     }
   }
-  CHECK(dB(aperture_gain(6e-4, kWavelength_m)) == Approx(26.853).margin(0.001).epsilon(0.0));
   CHECK_THROWS_AS(received_power_W(link, 0.0, 1.0), core::InputError);
   CHECK_THROWS_AS(received_power_W(link, std::nan(""), 1.0), core::InputError);
   CHECK_THROWS_AS(noise_density_W_per_Hz(0.5), core::InputError);
-}
-
-TEST_CASE("Two rays over a road", "[receiver]") {
-  struct Row {
-    double range_m, smooth_dB, rough_dB;
-  };
-  for (const Row& row : {Row{60, -6.402, -7.432}, Row{80, 11.423, 8.620}, Row{100, 6.925, 4.316},
-                         Row{150, -1.154, -3.062}}) {
-    const auto echo_dB = [&](double reflection) {
-      return 2.0 * dB(two_ray_factor(0.5, 0.5, row.range_m, kWavelength_m, reflection));
-    };
-    CHECK(echo_dB(-1.0) == Approx(row.smooth_dB).margin(0.01).epsilon(0.0));
-    CHECK(echo_dB(-0.7) == Approx(row.rough_dB).margin(0.01).epsilon(0.0));
-  }
-  CHECK(two_ray_factor(0.5, 0.5, 100.0, kWavelength_m, 0.0) == 1.0);
-}
-
-TEST_CASE("G02: path difference over a plane without cancellation", "[receiver]") {
-  CHECK(std::abs(path_difference_m(60.0, 2.0, 3000.0) - 0.0799839870383) < 1e-12);
-  CHECK(path_difference_m(60.0, 0.0, 3000.0) == 0.0);
 }
 
 TEST_CASE("Receiver noise has the power of k T F fs, white in time", "[receiver]") {

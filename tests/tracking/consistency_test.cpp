@@ -2,6 +2,8 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstddef>
+#include <limits>
 
 #include "tests/tracking/highway_scenes.h"
 #include "tests/tracking/simulated.h"
@@ -15,6 +17,35 @@ using tests::line;
 using tests::line_state;
 using tests::run_key;
 using tests::seen;
+
+namespace {
+
+// (mean - truth)^T P^-1 (mean - truth), by P = L L^T. Infinite where P is not positive definite.
+double squared_distance(const Gaussian& state, const StateVector& truth) {
+  Gaussian root;  // L
+  StateVector solved{};
+  double sum = 0.0;
+  for (int i = 0; i < state.size; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    double rest = state.mean[row] - truth[row];
+    double pivot = state.variance(i, i);
+    for (int j = 0; j < i; ++j) {
+      double entry = state.variance(i, j);
+      for (int k = 0; k < j; ++k) entry -= root.variance(i, k) * root.variance(j, k);
+      entry /= root.variance(j, j);
+      root.variance(i, j) = entry;
+      pivot -= entry * entry;
+      rest -= entry * solved[static_cast<std::size_t>(j)];
+    }
+    if (!(pivot > 0.0)) return std::numeric_limits<double>::infinity();
+    root.variance(i, i) = std::sqrt(pivot);
+    solved[row] = rest / root.variance(i, i);
+    sum += solved[row] * solved[row];
+  }
+  return sum;
+}
+
+}  // namespace
 
 TEST_CASE("K06 innovations and errors of matched runs are as large as the filter says",
           "[kalman][statistics]") {

@@ -1,19 +1,14 @@
 // The chi-square law: gates of measurements and intervals of consistency tests.
 //
-// P(X <= x) = P(k/2, x/2), the regularised incomplete gamma function: its series below k/2 + 1, the
-// continued fraction above. Quantiles by bisection.
-// Source: NIST Digital Library of Mathematical Functions, 8.11.4 and 8.9.2. The mean of n values of
-// k degrees lies in [q(0.025), q(0.975)] of n k degrees, divided by n, in 95 of 100 cases
-// (Y. Bar-Shalom et al., "Estimation with Applications to Tracking and Navigation", 2001, 5.4).
+// P(X <= x) = P(k/2, x/2), the regularised incomplete gamma function (Boost.Math). The mean of
+// n values of k degrees lies in [q(0.025), q(0.975)] of n k degrees, divided by n, in 95 of 100
+// cases (Y. Bar-Shalom et al., "Estimation with Applications to Tracking and Navigation", 2001, 5.4).
 // Accuracy: 1e-12 in probability up to 1e4 degrees.
 #pragma once
 
 namespace fanbeam::tracking {
 
-// Degrees above 0, x 0 or more; E-RANGE otherwise.
-double chi_square_probability(double x, double degrees);
-
-// Probability in (0, 1); E-RANGE otherwise.
+// The x below which a value lies with that probability, in (0, 1); E-RANGE otherwise.
 double chi_square_quantile(double probability, double degrees);
 
 struct Interval {

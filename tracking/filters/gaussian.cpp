@@ -1,7 +1,6 @@
 #include "tracking/filters/gaussian.h"
 
 #include <cmath>
-#include <limits>
 
 #include "core/errors.h"
 #include "tracking/filters/matrices_private.h"
@@ -44,13 +43,6 @@ Gaussian marginal(const Gaussian& state, int size) {
   store(vector_of(state.mean, size), result.mean);
   store(matrix_of(state.covariance, size, size), result.covariance);
   return result;
-}
-
-double squared_distance(const Gaussian& state, const StateVector& truth) {
-  const Vector offset = vector_of(state.mean, state.size) - vector_of(truth, state.size);
-  const Eigen::LLT<Matrix> root(matrix_of(state.covariance, state.size, state.size));
-  if (root.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
-  return root.matrixL().solve(offset).squaredNorm();
 }
 
 }  // namespace fanbeam::tracking

@@ -45,7 +45,4 @@ Gaussian moments(const std::vector<WeightedGaussian>& mixture);
 // The first `size` components alone.
 Gaussian marginal(const Gaussian& state, int size);
 
-// (mean - truth)^T P^-1 (mean - truth). Infinite where P is not positive definite.
-double squared_distance(const Gaussian& state, const StateVector& truth);
-
 }  // namespace fanbeam::tracking

@@ -1,0 +1,104 @@
+#include <CLI/CLI.hpp>
+
+#include "apps/command_line.h"
+#include "apps/live_command.h"
+#include "apps/number_range.h"
+#include "apps/option_lists.h"
+#include "apps/value_words.h"
+#include "renderer/casting/sampling.h"
+
+namespace fanbeam::apps {
+namespace {
+
+void add_poses(CLI::App& command, LiveOptions& options) {
+  CLI::Option* from =
+      command
+          .add_option(
+              "--from", options.from,
+              "Where the aircraft is: circle (round the runway, no simulator needed), ils (the "
+              "scene's own trajectory, again and again), csv:FILE (that of a file with columns "
+              "time_s, latitude_deg, longitude_deg, height_m), native-fdm:[ADDRESS:]PORT "
+              "(FlightGear with --native-fdm=socket,out,16,127.0.0.1,PORT,udp) or "
+              "fg-generic:[ADDRESS:]PORT (FlightGear with the shipped protocol file)")
+          ->type_name("SOURCE")
+          ->capture_default_str();
+  CLI::Option* datum =
+      command
+          .add_option("--datum", options.datum,
+                      "What heights of a simulator or file count from; a scene whose own datum is "
+                      "unknown takes them as they are")
+          ->check(CLI::IsMember({"egm96", "ellipsoid"}))
+          ->capture_default_str();
+  CLI::Option* lockstep =
+      command.add_flag("--lockstep", options.lockstep,
+                       "One frame for each pose as it is received, with the same sampling: the "
+                       "same bytes every time");
+  CLI::Option* record = command
+                            .add_option("--record", options.record,
+                                        "Keep packets, ticks, samplings and controls, for --replay")
+                            ->type_name("FILE");
+  CLI::Option* replay =
+      command
+          .add_option("--replay", options.replay,
+                      "Fly what --record kept: with --lockstep every frame of it, byte by byte")
+          ->type_name("FILE")
+          ->check(CLI::ExistingFile)
+          ->excludes(record)
+          ->excludes(from)
+          ->excludes(datum);
+  command.add_option("--speed", options.speed, "Of a replay, times that of the recording")
+      ->check(number_from(0.01, 1000.0))
+      ->needs(replay)
+      ->excludes(lockstep)
+      ->capture_default_str();
+}
+
+void add_sinks(CLI::App& command, LiveOptions& options) {
+  command
+      .add_option("--to", options.to,
+                  "Where frames go beside the page: shm:NAME (a ring of the newest frames in "
+                  "shared memory, /dev/shm/NAME; docs/live.md has its layout), raw-bscope:FILE or "
+                  "raw-cscope:FILE (8-bit grey, for ffmpeg; - is the standard output)")
+      ->type_name("SINK");
+  command
+      .add_option(
+          "--http", options.http,
+          "Port of the page, on this machine alone, or its ADDRESS:PORT; 0 takes any port that is "
+          "free")
+      ->type_name("PORT")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+CLI::App& add_live_command(CLI::App& program, LiveOptions& options, CommonOptions& common) {
+  CLI::App& command = *program.add_subcommand(
+      "live", "Show what the radar sees from where a simulator is now, on a page in a browser");
+  add_scene_choice(command, options);
+  add_poses(command, options);
+  add_sinks(command, options);
+  command.add_option("--rate", options.rate_Hz, "Frames a second (default: the sensor's)")
+      ->check(number_from(0.1, 1000.0));
+  command
+      .add_option("--rays-per-cell", options.rays_per_cell,
+                  "Rays per range cell and column, or azimuth slices per column (default: the most "
+                  "that keeps the rate; in lockstep the scene's)")
+      ->check(number_from(renderer::kFewestRaysPerCell, 100000.0));
+  command
+      .add_option("--effects", options.effects,
+                  "all, none, or a list such as +rain,-gas; fanbeam list effects names them "
+                  "(default: what the scene calls for)")
+      ->type_name("EFFECT")
+      ->check(offers(effect_wishes(renderer::Touches::pictures)));
+  command.add_option("--seconds", options.seconds, "End after so long (default: when stopped)")
+      ->check(number_from(0.1, 1e9));
+  command
+      .add_option("--frames", options.frames, "End after so many frames (default: when stopped)")
+      ->check(whole_number_from(1, 1'000'000'000));
+  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
+      ->check(whole_number_from(0, 1024));
+  add_common_options(command, common);
+  return command;
+}
+
+}  // namespace fanbeam::apps

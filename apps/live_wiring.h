@@ -1,0 +1,54 @@
+// What the options of fanbeam live say of where poses come from and frames go to.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/live_command.h"
+#include "feeds/protocol.h"
+#include "live/network.h"
+#include "live/raw_frames.h"
+#include "live/shared_frames.h"
+
+namespace fanbeam::apps {
+
+// circle, ils, csv:FILE, or the protocol and address of a simulator.
+struct PosesFrom {
+  bool circle = false;
+  std::string csv;
+  const feeds::Protocol* protocol = nullptr;
+  live::Endpoint listens_at;
+};
+
+struct RawSink {
+  live::RawFrames::Scope scope = live::RawFrames::Scope::bscope;
+  std::string file;
+};
+
+struct Wiring {
+  PosesFrom from;
+  live::Endpoint page;
+  std::vector<std::string> shared;  // names of shared memory
+  std::vector<RawSink> raw;
+
+  bool takes_stdout() const;
+};
+
+// Throws InputError with all that is wrong.
+Wiring wiring_of(const LiveOptions& options);
+
+// Frames go to all of them.
+class Sinks {
+ public:
+  Sinks(const Wiring& wiring, const sensors::Sensor& sensor, double rate_Hz, bool every_frame);
+  void write(const std::shared_ptr<const live::LiveFrame>& frame);
+  bool any_ended() const;
+
+ private:
+  std::vector<std::unique_ptr<live::SharedFrames>> shared_;
+  std::vector<std::unique_ptr<live::RawFrames>> raw_;
+};
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,35 @@
+#include "core/number_range.h"
+
+#include <cmath>
+
+namespace fanbeam::core {
+
+std::string to_string(const NumberRange& range) {
+  const bool has_low = range.low > -std::numeric_limits<double>::max();
+  const bool has_high = range.high < std::numeric_limits<double>::max();
+  if (!has_low && !has_high) return "a finite number";
+  const std::string low = number_text(range.low), high = number_text(range.high);
+  if (range.above_low) return ("above " + low).append(has_high ? ", at most " + high : "");
+  if (!has_high) return "at least " + low;
+  if (!has_low) return "at most " + high;
+  return std::string(low).append(" to ").append(high);
+}
+
+void check_range(ProblemList& problems, std::string_view field, double value,
+                 const NumberRange& range, std::string_view unit) {
+  if (range.holds(value)) return;
+  std::string expected = to_string(range);
+  if (!unit.empty()) expected.append(" ").append(unit);
+  problems.error(std::isfinite(value) ? ErrorClass::range : ErrorClass::nonfinite, {},
+                 std::string(field), number_text(value), std::move(expected));
+}
+
+void require_range(std::string_view field, double value, const NumberRange& range,
+                   std::string_view unit) {
+  if (range.holds(value)) return;
+  ProblemList problems;
+  check_range(problems, field, value, range, unit);
+  problems.throw_if_errors();
+}
+
+}  // namespace fanbeam::core

@@ -1,0 +1,33 @@
+// What a simulator's packet says of its aircraft, in SI units and radians, whatever its protocol.
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include "core/pose.h"
+
+namespace fanbeam::feeds {
+
+struct AircraftState {
+  double longitude_rad = 0.0, latitude_rad = 0.0;
+  double altitude_m = 0.0;  // from the simulator's own sea level
+  double height_above_ground_m = 0.0;
+  core::Attitude attitude;
+  glm::dvec3 v_N_mps{0.0};  // north, east, down
+  double visibility_m = 0.0;
+  double clock_s = 0.0;  // of the simulator
+};
+
+// Why a datagram is none.
+enum class PacketFault { none, length, version, format, nonfinite, range, late, jump };
+inline constexpr std::size_t kPacketFaults = 8;  // with none
+const char* name_of(PacketFault fault);
+
+// late and jump are of the packets before it (live/clock_gate.h); nonfinite: a number that is not. range: a latitude beyond 90 deg, a longitude beyond 540 deg, a
+// height beyond -20 to 1000 km, an angle over 1000 rad, a speed over 10 km/s, or latitude, longitude
+// and altitude that are all exactly 0, as before a simulator has started.
+PacketFault fault_in(const AircraftState& state);
+
+// At time 0; the height is `altitude_m`. Of a state without fault.
+core::Pose pose_of(const AircraftState& state);
+
+}  // namespace fanbeam::feeds

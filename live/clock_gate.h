@@ -1,0 +1,40 @@
+// Keeps out packets that come twice, late, or from another time, by the simulator's own clock.
+//
+// A packet at most a second ahead of the last one is taken. One that is not ahead of it is late, or
+// came twice; but a clock that stands while packets go on coming is a paused simulator, whose
+// aircraft stands too. Anything else is a jump: it waits, and counts when the next packet follows
+// from it. So no single packet, whatever its time, locks out those that follow (hard case F12), and a
+// restart is followed on its second packet. Pure.
+#pragma once
+
+#include <optional>
+
+#include "feeds/aircraft_state.h"
+
+namespace fanbeam::live {
+
+class ClockGate {
+ public:
+  // none, late or jump. Finite times; `arrived_s` rises.
+  feeds::PacketFault take(double clock_s, double arrived_s) {
+    constexpr double kStep_s = 1.0, kPaused_s = 0.02;
+    const auto follows = [](double ahead_s) { return ahead_s > 0.0 && ahead_s <= kStep_s; };
+    const double ahead_s = last_s_ ? clock_s - *last_s_ : kStep_s;
+    const bool paused = ahead_s == 0.0 && arrived_s - arrived_s_ >= kPaused_s;
+    if (!follows(ahead_s) && !paused && !(jumped_s_ && follows(clock_s - *jumped_s_))) {
+      if (ahead_s <= 0.0 && ahead_s >= -kStep_s) return feeds::PacketFault::late;
+      jumped_s_ = clock_s;
+      return feeds::PacketFault::jump;
+    }
+    last_s_ = clock_s;
+    arrived_s_ = arrived_s;
+    jumped_s_.reset();
+    return feeds::PacketFault::none;
+  }
+
+ private:
+  std::optional<double> last_s_, jumped_s_;
+  double arrived_s_ = 0.0;
+};
+
+}  // namespace fanbeam::live

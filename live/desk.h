@@ -1,0 +1,71 @@
+// What a request over HTTP is answered, without sockets: pictures, status, plan, weather, sensor.
+//
+//   GET  /                   the page
+//   GET  /frame/bscope.png   the newest picture, /frame/cscope.png; 503 before the first
+//   GET  /api/status         rate, ages, sampling, counts
+//   GET  /metrics            the same in Prometheus' text format
+//   GET  /api/plan           effects, whether they run, why
+//   GET  /api/cell?scope=bscope&frame=N&column=C&row=R
+//                            ground truth of a cell (truth.h), row 0 on top; "gone" for a frame of
+//                            more than some seconds ago
+//   GET  /api/sensor         axes of the pictures; POST sets tilt_deg, low_dB, high_dB
+//   GET  /api/weather        POST sets visibility_m (none: no fog) and rain_rate_mm_per_h
+//
+// Answers of /api are JSON (docs/live.md has the keys). A POST with anything wrong in it changes
+// nothing and is answered 422 with all problems: code, field, value, expected.
+//
+// Steering from a foreign web page: requests are for this machine by name (`host` localhost,
+// 127.0.0.1 or [::1], else 403: no name that somebody else's server resolves), `origin` is that of
+// the page, and a POST says that its body is JSON (else 415), which no form of another page can.
+#pragma once
+
+#include <string>
+
+#include "live/hub.h"
+#include "live/journal.h"
+#include "live/truth.h"
+#include "session/session.h"
+
+namespace fanbeam::live {
+
+struct Request {
+  std::string method, target;  // target: with its query
+  std::string host, origin, content_type;
+  std::string body;
+};
+
+struct Answer {
+  int status = 200;
+  std::string type = "application/json";
+  std::string body;
+};
+
+// A request that may come in at all; also asked before a WebSocket opens.
+bool is_admitted(const Request& request);
+
+class Desk {
+ public:
+  // Controls that are obeyed go into `journal` unless it is null. All must outlive it.
+  Desk(session::Session& session, const Hub& hub, Journal* journal = nullptr)
+      : session_(session), hub_(hub), journal_(journal), truth_(session, hub) {}
+
+  // Thread-safe. Never throws for what stands in the request.
+  Answer answer(const Request& request) const;
+
+ private:
+  Answer get(const std::string& path, const std::string& query) const;
+  Answer cell(const std::string& query) const;
+  Answer post(const std::string& path, const std::string& body) const;
+
+  session::Session& session_;
+  const Hub& hub_;
+  Journal* journal_;
+  Truth truth_;
+};
+
+// A frame as it goes through a WebSocket: a line of JSON with its facts (number, size of both
+// pictures, pose, times), a line feed, then the bytes of the B-scope and of the C-scope, top row
+// first.
+std::string message_of(const LiveFrame& frame);
+
+}  // namespace fanbeam::live

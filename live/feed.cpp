@@ -1,0 +1,74 @@
+#include "live/feed.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "core/median.h"
+#include "terrain/geoid.h"
+
+namespace fanbeam::live {
+namespace {
+
+constexpr std::size_t kCompared = 80;  // packets: five seconds of 16 Hz
+
+}  // namespace
+
+Feed::Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
+           const feeds::Protocol& protocol, std::size_t kept)
+    : scene_(std::move(scene)),
+      datum_(scene_->description.datum == core::VerticalDatum::scene ? core::VerticalDatum::scene
+                                                                     : datum),
+      protocol_(protocol),
+      mailbox_(kept) {}
+
+core::Pose Feed::placed(const feeds::AircraftState& state) const {
+  core::Pose pose = feeds::pose_of(state);
+  pose.position.height_m = terrain::ellipsoidal_height_m(pose.position, datum_);
+  return pose;
+}
+
+std::optional<core::Pose> Feed::pose_in(std::span<const std::uint8_t> datagram) const {
+  feeds::PacketFault fault{};
+  const auto state = protocol_.decode(datagram, fault);
+  return state ? std::optional(placed(*state)) : std::nullopt;
+}
+
+void Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrived) {
+  feeds::PacketFault fault{};
+  const auto state = protocol_.decode(datagram, fault);
+  if (state && protocol_.fine_clock)
+    fault = gate_.take(state->clock_s,
+                       std::chrono::duration<double>(arrived.time_since_epoch()).count());
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++packets_;
+    ++bad_[static_cast<std::size_t>(fault)];
+  }
+  if (fault != feeds::PacketFault::none) return;
+  const core::Pose pose = placed(*state);
+  mailbox_.put(pose, {datagram.begin(), datagram.end()}, arrived);
+  compare_heights(pose, state->height_above_ground_m);
+}
+
+void Feed::compare_heights(const core::Pose& pose, double told_m) {
+  const double ours_m =
+      scene_->world.surfaces().height_above_ground_m(scene_->frame.to_local_m(pose.position));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  offsets_m_.push_back(told_m - ours_m);
+  if (offsets_m_.size() > kCompared) offsets_m_.pop_front();
+}
+
+void Feed::tell(Status& status) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  status.packets = packets_;
+  status.bad_packets.clear();
+  for (std::size_t i = 1; i < bad_.size(); ++i)
+    if (bad_[i] > 0)
+      status.bad_packets.emplace_back(feeds::name_of(static_cast<feeds::PacketFault>(i)), bad_[i]);
+  status.height_offset_m.reset();
+  if (offsets_m_.size() == kCompared)
+    status.height_offset_m = core::median({offsets_m_.begin(), offsets_m_.end()});
+}
+
+}  // namespace fanbeam::live

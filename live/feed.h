@@ -1,0 +1,55 @@
+// A simulator's datagrams, from bytes to the newest pose, with what is odd about them. Thread-safe.
+//
+// Heights are turned into those of the ellipsoid by the datum that the user names. A datum that is
+// applied twice or never shifts the aircraft by tens of metres and looks plausible; so the height
+// above ground that the simulator tells is held against the scene's, and a median over the last
+// five seconds that is more than 3 m off is told. (Terrain may differ by that much in its own right;
+// only the user can tell.)
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <span>
+
+#include "core/geodetic.h"
+#include "feeds/protocol.h"
+#include "live/clock_gate.h"
+#include "live/hub.h"
+#include "live/mailbox.h"
+#include "scenes/scene.h"
+
+namespace fanbeam::live {
+
+class Feed {
+ public:
+  // The datum of a scene that does not know its own is that of the feed. `kept`: live/mailbox.h.
+  Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
+       const feeds::Protocol& protocol = feeds::kProtocols[0], std::size_t kept = Mailbox::kKept);
+
+  // Any bytes, from one thread.
+  void take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
+  // Its pose, above the ellipsoid; nothing for bytes that are no packet. Leaves the mailbox alone.
+  std::optional<core::Pose> pose_in(std::span<const std::uint8_t> datagram) const;
+  const Mailbox& mailbox() const { return mailbox_; }
+  // Packets, bad ones by reason, the offset of heights.
+  void tell(Status& status) const;
+
+ private:
+  core::Pose placed(const feeds::AircraftState& state) const;
+  void compare_heights(const core::Pose& pose, double told_m);
+
+  std::shared_ptr<const scenes::Scene> scene_;
+  core::VerticalDatum datum_;
+  const feeds::Protocol& protocol_;  // one of feeds::kProtocols
+  ClockGate gate_;
+  Mailbox mailbox_;
+  mutable std::mutex mutex_;
+  std::uint64_t packets_ = 0;
+  std::array<std::uint64_t, feeds::kPacketFaults> bad_{};
+  std::deque<double> offsets_m_;  // the simulator's height above ground less ours
+};
+
+}  // namespace fanbeam::live

@@ -1,0 +1,113 @@
+// Where frames and what is said of them meet: the channel puts them in, whoever shows them takes the
+// newest. Two seconds of them are kept for whoever asks about one that is shown. Thread-safe.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/image.h"
+#include "core/pose.h"
+#include "session/session.h"
+
+namespace fanbeam::live {
+
+// Of the expected picture, grey levels RMS.
+struct PictureErrors {
+  double bscope_grey = 0.0, cscope_grey = 0.0;
+};
+
+struct LiveFrame {
+  std::uint64_t number = 0;          // from 1 up
+  core::Pose pose;                   // of the frame's middle
+  session::Session::Moment under{};  // conditions
+  core::Picture8 bscope, cscope;
+  double samples = 0.0;  // as fanbeam render --rays-per-cell takes it
+  double frame_ms = 0.0;
+  double pose_age_ms = 0.0;               // between the pose's arrival and the frame's beginning
+  bool outside_volume = false;            // made by a plan of its own (session.h)
+  std::optional<PictureErrors> errors{};  // of its sampling, as far as they were known
+};
+
+struct Status {
+  std::string scene, source, caster;
+  std::uint64_t frames = 0;
+  std::uint64_t late = 0;                   // took longer than a period: ticks were left out
+  std::uint64_t refused = 0;                // poses that nothing can be rendered at
+  std::string refusal;                      // the last one's words
+  double wanted_Hz = 0.0, rate_Hz = 0.0;    // rate: of the last two seconds
+  double frame_ms = 0.0, slowest_ms = 0.0;  // the last one, the slowest of two seconds
+  double pose_age_ms = 0.0, samples = 0.0;
+  std::optional<PictureErrors> errors;  // of this sampling, once they are known (quality.h)
+  bool waiting = true;                  // no pose yet
+  bool stale = false;  // the newest pose is older than a second: the picture stands
+  // Of a source that listens: packets, those of no use by reason, and the median of its height above
+  // ground less ours over the last five seconds (live/feed.h).
+  std::uint64_t packets = 0;
+  std::vector<std::pair<std::string, std::uint64_t>> bad_packets;
+  std::optional<double> height_offset_m;
+};
+
+// More than two terrains of one place differ by, as a rule.
+inline bool is_lasting_offset(const Status& status) {
+  constexpr double kMost_m = 3.0;
+  return status.height_offset_m && std::abs(*status.height_offset_m) > kMost_m;
+}
+
+class Hub {
+ public:
+  void publish(std::shared_ptr<const LiveFrame> frame) {
+    std::function<void()> call;
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      frames_.push_back(std::move(frame));
+      if (frames_.size() > kKept) frames_.pop_front();
+      call = on_frame_;
+    }
+    if (call) call();
+  }
+  // Nothing before the first frame.
+  std::shared_ptr<const LiveFrame> newest() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return frames_.empty() ? nullptr : frames_.back();
+  }
+  // Nothing where it is not kept.
+  std::shared_ptr<const LiveFrame> frame(std::uint64_t number) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& frame : frames_)
+      if (frame->number == number) return frame;
+    return nullptr;
+  }
+
+  void tell(const Status& status) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    status_ = status;
+  }
+  Status status() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return status_;
+  }
+
+  // Called after each frame by the thread that made it: must return at once and not throw.
+  void on_frame(std::function<void()> call) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    on_frame_ = std::move(call);
+  }
+
+ private:
+  static constexpr std::size_t kKept = 32;
+
+  mutable std::mutex mutex_;
+  std::deque<std::shared_ptr<const LiveFrame>> frames_;
+  Status status_;
+  std::function<void()> on_frame_;
+};
+
+}  // namespace fanbeam::live

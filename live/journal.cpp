@@ -1,0 +1,64 @@
+#include "live/journal.h"
+
+#include <fmt/core.h>
+
+#include <cerrno>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "core/errors.h"
+
+namespace fanbeam::live {
+namespace {
+
+using nlohmann::json;
+
+std::string hex(std::span<const std::uint8_t> bytes) {
+  constexpr char kDigits[] = "0123456789abcdef";
+  std::string text;
+  text.reserve(2 * bytes.size());
+  for (const std::uint8_t byte : bytes) {
+    text += kDigits[byte >> 4U];
+    text += kDigits[byte & 15U];
+  }
+  return text;
+}
+
+}  // namespace
+
+Journal::Journal(const std::filesystem::path& file, const FlownBy& flown_by)
+    : file_(file), stream_(file, std::ios::binary | std::ios::trunc) {
+  write(json{{"fanbeam_live", 1},
+             {"scene", flown_by.scene},
+             {"from", flown_by.from},
+             {"datum", flown_by.datum},
+             {"rate_Hz", flown_by.rate_Hz},
+             {"lockstep", flown_by.lockstep}}
+            .dump());
+}
+
+void Journal::packet(double arrived_s, std::span<const std::uint8_t> bytes) {
+  write(json{{"packet", hex(bytes)}, {"s", arrived_s}}.dump());
+}
+
+void Journal::frame(const Tick& tick, double samples) {
+  write(
+      json{{"frame", tick.number}, {"now_s", tick.now_s}, {"at_s", tick.at_s}, {"samples", samples}}
+          .dump());
+}
+
+void Journal::control(const std::string& path, const std::string& body) {
+  write(
+      json{{"control", path}, {"body", body}}.dump(-1, ' ', true, json::error_handler_t::replace));
+}
+
+// Each line at once, so that a channel that is killed leaves all that it did.
+void Journal::write(const std::string& line) {
+  const std::lock_guard<std::mutex> lock(writing_);
+  stream_ << line << '\n' << std::flush;
+  if (!stream_)
+    core::throw_input_error(core::ErrorClass::io, core::Place{file_.string()}, "--record",
+                            std::strerror(errno), "a file that can be written, with room");
+}
+
+}  // namespace fanbeam::live

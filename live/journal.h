@@ -1,0 +1,53 @@
+// A record of a live channel, from which every picture can be made again: packets as the channel took
+// them, the tick and sampling of each frame, controls between the frames that they came between.
+//
+// JSON, a line each: first what was flown, then {"packet": HEX, "s": ARRIVAL}, {"frame": NUMBER,
+// "now_s", "at_s", "samples"} and {"control": PATH, "body": TEXT}, in their order. Times are seconds
+// since the channel began; samples of 0 are the scene's own. live/recording.h reads it. Thread-safe.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <span>
+#include <string>
+
+namespace fanbeam::live {
+
+// What else the same pictures need: the options that were given beside these have to be the same.
+struct FlownBy {
+  std::string scene, from, datum;
+  double rate_Hz = 16.0;
+  bool lockstep = false;
+};
+
+// When a frame was asked for, and for when.
+struct Tick {
+  std::uint64_t number = 0;  // of the frame, from 1 up
+  double now_s = 0.0, at_s = 0.0;
+};
+
+class Journal {
+ public:
+  // Throws InputError E-IO, and does so when a line cannot be written: what stands there is whole up
+  // to the line before.
+  Journal(const std::filesystem::path& file, const FlownBy& flown_by);
+
+  void packet(double arrived_s, std::span<const std::uint8_t> bytes);
+  void frame(const Tick& tick, double samples);
+  void control(const std::string& path, const std::string& body);
+
+  // While it is held no control comes into force: whoever sets one, or takes the conditions of a
+  // frame, holds it until that is written.
+  std::unique_lock<std::mutex> quiet() { return std::unique_lock(conditions_); }
+
+ private:
+  void write(const std::string& line);
+
+  std::filesystem::path file_;
+  std::mutex conditions_, writing_;
+  std::ofstream stream_;
+};
+
+}  // namespace fanbeam::live

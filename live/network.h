@@ -1,0 +1,49 @@
+// What listens: the page with its WebSocket, and a simulator's datagrams. One thread of its own.
+//
+// Bounded: 32 connections, 8 KiB of header, 64 KiB of body, 30 s for a request, 64 KiB of a message
+// from a browser (all are thrown away). A client that reads slowly misses frames: one is under way
+// to it at a time, and the next is then the newest. Addresses beyond loopback are refused: without a
+// token, which is not there yet, whoever reaches the port could steer.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "live/desk.h"
+
+namespace fanbeam::live {
+
+struct Endpoint {
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 0;  // 0: any that is free
+};
+
+// "8416" or "127.0.0.1:8416". Throws InputError: E-PARSE, E-RANGE for a port, E-UNSUPPORTED for an
+// address beyond loopback. `field` is the option's name.
+Endpoint parse_endpoint(const std::string& text, const std::string& field);
+
+class Network {
+ public:
+  // All must outlive it.
+  Network(const Desk& desk, Hub& hub);
+  ~Network();  // closes every connection
+  Network(const Network&) = delete;
+  Network& operator=(const Network&) = delete;
+
+  // Both before start(). Throw InputError E-IO when the port is taken. Give the port.
+  std::uint16_t serve(const Endpoint& endpoint);
+  using Datagram = std::function<void(std::span<const std::uint8_t>)>;  // called on the thread
+  std::uint16_t receive(const Endpoint& endpoint, Datagram datagram);
+
+  void start();
+  int clients() const;  // that watch frames
+
+ private:
+  struct Inside;
+  std::unique_ptr<Inside> inside_;
+};
+
+}  // namespace fanbeam::live

@@ -1,0 +1,48 @@
+// How finely a live frame may be sampled: the controller that keeps a rate.
+//
+// A ladder of samplings, coarsest first. One frame over its share of the period and the next is made
+// a step coarser; when the slowest of the last two seconds would still fit finer ones (time taken
+// to grow as the samples do), the next is made as fine as fits. A step that was left because it was too
+// slow is not tried again for ten seconds, so that the picture does not flicker between two.
+// Pure: time comes in as an argument.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+namespace fanbeam::live {
+
+class Pace {
+ public:
+  // Of the period, what a frame may take: the rest is for whoever shares the machine.
+  static constexpr double kShare = 0.8;
+  static constexpr double kLook_s = 2.0, kPatience_s = 10.0;
+
+  // `ladder` rises and is not empty.
+  Pace(std::vector<double> ladder, double period_s)
+      : ladder_(std::move(ladder)), period_s_(period_s) {}
+
+  double samples() const { return ladder_[step_]; }
+  // Sampling of the next frame, after one that ended at `now_s` and took `frame_s`.
+  double after(double now_s, double frame_s);
+
+ private:
+  struct Taken {
+    double at_s = 0.0, frame_s = 0.0;
+  };
+
+  void go_to(std::size_t step) {
+    step_ = step;
+    taken_.clear();
+  }
+
+  std::vector<double> ladder_;
+  double period_s_;
+  std::size_t step_ = 0;
+  std::size_t refused_step_ = 0;  // until then
+  double refused_until_s_ = 0.0;
+  std::deque<Taken> taken_;  // with this step
+};
+
+}  // namespace fanbeam::live

@@ -1,0 +1,125 @@
+#include "live/recording.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <fstream>
+#include <optional>
+
+#include "core/errors.h"
+#include "core/json_node.h"
+
+namespace fanbeam::live {
+namespace {
+
+constexpr std::uint64_t kMost_bytes = 2ULL << 30U;
+constexpr std::size_t kMostProblems = 20, kMostPacket_bytes = 2000;
+constexpr core::JsonLimits kLineLimits{4, 16};
+constexpr core::NumberRange kSeconds{0.0, 1e9};
+
+std::optional<std::vector<std::uint8_t>> bytes_of(const std::string& hex) {
+  const auto digit = [](char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
+  };
+  if (hex.size() % 2 != 0 || hex.size() > 2 * kMostPacket_bytes) return std::nullopt;
+  std::vector<std::uint8_t> bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2) {
+    const int high = digit(hex[i]), low = digit(hex[i + 1]);
+    if (high < 0 || low < 0) return std::nullopt;
+    bytes.push_back(static_cast<std::uint8_t>(16 * high + low));
+  }
+  return bytes;
+}
+
+// Lines of a recording, one after the other, into `recording`.
+class Lines {
+ public:
+  Lines(Recording& recording, core::ProblemList& problems)
+      : recording_(recording), problems_(problems) {}
+
+  void take(const std::string& text, const std::string& name) {
+    const auto file = core::parse_json(text, name, kLineLimits, problems_);
+    if (!file) return;
+    const core::JsonNode line(*file, problems_);
+    if (first_)
+      head(line);
+    else if (line.member("packet").present())
+      packet(line);
+    else if (line.member("frame").present())
+      frame(line);
+    else
+      control(line);
+    first_ = false;
+  }
+
+ private:
+  void head(const core::JsonNode& line) {
+    if (line.member("fanbeam_live").whole(1, 1) != 1)
+      problems_.error(core::ErrorClass::ref, line.place(), "/fanbeam_live", "missing",
+                      "1, as in what fanbeam live --record writes");
+    FlownBy& flown_by = recording_.flown_by;
+    flown_by.scene = line.required("scene").text().value_or("");
+    flown_by.from = line.required("from").text().value_or("");
+    flown_by.datum = line.required("datum").text().value_or("");
+    flown_by.rate_Hz = line.required("rate_Hz").number({0.1, 1000.0}).value_or(16.0);
+    flown_by.lockstep = line.required("lockstep").flag().value_or(false);
+  }
+
+  void packet(const core::JsonNode& line) {
+    const core::JsonNode text = line.member("packet");
+    const auto bytes = bytes_of(text.text().value_or("?"));
+    if (!bytes) text.error(core::ErrorClass::parse, "bytes in hexadecimal, at most 2000");
+    const double arrived_s = line.required("s").number({-1e9, 1e9}).value_or(0.0);
+    recording_.events.emplace_back(
+        RecordedPacket{arrived_s, bytes.value_or(std::vector<std::uint8_t>{})});
+  }
+
+  void frame(const core::JsonNode& line) {
+    RecordedFrame frame;
+    frame.tick.number =
+        static_cast<std::uint64_t>(line.member("frame").whole(1, 2'000'000'000).value_or(1));
+    frame.tick.now_s = line.required("now_s").number(kSeconds).value_or(0.0);
+    frame.tick.at_s = line.required("at_s").number(kSeconds).value_or(0.0);
+    frame.samples = line.required("samples").number({0.0, 100000.0}).value_or(0.0);
+    recording_.events.emplace_back(frame);
+  }
+
+  void control(const core::JsonNode& line) {
+    recording_.events.emplace_back(RecordedControl{line.required("control").text().value_or(""),
+                                                   line.required("body").text().value_or("")});
+  }
+
+  Recording& recording_;
+  core::ProblemList& problems_;
+  bool first_ = true;
+};
+
+}  // namespace
+
+Recording read_recording(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::error_code error;
+  const std::uint64_t size = std::filesystem::file_size(file, error);
+  if (!stream || error)
+    core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "--replay",
+                            error ? error.message() : "cannot be read", "a file that can be read");
+  if (size > kMost_bytes)
+    core::throw_input_error(core::ErrorClass::limit, core::Place{file.string()}, "--replay",
+                            fmt::format("{} bytes", size), "at most 2 GiB");
+  Recording recording;
+  core::ProblemList problems;
+  Lines lines(recording, problems);
+  std::string text;
+  for (int number = 1; std::getline(stream, text) && !stream.eof(); ++number) {
+    lines.take(text, fmt::format("{}:{}", file.string(), number));
+    if (problems.all().size() >= kMostProblems) break;
+  }
+  if (recording.flown_by.from.empty() && problems.all().empty())
+    problems.error(core::ErrorClass::parse, {file.string()}, "", "empty",
+                   "what fanbeam live --record writes");
+  problems.throw_if_errors();
+  return recording;
+}
+
+}  // namespace fanbeam::live

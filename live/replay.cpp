@@ -1,0 +1,102 @@
+#include "live/replay.h"
+
+#include <algorithm>
+#include <thread>
+
+#include "live/frame_maker.h"
+#include "live/predictor.h"
+
+namespace fanbeam::live {
+namespace {
+
+class Replay {
+ public:
+  Replay(session::Session& session, const Recording& recording, const Feed* feed,
+         const Flight* flight, const Desk& desk, const ReplaySettings& settings, Hub& hub,
+         const Told& told, const core::StopToken& stop)
+      : recording_(recording),
+        feed_(feed),
+        flight_(flight),
+        desk_(desk),
+        settings_(settings),
+        hub_(hub),
+        told_(told),
+        stop_(stop),
+        predictor_(session.scene()->frame),
+        maker_(session, hub, recording.flown_by.rate_Hz, settings.begin, nullptr) {}
+
+  void run() {
+    for (const auto& event : recording_.events) {
+      if (stop_.reason() != 0) return;
+      std::visit([&](const auto& what) { take(what); }, event);
+    }
+  }
+
+ private:
+  void take(const RecordedPacket& packet) {
+    if (feed_ == nullptr) return;
+    const auto pose = feed_->pose_in(packet.bytes);
+    if (!pose) return;
+    predictor_.take(*pose, packet.arrived_s);
+    newest_ = {*pose, packet.arrived_s};
+  }
+
+  void take(const RecordedControl& control) {
+    desk_.answer({"POST", control.path, "localhost", {}, "application/json", control.body});
+  }
+
+  void take(const RecordedFrame& frame) {
+    if (!settings_.lockstep && !in_time(frame.tick)) return;
+    maker_.sample(frame.samples);
+    if (const auto seen = sighting(frame.tick)) maker_.make(frame.tick, *seen, stop_);
+    told_(maker_.status());
+    hub_.tell(maker_.status());
+  }
+
+  // Waits until the frame is due. One that is due for longer than a period is left out.
+  bool in_time(const Tick& tick) {
+    constexpr std::chrono::milliseconds kNap(20);
+    if (!first_s_) first_s_ = tick.now_s;
+    const double due_s = (tick.now_s - *first_s_) / settings_.speed;
+    const Clock::time_point due = settings_.begin + std::chrono::duration_cast<Clock::duration>(
+                                                        std::chrono::duration<double>(due_s));
+    while (stop_.reason() == 0 && Clock::now() < due)
+      std::this_thread::sleep_until(std::min(due, Clock::now() + kNap));
+    const bool in_time = maker_.now_s() <= due_s + 1.0 / maker_.status().wanted_Hz;
+    if (!in_time) ++maker_.status().late;
+    return in_time && stop_.reason() == 0;
+  }
+
+  std::optional<Sighting> sighting(const Tick& tick) const {
+    if (feed_ == nullptr) return Sighting{(*flight_)(std::max(0.0, tick.at_s)), 0.0};
+    if (recording_.flown_by.lockstep)
+      return newest_ ? std::optional(Sighting{newest_->first, tick.now_s - newest_->second})
+                     : std::nullopt;
+    const auto pose = predictor_.at(tick.at_s);
+    if (!pose) return std::nullopt;
+    return Sighting{*pose, std::max(0.0, tick.now_s - *predictor_.newest_s())};
+  }
+
+  const Recording& recording_;
+  const Feed* feed_;
+  const Flight* flight_;
+  const Desk& desk_;
+  ReplaySettings settings_;
+  Hub& hub_;
+  const Told& told_;
+  const core::StopToken& stop_;
+  Predictor predictor_;
+  FrameMaker maker_;
+  std::optional<std::pair<core::Pose, double>> newest_;  // and when it arrived
+  std::optional<double> first_s_;
+};
+
+}  // namespace
+
+void run_replay(session::Session& session, const Recording& recording, const Feed* feed,
+                const Flight* flight, const Desk& desk, const ReplaySettings& settings, Hub& hub,
+                const Told& told, const core::StopToken& stop) {
+  Replay(session, recording, feed, flight, desk, settings, hub, told, stop).run();
+}
+
+}  // namespace fanbeam::live

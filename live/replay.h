@@ -1,0 +1,25 @@
+// A recorded channel flown again: the same packets, ticks, samplings and controls, and so the same
+// bytes, as long as scene, options and program are the same.
+#pragma once
+
+#include "live/channel.h"
+#include "live/desk.h"
+#include "live/feed.h"
+#include "live/recording.h"
+
+namespace fanbeam::live {
+
+struct ReplaySettings {
+  double speed = 1.0;  // times that of the recording
+  bool lockstep =
+      false;  // every frame, as fast as they are made; else frames that are late are left out
+  Clock::time_point begin = Clock::now();
+};
+
+// `feed` decodes the packets of a recording that has some (its mailbox is not used), `flight` is that
+// of one without; the other may be null. Controls go through `desk`. Ends with the recording.
+void run_replay(session::Session& session, const Recording& recording, const Feed* feed,
+                const Flight* flight, const Desk& desk, const ReplaySettings& settings, Hub& hub,
+                const Told& told, const core::StopToken& stop);
+
+}  // namespace fanbeam::live

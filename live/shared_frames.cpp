@@ -1,0 +1,153 @@
+#include "live/shared_frames.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "core/errors.h"
+
+namespace fanbeam::live {
+namespace {
+
+using Layout = SharedLayout;
+
+static_assert(std::atomic_ref<std::uint64_t>::is_always_lock_free);
+
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  core::throw_input_error(core::ErrorClass::io, core::Place{"/dev/shm/" + name}, "", why,
+                          "shared memory of this process alone");
+}
+
+void check_name(const std::string& name) {
+  constexpr const char* kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789._-";
+  if (name.empty() || name.size() > 64 || name[0] == '.' ||
+      name.find_first_not_of(kPlain) != std::string::npos)
+    core::throw_input_error(core::ErrorClass::parse, "--to shm", "\"" + name + "\"",
+                            "a name of letters, digits, '.', '-' and '_'");
+}
+
+int opened(const std::string& name, int more) {
+  const int file = shm_open(("/" + name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | more, 0600);
+  if (file < 0) refuse(name, std::generic_category().message(errno));
+  if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
+  close(file);
+  refuse(name, "in use by another process");
+}
+
+// Empty and locked. A lock dies with its process, so what can be locked belongs to nobody; whoever
+// still has that mapped keeps it.
+int claimed(const std::string& name) {
+  const int file = opened(name, 0);
+  struct stat facts {};
+  if (fstat(file, &facts) == 0 && facts.st_size == 0) return file;
+  shm_unlink(("/" + name).c_str());
+  close(file);
+  return opened(name, O_EXCL);
+}
+
+template <class T>
+void put(std::uint8_t* at, T value) {
+  std::memcpy(at, &value, sizeof value);
+}
+
+std::atomic_ref<std::uint64_t> counter(std::uint8_t* at) {
+  return std::atomic_ref<std::uint64_t>(*reinterpret_cast<std::uint64_t*>(at));
+}
+
+std::size_t pixels(const sensors::Sensor& sensor, int rows) {
+  return static_cast<std::size_t>(sensor.scan.columns) * static_cast<std::size_t>(rows);
+}
+
+void write_header(std::uint8_t* memory, const sensors::Sensor& sensor, double rate_Hz,
+                  std::size_t slot_bytes) {
+  const auto whole = [&](std::size_t at, std::size_t value) {
+    put(memory + at, static_cast<std::uint32_t>(value));
+  };
+  whole(Layout::kVersionAt, Layout::kVersion);
+  whole(Layout::kHeaderBytesAt, Layout::kHeader_bytes);
+  whole(Layout::kSlotsAt, Layout::kSlots);
+  whole(Layout::kSlotBytesAt, slot_bytes);
+  const auto columns = static_cast<std::size_t>(sensor.scan.columns);
+  whole(Layout::kBScopeAt, columns);
+  whole(Layout::kBScopeAt + 4, static_cast<std::size_t>(sensor.range.cells));
+  whole(Layout::kCScopeAt, columns);
+  whole(Layout::kCScopeAt + 4, static_cast<std::size_t>(sensor.display.cscope_rows));
+  std::size_t at = Layout::kAxesAt;
+  for (const double value :
+       {sensor.range.minimum_m, sensor.range.cell_m, sensor.scan.field_of_view_rad,
+        sensor.display.cscope_top_rad, sensor.display.cscope_span_rad, sensor.display.low_dB,
+        sensor.display.high_dB, rate_Hz}) {
+    put(memory + at, value);
+    at += sizeof value;
+  }
+  // Last: who sees it sees the rest.
+  std::atomic_thread_fence(std::memory_order_release);
+  std::memcpy(memory, Layout::kMagic, sizeof Layout::kMagic);
+}
+
+}  // namespace
+
+SharedFrames::SharedFrames(const std::string& name, const sensors::Sensor& sensor, double rate_Hz)
+    : name_(name) {
+  check_name(name);
+  const std::size_t bytes = Layout::kPictures + pixels(sensor, sensor.range.cells) +
+                            pixels(sensor, sensor.display.cscope_rows);
+  slot_bytes_ = (bytes + 63) / 64 * 64;
+  bytes_ = Layout::kHeader_bytes + Layout::kSlots * slot_bytes_;
+  file_ = claimed(name);
+  if (const int fault = posix_fallocate(file_, 0, static_cast<off_t>(bytes_)); fault != 0)
+    give_up(std::generic_category().message(fault));
+  void* const memory = mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED, file_, 0);
+  if (memory == MAP_FAILED) give_up(std::generic_category().message(errno));
+  memory_ = static_cast<std::uint8_t*>(memory);
+  write_header(memory_, sensor, rate_Hz, slot_bytes_);
+}
+
+SharedFrames::~SharedFrames() {
+  shm_unlink(("/" + name_).c_str());
+  munmap(memory_, bytes_);
+  close(file_);
+}
+
+void SharedFrames::give_up(const std::string& why) {
+  shm_unlink(("/" + name_).c_str());
+  close(file_);
+  refuse(name_, why);
+}
+
+void SharedFrames::write(const LiveFrame& frame) {
+  if (Layout::kPictures + frame.bscope.pixels.size() + frame.cscope.pixels.size() > slot_bytes_)
+    throw core::InternalError("a frame of another size than the sensor's");
+  std::uint8_t* const slot =
+      memory_ + Layout::kHeader_bytes + frame.number % Layout::kSlots * slot_bytes_;
+  counter(slot).store(2 * frame.number - 1, std::memory_order_relaxed);
+  std::atomic_thread_fence(std::memory_order_release);
+  put(slot + 8, frame.number);
+  const core::Attitude attitude = core::attitude_from(frame.pose.q_NB);
+  std::size_t at = 16;
+  for (const double value :
+       {frame.pose.time_s, frame.pose.position.latitude_rad, frame.pose.position.longitude_rad,
+        frame.pose.position.height_m, attitude.roll_rad, attitude.pitch_rad, attitude.heading_rad,
+        1e-3 * frame.frame_ms, 1e-3 * frame.pose_age_ms, frame.samples,
+        frame.outside_volume ? 1.0 : 0.0}) {
+    put(slot + at, value);
+    at += sizeof value;
+  }
+  std::uint8_t* const picture = slot + Layout::kPictures;
+  std::copy(frame.cscope.pixels.begin(), frame.cscope.pixels.end(),
+            std::copy(frame.bscope.pixels.begin(), frame.bscope.pixels.end(), picture));
+  counter(slot).store(2 * frame.number, std::memory_order_release);
+  newest_ = frame.number;
+  counter(memory_ + Layout::kNewestAt).store(newest_, std::memory_order_release);
+}
+
+}  // namespace fanbeam::live

@@ -1,0 +1,78 @@
+#include "live/truth.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/errors.h"
+
+namespace fanbeam::live {
+namespace {
+
+constexpr std::size_t kKeptFrames = 4;
+
+std::string object_name(const renderer::World& world, std::uint32_t id) {
+  const std::vector<std::string>& names = world.geometry->object_names;
+  if (id < names.size()) return names[id];
+  // Point targets follow the objects.
+  const std::size_t target = id - names.size();
+  return target < world.targets.size() ? world.targets[target].name : std::string();
+}
+
+void check_cell(int column, int row, int columns, int rows) {
+  core::ProblemList problems;
+  core::check_range(problems, "column", column, {0.0, columns - 1.0});
+  core::check_range(problems, "row", row, {0.0, rows - 1.0});
+  problems.throw_if_errors();
+}
+
+}  // namespace
+
+std::shared_ptr<const Truth::Known> Truth::known(std::uint64_t frame) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                  [&](const auto& one) { return one->frame == frame; });
+  if (found != kept_.end()) return *found;
+  const std::shared_ptr<const LiveFrame> shown = hub_.frame(frame);
+  if (!shown || !shown->under) return nullptr;
+  auto known = std::make_shared<Known>();
+  known->frame = frame;
+  known->scene = session_.scene(shown->under);
+  const bool elevations = known->scene->description.sensor.display.cscope_mode ==
+                          sensors::Display::CScopeMode::true_elevation;
+  renderer::Frame made = session_.render(
+      shown->under, shown->pose, frame,
+      {.bscope = false, .cscope = false, .layers = true, .cscope_layers = elevations});
+  known->layers = std::move(*made.layers);
+  kept_.push_back(known);
+  if (kept_.size() > kKeptFrames) kept_.pop_front();
+  return known;
+}
+
+std::optional<CellTruth> Truth::at(std::uint64_t frame, Scope scope, int column, int row) const {
+  const std::shared_ptr<const Known> known = this->known(frame);
+  if (!known) return std::nullopt;
+  const sensors::Sensor& sensor = known->scene->description.sensor;
+  const bool bscope = scope == Scope::bscope;
+  const int rows = bscope ? sensor.range.cells : sensor.display.cscope_rows;
+  check_cell(column, row, sensor.scan.columns, rows);
+  const renderer::LayerSet& set = bscope ? known->layers.bscope : known->layers.cscope;
+  if (set.visibility.empty()) return std::nullopt;
+  // Layers begin with the nearest range cell, pictures with the farthest.
+  const int from_first = bscope ? rows - 1 - row : row;
+  const auto i =
+      static_cast<std::size_t>(from_first) * static_cast<std::size_t>(sensor.scan.columns) +
+      static_cast<std::size_t>(column);
+  const renderer::World& world = known->scene->world;
+  const std::vector<std::string>& materials = world.geometry->material_names;
+  CellTruth cell;
+  cell.visibility = static_cast<double>(set.visibility[i]);
+  cell.grazing_rad = static_cast<double>(set.grazing_rad[i]);
+  cell.nrcs = static_cast<double>(set.nrcs[i]);
+  cell.double_bounce = static_cast<double>(set.double_bounce[i]);
+  if (set.material[i] < materials.size()) cell.material = materials[set.material[i]];
+  cell.seen = set.material[i] != renderer::kNoMaterial || set.object[i] != terrain::kTerrainObject;
+  if (cell.seen) cell.object = object_name(world, set.object[i]);
+  return cell;
+}
+
+}  // namespace fanbeam::live

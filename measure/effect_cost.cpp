@@ -1,0 +1,123 @@
+#include "measure/effect_cost.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+
+#include "core/effect_plan.h"
+#include "core/turns.h"
+
+namespace fanbeam::measure {
+namespace {
+
+using renderer::Effects;
+using renderer::FrameRenderer;
+
+constexpr std::uint64_t kSeed = 0;
+const renderer::Products kPictures{true, true};
+
+// A switch of the renderer, whatever the world was built for; nullptr for what is built in.
+bool* switch_of(core::EffectId effect, Effects& effects, const renderer::World& world) {
+  if (effect == core::EffectId::thermal_noise) return &effects.thermal_noise;
+  if (effect == core::EffectId::speckle) return &effects.speckle;
+  if (effect == core::EffectId::swerling) return &effects.swerling;
+  if (effect == core::EffectId::double_bounce) return &effects.double_bounce;
+  if (effect == core::EffectId::multipath) return &effects.multipath;
+  if (effect == core::EffectId::range_response) return &effects.range_response;
+  if (effect == core::EffectId::rain_echo && world.volume_echo) return &effects.rain_echo;
+  return nullptr;
+}
+
+double render_ms(const FrameRenderer& renderer, const renderer::FramePose& pose) {
+  const auto begin = std::chrono::steady_clock::now();
+  const renderer::Frame frame = renderer.render(pose);
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+      .count();
+}
+
+EffectCost difference(const FrameRenderer& with, const FrameRenderer& without,
+                      const scenes::Scene& scene, const CostRun& run) {
+  EffectCost cost;
+  double variance = 0.0;
+  for (const int frame : run.frames) {
+    const renderer::FramePose pose = scene.frame_pose(frame);
+    for (int warm_up = 0; warm_up < 2; ++warm_up) {
+      render_ms(with, pose);
+      render_ms(without, pose);
+    }
+    std::vector<double> differences_ms;
+    for (int i = 0; i < run.repetitions; ++i) {
+      const bool with_first = i % 2 == 0;
+      const double first_ms = render_ms(with_first ? with : without, pose);
+      const double second_ms = render_ms(with_first ? without : with, pose);
+      differences_ms.push_back(with_first ? first_ms - second_ms : second_ms - first_ms);
+    }
+    const core::MedianTime median = core::median_of(std::move(differences_ms));
+    cost.ms += median.ms;
+    variance += median.error_ms * median.error_ms;
+  }
+  const auto frames = static_cast<double>(run.frames.size());
+  cost.ms /= frames;
+  cost.error_ms = std::sqrt(variance) / frames;
+  return cost;
+}
+
+EffectCost cost_of(const core::EffectDecision& decision, const scenes::Scene& scene,
+                   const CostRun& run) {
+  const Effects planned = renderer::effects_of(scene.plan, kSeed);
+  const FrameRenderer as_planned(scene.world, run.sampling, kPictures, planned);
+  Effects turned = planned;
+  std::unique_ptr<scenes::Scene> rebuilt;
+  if (bool* flag = switch_of(decision.effect, turned, scene.world)) {
+    *flag = !decision.on;
+  } else {
+    core::ProblemList known;
+    rebuilt =
+        scenes::under_conditions(scene, {.wishes = all_but(scene.plan, decision.effect)}, known);
+    turned = renderer::effects_of(rebuilt->plan, kSeed);
+  }
+  const FrameRenderer other(rebuilt ? rebuilt->world : scene.world, run.sampling, kPictures,
+                            turned);
+  return decision.on ? difference(as_planned, other, scene, run)
+                     : difference(other, as_planned, scene, run);
+}
+
+}  // namespace
+
+renderer::EffectWishes all_but(const core::EffectPlan& plan, core::EffectId flipped) {
+  renderer::EffectWishes wishes;
+  wishes.base = renderer::EffectWishes::Base::none;
+  for (const core::EffectDecision& decision : plan.decisions)
+    if (decision.on != (decision.effect == flipped)) wishes.forced_on.insert(decision.effect);
+  return wishes;
+}
+
+std::vector<std::optional<EffectCost>> effect_costs(const scenes::Scene& scene, const CostRun& run,
+                                                    const std::function<void(int)>& after_each) {
+  std::vector<std::optional<EffectCost>> costs;
+  for (const core::EffectDecision& decision : scene.plan.decisions) {
+    const core::EffectPlan turned =
+        renderer::plan(scene.facts, scene.accuracy_grey, all_but(scene.plan, decision.effect));
+    const bool possible = turned.runs(decision.effect) != decision.on;
+    costs.push_back(possible ? std::optional(cost_of(decision, scene, run)) : std::nullopt);
+    after_each(static_cast<int>(costs.size()));
+  }
+  return costs;
+}
+
+double frame_ms(const scenes::Scene& scene, const CostRun& run) {
+  const FrameRenderer renderer(scene.world, run.sampling, kPictures,
+                               renderer::effects_of(scene.plan, kSeed));
+  std::vector<double> times_ms;
+  for (const int frame : run.frames) {
+    const renderer::FramePose pose = scene.frame_pose(frame);
+    for (int i = -2; i < run.repetitions; ++i) {
+      const double time_ms = render_ms(renderer, pose);
+      if (i >= 0) times_ms.push_back(time_ms);
+    }
+  }
+  return core::median_of(std::move(times_ms)).ms;
+}
+
+}  // namespace fanbeam::measure

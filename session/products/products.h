@@ -1,0 +1,37 @@
+// What frames of a sequence can leave on disk.
+#pragma once
+
+#include <array>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "renderer/frame_renderer.h"
+
+namespace fanbeam::session {
+
+struct Product {
+  std::string_view name, what;
+  std::string_view files;  // below the output folder, of frame 0
+};
+inline constexpr std::array<Product, 13> kProducts = {
+    {{"bscope", "range over azimuth, PNG", "bscope/00000.png"},
+     {"cscope", "elevation over azimuth, PNG", "cscope/00000.png"},
+     {"pair", "both side by side", "pair/00000.png"},
+     {"figure", "both with scales and legend", "figure/00000.png"},
+     {"ppi", "plan view, track up", "ppi/00000.png"},
+     {"ppi_north", "plan view, north up", "ppi_north/00000.png"},
+     {"ppi_figure", "ppi with scales and legend", "ppi_figure/00000.png"},
+     {"power", "EXR, watts, noise included", "power/00000.exr"},
+     {"layers", "EXR, ground truth by B-scope cell", "layers/00000.exr"},
+     {"cscope_layers", "EXR, the same by C-scope cell", "cscope_layers/00000.exr"},
+     {"detections", "mask and CSV", "detections/00000.png and .csv"},
+     {"obstacles", "CSV, heights from shadows", "obstacles/00000.csv"},
+     {"preview", "video", "preview.mp4, .gif or .apng"}}};
+
+using ProductSet = std::set<std::string>;  // names
+
+// What a frame has to hold for them.
+renderer::Products wanted_of(const ProductSet& products);
+
+}  // namespace fanbeam::session

@@ -1,0 +1,128 @@
+#include "session/records/frame_metadata.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/units.h"
+#include "core/effect_plan.h"
+#include "session/products/frame_table.h"
+#include "session/records/output_folder.h"
+#include "session/version.h"
+
+namespace fanbeam::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string cscope_text(sensors::Display::CScopeMode mode) {
+  using Mode = sensors::Display::CScopeMode;
+  if (mode == Mode::true_elevation)
+    return "true_elevation: ground truth, a fan beam cannot measure elevation";
+  if (mode == Mode::flat_earth) return "flat_earth: elevation from range and height above ground";
+  return "shadow: flat_earth with obstacles raised to heights estimated from their shadows";
+}
+
+// As frame_metadata writes it.
+std::optional<renderer::ErrorEstimate> error_of(const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  renderer::ErrorEstimate error;
+  char missed[8] = "";
+  if (std::sscanf(text.c_str(), "%lf cscope %lf levels %d %6s", &error.rms_grey,
+                  &error.cscope_rms_grey, &error.levels, missed) < 3)
+    return std::nullopt;
+  error.reached = missed[0] == '\0';
+  return error;
+}
+
+// Mean noise in the picture's watts, drawn or not.
+double noise_W(const scenes::Scene& scene, const FrameRecord& record) {
+  const bool noisy = scene.plan.runs(core::EffectId::thermal_noise) &&
+                     !record.left_out.contains(core::EffectId::thermal_noise);
+  return noisy ? scene.description.sensor.noise_power_W() : 0.0;
+}
+
+std::string value_of(const core::Metadata& metadata, const std::string& name) {
+  for (const auto& [key, value] : metadata)
+    if (key == name) return value;
+  return "";
+}
+
+}  // namespace
+
+core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampling& sampling,
+                              const FrameRecord& record, const std::string& fingerprint) {
+  const sensors::Sensor& sensor = scene.description.sensor;
+  const core::Attitude attitude = core::attitude_from(record.pose.q_NB);
+  std::string events;
+  for (const std::string& event : record.events) events += (events.empty() ? "" : " ") + event;
+  return {
+      {"Software", "fanbeam " + version_text() + " " + commit_text()},
+      {"fanbeam:scene", scene.description.name},
+      {"fanbeam:sensor", sensor.name},
+      {"fanbeam:input", fingerprint},
+      {"fanbeam:frame", std::to_string(record.index)},
+      {"fanbeam:time_s", core::number_text(record.time_s)},
+      {"fanbeam:latitude_deg", core::number_text(core::degrees(record.pose.position.latitude_rad))},
+      {"fanbeam:longitude_deg",
+       core::number_text(core::degrees(record.pose.position.longitude_rad))},
+      {"fanbeam:height_m", core::number_text(record.pose.position.height_m)},
+      {"fanbeam:roll_deg", core::number_text(core::degrees(attitude.roll_rad))},
+      {"fanbeam:pitch_deg", core::number_text(core::degrees(attitude.pitch_rad))},
+      {"fanbeam:heading_deg", core::number_text(core::degrees(attitude.heading_rad))},
+      {"fanbeam:azimuth",
+       fmt::format("{} columns, {} deg", sensor.scan.columns,
+                   core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
+      {"fanbeam:range", fmt::format("{} m + {} x {} m", core::number_text(sensor.range.minimum_m),
+                                    sensor.range.cells, core::number_text(sensor.range.cell_m))},
+      {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(sensor.display.low_dB),
+                                         core::number_text(sensor.display.high_dB))},
+      {"fanbeam:cscope", cscope_text(sensor.display.cscope_mode)},
+      {"fanbeam:realisation", realisation_of(scene.plan)},
+      {"fanbeam:noise_W", core::number_text(noise_W(scene, record))},
+      {"fanbeam:caster", caster_text(sampling)},
+      {"fanbeam:rays", std::to_string(record.rays)},
+      {"fanbeam:slices", std::to_string(record.slices)},
+      {"fanbeam:blanked", std::to_string(record.blanked)},
+      {"fanbeam:unprojected", std::to_string(record.unprojected)},
+      {"fanbeam:events", events},
+      {"fanbeam:estimated_error_grey",
+       record.error ? fmt::format("{} cscope {} levels {}{}", record.error->rms_grey,
+                                  record.error->cscope_rms_grey, record.error->levels,
+                                  record.error->reached ? "" : " missed")
+                    : ""}};
+}
+
+bool take_over(const fs::path& folder, const ProductSet& products, const std::string& fingerprint,
+               FrameRecord& record) {
+  if (products.contains("preview")) return false;
+  for (const std::string& name : frame_files(products, record.index)) {
+    const fs::path file = folder / name;
+    if (!fs::is_regular_file(file)) return false;
+    core::Metadata metadata;
+    try {
+      const bool table = file.extension() == ".csv";
+      metadata = table ? table_metadata(file) : core::read_metadata(file);
+      if (!table) core::read_image(file);  // whole?
+    } catch (const core::InputError&) {
+      return false;  // damaged: render it again
+    }
+    if (value_of(metadata, "fanbeam:input") != fingerprint) return false;
+    record.rays = std::stoull("0" + value_of(metadata, "fanbeam:rays"));
+    record.slices = std::stoull("0" + value_of(metadata, "fanbeam:slices"));
+    record.blanked = std::stoull("0" + value_of(metadata, "fanbeam:blanked"));
+    record.unprojected = std::stoull("0" + value_of(metadata, "fanbeam:unprojected"));
+    record.error = error_of(value_of(metadata, "fanbeam:estimated_error_grey"));
+    record.events.clear();
+    const std::string events = value_of(metadata, "fanbeam:events");
+    for (std::size_t from = 0; from < events.size();) {
+      const std::size_t blank = std::min(events.find(' ', from), events.size());
+      record.events.push_back(events.substr(from, blank - from));
+      from = blank + 1;
+    }
+  }
+  record.resumed = true;
+  return true;
+}
+
+}  // namespace fanbeam::session

@@ -1,0 +1,23 @@
+// What a picture says of itself, and reading it back to go on with an interrupted run.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "core/image.h"
+#include "scenes/scene.h"
+#include "session/products/frame_writer.h"
+#include "session/records/run_record.h"
+
+namespace fanbeam::session {
+
+// `fingerprint` tells the run's input from every other.
+core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampling& sampling,
+                              const FrameRecord& record, const std::string& fingerprint);
+
+// Fills `record` with what an earlier run with the same input left of this frame; false when any
+// product is missing, damaged or of another input.
+bool take_over(const std::filesystem::path& folder, const ProductSet& products,
+               const std::string& fingerprint, FrameRecord& record);
+
+}  // namespace fanbeam::session

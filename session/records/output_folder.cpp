@@ -1,0 +1,176 @@
+#include "session/records/output_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "core/errors.h"
+#include "core/files.h"
+#include "core/image.h"
+#include "core/json_size.h"
+#include "core/text.h"
+#include "session/products/frame_table.h"
+#include "session/products/frame_writer.h"
+#include "session/products/layers_product.h"
+#include "session/products/products.h"
+
+namespace fanbeam::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMostNamed = 8;
+constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 30U;
+
+bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
+
+bool is_product(const std::string& name) {
+  return std::any_of(kProducts.begin(), kProducts.end(),
+                     [&](const Product& product) { return product.name == name; });
+}
+
+// The number of the frame that "bscope/00012.png" shows.
+std::optional<int> frame_of(const fs::path& relative) {
+  if (std::distance(relative.begin(), relative.end()) != 2) return std::nullopt;
+  const std::string stem = relative.stem().string();
+  const std::string extension = relative.extension().string();
+  int index = 0;
+  const auto [end, status] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
+  const bool number = status == std::errc() && end == stem.data() + stem.size() && index >= 0 &&
+                      fmt::format("{:05}", index) == stem;
+  const bool picture = extension == ".png" || extension == ".exr" || extension == ".csv";
+  if (!number || !picture || !is_product(relative.begin()->string())) return std::nullopt;
+  return index;
+}
+
+// A film, or a file in the folder of a product: what a record may have removed, whoever wrote it.
+bool may_be_replaced(const fs::path& relative) {
+  const bool film = relative.parent_path().empty() && relative.stem() == "preview";
+  return film || (std::distance(relative.begin(), relative.end()) == 2 &&
+                  std::all_of(relative.begin(), relative.end(), [](const fs::path& part) {
+                    return core::is_safe_word(part.string());
+                  }));
+}
+
+// What a record lists, as far as it can be read: it may be anybody's file.
+std::set<std::string> listed_by(const fs::path& record) {
+  std::set<std::string> files;
+  std::error_code none;
+  if (!fs::is_regular_file(record, none)) return files;
+  const std::string text = core::read_file(record, kLargestRecord_bytes);
+  constexpr core::JsonLimits kLimits{64, 100'000'000};
+  if (core::json_excess(text, kLimits)) return files;
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  const auto add = [&](const nlohmann::json& owner) {
+    if (!owner.is_object() || !owner.contains("files") || !owner["files"].is_array()) return;
+    for (const nlohmann::json& file : owner["files"])
+      if (file.is_string()) files.insert(file.get<std::string>());
+  };
+  add(json);
+  if (json.is_object() && json.contains("frames") && json["frames"].is_array())
+    for (const nlohmann::json& frame : json["frames"]) add(frame);
+  return files;
+}
+
+// Every file below the folder that is not hidden, until `visit` answers false.
+template <typename Visit>
+void each_file(const fs::path& folder, Visit visit) {
+  std::error_code status;
+  fs::recursive_directory_iterator entry(folder, status), end;
+  for (; !status && entry != end; entry.increment(status)) {
+    if (is_hidden(entry->path())) {
+      entry.disable_recursion_pending();
+    } else if (!entry->is_directory(status) && !visit(entry->path().lexically_relative(folder))) {
+      return;
+    }
+  }
+}
+
+}  // namespace
+
+std::set<std::string> frame_files(const std::set<std::string>& products, int index) {
+  std::set<std::string> files;
+  for (const std::string& product : products) {
+    if (product == "preview") continue;
+    if (product == "detections" || product == "obstacles")
+      files.insert(frame_table_path("", product, index).string());
+    if (product != "obstacles") files.insert(frame_path("", product, index).string());
+  }
+  return files;
+}
+
+OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwrite)
+    : folder_(std::move(folder)),
+      fingerprint_(std::move(fingerprint)),
+      overwrite_(overwrite),
+      listed_(listed_by(folder_ / "run.json")) {
+  if (overwrite_) return;
+  std::vector<std::string> others;
+  const bool has_record = !listed_.empty();
+  each_file(folder_, [&](const fs::path& relative) {
+    const std::string name = relative.generic_string();
+    const bool record =
+        (name == "run.json" && has_record) || name == "timing.json" || name == kLayersFile;
+    if (!record && !listed_.contains(name) && !is_of_this_input(relative)) others.push_back(name);
+    return others.size() <= kMostNamed;
+  });
+  if (others.empty()) return;
+  const bool more = others.size() > kMostNamed;
+  if (more) others.pop_back();
+  std::sort(others.begin(), others.end());
+  core::throw_input_error(
+      core::ErrorClass::range, "--overwrite",
+      fmt::format("not given, and {} holds {}{}", folder_.string(), fmt::join(others, ", "),
+                  more ? " and more" : ""),
+      "a folder that is new, empty, or made by fanbeam alone; --overwrite replaces frames of other "
+      "renders there and leaves other files as they are");
+}
+
+bool OutputFolder::is_of_this_input(const fs::path& relative) const {
+  if (!frame_of(relative)) return false;
+  try {
+    const core::Metadata metadata = relative.extension() == ".csv"
+                                        ? table_metadata(folder_ / relative)
+                                        : core::read_metadata(folder_ / relative);
+    return std::find(metadata.begin(), metadata.end(),
+                     std::pair<std::string, std::string>("fanbeam:input", fingerprint_)) !=
+           metadata.end();
+  } catch (const core::InputError&) {
+    return false;  // damaged, or no picture of ours
+  }
+}
+
+std::map<int, std::set<std::string>> OutputFolder::frames(
+    const std::map<int, std::set<std::string>>& written) const {
+  std::map<int, std::set<std::string>> frames = written;
+  each_file(folder_, [&](const fs::path& relative) {
+    const std::optional<int> index = frame_of(relative);
+    if (!index) return true;
+    const std::string product = relative.begin()->string();
+    const auto known = frames.find(*index);
+    if ((known == frames.end() || !known->second.contains(product)) && is_of_this_input(relative))
+      frames[*index].insert(product);
+    return true;
+  });
+  return frames;
+}
+
+void OutputFolder::keep_only(const std::set<std::string>& files) const {
+  std::vector<fs::path> old;
+  each_file(folder_, [&](const fs::path& relative) {
+    const std::string name = relative.generic_string();
+    const bool replaced =
+        (listed_.contains(name) && may_be_replaced(relative)) || (overwrite_ && frame_of(relative));
+    if (replaced && !files.contains(name)) old.push_back(relative);
+    return true;
+  });
+  std::error_code ignored;  // what cannot be removed is not listed
+  for (const fs::path& relative : old) fs::remove(folder_ / relative, ignored);
+  for (const fs::path& relative : old)
+    if (relative.has_parent_path()) fs::remove(folder_ / relative.parent_path(), ignored);
+}
+
+}  // namespace fanbeam::session

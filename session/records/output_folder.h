@@ -1,0 +1,45 @@
+// The folder that frames are written to: what is there already, what of it a run may replace, and
+// what the record of the run lists.
+//
+// A folder holds pictures of one input. Files of the same input, whatever frames they are of, stay
+// and are listed again; files that run.json lists of another input are replaced by the new run's;
+// any other file is somebody's, and a run refuses to mix with it unless told to.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+
+namespace fanbeam::session {
+
+class OutputFolder {
+ public:
+  // Looks, and changes nothing. Throws InputError (E-RANGE of --overwrite: exit code 2) naming
+  // files that neither run.json lists nor this input made, unless `overwrite`. Hidden files are
+  // nobody's business.
+  OutputFolder(std::filesystem::path folder, std::string fingerprint, bool overwrite);
+
+  const std::filesystem::path& path() const { return folder_; }
+
+  // Products of this input that are there, by frame; those of `written` without a look at them.
+  std::map<int, std::set<std::string>> frames(
+      const std::map<int, std::set<std::string>>& written) const;
+
+  // Removes the files of frames and films that an earlier run.json lists, or with `overwrite` any
+  // frame, unless they are among `files` (relative to the folder). Never leaves the folder.
+  void keep_only(const std::set<std::string>& files) const;
+
+ private:
+  bool is_of_this_input(const std::filesystem::path& relative) const;
+
+  std::filesystem::path folder_;
+  std::string fingerprint_;
+  bool overwrite_;
+  std::set<std::string> listed_;  // by the run.json that was there
+};
+
+// Files of one frame, relative to the folder: {"power", 7} is "power/00007.exr".
+std::set<std::string> frame_files(const std::set<std::string>& products, int index);
+
+}  // namespace fanbeam::session

@@ -1,0 +1,47 @@
+// What is asked of a scene's signal level: which radar looks at it, and how closely. What its parts
+// cannot take they refuse (E-RANGE, E-UNSUPPORTED), in the words of the command's options.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "session/products/products.h"
+#include "session/signal/waveform_settings.h"
+
+namespace fanbeam::session {
+
+inline constexpr std::array<Product, 8> kFmcwProducts = {
+    {{"beat", "samples, NPY", "beat/00000.npy"},
+     {"spectrum", "power against range of one receiver, PNG and CSV",
+      "spectrum/00000.png and .csv"},
+     {"cube", "range, speed and azimuth, complex, NPY", "cube/00000.npy"},
+     {"range-doppler", "map, PNG and EXR", "range-doppler/00000.png and .exr"},
+     {"range-azimuth", "map, PNG and EXR", "range-azimuth/00000.png and .exr"},
+     {"top-view", "map, PNG and EXR", "top-view/00000.png and .exr"},
+     {"detections", "with clusters, CSV and JSON", "detections/00000.csv and .json"},
+     {"bscope", "the sensor's picture from one sweep a column, PNG and EXR",
+      "bscope/00000.png and .exr"}}};
+
+inline constexpr const char* kAutomotive = "automotive-76ghz";
+inline constexpr std::size_t kMostDirectPaths = 20'000;
+
+struct FmcwSettings {
+  std::string waveform;  // a kind, or kAutomotive; empty: by the sensor's frequency
+  // Of kWaveformNumbers, in their handy units; what is missing is the kind's default.
+  std::array<std::optional<double>, kWaveformNumbers.size()> numbers;
+  bool real = false;                      // samples: negative beats read as positive ones
+  int transmitters = 3, receivers = 4;    // 1 to 64 each, on a line, half a wavelength apart
+  double false_alarm_probability = 1e-6;  // of a cell, 1e-12 to 0.1
+  double rays_per_cell = 1.0;             // scatterers, 0.3 to 1000
+  int looks = 0;                          // of the B-scope, to 100 000; 0: the sensor's
+  double dynamic_range_dB = 60.0;         // of maps as pictures, 1 to 300
+  double line_width_Hz = 0.0;             // of the oscillator, to 1e6; 0: no phase noise
+  int adc_bits = 0;                       // to 24; 0: no quantiser
+  bool refuse_folding = false;            // E-RANGE where echoes fold in range or speed
+  bool unfold = false;                    // speeds of detections, by time division
+  std::uint64_t seed = 0;                 // of everything random
+};
+
+}  // namespace fanbeam::session

@@ -1,0 +1,37 @@
+// The radar of fanbeam fmcw: which waveform, which array, how a cube is read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sensors/sensor.h"
+#include "session/signal/fmcw_settings.h"
+#include "signal/detection/detections.h"
+#include "signal/waveform/array.h"
+#include "signal/waveform/waveform.h"
+
+namespace fanbeam::session {
+
+struct FmcwRadar {
+  std::string waveform_name;
+  signal::Waveform waveform;
+  signal::Array array;
+  double pitch_m = 0.0;
+  // Of the chirp sequence in stage 0; nothing of it is valid where `maps` is false.
+  bool maps = false;
+  signal::CubeTiming timing;
+  signal::RangeDopplerAxes axes;
+  signal::DetectionSettings detection;
+  std::vector<double> azimuths_rad;  // of the cube's cells, rising
+  double noise_cell_W = 0.0;         // mean, in a cell of one transformed channel
+};
+
+// Which kind of waveform the options mean for this sensor: "automotive-76ghz" from 70 to 82 GHz,
+// else "chirp-sequence", unless one is named.
+std::string waveform_name(const FmcwSettings& options, const sensors::Sensor& sensor);
+
+// Frequency and sweep are the sensor's; what the options say replaces the rest. Throws InputError
+// for what does not go together, E-UNSUPPORTED for a cone scan.
+FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor);
+
+}  // namespace fanbeam::session

@@ -1,0 +1,42 @@
+#include "session/signal/receiver_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "signal/receiver/receiver_noise.h"
+
+namespace fanbeam::session {
+
+core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
+                               const sensors::Sensor& sensor, const FmcwReceiver& receiver,
+                               double echo_W, const signal::FloatCube& beat) {
+  renderer::SignalFacts signal;
+  signal.window_dB = shown.window_dB;
+  signal.over_display_floor = shown.over_display_floor;
+  signal.samples_asked = shown.samples_asked;
+  signal.beams = shown.beams;
+  signal.echo_W = echo_W;
+  double largest_W = 0.0;
+  for (const std::complex<float>& sample : beat.values)
+    largest_W = std::max(largest_W, static_cast<double>(std::norm(sample)));
+  signal.largest_sample_sqrtW = std::sqrt(receiver.complex_baseband ? largest_W : 2.0 * largest_W);
+  signal.noise_sample_W = signal::noise_sample_W(receiver.noise_figure, receiver.sample_rate_Hz);
+  signal.complex_baseband = receiver.complex_baseband;
+  signal.phase_noise_rad = receiver.phase_noise_rad;
+  signal.phase_noise_samples = receiver.sample_rate_Hz * signal::PhaseNoise{}.correlation_s;
+  signal.adc_bits = receiver.adc_bits;
+  renderer::SceneFacts facts;
+  facts.sensor = sensor;
+  facts.sample = true;
+  facts.signal = signal;
+  return renderer::signal_plan(budget.sequence, facts, budget.accuracy_grey, budget.wishes);
+}
+
+void keep_larger(const core::EffectPlan& other, core::EffectPlan& plan) {
+  if (plan.decisions.empty()) plan = other;
+  for (std::size_t i = 0; i < plan.decisions.size(); ++i)
+    if (other.decisions[i].bound_dB > plan.decisions[i].bound_dB)
+      plan.decisions[i] = other.decisions[i];
+}
+
+}  // namespace fanbeam::session

@@ -1,0 +1,33 @@
+// Which of a receiver's effects a set of samples calls for (renderer/plan/signal_effects.h).
+#pragma once
+
+#include "renderer/plan/plan.h"
+#include "session/signal/receive.h"
+
+namespace fanbeam::session {
+
+// What the scene's plan leaves to that of the samples.
+struct SignalBudget {
+  core::EffectPlan sequence;  // of the scene
+  double accuracy_grey = 0.5;
+  renderer::EffectWishes wishes;
+};
+
+// How what is made of the samples is shown: see renderer::SignalFacts.
+struct SamplesShown {
+  double window_dB = 60.0;
+  bool over_display_floor = false;
+  bool samples_asked = false;
+  int beams = 1;
+};
+
+// `beat` as synthesised, complex, `echo_W` the sum of its echoes' powers.
+core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
+                               const sensors::Sensor& sensor, const FmcwReceiver& receiver,
+                               double echo_W, const signal::FloatCube& beat);
+
+// Of two plans of the same effects, for every effect the decision of the larger bound: of several
+// stages or looks, each of which has samples of its own.
+void keep_larger(const core::EffectPlan& other, core::EffectPlan& plan);
+
+}  // namespace fanbeam::session

@@ -1,0 +1,93 @@
+#include "session/signal/signal_bscope.h"
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "core/constants.h"
+#include "core/effect_plan.h"
+#include "renderer/stages/frame_echoes.h"
+#include "sensors/display/grey_scale.h"
+#include "signal/receiver/receiver_noise.h"
+#include "signal/scan/column_scan.h"
+#include "signal/scan/column_sweep.h"
+
+namespace fanbeam::session {
+namespace {
+
+// Looks draw from seeds far apart, so that no two runs of neighbouring seeds share a look.
+constexpr std::uint64_t kSeedStep = 0x9E3779B97F4A7C15U;
+
+renderer::FrameEchoSettings echo_settings(const SignalBscopeSettings& settings,
+                                          std::uint64_t seed) {
+  renderer::FrameEchoSettings result;
+  result.sampling.sub_columns = settings.azimuths;
+  result.sampling.rays_per_cell = settings.rays_per_cell;
+  result.own_velocity_mps = settings.own_velocity_mps;
+  result.multipath = settings.multipath;
+  result.swerling = settings.swerling;
+  result.seed = seed;
+  return result;
+}
+
+double phase_noise_rad(const SignalBscopeSettings& settings,
+                       const std::vector<core::Echo>& echoes) {
+  if (!(settings.line_width_Hz > 0.0) || echoes.empty()) return 0.0;
+  const auto strongest = std::max_element(
+      echoes.begin(), echoes.end(),
+      [](const core::Echo& a, const core::Echo& b) { return a.power_W < b.power_W; });
+  return signal::phase_noise_rms_rad(settings.line_width_Hz,
+                                     2.0 * strongest->range_m / core::kSpeedOfLight_mps);
+}
+
+double sum_W(const std::vector<core::Echo>& echoes) {
+  double sum = 0.0;
+  for (const core::Echo& echo : echoes) sum += echo.power_W;
+  return sum;
+}
+
+}  // namespace
+
+sensors::Sensor with_sweep_window(sensors::Sensor sensor) {
+  using Window = sensors::Waveform::Window;
+  if (sensor.waveform.window == Window::none) sensor.waveform.window = Window::taylor;
+  return sensor;
+}
+
+SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePose& pose,
+                           const SignalBscopeSettings& settings) {
+  const sensors::Sensor sensor = with_sweep_window(world.sensor);
+  const double taken_off_mps =
+      sensor.waveform.doppler_compensated ? glm::length(settings.own_velocity_mps) : 0.0;
+  FmcwReceiver receiver;
+  receiver.noise_figure = sensor.receiver.noise_figure;
+  receiver.sample_rate_Hz = signal::column_sweep(sensor, 0).sample_rate_Hz[0];
+  receiver.adc_bits = settings.adc_bits;
+  const SamplesShown shown{.window_dB = sensors::GreyScale(sensor).window_dB(),
+                           .over_display_floor = true};
+  SignalBscope result;
+  result.looks = settings.looks > 0 ? settings.looks : sensor.receiver.looks;
+  result.power_W.assign(
+      static_cast<std::size_t>(sensor.range.cells) * static_cast<std::size_t>(sensor.scan.columns),
+      0.0);
+  for (int look = 0; look < result.looks; ++look) {
+    const std::uint64_t seed = settings.seed + static_cast<std::uint64_t>(look) * kSeedStep;
+    const renderer::FrameEchoes found =
+        renderer::frame_echoes(world, pose, echo_settings(settings, seed));
+    result.rays += found.rays;
+    result.scatterers += found.echoes.size();
+    signal::FloatCube beat = signal::scan_beat(sensor, found.echoes, found.phase_rad);
+    receiver.phase_noise_rad = phase_noise_rad(settings, found.echoes);
+    const core::EffectPlan plan =
+        receiver_plan(settings.budget, shown, sensor, receiver, sum_W(found.echoes), beat);
+    keep_larger(plan, result.plan);
+    if (plan.runs(core::EffectId::phase_noise))
+      result.phase_noise_rad = std::max(result.phase_noise_rad, receiver.phase_noise_rad);
+    result.clipped += receive({}, receiver, plan, {seed, 0, pose.frame_index}, beat);
+    const std::vector<double> cells_W = signal::scan_cells_W(sensor, beat, taken_off_mps);
+    for (std::size_t i = 0; i < cells_W.size(); ++i) result.power_W[i] += cells_W[i] / result.looks;
+  }
+  return result;
+}
+
+}  // namespace fanbeam::session

@@ -1,0 +1,27 @@
+// What fanbeam fmcw leaves of a frame on disk.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+
+#include "session/signal/chain.h"
+
+namespace fanbeam::session {
+
+struct FmcwStamp {
+  int frame = 0;
+  double time_s = 0.0;
+  std::string scene;
+  double dynamic_range_dB = 60.0;  // of the pictures' colours, from the noise up
+};
+
+// Files DIR/<product>/00000.*, of every product that is wanted and that the waveform has. Throws
+// InputError E-IO.
+// Answers with the names of the files, relative to the folder.
+std::set<std::string> write_fmcw_products(const std::filesystem::path& folder,
+                                          const std::set<std::string>& products,
+                                          const FmcwRadar& radar, const FmcwFrame& frame,
+                                          const FmcwStamp& stamp);
+
+}  // namespace fanbeam::session

@@ -1,0 +1,12 @@
+// The waveform that the options of fanbeam waveform describe.
+#pragma once
+
+#include "session/signal/waveform_settings.h"
+#include "signal/waveform/waveform.h"
+
+namespace fanbeam::session {
+
+// Throws InputError with the option's name for one that the kind does not have.
+signal::Waveform chosen_waveform(const WaveformSettings& options);
+
+}  // namespace fanbeam::session

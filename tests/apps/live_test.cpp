@@ -1,0 +1,96 @@
+// fanbeam live as a user starts and stops it.
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "core/files.h"
+#include "tests/apps/child.h"
+#include "tests/apps/program.h"
+
+using namespace fanbeam;
+using namespace fanbeam::tests;
+
+TEST_CASE("live tells where to look and ends by itself when asked to", "[live]") {
+  const Result result = run_fanbeam("live flat-grass --http 0 --seconds 1");
+  INFO(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(result.output.find("look at http://127.0.0.1:") != std::string::npos);
+}
+
+TEST_CASE("Shared memory that live made goes with it", "[live]") {
+  const Result result =
+      run_fanbeam("live flat-grass --http 0 --seconds 1 --to shm:fanbeam_live_test");
+  INFO(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK_FALSE(std::filesystem::exists("/dev/shm/fanbeam_live_test"));
+}
+
+TEST_CASE("SIGTERM and SIGINT are the good end of live", "[live]") {
+  for (const int signal : {SIGTERM, SIGINT}) {
+    Child child({"live", "flat-grass", "--http", "0", "-q"});
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    child.send(signal);
+    const int status = child.wait();
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+  }
+}
+
+TEST_CASE("All that is wrong with live's addresses is told before a scene is opened", "[live]") {
+  const Result result = run_fanbeam("live no-such-scene --http 0.0.0.0:1 --from native-fdm:99999");
+  CHECK(result.exit_code == 2);
+  CHECK(result.output.find("E-UNSUPPORTED --http") != std::string::npos);
+  CHECK(result.output.find("E-RANGE --from") != std::string::npos);
+  CHECK(run_fanbeam("live --from car --to pipe:x").output.find("2 errors") != std::string::npos);
+  CHECK(run_fanbeam("live --from ils flat-grass --http 0 --seconds 1").exit_code == 0);
+}
+
+TEST_CASE("Lockstep writes the same raw pictures every time, and a recording the same again",
+          "[live]") {
+  const TemporaryFolder folder;
+  const auto bytes_of = [&](const std::string& options, const char* name) {
+    const auto file = folder.path() / name;
+    const Result result =
+        run_fanbeam("live flat-grass --http 0 --rays-per-cell 1 --to raw-bscope:" + file.string() +
+                    " " + options);
+    INFO(result.output);
+    CHECK(result.exit_code == 0);
+    return core::read_file(file, 1 << 20);
+  };
+  const std::string record = (folder.path() / "flight.jsonl").string();
+  const std::string first = bytes_of("--lockstep --frames 3 --record " + record, "first");
+  CHECK(first.size() == 3U * 164U * 524U);
+  CHECK(bytes_of("--lockstep --frames 3 --threads 1", "second") == first);
+  CHECK(bytes_of("--lockstep --replay " + record, "again") == first);
+  // As fast as it was flown, some of the frames.
+  CHECK(bytes_of("--speed 2 --replay " + record, "paced").size() % (164U * 524U) == 0);
+}
+
+TEST_CASE("A recording belongs to its scene", "[live]") {
+  const TemporaryFolder folder;
+  const std::string record = (folder.path() / "flight.jsonl").string();
+  CHECK(
+      run_fanbeam("live flat-grass --http 0 --lockstep --frames 1 --record " + record).exit_code ==
+      0);
+  const Result other = run_fanbeam("live obstacle-field --http 0 --replay " + record);
+  CHECK(other.exit_code == 3);
+  CHECK(other.output.find("E-REF") != std::string::npos);
+  folder.write("wrong.jsonl", "{}\n");
+  const Result wrong =
+      run_fanbeam("live flat-grass --http 0 --replay " + (folder.path() / "wrong.jsonl").string());
+  CHECK(wrong.exit_code == 3);
+  CHECK(wrong.output.find("wrong.jsonl:1") != std::string::npos);
+}
+
+TEST_CASE("A trajectory of one's own flies in live", "[live]") {
+  const TemporaryFolder folder;
+  const std::string table = (folder.path() / "flight.csv").string();
+  folder.write("flight.csv",
+               "time_s,latitude_deg,longitude_deg,height_m\n0,52.0,10.0,100\n10,52.0,10.01,90\n");
+  const Result result =
+      run_fanbeam("live flat-grass --http 0 --lockstep --frames 2 --from csv:" + table);
+  INFO(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(run_fanbeam("live flat-grass --http 0 --frames 1 --from csv:" + table + ".not").exit_code ==
+        4);
+}

@@ -1,0 +1,158 @@
+// Through C come the bytes of session::Session.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "bindings/c/fanbeam.h"
+#include "sensors/display/display.h"
+#include "session/session.h"
+#include "tests/bindings/c_session.h"
+
+namespace {
+
+using namespace fanbeam;
+using tests::Buffers;
+using tests::CSession;
+using tests::sized;
+using tests::TemporaryFolder;
+using tests::told;
+
+// The same as c_opened() opens.
+std::unique_ptr<session::Session> opened(const TemporaryFolder& folder,
+                                         const session::Setup& other = {}) {
+  session::Setup setup = other;
+  setup.shipped = FANBEAM_SOURCE_DIR;
+  setup.seed = 7;
+  core::ProblemList problems;
+  auto session = std::make_unique<session::Session>(folder.path(), setup, problems);
+  session->set(session::Samples{2.0});
+  return session;
+}
+
+}  // namespace
+
+// A program built against version 0.1 hands in these sizes for ever (x86-64).
+static_assert(sizeof(fanbeam_setup) == 80 && sizeof(fanbeam_facts) == 88 &&
+              sizeof(fanbeam_pose) == 88 && sizeof(fanbeam_weather) == 24 &&
+              sizeof(fanbeam_target) == 72 && sizeof(fanbeam_output) == 96 &&
+              sizeof(fanbeam_frame) == 96);
+
+TEST_CASE("The library and its header say one version", "[bindings]") {
+  CHECK(fanbeam_version_number() == FANBEAM_VERSION_NUMBER);
+  CHECK(fanbeam_version_text() == std::to_string(FANBEAM_VERSION_MAJOR) + "." +
+                                      std::to_string(FANBEAM_VERSION_MINOR) + "." +
+                                      std::to_string(FANBEAM_VERSION_PATCH));
+}
+
+TEST_CASE("Facts through C are those of the scene's sensor", "[bindings]") {
+  const TemporaryFolder folder;
+  const CSession c = tests::c_opened(folder);
+  const auto session = opened(folder);
+  const auto scene = session->scene();
+  const sensors::Sensor& sensor = scene->description.sensor;
+  const fanbeam_facts facts = tests::facts_of(c);
+  CHECK(facts.columns == static_cast<std::uint32_t>(sensor.scan.columns));
+  CHECK(facts.bscope_rows == static_cast<std::uint32_t>(sensor.range.cells));
+  CHECK(facts.cscope_rows == static_cast<std::uint32_t>(sensor.display.cscope_rows));
+  CHECK(facts.frame_count == static_cast<std::uint32_t>(scene->frame_count()));
+  CHECK(facts.range_minimum_m == sensor.range.minimum_m);
+  CHECK(facts.range_cell_m == sensor.range.cell_m);
+  CHECK(facts.field_of_view_rad == sensor.scan.field_of_view_rad);
+  CHECK(facts.cscope_top_rad == sensor.display.cscope_top_rad);
+  CHECK(facts.cscope_span_rad == sensor.display.cscope_span_rad);
+  CHECK(facts.frame_rate_Hz == sensor.scan.frame_rate_Hz);
+  CHECK(facts.low_dB == sensor.display.low_dB);
+  CHECK(facts.high_dB == sensor.display.high_dB);
+}
+
+TEST_CASE("Frames through C are those of a session, byte for byte", "[bindings]") {
+  const TemporaryFolder folder;
+  fanbeam_setup setup = tests::c_setup();
+  setup.realisation = GENERATE(0, 1, 2);  // as the scene, expected, sample
+  const CSession c = tests::c_opened(folder, tests::kSmallScene, setup);
+  session::Setup other;
+  if (setup.realisation != FANBEAM_AS_SCENE) other.sample = setup.realisation == FANBEAM_SAMPLE;
+  const auto session = opened(folder, other);
+  const fanbeam_pose pose = tests::flown(c);
+  Buffers buffers(tests::facts_of(c));
+  fanbeam_output output = buffers.output();
+  REQUIRE(fanbeam_render(c.get(), &pose, 3, &output) == FANBEAM_OK);
+  const renderer::Frame frame = session->render(tests::core_pose(pose), 3);
+  const auto scene = session->scene();
+  const sensors::Sensor& sensor = scene->description.sensor;
+  CHECK((buffers.bscope == sensors::bscope_picture(sensor, frame.bscope_grey).pixels));
+  CHECK((buffers.cscope == sensors::cscope_picture(sensor, frame.cscope_grey).pixels));
+  CHECK((buffers.bscope_W == frame.bscope_W));
+  CHECK((buffers.cscope_W_m3 == frame.cscope_W_m3));
+  CHECK(output.noise_W == frame.noise_W);
+  CHECK(output.truth == nullptr);
+}
+
+TEST_CASE("The scene's own flight comes out in degrees of freedom that lead back to it",
+          "[bindings]") {
+  const TemporaryFolder folder;
+  const CSession c = tests::c_opened(folder);
+  const auto session = opened(folder);
+  const auto scene = session->scene();
+  const core::Pose pose = tests::core_pose(tests::flown(c, 40));
+  const core::Pose expected = scene->trajectory->at(
+      scene->trajectory->frame_time_s(40, scene->description.sensor.scan.frame_rate_Hz));
+  CHECK(pose.time_s == expected.time_s);
+  CHECK(pose.position.latitude_rad == expected.position.latitude_rad);
+  CHECK(pose.position.longitude_rad == expected.position.longitude_rad);
+  CHECK(pose.position.height_m == expected.position.height_m);
+  // Through angles and back: a few rounding errors; q and -q are one attitude.
+  CHECK(std::abs(glm::dot(pose.q_NB, expected.q_NB)) == Approx(1.0).epsilon(1e-14));
+
+  fanbeam_pose none = sized<fanbeam_pose>();
+  CHECK(fanbeam_flown_pose(c.get(), tests::facts_of(c).frame_count, &none) == FANBEAM_BAD_INPUT);
+  CHECK(none.time_s == 0.0);
+}
+
+TEST_CASE("Ground truth through C is that of a frame's layers, with names", "[bindings]") {
+  const TemporaryFolder folder;
+  const CSession c = tests::c_opened(folder);
+  const auto session = opened(folder);
+  const fanbeam_pose pose = tests::flown(c);
+  fanbeam_output output = sized<fanbeam_output>();
+  output.layers = FANBEAM_BSCOPE | FANBEAM_CSCOPE;
+  REQUIRE(fanbeam_render(c.get(), &pose, 0, &output) == FANBEAM_OK);
+  const std::unique_ptr<fanbeam_layers, decltype(&fanbeam_free_layers)> truth(output.truth,
+                                                                              &fanbeam_free_layers);
+  REQUIRE(truth != nullptr);
+  const renderer::Frame frame =
+      session->render(tests::core_pose(pose), 0,
+                      {.bscope = false, .cscope = false, .layers = true, .cscope_layers = true});
+  const renderer::LayerSet& bscope = frame.layers->bscope;
+  const renderer::LayerSet& cscope = frame.layers->cscope;
+
+  std::vector<float> values(bscope.nrcs.size());
+  const auto copied = [&](std::uint32_t scope, const char* name) {
+    return fanbeam_layer_values(truth.get(), scope, name, values.data(), values.size());
+  };
+  REQUIRE(copied(FANBEAM_BSCOPE, "nrcs") == FANBEAM_OK);
+  CHECK((values == bscope.nrcs));
+  REQUIRE(copied(FANBEAM_BSCOPE, "elevation_rad") == FANBEAM_OK);
+  CHECK((values == bscope.elevation_rad));
+  CHECK(copied(FANBEAM_BSCOPE, "range_m") == FANBEAM_BAD_INPUT);
+  CHECK(told("visibility, grazing_rad, nrcs"));
+  CHECK(copied(3, "nrcs") == FANBEAM_BAD_INPUT);
+  CHECK(fanbeam_layer_values(truth.get(), FANBEAM_BSCOPE, "nrcs", values.data(), 10) ==
+        FANBEAM_SHORT_BUFFER);
+  values.resize(cscope.nrcs.size());
+  REQUIRE(copied(FANBEAM_CSCOPE, "range_m") == FANBEAM_OK);
+  CHECK((values == cscope.range_m));
+
+  std::vector<std::uint32_t> ids(bscope.object.size());
+  REQUIRE(fanbeam_layer_ids(truth.get(), FANBEAM_BSCOPE, "object", ids.data(), ids.size()) ==
+          FANBEAM_OK);
+  CHECK(std::equal(ids.begin(), ids.end(), bscope.object.begin(), bscope.object.end()));
+  REQUIRE(fanbeam_layer_ids(truth.get(), FANBEAM_BSCOPE, "material", ids.data(), ids.size()) ==
+          FANBEAM_OK);
+  CHECK(std::equal(ids.begin(), ids.end(), bscope.material.begin(), bscope.material.end()));
+  const auto& names = session->scene()->world.geometry->material_names;
+  for (std::uint32_t id = 0; id < names.size(); ++id)
+    CHECK(fanbeam_layer_id_name(truth.get(), "material", id) == names[id]);
+  CHECK(fanbeam_layer_id_name(truth.get(), "material", FANBEAM_NO_MATERIAL) == nullptr);
+  CHECK(fanbeam_layer_id_name(truth.get(), "frogs", 0) == nullptr);
+}

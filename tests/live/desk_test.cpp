@@ -1,0 +1,170 @@
+// What requests are answered, without sockets.
+#include "live/desk.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "live/flights.h"
+#include "tests/live/live_scene.h"
+
+using namespace fanbeam;
+using nlohmann::json;
+
+namespace {
+
+live::Request get(const std::string& target) {
+  return {"GET", target, "localhost:8416", {}, {}, {}};
+}
+
+live::Request post(const std::string& target, const std::string& body) {
+  return {"POST", target, "127.0.0.1:8416", "http://127.0.0.1:8416", "application/json", body};
+}
+
+struct Office {
+  tests::TemporaryFolder folder;
+  std::unique_ptr<session::Session> session = tests::live_session(folder);
+  live::Hub hub;
+  live::Desk desk{*session, hub};
+};
+
+}  // namespace
+
+TEST_CASE("The desk answers with the page, the plan and the sensor of the session", "[desk]") {
+  const Office office;
+  const live::Answer page = office.desk.answer(get("/"));
+  CHECK(page.status == 200);
+  CHECK(page.body.find("</html>") != std::string::npos);
+  const json plan = json::parse(office.desk.answer(get("/api/plan?n=1")).body);
+  CHECK(plan["plan"].size() == office.session->scene()->plan.decisions.size());
+  const json sensor = json::parse(office.desk.answer(get("/api/sensor")).body);
+  CHECK(sensor["columns"] == 164);
+  CHECK(sensor["tilt_deg"].get<double>() == Approx(-3.8));
+  CHECK(office.desk.answer(get("/frame/bscope.png")).status == 503);
+  CHECK(office.desk.answer(get("/../../etc/passwd")).status == 404);
+  CHECK(office.desk.answer(get("")).status == 404);
+}
+
+TEST_CASE("A frame is the PNG of its picture", "[desk]") {
+  Office office;
+  auto frame = std::make_shared<live::LiveFrame>();
+  frame->number = 7;
+  frame->bscope = {2, 1, {10, 20}};
+  frame->cscope = {1, 2, {30, 40}};
+  office.hub.publish(frame);
+  const live::Answer answer = office.desk.answer(get("/frame/cscope.png?n=3"));
+  CHECK(answer.type == "image/png");
+  const auto file = office.folder.path() / "told.png";
+  core::write_png(file, frame->cscope, {});
+  office.folder.write("answer.png", answer.body);
+  CHECK(core::read_image(office.folder.path() / "answer.png").layers.at(0).values ==
+        std::vector<double>{30.0, 40.0});
+  const std::string message = live::message_of(*frame);
+  const std::size_t end = message.find('\n');
+  const json head = json::parse(message.substr(0, end));
+  CHECK(head["number"] == 7);
+  CHECK(head["bscope"] == json({2, 1}));
+  CHECK(message.substr(end + 1) == std::string("\x0a\x14\x1e\x28"));
+}
+
+TEST_CASE("Weather and tilt reach the session; what is wrong is told whole and changes nothing",
+          "[desk]") {
+  const Office office;
+  CHECK(
+      office.desk.answer(post("/api/weather", R"({"visibility_m": 200, "rain_rate_mm_per_h": 4})"))
+          .status == 200);
+  CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 4.0);
+  CHECK(office.session->scene()->weather.visibility_m == 200.0);
+  const live::Answer wrong = office.desk.answer(
+      post("/api/weather", R"({"visibility_m": -1, "rain_rate_mm_per_h": "much", "snow": 1})"));
+  CHECK(wrong.status == 422);
+  CHECK(json::parse(wrong.body)["problems"].size() == 3);
+  CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 4.0);
+  CHECK(office.desk.answer(post("/api/weather", R"({"rain_rate_mm_per_h": 0})")).status == 200);
+  CHECK_FALSE(office.session->scene()->weather.visibility_m.has_value());
+  CHECK(office.desk.answer(post("/api/sensor", R"({"tilt_deg": -2})")).status == 200);
+  CHECK(office.session->scene()->description.sensor.antenna.boresight_elevation_rad ==
+        Approx(-2.0 * core::kPi / 180.0));
+  for (const char* body : {"", "[]", "{", "{\"tilt_deg\": 1e999}", "\xff", "{\"low_dB\": 9}"})
+    CHECK(office.desk.answer(post("/api/sensor", body)).status == 422);
+  CHECK(office.desk.answer(post("/api/sensor", std::string(60000, '['))).status == 422);
+}
+
+TEST_CASE("Another web page cannot steer", "[desk]") {
+  const Office office;
+  const std::string rain = R"({"rain_rate_mm_per_h": 9})";
+  live::Request request = post("/api/weather", rain);
+  request.origin = "http://evil.example";
+  CHECK(office.desk.answer(request).status == 403);
+  request = post("/api/weather", rain);
+  request.host = request.origin = "evil.example:8416";  // a name that resolves to this machine
+  CHECK(office.desk.answer(request).status == 403);
+  request = post("/api/weather", rain);
+  request.content_type = "text/plain";  // what a form can send without asking
+  CHECK(office.desk.answer(request).status == 415);
+  request = post("/api/weather", rain);
+  request.method = "PUT";
+  CHECK(office.desk.answer(request).status == 405);
+  CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 0.0);
+  for (const char* host : {"", "localhost.evil.example", "127.0.0.1.evil.example:1", "[::1].evil"})
+    CHECK_FALSE(live::is_admitted({"GET", "/", host, {}, {}, {}}));
+  for (const char* host : {"localhost", "localhost:8416", "127.0.0.1:1", "[::1]:8416", "[::1]"})
+    CHECK(live::is_admitted({"GET", "/", host, {}, {}, {}}));
+}
+
+TEST_CASE("A cell's truth is what the layers of the frame that is shown have there", "[desk]") {
+  Office office;
+  const auto scene = office.session->scene();
+  auto frame = std::make_shared<live::LiveFrame>();
+  frame->number = 5;
+  frame->pose = live::circle(*scene)(0.0);
+  frame->under = office.session->now();
+  office.hub.publish(frame);
+  // Conditions that come later do not count.
+  office.session->set(session::SensorSettings{.boresight_elevation_rad = -0.3});
+  const renderer::Frame made =
+      office.session->render(frame->under, frame->pose, 5, {.layers = true, .cscope_layers = true});
+  const int columns = 164, rows = 524;
+  int seen = 0;
+  for (const bool bscope : {true, false})
+    for (int row = 3; row < rows; row += 40)
+      for (int column = 1; column < columns; column += 40) {
+        const renderer::LayerSet& set = bscope ? made.layers->bscope : made.layers->cscope;
+        const auto i = static_cast<std::size_t>((bscope ? rows - 1 - row : row) * columns + column);
+        const json cell = json::parse(
+            office.desk
+                .answer(get("/api/cell?scope=" + std::string(bscope ? "bscope" : "cscope") +
+                            "&frame=5&column=" + std::to_string(column) +
+                            "&row=" + std::to_string(row)))
+                .body);
+        REQUIRE(cell["gone"] == false);
+        REQUIRE(cell["seen"] == (set.visibility[i] > 0.0F));
+        if (!cell["seen"]) continue;
+        ++seen;
+        CHECK(cell["material"] == scene->world.geometry->material_names.at(set.material[i]));
+        CHECK(cell["object"] == scene->world.geometry->object_names.at(set.object[i]));
+        CHECK(cell["nrcs_dB"].get<double>() ==
+              Approx(10.0 * std::log10(static_cast<double>(set.nrcs[i]))));
+        CHECK(cell["grazing_deg"].get<double>() ==
+              Approx(static_cast<double>(set.grazing_rad[i]) * 180.0 / core::kPi));
+      }
+  CHECK(seen > 20);
+  CHECK(json::parse(office.desk.answer(get("/api/cell?scope=bscope&frame=4&column=1&row=1"))
+                        .body)["gone"] == true);
+}
+
+TEST_CASE("A cell that is none is refused with all that is wrong", "[desk]") {
+  Office office;
+  const live::Answer wrong = office.desk.answer(get("/api/cell?scope=x&frame=-1&column=1e3"));
+  CHECK(wrong.status == 422);
+  CHECK(json::parse(wrong.body)["problems"].size() == 4);
+  auto frame = std::make_shared<live::LiveFrame>();
+  frame->number = 1;
+  frame->pose = live::circle(*office.session->scene())(0.0);
+  frame->under = office.session->now();
+  office.hub.publish(frame);
+  const live::Answer beyond =
+      office.desk.answer(get("/api/cell?scope=cscope&frame=1&column=164&row=524"));
+  CHECK(beyond.status == 422);
+  CHECK(json::parse(beyond.body)["problems"].size() == 2);
+}

@@ -1,0 +1,203 @@
+// A recorded FlightGear flight over the scene that it flew over.
+#include "live/feed.h"
+
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+#include "core/units.h"
+#include "session/session.h"
+#include "tests/feeds/native_fdm_bytes.h"
+#include "tests/live/live_scene.h"
+#include "tests/shared_data.h"
+
+using namespace fanbeam;
+
+TEST_CASE("A datum that is applied once too often shows in the heights above ground", "[feed]") {
+  const auto recording = tests::shared_data("flightgear/bikf10.bin");
+  if (!recording) return;
+  core::ProblemList problems;
+  const std::filesystem::path data = recording->parent_path().parent_path();
+  scenes::SceneDescription description = scenes::read_scene(
+      FANBEAM_SOURCE_DIR "/scenes/keflavik-10", {FANBEAM_SOURCE_DIR, {data}, {}}, problems);
+  // Its terrain counts from the sea, as the simulator does: the scene takes heights as they are.
+  const session::Session scene(description, {}, problems);
+  live::Feed right(scene.scene(), core::VerticalDatum::egm96);
+  description.datum = core::VerticalDatum::ellipsoid;  // which is not so
+  const session::Session misled(description, {}, problems);
+  live::Feed wrong(misled.scene(), core::VerticalDatum::egm96);
+  std::ifstream stream(*recording, std::ios::binary);
+  char head[12];
+  while (stream.read(head, sizeof head)) {
+    std::uint16_t length = 0;
+    std::memcpy(&length, head + 10, 2);
+    std::vector<std::uint8_t> payload(length);
+    stream.read(reinterpret_cast<char*>(payload.data()), length);
+    right.take(payload);
+    wrong.take(payload);
+  }
+  live::Status status;
+  right.tell(status);
+  CHECK(status.packets > 1800);
+  CHECK(right.mailbox().after(0).back().number == status.packets);
+  REQUIRE(status.height_offset_m.has_value());
+  CHECK_FALSE(live::is_lasting_offset(status));
+  wrong.tell(status);
+  CHECK(live::is_lasting_offset(status));
+  // The geoid of EGM96 is 65.4 m above the ellipsoid there.
+  CHECK(*status.height_offset_m == Approx(-65.4).margin(3.0));
+}
+
+TEST_CASE("F11 of a million datagrams every good one is taken and every other counted", "[feed]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Feed feed(session->scene(), core::VerticalDatum::egm96);
+  const auto good = tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0));
+  auto flipped = good, swapped = good;
+  std::uint64_t state = 7;
+  const auto next = [&state] {  // splitmix64
+    std::uint64_t z = state += 0x9e3779b97f4a7c15ULL;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+    return z ^ (z >> 31);
+  };
+  std::swap(swapped[0], swapped[3]);  // version 24 in the other byte order
+  std::vector<std::uint8_t> noise(2001);
+  std::uint64_t taken = 0, length = 0, version = 0;
+  for (int i = 0; i < 1'000'000; ++i) {
+    switch (i % 8) {
+      case 0:
+        feed.take(good);
+        ++taken;
+        break;
+      case 1:  // one bit of the version
+        flipped = good;
+        flipped[next() % 4] ^= static_cast<std::uint8_t>(1U << next() % 8);
+        feed.take(flipped);
+        ++version;
+        break;
+      case 2:
+        feed.take(swapped);
+        ++version;
+        break;
+      default: {
+        const std::size_t size = next() % 2001;
+        for (std::size_t k = 0; k < std::min<std::size_t>(size, 8); ++k)
+          noise[k] = static_cast<std::uint8_t>(next() | 0x80);  // never the version
+        feed.take(std::span(noise).first(size));
+        ++(size == 408 ? version : length);
+      }
+    }
+  }
+  live::Status status;
+  feed.tell(status);
+  CHECK(status.packets == 1'000'000);
+  CHECK(status.bad_packets == std::vector<std::pair<std::string, std::uint64_t>>{
+                                  {"another length", length}, {"another version", version}});
+  CHECK(feed.mailbox().after(0).back().number == taken);
+}
+
+TEST_CASE("F15 a source a hundred times too fast fills nothing, and the newest pose counts",
+          "[feed]") {
+  live::Mailbox mailbox;
+  core::Pose pose;
+  for (int i = 1; i <= 600'000; ++i) {  // ten minutes of a thousand a second
+    pose.time_s = 1e-3 * i;
+    mailbox.put(pose);
+  }
+  const auto kept = mailbox.after(0);
+  CHECK(kept.size() == live::Mailbox::kKept);
+  CHECK(kept.back().pose.time_s == 600.0);
+  CHECK(mailbox.after(kept.back().number).empty());
+}
+
+TEST_CASE("Datagrams of no use are counted by reason and change no pose", "[feed]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Feed feed(session->scene(), core::VerticalDatum::egm96);
+  const auto good = tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0));
+  feed.take(good);
+  feed.take(std::span(good).first(100));
+  feed.take({});
+  auto other = good;
+  tests::put(other, 0, 23, 4);
+  feed.take(other);
+  live::Status status;
+  feed.tell(status);
+  CHECK(status.packets == 4);
+  CHECK(status.bad_packets == std::vector<std::pair<std::string, std::uint64_t>>{
+                                  {"another length", 2}, {"another version", 1}});
+  CHECK(feed.mailbox().after(0).size() == 1);
+  // The scene does not know its datum: heights are taken as they are.
+  CHECK(feed.mailbox().after(0)[0].pose.position.height_m == 200.0);
+}
+
+TEST_CASE("F12 a packet from another time, twice or late, is counted and costs no good one",
+          "[feed]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[1]);
+  const auto begin = live::Clock::now();
+  const auto send = [&](const std::string& clock, double arrived_s) {
+    const std::string line = "fanbeam,1," + clock + ",52,10,600,500,0,0,90,0,200,0,5000";
+    feed.take({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()},
+              begin + std::chrono::microseconds(static_cast<std::int64_t>(1e6 * arrived_s)));
+  };
+  std::uint64_t good = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const double clock_s = 100.0 + i / 16.0, arrived_s = i / 16.0;
+    send(std::to_string(clock_s), arrived_s);
+    ++good;
+    switch (i % 10) {
+      case 1:
+        send("1e300", arrived_s + 0.005);
+        break;
+      case 3:
+        send("nan", arrived_s + 0.005);
+        break;
+      case 5:
+        send("inf", arrived_s + 0.005);
+        break;
+      case 7:
+        send(std::to_string(clock_s), arrived_s + 0.005);  // twice
+        break;
+      case 9:
+        send(std::to_string(clock_s - 0.03), arrived_s + 0.005);  // in the wrong order
+        break;
+      default:
+        break;
+    }
+  }
+  live::Status status;
+  feed.tell(status);
+  CHECK(feed.mailbox().after(0).back().number == good);
+  CHECK(status.bad_packets == std::vector<std::pair<std::string, std::uint64_t>>{
+                                  {"a number that is not finite", 200},
+                                  {"late, or come twice", 200},
+                                  {"a jump of the simulator's clock", 100}});
+}
+
+TEST_CASE("F13 a step of the simulator's clock counts from its second packet, a pause goes on",
+          "[feed]") {
+  live::ClockGate gate;
+  using feeds::PacketFault;
+  double arrived_s = 0.0;
+  const auto take = [&](double clock_s) { return gate.take(clock_s, arrived_s += 0.0625); };
+  CHECK(take(50.0) == PacketFault::none);
+  CHECK(take(50.06) == PacketFault::none);
+  CHECK(take(50.06) == PacketFault::none);  // paused
+  CHECK(take(50.12) == PacketFault::none);
+  for (const double step_s : {3600.0, -3600.0, 10.0, -50.0}) {  // and a restart at 0
+    const double from_s = 50.12 + step_s;
+    CHECK(take(from_s) == PacketFault::jump);
+    CHECK(take(from_s + 0.06) == PacketFault::none);
+    CHECK(take(50.12) == PacketFault::jump);
+    CHECK(take(50.18) == PacketFault::none);
+    CHECK(take(50.12) == PacketFault::late);
+    CHECK(take(50.19) == PacketFault::none);
+    // Back for the next one.
+    CHECK(take(50.0) == PacketFault::late);
+    CHECK(take(50.2) == PacketFault::none);
+  }
+}

@@ -1,0 +1,263 @@
+// The page's server and the datagrams, seen from outside by Beast's client.
+#include "live/network.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <utility>
+//
+#include <boost/asio.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+
+#include "feeds/native_fdm.h"
+#include "live/channel.h"
+#include "tests/feeds/native_fdm_bytes.h"
+#include "tests/live/live_scene.h"
+
+using namespace fanbeam;
+using nlohmann::json;
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = boost::beast::http;
+using tcp = asio::ip::tcp;
+using udp = asio::ip::udp;
+
+namespace {
+
+struct Station {
+  tests::TemporaryFolder folder;
+  std::unique_ptr<session::Session> session = tests::live_session(folder);
+  live::Hub hub;
+  live::Desk desk{*session, hub};
+  live::Network network{desk, hub};
+  std::uint16_t port = network.serve({});
+
+  std::string host() const { return "127.0.0.1:" + std::to_string(port); }
+  tcp::endpoint endpoint() const { return {asio::ip::address_v4::loopback(), port}; }
+};
+
+std::shared_ptr<const live::LiveFrame> frame_of(std::uint64_t number, int rows = 2) {
+  auto frame = std::make_shared<live::LiveFrame>();
+  frame->number = number;
+  const std::vector<std::uint8_t> pixels(static_cast<std::size_t>(3 * rows),
+                                         static_cast<std::uint8_t>(number));
+  frame->bscope = frame->cscope = {3, rows, pixels};
+  return frame;
+}
+
+using WebSocket = beast::websocket::stream<tcp::socket>;
+
+std::unique_ptr<WebSocket> watching(asio::io_context& context, const Station& station,
+                                    const std::string& target = "/ws") {
+  auto socket = std::make_unique<WebSocket>(context);
+  socket->next_layer().connect(station.endpoint());
+  socket->handshake(station.host(), target);
+  return socket;
+}
+
+json next_head(WebSocket& socket, std::string* pixels = nullptr) {
+  beast::flat_buffer buffer;
+  socket.read(buffer);
+  const std::string message = beast::buffers_to_string(buffer.data());
+  if (pixels != nullptr) *pixels = message.substr(message.find('\n') + 1);
+  return json::parse(message.substr(0, message.find('\n')));
+}
+
+// What the server says to these bytes before it closes or falls silent for a second.
+std::string answer_to(const Station& station, const std::string& bytes) {
+  asio::io_context context;
+  tcp::socket socket(context);
+  socket.connect(station.endpoint());
+  boost::system::error_code ignored;
+  asio::write(socket, asio::buffer(bytes), ignored);
+  std::string answer;
+  std::array<char, 4096> part{};
+  std::function<void()> read = [&] {
+    socket.async_read_some(asio::buffer(part),
+                           [&](boost::system::error_code error, std::size_t size) {
+                             answer.append(part.data(), size);
+                             if (!error) read();
+                           });
+  };
+  read();
+  context.run_for(std::chrono::seconds(1));
+  return answer;
+}
+
+void wait_for(const std::function<bool()>& done) {
+  for (int i = 0; i < 500 && !done(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  CHECK(done());
+}
+
+}  // namespace
+
+TEST_CASE("Addresses are this machine's, ports are ports", "[network]") {
+  CHECK(live::parse_endpoint("8416", "--http").port == 8416);
+  CHECK(live::parse_endpoint("localhost:0", "--http").address == "127.0.0.1");
+  CHECK(live::parse_endpoint("[::1]:80", "--http").address == "::1");
+  for (const char* text : {"", "http", "127.0.0.1:", "1.2.3.4:99999", "65536", "-1", "8416x",
+                           "0.0.0.0:8416", "192.168.1.2:8416", "[::]:1", "example.org:80"})
+    CHECK_THROWS_AS(live::parse_endpoint(text, "--http"), core::InputError);
+}
+
+TEST_CASE("A browser gets the page, and an error for what is not there", "[network][threads]") {
+  Station station;
+  station.network.start();
+  const std::string ask = " HTTP/1.1\r\nHost: " + station.host() + "\r\nConnection: close\r\n\r\n";
+  CHECK(answer_to(station, "GET /" + ask).starts_with("HTTP/1.1 200"));
+  CHECK(answer_to(station, "GET /api/status" + ask).find("\"waiting\":true") != std::string::npos);
+  CHECK(answer_to(station, "GET /nothing" + ask).starts_with("HTTP/1.1 404"));
+  CHECK(answer_to(station, "GET / HTTP/1.1\r\nHost: evil.example\r\n\r\n")
+            .starts_with("HTTP/1.1 403"));
+  CHECK(answer_to(station,
+                  "GET /ws HTTP/1.1\r\nHost: evil.example\r\nConnection: Upgrade\r\n"
+                  "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+                  "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n")
+            .starts_with("HTTP/1.1 403"));
+  // A second server on the port is refused.
+  live::Network other(station.desk, station.hub);
+  CHECK_THROWS_AS(other.serve({"127.0.0.1", station.port}), core::InputError);
+}
+
+TEST_CASE("Nonsense and floods are cut off, and the next visitor is served", "[network][threads]") {
+  Station station;
+  station.network.start();
+  CHECK(answer_to(station, std::string(100000, 'x')).find("200 OK") == std::string::npos);
+  CHECK(answer_to(station, "GET / HTTP/1.1\r\nHost: " + std::string(20000, 'h') + "\r\n\r\n")
+            .find("200 OK") == std::string::npos);
+  CHECK(answer_to(station, "POST /api/weather HTTP/1.1\r\nHost: " + station.host() +
+                               "\r\nContent-Length: 99999999\r\n\r\n{")
+            .find("200 OK") == std::string::npos);
+  asio::io_context context;
+  std::vector<tcp::socket> idle;
+  for (int i = 0; i < 60; ++i) {
+    idle.emplace_back(context);
+    idle.back().connect(station.endpoint());
+  }
+  idle.clear();
+  wait_for([&] {
+    return answer_to(station, "GET /api/status HTTP/1.1\r\nHost: " + station.host() +
+                                  "\r\nConnection: close\r\n\r\n")
+        .starts_with("HTTP/1.1 200");
+  });
+}
+
+TEST_CASE("F16 frames arrive whole and in order; who reads late, or never, misses some alone",
+          "[network][threads]") {
+  Station station;
+  station.network.start();
+  asio::io_context context;
+  const auto quick = watching(context, station), slow = watching(context, station);
+  const auto silent = watching(context, station);
+  wait_for([&] { return station.network.clients() == 3; });
+  constexpr int kFrames = 50, kRows = 100'000;  // enough to fill every buffer on the way
+  std::uint64_t last = 0;
+  for (std::uint64_t number = 1; number <= kFrames; ++number) {
+    station.hub.publish(frame_of(number, kRows));
+    std::string pixels;
+    const json head = next_head(*quick, &pixels);
+    const auto got = head["number"].get<std::uint64_t>();
+    CHECK(got > last);
+    last = got;
+    CHECK(pixels == std::string(6 * kRows, static_cast<char>(got)));
+  }
+  CHECK(last == kFrames);
+  // The slow one was never waited for; what it gets now is not one frame after the other.
+  last = 0;
+  int read = 0;
+  while (last < kFrames) {
+    const auto got = next_head(*slow)["number"].get<std::uint64_t>();
+    CHECK(got > last);
+    last = got;
+    ++read;
+  }
+  CHECK(read < kFrames);
+}
+
+TEST_CASE("Datagrams arrive as they were sent", "[network][threads]") {
+  Station station;
+  std::atomic<int> taken{0}, refused{0};
+  const std::uint16_t port = station.network.receive({}, [&](std::span<const std::uint8_t> bytes) {
+    feeds::PacketFault fault{};
+    ++(feeds::decode_native_fdm(bytes, fault) ? taken : refused);
+  });
+  station.network.start();
+  asio::io_context context;
+  udp::socket socket(context, udp::v4());
+  const udp::endpoint to(asio::ip::address_v4::loopback(), port);
+  for (int i = 0; i < 20; ++i) socket.send_to(asio::buffer(tests::native_fdm_bytes(0.9, 0.2)), to);
+  socket.send_to(asio::buffer("nonsense", 8), to);
+  socket.send_to(asio::buffer("", 0), to);
+  wait_for([&] { return taken == 20 && refused == 2; });
+}
+
+TEST_CASE("A channel renders what a flight sees, sixteen times a second, until it is stopped",
+          "[network][threads]") {
+  Station station;
+  station.network.start();
+  asio::io_context context;
+  const auto socket = watching(context, station);
+  core::StopSource stop;
+  std::thread pilot([&] {
+    const live::PoseSource source = live::source_of(live::circle(*station.session->scene()));
+    live::run_channel(
+        *station.session, source, {16.0, 1.0}, station.hub, [](live::Status&) {}, stop.token());
+  });
+  std::string before, now;
+  double heading_deg = 0.0;
+  for (int i = 1; i <= 5; ++i) {
+    const json head = next_head(*socket, &now);
+    CHECK(now.size() == 2 * 164 * 524);
+    CHECK(now != before);
+    CHECK(head["heading_deg"] != heading_deg);
+    heading_deg = head["heading_deg"];
+    before = now;
+  }
+  stop.request();
+  pilot.join();
+  const live::Status status = station.hub.status();
+  CHECK(status.frames >= 5);
+  CHECK(status.refused == 0);
+  CHECK_FALSE(status.waiting);
+}
+
+TEST_CASE("A pose that nothing can be rendered at is counted, and the channel goes on",
+          "[network][threads]") {
+  Station station;
+  live::Mailbox mailbox;
+  const auto scene = station.session->scene();
+  const auto begin = live::Clock::now();
+  core::StopSource stop;
+  std::atomic<std::uint64_t> refused{0}, frames{0};
+  std::atomic<bool> waited{false}, stale{false};
+  std::thread pilot([&] {
+    live::run_channel(
+        *station.session, live::source_of(mailbox, scene->frame, begin), {50.0, 1.0, begin},
+        station.hub,
+        [&](live::Status& status) {
+          refused = status.refused;
+          frames = status.frames;
+          if (status.waiting) waited = true;
+          stale = status.stale;
+        },
+        stop.token());
+  });
+  wait_for([&] { return waited.load(); });
+  core::Pose pose = live::circle(*scene)(1.0);
+  core::Pose nowhere = pose;
+  nowhere.position.height_m = std::nan("");
+  mailbox.put(nowhere);
+  wait_for([&] { return refused > 0; });
+  mailbox.put(pose);
+  mailbox.put(pose);
+  wait_for([&] { return frames > 0; });
+  wait_for([&] { return stale.load(); });  // nothing new for a second: the picture stands
+  const std::uint64_t standing = frames;
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  CHECK(frames == standing);
+  stop.request();
+  pilot.join();
+}

@@ -1,0 +1,226 @@
+// Poses at the middle of frames: closed forms, a recorded flight, and sources that jump.
+#include "live/predictor.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <map>
+#include <sstream>
+
+#include "core/units.h"
+#include "feeds/native_fdm.h"
+#include "tests/shared_data.h"
+
+using namespace fanbeam;
+using live::Predictor;
+
+namespace {
+
+const core::Geodetic kOrigin{0.9, 0.2, 100.0};
+const terrain::LocalFrame kFrame(kOrigin);
+
+// A level turn to the right at 70 m/s.
+core::Pose turning(double time_s, double rate_radps = 0.05) {
+  const double radius_m = 70.0 / rate_radps, phase_rad = rate_radps * time_s;
+  core::Pose pose;
+  pose.time_s = time_s;
+  pose.position = kFrame.to_geodetic(
+      {radius_m * (1.0 - std::cos(phase_rad)), radius_m * std::sin(phase_rad), 300.0});
+  const glm::dmat3 axes = kFrame.north_east_down_at(pose.position);
+  pose.v_N_mps = 70.0 * glm::dvec3(std::sin(phase_rad), std::cos(phase_rad), 0.0) * axes;
+  pose.q_NB = core::quaternion_from({0.3, 0.05, std::atan2(pose.v_N_mps.y, pose.v_N_mps.x)});
+  return pose;
+}
+
+double apart_m(const core::Pose& a, const core::Pose& b) {
+  return glm::distance(kFrame.to_local_m(a.position), kFrame.to_local_m(b.position));
+}
+
+double turned_rad(const core::Pose& a, const core::Pose& b) {
+  const double w = std::abs((glm::conjugate(a.q_NB) * b.q_NB).w);
+  return 2.0 * std::acos(std::min(w, 1.0));
+}
+
+struct Sent {
+  double arrived_s = 0.0;
+  core::Pose pose;
+};
+
+// Datagrams of port 5501, and what the simulator's own table says of its poses over its time.
+std::vector<Sent> sent_in(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<Sent> sent;
+  char head[12];
+  while (stream.read(head, sizeof head)) {
+    double time_s = 0.0;
+    std::uint16_t length = 0;
+    std::memcpy(&time_s, head, 8);
+    std::memcpy(&length, head + 10, 2);
+    std::vector<std::uint8_t> payload(length);
+    stream.read(reinterpret_cast<char*>(payload.data()), length);
+    feeds::PacketFault fault{};
+    const auto packet = feeds::decode_native_fdm(payload, fault);
+    REQUIRE(packet.has_value());
+    sent.push_back({time_s, feeds::pose_of(*packet)});
+  }
+  return sent;
+}
+
+std::vector<core::Pose> table_in(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::string line, cell;
+  std::getline(stream, line);
+  std::vector<core::Pose> poses;
+  while (std::getline(stream, line)) {
+    std::vector<double> cells;
+    for (std::istringstream text(line); std::getline(text, cell, ',');)
+      cells.push_back(std::stod(cell));
+    core::Pose pose;
+    pose.time_s = cells[0];
+    pose.position = {core::radians(cells[1]), core::radians(cells[2]), cells[3] * core::kFoot_m};
+    pose.q_NB = core::quaternion_from(
+        {core::radians(cells[6]), core::radians(cells[7]), core::radians(cells[8])});
+    poses.push_back(pose);
+  }
+  return poses;
+}
+
+// Between two rows 1/60 s apart.
+core::Pose truth_at(const std::vector<core::Pose>& table, double time_s) {
+  const auto above =
+      std::lower_bound(table.begin(), table.end(), time_s,
+                       [](const core::Pose& pose, double time) { return pose.time_s < time; });
+  REQUIRE(above != table.begin());
+  REQUIRE(above != table.end());
+  const core::Pose &a = *(above - 1), &b = *above;
+  const double share = (time_s - a.time_s) / (b.time_s - a.time_s);
+  core::Pose pose;
+  const auto mix = [share](double x, double y) { return x + share * (y - x); };
+  pose.position = {mix(a.position.latitude_rad, b.position.latitude_rad),
+                   mix(a.position.longitude_rad, b.position.longitude_rad),
+                   mix(a.position.height_m, b.position.height_m)};
+  pose.q_NB = core::interpolate(a.q_NB, b.q_NB, share);
+  return pose;
+}
+
+}  // namespace
+
+TEST_CASE("Between and after two poses a steady turn goes on", "[predictor]") {
+  Predictor predictor(kFrame);
+  CHECK_FALSE(predictor.at(0.0).has_value());
+  predictor.take(turning(0.0), 10.0);
+  CHECK(apart_m(*predictor.at(10.1), turning(0.0)) == Approx(7.0).epsilon(0.01));
+  predictor.take(turning(0.0625), 10.0625);
+  for (const double time_s : {0.0, 0.01, 0.04, 0.0625}) {
+    CHECK(apart_m(*predictor.at(10.0 + time_s), turning(time_s)) < 1e-5);
+    CHECK(turned_rad(*predictor.at(10.0 + time_s), turning(time_s)) < 1e-4);
+  }
+  for (const double ahead_s : {0.03, 0.1, 0.25}) {
+    // Constant acceleration instead of a turning one: a w t^3 / 6, a = 3.5 m/s2, w = 0.05 rad/s.
+    CHECK(apart_m(*predictor.at(10.0625 + ahead_s), turning(0.0625 + ahead_s)) < 0.01);
+    CHECK(turned_rad(*predictor.at(10.0625 + ahead_s), turning(0.0625 + ahead_s)) < 1e-4);
+  }
+  // Then it stands.
+  CHECK(apart_m(*predictor.at(20.0), *predictor.at(10.0625 + Predictor::kCarriedOn_s)) == 0.0);
+}
+
+TEST_CASE("Frames of the recorded flight follow it within 0.3 m and 0.1 deg", "[predictor]") {
+  const auto recording = tests::shared_data("flightgear/bikf10.bin");
+  const auto file = tests::shared_data("flightgear/bikf10.csv");
+  if (!recording || !file) return;
+  const std::vector<Sent> sent = sent_in(*recording);
+  const std::vector<core::Pose> table = table_in(*file);
+  constexpr double kTouchdown_s = 124.07, kPeriod_s = 1.0 / 16.0;
+  Predictor predictor(terrain::LocalFrame(sent.front().pose.position));
+  const terrain::LocalFrame frame(sent.front().pose.position);
+
+  // Frames begin at their rate, know what has arrived by then, and ask for their middle.
+  std::vector<core::Pose> frames;
+  std::size_t next = 0;
+  for (double begin_s = sent.front().arrived_s + 1.0; begin_s < sent.back().arrived_s - 1.0;
+       begin_s += kPeriod_s) {
+    for (; next < sent.size() && sent[next].arrived_s <= begin_s; ++next)
+      predictor.take(sent[next].pose, sent[next].arrived_s);
+    frames.push_back(*predictor.at(begin_s + kPeriod_s / 2));
+  }
+  // One constant between the two clocks, the best of steps of a millisecond.
+  const auto rms_at = [&](double delay_s) {
+    double square_m2 = 0.0, square_rad2 = 0.0;
+    int count = 0;
+    for (const core::Pose& pose : frames) {
+      const double time_s = pose.time_s + delay_s;
+      if (time_s > kTouchdown_s) break;
+      const core::Pose truth = truth_at(table, time_s);
+      const double off_m =
+          glm::distance(frame.to_local_m(pose.position), frame.to_local_m(truth.position));
+      square_m2 += off_m * off_m;
+      square_rad2 += std::pow(turned_rad(pose, truth), 2);
+      ++count;
+    }
+    return std::array{std::sqrt(square_m2 / count), std::sqrt(square_rad2 / count),
+                      static_cast<double>(count)};
+  };
+  const auto nearest =
+      std::min_element(table.begin(), table.end(), [&](const core::Pose& a, const core::Pose& b) {
+        const glm::dvec3 first_m = frame.to_local_m(sent.front().pose.position);
+        return glm::distance(frame.to_local_m(a.position), first_m) <
+               glm::distance(frame.to_local_m(b.position), first_m);
+      });
+  const double guess_s = nearest->time_s - sent.front().arrived_s;
+  double best_s = guess_s;
+  for (double delay_s = guess_s - 0.03; delay_s <= guess_s + 0.03; delay_s += 0.001)
+    if (rms_at(delay_s)[0] < rms_at(best_s)[0]) best_s = delay_s;
+  const auto [position_m, attitude_rad, count] = rms_at(best_s);
+  UNSCOPED_INFO("delay " << best_s - guess_s << " s, " << count << " frames");
+  CHECK(count > 1700);
+  CHECK(position_m < 0.3);
+  CHECK(core::degrees(attitude_rad) < 0.1);
+}
+
+TEST_CASE("F13 one stray pose moves nothing; a reset is followed on its second packet",
+          "[predictor]") {
+  Predictor predictor(kFrame);
+  for (int i = 0; i < 10; ++i) predictor.take(turning(0.0625 * i), 0.0625 * i);
+  core::Pose stray = turning(0.625);
+  stray.position.latitude_rad += 0.01;  // 60 km
+  predictor.take(stray, 0.625);
+  CHECK(apart_m(*predictor.at(0.65), turning(0.65)) < 0.1);
+  CHECK(*predictor.newest_s() == 0.5625);
+  predictor.take(turning(0.6875), 0.6875);
+  CHECK(apart_m(*predictor.at(0.7), turning(0.7)) < 0.1);
+
+  // The simulator is put back to its start, 50 s on.
+  predictor.take(turning(-40.0), 0.75);
+  CHECK(apart_m(*predictor.at(0.76), turning(0.76)) < 0.1);
+  predictor.take(turning(-40.0 + 0.0625), 0.8125);
+  CHECK(apart_m(*predictor.at(0.8125), turning(-40.0 + 0.0625)) < 1e-6);
+
+  // Alternating strays never win against each other.
+  for (int i = 1; i <= 20; ++i) {
+    core::Pose far = turning(-40.0);
+    far.position.longitude_rad += i % 2 == 0 ? 0.02 : -0.02;
+    predictor.take(far, 0.8125 + 0.01 * i);
+  }
+  CHECK(apart_m(*predictor.at(1.0), turning(-40.0 + 0.0625 + 0.1875)) < 0.1);
+
+  // No pose lies between the two sides of the jump.
+  for (double time_s = 0.5; time_s < 1.1; time_s += 0.01)
+    CHECK(apart_m(*predictor.at(time_s), turning(-40.0)) < 30.0);
+
+  // 20 km/s between two packets is a jump too.
+  Predictor fast(kFrame);
+  fast.take(turning(0.0), 0.0);
+  core::Pose thrown = turning(0.0625);
+  thrown.position.height_m += 1250.0;
+  fast.take(thrown, 0.0625);
+  CHECK(*fast.newest_s() == 0.0);
+
+  // A pause is a pose that stands, and going on is no jump.
+  Predictor paused(kFrame);
+  core::Pose still = turning(0.0);
+  for (int i = 0; i < 100; ++i) paused.take(still, 0.0625 * i);
+  paused.take(turning(0.0625), 6.25);
+  CHECK(*paused.newest_s() == 6.25);
+}

@@ -1,0 +1,82 @@
+// The error that is told with live pictures.
+#include "live/quality.h"
+
+#include <catch2/catch.hpp>
+
+#include "live/flights.h"
+#include "live/mailbox.h"
+#include "renderer/plan/effects.h"
+#include "tests/live/live_scene.h"
+
+using namespace fanbeam;
+
+namespace {
+
+live::Status told_by(const live::Quality& quality, double samples) {
+  live::Status status;
+  status.samples = samples;
+  const auto begin = live::Clock::now();
+  while (!status.errors && live::seconds_between(begin, live::Clock::now()) < 20.0) {
+    quality.tell(status);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return status;
+}
+
+std::shared_ptr<const live::LiveFrame> frame_at(const session::Session& session, double samples,
+                                                std::uint64_t number) {
+  auto frame = std::make_shared<live::LiveFrame>();
+  frame->number = number;
+  frame->samples = samples;
+  frame->pose = live::circle(*session.scene())(1.0);
+  frame->under = session.now();
+  return frame;
+}
+
+}  // namespace
+
+TEST_CASE("The error that is told is the renderer's own estimate for the frame that is shown",
+          "[quality][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  const live::Quality quality(*session, hub, 0.05);
+  live::Status nothing;
+  quality.tell(nothing);
+  CHECK_FALSE(nothing.errors.has_value());
+  hub.publish(frame_at(*session, 1.0, 1));
+  const live::Status coarse = told_by(quality, 1.0);
+  REQUIRE(coarse.errors.has_value());
+
+  renderer::Sampling sampling = session->sampling();
+  sampling.estimate_error = true;
+  const auto scene = session->scene();
+  renderer::Effects effects = renderer::effects_of(scene->plan, 0);
+  effects.speckle = effects.swerling = false;
+  const renderer::Frame made =
+      renderer::FrameRenderer(scene->world, sampling, {true, true}, effects)
+          .render(scene->pose_at(live::circle(*scene)(1.0)));
+  REQUIRE(made.error.has_value());
+  CHECK(coarse.errors->bscope_grey == made.error->rms_grey);
+  CHECK(coarse.errors->cscope_grey == made.error->cscope_rms_grey);
+
+  // Of another sampling nothing is told until it was looked at; a finer one is closer.
+  session->set(session::Samples{16.0});
+  live::Status finer;
+  finer.samples = 16.0;
+  quality.tell(finer);
+  CHECK_FALSE(finer.errors.has_value());
+  hub.publish(frame_at(*session, 16.0, 2));
+  finer = told_by(quality, 16.0);
+  REQUIRE(finer.errors.has_value());
+  CHECK(finer.errors->bscope_grey < 0.5 * coarse.errors->bscope_grey);
+}
+
+TEST_CASE("Whoever ends does not wait for the next look", "[quality][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  const auto begin = live::Clock::now();
+  { const live::Quality quality(*session, hub, 1000.0); }
+  CHECK(live::seconds_between(begin, live::Clock::now()) < 5.0);
+}

@@ -1,0 +1,99 @@
+// Raw pictures into files and pipes.
+#include "live/raw_frames.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include "core/errors.h"
+#include "live/mailbox.h"
+#include "tests/live/live_scene.h"
+
+using namespace fanbeam;
+using live::RawFrames;
+
+namespace {
+
+std::shared_ptr<const live::LiveFrame> frame_of(std::uint64_t number, std::size_t size) {
+  auto frame = std::make_shared<live::LiveFrame>();
+  frame->number = number;
+  frame->bscope.pixels.assign(size, static_cast<std::uint8_t>(number));
+  frame->cscope.pixels.assign(size, static_cast<std::uint8_t>(100 + number));
+  return frame;
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+}  // namespace
+
+TEST_CASE("Where every frame is wanted, the file holds all pictures one after the other",
+          "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "frames.raw";
+  {
+    RawFrames raw(RawFrames::Scope::cscope, file.string(), true);
+    for (const std::uint64_t number : {1U, 2U, 2U, 3U}) raw.write(frame_of(number, 2));
+    CHECK_FALSE(raw.ended());
+  }
+  CHECK(bytes_of(file) == "eeffgg");  // 101, 102, 103
+}
+
+TEST_CASE("F15 a reader that stands still holds nobody up, and gets whole pictures later",
+          "[raw_frames][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto pipe = (folder.path() / "pipe").string();
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  constexpr std::size_t kSize = 100'000;  // more than a pipe holds
+  RawFrames raw(RawFrames::Scope::bscope, pipe, false);
+  raw.write(frame_of(1, kSize));
+  pollfd begun{reader, POLLIN, 0};
+  REQUIRE(::poll(&begun, 1, 10'000) == 1);
+  const auto begin = live::Clock::now();
+  for (std::uint64_t number = 2; number <= 50; ++number) raw.write(frame_of(number, kSize));
+  CHECK(live::seconds_between(begin, live::Clock::now()) < 0.1);
+  std::string got;
+  char bytes[65536];
+  for (int i = 0; i < 2000 && got.size() < 2 * kSize; ++i) {
+    const ssize_t count = ::read(reader, bytes, sizeof bytes);
+    if (count > 0)
+      got.append(bytes, static_cast<std::size_t>(count));
+    else
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  REQUIRE(got.size() == 2 * kSize);
+  CHECK(got.find_first_not_of(got[0]) == kSize);  // whole,
+  CHECK(got[kSize] == 50);                        // then the newest, those between missed
+  CHECK(got.find_first_not_of(got[kSize], kSize) == std::string::npos);
+  ::close(reader);
+}
+
+TEST_CASE("A reader that leaves ends the pictures, not the program", "[raw_frames][threads]") {
+  std::signal(SIGPIPE, SIG_IGN);
+  const tests::TemporaryFolder folder;
+  const auto pipe = (folder.path() / "pipe").string();
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  RawFrames raw(RawFrames::Scope::bscope, pipe, true);
+  raw.write(frame_of(1, 10));
+  ::close(reader);
+  raw.write(frame_of(2, 10));
+  CHECK(raw.ended());
+}
+
+TEST_CASE("A file that cannot be written is told", "[raw_frames]") {
+  CHECK_THROWS_AS(RawFrames(RawFrames::Scope::bscope, "/nonexistent/frames", false),
+                  core::InputError);
+}

@@ -1,0 +1,182 @@
+// Live channels recorded and flown again: the same bytes, and recordings that are none.
+#include "live/recording.h"
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <thread>
+
+#include "core/units.h"
+#include "live/channel.h"
+#include "live/replay.h"
+#include "tests/feeds/native_fdm_bytes.h"
+#include "tests/live/live_scene.h"
+
+using namespace fanbeam;
+
+namespace {
+
+using Frames = std::vector<std::shared_ptr<const live::LiveFrame>>;
+
+// Keeps every frame that a channel tells of.
+live::Told keeping(Frames& frames, const live::Hub& hub, core::StopSource& stop,
+                   std::size_t enough) {
+  return [&, enough](live::Status&) {
+    const auto newest = hub.newest();
+    if (newest && (frames.empty() || frames.back()->number != newest->number))
+      frames.push_back(newest);
+    if (frames.size() >= enough) stop.request();
+  };
+}
+
+void check_equal(const Frames& a, const Frames& b) {
+  REQUIRE(a.size() == b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    CHECK(a[i]->number == b[i]->number);
+    CHECK(a[i]->samples == b[i]->samples);
+    CHECK(a[i]->bscope.pixels == b[i]->bscope.pixels);
+    CHECK(a[i]->cscope.pixels == b[i]->cscope.pixels);
+  }
+}
+
+// What a replay of the file gives, in lockstep, over a session opened anew.
+Frames replayed(const std::filesystem::path& file, double own_samples = 1.0) {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  session->set(session::Samples{own_samples});
+  live::Hub hub;
+  const live::Desk desk(*session, hub);
+  const live::Recording recording = live::read_recording(file);
+  const live::Feed feed(session->scene(), core::VerticalDatum::egm96);
+  const live::Flight flight = live::circle(*session->scene());
+  const bool flown = recording.flown_by.from == "circle";
+  Frames frames;
+  core::StopSource stop;
+  live::run_replay(*session, recording, flown ? nullptr : &feed, flown ? &flight : nullptr, desk,
+                   {.lockstep = true}, hub, keeping(frames, hub, stop, 1'000'000), stop.token());
+  return frames;
+}
+
+std::vector<core::Problem> problems_of(const std::filesystem::path& file) {
+  try {
+    live::read_recording(file);
+  } catch (const core::InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+constexpr const char* kHead =
+    R"({"fanbeam_live":1,"scene":"s","from":"circle","datum":"egm96","rate_Hz":16,"lockstep":false})";
+
+}  // namespace
+
+TEST_CASE("A recorded flight with packets and controls gives the same bytes again", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  const auto session = tests::live_session(folder);
+  const auto scene = session->scene();
+  live::Hub hub;
+  live::Journal journal(file, {scene->description.name, "native-fdm:5501", "egm96", 40.0, false});
+  const live::Desk desk(*session, hub, &journal);
+  live::Feed feed(scene, core::VerticalDatum::egm96);
+  Frames frames;
+  core::StopSource stop;
+  std::atomic<bool> done{false};
+  std::thread simulator([&] {
+    for (int i = 0; !done; ++i) {
+      feed.take(tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0 + 1e-5 * i)));
+      if (i == 5)
+        desk.answer({"POST",
+                     "/api/weather",
+                     "localhost",
+                     {},
+                     "application/json",
+                     R"({"rain_rate_mm_per_h": 40})"});
+      std::this_thread::sleep_for(std::chrono::milliseconds(13 + i % 3 * 8));
+    }
+  });
+  const auto begin = live::Clock::now();
+  live::run_channel(*session, live::source_of(feed.mailbox(), scene->frame, begin, &journal),
+                    {40.0, 0.0, begin, &journal}, hub, keeping(frames, hub, stop, 30),
+                    stop.token());
+  done = true;
+  simulator.join();
+  REQUIRE(frames.size() == 30);
+  CHECK(session->scene()->weather.rain_rate_mm_per_h == 40.0);
+  CHECK(frames.front()->bscope.pixels != frames.back()->bscope.pixels);
+  check_equal(replayed(file), frames);
+}
+
+TEST_CASE("Lockstep gives a frame for every pose, whenever it comes, with the same bytes",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  Frames runs[2];
+  for (int run = 0; run < 2; ++run) {
+    const auto session = tests::live_session(folder);
+    const auto file = folder.path() / "lockstep.jsonl";
+    live::Hub hub;
+    live::Journal journal(file, {"s", "native-fdm:1", "egm96", 16.0, true});
+    live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[0],
+                    live::Mailbox::kKeptInLockstep);
+    std::thread simulator([&] {
+      for (int i = 0; i < 12; ++i) {
+        feed.take(tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0 + 1e-4 * i)));
+        if (run == 1) std::this_thread::sleep_for(std::chrono::milliseconds(7 * (i % 4)));
+      }
+    });
+    core::StopSource stop;
+    live::run_lockstep(*session, feed.mailbox(), {.samples = 1.0, .journal = &journal}, hub,
+                       keeping(runs[run], hub, stop, 12), stop.token());
+    simulator.join();
+    CHECK(hub.status().late == 0);
+    for (const auto& frame : runs[run])
+      CHECK(core::degrees(frame->pose.position.longitude_rad) ==
+            Approx(10.0 + 1e-4 * static_cast<double>(frame->number - 1)).epsilon(1e-7));
+    check_equal(replayed(file), runs[run]);
+  }
+  check_equal(runs[0], runs[1]);
+}
+
+TEST_CASE("A flight in lockstep is at each tick, and the same when it is flown again",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const auto file = folder.path() / "circle.jsonl";
+  live::Hub hub;
+  live::Journal journal(file, {"s", "circle", "egm96", 16.0, true});
+  Frames frames;
+  core::StopSource stop;
+  session->set(session::Samples{0.5});  // whatever the session has stays, and is no one's number
+  live::run_lockstep(*session, live::circle(*session->scene()), {.journal = &journal}, hub,
+                     keeping(frames, hub, stop, 4), stop.token());
+  const live::Recording kept = live::read_recording(file);
+  CHECK(std::get<live::RecordedFrame>(kept.events.at(0)).samples == 0.0);
+  CHECK(frames.at(3)->pose.time_s == 3.5 / 16.0);
+  check_equal(replayed(file, 0.5), frames);
+}
+
+TEST_CASE("What is wrong with a recording is told with its line", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto wrong = [&](const std::string& text) {
+    return problems_of(folder.write("wrong.jsonl", text));
+  };
+  CHECK(problems_of(folder.path() / "none.jsonl").at(0).code == "E-IO");
+  CHECK(wrong("").at(0).code == "E-PARSE");
+  CHECK(wrong("{}\n").size() >= 5);
+  const auto several =
+      wrong(std::string(kHead) +
+            "\n{\"packet\":\"0g\",\"s\":1}\n"
+            "{\"frame\":0,\"now_s\":1,\"at_s\":1,\"samples\":1}\n"
+            "{\"frame\":1,\"now_s\":1e999,\"at_s\":1,\"samples\":1}\nnonsense\n{}\n");
+  CHECK(several.size() >= 6);
+  CHECK(several.at(0).place.file.find(":2") != std::string::npos);
+  CHECK(several.at(1).place.file.find(":3") != std::string::npos);
+}
+
+TEST_CASE("The last line of a channel that was killed is left out", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const live::Recording recording = live::read_recording(folder.write(
+      "cut.jsonl", std::string(kHead) +
+                       "\n{\"frame\":1,\"now_s\":1,\"at_s\":1,\"samples\":1}\n{\"frame\":2,\"no"));
+  CHECK(recording.events.size() == 1);
+}

@@ -1,0 +1,161 @@
+// Frames in shared memory, read back by the documented layout alone.
+#include "live/shared_frames.h"
+
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <cstring>
+#include <fstream>
+#include <thread>
+#include <vector>
+
+#include "core/errors.h"
+#include "sensors/sensor_file.h"
+
+using namespace fanbeam;
+using live::SharedFrames;
+
+namespace {
+
+sensors::Sensor sensor() {
+  core::ProblemList problems;
+  return sensors::read_sensor(FANBEAM_SOURCE_DIR "/sensors/hivision.toml", problems);
+}
+
+std::string own_name() { return "fanbeam_test_" + std::to_string(getpid()); }
+
+live::LiveFrame frame_of(std::uint64_t number) {
+  live::LiveFrame frame;
+  frame.number = number;
+  frame.pose.time_s = static_cast<double>(number) / 16.0;
+  frame.pose.position = {0.9, 0.2, 300.0};
+  frame.samples = 4.0;
+  const std::vector<std::uint8_t> pixels(164 * 524, static_cast<std::uint8_t>(number));
+  frame.bscope = frame.cscope = {164, 524, pixels};
+  return frame;
+}
+
+// What any other program has: the file, and the layout of docs/live.md.
+class Reader {
+ public:
+  explicit Reader(const std::string& name) {
+    const int file = open(("/dev/shm/" + name).c_str(), O_RDONLY);
+    REQUIRE(file >= 0);
+    struct stat facts {};
+    REQUIRE(fstat(file, &facts) == 0);
+    bytes_ = static_cast<std::size_t>(facts.st_size);
+    mode_ = facts.st_mode & 0777;
+    memory_ =
+        static_cast<const std::uint8_t*>(mmap(nullptr, bytes_, PROT_READ, MAP_SHARED, file, 0));
+    close(file);
+  }
+  ~Reader() { munmap(const_cast<std::uint8_t*>(memory_), bytes_); }
+
+  template <class T>
+  T at(std::size_t offset) const {
+    T value{};
+    std::memcpy(&value, memory_ + offset, sizeof value);
+    return value;
+  }
+  std::uint64_t number(std::size_t offset) const {
+    const auto* word = reinterpret_cast<const std::uint64_t*>(memory_ + offset);
+    return __atomic_load_n(word, __ATOMIC_ACQUIRE);
+  }
+  // The newest frame's number and pixels; nothing when it was written over meanwhile.
+  std::optional<std::pair<std::uint64_t, std::vector<std::uint8_t>>> newest() const {
+    const std::uint64_t frame = number(104);
+    const std::size_t slot = 256 + frame % at<std::uint32_t>(16) * at<std::uint32_t>(20);
+    const std::uint64_t before = number(slot);
+    std::vector<std::uint8_t> pixels(memory_ + slot + 128, memory_ + slot + 128 + 2 * 164 * 524);
+    std::atomic_thread_fence(std::memory_order_acquire);
+    if (before % 2 != 0 || number(slot) != before) return std::nullopt;
+    return std::pair(before / 2, std::move(pixels));
+  }
+
+  unsigned mode_ = 0;
+
+ private:
+  const std::uint8_t* memory_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("Shared memory holds what its layout says, for its owner alone", "[shared_frames]") {
+  const std::string name = own_name();
+  {
+    SharedFrames frames(name, sensor(), 16.0);
+    const Reader reader(name);
+    CHECK(reader.mode_ == 0600);
+    CHECK(reader.at<std::array<char, 8>>(0) ==
+          std::array<char, 8>{'F', 'A', 'N', 'B', 'E', 'A', 'M', '\0'});
+    CHECK(reader.at<std::uint32_t>(8) == 1);
+    CHECK(reader.at<std::uint32_t>(24) == 164);
+    CHECK(reader.at<std::uint32_t>(28) == 524);
+    CHECK(reader.at<double>(40) == 200.0);
+    CHECK(reader.at<double>(48) == 6.67);
+    CHECK(reader.at<double>(80) == -55.0);
+    CHECK(reader.at<double>(96) == 16.0);
+    CHECK(reader.number(104) == 0);
+    for (std::uint64_t number = 1; number <= 20; ++number) frames.write(frame_of(number));
+    const auto newest = reader.newest();
+    REQUIRE(newest.has_value());
+    CHECK(newest->first == 20);
+    CHECK(newest->second == std::vector<std::uint8_t>(2 * 164 * 524, 20));
+    const std::size_t slot = 256 + 20 % 8 * reader.at<std::uint32_t>(20);
+    CHECK(reader.at<std::uint64_t>(slot + 8) == 20);
+    CHECK(reader.at<double>(slot + 16) == 1.25);
+    CHECK(reader.at<double>(slot + 24) == 0.9);
+    CHECK(reader.at<double>(slot + 40) == 300.0);
+    CHECK(reader.at<double>(slot + 88) == 4.0);
+  }
+  CHECK(access(("/dev/shm/" + name).c_str(), F_OK) != 0);
+}
+
+TEST_CASE("No reader ever takes a torn frame", "[shared_frames]") {
+  const std::string name = own_name();
+  SharedFrames frames(name, sensor(), 16.0);
+  frames.write(frame_of(1));
+  std::atomic<bool> done{false};
+  std::atomic<int> taken{0}, torn{0};
+  std::thread watcher([&] {
+    const Reader reader(name);
+    std::uint64_t last = 0;
+    while (!done) {
+      const auto newest = reader.newest();
+      if (!newest) continue;
+      ++taken;
+      const auto wanted = static_cast<std::uint8_t>(newest->first);
+      for (const std::uint8_t pixel : newest->second) torn += pixel != wanted;
+      torn += newest->first < last;
+      last = newest->first;
+    }
+  });
+  for (std::uint64_t number = 2; number <= 2000; ++number) frames.write(frame_of(number));
+  done = true;
+  watcher.join();
+  CHECK(taken > 10);
+  CHECK(torn == 0);
+}
+
+TEST_CASE("A name in use is refused, one that a dead process left is taken over",
+          "[shared_frames]") {
+  const std::string name = own_name();
+  for (const char* bad : {"", "a/b", "../x", ".hidden", "with space"})
+    CHECK_THROWS_AS(SharedFrames(bad, sensor(), 16.0), core::InputError);
+  {
+    const SharedFrames first(name, sensor(), 16.0);
+    CHECK_THROWS_AS(SharedFrames(name, sensor(), 16.0), core::InputError);
+    CHECK(Reader(name).number(104) == 0);  // untouched
+  }
+  std::ofstream("/dev/shm/" + name) << "left behind";
+  SharedFrames second(name, sensor(), 16.0);
+  second.write(frame_of(3));
+  CHECK(Reader(name).newest()->first == 3);
+}
