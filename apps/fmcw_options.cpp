@@ -8,7 +8,6 @@
 #include "apps/value_words.h"
 #include "core/text.h"
 #include "renderer/casting/sampling.h"
-#include "renderer/plan/effect_catalogue.h"
 #include "scenes/scene.h"
 #include "signal/waveform/waveform.h"
 
@@ -48,22 +47,12 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
       ->check(whole_number_from(0, 24));
 }
 
-std::string effects_help() {
-  std::string names;
-  for (const renderer::Effect& effect : renderer::effect_catalogue(renderer::Touches::samples))
-    names += (names.empty() ? "" : ", ") + std::string(effect.name());
-  return "all, none, or a list such as +phase-noise,-gas of the effects " + names +
-         " and those of fanbeam render (default: what the scene and its samples call for)";
-}
-
 void add_plan(CLI::App& command, FmcwOptions& options) {
   add_accuracy_option(
       command, options.accuracy_grey,
       "Grey levels asked for: half of it is for effects left out (default: the scene's, else " +
           core::number_text(scenes::kDefaultAccuracy_grey) + ")");
-  command.add_option("--effects", options.effects, effects_help())
-      ->type_name("EFFECT")
-      ->check(offers(effect_wishes(renderer::Touches::samples)));
+  add_effects_option(command, options.effects, renderer::Touches::samples);
 }
 
 }  // namespace

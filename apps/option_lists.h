@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "apps/value_words.h"
 #include "core/errors.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "session/products/products.h"
@@ -51,6 +53,14 @@ std::string products_help(const Products& products) {
   return text;
 }
 
+// "ground-clutter, rain, gas".
+inline std::string effect_names(renderer::Touches touched) {
+  std::string names;
+  for (const renderer::Effect& effect : renderer::effect_catalogue(touched))
+    names.append(names.empty() ? "" : ", ").append(effect.name());
+  return names;
+}
+
 // "all", "none", "+gas", "-gas" and so on.
 inline std::vector<std::string> effect_wishes(renderer::Touches touched) {
   std::vector<std::string> wishes = {"all", "none"};
@@ -61,6 +71,20 @@ inline std::vector<std::string> effect_wishes(renderer::Touches touched) {
   add(renderer::Touches::pictures);
   if (touched == renderer::Touches::samples) add(touched);
   return wishes;
+}
+
+// --effects, alike wherever it is asked for.
+inline void add_effects_option(CLI::App& command, std::string& wishes, renderer::Touches touched) {
+  const bool samples = touched == renderer::Touches::samples;
+  command
+      .add_option("--effects", wishes,
+                  fmt::format("all, none, or a list such as {} of the effects {}{}",
+                              samples ? "+phase-noise,-gas" : "+rain,-gas", effect_names(touched),
+                              samples ? " and those of fanbeam render (default: what the scene "
+                                        "and its samples call for)"
+                                      : " (default: what the scene calls for)"))
+      ->type_name("EFFECT")
+      ->check(offers(effect_wishes(touched)));
 }
 
 }  // namespace fanbeam::apps

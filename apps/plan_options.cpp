@@ -19,12 +19,7 @@ CLI::App& add_plan_command(CLI::App& program, PlanOptions& options, CommonOption
                       "Grey levels asked for: half of it is for effects left out, half for "
                       "sampling (default: the scene's, else " +
                           core::number_text(scenes::kDefaultAccuracy_grey) + ")");
-  command
-      .add_option("--effects", options.effects,
-                  "all, none, or a list such as +rain,-gas; fanbeam list effects names them "
-                  "(default: what the scene calls for)")
-      ->type_name("EFFECT")
-      ->check(offers(effect_wishes(renderer::Touches::pictures)));
+  add_effects_option(command, options.effects, renderer::Touches::pictures);
   command.add_flag("--per-frame", options.per_frame,
                    "Tell as well what single frames can go without");
   CLI::Option* measure = command.add_flag(

@@ -15,25 +15,25 @@ namespace {
 
 namespace fs = std::filesystem;
 using core::ErrorClass;
-using Json = nlohmann::json;
 
 constexpr std::uint64_t kMostResults_bytes = 256U << 20U;
 
-Json results_of(const fs::path& output) {
+nlohmann::json results_of(const fs::path& output) {
   const fs::path file = output / "results.json";
   if (!fs::exists(file))
     core::throw_input_error(ErrorClass::io, core::Place{file.string()}, "results", "not found",
                             "results of fanbeam regress run, with the same -o");
   try {
-    return Json::parse(core::read_file(file, kMostResults_bytes));
-  } catch (const Json::exception& error) {
+    return nlohmann::json::parse(core::read_file(file, kMostResults_bytes));
+  } catch (const nlohmann::json::exception& error) {
     core::throw_input_error(ErrorClass::parse, core::Place{file.string()}, "", error.what(),
                             "the results that fanbeam regress run writes");
   }
 }
 
 // The cases to approve, as results.json has them.
-std::vector<Json> chosen(const Suite& suite, const Json& results, const std::string& only) {
+std::vector<nlohmann::json> chosen(const Suite& suite, const nlohmann::json& results,
+                                   const std::string& only) {
   std::vector<std::string> names;
   for (const SuiteCase& one : suite.cases) names.push_back(one.name);
   if (!only.empty() && std::find(names.begin(), names.end(), only) == names.end()) {
@@ -42,9 +42,9 @@ std::vector<Json> chosen(const Suite& suite, const Json& results, const std::str
     core::throw_input_error(ErrorClass::ref, "--case", "\"" + only + "\"",
                             "a case of the suite, such as" + near);
   }
-  std::vector<Json> cases;
+  std::vector<nlohmann::json> cases;
   core::ProblemList problems;
-  for (const Json& one : results.at("cases")) {
+  for (const nlohmann::json& one : results.at("cases")) {
     const bool asked = one.at("name") == only;
     if (asked || (only.empty() && one.at("state") != name_of(CaseState::passed)))
       cases.push_back(one);
@@ -77,8 +77,8 @@ void approve_case(const Suite& suite, const SuiteCase& one, const fs::path& outp
 }
 
 // Results of another state of the suite say nothing about this one.
-void refuse_other_suite(const Suite& suite, const Json& results, const fs::path& output) {
-  if (results.at("input") != Json::parse(results_json(suite, {})).at("input"))
+void refuse_other_suite(const Suite& suite, const nlohmann::json& results, const fs::path& output) {
+  if (results.at("input") != nlohmann::json::parse(results_json(suite, {})).at("input"))
     core::throw_input_error(ErrorClass::ref, core::Place{(output / "results.json").string()},
                             "results", "of another state of " + suite.file.string(),
                             "results of the suite as it is: run it again");
@@ -96,18 +96,18 @@ int approve(const ApproveOptions& options, const CommonOptions& common) {
                             "why the new pictures are right");
   const Suite suite = read_valid_suite(options.suite);
   const fs::path output = results_folder(suite, options.output);
-  const Json results = results_of(output);
+  const nlohmann::json results = results_of(output);
   std::size_t approved = 0;
   try {
     refuse_other_suite(suite, results, output);
     core::remove_abandoned_temporaries(suite.approved);
-    for (const Json& result : chosen(suite, results, options.only))
+    for (const nlohmann::json& result : chosen(suite, results, options.only))
       for (const SuiteCase& one : suite.cases)
         if (result.at("name") == one.name) {
           approve_case(suite, one, output, reason, common.quiet);
           ++approved;
         }
-  } catch (const Json::exception& error) {
+  } catch (const nlohmann::json::exception& error) {
     core::throw_input_error(ErrorClass::parse, core::Place{(output / "results.json").string()}, "",
                             error.what(), "the results that fanbeam regress run writes");
   }

@@ -8,20 +8,11 @@
 #include "core/errors.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/caster_choice.h"
-#include "renderer/plan/effect_catalogue.h"
 #include "session/figure/figure_facts.h"
 #include "session/products/preview.h"
 
 namespace fanbeam::apps {
 namespace {
-
-std::string effects_help() {
-  std::string names;
-  for (const renderer::Effect& effect : renderer::effect_catalogue())
-    names += (names.empty() ? "" : ", ") + std::string(effect.name());
-  return "all, none, or a list such as +rain,-gas of the effects " + names +
-         " (default: what the scene calls for)";
-}
 
 void add_sampling(CLI::App& command, RenderOptions& options) {
   CLI::Option* rays =
@@ -102,9 +93,7 @@ CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOp
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
       ->check(whole_number_from(0, 1024));
   add_sampling(command, options);
-  command.add_option("--effects", options.effects, effects_help())
-      ->type_name("EFFECT")
-      ->check(offers(effect_wishes(renderer::Touches::pictures)));
+  add_effects_option(command, options.effects, renderer::Touches::pictures);
   command.add_flag("--plan-per-frame", options.plan_per_frame,
                    "Leave out of each frame what it can do without, not only what the whole "
                    "sequence can; no pixel changes by more than half the accuracy");

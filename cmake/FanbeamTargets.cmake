@@ -24,6 +24,26 @@ elseif(FANBEAM_SANITIZER STREQUAL "thread")
   target_link_options(fanbeam_options INTERFACE -fsanitize=thread)
 endif()
 
+# Compiles the sources of a target eight at a time, never of two folders together: a folder's sources share no name in
+# their unnamed namespaces (tests/core/unnamed_namespace_test.cpp), so that it makes no difference which eight.
+function(fanbeam_unity target)
+  if(NOT FANBEAM_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  get_target_property(sources ${target} SOURCES)
+  foreach(source IN LISTS sources)
+    get_filename_component(folder "${source}" DIRECTORY)
+    string(MAKE_C_IDENTIFIER "${folder}" folder)
+    if(NOT DEFINED count_${folder})
+      set(count_${folder} 0)
+    endif()
+    math(EXPR batch "${count_${folder}} / 8")
+    math(EXPR count_${folder} "${count_${folder}} + 1")
+    set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${folder}_${batch}")
+  endforeach()
+endfunction()
+
 # fanbeam_library(core EXCEPT e PUBLIC a b PRIVATE c d): sources are all .cpp files in and under the folder but those of
 # its folder e.
 function(fanbeam_library name)
@@ -33,7 +53,7 @@ function(fanbeam_library name)
     list(FILTER sources EXCLUDE REGEX "^${CMAKE_CURRENT_SOURCE_DIR}/${ARG_EXCEPT}/")
   endif()
   add_library(fanbeam_${name} STATIC ${sources})
-  set_target_properties(fanbeam_${name} PROPERTIES UNITY_BUILD ${FANBEAM_UNITY} UNITY_BUILD_BATCH_SIZE 8)
+  fanbeam_unity(fanbeam_${name})
   # Shared libraries hold them too: libfanbeam.so. Hidden, so that code that could stand anywhere costs nothing (no symbol
   # can be replaced by another library's); programs and libraries that link them statically see no difference.
   set_target_properties(fanbeam_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON

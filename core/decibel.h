@@ -8,6 +8,8 @@
 namespace fanbeam::core {
 
 inline constexpr double kLargestLevel_dB = 3000.0;
+// Of power: 10 / ln 10.
+inline constexpr double kDecibelsPerNeper = 4.34294481903251827651;
 
 // 10^(level/10). Throws InputError: E-NONFINITE for NaN or infinity, E-RANGE beyond +-3000 dB.
 double power_from_dB(double level_dB);

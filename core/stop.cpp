@@ -3,18 +3,18 @@
 namespace fanbeam::core {
 namespace {
 
-thread_local const StopToken* innermost = nullptr;
+thread_local const StopToken* watched = nullptr;
 
 }  // namespace
 
-StopScope::StopScope(const StopToken& token) noexcept : before_(innermost) { innermost = &token; }
+StopScope::StopScope(const StopToken& token) noexcept : before_(watched) { watched = &token; }
 
-StopScope::~StopScope() { innermost = before_; }
+StopScope::~StopScope() { watched = before_; }
 
-StopToken StopScope::current() { return innermost != nullptr ? *innermost : StopToken(); }
+StopToken StopScope::current() { return watched != nullptr ? *watched : StopToken(); }
 
 void throw_if_stopped() {
-  if (innermost != nullptr && innermost->reason() != 0) throw Stopped();
+  if (watched != nullptr && watched->reason() != 0) throw Stopped();
 }
 
 }  // namespace fanbeam::core

@@ -13,7 +13,7 @@
 namespace fanbeam::measure {
 namespace {
 
-constexpr std::uint64_t kSeed = 1;  // of what is drawn, the same with and without an effect
+constexpr std::uint64_t kDrawnSeed = 1;  // of what is drawn, the same with and without an effect
 
 std::string_view what_of(core::EffectId id) {
   for (const renderer::Effect& effect : renderer::effect_catalogue())
@@ -36,9 +36,9 @@ EffectPrice price_in_frame(const CostBench& bench, const scenes::Scene& other, i
                            const EffectPrice& effect) {
   const renderer::FramePose pose = bench.scene.frame_pose(frame);
   const FrameClock planned(bench.scene.world, pose, bench.sampling,
-                           renderer::effects_of(bench.scene.plan, kSeed));
+                           renderer::effects_of(bench.scene.plan, kDrawnSeed));
   const FrameClock changed(other.world, pose, bench.sampling,
-                           renderer::effects_of(other.plan, kSeed));
+                           renderer::effects_of(other.plan, kDrawnSeed));
   const renderer::Frame a = planned.render(), b = changed.render();
   const auto times = core::time_in_turns({[&] { planned.render(); }, [&] { changed.render(); }},
                                          bench.effort.repetitions);

@@ -14,13 +14,7 @@ using core::ConfigTable;
 using core::radians;
 
 constexpr core::NumberRange kDistance_m{-100000.0, 100000.0};
-constexpr core::NumberRange kRcs_dBsm{-80.0, 80.0};
-constexpr core::NumberRange kHeading_deg{-360.0, 360.0};
 constexpr std::size_t kMostRunways = 64;  // each flattens its strip of the terrain
-
-double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBsm) {
-  return core::power_from_dB(table.number(key, kRcs_dBsm, fallback_dBsm));
-}
 
 void read_runway_end(ConfigTable& runway, const char* key, RunwayEndDescription& end) {
   ConfigTable table = runway.table(key);

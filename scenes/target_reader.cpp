@@ -14,16 +14,11 @@ using core::ConfigTable;
 using core::radians;
 
 constexpr core::NumberRange kRcs_dBsm{-80.0, 80.0};
-constexpr core::NumberRange kHeading_deg{-360.0, 360.0};
 constexpr core::NumberRange kSize_m{0.001, 100.0};
 // Power lines are some 10 to 30 mm thick, fence wire 2 mm.
 constexpr core::NumberRange kWireRadius_m{1e-4, 10.0};
 constexpr core::NumberRange kAcrossWire_deg{0.0, 90.0};
 constexpr core::NumberRange kSpacing_m{0.01, 100.0};
-
-double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBsm) {
-  return core::power_from_dB(table.number(key, kRcs_dBsm, fallback_dBsm));
-}
 
 materials::RoundWire read_wire(ConfigTable& table, double usual_polarisation_rad) {
   materials::RoundWire wire;
@@ -81,6 +76,10 @@ core::Swerling read_rcs(ConfigTable& target, ObjectNames& objects, double wire_p
 }
 
 }  // namespace
+
+double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBsm) {
+  return core::power_from_dB(table.number(key, kRcs_dBsm, fallback_dBsm));
+}
 
 TargetDescription read_target(ConfigTable& table, ObjectNames& objects, HighwayPaths& highway,
                               core::Polarisation polarisation) {

@@ -9,6 +9,11 @@
 
 namespace fanbeam::scenes {
 
+inline constexpr core::NumberRange kHeading_deg{-360.0, 360.0};
+
+// -80 to 80 dBsm under the key, as an RCS in m2.
+double rcs_m2_from(core::ConfigTable& table, std::string_view key, double fallback_dBsm);
+
 // `polarisation` is the radar's: what a wire is seen with.
 TargetDescription read_target(core::ConfigTable& table, ObjectNames& objects, HighwayPaths& highway,
                               core::Polarisation polarisation);

@@ -14,6 +14,9 @@
 
 namespace fanbeam::bindings {
 
+// What a call expects as its session.
+inline constexpr const char* kOpened = "what fanbeam_open gave";
+
 class Arguments {
  public:
   // False, and refused, when it is NULL.

@@ -12,10 +12,9 @@
 
 using namespace fanbeam;
 using bindings::Arguments;
+using bindings::kOpened;
 
 namespace {
-
-constexpr const char* kOpened = "what fanbeam_open gave";
 
 void check_weather(const fanbeam_weather& weather, Arguments& arguments) {
   arguments.bits(weather.given, FANBEAM_VISIBILITY | FANBEAM_NO_FOG | FANBEAM_RAIN_RATE,

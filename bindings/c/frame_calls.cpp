@@ -12,11 +12,10 @@
 
 using namespace fanbeam;
 using bindings::Arguments;
+using bindings::kOpened;
 using bindings::Outcome;
 
 namespace {
-
-constexpr const char* kOpened = "what fanbeam_open gave";
 
 void check_output(const fanbeam_output& output, const fanbeam_session* session,
                   Arguments& arguments) {

@@ -11,10 +11,9 @@
 
 using namespace fanbeam;
 using bindings::Arguments;
+using bindings::kOpened;
 
 namespace {
-
-constexpr const char* kOpened = "what fanbeam_open gave";
 
 constexpr std::size_t kMostDataFolders = 256;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/decibel.h"
 #include "sensors/cells.h"
 #include "sensors/display/display.h"
 #include "sensors/display/grey_scale.h"
@@ -10,8 +11,7 @@
 namespace fanbeam::renderer {
 namespace {
 
-constexpr double kDecibelsPerNeper = 4.342944819032518;  // of power: 10 / ln 10
-constexpr double kLargestDraw = 22.88;                   // 33 ln 2: of one look
+constexpr double kLargestDraw = 22.88;  // 33 ln 2: of one look
 
 }  // namespace
 
@@ -41,7 +41,7 @@ double largest_change_dB(const AddedPower& added, const SceneFacts& facts) {
     if (noise_W > 0.0) over_cscope = std::min(over_cscope, largest_W / noise_W);
   }
   return std::min(scale.window_dB(),
-                  kDecibelsPerNeper * std::log1p(std::max(over_bscope, over_cscope)));
+                  core::kDecibelsPerNeper * std::log1p(std::max(over_bscope, over_cscope)));
 }
 
 double window_dB(const sensors::Sensor& sensor) { return sensors::GreyScale(sensor).window_dB(); }

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/decibel.h"
 #include "renderer/plan/effect_texts.h"
 
 namespace fanbeam::renderer {
 namespace {
 
-constexpr double kDecibelsPerNeper = 4.342944819032518;  // of power: 10 / ln 10
-constexpr double kLargestNormal = 6.77;                  // sqrt(2 * 33 ln 2): core/random.h
+constexpr double kLargestNormal = 6.77;  // sqrt(2 * 33 ln 2): core/random.h
 
 double noise_part_sqrtW(const SignalFacts& signal) {
   return std::sqrt(0.5 * signal.noise_sample_W);
@@ -50,8 +50,8 @@ double phase_noise_bound_dB(const SceneFacts& facts) {
   const double images = signal.complex_baseband ? 1.0 : 2.0;
   const double pedestal_W =
       signal.beams * signal.echo_W * images * -std::expm1(-variance) * density;
-  const double raised_dB = kDecibelsPerNeper * std::log1p(pedestal_W / signal.noise_sample_W);
-  return std::min(signal.window_dB, std::max(raised_dB, kDecibelsPerNeper * variance));
+  const double raised_dB = core::kDecibelsPerNeper * std::log1p(pedestal_W / signal.noise_sample_W);
+  return std::min(signal.window_dB, std::max(raised_dB, core::kDecibelsPerNeper * variance));
 }
 
 double quantiser_bound_dB(const SceneFacts& facts) {
@@ -59,7 +59,7 @@ double quantiser_bound_dB(const SceneFacts& facts) {
   if (!noise_hides(facts)) return signal.window_dB;
   const double steps = step_sqrtW(signal) / noise_part_sqrtW(signal);
   if (!(steps <= 1.0)) return signal.window_dB;
-  return std::min(signal.window_dB, kDecibelsPerNeper * std::log1p(steps * steps / 12.0));
+  return std::min(signal.window_dB, core::kDecibelsPerNeper * std::log1p(steps * steps / 12.0));
 }
 
 std::string receiver_noise_cause(const SceneFacts& facts, double bound_dB) {

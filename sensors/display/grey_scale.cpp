@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/decibel.h"
 #include "core/dispatch.h"
 #include "core/errors.h"
 #include "core/series.h"
@@ -13,13 +14,11 @@
 namespace fanbeam::sensors {
 namespace {
 
-// 10 / ln 10: log takes 60 % of the time of log10 (glibc 2.36).
-constexpr double kDecibelsPerNaturalLog = 4.34294481903251827651;
-
 double cubed(double x) { return x * x * x; }
 
 double level_of(double ratio, const char* field) {
-  if (ratio > 0.0) return kDecibelsPerNaturalLog * std::log(ratio);
+  // log takes 60 % of the time of log10 (glibc 2.36).
+  if (ratio > 0.0) return core::kDecibelsPerNeper * std::log(ratio);
   if (ratio == 0.0) return -std::numeric_limits<double>::infinity();
   if (std::isnan(ratio))
     core::throw_input_error(core::ErrorClass::nonfinite, field, ratio, "0 or more");
@@ -35,7 +34,7 @@ FANBEAM_HOT(bool, grey_of_all,
   for (std::size_t i = 0; i < count; ++i) {
     const double ratio = values[i] * factor;
     refused |= ratio >= 0.0 ? 0U : 1U;
-    const double level_dB = kDecibelsPerNaturalLog * core::series_log(ratio);
+    const double level_dB = core::kDecibelsPerNeper * core::series_log(ratio);
     const double unclamped = (level_dB - low_dB) * greys_per_dB;
     const double above = unclamped > 0.0 ? unclamped : 0.0;
     const double clamped = above < 255.0 ? above : 255.0;

@@ -18,7 +18,7 @@ constexpr double kThreshold = 20.0;  // 13 dB over the mean noise of a line
 constexpr double kTouching = 3.0;    // bins between peaks whose main lobes do
 constexpr double kStill = 3e-4;      // bins: 0.2 mm
 constexpr int kMostSweeps = 12;
-constexpr double kLeastShare = 3.2e-6;  // -55 dB: over the side lobes of the strongest
+constexpr double kLeastLine = 3.2e-6;  // -55 dB: over the side lobes of the strongest
 
 signal::ToneRecords records_of(const signal::FloatCube& samples, int chirp) {
   signal::ToneRecords records;
@@ -48,7 +48,7 @@ std::vector<double> lines_of(const signal::ToneRecords& records, const std::vect
 std::vector<double> peak_bins(const std::vector<double>& lines, std::size_t channels) {
   // Sums over channels fluctuate less: the threshold is that of one channel for the sum.
   const double least = std::max(1.0 + kThreshold / std::sqrt(static_cast<double>(channels)),
-                                kLeastShare * *std::max_element(lines.begin(), lines.end()));
+                                kLeastLine * *std::max_element(lines.begin(), lines.end()));
   std::vector<double> bins;
   const std::size_t count = lines.size();
   for (std::size_t k = 0; k < count; ++k)
