@@ -21,7 +21,7 @@ namespace {
 // Empty while simulator and scene agree on the ground.
 std::string offset_text(const live::Status& status) {
   if (!live::is_lasting_offset(status)) return {};
-  return fmt::format("  heights {:+.0f} m off: is --datum right?", -*status.height_offset_m);
+  return fmt::format("  heights {:+.0f} m off: is its datum right?", -*status.height_offset_m);
 }
 
 std::string error_text(const live::Status& status) {
@@ -67,10 +67,6 @@ void print_address(const std::string& scene, const std::string& address, std::ui
   std::fflush(to);
 }
 
-core::VerticalDatum datum_of(const std::string& name) {
-  return name == "egm96" ? core::VerticalDatum::egm96 : core::VerticalDatum::ellipsoid;
-}
-
 // Planned for the air over all of its terrain: nobody knows where a simulator flies.
 scenes::SceneDescription scene_of(const LiveOptions& options, const PosesFrom& from,
                                   core::ProblemList& problems) {
@@ -82,8 +78,8 @@ scenes::SceneDescription scene_of(const LiveOptions& options, const PosesFrom& f
   flight.kind = scenes::TrajectoryDescription::Kind::file;
   flight.file = from.csv;
   flight.place = {from.csv};
-  flight.datum = description.datum == core::VerticalDatum::scene ? core::VerticalDatum::scene
-                                                                 : datum_of(options.datum);
+  flight.datum =
+      description.datum == core::VerticalDatum::scene ? core::VerticalDatum::scene : from.datum;
   description.trajectory = flight;
   return description;
 }
@@ -101,7 +97,7 @@ std::unique_ptr<session::Session> open(const LiveOptions& options, const PosesFr
   return session;
 }
 
-// Of the options; --from and --datum may be those of a recording.
+// Of the options; --from may be that of a recording.
 class LiveRun {
  public:
   LiveRun(const LiveOptions& options, const Wiring& wiring, const live::Recording* recording,
@@ -114,7 +110,7 @@ class LiveRun {
         scene_(session_->scene()),
         rate_Hz_(rate_of()),
         desk_(make_desk()),
-        feed_(scene_, datum_of(options.datum),
+        feed_(scene_, wiring.from.datum,
               wiring.from.protocol != nullptr ? *wiring.from.protocol : feeds::kProtocols[0],
               options.lockstep ? live::Mailbox::kKeptInLockstep : live::Mailbox::kKept),
         network_(desk_, hub_),
@@ -132,8 +128,15 @@ class LiveRun {
     const core::StopToken asked = core::StopScope::current();
     const std::uint16_t port = network_.serve(wiring_.page);
     if (wiring_.from.protocol != nullptr && recording_ == nullptr)
-      network_.receive(wiring_.from.listens_at,
-                       [this](std::span<const std::uint8_t> datagram) { feed_.take(datagram); });
+      network_.receive(
+          wiring_.from.listens_at,
+          [this](std::span<const std::uint8_t> datagram, bool from_peer) {
+            if (from_peer)
+              feed_.take(datagram);
+            else
+              feed_.turn_away();
+          },
+          wiring_.from.peers);
     Sinks sinks(wiring_, scene_->description.sensor, rate_Hz_, options_.lockstep);
     network_.start();
     if (!quiet_)
@@ -167,8 +170,8 @@ class LiveRun {
   live::Desk make_desk() {
     if (!options_.record.empty())
       journal_.emplace(options_.record, live::FlownBy{scene_->description.name, options_.from,
-                                                      options_.datum, rate_Hz_, options_.lockstep});
-    return {*session_, hub_, journal_ ? &*journal_ : nullptr};
+                                                      rate_Hz_, options_.lockstep});
+    return {*session_, hub_, journal_ ? &*journal_ : nullptr, wiring_.access};
   }
 
   live::Flight flight() const {
@@ -217,7 +220,6 @@ int fly(const LiveOptions& given, const CommonOptions& common) {
   if (!options.replay.empty()) {
     recording = live::read_recording(options.replay);
     options.from = recording->flown_by.from;
-    options.datum = recording->flown_by.datum;
   }
   const Wiring wiring = wiring_of(options);
   const core::ThreadLimit threads(options.threads);

@@ -12,8 +12,8 @@ namespace fanbeam::apps {
 struct LiveOptions : SceneChoice {
   std::string from = "circle";  // live_wiring.h
   std::vector<std::string> to;
-  std::string datum = "egm96";  // that heights of a simulator count from
-  std::string http = "8416";    // [ADDRESS:]PORT
+  std::string http = "8416";  // [ADDRESS:]PORT
+  std::string token_file;
   std::string effects;
   double rate_Hz = 0.0;        // 0: the sensor's
   double rays_per_cell = 0.0;  // 0: as the rate allows, in lockstep the scene's

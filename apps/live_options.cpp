@@ -19,15 +19,11 @@ void add_poses(CLI::App& command, LiveOptions& options) {
               "scene's own trajectory, again and again), csv:FILE (that of a file with columns "
               "time_s, latitude_deg, longitude_deg, height_m), native-fdm:[ADDRESS:]PORT "
               "(FlightGear with --native-fdm=socket,out,16,127.0.0.1,PORT,udp) or "
-              "fg-generic:[ADDRESS:]PORT (FlightGear with the shipped protocol file)")
+              "fg-generic:[ADDRESS:]PORT (FlightGear with the shipped protocol file). "
+              "Behind it ,datum=egm96 (the default) or ,datum=ellipsoid tells what heights count "
+              "from (a scene whose own datum is unknown takes them as they are), and ,peer=ADDRESS "
+              "whose packets count, which an ADDRESS beyond this machine's own needs")
           ->type_name("SOURCE")
-          ->capture_default_str();
-  CLI::Option* datum =
-      command
-          .add_option("--datum", options.datum,
-                      "What heights of a simulator or file count from; a scene whose own datum is "
-                      "unknown takes them as they are")
-          ->check(CLI::IsMember({"egm96", "ellipsoid"}))
           ->capture_default_str();
   CLI::Option* lockstep =
       command.add_flag("--lockstep", options.lockstep,
@@ -44,8 +40,7 @@ void add_poses(CLI::App& command, LiveOptions& options) {
           ->type_name("FILE")
           ->check(CLI::ExistingFile)
           ->excludes(record)
-          ->excludes(from)
-          ->excludes(datum);
+          ->excludes(from);
   command.add_option("--speed", options.speed, "Of a replay, times that of the recording")
       ->check(number_from(0.01, 1000.0))
       ->needs(replay)
@@ -63,10 +58,16 @@ void add_sinks(CLI::App& command, LiveOptions& options) {
   command
       .add_option(
           "--http", options.http,
-          "Port of the page, on this machine alone, or its ADDRESS:PORT; 0 takes any port that is "
-          "free")
+          "Port of the page, on this machine alone, or its ADDRESS:PORT, beyond this machine with "
+          "a token; 0 takes any port that is free")
       ->type_name("PORT")
       ->capture_default_str();
+  command
+      .add_option("--token-file", options.token_file,
+                  "Ask of every request for the token on the file's only line, 16 to 256 letters "
+                  "and digits (default: FANBEAM_TOKEN in the environment, else none)")
+      ->type_name("FILE")
+      ->check(CLI::ExistingFile);
 }
 
 }  // namespace
@@ -84,12 +85,7 @@ CLI::App& add_live_command(CLI::App& program, LiveOptions& options, CommonOption
                   "Rays per range cell and column, or azimuth slices per column (default: the most "
                   "that keeps the rate; in lockstep the scene's)")
       ->check(number_from(renderer::kFewestRaysPerCell, 100000.0));
-  command
-      .add_option("--effects", options.effects,
-                  "all, none, or a list such as +rain,-gas; fanbeam list effects names them "
-                  "(default: what the scene calls for)")
-      ->type_name("EFFECT")
-      ->check(offers(effect_wishes(renderer::Touches::pictures)));
+  add_effects_option(command, options.effects, renderer::Touches::pictures);
   command.add_option("--seconds", options.seconds, "End after so long (default: when stopped)")
       ->check(number_from(0.1, 1e9));
   command

@@ -1,6 +1,7 @@
 #include "apps/live_wiring.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace fanbeam::apps {
 namespace {
@@ -9,15 +10,55 @@ using Scope = live::RawFrames::Scope;
 
 constexpr std::string_view kCsv = "csv:", kShared = "shm:", kRawBscope = "raw-bscope:",
                            kRawCscope = "raw-cscope:";
+constexpr std::string_view kDatum = ",datum=", kPeer = ",peer=";
 constexpr const char* kSources =
-    "circle, ils, csv:FILE, native-fdm:[ADDRESS:]PORT or fg-generic:[ADDRESS:]PORT";
+    "circle, ils, csv:FILE, native-fdm:[ADDRESS:]PORT or fg-generic:[ADDRESS:]PORT, and "
+    ",datum=egm96 or ,datum=ellipsoid, and ,peer=ADDRESS for each that may send";
+constexpr const char* kToken = "FANBEAM_TOKEN";
 
-PosesFrom poses_from(const std::string& text) {
+[[noreturn]] void refuse_source(const std::string& text, const char* expected) {
+  core::throw_input_error(core::ErrorClass::ref, "--from", "\"" + text + "\"", expected);
+}
+
+// Takes what follows the last `key` off the text; nothing where it has none.
+std::optional<std::string> taken_off(std::string& text, std::string_view key) {
+  const std::size_t at = text.rfind(key);
+  if (at == std::string::npos) return std::nullopt;
+  std::string value = text.substr(at + key.size());
+  text.resize(at);
+  return value;
+}
+
+void take_datum(const std::string& source, const std::string& name, PosesFrom& from) {
+  if (name != "egm96" && name != "ellipsoid")
+    refuse_source(source, "datum=egm96 or datum=ellipsoid");
+  from.datum = name == "egm96" ? core::VerticalDatum::egm96 : core::VerticalDatum::ellipsoid;
+}
+
+// Leaves of the source what stands before its options, in any order.
+std::string without_options(std::string text, PosesFrom& from) {
+  const std::string source = text;
+  for (;;) {
+    const std::size_t datum = text.rfind(kDatum), peer = text.rfind(kPeer);
+    const bool datum_last =
+        datum != std::string::npos && (peer == std::string::npos || datum > peer);
+    if (datum_last)
+      take_datum(source, *taken_off(text, kDatum), from);
+    else if (const auto address = taken_off(text, kPeer))
+      from.peers.addresses.push_back(live::parse_address(*address, "--from"));
+    else
+      return text;
+  }
+}
+
+PosesFrom poses_from(const std::string& source) {
   PosesFrom from;
+  const std::string text = without_options(source, from);
   from.circle = text == "circle";
-  if (from.circle || text == "ils") return from;
-  if (text.starts_with(kCsv) && text.size() > kCsv.size()) {
-    from.csv = text.substr(kCsv.size());
+  const bool file = text.starts_with(kCsv) && text.size() > kCsv.size();
+  if (file) from.csv = text.substr(kCsv.size());
+  if (from.circle || text == "ils" || file) {
+    if (!from.peers.addresses.empty()) refuse_source(source, "peers of a source that listens");
     return from;
   }
   const std::size_t colon = text.find(':');
@@ -25,9 +66,11 @@ PosesFrom poses_from(const std::string& text) {
       std::find_if(feeds::kProtocols.begin(), feeds::kProtocols.end(),
                    [&](const feeds::Protocol& one) { return text.substr(0, colon) == one.name; });
   if (colon == std::string::npos || protocol == feeds::kProtocols.end())
-    core::throw_input_error(core::ErrorClass::ref, "--from", "\"" + text + "\"", kSources);
+    refuse_source(source, kSources);
   from.protocol = &*protocol;
   from.listens_at = live::parse_endpoint(text.substr(colon + 1), "--from");
+  if (from.listens_at.beyond_loopback && from.peers.addresses.empty())
+    refuse_source(source, "beyond loopback also ,peer=ADDRESS, whose packets count");
   return from;
 }
 
@@ -41,6 +84,19 @@ void add_sink(const std::string& text, Wiring& wiring) {
   else
     core::throw_input_error(core::ErrorClass::ref, "--to", "\"" + text + "\"",
                             "shm:NAME, raw-bscope:FILE or raw-cscope:FILE");
+}
+
+// Of the file or, without one, of the environment.
+live::Access access_of(const LiveOptions& options) {
+  if (!options.token_file.empty()) return live::access_from(options.token_file);
+  const char* token = std::getenv(kToken);
+  return token == nullptr ? live::Access() : live::Access(token, core::Place{kToken});
+}
+
+void check_page(const std::string& text, const Wiring& wiring) {
+  if (wiring.page.beyond_loopback && !wiring.access.has_token())
+    core::throw_input_error(core::ErrorClass::unsupported, "--http", "\"" + text + "\"",
+                            "beyond loopback a token too: --token-file FILE or FANBEAM_TOKEN");
 }
 
 }  // namespace
@@ -61,7 +117,9 @@ Wiring wiring_of(const LiveOptions& options) {
   };
   collect([&] { wiring.page = live::parse_endpoint(options.http, "--http"); });
   collect([&] { wiring.from = poses_from(options.from); });
+  collect([&] { wiring.access = access_of(options); });
   for (const std::string& sink : options.to) collect([&] { add_sink(sink, wiring); });
+  collect([&] { check_page(options.http, wiring); });
   problems.throw_if_errors();
   return wiring;
 }

@@ -14,12 +14,15 @@
 
 namespace fanbeam::apps {
 
-// circle, ils, csv:FILE, or the protocol and address of a simulator.
+// circle, ils, csv:FILE, or the protocol and address of a simulator; then ",datum=DATUM" and
+// ",peer=ADDRESS".
 struct PosesFrom {
   bool circle = false;
   std::string csv;
   const feeds::Protocol* protocol = nullptr;
   live::Endpoint listens_at;
+  live::Peers peers;
+  core::VerticalDatum datum = core::VerticalDatum::egm96;  // what heights count from
 };
 
 struct RawSink {
@@ -30,6 +33,7 @@ struct RawSink {
 struct Wiring {
   PosesFrom from;
   live::Endpoint page;
+  live::Access access;              // to the page
   std::vector<std::string> shared;  // names of shared memory
   std::vector<RawSink> raw;
 

@@ -8,7 +8,7 @@
 #include "core/colour_picture.h"
 #include "core/errors.h"
 #include "core/files.h"
-#include "core/png_bytes.h"
+#include "core/picture_bytes.h"
 #include "core/png_check.h"
 
 namespace fanbeam::core {
@@ -68,12 +68,16 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
 
 // Of a grey or a coloured picture.
 template <class AnyPicture>
-OIIO::ImageSpec png_spec(const AnyPicture& picture) {
+OIIO::ImageSpec picture_spec(const AnyPicture& picture) {
   using Pixel = typename decltype(picture.pixels)::value_type;
   if (picture.pixels.size() != cells(picture.columns, picture.rows))
     throw InternalError("picture size");
-  OIIO::ImageSpec spec(picture.columns, picture.rows, static_cast<int>(sizeof(Pixel)),
-                       OIIO::TypeDesc::UINT8);
+  return {picture.columns, picture.rows, static_cast<int>(sizeof(Pixel)), OIIO::TypeDesc::UINT8};
+}
+
+template <class AnyPicture>
+OIIO::ImageSpec png_spec(const AnyPicture& picture) {
+  OIIO::ImageSpec spec = picture_spec(picture);
   spec.attribute("png:compressionLevel", 2);  // writing must not hold up rendering
   return spec;
 }
@@ -96,6 +100,12 @@ void write_png(const std::filesystem::path& path, const ColourPicture& picture,
 std::string png_bytes(const Picture8& picture) {
   OIIO::ImageSpec spec = png_spec(picture);
   return encoded("memory.png", spec, {}, OIIO::TypeDesc::UINT8, picture.pixels.data());
+}
+
+std::string jpeg_bytes(const Picture8& picture) {
+  OIIO::ImageSpec spec = picture_spec(picture);
+  spec.attribute("Compression", "jpeg:90");
+  return encoded("memory.jpeg", spec, {}, OIIO::TypeDesc::UINT8, picture.pixels.data());
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata) {

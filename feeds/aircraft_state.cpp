@@ -48,6 +48,8 @@ const char* name_of(PacketFault fault) {
       return "a number that is not finite";
     case PacketFault::range:
       return "a position, attitude or speed that cannot be";
+    case PacketFault::foreign:
+      return "from no peer";
     case PacketFault::late:
       return "late, or come twice";
     case PacketFault::jump:

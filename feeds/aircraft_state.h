@@ -18,11 +18,11 @@ struct AircraftState {
 };
 
 // Why a datagram is none.
-enum class PacketFault { none, length, version, format, nonfinite, range, late, jump };
-inline constexpr std::size_t kPacketFaults = 8;  // with none
+enum class PacketFault { none, length, version, format, nonfinite, range, late, jump, foreign };
+inline constexpr std::size_t kPacketFaults = 9;  // with none
 const char* name_of(PacketFault fault);
 
-// late and jump are of the packets before it (live/clock_gate.h); nonfinite: a number that is not. range: a latitude beyond 90 deg, a longitude beyond 540 deg, a
+// late and jump are of the packets before it (live/clock_gate.h), foreign of who sent it; nonfinite: a number that is not. range: a latitude beyond 90 deg, a longitude beyond 540 deg, a
 // height beyond -20 to 1000 km, an angle over 1000 rad, a speed over 10 km/s, or latitude, longitude
 // and altitude that are all exactly 0, as before a simulator has started.
 PacketFault fault_in(const AircraftState& state);

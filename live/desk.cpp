@@ -1,144 +1,33 @@
 #include "live/desk.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
-#include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/errors.h"
 #include "core/json_node.h"
-#include "core/png_bytes.h"
+#include "core/picture_bytes.h"
 #include "core/units.h"
+#include "live/answers_private.h"
 #include "live/page.h"
 
 namespace fanbeam::live {
 namespace {
 
-using nlohmann::json;
-
 constexpr core::JsonLimits kLimits{8, 100};
 
-Answer json_answer(const json& value, int status = 200) {
-  return {status, "application/json", value.dump(-1, ' ', true, json::error_handler_t::replace)};
+Answer json_answer(const Json& value, int status = 200) {
+  return {status, "application/json", value.dump(-1, ' ', true, Json::error_handler_t::replace)};
 }
 
-Answer refusal(int status, const std::string& why) { return json_answer({{"error", why}}, status); }
-
 Answer problems_answer(const std::vector<core::Problem>& problems) {
-  json list = json::array();
+  Json list = Json::array();
   for (const core::Problem& problem : problems)
     list.push_back({{"code", problem.code},
                     {"field", problem.field},
                     {"value", problem.value},
                     {"expected", problem.expected}});
   return json_answer({{"problems", list}}, 422);
-}
-
-json errors_json(const std::optional<PictureErrors>& errors) {
-  if (!errors) return nullptr;
-  return {{"bscope_grey", errors->bscope_grey}, {"cscope_grey", errors->cscope_grey}};
-}
-
-json status_json(const Status& status) {
-  json bad = json::object();
-  for (const auto& [reason, count] : status.bad_packets) bad[reason] = count;
-  return {
-      {"scene", status.scene},
-      {"source", status.source},
-      {"caster", status.caster},
-      {"frames", status.frames},
-      {"late", status.late},
-      {"refused", status.refused},
-      {"refusal", status.refusal},
-      {"wanted_Hz", status.wanted_Hz},
-      {"rate_Hz", status.rate_Hz},
-      {"frame_ms", status.frame_ms},
-      {"slowest_ms", status.slowest_ms},
-      {"pose_age_ms", status.pose_age_ms},
-      {"samples", status.samples},
-      {"errors", errors_json(status.errors)},
-      {"waiting", status.waiting},
-      {"stale", status.stale},
-      {"packets", status.packets},
-      {"bad_packets", bad},
-      {"height_offset_m", status.height_offset_m ? json(*status.height_offset_m) : json(nullptr)}};
-}
-
-// Prometheus' text format, version 0.0.4.
-std::string metrics_text(const Status& status) {
-  std::string text;
-  const auto add = [&](const char* name, const char* type, const char* help, double value) {
-    text += std::string("# HELP fanbeam_") + name + " " + help + "\n# TYPE fanbeam_" + name + " " +
-            type + "\nfanbeam_" + name + " " + core::number_text(value) + "\n";
-  };
-  std::uint64_t bad = 0;
-  for (const auto& [reason, count] : status.bad_packets) bad += count;
-  add("frames_total", "counter", "Frames rendered.", static_cast<double>(status.frames));
-  add("late_total", "counter", "Ticks left out because a frame took longer than a period.",
-      static_cast<double>(status.late));
-  add("refused_total", "counter", "Poses that nothing can be rendered at.",
-      static_cast<double>(status.refused));
-  add("packets_total", "counter", "Datagrams of the source.", static_cast<double>(status.packets));
-  add("bad_packets_total", "counter", "Datagrams of no use.", static_cast<double>(bad));
-  add("rate_hertz", "gauge", "Frames a second, over two seconds.", status.rate_Hz);
-  add("frame_seconds", "gauge", "Time that the last frame took.", 1e-3 * status.frame_ms);
-  add("slowest_frame_seconds", "gauge", "Slowest frame of two seconds.", 1e-3 * status.slowest_ms);
-  add("pose_age_seconds", "gauge", "Age of the newest pose.", 1e-3 * status.pose_age_ms);
-  add("samples", "gauge", "Rays per range cell and column, or slices per column.", status.samples);
-  if (status.errors) {
-    add("bscope_error_grey_levels", "gauge", "RMS error of the B-scope with this sampling.",
-        status.errors->bscope_grey);
-    add("cscope_error_grey_levels", "gauge", "RMS error of the C-scope with this sampling.",
-        status.errors->cscope_grey);
-  }
-  return text;
-}
-
-json plan_json(const scenes::Scene& scene) {
-  json effects = json::array();
-  for (const core::EffectDecision& decision : scene.plan.decisions)
-    effects.push_back({{"effect", name_of(decision.effect)},
-                       {"on", decision.on},
-                       {"reason", decision.reason},
-                       {"bound_grey", decision.bound_grey}});
-  return {
-      {"scene", scene.description.name}, {"accuracy_grey", scene.accuracy_grey}, {"plan", effects}};
-}
-
-json sensor_json(const sensors::Sensor& sensor) {
-  const sensors::Display& display = sensor.display;
-  return {{"name", sensor.name},
-          {"columns", sensor.scan.columns},
-          {"field_of_view_deg", core::degrees(sensor.scan.field_of_view_rad)},
-          {"range_minimum_m", sensor.range.minimum_m},
-          {"range_cell_m", sensor.range.cell_m},
-          {"range_cells", sensor.range.cells},
-          {"cscope_rows", display.cscope_rows},
-          {"cscope_top_deg", core::degrees(display.cscope_top_rad)},
-          {"cscope_span_deg", core::degrees(display.cscope_span_rad)},
-          {"tilt_deg", core::degrees(sensor.antenna.boresight_elevation_rad)},
-          {"low_dB", display.low_dB},
-          {"high_dB", display.high_dB}};
-}
-
-json weather_json(const atmosphere::Weather& weather) {
-  json result{{"rain_rate_mm_per_h", weather.rain_rate_mm_per_h}, {"visibility_m", nullptr}};
-  if (weather.visibility_m) result["visibility_m"] = *weather.visibility_m;
-  return result;
-}
-
-json truth_json(const CellTruth& cell) {
-  json told{{"seen", cell.seen}};
-  if (!cell.seen) return told;
-  told["object"] = cell.object;
-  told["material"] = cell.material.empty() ? json(nullptr) : json(cell.material);
-  told["visibility"] = cell.visibility;
-  told["double_bounce"] = cell.double_bounce;
-  told["grazing_deg"] = core::degrees(cell.grazing_rad);
-  told["nrcs_dB"] = cell.nrcs > 0.0 ? json(10.0 * std::log10(cell.nrcs)) : json(nullptr);
-  return told;
 }
 
 // The value of `name` in "?a=1&b=2"; empty where there is none. Nothing is escaped in what is asked.
@@ -192,24 +81,12 @@ void set_sensor(session::Session& session, const core::JsonNode& root) {
   session.set(settings);
 }
 
-// "localhost:8416" to "localhost", "[::1]:8416" to "[::1]".
-std::string without_port(const std::string& host) {
-  const std::size_t bracket = host.find(']');
-  const std::size_t colon = host.find(':', bracket == std::string::npos ? 0 : bracket);
-  return host.substr(0, colon);
-}
-
 }  // namespace
 
-bool is_admitted(const Request& request) {
-  constexpr std::array kHere{"localhost", "127.0.0.1", "[::1]"};
-  const std::string name = without_port(request.host);
-  return std::find(kHere.begin(), kHere.end(), name) != kHere.end() &&
-         (request.origin.empty() || request.origin == "http://" + request.host);
-}
+Answer refusal(int status, const std::string& why) { return json_answer({{"error", why}}, status); }
 
 Answer Desk::answer(const Request& request) const {
-  if (!is_admitted(request)) return refusal(403, "this machine answers to its own name alone");
+  if (const std::optional<Answer> refused = access_.refuse(request)) return *refused;
   const std::size_t mark = std::min(request.target.find('?'), request.target.size());
   const std::string path = request.target.substr(0, mark);
   const bool asks = request.method == "GET" || request.method == "HEAD";
@@ -235,7 +112,7 @@ Answer Desk::cell(const std::string& query) const {
   problems.throw_if_errors();
   const Scope scope = name == "bscope" ? Scope::bscope : Scope::cscope;
   const auto found = truth_.at(static_cast<std::uint64_t>(frame), scope, column, row);
-  json told{{"frame", frame}, {"scope", name}, {"column", column}, {"row", row}, {"gone", !found}};
+  Json told{{"frame", frame}, {"scope", name}, {"column", column}, {"row", row}, {"gone", !found}};
   if (found) told.update(truth_json(*found));
   return json_answer(told);
 }
@@ -243,10 +120,12 @@ Answer Desk::cell(const std::string& query) const {
 Answer Desk::get(const std::string& path, const std::string& query) const {
   if (path == "/api/cell") return cell(query);
   if (path == "/") return {200, "text/html; charset=utf-8", page()};
+  if (path == "/api/openapi.json") return {200, "application/json", openapi()};
   if (path == "/api/status") return json_answer(status_json(hub_.status()));
   if (path == "/metrics")
     return {200, "text/plain; version=0.0.4; charset=utf-8", metrics_text(hub_.status())};
   const std::shared_ptr<const scenes::Scene> scene = session_.scene();
+  if (path == "/api/map") return json_answer(map_json(*scene));
   if (path == "/api/plan") return json_answer(plan_json(*scene));
   if (path == "/api/sensor") return json_answer(sensor_json(scene->description.sensor));
   if (path == "/api/weather") return json_answer(weather_json(scene->weather));
@@ -278,7 +157,7 @@ Answer Desk::post(const std::string& path, const std::string& body) const {
 
 std::string message_of(const LiveFrame& frame) {
   const core::Attitude attitude = core::attitude_from(frame.pose.q_NB);
-  const json head{{"number", frame.number},
+  const Json head{{"number", frame.number},
                   {"bscope", {frame.bscope.columns, frame.bscope.rows}},
                   {"cscope", {frame.cscope.columns, frame.cscope.rows}},
                   {"latitude_deg", core::degrees(frame.pose.position.latitude_rad)},

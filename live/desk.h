@@ -14,41 +14,36 @@
 // Answers of /api are JSON (docs/live.md has the keys). A POST with anything wrong in it changes
 // nothing and is answered 422 with all problems: code, field, value, expected.
 //
-// Steering from a foreign web page: requests are for this machine by name (`host` localhost,
-// 127.0.0.1 or [::1], else 403: no name that somebody else's server resolves), `origin` is that of
-// the page, and a POST says that its body is JSON (else 415), which no form of another page can.
+//   GET  /api/map            the runways, for a plan view
+//   GET  /api/openapi.json   all of this, for programs
+//
+// Who may ask is told by access.h. A POST says that its body is JSON (else 415), which no form of
+// another page can.
 #pragma once
 
 #include <string>
+#include <utility>
 
+#include "live/access.h"
 #include "live/hub.h"
 #include "live/journal.h"
+#include "live/request.h"
 #include "live/truth.h"
 #include "session/session.h"
 
 namespace fanbeam::live {
 
-struct Request {
-  std::string method, target;  // target: with its query
-  std::string host, origin, content_type;
-  std::string body;
-};
-
-struct Answer {
-  int status = 200;
-  std::string type = "application/json";
-  std::string body;
-};
-
-// A request that may come in at all; also asked before a WebSocket opens.
-bool is_admitted(const Request& request);
-
 class Desk {
  public:
   // Controls that are obeyed go into `journal` unless it is null. All must outlive it.
-  Desk(session::Session& session, const Hub& hub, Journal* journal = nullptr)
-      : session_(session), hub_(hub), journal_(journal), truth_(session, hub) {}
+  Desk(session::Session& session, const Hub& hub, Journal* journal = nullptr, Access access = {})
+      : session_(session),
+        hub_(hub),
+        journal_(journal),
+        access_(std::move(access)),
+        truth_(session, hub) {}
 
+  const Access& access() const { return access_; }
   // Thread-safe. Never throws for what stands in the request.
   Answer answer(const Request& request) const;
 
@@ -60,6 +55,7 @@ class Desk {
   session::Session& session_;
   const Hub& hub_;
   Journal* journal_;
+  Access access_;
   Truth truth_;
 };
 

@@ -40,15 +40,19 @@ void Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrive
   if (state && protocol_.fine_clock)
     fault = gate_.take(state->clock_s,
                        std::chrono::duration<double>(arrived.time_since_epoch()).count());
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++packets_;
-    ++bad_[static_cast<std::size_t>(fault)];
-  }
+  count(fault);
   if (fault != feeds::PacketFault::none) return;
   const core::Pose pose = placed(*state);
   mailbox_.put(pose, {datagram.begin(), datagram.end()}, arrived);
   compare_heights(pose, state->height_above_ground_m);
+}
+
+void Feed::turn_away() { count(feeds::PacketFault::foreign); }
+
+void Feed::count(feeds::PacketFault fault) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++packets_;
+  ++bad_[static_cast<std::size_t>(fault)];
 }
 
 void Feed::compare_heights(const core::Pose& pose, double told_m) {

@@ -31,6 +31,8 @@ class Feed {
 
   // Any bytes, from one thread.
   void take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
+  // One that nobody asked for: counted.
+  void turn_away();
   // Its pose, above the ellipsoid; nothing for bytes that are no packet. Leaves the mailbox alone.
   std::optional<core::Pose> pose_in(std::span<const std::uint8_t> datagram) const;
   const Mailbox& mailbox() const { return mailbox_; }
@@ -39,6 +41,7 @@ class Feed {
 
  private:
   core::Pose placed(const feeds::AircraftState& state) const;
+  void count(feeds::PacketFault fault);
   void compare_heights(const core::Pose& pose, double told_m);
 
   std::shared_ptr<const scenes::Scene> scene_;

@@ -31,7 +31,6 @@ Journal::Journal(const std::filesystem::path& file, const FlownBy& flown_by)
   write(json{{"fanbeam_live", 1},
              {"scene", flown_by.scene},
              {"from", flown_by.from},
-             {"datum", flown_by.datum},
              {"rate_Hz", flown_by.rate_Hz},
              {"lockstep", flown_by.lockstep}}
             .dump());

@@ -17,7 +17,7 @@ namespace fanbeam::live {
 
 // What else the same pictures need: the options that were given beside these have to be the same.
 struct FlownBy {
-  std::string scene, from, datum;
+  std::string scene, from;
   double rate_Hz = 16.0;
   bool lockstep = false;
 };

@@ -5,12 +5,11 @@
 #include <charconv>
 #include <chrono>
 #include <optional>
-#include <set>
 #include <thread>
 #include <vector>
 
 #include "core/errors.h"
-#include "live/asio_private.h"
+#include "live/watchers_private.h"
 
 namespace fanbeam::live {
 namespace {
@@ -18,9 +17,6 @@ namespace {
 constexpr int kMostConnections = 32;
 constexpr std::uint32_t kMostHeader_bytes = 8u << 10;
 constexpr std::uint64_t kMostBody_bytes = 64u << 10;
-constexpr std::chrono::seconds kPatience(30);
-
-using HttpRequest = http::request<http::string_body>;
 
 std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
 
@@ -30,88 +26,10 @@ Request request_of(const HttpRequest& request) {
           text_of(request[http::field::host]),
           text_of(request[http::field::origin]),
           text_of(request[http::field::content_type]),
-          request.body()};
+          request.body(),
+          text_of(request[http::field::authorization]),
+          text_of(request[http::field::cookie])};
 }
-
-// How many there are, counted by those who live.
-class Counted {
- public:
-  explicit Counted(std::atomic<int>& count) : count_(count) { ++count_; }
-  ~Counted() { --count_; }
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
-
- private:
-  std::atomic<int>& count_;
-};
-
-// A browser that watches.
-class Viewer : public std::enable_shared_from_this<Viewer> {
- public:
-  Viewer(tcp::socket socket, const Hub& hub, std::atomic<int>& connections,
-         std::atomic<int>& viewers)
-      : stream_(std::move(socket)), hub_(hub), connection_(connections), viewer_(viewers) {
-    stream_.read_message_max(kMostBody_bytes);
-    stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    stream_.binary(true);
-  }
-
-  void accept(const HttpRequest& request) {
-    stream_.async_accept(request, [self = shared_from_this()](error_code error) {
-      if (error) return;
-      self->open_ = true;
-      self->read();
-      self->offer();
-    });
-  }
-
-  // The newest frame, unless it was sent or another is under way.
-  void offer() {
-    if (!open_ || sending_) return;
-    const std::shared_ptr<const LiveFrame> frame = hub_.newest();
-    if (!frame || frame->number == sent_) return;
-    sent_ = frame->number;
-    sending_ = true;
-    message_ = message_of(*frame);
-    stream_.async_write(asio::buffer(message_),
-                        [self = shared_from_this()](error_code error, std::size_t) {
-                          self->sending_ = false;
-                          if (error)
-                            self->open_ = false;
-                          else
-                            self->offer();
-                        });
-  }
-
- private:
-  // What a browser says means nothing; reading answers pings and sees it leave.
-  void read() {
-    stream_.async_read(heard_, [self = shared_from_this()](error_code error, std::size_t) {
-      self->heard_.clear();
-      if (error)
-        self->open_ = false;
-      else
-        self->read();
-    });
-  }
-
-  websocket::stream<beast::tcp_stream> stream_;
-  const Hub& hub_;
-  Counted connection_, viewer_;
-  beast::flat_buffer heard_;
-  std::string message_;
-  std::uint64_t sent_ = 0;
-  bool open_ = false, sending_ = false;
-};
-
-using Viewers = std::set<std::weak_ptr<Viewer>, std::owner_less<std::weak_ptr<Viewer>>>;
-
-struct Room {
-  const Desk& desk;
-  const Hub& hub;
-  std::atomic<int> connections{0}, viewers{0};
-  Viewers watching{};  // of the thread alone
-};
 
 // A connection until it ends or becomes a viewer.
 class Visitor : public std::enable_shared_from_this<Visitor> {
@@ -133,15 +51,20 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
  private:
   void take(const HttpRequest& request) {
     const Request asked = request_of(request);
-    if (websocket::is_upgrade(request) && asked.target == "/ws" && is_admitted(asked)) {
+    const std::string path = asked.target.substr(0, asked.target.find('?'));
+    const bool by_socket = websocket::is_upgrade(request) && path == "/ws";
+    const bool by_stream = asked.method == "GET" && is_stream(path);
+    if (by_socket || by_stream) {
+      const std::optional<Answer> refused = room_.desk.access().refuse(asked);
+      if (refused) return answer(request, *refused);
       stream_.expires_never();
-      const auto viewer = std::make_shared<Viewer>(stream_.release_socket(), room_.hub,
-                                                   room_.connections, room_.viewers);
-      room_.watching.insert(viewer);
-      viewer->accept(request);
-      return;
+      if (by_socket) return watch_by_socket(stream_.release_socket(), request, room_);
+      return watch_by_stream(stream_.release_socket(), path, room_);
     }
-    const Answer answer = room_.desk.answer(asked);
+    answer(request, room_.desk.answer(asked));
+  }
+
+  void answer(const HttpRequest& request, const Answer& answer) {
     response_.emplace(static_cast<http::status>(answer.status), request.version());
     response_->set(http::field::content_type, answer.type);
     response_->set(http::field::cache_control, "no-store");
@@ -150,6 +73,9 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
                    "default-src 'self'; style-src 'self' 'unsafe-inline'; script-src 'self' "
                    "'unsafe-inline'; connect-src 'self' ws:; img-src 'self' data:; "
                    "frame-ancestors 'none'");
+    if (!answer.location.empty()) response_->set(http::field::location, answer.location);
+    if (!answer.set_cookie.empty()) response_->set(http::field::set_cookie, answer.set_cookie);
+    if (answer.status == 401) response_->set(http::field::www_authenticate, "Bearer");
     response_->keep_alive(request.keep_alive());
     if (request.method() != http::verb::head) response_->body() = answer.body;
     response_->prepare_payload();
@@ -171,6 +97,13 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
   std::optional<http::response<http::string_body>> response_;
 };
 
+// As an IPv4 address where it is one that came in over IPv6.
+std::string sender(const udp::endpoint& from) {
+  const asio::ip::address address = from.address();
+  if (!address.is_v6() || !address.to_v6().is_v4_mapped()) return address.to_string();
+  return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
+}
+
 [[noreturn]] void refuse_port(const Endpoint& endpoint, const error_code& error) {
   core::throw_input_error(core::ErrorClass::io,
                           core::Place{endpoint.address + ":" + std::to_string(endpoint.port)}, "",
@@ -178,6 +111,15 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
 }
 
 }  // namespace
+
+std::string parse_address(const std::string& text, const std::string& field) {
+  error_code error;
+  const asio::ip::address address = asio::ip::make_address(text, error);
+  if (error)
+    core::throw_input_error(core::ErrorClass::parse, field, "\"" + text + "\"",
+                            "an address in numbers, such as 127.0.0.1");
+  return address.to_string();
+}
 
 Endpoint parse_endpoint(const std::string& text, const std::string& field) {
   Endpoint endpoint;
@@ -194,15 +136,8 @@ Endpoint parse_endpoint(const std::string& text, const std::string& field) {
   if (fault == std::errc::result_out_of_range)
     core::throw_input_error(core::ErrorClass::range, field, "\"" + text + "\"",
                             "a port from 0 (any that is free) to 65535");
-  error_code error;
-  const asio::ip::address address = asio::ip::make_address(endpoint.address, error);
-  if (error)
-    core::throw_input_error(core::ErrorClass::parse, field, "\"" + text + "\"",
-                            "an address in numbers, such as 127.0.0.1");
-  if (!address.is_loopback())
-    core::throw_input_error(core::ErrorClass::unsupported, field, "\"" + text + "\"",
-                            "a loopback address, 127.0.0.1 or [::1]: reach it from elsewhere "
-                            "through ssh -L");
+  endpoint.address = parse_address(endpoint.address, field);
+  endpoint.beyond_loopback = !asio::ip::make_address(endpoint.address).is_loopback();
   return endpoint;
 }
 
@@ -212,6 +147,7 @@ struct Network::Inside {
   struct Receiver {
     udp::socket socket;
     Datagram datagram;
+    Peers peers{};
     udp::endpoint from{};
     std::array<std::uint8_t, 65536> bytes{};
   };
@@ -231,15 +167,17 @@ struct Network::Inside {
                                        [this, &receiver](error_code error, std::size_t size) {
                                          if (error == asio::error::operation_aborted) return;
                                          if (!error)
-                                           receiver.datagram({receiver.bytes.data(), size});
+                                           receiver.datagram(
+                                               {receiver.bytes.data(), size},
+                                               receiver.peers.admits(sender(receiver.from)));
                                          receive(receiver);
                                        });
   }
 
   void offer() {
     for (auto it = room.watching.begin(); it != room.watching.end();) {
-      if (const std::shared_ptr<Viewer> viewer = it->lock()) {
-        viewer->offer();
+      if (const std::shared_ptr<Watcher> watcher = it->lock()) {
+        watcher->offer();
         ++it;
       } else {
         it = room.watching.erase(it);
@@ -277,15 +215,15 @@ std::uint16_t Network::serve(const Endpoint& endpoint) {
   return inside_->acceptors.back()->local_endpoint().port();
 }
 
-std::uint16_t Network::receive(const Endpoint& endpoint, Datagram datagram) {
+std::uint16_t Network::receive(const Endpoint& endpoint, Datagram datagram, Peers peers) {
   const udp::endpoint at(asio::ip::make_address(endpoint.address), endpoint.port);
   udp::socket socket(inside_->context);
   error_code error;
   socket.open(at.protocol(), error);
   if (!error) socket.bind(at, error);
   if (error) refuse_port(endpoint, error);
-  auto receiver =
-      std::make_unique<Inside::Receiver>(Inside::Receiver{std::move(socket), std::move(datagram)});
+  auto receiver = std::make_unique<Inside::Receiver>(
+      Inside::Receiver{std::move(socket), std::move(datagram), std::move(peers)});
   inside_->receive(*receiver);
   inside_->receivers.push_back(std::move(receiver));
   return inside_->receivers.back()->socket.local_endpoint().port();

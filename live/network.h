@@ -2,15 +2,17 @@
 //
 // Bounded: 32 connections, 8 KiB of header, 64 KiB of body, 30 s for a request, 64 KiB of a message
 // from a browser (all are thrown away). A client that reads slowly misses frames: one is under way
-// to it at a time, and the next is then the newest. Addresses beyond loopback are refused: without a
-// token, which is not there yet, whoever reaches the port could steer.
+// to it at a time, and the next is then the newest. Beyond loopback (endpoint.beyond_loopback) the
+// desk must have a token and datagrams a list of peers: the caller sees to that.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "live/desk.h"
 
@@ -19,10 +21,24 @@ namespace fanbeam::live {
 struct Endpoint {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  // 0: any that is free
+  bool beyond_loopback = false;
 };
 
-// "8416" or "127.0.0.1:8416". Throws InputError: E-PARSE, E-RANGE for a port, E-UNSUPPORTED for an
-// address beyond loopback. `field` is the option's name.
+// Whose datagrams count: anybody's, or those from these addresses.
+struct Peers {
+  std::vector<std::string> addresses;
+
+  bool admits(const std::string& address) const {
+    return addresses.empty() ||
+           std::find(addresses.begin(), addresses.end(), address) != addresses.end();
+  }
+};
+
+// An address in numbers, in the form that peers are compared in. Throws InputError E-PARSE.
+std::string parse_address(const std::string& text, const std::string& field);
+
+// "8416" or "127.0.0.1:8416". Throws InputError: E-PARSE, E-RANGE for a port. `field` is the
+// option's name.
 Endpoint parse_endpoint(const std::string& text, const std::string& field);
 
 class Network {
@@ -35,8 +51,9 @@ class Network {
 
   // Both before start(). Throw InputError E-IO when the port is taken. Give the port.
   std::uint16_t serve(const Endpoint& endpoint);
-  using Datagram = std::function<void(std::span<const std::uint8_t>)>;  // called on the thread
-  std::uint16_t receive(const Endpoint& endpoint, Datagram datagram);
+  // Called on the thread.
+  using Datagram = std::function<void(std::span<const std::uint8_t>, bool from_peer)>;
+  std::uint16_t receive(const Endpoint& endpoint, Datagram datagram, Peers peers = {});
 
   void start();
   int clients() const;  // that watch frames

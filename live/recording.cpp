@@ -61,7 +61,6 @@ class Lines {
     FlownBy& flown_by = recording_.flown_by;
     flown_by.scene = line.required("scene").text().value_or("");
     flown_by.from = line.required("from").text().value_or("");
-    flown_by.datum = line.required("datum").text().value_or("");
     flown_by.rate_Hz = line.required("rate_Hz").number({0.1, 1000.0}).value_or(16.0);
     flown_by.lockstep = line.required("lockstep").flag().value_or(false);
   }

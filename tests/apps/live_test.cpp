@@ -45,6 +45,27 @@ TEST_CASE("All that is wrong with live's addresses is told before a scene is ope
   CHECK(run_fanbeam("live --from ils flat-grass --http 0 --seconds 1").exit_code == 0);
 }
 
+TEST_CASE("Beyond this machine the page needs a token and a source its peers", "[live]") {
+  const TemporaryFolder folder;
+  for (const char* from : {"native-fdm:0.0.0.0:0", "circle,peer=127.0.0.1", "ils,datum=moon",
+                           "fg-generic:0,peer=somebody", ",datum=egm96", "csv:"}) {
+    INFO(from);
+    const Result refused = run_fanbeam(std::string("live no-such-scene --from ") + from);
+    CHECK(refused.exit_code == 2);
+    CHECK(refused.output.find("--from") != std::string::npos);
+  }
+  const auto token = folder.write("token", "short\n");
+  CHECK(run_fanbeam("live flat-grass --token-file " + token.string()).output.find("5 characters") !=
+        std::string::npos);
+  folder.write("token", "0123456789abcdef\n");
+  const Result open =
+      run_fanbeam("live flat-grass --seconds 1 --http 0.0.0.0:0 --token-file " + token.string() +
+                  " --from fg-generic:0.0.0.0:0,datum=ellipsoid,peer=127.0.0.1,peer=::1");
+  INFO(open.output);
+  CHECK(open.exit_code == 0);
+  CHECK(open.output.find("0123456789abcdef") == std::string::npos);
+}
+
 TEST_CASE("Lockstep writes the same raw pictures every time, and a recording the same again",
           "[live]") {
   const TemporaryFolder folder;

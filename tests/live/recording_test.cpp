@@ -66,7 +66,7 @@ std::vector<core::Problem> problems_of(const std::filesystem::path& file) {
 }
 
 constexpr const char* kHead =
-    R"({"fanbeam_live":1,"scene":"s","from":"circle","datum":"egm96","rate_Hz":16,"lockstep":false})";
+    R"({"fanbeam_live":1,"scene":"s","from":"circle","rate_Hz":16,"lockstep":false})";
 
 }  // namespace
 
@@ -76,7 +76,7 @@ TEST_CASE("A recorded flight with packets and controls gives the same bytes agai
   const auto session = tests::live_session(folder);
   const auto scene = session->scene();
   live::Hub hub;
-  live::Journal journal(file, {scene->description.name, "native-fdm:5501", "egm96", 40.0, false});
+  live::Journal journal(file, {scene->description.name, "native-fdm:5501", 40.0, false});
   const live::Desk desk(*session, hub, &journal);
   live::Feed feed(scene, core::VerticalDatum::egm96);
   Frames frames;
@@ -115,7 +115,7 @@ TEST_CASE("Lockstep gives a frame for every pose, whenever it comes, with the sa
     const auto session = tests::live_session(folder);
     const auto file = folder.path() / "lockstep.jsonl";
     live::Hub hub;
-    live::Journal journal(file, {"s", "native-fdm:1", "egm96", 16.0, true});
+    live::Journal journal(file, {"s", "native-fdm:1", 16.0, true});
     live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[0],
                     live::Mailbox::kKeptInLockstep);
     std::thread simulator([&] {
@@ -143,7 +143,7 @@ TEST_CASE("A flight in lockstep is at each tick, and the same when it is flown a
   const auto session = tests::live_session(folder);
   const auto file = folder.path() / "circle.jsonl";
   live::Hub hub;
-  live::Journal journal(file, {"s", "circle", "egm96", 16.0, true});
+  live::Journal journal(file, {"s", "circle", 16.0, true});
   Frames frames;
   core::StopSource stop;
   session->set(session::Samples{0.5});  // whatever the session has stays, and is no one's number
