@@ -3,13 +3,18 @@
 
 usage: browser_test.py FANBEAM [FOLDER]   FOLDER keeps screenshots
 """
+import json
 import os
 import re
 import subprocess
 import sys
+import tempfile
 import time
 import unittest
+import urllib.error
+import urllib.request
 
+import jsonschema
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
@@ -29,14 +34,19 @@ def browser(width, height):
     return webdriver.Chrome(service=Service("/usr/bin/chromedriver"), options=options)
 
 
+def start_live(http, *options):
+    # A rate that leaves the machine to the browser too.
+    live = subprocess.Popen(
+        [FANBEAM, "live", "--http", http, "--rate", "5", "--rays-per-cell", "0.5", *options],
+        stdout=subprocess.PIPE, text=True)
+    return live, re.search(r"http://\S+", live.stdout.readline()).group(0)
+
+
 class Page(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        # A rate that leaves the machine to the browser too.
-        cls.live = subprocess.Popen(
-            [FANBEAM, "live", "--http", "0", "--rate", "5", "--rays-per-cell", "0.5"],
-            stdout=subprocess.PIPE, text=True)
-        cls.url = re.search(r"http://\S+", cls.live.stdout.readline()).group(0)
+        # Unlike the circle the approach sees ground all the time: rain has something to dim.
+        cls.live, cls.url = start_live("0", "--from", "ils")
         cls.page = browser(1200, 900)
 
     @classmethod
@@ -131,6 +141,113 @@ class Page(unittest.TestCase):
         self.page.find_element("id", "freeze").click()
         self.wait(lambda: self.number() > held, "newer frame")
 
+    def test_stepping_back_shows_frames_that_were_shown(self):
+        self.page.execute_script(
+            "window.shown = {}; const before = take; take = buffer => { before(buffer);"
+            " shown[state.frame.head.number] = state.frame.bscope.reduce((a, b) => (a * 31 + b) | 0, 7); };")
+        self.wait(lambda: self.js("Object.keys(shown).length") >= 5, "five frames")
+        body = self.page.find_element("css selector", "body")
+        body.send_keys("f")
+        newest = self.number()
+        body.send_keys(Keys.ARROW_LEFT, Keys.ARROW_LEFT, Keys.ARROW_LEFT)
+        self.assertEqual(self.number(), newest - 3)
+        self.assertEqual(self.js("state.frame.bscope.reduce((a, b) => (a * 31 + b) | 0, 7)"),
+                         self.js("shown[arguments[0]]", str(newest - 3)))
+        self.assertRegex(self.page.find_element("id", "backtold").text, r"^0\.\d s$")
+        body.send_keys(Keys.ARROW_RIGHT)
+        self.assertEqual(self.number(), newest - 2)
+        body.send_keys("n")
+        self.wait(lambda: self.number() > newest, "newer frame")
+
+    def bright(self, canvas):  # mean of what the canvas shows
+        return self.js("(canvas => { const copy = new OffscreenCanvas(canvas.width, canvas.height).getContext('2d',"
+                       " { willReadFrequently: true }); copy.drawImage(canvas, 0, 0); const bytes ="
+                       " copy.getImageData(0, 0, canvas.width, canvas.height).data; let sum = 0; for (let i = 0; i < bytes.length; i += 4) sum += bytes[i];"
+                       " return sum * 4 / bytes.length; })(document.getElementById(arguments[0]))", canvas)
+
+    def test_gain_and_levels_change_what_is_seen(self):
+        self.page.find_element("id", "freeze").click()
+        time.sleep(0.3)
+        plain = self.bright("bscope")
+        self.page.find_element("id", "gain").send_keys(Keys.PAGE_UP, Keys.PAGE_UP)
+        time.sleep(0.3)
+        self.assertGreater(self.bright("bscope"), plain + 5)
+        self.page.find_element("id", "freeze").click()
+        mean = self.mean()
+        low = self.page.find_element("id", "low")
+        low.clear()
+        low.send_keys("-35", Keys.TAB)  # black where -55 dB was: darker
+        self.wait(lambda: self.mean() < mean - 10, "darker picture")
+        self.assertEqual(self.js("fetch('/api/sensor').then(answer => answer.json())")["low_dB"], -35)
+        low.clear()
+        low.send_keys("-55", Keys.TAB)
+        self.wait(lambda: self.mean() > mean - 10, "picture as it was")
+
+    def test_the_plan_view_shows_the_picture_and_outlines_the_runway(self):
+        self.assertEqual(self.js("state.runways.map(runway => runway.corners.length)"), [4])
+        self.wait(lambda: self.bright("planview") > 3, "plan view")
+        self.page.find_element("id", "freeze").click()
+        time.sleep(0.3)
+        outlined = self.bright("planview")
+        self.page.find_element("id", "rings").click()
+        time.sleep(0.3)
+        self.assertNotEqual(self.bright("planview"), outlined)
+        self.keep("live-plan")
+
+    def test_a_film_is_recorded(self):
+        self.page.find_element("id", "record").click()
+        time.sleep(2)
+        self.page.find_element("id", "record").click()
+        self.wait(lambda: self.js("tape.film ? tape.film.size : 0") > 10000, "film")
+        head = self.js("tape.film.slice(0, 4).arrayBuffer().then(bytes => [...new Uint8Array(bytes)])")
+        self.assertEqual(head, [0x1a, 0x45, 0xdf, 0xa3], "EBML, as WebM begins")
+
+    def test_frames_come_where_no_websocket_gets_through(self):
+        script = self.page.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source":
+            "window.WebSocket = class { constructor() { setTimeout(() => this.onclose(), 10); } };"})
+        try:
+            self.page.get(self.url)
+            self.wait(lambda: self.number() > 0, "a frame")
+            first = self.number()
+            self.wait(lambda: self.number() > first + 3, "more frames")
+        finally:
+            self.page.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+
+    def test_a_player_of_cameras_shows_the_stream(self):
+        for path, name in (("stream", "bscope"), ("stream/cscope", "cscope")):
+            shown = subprocess.run(
+                ["ffmpeg", "-v", "error", "-f", "mpjpeg", "-i", self.url + path, "-frames:v", "3", "-f", "rawvideo",
+                 "-pix_fmt", "gray", "-"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60, check=False)
+            self.assertEqual(shown.stderr, b"")
+            columns, rows = self.js(f"state.frame.head.{name}")
+            self.assertEqual(len(shown.stdout), 3 * columns * rows)
+            self.assertGreater(len(set(shown.stdout)), 100)
+
+    def test_answers_are_what_the_description_says(self):
+        def asked(path, body=None):
+            request = urllib.request.Request(self.url + path, data=body and json.dumps(body).encode(),
+                                             headers={"Content-Type": "application/json"})
+            try:
+                return json.load(urllib.request.urlopen(request, timeout=10))
+            except urllib.error.HTTPError as refused:
+                self.assertEqual(refused.code, 422)
+                return json.load(refused)
+        api = asked("api/openapi.json")
+
+        def check(answer, schema):
+            jsonschema.Draft202012Validator({"$ref": f"#/components/schemas/{schema}",
+                                             "components": api["components"]}).validate(answer)
+        for path, one in api["paths"].items():
+            schema = one["get"]["responses"].get("200", {}).get("content", {}).get("application/json", {})
+            if schema and path != "/api/cell":
+                check(asked(path[1:]), schema["schema"]["$ref"].rsplit("/", 1)[1])
+        for number in (self.number(), 10**9):
+            check(asked(f"api/cell?scope=bscope&frame={number}&column=80&row=300"), "Cell")
+        check(asked("api/cell?scope=x"), "Problems")
+        check(asked("api/weather", {"visibility_m": 1, "snow": 2}), "Problems")
+        check(asked("api/sensor", {"tilt_deg": "up"}), "Problems")
+        check(self.js("state.frame.head"), "FrameHead")
+
     def test_rain_set_on_the_page_dims_the_picture_and_the_plan_says_so(self):
         dry = self.mean()
         rain = self.page.find_element("id", "rain")
@@ -162,6 +279,37 @@ class Page(unittest.TestCase):
             inner, wide = self.js("[innerWidth, document.documentElement.scrollWidth]")
             self.assertLessEqual(wide, inner)
             self.keep(f"live-{width}-{zoom}")
+
+
+class BeyondThisMachine(unittest.TestCase):
+    TOKEN = "aB3-._~7aB3-._~7"
+
+    def test_the_page_opens_with_the_token_alone(self):
+        with tempfile.NamedTemporaryFile("w") as file:
+            file.write(self.TOKEN + "\n")
+            file.flush()
+            live, url = start_live("0.0.0.0:0", "--token-file", file.name)
+            page = browser(800, 600)
+            try:
+                own = subprocess.run(["hostname", "-I"], stdout=subprocess.PIPE, text=True, check=False).stdout.split()
+                url = url.replace("0.0.0.0", own[0] if own and "." in own[0] else "127.0.0.1")
+                for path in ("", "frame/bscope.png", "stream", "?token=" + self.TOKEN[1:]):
+                    with self.assertRaises(urllib.error.HTTPError) as refused:
+                        urllib.request.urlopen(url + path, timeout=10)
+                    self.assertEqual(refused.exception.code, 401)
+                page.get(url + "?token=" + self.TOKEN)
+                self.assertEqual(page.current_url, url)  # the token does not stay in the history
+                for _ in range(150):
+                    if page.execute_script("return document.body.dataset.frame"):
+                        break
+                    time.sleep(0.1)
+                self.assertTrue(page.execute_script("return document.body.dataset.frame"))
+                self.assertEqual(page.execute_script("return document.cookie"), "")
+                self.assertEqual(page.get_log("browser"), [])
+            finally:
+                page.quit()
+                live.terminate()
+                live.wait(10)
 
 
 if __name__ == "__main__":
