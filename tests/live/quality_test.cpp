@@ -16,7 +16,7 @@ live::Status told_by(const live::Quality& quality, double samples) {
   live::Status status;
   status.samples = samples;
   const auto begin = live::Clock::now();
-  while (!status.errors && live::seconds_between(begin, live::Clock::now()) < 20.0) {
+  while (!status.errors && live::seconds_between(begin, live::Clock::now()) < 200.0) {
     quality.tell(status);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }

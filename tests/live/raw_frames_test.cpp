@@ -61,8 +61,9 @@ TEST_CASE("F15 a reader that stands still holds nobody up, and gets whole pictur
   pollfd begun{reader, POLLIN, 0};
   REQUIRE(::poll(&begun, 1, 10'000) == 1);
   const auto begin = live::Clock::now();
+  // Who waited for the reader would wait for ever.
   for (std::uint64_t number = 2; number <= 50; ++number) raw.write(frame_of(number, kSize));
-  CHECK(live::seconds_between(begin, live::Clock::now()) < 0.1);
+  CHECK(live::seconds_between(begin, live::Clock::now()) < 5.0);
   std::string got;
   char bytes[65536];
   for (int i = 0; i < 2000 && got.size() < 2 * kSize; ++i) {
