@@ -9,7 +9,7 @@ install(DIRECTORY "${PROJECT_BINARY_DIR}/man1" DESTINATION "${CMAKE_INSTALL_MAND
 install(FILES "${PROJECT_BINARY_DIR}/completion.bash" RENAME fanbeam
         DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions")
 install(TARGETS fanbeam_session_signal EXPORT fanbeamTargets)  # its headers lie below session/
-foreach(folder core materials atmosphere terrain sensors signal tracking renderer scenes session)
+foreach(folder core feeds materials atmosphere terrain sensors signal tracking renderer scenes session)
   install(TARGETS fanbeam_${folder} EXPORT fanbeamTargets)
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/fanbeam"
           FILES_MATCHING PATTERN "*.h" PATTERN "*_private.h" EXCLUDE)

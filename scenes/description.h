@@ -19,6 +19,7 @@
 #include "scenes/trajectory/ils_approach.h"
 #include "scenes/trajectory/trajectory_attitude.h"
 #include "scenes/trajectory/trajectory_csv.h"
+#include "scenes/trajectory/trajectory_packets.h"
 #include "sensors/sensor.h"
 #include "terrain/local_frame.h"
 
@@ -157,7 +158,8 @@ struct TrajectoryDescription {
   Kind kind = Kind::none;
   // file
   std::filesystem::path file;
-  TrajectoryColumns columns;
+  TrackPackets packets;       // where the file holds a simulator's
+  TrajectoryColumns columns;  // of packets the windows and the offset of heights alone
   core::VerticalDatum datum = core::VerticalDatum::scene;
   AttitudeAssumptions assumptions;
   // Moves the flight: from this runway end to the named end of the scene's runway.

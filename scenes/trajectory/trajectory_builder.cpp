@@ -9,7 +9,10 @@ namespace {
 std::optional<Trajectory> from_file(const SceneDescription& scene, const Ground& ground,
                                     core::ProblemList& problems) {
   const TrajectoryDescription& description = scene.trajectory;
-  RawTrack track = read_track_csv(description.file, description.columns, problems);
+  RawTrack track =
+      description.packets.protocol != nullptr
+          ? read_track_packets(description.file, description.packets, description.columns, problems)
+          : read_track_csv(description.file, description.columns, problems);
   if (problems.has_errors()) return std::nullopt;
   check_track(track, description.columns, description.assumptions.smoothing, problems);
   if (problems.has_errors()) return std::nullopt;

@@ -15,6 +15,26 @@ void read_column(ConfigTable& columns, std::string_view key, TrajectoryColumn& c
   column.unit = columns.text(std::string(key) + "_unit", column.unit);
 }
 
+// Which simulator's packets the file holds, if it holds any.
+void read_packets(ConfigTable& table, const std::filesystem::path& file, TrackPackets& packets) {
+  const bool capture = file.extension() == ".pcap" || file.extension() == ".pcapng";
+  if (!table.has("protocol")) {
+    if (capture)
+      table.error(core::ErrorClass::ref, "protocol", "missing",
+                  "\"native-fdm\" or \"fg-generic\": whose packets the capture holds");
+    if (table.has("port"))
+      table.error(core::ErrorClass::ref, "port", "without a protocol", "protocol beside it");
+    return;
+  }
+  packets.protocol = &feeds::kProtocols[table.choice(
+      "protocol", {feeds::kProtocols[0].name, feeds::kProtocols[1].name}, 0)];
+  if (table.has("port"))
+    packets.port = static_cast<std::uint16_t>(table.integer("port", 1, 65535, 1));
+  if (table.has("columns"))
+    table.error(core::ErrorClass::ref, "columns", "beside protocol",
+                "one of them: packets have no columns");
+}
+
 void read_columns(ConfigTable& table, TrajectoryColumns& columns) {
   ConfigTable names = table.table("columns");
   read_column(names, "time", columns.time);
@@ -37,6 +57,7 @@ void read_file_trajectory(ConfigTable& table, const DataSearch& search,
                           core::VerticalDatum scene_datum, TrajectoryDescription& trajectory) {
   trajectory.kind = TrajectoryDescription::Kind::file;
   trajectory.file = search.find(table, "file");
+  read_packets(table, trajectory.file, trajectory.packets);
   read_columns(table, trajectory.columns);
   if (!table.has("vertical_datum"))
     table.error(core::ErrorClass::ref, "vertical_datum", "missing",

@@ -30,7 +30,7 @@ const std::map<std::string, Names>& layers() {
       {"renderer", {"core", "materials", "atmosphere", "terrain", "sensors"}},
       {"signal", {"core", "sensors"}},
       {"tracking", {"core", "sensors", "signal"}},
-      {"scenes", {"core", "materials", "atmosphere", "terrain", "sensors", "renderer"}},
+      {"scenes", {"core", "feeds", "materials", "atmosphere", "terrain", "sensors", "renderer"}},
       {"session", {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes"}},
       {"session/signal",
        {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes", "session",
