@@ -13,6 +13,7 @@
 #include "live/feed.h"
 #include "live/quality.h"
 #include "live/replay.h"
+#include "live/simulator_weather.h"
 #include "renderer/plan/plan.h"
 
 namespace fanbeam::apps {
@@ -144,10 +145,13 @@ class LiveRun {
                     wiring_.takes_stdout() ? stderr : stdout);
     core::StopSource end;
     const auto begin = live::Clock::now();
+    std::optional<live::SimulatorWeather> weather;
+    if (wiring_.from.weather && recording_ == nullptr) weather.emplace(desk_, feed_);
     std::optional<live::Quality> quality;
     if (!options_.lockstep && recording_ == nullptr) quality.emplace(*session_, hub_);
     const auto each_frame = [&](live::Status& now) {
       if (quality) quality->tell(now);
+      if (weather) weather->follow();
       if (wiring_.from.protocol != nullptr && recording_ == nullptr) feed_.tell(now);
       sinks.write(hub_.newest());
       line_.show(now, network_.clients());
@@ -157,7 +161,11 @@ class LiveRun {
           (options_.frames > 0 && now.frames >= static_cast<std::uint64_t>(options_.frames));
       if (asked.reason() != 0 || enough || sinks.any_ended()) end.request();
     };
-    render(begin, each_frame, end.token());
+    live::ChannelSettings settings{rate_Hz_, options_.rays_per_cell, begin,
+                                   journal_ ? &*journal_ : nullptr};
+    if (options_.threads > 0) settings.threads = static_cast<unsigned>(options_.threads);
+    if (quality) settings.beside_s = [&quality] { return quality->processor_s(); };
+    render(settings, each_frame, end.token());
   }
 
  private:
@@ -178,21 +186,21 @@ class LiveRun {
     return wiring_.from.circle ? live::circle(*scene_) : live::approach(*scene_);
   }
 
-  void render(live::Clock::time_point begin, const live::Told& told, const core::StopToken& stop) {
+  void render(const live::ChannelSettings& settings, const live::Told& told,
+              const core::StopToken& stop) {
     const bool listens = wiring_.from.protocol != nullptr;
     const live::Flight flown = listens ? live::Flight() : flight();
-    live::Journal* journal = journal_ ? &*journal_ : nullptr;
-    const live::ChannelSettings settings{rate_Hz_, options_.rays_per_cell, begin, journal};
     if (recording_ != nullptr)
       live::run_replay(*session_, *recording_, listens ? &feed_ : nullptr, &flown, desk_,
-                       {options_.speed, options_.lockstep, begin}, hub_, told, stop);
+                       {options_.speed, options_.lockstep, settings.begin}, hub_, told, stop);
     else if (options_.lockstep && listens)
       live::run_lockstep(*session_, feed_.mailbox(), settings, hub_, told, stop);
     else if (options_.lockstep)
       live::run_lockstep(*session_, flown, settings, hub_, told, stop);
     else
       live::run_channel(*session_,
-                        listens ? live::source_of(feed_.mailbox(), scene_->frame, begin, journal)
+                        listens ? live::source_of(feed_.mailbox(), scene_->frame, settings.begin,
+                                                  settings.journal)
                                 : live::source_of(flown),
                         settings, hub_, told, stop);
   }

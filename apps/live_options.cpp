@@ -22,7 +22,8 @@ void add_poses(CLI::App& command, LiveOptions& options) {
               "fg-generic:[ADDRESS:]PORT (FlightGear with the shipped protocol file). "
               "Behind it ,datum=egm96 (the default) or ,datum=ellipsoid tells what heights count "
               "from (a scene whose own datum is unknown takes them as they are), and ,peer=ADDRESS "
-              "whose packets count, which an ADDRESS beyond this machine's own needs")
+              "whose packets count, which an ADDRESS beyond this machine's own needs; "
+              ",weather=simulator (of one that tells it) takes fog, rain and snow from there")
           ->type_name("SOURCE")
           ->capture_default_str();
   CLI::Option* lockstep =

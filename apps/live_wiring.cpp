@@ -10,23 +10,15 @@ using Scope = live::RawFrames::Scope;
 
 constexpr std::string_view kCsv = "csv:", kShared = "shm:", kRawBscope = "raw-bscope:",
                            kRawCscope = "raw-cscope:";
-constexpr std::string_view kDatum = ",datum=", kPeer = ",peer=";
+constexpr std::string_view kDatum = ",datum=", kPeer = ",peer=", kWeather = ",weather=";
 constexpr const char* kSources =
     "circle, ils, csv:FILE, native-fdm:[ADDRESS:]PORT or fg-generic:[ADDRESS:]PORT, and "
-    ",datum=egm96 or ,datum=ellipsoid, and ,peer=ADDRESS for each that may send";
+    ",datum=egm96 or ,datum=ellipsoid, ,peer=ADDRESS for each that may send, and "
+    ",weather=simulator or ,weather=scene";
 constexpr const char* kToken = "FANBEAM_TOKEN";
 
 [[noreturn]] void refuse_source(const std::string& text, const char* expected) {
   core::throw_input_error(core::ErrorClass::ref, "--from", "\"" + text + "\"", expected);
-}
-
-// Takes what follows the last `key` off the text; nothing where it has none.
-std::optional<std::string> taken_off(std::string& text, std::string_view key) {
-  const std::size_t at = text.rfind(key);
-  if (at == std::string::npos) return std::nullopt;
-  std::string value = text.substr(at + key.size());
-  text.resize(at);
-  return value;
 }
 
 void take_datum(const std::string& source, const std::string& name, PosesFrom& from) {
@@ -35,19 +27,30 @@ void take_datum(const std::string& source, const std::string& name, PosesFrom& f
   from.datum = name == "egm96" ? core::VerticalDatum::egm96 : core::VerticalDatum::ellipsoid;
 }
 
+void take_weather(const std::string& source, const std::string& whose, PosesFrom& from) {
+  if (whose != "simulator" && whose != "scene")
+    refuse_source(source, "weather=simulator or weather=scene");
+  from.weather = whose == "simulator";
+}
+
 // Leaves of the source what stands before its options, in any order.
 std::string without_options(std::string text, PosesFrom& from) {
   const std::string source = text;
   for (;;) {
-    const std::size_t datum = text.rfind(kDatum), peer = text.rfind(kPeer);
-    const bool datum_last =
-        datum != std::string::npos && (peer == std::string::npos || datum > peer);
-    if (datum_last)
-      take_datum(source, *taken_off(text, kDatum), from);
-    else if (const auto address = taken_off(text, kPeer))
-      from.peers.addresses.push_back(live::parse_address(*address, "--from"));
+    const std::size_t at = text.rfind(',');
+    const auto option = [&](std::string_view key) -> std::optional<std::string> {
+      if (at == std::string::npos || text.compare(at, key.size(), key) != 0) return std::nullopt;
+      return text.substr(at + key.size());
+    };
+    if (const auto datum = option(kDatum))
+      take_datum(source, *datum, from);
+    else if (const auto peer = option(kPeer))
+      from.peers.addresses.push_back(live::parse_address(*peer, "--from"));
+    else if (const auto whose = option(kWeather))
+      take_weather(source, *whose, from);
     else
       return text;
+    text.resize(at);
   }
 }
 
@@ -59,6 +62,7 @@ PosesFrom poses_from(const std::string& source) {
   if (file) from.csv = text.substr(kCsv.size());
   if (from.circle || text == "ils" || file) {
     if (!from.peers.addresses.empty()) refuse_source(source, "peers of a source that listens");
+    if (from.weather) refuse_source(source, "weather=simulator of a source that listens");
     return from;
   }
   const std::size_t colon = text.find(':');
@@ -93,6 +97,13 @@ live::Access access_of(const LiveOptions& options) {
   return token == nullptr ? live::Access() : live::Access(token, core::Place{kToken});
 }
 
+// Set by the clock, it would come to other frames each time.
+void check_weather(const LiveOptions& options, const Wiring& wiring) {
+  if (wiring.from.weather && options.lockstep)
+    core::throw_input_error(core::ErrorClass::unsupported, "--lockstep", "with weather=simulator",
+                            "weather=scene: in lockstep the bytes depend on poses alone");
+}
+
 void check_page(const std::string& text, const Wiring& wiring) {
   if (wiring.page.beyond_loopback && !wiring.access.has_token())
     core::throw_input_error(core::ErrorClass::unsupported, "--http", "\"" + text + "\"",
@@ -120,6 +131,7 @@ Wiring wiring_of(const LiveOptions& options) {
   collect([&] { wiring.access = access_of(options); });
   for (const std::string& sink : options.to) collect([&] { add_sink(sink, wiring); });
   collect([&] { check_page(options.http, wiring); });
+  if (options.replay.empty()) collect([&] { check_weather(options, wiring); });
   problems.throw_if_errors();
   return wiring;
 }

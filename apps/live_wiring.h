@@ -14,8 +14,8 @@
 
 namespace fanbeam::apps {
 
-// circle, ils, csv:FILE, or the protocol and address of a simulator; then ",datum=DATUM" and
-// ",peer=ADDRESS".
+// circle, ils, csv:FILE, or the protocol and address of a simulator; then ",datum=DATUM",
+// ",peer=ADDRESS" and ",weather=WHOSE", in any order.
 struct PosesFrom {
   bool circle = false;
   std::string csv;
@@ -23,6 +23,7 @@ struct PosesFrom {
   live::Endpoint listens_at;
   live::Peers peers;
   core::VerticalDatum datum = core::VerticalDatum::egm96;  // what heights count from
+  bool weather = false;                                    // that of the simulator counts
 };
 
 struct RawSink {

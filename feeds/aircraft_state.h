@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 
 #include "core/pose.h"
 
@@ -14,6 +15,9 @@ struct AircraftState {
   core::Attitude attitude;
   glm::dvec3 v_N_mps{0.0};  // north, east, down
   double visibility_m = 0.0;
+  // What falls where the aircraft is, as the simulator draws it: 0 none, 1 its heaviest. Nothing where
+  // the protocol does not tell.
+  std::optional<double> rain_norm, snow_norm;
   double clock_s = 0.0;  // of the simulator
 };
 
@@ -22,9 +26,10 @@ enum class PacketFault { none, length, version, format, nonfinite, range, late, 
 inline constexpr std::size_t kPacketFaults = 9;  // with none
 const char* name_of(PacketFault fault);
 
-// late and jump are of the packets before it (live/clock_gate.h), foreign of who sent it; nonfinite: a number that is not. range: a latitude beyond 90 deg, a longitude beyond 540 deg, a
-// height beyond -20 to 1000 km, an angle over 1000 rad, a speed over 10 km/s, or latitude, longitude
-// and altitude that are all exactly 0, as before a simulator has started.
+// late and jump are of the packets before it (live/clock_gate.h), foreign of who sent it; nonfinite: a
+// number that is not. range: a latitude beyond 90 deg, a longitude beyond 540 deg, a height beyond -20
+// to 1000 km, an angle over 1000 rad, a speed over 10 km/s, or latitude, longitude and altitude that
+// are all exactly 0, as before a simulator has started.
 PacketFault fault_in(const AircraftState& state);
 
 // At time 0; the height is `altitude_m`. Of a state without fault.

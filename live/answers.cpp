@@ -20,11 +20,13 @@ Json status_json(const Status& status) {
       {"caster", status.caster},
       {"frames", status.frames},
       {"late", status.late},
+      {"late_by_processor", status.late_by_processor},
       {"refused", status.refused},
       {"refusal", status.refusal},
       {"wanted_Hz", status.wanted_Hz},
       {"rate_Hz", status.rate_Hz},
       {"frame_ms", status.frame_ms},
+      {"processor_ms", status.processor_ms},
       {"slowest_ms", status.slowest_ms},
       {"pose_age_ms", status.pose_age_ms},
       {"samples", status.samples},
@@ -47,6 +49,9 @@ std::string metrics_text(const Status& status) {
   add("frames_total", "counter", "Frames rendered.", static_cast<double>(status.frames));
   add("late_total", "counter", "Ticks left out because a frame took longer than a period.",
       static_cast<double>(status.late));
+  add("late_by_processor_total", "counter",
+      "Frames that took more processor time than a period has on all threads.",
+      static_cast<double>(status.late_by_processor));
   add("refused_total", "counter", "Poses that nothing can be rendered at.",
       static_cast<double>(status.refused));
   add("packets_total", "counter", "Datagrams of the source.", static_cast<double>(status.packets));
@@ -93,7 +98,9 @@ Json sensor_json(const sensors::Sensor& sensor) {
 }
 
 Json weather_json(const atmosphere::Weather& weather) {
-  Json result{{"rain_rate_mm_per_h", weather.rain_rate_mm_per_h}, {"visibility_m", nullptr}};
+  Json result{{"rain_rate_mm_per_h", weather.rain_rate_mm_per_h},
+              {"snow_rate_mm_per_h", weather.snow_rate_mm_per_h},
+              {"visibility_m", nullptr}};
   if (weather.visibility_m) result["visibility_m"] = *weather.visibility_m;
   return result;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <thread>
 
-#include "live/frame_maker.h"
 #include "live/pace.h"
 
 namespace fanbeam::live {
@@ -32,7 +31,7 @@ class Channel {
         settings_(settings),
         period_s_(1.0 / settings.rate_Hz),
         pace_(ladder_of(session.scene()->caster.chosen), period_s_),
-        maker_(session, hub, settings.rate_Hz, settings.begin, settings.journal),
+        maker_(session, hub, settings),
         hub_(hub) {
     maker_.sample(settings.samples > 0.0 ? settings.samples : pace_.samples());
   }
@@ -97,7 +96,7 @@ void run_lockstep(session::Session& session, const Mailbox& mailbox,
                   const ChannelSettings& settings, Hub& hub, const Told& told,
                   const core::StopToken& stop) {
   constexpr std::chrono::milliseconds kNap(100);
-  FrameMaker maker(session, hub, settings.rate_Hz, settings.begin, settings.journal);
+  FrameMaker maker(session, hub, settings);
   maker.sample(settings.samples);
   const auto tell = [&] {
     told(maker.status());
@@ -121,7 +120,7 @@ void run_lockstep(session::Session& session, const Mailbox& mailbox,
 
 void run_lockstep(session::Session& session, const Flight& flight, const ChannelSettings& settings,
                   Hub& hub, const Told& told, const core::StopToken& stop) {
-  FrameMaker maker(session, hub, settings.rate_Hz, settings.begin, settings.journal);
+  FrameMaker maker(session, hub, settings);
   maker.sample(settings.samples);
   for (std::uint64_t number = 0; stop.reason() == 0; ++number) {
     const double at_s = (static_cast<double>(number) + 0.5) / settings.rate_Hz;

@@ -5,19 +5,10 @@
 #include <functional>
 
 #include "core/stop.h"
-#include "live/hub.h"
-#include "live/journal.h"
-#include "live/pose_source.h"
+#include "live/frame_maker.h"
 #include "session/session.h"
 
 namespace fanbeam::live {
-
-struct ChannelSettings {
-  double rate_Hz = 16.0;
-  double samples = 0.0;  // 0: as the rate allows; in lockstep the scene's own
-  Clock::time_point begin = Clock::now();
-  Journal* journal = nullptr;
-};
 
 // Called after each frame, and some times a second while there are none; it may fill in what the
 // source knows.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <utility>
 
 #include "core/errors.h"
 #include "core/json_node.h"
 #include "core/picture_bytes.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "live/answers_private.h"
 #include "live/page.h"
@@ -15,6 +17,7 @@ namespace fanbeam::live {
 namespace {
 
 constexpr core::JsonLimits kLimits{8, 100};
+constexpr const char *kWeather = "/api/weather", *kSensor = "/api/sensor";
 
 Answer json_answer(const Json& value, int status = 200) {
   return {status, "application/json", value.dump(-1, ' ', true, Json::error_handler_t::replace)};
@@ -50,6 +53,23 @@ int whole_in(const std::string& query, const std::string& name, core::ProblemLis
   return value;
 }
 
+bool is_control(const std::string& path) { return path == kWeather || path == kSensor; }
+
+double gain_in(const std::string& word, core::ProblemList& problems) {
+  const core::ParsedNumber gain_dB = core::parse_number(word);
+  if (gain_dB.error == core::NumberError::none && std::abs(gain_dB.value) <= 60.0)
+    return gain_dB.value;
+  problems.error(core::ErrorClass::range, {}, "gain_dB", "\"" + word + "\"", "-60 to 60");
+  return 0.0;
+}
+
+// By so much of the scale.
+void amplify(core::Picture8& picture, double share) {
+  const auto steps = static_cast<int>(std::lround(255.0 * share));
+  for (std::uint8_t& grey : picture.pixels)
+    grey = static_cast<std::uint8_t>(std::clamp(grey + steps, 0, 255));
+}
+
 void refuse_others(const core::JsonNode& root, std::initializer_list<const char*> known) {
   for (const std::string& key : root.keys())
     if (std::find(known.begin(), known.end(), key) == known.end()) {
@@ -60,12 +80,13 @@ void refuse_others(const core::JsonNode& root, std::initializer_list<const char*
 }
 
 void set_weather(session::Session& session, const core::JsonNode& root) {
-  refuse_others(root, {"visibility_m", "rain_rate_mm_per_h"});
+  refuse_others(root, {"visibility_m", "rain_rate_mm_per_h", "snow_rate_mm_per_h"});
   atmosphere::Weather weather = session.scene()->weather;
   weather.visibility_m = root.member("visibility_m").number({10.0, 100e3});
   weather.liquid_water_g_per_m3.reset();
   weather.rain_rate_mm_per_h =
       root.required("rain_rate_mm_per_h").number({0.0, 300.0}).value_or(0.0);
+  weather.snow_rate_mm_per_h = root.member("snow_rate_mm_per_h").number({0.0, 50.0}).value_or(0.0);
   root.problems().throw_if_errors();
   session.set(weather);
 }
@@ -94,7 +115,10 @@ Answer Desk::answer(const Request& request) const {
   if (!asks && !request.content_type.starts_with("application/json"))
     return refusal(415, "content type application/json");
   try {
-    return asks ? get(path, request.target.substr(mark)) : post(path, request.body);
+    if (asks) return get(path, request.target.substr(mark));
+    if (!is_control(path)) return refusal(404, "no such control");
+    control(path, request.body);
+    return get(path, {});
   } catch (const core::InputError& error) {
     return problems_answer(error.problems());
   } catch (const std::exception& bug) {  // the pictures go on
@@ -127,32 +151,43 @@ Answer Desk::get(const std::string& path, const std::string& query) const {
   const std::shared_ptr<const scenes::Scene> scene = session_.scene();
   if (path == "/api/map") return json_answer(map_json(*scene));
   if (path == "/api/plan") return json_answer(plan_json(*scene));
-  if (path == "/api/sensor") return json_answer(sensor_json(scene->description.sensor));
-  if (path == "/api/weather") return json_answer(weather_json(scene->weather));
-  const bool bscope = path == "/frame/bscope.png";
-  if (!bscope && path != "/frame/cscope.png") return refusal(404, "no such page");
-  const std::shared_ptr<const LiveFrame> frame = hub_.newest();
-  if (!frame) return refusal(503, "no frame yet");
-  return {200, "image/png", core::png_bytes(bscope ? frame->bscope : frame->cscope)};
+  if (path == kSensor) return json_answer(sensor_json(scene->description.sensor));
+  if (path == kWeather) return json_answer(weather_json(scene->weather));
+  return picture(path, query);
 }
 
-Answer Desk::post(const std::string& path, const std::string& body) const {
-  const bool weather = path == "/api/weather";
-  if (!weather && path != "/api/sensor") return refusal(404, "no such control");
+Answer Desk::picture(const std::string& path, const std::string& query) const {
+  const bool bscope = path == "/frame/bscope.png";
+  if (!bscope && path != "/frame/cscope.png") return refusal(404, "no such page");
+  core::ProblemList problems;
+  const std::string gain = word_in(query, "gain_dB");
+  const double gain_dB = gain.empty() ? 0.0 : gain_in(gain, problems);
+  problems.throw_if_errors();
+  const std::shared_ptr<const LiveFrame> frame = hub_.newest();
+  if (!frame) return refusal(503, "no frame yet");
+  core::Picture8 shown = bscope ? frame->bscope : frame->cscope;
+  if (gain_dB != 0.0) {
+    const sensors::Display& display = session_.scene()->description.sensor.display;
+    amplify(shown, gain_dB / (display.high_dB - display.low_dB));
+  }
+  return {200, "image/png", core::png_bytes(shown)};
+}
+
+void Desk::control(const std::string& path, const std::string& body) const {
+  if (!is_control(path))
+    core::throw_input_error(core::ErrorClass::ref, "control", "\"" + path + "\"",
+                            std::string(kWeather) + " or " + kSensor);
   core::ProblemList problems;
   const auto file = core::parse_json(body, "body", kLimits, problems);
   problems.throw_if_errors();
   const core::JsonNode root(*file, problems);
-  {
-    std::unique_lock<std::mutex> quiet;
-    if (journal_ != nullptr) quiet = journal_->quiet();
-    if (weather)
-      set_weather(session_, root);
-    else
-      set_sensor(session_, root);
-    if (journal_ != nullptr) journal_->control(path, body);
-  }
-  return get(path, {});
+  std::unique_lock<std::mutex> quiet;
+  if (journal_ != nullptr) quiet = journal_->quiet();
+  if (path == kWeather)
+    set_weather(session_, root);
+  else
+    set_sensor(session_, root);
+  if (journal_ != nullptr) journal_->control(path, body);
 }
 
 std::string message_of(const LiveFrame& frame) {

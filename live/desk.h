@@ -1,7 +1,8 @@
 // What a request over HTTP is answered, without sockets: pictures, status, plan, weather, sensor.
 //
 //   GET  /                   the page
-//   GET  /frame/bscope.png   the newest picture, /frame/cscope.png; 503 before the first
+//   GET  /frame/bscope.png   the newest picture, /frame/cscope.png; ?gain_dB= of -60 to 60 shows it
+//                            with so much more gain; 503 before the first
 //   GET  /api/status         rate, ages, sampling, counts
 //   GET  /metrics            the same in Prometheus' text format
 //   GET  /api/plan           effects, whether they run, why
@@ -9,7 +10,8 @@
 //                            ground truth of a cell (truth.h), row 0 on top; "gone" for a frame of
 //                            more than some seconds ago
 //   GET  /api/sensor         axes of the pictures; POST sets tilt_deg, low_dB, high_dB
-//   GET  /api/weather        POST sets visibility_m (none: no fog) and rain_rate_mm_per_h
+//   GET  /api/weather        POST sets visibility_m (none: no fog), rain_rate_mm_per_h and
+//                            snow_rate_mm_per_h (none: no snow)
 //
 // Answers of /api are JSON (docs/live.md has the keys). A POST with anything wrong in it changes
 // nothing and is answered 422 with all problems: code, field, value, expected.
@@ -46,11 +48,13 @@ class Desk {
   const Access& access() const { return access_; }
   // Thread-safe. Never throws for what stands in the request.
   Answer answer(const Request& request) const;
+  // What a POST with that body does. Throws InputError with all that is wrong, and changes nothing then.
+  void control(const std::string& path, const std::string& body) const;
 
  private:
   Answer get(const std::string& path, const std::string& query) const;
   Answer cell(const std::string& query) const;
-  Answer post(const std::string& path, const std::string& body) const;
+  Answer picture(const std::string& path, const std::string& query) const;
 
   session::Session& session_;
   const Hub& hub_;

@@ -45,6 +45,8 @@ void Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrive
   const core::Pose pose = placed(*state);
   mailbox_.put(pose, {datagram.begin(), datagram.end()}, arrived);
   compare_heights(pose, state->height_above_ground_m);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  newest_ = state;
 }
 
 void Feed::turn_away() { count(feeds::PacketFault::foreign); }
@@ -61,6 +63,11 @@ void Feed::compare_heights(const core::Pose& pose, double told_m) {
   const std::lock_guard<std::mutex> lock(mutex_);
   offsets_m_.push_back(told_m - ours_m);
   if (offsets_m_.size() > kCompared) offsets_m_.pop_front();
+}
+
+std::optional<feeds::AircraftState> Feed::newest() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return newest_;
 }
 
 void Feed::tell(Status& status) const {

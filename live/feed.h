@@ -12,6 +12,7 @@
 #include <deque>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 
 #include "core/geodetic.h"
@@ -36,6 +37,8 @@ class Feed {
   // Its pose, above the ellipsoid; nothing for bytes that are no packet. Leaves the mailbox alone.
   std::optional<core::Pose> pose_in(std::span<const std::uint8_t> datagram) const;
   const Mailbox& mailbox() const { return mailbox_; }
+  // What the newest good packet says, weather and all; nothing before the first.
+  std::optional<feeds::AircraftState> newest() const;
   // Packets, bad ones by reason, the offset of heights.
   void tell(Status& status) const;
 
@@ -50,6 +53,7 @@ class Feed {
   ClockGate gate_;
   Mailbox mailbox_;
   mutable std::mutex mutex_;
+  std::optional<feeds::AircraftState> newest_;
   std::uint64_t packets_ = 0;
   std::array<std::uint64_t, feeds::kPacketFaults> bad_{};
   std::deque<double> offsets_m_;  // the simulator's height above ground less ours

@@ -1,6 +1,7 @@
 #include "live/frame_maker.h"
 
 #include <algorithm>
+#include <ctime>
 #include <mutex>
 
 #include "core/errors.h"
@@ -8,13 +9,12 @@
 
 namespace fanbeam::live {
 
-FrameMaker::FrameMaker(session::Session& session, Hub& hub, double wanted_Hz,
-                       Clock::time_point begin, Journal* journal)
-    : session_(session), hub_(hub), begin_(begin), journal_(journal), status_(hub.status()) {
+FrameMaker::FrameMaker(session::Session& session, Hub& hub, const ChannelSettings& settings)
+    : session_(session), hub_(hub), settings_(settings), status_(hub.status()) {
   const std::shared_ptr<const scenes::Scene> scene = session.scene();
   status_.scene = scene->description.name;
   status_.caster = renderer::name_of(scene->caster.chosen);
-  status_.wanted_Hz = wanted_Hz;
+  status_.wanted_Hz = settings.rate_Hz;
   const double own = scene->description.rays_per_cell;
   status_.samples = own > 0.0 ? own : renderer::default_samples(scene->caster.chosen);
 }
@@ -27,9 +27,9 @@ void FrameMaker::sample(double samples) {
 
 session::Session::Moment FrameMaker::conditions(const Tick& tick) {
   std::unique_lock<std::mutex> quiet;
-  if (journal_ != nullptr) {
-    quiet = journal_->quiet();
-    journal_->frame(tick, told_samples_);
+  if (settings_.journal != nullptr) {
+    quiet = settings_.journal->quiet();
+    settings_.journal->frame(tick, told_samples_);
   }
   return session_.now();
 }
@@ -50,6 +50,7 @@ std::shared_ptr<LiveFrame> FrameMaker::rendered(const session::Session::Moment& 
 std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sighting& seen,
                                                  const core::StopToken& stop) {
   const Clock::time_point from = Clock::now();
+  const double spent_s = processor_s();
   status_.waiting = false;
   status_.pose_age_ms = 1e3 * seen.age_s;
   const session::Session::Moment under = conditions(tick);
@@ -71,15 +72,25 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   frame->errors = status_.errors;
   frame->frame_ms = 1e3 * frame_s;
   frame->pose_age_ms = status_.pose_age_ms;
-  tell(frame_s);
+  tell(frame_s, processor_s() - spent_s);
   const bool outside = frame->outside_volume;
   hub_.publish(std::move(frame));
   return Made{frame_s, outside};
 }
 
-void FrameMaker::tell(double frame_s) {
+double FrameMaker::processor_s() const {
+  timespec spent{};
+  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
+  const double beside_s = settings_.beside_s ? settings_.beside_s() : 0.0;
+  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec) - beside_s;
+}
+
+void FrameMaker::tell(double frame_s, double processor_s) {
   constexpr double kLook_s = 2.0;
   status_.frame_ms = 1e3 * frame_s;
+  status_.processor_ms = 1e3 * processor_s;
+  if (processor_s * settings_.rate_Hz > std::max(1U, settings_.threads))
+    ++status_.late_by_processor;
   recent_.emplace_back(now_s(), status_.frame_ms);
   while (recent_.front().first < recent_.back().first - kLook_s) recent_.pop_front();
   status_.slowest_ms = 0.0;

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "core/stop.h"
@@ -13,16 +15,25 @@
 
 namespace fanbeam::live {
 
+struct ChannelSettings {
+  double rate_Hz = 16.0;
+  double samples = 0.0;  // 0: as the rate allows; in lockstep the scene's own
+  Clock::time_point begin = Clock::now();
+  Journal* journal = nullptr;
+  unsigned threads = std::thread::hardware_concurrency();  // that frames may take
+  // Processor time that this process spent on other things than frames, s; none: it does not.
+  std::function<double()> beside_s{};
+};
+
 class FrameMaker {
  public:
   struct Made {
-    double frame_s = 0.0;         // that it took
+    double frame_s = 0.0;         // that it took by the clock
     bool outside_volume = false;  // by a plan of its own
   };
 
-  // `journal` may be null. All must outlive it.
-  FrameMaker(session::Session& session, Hub& hub, double wanted_Hz, Clock::time_point begin,
-             Journal* journal);
+  // All must outlive it.
+  FrameMaker(session::Session& session, Hub& hub, const ChannelSettings& settings);
 
   // Of the frames to come. 0 leaves it: the scene's own, until it was told otherwise.
   void sample(double samples);
@@ -31,7 +42,7 @@ class FrameMaker {
   std::optional<Made> make(const Tick& tick, const Sighting& seen, const core::StopToken& stop);
 
   Status& status() { return status_; }
-  double now_s() const { return seconds_between(begin_, Clock::now()); }
+  double now_s() const { return seconds_between(settings_.begin, Clock::now()); }
   std::uint64_t next_number() const { return status_.frames + 1; }
 
  private:
@@ -40,12 +51,13 @@ class FrameMaker {
   // Its pictures; throws what Session::render throws.
   std::shared_ptr<LiveFrame> rendered(const session::Session::Moment& under, const Tick& tick,
                                       const core::Pose& pose, const core::StopToken& stop);
-  void tell(double frame_s);
+  // Spent on frames so far.
+  double processor_s() const;
+  void tell(double frame_s, double processor_s);
 
   session::Session& session_;
   Hub& hub_;
-  Clock::time_point begin_;
-  Journal* journal_;
+  ChannelSettings settings_;
   Status status_;
   double told_samples_ = 0.0;                     // 0: none
   std::deque<std::pair<double, double>> recent_;  // of two seconds: end, milliseconds taken

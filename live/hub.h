@@ -39,11 +39,14 @@ struct LiveFrame {
 struct Status {
   std::string scene, source, caster;
   std::uint64_t frames = 0;
-  std::uint64_t late = 0;                   // took longer than a period: ticks were left out
+  std::uint64_t late = 0;  // took longer than a period: ticks were left out
+  // Took more processor time than a period has on all its threads: late on any machine, however quiet.
+  std::uint64_t late_by_processor = 0;
   std::uint64_t refused = 0;                // poses that nothing can be rendered at
   std::string refusal;                      // the last one's words
   double wanted_Hz = 0.0, rate_Hz = 0.0;    // rate: of the last two seconds
   double frame_ms = 0.0, slowest_ms = 0.0;  // the last one, the slowest of two seconds
+  double processor_ms = 0.0;                // of the last one, all threads
   double pose_age_ms = 0.0, samples = 0.0;
   std::optional<PictureErrors> errors;  // of this sampling, once they are known (quality.h)
   bool waiting = true;                  // no pose yet

@@ -1,9 +1,11 @@
 #include "live/quality.h"
 
+#include <pthread.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <ctime>
 
 #include "core/errors.h"
 #include "core/parallel.h"
@@ -28,6 +30,15 @@ void Quality::tell(Status& status) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   status.errors.reset();
   if (samples_ > 0.0 && samples_ == status.samples) status.errors = errors_;
+}
+
+double Quality::processor_s() const {
+  clockid_t clock{};
+  timespec spent{};
+  // A thread of ours that is not joined yet has a clock.
+  ::pthread_getcpuclockid(const_cast<std::thread&>(thread_).native_handle(), &clock);
+  ::clock_gettime(clock, &spent);
+  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
 }
 
 void Quality::run(double every_s) {

@@ -27,6 +27,8 @@ class Quality {
 
   // The last figures, unless there are none of this sampling.
   void tell(Status& status) const;
+  // Processor time that it took so far.
+  double processor_s() const;
 
  private:
   void run(double every_s);

@@ -23,7 +23,7 @@ class Replay {
         told_(told),
         stop_(stop),
         predictor_(session.scene()->frame),
-        maker_(session, hub, recording.flown_by.rate_Hz, settings.begin, nullptr) {}
+        maker_(session, hub, ChannelSettings{recording.flown_by.rate_Hz, 0.0, settings.begin}) {}
 
   void run() {
     for (const auto& event : recording_.events) {
@@ -41,9 +41,7 @@ class Replay {
     newest_ = {*pose, packet.arrived_s};
   }
 
-  void take(const RecordedControl& control) {
-    desk_.answer({"POST", control.path, "localhost", {}, "application/json", control.body});
-  }
+  void take(const RecordedControl& control) { desk_.control(control.path, control.body); }
 
   void take(const RecordedFrame& frame) {
     if (!settings_.lockstep && !in_time(frame.tick)) return;

@@ -17,7 +17,8 @@ struct ReplaySettings {
 };
 
 // `feed` decodes the packets of a recording that has some (its mailbox is not used), `flight` is that
-// of one without; the other may be null. Controls go through `desk`. Ends with the recording.
+// of one without; the other may be null. Controls go through `desk`; one that it refuses (of another scene)
+// is thrown as InputError. Ends with the recording.
 void run_replay(session::Session& session, const Recording& recording, const Feed* feed,
                 const Flight* flight, const Desk& desk, const ReplaySettings& settings, Hub& hub,
                 const Told& told, const core::StopToken& stop);

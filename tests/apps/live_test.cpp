@@ -48,7 +48,8 @@ TEST_CASE("All that is wrong with live's addresses is told before a scene is ope
 TEST_CASE("Beyond this machine the page needs a token and a source its peers", "[live]") {
   const TemporaryFolder folder;
   for (const char* from : {"native-fdm:0.0.0.0:0", "circle,peer=127.0.0.1", "ils,datum=moon",
-                           "fg-generic:0,peer=somebody", ",datum=egm96", "csv:"}) {
+                           "fg-generic:0,peer=somebody", ",datum=egm96",
+                           "csv:", "circle,weather=simulator", "fg-generic:0,weather=mine"}) {
     INFO(from);
     const Result refused = run_fanbeam(std::string("live no-such-scene --from ") + from);
     CHECK(refused.exit_code == 2);

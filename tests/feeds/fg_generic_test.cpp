@@ -17,7 +17,7 @@ using feeds::PacketFault;
 namespace {
 
 const std::string kLine =
-    "fanbeam,1,10.25,52.5,-10.25,1000,500,-0.5,1.5,270,100,-200,10,5000.000\n";
+    "fanbeam,2,10.25,52.5,-10.25,1000,500,-0.5,1.5,270,100,-200,10,5000.000,0.25,0.5\n";
 
 std::optional<feeds::AircraftState> state_in(const std::string& line, PacketFault& fault) {
   return feeds::decode_fg_generic({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()},
@@ -57,7 +57,18 @@ TEST_CASE("A line's numbers are degrees and feet in the order of the protocol fi
     CHECK(state->v_N_mps.y == Approx(-60.96));
     CHECK(state->v_N_mps.z == Approx(3.048));
     CHECK(state->visibility_m == 5000.0);
+    CHECK(state->rain_norm == 0.25);
+    CHECK(state->snow_norm == 0.5);
   }
+}
+
+TEST_CASE("The first version of the line has no rain and no snow", "[fg_generic]") {
+  PacketFault fault{};
+  const auto state = state_in("fanbeam,1,1,2,3,4,5,6,7,8,9,10,11,12", fault);
+  REQUIRE(state.has_value());
+  CHECK(state->visibility_m == 12.0);
+  CHECK_FALSE(state->rain_norm.has_value());
+  CHECK_FALSE(state->snow_norm.has_value());
 }
 
 TEST_CASE("The protocol file that is shipped asks for these nodes in this order", "[fg_generic]") {
@@ -66,10 +77,10 @@ TEST_CASE("The protocol file that is shipped asks for these nodes in this order"
   text << stream.rdbuf();
   std::size_t at = 0;
   for (const char* wanted :
-       {"<var_separator>,<", "fanbeam,1,%.6f", "/sim/time/elapsed-sec", "latitude-deg",
+       {"<var_separator>,<", "fanbeam,2,%.6f", "/sim/time/elapsed-sec", "latitude-deg",
         "longitude-deg", "/position/altitude-ft", "/position/altitude-agl-ft", "roll-deg",
         "pitch-deg", "/orientation/heading-deg", "speed-north-fps", "speed-east-fps",
-        "speed-down-fps", "visibility-m"}) {
+        "speed-down-fps", "visibility-m", "/environment/rain-norm", "/environment/snow-norm"}) {
     INFO(wanted);
     at = text.str().find(wanted, at);
     REQUIRE(at != std::string::npos);
@@ -113,13 +124,15 @@ TEST_CASE("A recorded flight's rows as lines give the positions of the file", "[
 
 TEST_CASE("Lines that are none are refused with their reason", "[fg_generic]") {
   CHECK(refusal_of("") == PacketFault::version);
-  CHECK(refusal_of("fanbeam,2,1") == PacketFault::version);
+  CHECK(refusal_of("fanbeam,3,1") == PacketFault::version);
   CHECK(refusal_of(std::string(1025, '1')) == PacketFault::length);
   CHECK(refusal_of("fanbeam,1,1,2,3") == PacketFault::format);
   CHECK(refusal_of(kLine + "1") == PacketFault::format);
   CHECK(refusal_of("fanbeam,1,,,,,,,,,,,") == PacketFault::format);
   CHECK(refusal_of("fanbeam,1,1;2;3;4;5;6;7;8;9;10;11;12") == PacketFault::format);
   CHECK(refusal_of("fanbeam,1,1,2,3,4,5,6,7,8,9,10,11,12,13") == PacketFault::format);
+  CHECK(refusal_of("fanbeam,2,1,2,3,4,5,6,7,8,9,10,11,12") == PacketFault::format);
+  CHECK(refusal_of("fanbeam,2,1,2,3,4,5,6,7,8,9,10,11,12,1,nan") == PacketFault::nonfinite);
 }
 
 TEST_CASE("F14 lines of states that cannot be are refused with their reason", "[fg_generic]") {

@@ -255,7 +255,7 @@ class Page(unittest.TestCase):
         self.assertEqual(self.page.find_element("id", "raintold").text, "50 mm/h")
         self.wait(lambda: self.mean() < dry - 10, "darker picture")  # it takes more than it sends
         weather = self.js("fetch('/api/weather').then(answer => answer.json())")
-        self.assertEqual(weather, {"rain_rate_mm_per_h": 50, "visibility_m": 300})
+        self.assertEqual(weather, {"rain_rate_mm_per_h": 50, "snow_rate_mm_per_h": 0, "visibility_m": 300})
         self.page.find_element("css selector", "summary").click()
         rows = self.js("[...document.querySelectorAll('#plan tr')].map(row =>"
                        " [row.cells[0].textContent, row.cells[1].textContent])")

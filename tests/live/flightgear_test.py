@@ -1,0 +1,216 @@
+#!/usr/bin/python3
+"""FlightGear itself flies the radar, with the add-on, under Xvfb (./dev live-test flightgear).
+
+usage: flightgear_test.py FANBEAM DATA [FOLDER]   DATA is the shared data; FOLDER keeps screenshots
+
+FlightGear draws with the processor here, and fanbeam live renders beside it: the rates that are printed
+are of both on one machine.
+"""
+import json
+import math
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.request
+
+ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+PLUGIN = os.path.join(ROOT, "plugins", "flightgear")
+FANBEAM, DATA = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+FOLDER = os.path.abspath(sys.argv[3]) if len(sys.argv) > 3 else None
+PATIENCE_S = 420  # the first start builds a navigation database
+
+# What keeps FlightGear 2020.3 from crashing under llvmpipe, and from asking for the network.
+QUIET = """--disable-sound --disable-terrasync --disable-fgcom --disable-real-weather-fetch --disable-ai-models
+--disable-ai-traffic --disable-random-objects --disable-random-vegetation --disable-random-buildings --disable-clouds
+--disable-clouds3d --disable-specular-highlight --disable-distance-attenuation --disable-horizon-effect
+--disable-splash-screen --disable-hud --disable-panel --disable-save-on-exit --timeofday=noon --season=summer
+--prop:/sim/rendering/multithreading-mode=SingleThreaded --prop:/sim/rendering/shaders/quality-level=0
+--prop:/sim/rendering/multi-sample-buffers=0 --prop:/sim/rendering/shadows/enabled=0 --prop:/sim/tutorials/first-run=0
+--prop:/sim/gui/startup-tips=0 --visibility=9000 --geometry=800x640""".split()
+
+
+def free_port(kind):
+    with socket.socket(socket.AF_INET, kind) as one:
+        one.bind(("127.0.0.1", 0))
+        return one.getsockname()[1]
+
+
+def stop(process):
+    """With its children: they are a session of their own."""
+    try:
+        os.killpg(process.pid, signal.SIGTERM)
+        process.wait(20)
+    except (ProcessLookupError, subprocess.TimeoutExpired):
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+
+
+class Properties:
+    """FlightGear's property server: a line a command."""
+
+    def __init__(self, port):
+        self.wire = socket.create_connection(("127.0.0.1", port), 20)
+        self.wire.settimeout(60)
+        self.lines = self.wire.makefile("rw", newline="\r\n", encoding="latin-1")
+        self.say("data")
+
+    def say(self, line):
+        self.lines.write(line + "\r\n")
+        self.lines.flush()
+
+    def get(self, name):
+        self.say("get " + name)
+        return self.lines.readline().strip()
+
+    def number(self, name):
+        return float(self.get(name) or "nan")
+
+    def set(self, name, value):
+        self.say(f"set {name} {value}")
+
+
+class Flight:
+    aircraft = None
+
+    @classmethod
+    def setUpClass(cls):
+        cls.processes = []
+        try:
+            cls.begin()
+        except BaseException:
+            cls.tearDownClass()
+            raise
+
+    @classmethod
+    def start(cls, command, **options):
+        cls.processes.append(subprocess.Popen(command, start_new_session=True, **options))
+        return cls.processes[-1]
+
+    @classmethod
+    def begin(cls):
+        feed, cls.telnet = free_port(socket.SOCK_DGRAM), free_port(socket.SOCK_STREAM)
+        cls.live = cls.start([FANBEAM, "live", "keflavik-10", "--data", DATA, "--http", "0", "--rate", "8", "--from",
+                              f"fg-generic:{feed},weather=simulator"], stdout=subprocess.PIPE, text=True)
+        cls.url = re.search(r"http://\S+", cls.live.stdout.readline()).group(0)
+        display = f":{70 + os.getpid() % 20}"
+        cls.start(["Xvfb", display, "-screen", "0", "800x640x24", "-noreset", "-nolisten", "tcp"],
+                  stderr=subprocess.DEVNULL)
+        cls.home = tempfile.TemporaryDirectory()
+        cls.environment = dict(os.environ, DISPLAY=display, FG_HOME=cls.home.name, HOME=cls.home.name,
+                               LIBGL_ALWAYS_SOFTWARE="1", GALLIUM_DRIVER="llvmpipe", LP_NUM_THREADS="1",
+                               DBUS_FATAL_WARNINGS="0")
+        time.sleep(2)
+        log = open(os.path.join(FOLDER or cls.home.name, f"fgfs-{cls.aircraft}.log"), "w", encoding="utf-8")
+        cls.fgfs = cls.start(
+            ["dbus-run-session", "--", "/usr/games/fgfs", *QUIET, f"--addon={PLUGIN}", f"--data={PLUGIN}",
+             f"--prop:string:/fanbeam/http={cls.url.rstrip('/')}", f"--prop:int:/fanbeam/port={feed}",
+             f"--telnet={cls.telnet}", f"--aircraft={cls.aircraft}", "--airport=BIKF", "--runway=10",
+             "--offset-distance=3", "--glideslope=3", "--vc=90", "--in-air"],
+            env=cls.environment, stdout=log, stderr=subprocess.STDOUT)
+        end = time.time() + PATIENCE_S
+        while cls.asked("api/status")["frames"] == 0:
+            assert cls.fgfs.poll() is None, "FlightGear ended"
+            assert time.time() < end, "no frame: FlightGear sends nothing"
+            time.sleep(1)
+        cls.properties = Properties(cls.telnet)
+
+    @classmethod
+    def tearDownClass(cls):
+        for process in reversed(cls.processes):
+            stop(process)
+
+    @classmethod
+    def asked(cls, path):
+        with urllib.request.urlopen(f"{cls.url}{path}", timeout=30) as answer:
+            return json.load(answer)
+
+    def head(self):
+        """What the newest frame says of itself."""
+        with urllib.request.urlopen(f"{self.url}frames", timeout=30) as stream:
+            size = int.from_bytes(stream.read(4), "little")
+            return json.loads(stream.read(size).split(b"\n", 1)[0])
+
+    def wait(self, done, what, seconds=90):
+        end = time.time() + seconds
+        while not done():
+            self.assertLess(time.time(), end, f"no {what} within {seconds} s")
+            time.sleep(0.5)
+
+    def pictures(self):
+        return self.properties.number("/fanbeam/pictures")
+
+    def test_1_frames_follow_the_aircraft(self):
+        for _ in range(5):
+            head = self.head()
+            latitude = self.properties.number("/position/latitude-deg")
+            longitude = self.properties.number("/position/longitude-deg")
+            north = (head["latitude_deg"] - latitude) * 111.2e3
+            east = (head["longitude_deg"] - longitude) * 111.2e3 * math.cos(math.radians(latitude))
+            # A second or two of flight: FlightGear draws few frames, and answers once in each.
+            self.assertLess(math.hypot(north, east), 150)
+            turn = (head["heading_deg"] - self.properties.number("/orientation/heading-deg") + 540) % 360 - 180
+            self.assertLess(abs(turn), 15)
+            time.sleep(1)
+        bad = self.asked("api/status")["bad_packets"]
+        self.assertFalse([reason for reason in bad if "late" not in reason and "jump" not in reason], bad)
+
+    def test_2_the_window_shows_pictures_one_after_the_other(self):
+        self.wait(lambda: self.pictures() > 3, "picture in the window")
+        begin, before, drawn = time.time(), self.pictures(), self.properties.number("/sim/frame-number")
+        rates = []
+        while time.time() < begin + 30:
+            time.sleep(3)
+            rates.append(self.properties.number("/sim/frame-rate"))
+        rate = (self.pictures() - before) / (time.time() - begin)
+        frames = (self.properties.number("/sim/frame-number") - drawn) / (time.time() - begin)
+        print(f"\n{self.aircraft}: {rate:.2f} pictures a second in the window, where FlightGear draws "
+              f"{frames:.2f} frames a second (its own word: {sum(rates) / len(rates):.1f})", flush=True)
+        self.assertGreater(rate, 0.2)
+        self.assertEqual(self.properties.number("/fanbeam/failed"), 0)
+        if FOLDER:
+            subprocess.run(["import", "-window", "root", os.path.join(FOLDER, f"flightgear-{self.aircraft}.png")],
+                           env=self.environment, check=True)
+
+    def test_3_weather_arrives(self):
+        self.assertEqual(self.asked("api/weather")["rain_rate_mm_per_h"], 0)
+        for name in ("/environment/metar/rain-norm", "/environment/rain-norm"):
+            self.properties.set(name, 0.8)
+        self.wait(lambda: self.asked("api/weather")["rain_rate_mm_per_h"] > 1, "rain")
+        for name in ("/environment/metar/rain-norm", "/environment/rain-norm"):
+            self.properties.set(name, 0)
+        self.wait(lambda: self.asked("api/weather")["rain_rate_mm_per_h"] == 0, "end of the rain")
+
+    def test_4_freeze_and_the_other_scope(self):
+        self.properties.set("/fanbeam/scope", "cscope")
+        before = self.pictures()
+        self.wait(lambda: self.pictures() > before + 2, "C-scope")
+        if FOLDER:
+            subprocess.run(["import", "-window", "root", os.path.join(FOLDER, f"flightgear-{self.aircraft}-cscope.png")],
+                           env=self.environment, check=True)
+        self.properties.set("/fanbeam/frozen", 1)
+        time.sleep(6)
+        held = self.pictures()
+        time.sleep(5)
+        self.assertEqual(self.pictures(), held)
+        self.properties.set("/fanbeam/frozen", 0)
+        self.wait(lambda: self.pictures() > held, "picture after the freeze")
+
+
+class Ufo(Flight, unittest.TestCase):
+    aircraft = "ufo"
+
+
+class Cessna(Flight, unittest.TestCase):
+    aircraft = "c172p"
+
+
+if __name__ == "__main__":
+    if FOLDER:
+        os.makedirs(FOLDER, exist_ok=True)
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -1,0 +1,100 @@
+// The simulator's weather on its way to the radar.
+#include "live/simulator_weather.h"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/live/live_scene.h"
+
+using namespace fanbeam;
+using nlohmann::json;
+
+namespace {
+
+json body_of(double visibility_m, std::optional<double> rain_norm,
+             std::optional<double> snow_norm) {
+  feeds::AircraftState state;
+  state.visibility_m = visibility_m;
+  state.rain_norm = rain_norm;
+  state.snow_norm = snow_norm;
+  return json::parse(live::weather_body(state));
+}
+
+void send(live::Feed& feed, int clock_s, const std::string& weather) {
+  const std::string line =
+      "fanbeam,2," + std::to_string(clock_s) + ",52,10,1000,800,0,0,0,100,0,0," + weather;
+  feed.take({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
+}
+
+}  // namespace
+
+TEST_CASE("Rain and snow fall within their WMO classes", "[simulator_weather]") {
+  const auto rain = [](double norm) {
+    return body_of(9000.0, norm, 0.0)["rain_rate_mm_per_h"].get<double>();
+  };
+  const auto snow = [](double norm) {
+    return body_of(9000.0, 0.0, norm)["snow_rate_mm_per_h"].get<double>();
+  };
+  CHECK(rain(0.0) == 0.0);
+  CHECK(rain(-3.0) == 0.0);
+  CHECK((rain(1.0 / 3.0) > 0.1 && rain(1.0 / 3.0) < 2.5));
+  CHECK((rain(2.0 / 3.0) > 2.5 && rain(2.0 / 3.0) < 10.0));
+  CHECK((rain(1.0) > 10.0 && rain(1.0) < 50.0));
+  CHECK(rain(3.0) == rain(1.0));
+  CHECK((snow(1.0 / 3.0) > 0.1 && snow(1.0 / 3.0) < 1.0));
+  CHECK((snow(2.0 / 3.0) > 1.0 && snow(2.0 / 3.0) < 5.0));
+  CHECK(snow(1.0) > 5.0);
+  double before = 0.0;
+  for (double norm = 0.0; norm <= 1.0; norm += 0.01) {
+    CHECK(rain(norm) >= before);
+    before = rain(norm);
+  }
+}
+
+TEST_CASE("Dry snow has no rain beside it, and haze is no fog", "[simulator_weather]") {
+  const json both = body_of(9000.0, 0.9, 0.2);
+  CHECK(both["rain_rate_mm_per_h"] > 0.0);
+  CHECK(both["snow_rate_mm_per_h"] == 0.0);
+  const json sleet = body_of(9000.0, 0.1, 0.9);
+  CHECK(sleet["rain_rate_mm_per_h"] == 0.0);
+  CHECK(sleet["snow_rate_mm_per_h"] > 0.0);
+  CHECK_FALSE(both.contains("visibility_m"));
+  CHECK_FALSE(body_of(1000.0, {}, {}).contains("visibility_m"));
+  CHECK(body_of(347.0, {}, {})["visibility_m"] == 350.0);
+  CHECK(body_of(0.0, {}, {})["visibility_m"] == 10.0);
+  CHECK(body_of(-1e300, {}, {})["visibility_m"] == 10.0);
+}
+
+TEST_CASE("What the simulator changes is set, and what a person sets stands until then",
+          "[simulator_weather]") {
+  tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  const live::Desk desk(*session, hub);
+  live::Feed feed(session->scene(), core::VerticalDatum::scene, feeds::kProtocols[1]);
+  live::SimulatorWeather weather(desk, feed);
+  const auto begin = live::Clock::now();
+  const auto after = [&](int seconds) { weather.follow(begin + std::chrono::seconds(seconds)); };
+  const auto rain = [&] { return session->scene()->weather.rain_rate_mm_per_h; };
+  const auto before = session->now();
+  after(0);
+  CHECK(session->now() == before);  // no packet yet
+  send(feed, 1, "400,1,0");
+  after(1);
+  CHECK(rain() == 22.0);
+  CHECK(session->scene()->weather.visibility_m == 400.0);
+  send(feed, 2, "400,0,0.5");
+  after(2);
+  CHECK(rain() == 22.0);  // too soon
+  after(3);
+  CHECK(rain() == 0.0);
+  CHECK(session->scene()->weather.snow_rate_mm_per_h == Approx(1.5));
+  desk.control("/api/weather", R"({"rain_rate_mm_per_h": 5})");
+  send(feed, 3, "401,0,0.5");
+  after(6);
+  CHECK(rain() == 5.0);
+  send(feed, 4, "9000,0,0");
+  after(9);
+  CHECK(rain() == 0.0);
+  CHECK_FALSE(session->scene()->weather.visibility_m.has_value());
+}
