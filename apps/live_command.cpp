@@ -10,6 +10,7 @@
 #include "apps/stop_on_signals.h"
 #include "core/parallel.h"
 #include "live/channel.h"
+#include "live/cigi_ig.h"
 #include "live/feed.h"
 #include "live/quality.h"
 #include "live/replay.h"
@@ -113,7 +114,8 @@ class LiveRun {
         desk_(make_desk()),
         feed_(scene_, wiring.from.datum,
               wiring.from.protocol != nullptr ? *wiring.from.protocol : feeds::kProtocols[0],
-              options.lockstep ? live::Mailbox::kKeptInLockstep : live::Mailbox::kKept),
+              kept()),
+        ig_(make_ig()),
         network_(desk_, hub_),
         line_(quiet) {
     live::Status status;
@@ -128,14 +130,11 @@ class LiveRun {
   void fly() {
     const core::StopToken asked = core::StopScope::current();
     const std::uint16_t port = network_.serve(wiring_.page);
-    if (wiring_.from.protocol != nullptr && recording_ == nullptr)
+    if (wiring_.from.listens() && recording_ == nullptr)
       network_.receive(
           wiring_.from.listens_at,
-          [this](std::span<const std::uint8_t> datagram, bool from_peer) {
-            if (from_peer)
-              feed_.take(datagram);
-            else
-              feed_.turn_away();
+          [this](std::span<const std::uint8_t> datagram, const live::Sender& from) {
+            hear(datagram, from);
           },
           wiring_.from.peers);
     Sinks sinks(wiring_, scene_->description.sensor, rate_Hz_, options_.lockstep);
@@ -152,7 +151,8 @@ class LiveRun {
     const auto each_frame = [&](live::Status& now) {
       if (quality) quality->tell(now);
       if (weather) weather->follow();
-      if (wiring_.from.protocol != nullptr && recording_ == nullptr) feed_.tell(now);
+      if (wiring_.from.listens() && recording_ == nullptr) tell_source(now);
+      if (options_.lockstep) begin_host_frame();
       sinks.write(hub_.newest());
       line_.show(now, network_.clients());
       const bool enough =
@@ -175,11 +175,56 @@ class LiveRun {
                                   : scene_->description.sensor.scan.frame_rate_Hz;
   }
 
+  std::size_t kept() const {
+    return options_.lockstep ? live::Mailbox::kKeptInLockstep : live::Mailbox::kKept;
+  }
+
+  std::optional<live::CigiIg> make_ig() {
+    if (!wiring_.from.cigi) return std::nullopt;
+    return std::optional<live::CigiIg>(std::in_place, *session_, wiring_.from.datum, kept());
+  }
+
   live::Desk make_desk() {
     if (!options_.record.empty())
       journal_.emplace(options_.record, live::FlownBy{scene_->description.name, options_.from,
                                                       rate_Hz_, options_.lockstep});
     return {*session_, hub_, journal_ ? &*journal_ : nullptr, wiring_.access};
+  }
+
+  void hear(std::span<const std::uint8_t> datagram, const live::Sender& from) {
+    if (!from.is_peer)
+      ig_ ? ig_->turn_away() : feed_.turn_away();
+    else if (ig_)
+      ig_->take(datagram, from.address + ":" + std::to_string(from.port));
+    else
+      feed_.take(datagram);
+  }
+
+  void tell_source(live::Status& status) const {
+    if (ig_)
+      ig_->tell(status);
+    else
+      feed_.tell(status);
+  }
+
+  // Of CIGI: the host is told that a frame begins.
+  void begin_host_frame() {
+    if (!ig_) return;
+    std::vector<std::uint8_t> message = ig_->begin_frame();
+    const std::string host = ig_->host();
+    if (wiring_.from.host)
+      network_.send(*wiring_.from.host, std::move(message));
+    else if (!host.empty())
+      network_.send(live::parse_endpoint(host, "--from"), std::move(message));
+  }
+
+  live::PoseSource heard_poses(const live::ChannelSettings& settings) {
+    const live::Mailbox& mailbox = ig_ ? ig_->mailbox() : feed_.mailbox();
+    return [this, poses = live::source_of(mailbox, scene_->frame, settings.begin,
+                                          settings.journal)](double now_s, double at_s) {
+      begin_host_frame();
+      return poses(now_s, at_s);
+    };
   }
 
   live::Flight flight() const {
@@ -188,20 +233,18 @@ class LiveRun {
 
   void render(const live::ChannelSettings& settings, const live::Told& told,
               const core::StopToken& stop) {
-    const bool listens = wiring_.from.protocol != nullptr;
+    const bool listens = wiring_.from.listens();
     const live::Flight flown = listens ? live::Flight() : flight();
     if (recording_ != nullptr)
       live::run_replay(*session_, *recording_, listens ? &feed_ : nullptr, &flown, desk_,
                        {options_.speed, options_.lockstep, settings.begin}, hub_, told, stop);
     else if (options_.lockstep && listens)
-      live::run_lockstep(*session_, feed_.mailbox(), settings, hub_, told, stop);
+      live::run_lockstep(*session_, ig_ ? ig_->mailbox() : feed_.mailbox(), settings, hub_, told,
+                         stop);
     else if (options_.lockstep)
       live::run_lockstep(*session_, flown, settings, hub_, told, stop);
     else
-      live::run_channel(*session_,
-                        listens ? live::source_of(feed_.mailbox(), scene_->frame, settings.begin,
-                                                  settings.journal)
-                                : live::source_of(flown),
+      live::run_channel(*session_, listens ? heard_poses(settings) : live::source_of(flown),
                         settings, hub_, told, stop);
   }
 
@@ -216,6 +259,7 @@ class LiveRun {
   std::optional<live::Journal> journal_;
   live::Desk desk_;
   live::Feed feed_;
+  std::optional<live::CigiIg> ig_;
   live::Network network_;
   StatusLine line_;
 };

@@ -10,9 +10,10 @@ using Scope = live::RawFrames::Scope;
 
 constexpr std::string_view kCsv = "csv:", kShared = "shm:", kRawBscope = "raw-bscope:",
                            kRawCscope = "raw-cscope:";
-constexpr std::string_view kDatum = ",datum=", kPeer = ",peer=", kWeather = ",weather=";
+constexpr std::string_view kDatum = ",datum=", kPeer = ",peer=", kWeather = ",weather=",
+                           kHost = ",host=", kCigi = "cigi";
 constexpr const char* kSources =
-    "circle, ils, csv:FILE, native-fdm:[ADDRESS:]PORT or fg-generic:[ADDRESS:]PORT, and "
+    "circle, ils, csv:FILE, or native-fdm, fg-generic or cigi:[ADDRESS:]PORT, and "
     ",datum=egm96 or ,datum=ellipsoid, ,peer=ADDRESS for each that may send, and "
     ",weather=simulator or ,weather=scene";
 constexpr const char* kToken = "FANBEAM_TOKEN";
@@ -48,6 +49,8 @@ std::string without_options(std::string text, PosesFrom& from) {
       from.peers.addresses.push_back(live::parse_address(*peer, "--from"));
     else if (const auto whose = option(kWeather))
       take_weather(source, *whose, from);
+    else if (const auto host = option(kHost))
+      from.host = live::parse_endpoint(*host, "--from");
     else
       return text;
     text.resize(at);
@@ -63,15 +66,19 @@ PosesFrom poses_from(const std::string& source) {
   if (from.circle || text == "ils" || file) {
     if (!from.peers.addresses.empty()) refuse_source(source, "peers of a source that listens");
     if (from.weather) refuse_source(source, "weather=simulator of a source that listens");
+    if (from.host) refuse_source(source, "host= of cigi");
     return from;
   }
   const std::size_t colon = text.find(':');
   const auto protocol =
       std::find_if(feeds::kProtocols.begin(), feeds::kProtocols.end(),
                    [&](const feeds::Protocol& one) { return text.substr(0, colon) == one.name; });
-  if (colon == std::string::npos || protocol == feeds::kProtocols.end())
+  from.cigi = text.substr(0, colon) == kCigi;
+  if (colon == std::string::npos || (protocol == feeds::kProtocols.end() && !from.cigi))
     refuse_source(source, kSources);
-  from.protocol = &*protocol;
+  if (!from.cigi) from.protocol = &*protocol;
+  if (from.cigi && from.weather) refuse_source(source, "no weather= of cigi: its packets set it");
+  if (!from.cigi && from.host) refuse_source(source, "host= of cigi");
   from.listens_at = live::parse_endpoint(text.substr(colon + 1), "--from");
   if (from.listens_at.beyond_loopback && from.peers.addresses.empty())
     refuse_source(source, "beyond loopback also ,peer=ADDRESS, whose packets count");
@@ -104,6 +111,12 @@ void check_weather(const LiveOptions& options, const Wiring& wiring) {
                             "weather=scene: in lockstep the bytes depend on poses alone");
 }
 
+void check_record(const LiveOptions& options, const Wiring& wiring) {
+  if (wiring.from.cigi && !options.record.empty())
+    core::throw_input_error(core::ErrorClass::unsupported, "--record", "\"" + options.record + "\"",
+                            "another source: a CIGI host is not recorded");
+}
+
 void check_page(const std::string& text, const Wiring& wiring) {
   if (wiring.page.beyond_loopback && !wiring.access.has_token())
     core::throw_input_error(core::ErrorClass::unsupported, "--http", "\"" + text + "\"",
@@ -131,6 +144,7 @@ Wiring wiring_of(const LiveOptions& options) {
   collect([&] { wiring.access = access_of(options); });
   for (const std::string& sink : options.to) collect([&] { add_sink(sink, wiring); });
   collect([&] { check_page(options.http, wiring); });
+  collect([&] { check_record(options, wiring); });
   if (options.replay.empty()) collect([&] { check_weather(options, wiring); });
   problems.throw_if_errors();
   return wiring;

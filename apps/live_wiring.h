@@ -15,15 +15,19 @@
 namespace fanbeam::apps {
 
 // circle, ils, csv:FILE, or the protocol and address of a simulator; then ",datum=DATUM",
-// ",peer=ADDRESS" and ",weather=WHOSE", in any order.
+// ",peer=ADDRESS", ",weather=WHOSE" and ",host=ADDRESS:PORT" (of CIGI: where answers go), in any order.
 struct PosesFrom {
   bool circle = false;
   std::string csv;
   const feeds::Protocol* protocol = nullptr;
+  bool cigi = false;
+  std::optional<live::Endpoint> host;  // of CIGI, else whoever sends
   live::Endpoint listens_at;
   live::Peers peers;
   core::VerticalDatum datum = core::VerticalDatum::egm96;  // what heights count from
   bool weather = false;                                    // that of the simulator counts
+
+  bool listens() const { return protocol != nullptr || cigi; }
 };
 
 struct RawSink {

@@ -12,8 +12,9 @@ Json errors_json(const std::optional<PictureErrors>& errors) {
 }
 
 Json status_json(const Status& status) {
-  Json bad = Json::object();
+  Json bad = Json::object(), unused = Json::object();
   for (const auto& [reason, count] : status.bad_packets) bad[reason] = count;
+  for (const auto& [name, count] : status.unused_packets) unused[name] = count;
   return {
       {"scene", status.scene},
       {"source", status.source},
@@ -35,6 +36,7 @@ Json status_json(const Status& status) {
       {"stale", status.stale},
       {"packets", status.packets},
       {"bad_packets", bad},
+      {"unused_packets", unused},
       {"height_offset_m", status.height_offset_m ? Json(*status.height_offset_m) : Json(nullptr)}};
 }
 

@@ -55,6 +55,8 @@ struct Status {
   // ground less ours over the last five seconds (live/feed.h).
   std::uint64_t packets = 0;
   std::vector<std::pair<std::string, std::uint64_t>> bad_packets;
+  // Parts of good packets that mean nothing here, by name (live/cigi_ig.h).
+  std::vector<std::pair<std::string, std::uint64_t>> unused_packets;
   std::optional<double> height_offset_m;
 };
 

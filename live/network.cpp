@@ -163,15 +163,17 @@ struct Network::Inside {
   }
 
   void receive(Receiver& receiver) {
-    receiver.socket.async_receive_from(asio::buffer(receiver.bytes), receiver.from,
-                                       [this, &receiver](error_code error, std::size_t size) {
-                                         if (error == asio::error::operation_aborted) return;
-                                         if (!error)
-                                           receiver.datagram(
-                                               {receiver.bytes.data(), size},
-                                               receiver.peers.admits(sender(receiver.from)));
-                                         receive(receiver);
-                                       });
+    receiver.socket.async_receive_from(
+        asio::buffer(receiver.bytes), receiver.from,
+        [this, &receiver](error_code error, std::size_t size) {
+          if (error == asio::error::operation_aborted) return;
+          if (!error) {
+            const std::string from = sender(receiver.from);
+            receiver.datagram({receiver.bytes.data(), size},
+                              {from, receiver.from.port(), receiver.peers.admits(from)});
+          }
+          receive(receiver);
+        });
   }
 
   void offer() {
@@ -227,6 +229,20 @@ std::uint16_t Network::receive(const Endpoint& endpoint, Datagram datagram, Peer
   inside_->receive(*receiver);
   inside_->receivers.push_back(std::move(receiver));
   return inside_->receivers.back()->socket.local_endpoint().port();
+}
+
+void Network::send(const Endpoint& to, std::vector<std::uint8_t> datagram) {
+  if (inside_->receivers.empty()) return;
+  asio::ip::address address = asio::ip::make_address(to.address);
+  udp::socket& socket = inside_->receivers.back()->socket;
+  if (socket.local_endpoint().address().is_v6() && address.is_v4())
+    address = asio::ip::make_address_v6(asio::ip::v4_mapped, address.to_v4());
+  const udp::endpoint there(address, to.port);
+  asio::post(inside_->context, [&socket, there, bytes = std::move(datagram)] {
+    error_code ignored;
+    socket.send_to(asio::buffer(bytes), there, asio::socket_base::message_flags(MSG_DONTWAIT),
+                   ignored);
+  });
 }
 
 void Network::start() {

@@ -34,6 +34,13 @@ struct Peers {
   }
 };
 
+// Who sent a datagram.
+struct Sender {
+  std::string address;
+  std::uint16_t port = 0;
+  bool is_peer = false;  // whose datagrams count
+};
+
 // An address in numbers, in the form that peers are compared in. Throws InputError E-PARSE.
 std::string parse_address(const std::string& text, const std::string& field);
 
@@ -52,8 +59,11 @@ class Network {
   // Both before start(). Throw InputError E-IO when the port is taken. Give the port.
   std::uint16_t serve(const Endpoint& endpoint);
   // Called on the thread.
-  using Datagram = std::function<void(std::span<const std::uint8_t>, bool from_peer)>;
+  using Datagram = std::function<void(std::span<const std::uint8_t>, const Sender&)>;
   std::uint16_t receive(const Endpoint& endpoint, Datagram datagram, Peers peers = {});
+
+  // From the port of the last receive(), from any thread; lost where the network is not ready.
+  void send(const Endpoint& to, std::vector<std::uint8_t> datagram);
 
   void start();
   int clients() const;  // that watch frames

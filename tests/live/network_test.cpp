@@ -238,8 +238,8 @@ TEST_CASE("With a token neither page, picture, stream nor socket opens without i
 TEST_CASE("Datagrams count from peers alone, where there is a list of them", "[network][threads]") {
   Station station;
   std::atomic<int> known{0}, foreign{0};
-  const auto count = [&](std::span<const std::uint8_t>, bool from_peer) {
-    ++(from_peer ? known : foreign);
+  const auto count = [&](std::span<const std::uint8_t>, const live::Sender& from) {
+    ++(from.is_peer ? known : foreign);
   };
   const std::uint16_t ours = station.network.receive({"127.0.0.1", 0}, count, {{"127.0.0.1"}});
   const std::uint16_t others =
@@ -253,11 +253,31 @@ TEST_CASE("Datagrams count from peers alone, where there is a list of them", "[n
   wait_for([&] { return known == 3 && foreign == 3; });
 }
 
+TEST_CASE("What is sent goes out from the port that listens", "[network][threads]") {
+  Station station;
+  std::atomic<int> heard{0};
+  const std::uint16_t port = station.network.receive(
+      {"127.0.0.1", 0}, [&](std::span<const std::uint8_t> bytes, const live::Sender& from) {
+        ++heard;
+        station.network.send({from.address, from.port}, {bytes.rbegin(), bytes.rend()});
+      });
+  station.network.start();
+  asio::io_context context;
+  udp::socket socket(context, udp::v4());
+  socket.send_to(asio::buffer("abc", 3), {asio::ip::address_v4::loopback(), port});
+  std::array<char, 8> answer{};
+  udp::endpoint from;
+  CHECK(socket.receive_from(asio::buffer(answer), from) == 3);
+  CHECK(std::string(answer.data(), 3) == "cba");
+  CHECK(from.port() == port);
+  CHECK(heard == 1);
+}
+
 TEST_CASE("Datagrams arrive as they were sent", "[network][threads]") {
   Station station;
   std::atomic<int> taken{0}, refused{0};
   const std::uint16_t port =
-      station.network.receive({}, [&](std::span<const std::uint8_t> bytes, bool) {
+      station.network.receive({}, [&](std::span<const std::uint8_t> bytes, const live::Sender&) {
         feeds::PacketFault fault{};
         ++(feeds::decode_native_fdm(bytes, fault) ? taken : refused);
       });

@@ -1,0 +1,391 @@
+// A CIGI host made of bytes: what it sends becomes poses, weather and answers, and what goes wrong is
+// told or counted.
+#include "live/cigi_ig.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "core/units.h"
+#include "feeds/cigi/bytes.h"
+#include "live/cigi_answers.h"
+#include "terrain/geoid.h"
+#include "tests/live/live_scene.h"
+#include "tests/shared_data.h"
+
+using namespace fanbeam;
+using namespace feeds::cigi;
+using live::CigiIg;
+using live::Clock;
+
+namespace {
+
+enum : std::uint8_t { kStandby = 0x30, kOperate = 0x31 };
+
+// The byte order that is not this machine's, on request.
+Bytes message(std::uint32_t frame, const std::vector<Bytes>& packets, std::uint8_t mode = kOperate,
+              bool swap = false, std::int8_t database = 1) {
+  Bytes bytes = Packet(1, 24, swap)
+                    .put<std::uint8_t>(2, 3)
+                    .put(3, database)
+                    .put(4, mode)
+                    .put<std::uint16_t>(6, 0x8000)
+                    .put(8, frame)
+                    .bytes();
+  for (const Bytes& packet : packets) bytes.insert(bytes.end(), packet.begin(), packet.end());
+  return bytes;
+}
+
+Bytes entity(double latitude_deg, double longitude_deg, double height_m, float heading_deg = 90.0F,
+             bool swap = false, std::uint16_t number = 0) {
+  return Packet(2, 48, swap)
+      .put(2, number)
+      .put<std::uint8_t>(4, 1)
+      .put(12, 3.0F)
+      .put(16, -2.0F)
+      .put(20, heading_deg)
+      .put(24, latitude_deg)
+      .put(32, longitude_deg)
+      .put(40, height_m)
+      .bytes();
+}
+
+Bytes height_request(std::uint16_t number, double latitude_deg, double longitude_deg,
+                     double height_m, std::uint8_t kind = 2, std::uint8_t period = 0) {
+  return Packet(24, 32, false)
+      .put(2, number)
+      .put(4, kind)
+      .put(5, period)
+      .put(8, latitude_deg)
+      .put(16, longitude_deg)
+      .put(24, height_m)
+      .bytes();
+}
+
+Bytes weather(std::uint8_t layer, float visibility_m, float water, std::uint8_t severity = 0) {
+  return Packet(12, 56, false)
+      .put<std::uint8_t>(4, layer)
+      .put<std::uint8_t>(6, 1)
+      .put(7, static_cast<std::uint8_t>(severity << 2U))
+      .put(12, visibility_m)
+      .put(52, water)
+      .bytes();
+}
+
+// Id and bytes of what an answer holds, start of frame first.
+std::vector<std::pair<int, Fields>> packets_in(const Bytes& message) {
+  std::vector<std::pair<int, Fields>> packets;
+  for (std::size_t at = 0; at < message.size(); at += message[at + 1]) {
+    REQUIRE(message[at + 1] % 8 == 0);
+    REQUIRE(at + message[at + 1] <= message.size());
+    packets.emplace_back(message[at], Fields({message.data() + at, message[at + 1]}, false));
+  }
+  REQUIRE(!packets.empty());
+  REQUIRE(packets[0].first == 101);
+  return packets;
+}
+
+std::uint64_t all_of(const std::vector<std::pair<std::string, std::uint64_t>>& counts) {
+  return std::accumulate(counts.begin(), counts.end(), std::uint64_t{0},
+                         [](std::uint64_t sum, const auto& one) { return sum + one.second; });
+}
+
+struct Station {
+  tests::TemporaryFolder folder;
+  std::unique_ptr<session::Session> session = tests::live_session(folder);
+  CigiIg ig{*session, core::VerticalDatum::scene};
+  Clock::time_point now = Clock::now();
+
+  void hear(const Bytes& bytes, const std::string& host = "127.0.0.1:8001") {
+    now += std::chrono::milliseconds(60);
+    ig.take(bytes, host, now);
+  }
+  std::size_t poses() const { return ig.mailbox().after(0).size(); }
+  core::Pose pose() const { return ig.mailbox().after(0).back().pose; }
+  live::Status told() const {
+    live::Status status;
+    ig.tell(status);
+    return status;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("A host's entity is the pose that it sent, in both byte orders", "[cigi]") {
+  for (const bool swap : {false, true}) {
+    Station station;
+    station.hear(message(1, {entity(52.001, 10.002, 321.5, 256.0F, swap)}, kOperate, swap));
+    REQUIRE(station.poses() == 1);
+    const core::Pose pose = station.pose();
+    CHECK(std::abs(pose.position.latitude_rad - core::radians(52.001)) < 1e-9);
+    CHECK(std::abs(pose.position.longitude_rad - core::radians(10.002)) < 1e-9);
+    CHECK(std::abs(pose.position.height_m - 321.5) < 1e-9);
+    const core::Attitude attitude = core::attitude_from(pose.q_NB);
+    CHECK(core::degrees(attitude.roll_rad) == Approx(3.0).margin(1e-9));
+    CHECK(core::degrees(attitude.pitch_rad) == Approx(-2.0).margin(1e-9));
+    CHECK(core::degrees(attitude.heading_rad) == Approx(256.0).margin(1e-9));
+  }
+}
+
+TEST_CASE("A view's entity and offset are where the radar sits", "[cigi]") {
+  Station station;
+  const Bytes view = Packet(16, 32, false)
+                         .put<std::uint16_t>(2, 4)
+                         .put<std::uint8_t>(5, 0x21)  // X and yaw
+                         .put<std::uint16_t>(6, 7)
+                         .put(8, 20.0F)
+                         .put(12, 99.0F)  // not enabled
+                         .put(28, 10.0F)
+                         .bytes();
+  Bytes level = entity(52.0, 10.0, 300.0, 0.0F, false, 7);
+  for (const std::size_t at : {12U, 16U}) std::fill_n(level.begin() + std::ptrdiff_t(at), 4, 0);
+  station.hear(message(1, {entity(51.0, 9.0, 100.0), level, view}));
+  const auto frame = station.session->scene()->frame;
+  const glm::dvec3 moved_m = frame.to_local_m(station.pose().position) -
+                             frame.to_local_m({core::radians(52.0), core::radians(10.0), 300.0});
+  CHECK(moved_m.x == Approx(0.0).margin(1e-6));
+  CHECK(moved_m.y == Approx(20.0).margin(1e-6));
+  CHECK(core::degrees(core::attitude_from(station.pose().q_NB).heading_rad) == Approx(10.0));
+}
+
+TEST_CASE("Velocity is told, or what places are apart", "[cigi]") {
+  Station station;
+  const double step_deg = 0.001;
+  station.hear(message(1, {entity(52.0, 10.0, 300.0)}));
+  station.hear(message(2, {entity(52.0 + step_deg, 10.0, 300.0)}));
+  // 111.3 m of the meridian in 60 ms.
+  CHECK(station.pose().v_N_mps.x == Approx(1854.4).epsilon(1e-3));
+  const Bytes rate = Packet(8, 32, false).put<std::uint8_t>(5, 2).put(8, 70.0F).bytes();
+  station.hear(message(3, {entity(52.0, 10.0, 300.0), rate}));
+  const core::Pose pose = station.pose();
+  CHECK(pose.v_N_mps.y == Approx(70.0 * std::cos(core::radians(2.0))));  // along the nose, east
+  CHECK(pose.v_N_mps.z == Approx(70.0 * std::sin(core::radians(2.0))));
+}
+
+TEST_CASE("Each frame begins with its number, the host's and the mode", "[cigi]") {
+  Station station;
+  station.hear(message(77, {}, kStandby));
+  for (std::uint32_t frame = 1; frame < 4; ++frame) {
+    const auto packets = packets_in(station.ig.begin_frame());
+    CHECK(packets.size() == 1);
+    CHECK(packets[0].second.at<std::uint16_t>(6) == 0x8000);
+    CHECK(packets[0].second.at<std::uint32_t>(8) == frame);
+    CHECK(packets[0].second.at<std::uint32_t>(16) == 77);
+    CHECK(packets[0].second.bits(5, 0, 2) == 0);
+    CHECK(packets[0].second.at<std::int8_t>(3) == 1);
+  }
+  station.hear(message(78, {entity(52.0, 10.0, 300.0)}, kStandby));
+  CHECK(station.poses() == 0);  // standby: the picture stands
+  station.hear(message(79, {entity(52.0, 10.0, 300.0)}, kOperate, false, 5));
+  CHECK(station.poses() == 1);
+  const auto told = packets_in(station.ig.begin_frame())[0].second;
+  CHECK(told.bits(5, 0, 2) == 1);
+  CHECK(told.at<std::int8_t>(3) == -128);  // no such database
+}
+
+TEST_CASE("F13 messages that come twice, late or from a second host are left out", "[cigi]") {
+  Station station;
+  const auto fly = [&](std::uint32_t frame, const char* host = "a:1") {
+    station.hear(message(frame, {entity(52.0, 10.0, 300.0)}), host);
+  };
+  fly(10);
+  fly(11);
+  fly(11);
+  fly(9);
+  CHECK(station.poses() == 2);
+  fly(12, "b:1");
+  CHECK(station.poses() == 2);
+  station.now += std::chrono::seconds(2);
+  fly(1);  // the host began again
+  CHECK(station.poses() == 3);
+  station.now += std::chrono::seconds(6);
+  fly(500, "b:1");
+  CHECK(station.poses() == 4);
+  fly(2, "a:1");
+  CHECK(station.poses() == 4);
+  const auto bad = station.told().bad_packets;
+  CHECK(station.told().packets == 8);
+  CHECK(all_of(bad) == 4);
+}
+
+TEST_CASE("Weather and wet ground of a host come into force with the next frame", "[cigi]") {
+  Station station;
+  const Bytes wet = Packet(15, 8, false).put<std::uint16_t>(4, 1).put<std::uint8_t>(6, 1).bytes();
+  station.hear(message(1, {weather(4, 0.0F, 0.0F, 3), weather(0, 250.0F, 0.0F), wet}));
+  station.ig.begin_frame();
+  auto scene = station.session->scene();
+  CHECK(scene->weather.rain_rate_mm_per_h == 8.0);
+  CHECK(scene->weather.visibility_m == 250.0);
+  CHECK(scene->description.surface_state == materials::SurfaceState::wet);
+  // Water of rain: 0.072 R^0.88 at 10 mm/h.
+  station.hear(message(2, {weather(4, 0.0F, static_cast<float>(0.072 * std::pow(10.0, 0.88))),
+                           weather(0, 250.0F, 0.2F)}));
+  station.ig.begin_frame();
+  scene = station.session->scene();
+  CHECK(scene->weather.rain_rate_mm_per_h == Approx(10.0).epsilon(1e-6));
+  CHECK(scene->weather.liquid_water_g_per_m3 == Approx(0.2));
+  // What cannot be is told, and changes nothing.
+  station.hear(message(3, {weather(0, 3.0F, 0.0F)}));
+  const auto packets = packets_in(station.ig.begin_frame());
+  REQUIRE(packets.size() == 2);
+  CHECK(packets[1].first == 117);
+  CHECK(station.session->scene()->weather.liquid_water_g_per_m3 == Approx(0.2));
+  // Standby and back: the scene's own weather.
+  station.hear(message(4, {}, kStandby));
+  station.hear(message(5, {}, kOperate));
+  station.ig.begin_frame();
+  scene = station.session->scene();
+  CHECK(scene->weather.visibility_m == 400.0);
+  CHECK(scene->weather.rain_rate_mm_per_h == 0.0);
+  CHECK(scene->description.surface_state == materials::SurfaceState::dry);
+}
+
+TEST_CASE("Heights are those of the ground, along the vertical of the place", "[cigi]") {
+  Station station;
+  station.hear(message(
+      0x25, {entity(52.0, 10.0, 300.0), height_request(1, 52.0, 10.0, 120.0, 0),
+             height_request(2, 52.0, 10.0, 120.0, 1), height_request(3, 52.0, 10.0, 120.0, 2),
+             height_request(4, 52.0, 11.0, 120.0, 2)}));
+  const auto packets = packets_in(station.ig.begin_frame());
+  REQUIRE(packets.size() == 5);
+  CHECK(packets[1].first == 102);
+  CHECK(packets[1].second.at<std::uint16_t>(2) == 1);
+  CHECK(packets[1].second.byte(4) == 0x51);  // valid, height above, of frame ...5
+  CHECK(packets[1].second.at<double>(8) == Approx(70.0).margin(0.01));
+  CHECK(packets[2].second.at<double>(8) == Approx(50.0).margin(0.01));
+  CHECK(packets[2].second.byte(4) == 0x53);
+  REQUIRE(packets[3].first == 103);
+  CHECK(packets[3].second.at<double>(8) == Approx(70.0).margin(0.01));
+  CHECK(packets[3].second.at<double>(16) == Approx(50.0).margin(0.01));
+  const auto& names = station.session->scene()->world.geometry->material_names;
+  CHECK(names.at(packets[3].second.at<std::uint32_t>(24)).find("asphalt") != std::string::npos);
+  CHECK(packets[3].second.at<float>(32) == Approx(90.0).margin(1.0));  // level
+  CHECK(packets[4].second.bits(4, 0) == 0);                            // outside the terrain
+  CHECK(packets_in(station.ig.begin_frame()).size() == 1);             // once
+}
+
+TEST_CASE("A question with a period is answered again and again", "[cigi]") {
+  Station station;
+  station.hear(message(1, {height_request(1, 52.0, 10.0, 120.0, 0, 3)}));
+  int answers = 0;
+  for (int frame = 0; frame < 12; ++frame)
+    answers += static_cast<int>(packets_in(station.ig.begin_frame()).size()) - 1;
+  CHECK(answers == 4);
+  station.hear(message(2, {}, kStandby));
+  station.hear(message(3, {}, kOperate));
+  for (int frame = 0; frame < 6; ++frame) CHECK(packets_in(station.ig.begin_frame()).size() == 1);
+}
+
+TEST_CASE("A line of sight ends at what stands in it", "[cigi]") {
+  const Station station;
+  const auto scene = station.session->scene();
+  // The hangar of the scene: 40 by 30 m and 12 m high, 300 m behind the threshold, 200 m to the left.
+  const glm::dvec3 hangar_m =
+      scene->frame.to_local_m({core::radians(52.0), core::radians(10.0), 50.0}) +
+      glm::dvec3(-200.0, 300.0, 0.0);
+  const auto place = [&](const glm::dvec3& at_m) {
+    const core::Geodetic at = scene->frame.to_geodetic(at_m);
+    return glm::dvec3(at.latitude_rad, at.longitude_rad, at.height_m);
+  };
+  SightRequest request;
+  request.segment = request.extended = true;
+  request.source = place(hangar_m + glm::dvec3(100.0, 0.0, 6.0));
+  request.end = place(hangar_m + glm::dvec3(-100.0, 0.0, 6.0));
+  const auto blocked = live::sight_answer(*scene, core::VerticalDatum::scene, request, {});
+  CHECK((blocked.valid && !blocked.visible));
+  CHECK(blocked.range_m > 70.0);
+  CHECK(blocked.range_m < 95.0);
+  request.source.z += 30.0;
+  request.end.z += 30.0;
+  const auto over = live::sight_answer(*scene, core::VerticalDatum::scene, request, {});
+  CHECK((over.valid && over.visible));
+  CHECK(over.range_m == Approx(200.0).margin(0.1));
+
+  SightRequest down;
+  down.source = place({500.0, -500.0, 0.0});
+  down.source.z = 250.0;
+  down.elevation_rad = -core::kPi / 2;
+  down.most_m = 1000.0;
+  const auto ground = live::sight_answer(*scene, core::VerticalDatum::scene, down, {});
+  CHECK((ground.valid && !ground.visible));
+  HeightRequest height;
+  height.place = down.source;
+  CHECK(ground.range_m ==
+        Approx(live::height_answer(*scene, core::VerticalDatum::scene, height, {}).height_m)
+            .margin(0.05));
+  down.elevation_rad = core::kPi / 4;
+  CHECK_FALSE(live::sight_answer(*scene, core::VerticalDatum::scene, down, {}).valid);
+  down.from_entity = true;  // of nobody
+  CHECK_FALSE(live::sight_answer(*scene, core::VerticalDatum::scene, down, {}).valid);
+}
+
+TEST_CASE("F15 questions beyond a datagram wait, beyond a thousand they are counted", "[cigi]") {
+  Station station;
+  std::vector<Bytes> questions;
+  for (std::uint16_t i = 0; i < 1500; ++i)
+    questions.push_back(height_request(i, 52.0, 10.0, 120.0, 0));
+  station.hear(message(1, questions));
+  int answers = 0;
+  for (int frame = 0; frame < 100; ++frame) {
+    const Bytes told = station.ig.begin_frame();
+    CHECK(told.size() <= 1472);
+    answers += static_cast<int>(packets_in(told).size()) - 1;
+  }
+  CHECK(answers == 1024);
+  CHECK(all_of(station.told().unused_packets) == 1500 - 1024);
+}
+
+TEST_CASE("F11 of any bytes good messages are taken and the others counted, exactly", "[cigi]") {
+  Station station;
+  std::mt19937 random(3);
+  std::uint64_t sent = 0, good = 0;
+  for (int i = 0; i < 100000; ++i) {
+    Bytes bytes = message(static_cast<std::uint32_t>(i + 1), {entity(52.0, 10.0, 300.0)});
+    const auto kind = random() % 5;
+    if (kind == 0) bytes.resize(random() % bytes.size());
+    if (kind == 1) bytes[random() % 8] ^= static_cast<std::uint8_t>(1U << random() % 8);
+    if (kind == 2)
+      for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random());
+    good += kind > 2 ? 1 : 0;
+    station.hear(bytes);
+    ++sent;
+    if (i % 1000 == 0) station.ig.begin_frame();
+  }
+  const live::Status told = station.told();
+  CHECK(told.packets == sent);
+  CHECK(sent - all_of(told.bad_packets) >= good);
+}
+
+TEST_CASE("Heights over Innsbruck are those of its elevation model within a centimetre", "[cigi]") {
+  const auto data = tests::shared_data("lowi-innsbruck");
+  if (!data) return;
+  core::ProblemList problems;
+  const std::filesystem::path root(FANBEAM_SOURCE_DIR);
+  session::Session session(root / "scenes/innsbruck-26",
+                           session::Setup{.shipped = root, .data_folders = {data->parent_path()}},
+                           problems);
+  const auto scene = session.scene();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> across_m(-6000.0, 6000.0);
+  double worst_m = 0.0;
+  for (int i = 0; i < 300; ++i) {
+    const core::Geodetic at = scene->frame.to_geodetic({across_m(random), across_m(random), 0.0});
+    HeightRequest request;
+    request.kind = HeightKind::extended;
+    request.place = {at.latitude_rad, at.longitude_rad, 3000.0};
+    const auto answer = live::height_answer(*scene, core::VerticalDatum::egm96, request, {});
+    if (!answer.valid) continue;
+    // The same place at the answer's height lies on the ground.
+    core::Geodetic foot{at.latitude_rad, at.longitude_rad, answer.ground_m};
+    foot.height_m = terrain::ellipsoidal_height_m(foot, core::VerticalDatum::egm96);
+    const glm::dvec3 foot_m = scene->frame.to_local_m(foot);
+    const auto ground_m = scene->world.surfaces().terrain()->height_at(foot_m.x, foot_m.y);
+    REQUIRE(ground_m.has_value());
+    worst_m = std::max(worst_m, std::abs(foot_m.z - *ground_m));
+    CHECK(answer.height_m + answer.ground_m == Approx(3000.0).epsilon(0.0).margin(1e-6));
+    CHECK(answer.material ==
+          scene->world.surfaces().material(terrain::kTerrainGeometry, 0, foot_m.x, foot_m.y));
+  }
+  CHECK(worst_m < 0.01);
+}

@@ -1,0 +1,176 @@
+#!/usr/bin/python3
+"""A scripted CIGI 3.3 host flies fanbeam live, and TShark reads what went over the wire (./dev live-test).
+
+usage: cigi_test.py FANBEAM
+"""
+import json
+import math
+import os
+import re
+import socket
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import urllib.request
+
+FANBEAM = os.path.abspath(sys.argv[1])
+OPERATE = 0x31
+
+
+class Host:
+    """Sends messages in one byte order, and keeps both directions as a capture."""
+
+    def __init__(self, port, order):
+        self.port, self.order, self.frame = port, order, 0
+        self.wire = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.wire.bind(("127.0.0.1", 0))
+        self.wire.settimeout(10)
+        self.records, self.ig_frame = [], 0
+
+    def pack(self, layout, *values):
+        return struct.pack(self.order + layout, *values)
+
+    def send(self, *packets, mode=OPERATE):
+        self.frame += 1
+        head = self.pack("BBBbBBHIIII", 1, 24, 3, 1, mode, 0, 0x8000, self.frame, 0, self.ig_frame, 0)
+        message = head + b"".join(packets)
+        self.wire.sendto(message, ("127.0.0.1", self.port))
+        self.keep(message, self.wire.getsockname()[1], self.port)
+        return self.frame
+
+    def receive(self):
+        message = self.wire.recv(65536)
+        self.keep(message, self.port, self.wire.getsockname()[1])
+        packets, at = [], 0
+        while at < len(message):
+            packets.append(message[at : at + message[at + 1]])
+            at += message[at + 1]
+        assert packets[0][0] == 101, "start of frame first"
+        self.ig_frame, = struct.unpack_from("<I", packets[0], 8)
+        return packets
+
+    def keep(self, data, source, target):
+        udp = struct.pack(">HHHH", source, target, 8 + len(data), 0) + data
+        local = bytes([127, 0, 0, 1])
+        ip = struct.pack(">BBHHHBBH4s4s", 0x45, 0, 20 + len(udp), 0, 0, 64, 17, 0, local, local) + udp
+        self.records.append(struct.pack("<IIII", 1, len(self.records), len(ip), len(ip)) + ip)
+
+    def write(self, file):
+        file.write(struct.pack("<IHHiIII", 0xA1B2C3D4, 2, 4, 0, 0, 65535, 101) + b"".join(self.records))
+        file.flush()
+
+    def entity(self, latitude_deg, longitude_deg, height_m, roll=0.0, pitch=0.0, heading=0.0):
+        return self.pack("BBHBBBBHHfffddd", 2, 48, 0, 1, 0, 255, 0, 1, 0, roll, pitch, heading, latitude_deg,
+                         longitude_deg, height_m)
+
+    def height_request(self, number, latitude_deg, longitude_deg, height_m):
+        return self.pack("BBHBBHddd", 24, 32, number, 2, 0, 0, latitude_deg, longitude_deg, height_m)
+
+    def rain(self, severity):
+        return self.pack("BBHBBBB12f", 12, 56, 0, 4, 0, 1, severity << 2, *([0.0] * 12))
+
+
+class Cigi(unittest.TestCase):
+    def start(self, *options, order="<"):
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
+            one.bind(("127.0.0.1", 0))
+            port = one.getsockname()[1]
+        live = subprocess.Popen([FANBEAM, "live", "braunschweig-26", "--http", "0", "--rays-per-cell", "0.5", "--from",
+                                 f"cigi:{port},datum=ellipsoid", *options], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(self.end, live)
+        self.url = re.search(r"http://\S+", live.stdout.readline()).group(0)
+        return Host(port, order)
+
+    def end(self, live):
+        live.terminate()
+        self.assertEqual(live.wait(20), 0)
+        live.stdout.close()
+
+    def asked(self, path):
+        with urllib.request.urlopen(f"{self.url}{path}", timeout=20) as answer:
+            return json.load(answer)
+
+    def approach(self, i):
+        """Down a straight line to the threshold of runway 26."""
+        metres = 4000.0 - 4.0 * i
+        return (52.320297 + 0.0001 * math.sin(i), 10.575681 + metres / 68000.0, 150.0 + 0.05 * metres,
+                math.sin(i), -3.0, 264.0 + math.cos(i))
+
+    def tshark(self, host, *fields):
+        with tempfile.NamedTemporaryFile(suffix=".pcap") as file:
+            host.write(file)
+            self.assertEqual(self.read(file.name, ["-Y", "_ws.malformed || _ws.expert"]), "")
+            self.assertEqual(len(self.read(file.name, ["-Y", "cigi"]).splitlines()), len(host.records))
+            told = self.read(file.name, ["-T", "fields", "-E", "occurrence=a", "-E", "aggregator= ",
+                                         *[word for field in fields for word in ("-e", field)]])
+            return [line.split("\t") for line in told.splitlines()]
+
+    def read(self, name, options):
+        ports = [option for port in self.ports for option in ("-d", f"udp.port=={port},cigi")]
+        return subprocess.run(["tshark", "-n", "-r", name, *ports, *options], check=True, capture_output=True,
+                              text=True).stdout
+
+    def test_a_host_in_lockstep_gets_a_frame_for_each_message_at_the_pose_it_sent(self):
+        for order in ("<", ">"):
+            host = self.start("--lockstep", order=order)
+            self.ports = [host.port]
+            with urllib.request.urlopen(f"{self.url}frames", timeout=60) as frames:
+                for i in range(6):
+                    place = self.approach(i)
+                    number = host.send(host.entity(*place))
+                    head = json.loads(frames.read(int.from_bytes(frames.read(4), "little")).split(b"\n", 1)[0])
+                    for key, value in zip(("latitude_deg", "longitude_deg", "height_m"), place):
+                        self.assertAlmostEqual(head[key], value, delta=1e-8)
+                    for key, value in zip(("roll_deg", "pitch_deg", "heading_deg"), place[3:]):
+                        self.assertAlmostEqual(head[key], value, delta=1e-4)  # sent as 32-bit numbers
+                    while struct.unpack_from("<I", host.receive()[0], 16)[0] != number:
+                        pass
+            rows = self.tshark(host, "cigi.entity_control.lat_xoff", "cigi.sof.last_host_frame_number",
+                               "cigi.start_of_frame.last_host_frame_number")
+            sent = [float(row[0]) for row in rows if row[0]]
+            for i, latitude in enumerate(sent):
+                self.assertAlmostEqual(latitude, self.approach(i)[0], delta=1e-6)
+            self.assertEqual(len(sent), 6)
+
+    def test_start_of_frame_comes_at_the_rate_and_the_picture_follows(self):
+        host = self.start("--rate", "8")
+        self.ports = [host.port]
+        host.send(host.entity(*self.approach(0)))
+        begin, got = time.monotonic(), 0
+        while time.monotonic() < begin + 4:
+            host.receive()
+            got += 1
+            host.send(host.entity(*self.approach(got)))
+        self.assertGreater(got, 20)
+        self.assertGreater(self.asked("api/status")["frames"], 10)
+        self.tshark(host)
+
+    def test_heights_materials_and_rain(self):
+        host = self.start("--rate", "8")
+        self.ports = [host.port]
+        latitude, longitude = 52.320297, 10.575681  # threshold 26, on the runway
+        host.send(host.entity(latitude, longitude + 0.03, 300.0), host.height_request(7, latitude, longitude - 0.005, 400.0),
+                  host.rain(4), host.pack("BB14x", 201, 16))
+        answer = None
+        while answer is None:
+            answer = next((packet for packet in host.receive() if packet[0] == 103), None)
+        above_m, ground_m, material = struct.unpack_from("<ddI", answer, 8)
+        self.assertAlmostEqual(above_m + ground_m, 400.0, places=6)
+        told = self.tshark(host, "cigi.hat_hot_ext_response.hat", "cigi.hat_hot_ext_response.hot",
+                           "cigi.hat_hot_ext_response.material_code")
+        [row] = [row for row in told if row[0]]
+        self.assertAlmostEqual(float(row[0]), above_m, places=4)
+        self.assertAlmostEqual(float(row[1]), ground_m, places=4)
+        self.assertEqual(int(row[2], 0), material)
+        end = time.monotonic() + 20
+        while self.asked("api/weather")["rain_rate_mm_per_h"] != 20 and time.monotonic() < end:
+            time.sleep(0.2)
+        self.assertEqual(self.asked("api/weather")["rain_rate_mm_per_h"], 20)
+        self.assertEqual(self.asked("api/status")["unused_packets"], {"user_defined (201)": 1})
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
