@@ -17,7 +17,7 @@ var timer = nil;
 var window = nil;
 var root = nil;
 var shown = nil;        # the picture in the window
-var asked = nil;        # the one that is on its way, invisible
+var asked = nil;        # the one that is on its way, behind it
 var asked_s = 0;
 var number = 0;
 
@@ -69,12 +69,13 @@ var follow_shown = func {
     }
 };
 
-# An image that was given no size has that of its file once this has arrived, and none before.
+# An image that was given no size has that of its file once this has arrived, and none before. One that is
+# not visible never gets it.
 var arrived = func(image) (image.get("size[0]") or 0) > 0;
 
 var take = func {
-    asked.setSize(kSize[0], kSize[1]);
-    asked.setVisible(1);
+    asked.setScale(kSize[0] / asked.get("size[0]"), kSize[1] / asked.get("size[1]"));
+    asked.set("z-index", 1);
     if (shown != nil) shown.del();
     shown = asked;
     asked = nil;
@@ -85,7 +86,7 @@ var ask = func {
     number += 1;
     asked_s = now_s();
     asked = root.createChild("image");
-    asked.setVisible(0);
+    asked.set("z-index", 0);
     asked.setFile(config.getNode("http").getValue() ~ "/frame/" ~ config.getNode("scope").getValue() ~
         ".png?n=" ~ number ~ "&gain_dB=" ~ config.getNode("gain-dB").getValue());
 };

@@ -121,7 +121,7 @@ class Flight:
             ["dbus-run-session", "--", "/usr/games/fgfs", *QUIET, f"--addon={PLUGIN}", f"--data={PLUGIN}",
              f"--prop:string:/fanbeam/http={cls.url.rstrip('/')}", f"--prop:int:/fanbeam/port={feed}",
              f"--telnet={cls.telnet}", f"--aircraft={cls.aircraft}", "--airport=BIKF", "--runway=10",
-             "--offset-distance=3", "--glideslope=3", "--vc=90", "--in-air"],
+             "--offset-distance=1.5", "--glideslope=3", "--vc=90", "--in-air"],
             env=cls.environment, stdout=log, stderr=subprocess.STDOUT)
 
     @classmethod
@@ -145,6 +145,15 @@ class Flight:
         while not done():
             self.assertLess(time.time(), end, f"no {what} within {seconds} s")
             time.sleep(0.5)
+
+    def look(self, ending):
+        """Keeps a screenshot, in which both halves of the window show something."""
+        file = os.path.join(FOLDER or self.home.name, f"flightgear-{self.aircraft}{ending}.png")
+        subprocess.run(["import", "-window", "root", file], env=self.environment, check=True)
+        for left in (14, 180):
+            mean = subprocess.run(["convert", file, "-crop", f"150x500+{left}+60", "-format", "%[fx:mean]", "info:"],
+                                  check=True, capture_output=True, text=True).stdout
+            self.assertGreater(float(mean), 0.02, file)
 
     def pictures(self):
         return self.properties.number("/fanbeam/pictures")
@@ -177,9 +186,7 @@ class Flight:
         self.assertGreater(rate, 0.2)
         # While it loads scenery a picture may come too late; now none does.
         self.assertEqual(self.properties.number("/fanbeam/failed"), failed)
-        if FOLDER:
-            subprocess.run(["import", "-window", "root", os.path.join(FOLDER, f"flightgear-{self.aircraft}.png")],
-                           env=self.environment, check=True)
+        self.look("")
 
     def test_3_weather_arrives(self):
         self.assertEqual(self.asked("api/weather")["rain_rate_mm_per_h"], 0)
@@ -194,9 +201,7 @@ class Flight:
         self.properties.set("/fanbeam/scope", "cscope")
         before = self.pictures()
         self.wait(lambda: self.pictures() > before + 2, "C-scope")
-        if FOLDER:
-            subprocess.run(["import", "-window", "root", os.path.join(FOLDER, f"flightgear-{self.aircraft}-cscope.png")],
-                           env=self.environment, check=True)
+        self.look("-cscope")
         self.properties.set("/fanbeam/frozen", 1)
         time.sleep(6)
         held = self.pictures()
