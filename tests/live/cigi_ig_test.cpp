@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include "core/units.h"
 #include "feeds/cigi/bytes.h"
@@ -73,13 +74,23 @@ Bytes weather(std::uint8_t layer, float visibility_m, float water, std::uint8_t 
       .bytes();
 }
 
-// Id and bytes of what an answer holds, start of frame first.
-std::vector<std::pair<int, Fields>> packets_in(const Bytes& message) {
-  std::vector<std::pair<int, Fields>> packets;
+// A packet of an answer, which it owns.
+struct Told {
+  explicit Told(Bytes packet) : first(packet[0]), bytes(std::move(packet)), second(bytes, false) {}
+  Told(Told&&) = default;  // the bytes stay where they are
+  int first;
+  Bytes bytes;
+  Fields second;
+};
+
+// Start of frame first.
+std::vector<Told> packets_in(const Bytes& message) {
+  std::vector<Told> packets;
   for (std::size_t at = 0; at < message.size(); at += message[at + 1]) {
     REQUIRE(message[at + 1] % 8 == 0);
     REQUIRE(at + message[at + 1] <= message.size());
-    packets.emplace_back(message[at], Fields({message.data() + at, message[at + 1]}, false));
+    const auto begin = message.begin() + static_cast<std::ptrdiff_t>(at);
+    packets.emplace_back(Bytes(begin, begin + message[at + 1]));
   }
   REQUIRE(!packets.empty());
   REQUIRE(packets[0].first == 101);
@@ -179,9 +190,9 @@ TEST_CASE("Each frame begins with its number, the host's and the mode", "[cigi]"
   CHECK(station.poses() == 0);  // standby: the picture stands
   station.hear(message(79, {entity(52.0, 10.0, 300.0)}, kOperate, false, 5));
   CHECK(station.poses() == 1);
-  const auto told = packets_in(station.ig.begin_frame())[0].second;
-  CHECK(told.bits(5, 0, 2) == 1);
-  CHECK(told.at<std::int8_t>(3) == -128);  // no such database
+  const auto told = packets_in(station.ig.begin_frame());
+  CHECK(told[0].second.bits(5, 0, 2) == 1);
+  CHECK(told[0].second.at<std::int8_t>(3) == -128);  // no such database
 }
 
 TEST_CASE("F13 messages that come twice, late or from a second host are left out", "[cigi]") {
@@ -245,7 +256,7 @@ TEST_CASE("Heights are those of the ground, along the vertical of the place", "[
   Station station;
   station.hear(message(
       0x25, {entity(52.0, 10.0, 300.0), height_request(1, 52.0, 10.0, 120.0, 0),
-             height_request(2, 52.0, 10.0, 120.0, 1), height_request(3, 52.0, 10.0, 120.0, 2),
+             height_request(2, 52.0, 10.0, 120.0, 1), height_request(3, 52.001, 10.0001, 120.0, 2),
              height_request(4, 52.0, 11.0, 120.0, 2)}));
   const auto packets = packets_in(station.ig.begin_frame());
   REQUIRE(packets.size() == 5);
@@ -256,8 +267,9 @@ TEST_CASE("Heights are those of the ground, along the vertical of the place", "[
   CHECK(packets[2].second.at<double>(8) == Approx(50.0).margin(0.01));
   CHECK(packets[2].second.byte(4) == 0x53);
   REQUIRE(packets[3].first == 103);
-  CHECK(packets[3].second.at<double>(8) == Approx(70.0).margin(0.01));
-  CHECK(packets[3].second.at<double>(16) == Approx(50.0).margin(0.01));
+  // 111.3 m along a runway that rises by 10 m in 1001, beside the paint of its centre line.
+  CHECK(packets[3].second.at<double>(16) == Approx(51.11).margin(0.05));
+  CHECK(packets[3].second.at<double>(8) + packets[3].second.at<double>(16) == Approx(120.0));
   const auto& names = station.session->scene()->world.geometry->material_names;
   CHECK(names.at(packets[3].second.at<std::uint32_t>(24)).find("asphalt") != std::string::npos);
   CHECK(packets[3].second.at<float>(32) == Approx(90.0).margin(1.0));  // level
