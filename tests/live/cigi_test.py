@@ -100,6 +100,7 @@ class Cigi(unittest.TestCase):
                 math.sin(i), -3.0, 264.0 + math.cos(i))
 
     def tshark(self, host, *fields):
+        host.wire.close()
         with tempfile.NamedTemporaryFile(suffix=".pcap") as file:
             host.write(file)
             self.assertEqual(self.read(file.name, ["-Y", "_ws.malformed || _ws.expert"]), "")
@@ -129,11 +130,13 @@ class Cigi(unittest.TestCase):
                     while struct.unpack_from("<I", host.receive()[0], 16)[0] != number:
                         pass
             rows = self.tshark(host, "cigi.entity_control.lat_xoff", "cigi.sof.last_host_frame_number",
-                               "cigi.start_of_frame.last_host_frame_number")
+                               "cigi.sof.ig_mode")
             sent = [float(row[0]) for row in rows if row[0]]
             for i, latitude in enumerate(sent):
                 self.assertAlmostEqual(latitude, self.approach(i)[0], delta=1e-6)
             self.assertEqual(len(sent), 6)
+            told = [(int(row[1]), int(row[2], 0)) for row in rows if row[1]]
+            self.assertEqual(told[-1], (6, 1))
 
     def test_start_of_frame_comes_at_the_rate_and_the_picture_follows(self):
         host = self.start("--rate", "8")
@@ -146,7 +149,9 @@ class Cigi(unittest.TestCase):
             host.send(host.entity(*self.approach(got)))
         self.assertGreater(got, 20)
         self.assertGreater(self.asked("api/status")["frames"], 10)
-        self.tshark(host)
+        ticks = [int(row[0]) for row in self.tshark(host, "cigi.sof.timestamp") if row[0]]
+        mean_s = 1e-5 * (ticks[-1] - ticks[0]) / (len(ticks) - 1)
+        self.assertLess(abs(mean_s - 1 / 8), 0.03)
 
     def test_heights_materials_and_rain(self):
         host = self.start("--rate", "8")
