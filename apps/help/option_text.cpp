@@ -48,7 +48,7 @@ std::string value_word(const CLI::Option& option, const Declared& found) {
   return option.get_expected_min() == 0 ? "[" + one + "]" : one;
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& last) {
+std::string enumerated(const std::vector<std::string>& words, const std::string& last) {
   std::string text;
   for (std::size_t i = 0; i < words.size(); ++i)
     text += (i == 0 ? "" : i + 1 == words.size() ? " " + last + " " : ", ") + words[i];
@@ -73,12 +73,12 @@ std::string sentence_of(const CLI::Option& option, const Declared& found) {
   const auto more = [&text](const std::string& what) { text += (text.empty() ? "" : "; ") + what; };
   if (text.find(found.range) == std::string::npos) more(found.range);
   if (!says_all(text, found.choices))
-    more(option.get_delimiter() == '\0' ? joined(found.choices, "or")
-                                        : "any of " + joined(found.choices, "and"));
+    more(option.get_delimiter() == '\0' ? enumerated(found.choices, "or")
+                                        : "any of " + enumerated(found.choices, "and"));
   const std::vector<std::string> needs = names_of(option.get_needs());
   const std::vector<std::string> excludes = names_of(option.get_excludes());
-  if (!needs.empty()) more("only with " + joined(needs, "and"));
-  if (!excludes.empty()) more("not with " + joined(excludes, "or"));
+  if (!needs.empty()) more("only with " + enumerated(needs, "and"));
+  if (!excludes.empty()) more("not with " + enumerated(excludes, "or"));
   std::string standard = option.get_default_str();
   if (standard.starts_with('[')) standard = standard.substr(1, standard.size() - 2);  // of a list
   if (!standard.empty()) more("default " + standard);

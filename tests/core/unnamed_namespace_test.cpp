@@ -1,5 +1,6 @@
 // Whole builds compile the sources of a folder together (FANBEAM_UNITY), where unnamed namespaces
-// become one: what two of them define alike would not compile there, and only there.
+// become one: what two of them define alike would not compile there, or call the other one, and only
+// there.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -14,11 +15,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "const Map&" of "const Map& map = {}".
+// "const Map&" of "const Map& map = {}"; of texts and of numbers, which become each other, what they are.
 std::string type_of(std::string parameter) {
+  static const std::regex kText(R"(^(const char\*|(const )?std::string(_view)?&?)$)");
+  static const std::regex kNumber(
+      R"(^(const )?(bool|int|unsigned|float|double|(std::)?size_t|(std::)?u?int\d+_t)$)");
   parameter = parameter.substr(0, parameter.find(" = "));
-  return std::regex_replace(parameter, std::regex(R"(^(.*\S)\s+\w+(\[\w*\])?$|^(.*[&*])\w+$)"),
-                            "$1$3");
+  const std::string type = std::regex_replace(
+      parameter, std::regex(R"(^(.*\S)\s+\w+(\[\w*\])?$|^(.*[&*])\w+$)"), "$1$3");
+  if (std::regex_match(type, kText)) return "text";
+  return std::regex_match(type, kNumber) ? "number" : type;
 }
 
 // The types of "A a, std::map<B, C> b", one after the other.
@@ -137,7 +143,11 @@ TEST_CASE("The check of unnamed namespaces tells definitions from overloads", "[
       {"double dBm(double x_W) {\n  return x_W;\n}", "double dBm(double power) { return 1.0; }",
        true},
       {"double dBm(double x_W) {\n  return x_W;\n}", "double dBm(float power) { return 1.0; }",
+       true},
+      {"double dBm(double x_W) {\n  return x_W;\n}", "double dBm(Watts power) { return 1.0; }",
        false},
+      {"int say(const A& a, const char* b = 0) {", "int say(const A& a, const std::string& b) {",
+       true},
       {"void put(const A& a,\n         int count = 0) {", "int put(const A& b, int c) {", true},
       {"constexpr double kShare = 0.1;", "constexpr int kShare{3};", true},
       {"struct Row {\n  int a = 0;\n};", "struct Row {\n  double b = 0;\n};", true},

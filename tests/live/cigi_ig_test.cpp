@@ -271,6 +271,7 @@ TEST_CASE("Heights are those of the ground, along the vertical of the place", "[
   CHECK(packets[3].second.at<double>(16) == Approx(51.11).margin(0.05));
   CHECK(packets[3].second.at<double>(8) + packets[3].second.at<double>(16) == Approx(120.0));
   const auto& names = station.session->scene()->world.geometry->material_names;
+  INFO(names.at(packets[3].second.at<std::uint32_t>(24)));
   CHECK(names.at(packets[3].second.at<std::uint32_t>(24)).find("asphalt") != std::string::npos);
   CHECK(packets[3].second.at<float>(32) == Approx(90.0).margin(1.0));  // level
   CHECK(packets[4].second.bits(4, 0) == 0);                            // outside the terrain
