@@ -13,8 +13,6 @@ renderer::CasterChoice scene_caster(const SceneDescription& scene,
       .stabilised = scan.stabilised,
       .plane_scan = scan.surface == sensors::ScanSurface::plane,
       .vertical_turn_rad = volume.vertical_turn_rad,
-      .anywhere =
-          scene.flight_heights.stated || scene.trajectory.kind == TrajectoryDescription::Kind::none,
       .fan_rad = scan.field_of_view_rad + 2.0 * scene.sensor.antenna.azimuth.cut_rad};
   try {
     return asked ? renderer::choose_caster(*asked, facts)

@@ -13,14 +13,11 @@ namespace {
 const double kLevelWithin_rad = std::acos(kLevelCosine);
 const double kWidestFan_rad = core::radians(150.0);
 
-// From the scene's origin, somewhere.
-bool is_far(const CasterFacts& facts) { return !(facts.vertical_turn_rad < kLevelWithin_rad); }
-
 // Why azimuths are no vertical half-planes of the scene; empty when they are.
 std::string why_not_level(const CasterFacts& facts) {
   if (!facts.plane_scan) return "the scan is a cone";
   if (!facts.stabilised) return "the antenna is not stabilised";
-  if (is_far(facts) && !facts.anywhere)
+  if (!(facts.vertical_turn_rad < kLevelWithin_rad))
     return "the flight leaves the 6 km around the scene's origin in which the Earth is flat enough";
   return {};
 }
@@ -67,8 +64,7 @@ CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts, const core
                       ? "asked for"
                       : "over buildings slices need half of the rays' time at equal error";
   if (facts.others > 0)
-    choice.reason += "; azimuths with " + others_text(facts.others) + " in them go to rays" +
-                     (is_far(facts) ? ", farther than 6 km from the scene's origin all" : "");
+    choice.reason += "; azimuths with " + others_text(facts.others) + " in them go to rays";
   return choice;
 }
 

@@ -34,9 +34,6 @@ struct CasterFacts {
   // Largest angle between the vertical at the aircraft and that of the scene's origin: on a round
   // Earth even a stabilised antenna is not level in the scene far from its origin.
   double vertical_turn_rad = 0.0;
-  // Another program flies, anywhere in a volume: where the turn is too large a frame goes to rays
-  // alone (profile_caster.h), and the choice is for the others.
-  bool anywhere = false;
   double fan_rad = 0.0;  // field of view with what the azimuth beam reaches beyond it
 };
 

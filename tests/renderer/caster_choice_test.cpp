@@ -52,21 +52,6 @@ TEST_CASE("Rays are taken when asked for, whatever the scene", "[caster_choice]"
   }
 }
 
-TEST_CASE("Where another program flies slices are taken near the origin, whatever lies beyond",
-          "[caster_choice]") {
-  const CasterFacts anywhere{.others = 2, .vertical_turn_rad = 1.1e-3, .anywhere = true};
-  for (const CasterWish wish : {CasterWish::automatic, CasterWish::profile}) {
-    const auto choice = choose_caster(wish, anywhere);
-    CHECK(choice.chosen == CasterKind::profile);
-    CHECK(choice.others == 2);
-    CHECK(choice.reason.find("farther than 6 km from the scene's origin all") != std::string::npos);
-  }
-  CHECK(choose_caster(CasterWish::automatic, {.others = 2, .anywhere = true}).reason.find("6 km") ==
-        std::string::npos);
-  CHECK(choose_caster(CasterWish::automatic, {.others = 2, .stabilised = false, .anywhere = true})
-            .chosen == CasterKind::rays);
-}
-
 TEST_CASE("Over open ground rays are taken, and slices where they are asked for",
           "[caster_choice]") {
   const auto automatic = choose_caster(CasterWish::automatic, {.buildings = 0});
