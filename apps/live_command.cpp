@@ -80,8 +80,7 @@ scenes::SceneDescription scene_of(const LiveOptions& options, const PosesFrom& f
   flight.kind = scenes::TrajectoryDescription::Kind::file;
   flight.file = from.csv;
   flight.place = {from.csv};
-  flight.datum =
-      description.datum == core::VerticalDatum::scene ? core::VerticalDatum::scene : from.datum;
+  flight.datum = live::datum_of(description, from.datum);
   description.trajectory = flight;
   return description;
 }

@@ -15,7 +15,7 @@ constexpr std::string_view kDatum = ",datum=", kPeer = ",peer=", kWeather = ",we
 constexpr const char* kSources =
     "circle, ils, csv:FILE, or native-fdm, fg-generic or cigi:[ADDRESS:]PORT, and "
     ",datum=egm96 or ,datum=ellipsoid, ,peer=ADDRESS for each that may send, and "
-    ",weather=simulator or ,weather=scene";
+    ",weather=simulator or ,weather=scene; of cigi ,host=ADDRESS:PORT";
 constexpr const char* kToken = "FANBEAM_TOKEN";
 
 [[noreturn]] void refuse_source(const std::string& text, const char* expected) {

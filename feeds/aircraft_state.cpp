@@ -24,13 +24,10 @@ bool possible(const AircraftState& state) {
   // Nothing but zeros: the simulator has not started.
   if (state.latitude_rad == 0.0 && state.longitude_rad == 0.0 && state.altitude_m == 0.0)
     return false;
-  // Of a sender with the true pi, native-fdm's poles come out 1e-8 beyond.
-  return std::abs(state.latitude_rad) <= core::kPi / 2 * (1.0 + 1e-8) &&
-         std::abs(state.longitude_rad) <= 3.0 * core::kPi && state.altitude_m >= -20e3 &&
-         state.altitude_m <= 1000e3 && turned(state.attitude.roll_rad) &&
-         turned(state.attitude.pitch_rad) && turned(state.attitude.heading_rad) &&
-         std::abs(state.v_N_mps.x) <= kFastest_mps && std::abs(state.v_N_mps.y) <= kFastest_mps &&
-         std::abs(state.v_N_mps.z) <= kFastest_mps;
+  return is_on_earth(state.latitude_rad, state.longitude_rad, state.altitude_m) &&
+         turned(state.attitude.roll_rad) && turned(state.attitude.pitch_rad) &&
+         turned(state.attitude.heading_rad) && std::abs(state.v_N_mps.x) <= kFastest_mps &&
+         std::abs(state.v_N_mps.y) <= kFastest_mps && std::abs(state.v_N_mps.z) <= kFastest_mps;
 }
 
 }  // namespace
@@ -57,6 +54,12 @@ const char* name_of(PacketFault fault) {
       return "a jump of the simulator's clock";
   }
   return "";
+}
+
+bool is_on_earth(double latitude_rad, double longitude_rad, double altitude_m) {
+  // Of a sender with the true pi, native-fdm's poles come out 1e-8 beyond.
+  return std::abs(latitude_rad) <= core::kPi / 2 * (1.0 + 1e-8) &&
+         std::abs(longitude_rad) <= 3.0 * core::kPi && altitude_m >= -20e3 && altitude_m <= 1000e3;
 }
 
 PacketFault fault_in(const AircraftState& state) {

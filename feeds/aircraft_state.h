@@ -32,6 +32,9 @@ const char* name_of(PacketFault fault);
 // are all exactly 0, as before a simulator has started.
 PacketFault fault_in(const AircraftState& state);
 
+// A latitude, longitude and altitude within those limits.
+bool is_on_earth(double latitude_rad, double longitude_rad, double altitude_m);
+
 // At time 0; the height is `altitude_m`. Of a state without fault.
 core::Pose pose_of(const AircraftState& state);
 

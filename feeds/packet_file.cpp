@@ -1,12 +1,13 @@
 #include "feeds/packet_file.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "feeds/bytes.h"
 
 namespace fanbeam::feeds {
 namespace {
@@ -15,16 +16,8 @@ using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kLongest_bytes = 256 * 1024;
 
-std::uint32_t big_endian(Bytes bytes, std::size_t offset, std::size_t count) {
-  std::uint32_t value = 0;
-  for (std::size_t i = 0; i < count; ++i) value = value << 8 | bytes[offset + i];
-  return value;
-}
-
-std::uint64_t little_endian(Bytes bytes, std::size_t offset, std::size_t count) {
-  std::uint64_t value = 0;
-  for (std::size_t i = count; i-- > 0;) value = value << 8 | bytes[offset + i];
-  return value;
+std::uint16_t big_endian(Bytes bytes, std::size_t offset) {
+  return Fields(bytes, kSwapBig).at<std::uint16_t>(offset);
 }
 
 struct Udp {
@@ -34,9 +27,9 @@ struct Udp {
 
 std::optional<Udp> udp_in(Bytes segment) {
   if (segment.size() < 8) return std::nullopt;
-  const std::size_t length = big_endian(segment, 4, 2);
+  const std::size_t length = big_endian(segment, 4);
   if (length < 8 || length > segment.size()) return std::nullopt;
-  return Udp{static_cast<std::uint16_t>(big_endian(segment, 2, 2)), segment.subspan(8, length - 8)};
+  return Udp{big_endian(segment, 2), segment.subspan(8, length - 8)};
 }
 
 std::optional<Udp> ip_in(Bytes packet) {
@@ -50,7 +43,7 @@ std::optional<Udp> ip_in(Bytes packet) {
   if (packet[0] >> 4 != 4 || header < 20 || packet.size() < header || packet[9] != kUdp)
     return std::nullopt;
   constexpr std::uint32_t kMoreOrOffset = 0x3fff;  // of a fragment
-  if ((big_endian(packet, 6, 2) & kMoreOrOffset) != 0) return std::nullopt;
+  if ((big_endian(packet, 6) & kMoreOrOffset) != 0) return std::nullopt;
   return udp_in(packet.subspan(header));
 }
 
@@ -67,7 +60,7 @@ std::optional<Udp> link_in(std::uint32_t link, Bytes frame) {
       constexpr std::uint32_t kVlan = 0x8100, kServiceVlan = 0x88a8;
       std::size_t type = 12;
       while (type + 6 <= frame.size()) {
-        const std::uint32_t kind = big_endian(frame, type, 2);
+        const std::uint32_t kind = big_endian(frame, type);
         if (kind != kVlan && kind != kServiceVlan) break;
         type += 4;
       }
@@ -99,9 +92,7 @@ class Reader {
       : file_(file.string()), stream_(file, std::ios::binary), problems_(problems) {}
 
   bool is_open() const { return stream_.is_open() && stream_.good(); }
-  std::int64_t offset() const { return offset_; }
   core::Place place(std::int64_t offset) const { return {file_, 0, 0, offset}; }
-  core::ProblemList& problems() const { return problems_; }
 
   // How many there were, up to the size of `into`.
   std::size_t read(std::span<std::uint8_t> into) {
@@ -133,9 +124,8 @@ class Reader {
     return false;
   }
   std::int64_t record() const { return record_; }
-  bool refuse(const std::string& field, const std::string& value, const std::string& expected) {
+  void refuse(const std::string& field, const std::string& value, const std::string& expected) {
     problems_.error(core::ErrorClass::parse, place(record_), field, value, expected);
-    return false;
   }
 
  private:
@@ -151,25 +141,23 @@ class Reader {
 
 // What the first four bytes say of a capture.
 struct CaptureKind {
-  bool little = true;
+  bool swap = false;
   double fraction_s = 1e-6;
 };
 
 std::optional<CaptureKind> capture_kind(Bytes magic) {
   constexpr std::uint32_t kMicro = 0xa1b2c3d4, kNano = 0xa1b23c4d;
-  const auto little = static_cast<std::uint32_t>(little_endian(magic, 0, 4));
-  const std::uint32_t big = big_endian(magic, 0, 4);
-  if (little == kMicro) return CaptureKind{true, 1e-6};
-  if (little == kNano) return CaptureKind{true, 1e-9};
-  if (big == kMicro) return CaptureKind{false, 1e-6};
-  if (big == kNano) return CaptureKind{false, 1e-9};
+  for (const bool swap : {false, true}) {
+    const auto word = Fields(magic, swap).at<std::uint32_t>(0);
+    if (word == kMicro) return CaptureKind{swap, 1e-6};
+    if (word == kNano) return CaptureKind{swap, 1e-9};
+  }
   return std::nullopt;
 }
 
 void read_capture(Reader& reader, const CaptureKind& kind, const EachDatagram& each) {
   const auto word = [&](Bytes bytes, std::size_t offset) {
-    return kind.little ? static_cast<std::uint32_t>(little_endian(bytes, offset, 4))
-                       : big_endian(bytes, offset, 4);
+    return Fields(bytes, kind.swap).at<std::uint32_t>(offset);
   };
   std::array<std::uint8_t, 24> beginning{};
   if (!reader.read_header(beginning)) return;
@@ -201,21 +189,21 @@ void read_raw(Reader& reader, const EachDatagram& each) {
   std::array<std::uint8_t, 12> header{};
   std::vector<std::uint8_t> payload;
   while (reader.read_header(header)) {
-    const auto time_s = std::bit_cast<double>(little_endian(header, 0, 8));
-    const auto port = static_cast<std::uint16_t>(little_endian(header, 8, 2));
+    const Fields fields(header, kSwapLittle);
+    const auto time_s = fields.at<double>(0);
     if (!std::isfinite(time_s)) {
       reader.refuse("time of a record", "not finite", "seconds");
       return;
     }
-    if (!reader.read_body(payload, little_endian(header, 10, 2))) return;
-    each({time_s, port, payload, reader.record()});
+    if (!reader.read_body(payload, fields.at<std::uint16_t>(10))) return;
+    each({time_s, fields.at<std::uint16_t>(8), payload, reader.record()});
   }
 }
 
 // Anything could be records of a time, a port and a length; this looks whether the first one could
 // be meant so.
 bool could_be_raw(Bytes first) {
-  const auto time_s = std::bit_cast<double>(little_endian(first, 0, 8));
+  const auto time_s = Fields(first, kSwapLittle).at<double>(0);
   return time_s == 0.0 || (std::abs(time_s) > 1e-12 && std::abs(time_s) < 1e12);
 }
 
@@ -240,7 +228,7 @@ void read_datagrams(const std::filesystem::path& file, const EachDatagram& each,
                    "a file that can be read");
   else if (count < first.size())
     refuse("fewer than 8 bytes", "a packet capture (pcap), or raw datagrams");
-  else if (little_endian(first, 0, 4) == 0x0a0d0d0a)
+  else if (Fields(first, kSwapLittle).at<std::uint32_t>(0) == 0x0a0d0d0a)
     refuse("a pcapng file", "a capture, as editcap -F pcap makes of it");
   else if (kind)
     read_capture(reader, *kind, each);

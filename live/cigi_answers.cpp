@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "core/constants.h"
+#include "feeds/aircraft_state.h"
 #include "terrain/geoid.h"
 
 namespace fanbeam::live {
@@ -20,12 +20,6 @@ double datum_height_m(const core::Geodetic& at, core::VerticalDatum datum) {
   return terrain::ellipsoidal_height_m(zero, datum);
 }
 
-bool on_earth(const glm::dvec3& place) {
-  constexpr double kMostLongitude_rad = 9.5, kMost_m = 900e3;
-  return std::abs(place.x) <= core::kPi / 2 && std::abs(place.y) <= kMostLongitude_rad &&
-         std::abs(place.z) <= kMost_m;
-}
-
 // Where latitude, longitude and altitude, or an offset from an entity, are in the scene's frame.
 std::optional<glm::dvec3> local_m(const scenes::Scene& scene, core::VerticalDatum datum,
                                   const glm::dvec3& place, bool is_offset,
@@ -36,7 +30,7 @@ std::optional<glm::dvec3> local_m(const scenes::Scene& scene, core::VerticalDatu
     return scene.frame.to_local_m(entity->position) +
            scene.frame.north_east_down_at(entity->position) * (entity->q_NB * place);
   }
-  if (!on_earth(place)) return std::nullopt;
+  if (!feeds::is_on_earth(place.x, place.y, place.z)) return std::nullopt;
   core::Geodetic at{place.x, place.y, place.z};
   at.height_m += datum_height_m(at, datum);
   return scene.frame.to_local_m(at);
@@ -128,7 +122,9 @@ feeds::cigi::SightResponse sight_answer(const scenes::Scene& scene, core::Vertic
   constexpr double kClear_m = 0.1;   // before its end: what stands there is not in between
   feeds::cigi::SightResponse answer{request.request, request.extended};
   const auto from_m = local_m(scene, datum, request.source, request.from_entity, entity);
-  const auto line = from_m ? line_of(scene, datum, request, *from_m, entity) : std::nullopt;
+  const auto line = from_m && !request.answer_in_entity
+                        ? line_of(scene, datum, request, *from_m, entity)
+                        : std::nullopt;
   if (!line || !(line->most_m > line->least_m) || line->least_m < 0.0 || line->most_m > kMost_m)
     return answer;
   const terrain::RayScene& surfaces = scene.world.surfaces();

@@ -19,7 +19,7 @@
 namespace fanbeam::live {
 
 // `entity`: that of the request, for offsets; without it such a request is answered as not valid. So
-// is one outside the terrain.
+// is one outside the terrain, and one whose answer is to be an offset.
 feeds::cigi::HeightResponse height_answer(const scenes::Scene& scene, core::VerticalDatum datum,
                                           const feeds::cigi::HeightRequest& request,
                                           const std::optional<core::Pose>& entity);

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "feeds/aircraft_state.h"
 #include "live/cigi_answers.h"
+#include "live/feed.h"
 #include "terrain/geoid.h"
 
 namespace fanbeam::live {
@@ -53,10 +55,8 @@ glm::dvec3 enabled_offset_m(const cigi::ViewControl& view) {
 
 CigiIg::CigiIg(session::Session& session, core::VerticalDatum datum, std::size_t kept)
     : session_(session),
-      datum_(session.scene()->description.datum == core::VerticalDatum::scene
-                 ? core::VerticalDatum::scene
-                 : datum),
-      own_weather_(session.scene()->weather),
+      datum_(datum_of(session.scene()->description, datum)),
+      own_{session.scene()->weather, session.scene()->description.surface_state},
       mailbox_(kept) {}
 
 void CigiIg::turn_away() {
@@ -115,8 +115,7 @@ void CigiIg::take(std::span<const std::uint8_t> datagram, const std::string& hos
 }
 
 void CigiIg::enter(cigi::Mode mode) {
-  if (mode == cigi::Mode::operate && control_.mode == cigi::Mode::standby)
-    wanted_ = {own_weather_, materials::SurfaceState::dry};
+  if (mode == cigi::Mode::operate && control_.mode == cigi::Mode::standby) wanted_ = own_;
   if (mode != cigi::Mode::standby || control_.mode == cigi::Mode::standby) return;
   entities_.clear();
   periodic_.clear();
@@ -141,17 +140,12 @@ void CigiIg::take(const cigi::HostPacket& packet, double time_s) {
     weather().pressure_hPa = air->pressure_hPa;
   } else if (const auto* ground = std::get_if<cigi::SurfaceConditions>(&packet)) {
     if (ground->scope == 0 && ground->condition <= 3)
-      wanted_.surfaces = ground->enabled ? static_cast<materials::SurfaceState>(ground->condition)
-                                         : materials::SurfaceState::dry;
+      wanted_.surfaces =
+          ground->enabled ? static_cast<materials::SurfaceState>(ground->condition) : own_.surfaces;
   } else if (const auto* height = std::get_if<cigi::HeightRequest>(&packet)) {
     ask(*height, height->update_period);
   } else if (const auto* sight = std::get_if<cigi::SightRequest>(&packet)) {
     ask(*sight, sight->update_period);
-  } else {
-    // Read, but of no meaning yet: view definition, sensor, component, celestial.
-    constexpr std::array<std::uint8_t, std::variant_size_v<cigi::HostPacket>> kIds{
-        2, 8, 16, 21, 17, 10, 12, 9, 15, 4, 24, 25};
-    ++passed_over_[kIds[packet.index()]];
   }
 }
 
@@ -161,10 +155,7 @@ void CigiIg::place(const cigi::EntityControl& packet, double time_s) {
     entities_.erase(packet.entity);
     return;
   }
-  constexpr double kMostLongitude_rad = 9.5, kMost_m = 900e3;
-  const bool possible = std::abs(packet.place.x) <= core::kPi / 2 &&
-                        std::abs(packet.place.y) <= kMostLongitude_rad &&
-                        std::abs(packet.place.z) <= kMost_m;
+  const bool possible = feeds::is_on_earth(packet.place.x, packet.place.y, packet.place.z);
   // What is attached to another entity is no aircraft.
   if (packet.attached || !possible || entities_.size() >= kMostEntities) return;
   Entity now;

@@ -5,7 +5,7 @@
 // Pose: entity 0, or the entity that the last View Control names, with that packet's offset and
 // angles. Velocity is that of Rate Control, else what the last two places were apart, over the host's
 // timestamps where it has them. Only in mode operate; standby lets the picture stand, and operate after
-// it begins with the scene's own weather again (reset).
+// it begins with the scene's own weather and ground again (reset).
 // Weather: ground fog (layer 0), rain (4) and snow (5) of Weather Control with scope global. Water in
 // g/m3 counts where it is above 0: of fog itself, of rain by Marshall and Palmer (1948) in the form
 // W = 0.072 R^0.88 (R in mm/h). Else fog has its visibility, and rain and snow a rate by severity 1 to 5:
@@ -92,7 +92,7 @@ class CigiIg {
 
   session::Session& session_;
   core::VerticalDatum datum_;
-  atmosphere::Weather own_weather_;
+  Wanted own_;  // of the scene
   Clock::time_point begin_ = Clock::now();
   Mailbox mailbox_;
 

@@ -17,8 +17,7 @@ constexpr std::size_t kCompared = 80;  // packets: five seconds of 16 Hz
 Feed::Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
            const feeds::Protocol& protocol, std::size_t kept)
     : scene_(std::move(scene)),
-      datum_(scene_->description.datum == core::VerticalDatum::scene ? core::VerticalDatum::scene
-                                                                     : datum),
+      datum_(datum_of(scene_->description, datum)),
       protocol_(protocol),
       mailbox_(kept) {}
 

@@ -24,9 +24,15 @@
 
 namespace fanbeam::live {
 
+// What heights of a source count from: its own datum, but that of a scene which does not know its own.
+inline core::VerticalDatum datum_of(const scenes::SceneDescription& scene,
+                                    core::VerticalDatum source) {
+  return scene.datum == core::VerticalDatum::scene ? core::VerticalDatum::scene : source;
+}
+
 class Feed {
  public:
-  // The datum of a scene that does not know its own is that of the feed. `kept`: live/mailbox.h.
+  // `kept`: live/mailbox.h.
   Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
        const feeds::Protocol& protocol = feeds::kProtocols[0], std::size_t kept = Mailbox::kKept);
 

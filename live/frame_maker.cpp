@@ -1,10 +1,10 @@
 #include "live/frame_maker.h"
 
 #include <algorithm>
-#include <ctime>
 #include <mutex>
 
 #include "core/errors.h"
+#include "live/processor_time.h"
 #include "sensors/display/display.h"
 
 namespace fanbeam::live {
@@ -79,10 +79,8 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
 }
 
 double FrameMaker::processor_s() const {
-  timespec spent{};
-  ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
   const double beside_s = settings_.beside_s ? settings_.beside_s() : 0.0;
-  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec) - beside_s;
+  return processor_time_s(CLOCK_PROCESS_CPUTIME_ID) - beside_s;
 }
 
 void FrameMaker::tell(double frame_s, double processor_s) {

@@ -5,10 +5,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <ctime>
 
 #include "core/errors.h"
 #include "core/parallel.h"
+#include "live/processor_time.h"
 #include "renderer/plan/effects.h"
 
 namespace fanbeam::live {
@@ -32,13 +32,10 @@ void Quality::tell(Status& status) const {
   if (samples_ > 0.0 && samples_ == status.samples) status.errors = errors_;
 }
 
-double Quality::processor_s() const {
+double Quality::processor_s() {
   clockid_t clock{};
-  timespec spent{};
-  // A thread of ours that is not joined yet has a clock.
-  ::pthread_getcpuclockid(const_cast<std::thread&>(thread_).native_handle(), &clock);
-  ::clock_gettime(clock, &spent);
-  return static_cast<double>(spent.tv_sec) + 1e-9 * static_cast<double>(spent.tv_nsec);
+  ::pthread_getcpuclockid(thread_.native_handle(), &clock);  // there until the thread is joined
+  return processor_time_s(clock);
 }
 
 void Quality::run(double every_s) {

@@ -28,7 +28,7 @@ class Quality {
   // The last figures, unless there are none of this sampling.
   void tell(Status& status) const;
   // Processor time that it took so far.
-  double processor_s() const;
+  double processor_s();
 
  private:
   void run(double every_s);

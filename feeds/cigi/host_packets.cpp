@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/units.h"
-#include "feeds/cigi/bytes.h"
+#include "feeds/bytes.h"
 
 namespace fanbeam::feeds::cigi {
 namespace {
@@ -36,9 +36,6 @@ HostPacket entity_control(Fields& f) {
   packet.entity = f.at<std::uint16_t>(2);
   packet.state = f.bits(4, 0, 2);
   packet.attached = f.bits(4, 2) != 0;
-  packet.clamp = f.bits(4, 5, 2);
-  packet.type = f.at<std::uint16_t>(8);
-  packet.parent = f.at<std::uint16_t>(10);
   packet.attitude = attitude_at(f, 12);
   packet.place = place_at(f, 24, packet.attached);
   return packet;
@@ -50,48 +47,15 @@ HostPacket rate_control(Fields& f) {
   packet.of_part = f.bits(5, 0) != 0;
   packet.body_axes = f.bits(5, 1) != 0;
   packet.v_mps = floats_at(f, 8);
-  packet.turn_radps = {angle_at(f, 20), angle_at(f, 24), angle_at(f, 28)};
   return packet;
 }
 
 HostPacket view_control(Fields& f) {
   ViewControl packet;
-  packet.view = f.at<std::uint16_t>(2);
-  packet.group = f.byte(4);
   packet.enables = f.bits(5, 0, 6);
   packet.entity = f.at<std::uint16_t>(6);
   packet.offset_m = floats_at(f, 8);
   packet.attitude = attitude_at(f, 20);
-  return packet;
-}
-
-HostPacket view_definition(Fields& f) {
-  ViewDefinition packet;
-  packet.view = f.at<std::uint16_t>(2);
-  packet.group = f.byte(4);
-  packet.enables = f.bits(5, 0, 6);
-  packet.type = f.bits(6, 5, 3);
-  packet.near_m = f.number32(8);
-  packet.far_m = f.number32(12);
-  packet.left_rad = angle_at(f, 16);
-  packet.right_rad = angle_at(f, 20);
-  packet.top_rad = angle_at(f, 24);
-  packet.bottom_rad = angle_at(f, 28);
-  return packet;
-}
-
-HostPacket sensor_control(Fields& f) {
-  SensorControl packet;
-  packet.view = f.at<std::uint16_t>(2);
-  packet.sensor = f.byte(4);
-  packet.on = f.bits(5, 0) != 0;
-  packet.black_hot = f.bits(5, 1) != 0;
-  packet.automatic_gain = f.bits(5, 3) != 0;
-  packet.track_mode = f.bits(5, 5, 3);
-  packet.extended_response = f.bits(6, 0) != 0;
-  packet.gain = f.number32(8);
-  packet.level = f.number32(12);
-  packet.noise = f.number32(20);
   return packet;
 }
 
@@ -100,52 +64,28 @@ HostPacket atmosphere_control(Fields& f) {
   packet.enabled = f.bits(2, 0) != 0;
   packet.humidity_percent = f.byte(3);
   packet.temperature_C = f.number32(4);
-  packet.visibility_m = f.number32(8);
   packet.pressure_hPa = f.number32(24);
   return packet;
 }
 
 HostPacket weather_control(Fields& f) {
   WeatherControl packet;
-  packet.region = f.at<std::uint16_t>(2);
   packet.layer = f.byte(4);
   packet.enabled = f.bits(6, 0) != 0;
   packet.scope = f.bits(7, 0, 2);
   packet.severity = f.bits(7, 2, 3);
-  packet.temperature_C = f.number32(8);
   packet.visibility_m = f.number32(12);
-  packet.coverage_percent = f.number32(20);
   packet.base_m = f.number32(24);
   packet.thickness_m = f.number32(28);
-  packet.transition_m = f.number32(32);
   packet.aerosol_g_per_m3 = f.number32(52);
   return packet;
 }
 
-HostPacket celestial_control(Fields& f) {
-  return CelestialControl{f.byte(2), f.byte(3), f.at<std::uint32_t>(8)};
-}
-
 HostPacket surface_conditions(Fields& f) {
   SurfaceConditions packet;
-  packet.region = f.at<std::uint16_t>(2);
   packet.condition = f.at<std::uint16_t>(4);
   packet.enabled = f.bits(6, 0) != 0;
   packet.scope = f.bits(6, 1, 2);
-  packet.severity = f.bits(6, 3, 5);
-  packet.coverage_percent = f.byte(7);
-  return packet;
-}
-
-// Of six words, or of two.
-template <std::size_t Words>
-HostPacket component_control(Fields& f) {
-  ComponentControl packet;
-  packet.component = f.at<std::uint16_t>(2);
-  packet.instance = f.at<std::uint16_t>(4);
-  packet.kind = f.bits(6, 0, 6);
-  packet.state = f.byte(7);
-  for (std::size_t i = 0; i < Words; ++i) packet.data[i] = f.at<std::uint32_t>(8 + 4 * i);
   return packet;
 }
 
@@ -202,12 +142,12 @@ constexpr Kind kKinds[] = {
     {kIgControl, kIgControl_bytes, "ig_control", nullptr},
     {2, 48, "entity_control", entity_control},
     {3, 24, "conformal_clamped_entity_control", nullptr},
-    {4, 32, "component_control", component_control<6>},
-    {5, 16, "short_component_control", component_control<2>},
+    {4, 32, "component_control", nullptr},
+    {5, 16, "short_component_control", nullptr},
     {6, 32, "articulated_part_control", nullptr},
     {7, 16, "short_articulated_part_control", nullptr},
     {8, 32, "rate_control", rate_control},
-    {9, 16, "celestial_sphere_control", celestial_control},
+    {9, 16, "celestial_sphere_control", nullptr},
     {10, 32, "atmosphere_control", atmosphere_control},
     {11, 48, "environmental_region_control", nullptr},
     {12, 56, "weather_control", weather_control},
@@ -215,11 +155,11 @@ constexpr Kind kKinds[] = {
     {14, 32, "wave_control", nullptr},
     {15, 8, "terrestrial_surface_conditions_control", surface_conditions},
     {16, 32, "view_control", view_control},
-    {17, 24, "sensor_control", sensor_control},
+    {17, 24, "sensor_control", nullptr},
     {18, 8, "motion_tracker_control", nullptr},
     {19, 24, "earth_reference_model_definition", nullptr},
     {20, 24, "trajectory_definition", nullptr},
-    {21, 32, "view_definition", view_definition},
+    {21, 32, "view_definition", nullptr},
     {22, 40, "collision_detection_segment_definition", nullptr},
     {23, 48, "collision_detection_volume_definition", nullptr},
     {24, 32, "hat_hot_request", height_request},

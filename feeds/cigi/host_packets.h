@@ -36,9 +36,7 @@ struct IgControl {
 struct EntityControl {
   std::uint16_t entity = 0;
   std::uint8_t state = 0;  // 0 inactive, 1 active, 2 destroyed
-  bool attached = false;   // to `parent`: the place is an offset then
-  std::uint8_t clamp = 0;  // to the ground: 0 none, 1 in place, 2 with its slope
-  std::uint16_t type = 0, parent = 0;
+  bool attached = false;   // to another one: the place is an offset then
   core::Attitude attitude;
   // Latitude and longitude in rad and altitude in m; attached forward, right and down in m.
   glm::dvec3 place{0.0};
@@ -46,70 +44,37 @@ struct EntityControl {
 
 struct RateControl {
   std::uint16_t entity = 0;
-  bool of_part = false;        // an articulated part's: none of the radar's
-  bool body_axes = false;      // forward, right, down instead of north, east, down
-  glm::dvec3 v_mps{0.0};       //
-  glm::dvec3 turn_radps{0.0};  // roll, pitch, yaw
+  bool of_part = false;    // an articulated part's: none of the radar's
+  bool body_axes = false;  // forward, right, down instead of north, east, down
+  glm::dvec3 v_mps{0.0};
 };
 
+// Where on an entity the radar sits.
 struct ViewControl {
-  std::uint16_t view = 0, entity = 0;
-  std::uint8_t group = 0;
+  std::uint16_t entity = 0;
   std::uint8_t enables = 0;  // bits: X, Y, Z, roll, pitch, yaw
   glm::dvec3 offset_m{0.0};  // forward, right, down
   core::Attitude attitude;
 };
 
-struct ViewDefinition {
-  std::uint16_t view = 0;
-  std::uint8_t group = 0;
-  std::uint8_t enables = 0;  // bits: near, far, left, right, top, bottom
-  std::uint8_t type = 0;
-  double near_m = 0.0, far_m = 0.0;
-  double left_rad = 0.0, right_rad = 0.0, top_rad = 0.0, bottom_rad = 0.0;
-};
-
-struct SensorControl {
-  std::uint16_t view = 0;
-  std::uint8_t sensor = 0;
-  bool on = false, black_hot = false, automatic_gain = false;
-  std::uint8_t track_mode = 0;
-  bool extended_response = false;
-  double gain = 0.0, level = 0.0, noise = 0.0;  // 0 to 1
-};
-
 struct AtmosphereControl {
   bool enabled = false;
   std::uint8_t humidity_percent = 0;
-  double temperature_C = 0.0, visibility_m = 0.0, pressure_hPa = 0.0;
+  double temperature_C = 0.0, pressure_hPa = 0.0;
 };
 
 struct WeatherControl {
-  std::uint16_t region = 0;
   std::uint8_t layer = 0;  // 0 ground fog, 1 to 3 cloud, 4 rain, 5 snow, ...
   bool enabled = false;
   std::uint8_t scope = 0;     // 0 global, 1 region, 2 entity
   std::uint8_t severity = 0;  // 0 to 5
-  double temperature_C = 0.0, visibility_m = 0.0, coverage_percent = 0.0;
-  double base_m = 0.0, thickness_m = 0.0, transition_m = 0.0;
-  double aerosol_g_per_m3 = 0.0;
-};
-
-struct CelestialControl {
-  std::uint8_t hour = 0, minute = 0;
-  std::uint32_t date = 0;  // MMDDYYYY as a number
+  double visibility_m = 0.0, base_m = 0.0, thickness_m = 0.0, aerosol_g_per_m3 = 0.0;
 };
 
 struct SurfaceConditions {
-  std::uint16_t region = 0, condition = 0;
+  std::uint16_t condition = 0;
   bool enabled = false;
-  std::uint8_t scope = 0, severity = 0, coverage_percent = 0;
-};
-
-struct ComponentControl {
-  std::uint16_t component = 0, instance = 0;
-  std::uint8_t kind = 0, state = 0;  // kind: CIGI's component class
-  std::array<std::uint32_t, 6> data{};
+  std::uint8_t scope = 0;
 };
 
 // What is asked of heights: above the terrain, of it, or both with material and normal.
@@ -137,9 +102,8 @@ struct SightRequest {
   double azimuth_rad = 0.0, elevation_rad = 0.0, least_m = 0.0, most_m = 0.0;
 };
 
-using HostPacket = std::variant<EntityControl, RateControl, ViewControl, ViewDefinition,
-                                SensorControl, AtmosphereControl, WeatherControl, CelestialControl,
-                                SurfaceConditions, ComponentControl, HeightRequest, SightRequest>;
+using HostPacket = std::variant<EntityControl, RateControl, ViewControl, AtmosphereControl,
+                                WeatherControl, SurfaceConditions, HeightRequest, SightRequest>;
 
 enum class MessageFault { none, length, version, order, size, first };
 const char* name_of(MessageFault fault);

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/units.h"
-#include "feeds/cigi/bytes.h"
+#include "feeds/bytes.h"
 
 namespace fanbeam::feeds::cigi {
 namespace {
@@ -77,24 +77,6 @@ Bytes sight_response(const SightResponse& told, std::uint32_t host_frame, bool s
       .put(44, told.material)
       .put(48, degrees_of(told.normal_azimuth_rad))
       .put(52, degrees_of(told.normal_elevation_rad))
-      .bytes();
-}
-
-Bytes sensor_response(const SensorResponse& told, bool swap) {
-  return Packet(106, 24, swap)
-      .put(2, told.view)
-      .put(4, told.sensor)
-      .put(5, told.status)
-      .put(20, told.host_frame)
-      .bytes();
-}
-
-Bytes event_notification(std::uint16_t event, const std::array<std::uint32_t, 3>& data, bool swap) {
-  return Packet(116, 16, swap)
-      .put(2, event)
-      .put(4, data[0])
-      .put(8, data[1])
-      .put(12, data[2])
       .bytes();
 }
 

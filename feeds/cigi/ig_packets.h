@@ -44,19 +44,10 @@ struct SightResponse {
   double normal_azimuth_rad = 0.0, normal_elevation_rad = 0.0;
 };
 
-struct SensorResponse {
-  std::uint16_t view = 0;
-  std::uint8_t sensor = 0, status = 0;  // status: 0 searching
-  std::uint32_t host_frame = 0;         // of the picture
-};
-
 Bytes start_of_frame(const StartOfFrame& told, bool swap = false);
 // `host_frame`: that of the request, of which the lowest four bits go into the answer.
 Bytes height_response(const HeightResponse& told, std::uint32_t host_frame, bool swap = false);
 Bytes sight_response(const SightResponse& told, std::uint32_t host_frame, bool swap = false);
-Bytes sensor_response(const SensorResponse& told, bool swap = false);
-Bytes event_notification(std::uint16_t event, const std::array<std::uint32_t, 3>& data,
-                         bool swap = false);
 // Text beyond 100 bytes is cut.
 Bytes ig_message(std::uint16_t number, std::string_view text, bool swap = false);
 

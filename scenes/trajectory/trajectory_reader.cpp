@@ -26,6 +26,7 @@ void read_packets(ConfigTable& table, const std::filesystem::path& file, TrackPa
       table.error(core::ErrorClass::ref, "port", "without a protocol", "protocol beside it");
     return;
   }
+  static_assert(feeds::kProtocols.size() == 2, "all of them are named here");
   packets.protocol = &feeds::kProtocols[table.choice(
       "protocol", {feeds::kProtocols[0].name, feeds::kProtocols[1].name}, 0)];
   if (table.has("port"))

@@ -7,12 +7,14 @@
 #include <limits>
 
 #include "core/units.h"
-#include "feeds/cigi/bytes.h"
+#include "feeds/bytes.h"
 #include "feeds/cigi/host_packets.h"
 #include "feeds/cigi/ig_packets.h"
 
 using namespace fanbeam;
 using namespace fanbeam::feeds::cigi;
+using feeds::Fields;
+using feeds::Packet;
 
 namespace {
 
@@ -81,9 +83,6 @@ TEST_CASE("The same message reads the same in both byte orders", "[cigi]") {
     CHECK(own.entity == 5);
     CHECK(own.state == 1);
     CHECK_FALSE(own.attached);
-    CHECK(own.clamp == 1);
-    CHECK(own.type == 300);
-    CHECK(own.parent == 9);
     CHECK(core::degrees(own.attitude.roll_rad) == Approx(1.5));
     CHECK(core::degrees(own.attitude.pitch_rad) == Approx(-2.5));
     CHECK(core::degrees(own.attitude.heading_rad) == Approx(256.0));
@@ -99,106 +98,53 @@ TEST_CASE("The first packet in network order is these bytes", "[cigi]") {
                       10,  11, 12, 13,   0x11, 0x22, 0x33, 0x44, 0, 0, 0, 0});
 }
 
-TEST_CASE("Controls of view, sensor and weather are at their offsets", "[cigi]") {
+TEST_CASE("Controls of view, weather and ground are at their offsets", "[cigi]") {
   for (const bool swap : {false, true}) {
-    const HostMessage message = decoded(message_of(swap, {Packet(16, 32, swap)
-                                                              .put<std::uint16_t>(2, 2)
-                                                              .put<std::uint8_t>(5, 0x3f)
-                                                              .put<std::uint16_t>(6, 5)
-                                                              .put(8, 4.0F)
-                                                              .put(12, 0.5F)
-                                                              .put(16, -1.0F)
-                                                              .put(24, -3.0F)
-                                                              .bytes(),
-                                                          Packet(21, 32, swap)
-                                                              .put<std::uint16_t>(2, 2)
-                                                              .put<std::uint8_t>(5, 0x0f)
-                                                              .put<std::uint8_t>(6, 0x40)
-                                                              .put(8, 200.0F)
-                                                              .put(12, 3000.0F)
-                                                              .put(16, -20.0F)
-                                                              .put(20, 20.0F)
-                                                              .put(24, 5.0F)
-                                                              .put(28, -8.0F)
-                                                              .bytes(),
-                                                          Packet(17, 24, swap)
-                                                              .put<std::uint16_t>(2, 2)
-                                                              .put<std::uint8_t>(4, 1)
-                                                              .put<std::uint8_t>(5, 0x0b)
-                                                              .put(8, 0.75F)
-                                                              .put(12, 0.25F)
-                                                              .put(20, 0.5F)
-                                                              .bytes(),
-                                                          Packet(12, 56, swap)
-                                                              .put<std::uint8_t>(4, 4)
-                                                              .put<std::uint8_t>(6, 1)
-                                                              .put<std::uint8_t>(7, 0x0c)
-                                                              .put(12, 800.0F)
-                                                              .put(24, 0.0F)
-                                                              .put(28, 900.0F)
-                                                              .put(52, 0.25F)
-                                                              .bytes(),
-                                                          Packet(10, 32, swap)
-                                                              .put<std::uint8_t>(2, 1)
-                                                              .put<std::uint8_t>(3, 80)
-                                                              .put(4, 12.0F)
-                                                              .put(8, 350.0F)
-                                                              .put(24, 1001.0F)
-                                                              .bytes(),
-                                                          Packet(15, 8, swap)
-                                                              .put<std::uint16_t>(4, 1)
-                                                              .put<std::uint8_t>(6, 0x09)
-                                                              .put<std::uint8_t>(7, 60)
-                                                              .bytes(),
-                                                          Packet(9, 16, swap)
-                                                              .put<std::uint8_t>(2, 14)
-                                                              .put<std::uint8_t>(3, 30)
-                                                              .put<std::uint32_t>(8, 5172024)
-                                                              .bytes(),
-                                                          Packet(8, 32, swap)
-                                                              .put<std::uint16_t>(2, 5)
-                                                              .put<std::uint8_t>(5, 2)
-                                                              .put(8, 70.0F)
-                                                              .put(28, 3.0F)
-                                                              .bytes(),
-                                                          Packet(5, 16, swap)
-                                                              .put<std::uint16_t>(2, 77)
-                                                              .put<std::uint16_t>(4, 3)
-                                                              .put<std::uint8_t>(6, 3)
-                                                              .put<std::uint8_t>(7, 1)
-                                                              .put<std::uint32_t>(8, 42)
-                                                              .bytes()}));
-    REQUIRE(message.packets.size() == 9);
+    const auto packet = [&](std::uint8_t id, std::uint8_t size) { return Packet(id, size, swap); };
+    const HostMessage message = decoded(message_of(
+        swap,
+        {packet(16, 32)
+             .put<std::uint8_t>(5, 0x3f)
+             .put<std::uint16_t>(6, 5)
+             .put(8, 4.0F)
+             .put(12, 0.5F)
+             .put(16, -1.0F)
+             .put(24, -3.0F)
+             .bytes(),
+         packet(12, 56)
+             .put<std::uint8_t>(4, 4)
+             .put<std::uint8_t>(6, 1)
+             .put<std::uint8_t>(7, 0x0d)
+             .put(12, 800.0F)
+             .put(24, 7.0F)
+             .put(28, 900.0F)
+             .put(52, 0.25F)
+             .bytes(),
+         packet(10, 32)
+             .put<std::uint8_t>(2, 1)
+             .put<std::uint8_t>(3, 80)
+             .put(4, 12.0F)
+             .put(24, 1001.0F)
+             .bytes(),
+         packet(15, 8).put<std::uint16_t>(4, 1).put<std::uint8_t>(6, 0x05).bytes(),
+         packet(8, 32).put<std::uint16_t>(2, 5).put<std::uint8_t>(5, 2).put(8, 70.0F).bytes()}));
+    REQUIRE(message.packets.size() == 5);
     const auto& view = std::get<ViewControl>(message.packets[0]);
     CHECK(view.entity == 5);
     CHECK(view.enables == 0x3f);
     CHECK(view.offset_m == glm::dvec3(4.0, 0.5, -1.0));
     CHECK(core::degrees(view.attitude.pitch_rad) == Approx(-3.0));
-    const auto& window = std::get<ViewDefinition>(message.packets[1]);
-    CHECK(window.type == 2);
-    CHECK(window.near_m == 200.0);
-    CHECK(window.far_m == 3000.0);
-    CHECK(core::degrees(window.left_rad) == Approx(-20.0));
-    CHECK(core::degrees(window.bottom_rad) == Approx(-8.0));
-    const auto& sensor = std::get<SensorControl>(message.packets[2]);
-    CHECK((sensor.on && sensor.black_hot && sensor.automatic_gain));
-    CHECK(sensor.gain == 0.75);
-    CHECK(sensor.noise == 0.5);
-    const auto& rain = std::get<WeatherControl>(message.packets[3]);
-    CHECK(rain.layer == 4);
-    CHECK(rain.enabled);
-    CHECK(rain.severity == 3);
-    CHECK(rain.thickness_m == 900.0);
+    const auto& rain = std::get<WeatherControl>(message.packets[1]);
+    CHECK((rain.layer == 4 && rain.enabled && rain.scope == 1 && rain.severity == 3));
+    CHECK((rain.visibility_m == 800.0 && rain.base_m == 7.0 && rain.thickness_m == 900.0));
     CHECK(rain.aerosol_g_per_m3 == 0.25);
-    CHECK(std::get<AtmosphereControl>(message.packets[4]).visibility_m == 350.0);
-    const auto& wet = std::get<SurfaceConditions>(message.packets[5]);
-    CHECK((wet.enabled && wet.condition == 1 && wet.severity == 1 && wet.coverage_percent == 60));
-    CHECK(std::get<CelestialControl>(message.packets[6]).date == 5172024);
-    const auto& rate = std::get<RateControl>(message.packets[7]);
-    CHECK((rate.body_axes && !rate.of_part && rate.v_mps.x == 70.0));
-    CHECK(core::degrees(rate.turn_radps.z) == Approx(3.0));
-    const auto& component = std::get<ComponentControl>(message.packets[8]);
-    CHECK((component.component == 77 && component.kind == 3 && component.data[0] == 42));
+    const auto& air = std::get<AtmosphereControl>(message.packets[2]);
+    CHECK((air.enabled && air.humidity_percent == 80));
+    CHECK((air.temperature_C == 12.0 && air.pressure_hPa == 1001.0));
+    const auto& wet = std::get<SurfaceConditions>(message.packets[3]);
+    CHECK((wet.enabled && wet.condition == 1 && wet.scope == 2));
+    const auto& rate = std::get<RateControl>(message.packets[4]);
+    CHECK((rate.entity == 5 && rate.body_axes && !rate.of_part && rate.v_mps.x == 70.0));
   }
 }
 

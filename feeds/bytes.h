@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace fanbeam::feeds::cigi {
+namespace fanbeam::feeds {
 
 template <std::size_t Size>
 using Bits = std::conditional_t<
@@ -27,6 +27,10 @@ T swapped(T value) {
                      << (8 * (sizeof(T) - 1 - i)));
   return std::bit_cast<T>(turned);
 }
+
+// Whether bytes of that order are swapped here.
+inline constexpr bool kSwapBig = std::endian::native == std::endian::little;
+inline constexpr bool kSwapLittle = !kSwapBig;
 
 // Offsets are inside the packet: who makes one has checked its size.
 class Fields {
@@ -81,4 +85,4 @@ class Packet {
   bool swap_;
 };
 
-}  // namespace fanbeam::feeds::cigi
+}  // namespace fanbeam::feeds
