@@ -276,7 +276,10 @@ int fly(const LiveOptions& given, const CommonOptions& common) {
   const core::ThreadLimit threads(options.threads);
   std::signal(SIGPIPE, SIG_IGN);  // a reader of raw frames that leaves is a good end
   const StopOnSignals stop_on_signals;
-  LiveRun(options, wiring, recording ? &*recording : nullptr, common.quiet).fly();
+  try {
+    LiveRun(options, wiring, recording ? &*recording : nullptr, common.quiet).fly();
+  } catch (const core::Stopped&) {  // while the scene was opened: as good an end
+  }
   return kExitDone;
 }
 

@@ -25,15 +25,19 @@ TEST_CASE("Shared memory that live made goes with it", "[live]") {
   CHECK_FALSE(std::filesystem::exists("/dev/shm/fanbeam_live_test"));
 }
 
-TEST_CASE("SIGTERM and SIGINT are the good end of live", "[live]") {
-  for (const int signal : {SIGTERM, SIGINT}) {
-    Child child({"live", "flat-grass", "--http", "0", "-q"});
-    std::this_thread::sleep_for(std::chrono::seconds(3));
-    child.send(signal);
-    const int status = child.wait();
-    CHECK(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 0);
-  }
+TEST_CASE("SIGTERM and SIGINT are the good end of live, while it opens its scene and later",
+          "[live]") {
+  for (const int signal : {SIGTERM, SIGINT})
+    for (const double after_ms : {0.0, 3000.0}) {
+      INFO("signal " << signal << " after " << after_ms << " ms");
+      Child child({"live", "braunschweig-26", "--http", "0", "-q"});
+      child.wait_until_it_handles_signals();
+      wait_ms(after_ms);
+      child.send(signal);
+      const int status = child.wait();
+      CHECK(WIFEXITED(status));
+      CHECK(WEXITSTATUS(status) == 0);
+    }
 }
 
 TEST_CASE("All that is wrong with live's addresses is told before a scene is opened", "[live]") {

@@ -86,7 +86,7 @@ TEST_CASE("SIGTERM and SIGINT end a render within a second and leave whole frame
     const fs::path out = folder.path() / ("out" + std::to_string(signal));
     {
       Child child(render_words(folder.path(), out, kFrames));
-      child.wait_for_first_frame();
+      child.wait_until_it_handles_signals();
       while (child.running() && !fs::exists(out / "power")) wait_ms(1.0);
       CHECK(stop(child, signal) < kLatest_s);
     }
@@ -105,7 +105,7 @@ TEST_CASE("A signal also ends a frame that takes seconds, and ffmpeg beside it",
   Child child(render_words("obstacle-field", out,
                            std::string("-q --frames 100:200 --reference --products bscope,cscope") +
                                (has_ffmpeg ? ",preview" : "")));
-  child.wait_for_first_frame();
+  child.wait_until_it_handles_signals();
   wait_ms(300.0);  // into the frame
   CHECK(stop(child, SIGTERM) < kLatest_s);
   if (!fs::exists(out)) return;

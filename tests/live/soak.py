@@ -221,7 +221,7 @@ def write_hours(file, hours, approach, draw):
         elif fault == 5:
             continue  # one is lost
         packet(now_s - 0.002, line)
-        file.write(json.dumps({"frame": number, "now_s": now_s, "at_s": now_s + 0.5 / RATE_Hz, "samples": 0.1}) + "\n")
+        file.write(json.dumps({"frame": number, "now_s": now_s, "at_s": now_s + 0.5 / RATE_Hz, "samples": 0.3}) + "\n")
 
 
 def hours_of_replay(hours):
@@ -242,6 +242,7 @@ def hours_of_replay(hours):
     print(file=sys.stderr)
     code, taken_s = live.wait(30), time.monotonic() - begin
     os.remove(name)
+    assert memory, "the replay ended at once"
     settled = next((i for i, count in enumerate(frames) if count > 60 * RATE_Hz), 0)  # a minute of flight
     found = {"hours": hours, "frames": frames[-1], "minutes_taken": taken_s / 60, "exit_code": code,
              "memory_MB_after_a_minute_of_flight": memory[settled], "memory_MB_most_after": max(memory[settled:])}
