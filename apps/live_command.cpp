@@ -1,17 +1,16 @@
 #include "apps/live_command.h"
 
-#include <fmt/core.h>
-#include <unistd.h>
-
 #include <csignal>
+#include <utility>
 
+#include "apps/live_databases.h"
+#include "apps/live_listener.h"
+#include "apps/live_status_line.h"
 #include "apps/live_wiring.h"
 #include "apps/progress.h"
 #include "apps/stop_on_signals.h"
 #include "core/parallel.h"
 #include "live/channel.h"
-#include "live/cigi_ig.h"
-#include "live/feed.h"
 #include "live/quality.h"
 #include "live/replay.h"
 #include "live/simulator_weather.h"
@@ -19,55 +18,6 @@
 
 namespace fanbeam::apps {
 namespace {
-
-// Empty while simulator and scene agree on the ground.
-std::string offset_text(const live::Status& status) {
-  if (!live::is_lasting_offset(status)) return {};
-  return fmt::format("  heights {:+.0f} m off: is its datum right?", -*status.height_offset_m);
-}
-
-std::string error_text(const live::Status& status) {
-  if (!status.errors) return {};
-  return fmt::format(" ({:.1f}, {:.1f} grey)", status.errors->bscope_grey,
-                     status.errors->cscope_grey);
-}
-
-class StatusLine {
- public:
-  explicit StatusLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
-  ~StatusLine() {
-    if (shown_) std::fputs("\n", stderr);
-  }
-  StatusLine(const StatusLine&) = delete;
-  StatusLine& operator=(const StatusLine&) = delete;
-
-  void show(const live::Status& status, int viewers) {
-    const auto now = live::Clock::now();
-    if (!shown_ || now - last_ < std::chrono::milliseconds(500)) return;
-    last_ = now;
-    if (status.waiting)
-      fmt::print(stderr, "\r\033[Kwaiting for a pose from {}", status.source);
-    else
-      fmt::print(
-          stderr,
-          "\r\033[K{:.1f} Hz  frame {:.0f} ms  sampling {:g}{}  pose age {:.0f} ms{}  late {}  "
-          "{} watching{}",
-          status.rate_Hz, status.frame_ms, status.samples, error_text(status), status.pose_age_ms,
-          status.stale ? " (stale)" : "", status.late, viewers, offset_text(status));
-  }
-
- private:
-  bool shown_;
-  live::Clock::time_point last_{};
-};
-
-void print_address(const std::string& scene, const std::string& address, std::uint16_t port,
-                   std::FILE* to) {
-  const bool six = address.find(':') != std::string::npos;
-  fmt::print(to, "{}: look at http://{}:{}/ (Ctrl-C ends)\n", scene,
-             six ? "[" + address + "]" : address, port);
-  std::fflush(to);
-}
 
 // Planned for the air over all of its terrain: nobody knows where a simulator flies.
 scenes::SceneDescription scene_of(const LiveOptions& options, const PosesFrom& from,
@@ -85,8 +35,8 @@ scenes::SceneDescription scene_of(const LiveOptions& options, const PosesFrom& f
   return description;
 }
 
-std::unique_ptr<session::Session> open(const LiveOptions& options, const PosesFrom& from,
-                                       bool quiet) {
+std::unique_ptr<session::Session> opened(const LiveOptions& options, const PosesFrom& from,
+                                         bool quiet) {
   core::ProblemList problems;
   scenes::BuildOptions build;
   if (!options.effects.empty())
@@ -98,27 +48,39 @@ std::unique_ptr<session::Session> open(const LiveOptions& options, const PosesFr
   return session;
 }
 
-// Of the options; --from may be that of a recording.
+// What goes on while scenes are switched.
+struct Continued {
+  LiveDatabases databases;
+  Sinks sinks;
+  live::Clock::time_point begin = live::Clock::now();
+  std::uint64_t frames = 0;
+  std::uint16_t page_port = 0;  // 0: none yet
+  live::CigiStation station{};
+};
+
+// Of a scene and the options; --from may be that of a recording.
 class LiveRun {
  public:
   LiveRun(const LiveOptions& options, const Wiring& wiring, const live::Recording* recording,
-          bool quiet)
+          bool quiet, std::unique_ptr<session::Session> session, Continued& continued)
       : options_(options),
         wiring_(wiring),
         recording_(recording),
         quiet_(quiet),
-        session_(open(options, wiring.from, quiet)),
+        continued_(continued),
+        session_(std::move(session)),
         scene_(session_->scene()),
         rate_Hz_(rate_of()),
         desk_(make_desk()),
-        feed_(scene_, wiring.from.datum,
-              wiring.from.protocol != nullptr ? *wiring.from.protocol : feeds::kProtocols[0],
-              kept()),
-        ig_(make_ig()),
+        listener_(wiring.from, *session_, rate_Hz_,
+                  options.lockstep ? live::Mailbox::kKeptInLockstep : live::Mailbox::kKept,
+                  continued.station),
         network_(desk_, hub_),
         line_(quiet) {
     live::Status status;
+    status.scene = scene_->description.name;
     status.source = options.from;
+    status.frames = continued.frames;
     hub_.tell(status);
     if (recording_ != nullptr && recording_->flown_by.scene != scene_->description.name)
       core::throw_input_error(core::ErrorClass::ref, core::Place{options.replay}, "/scene",
@@ -128,59 +90,71 @@ class LiveRun {
 
   void fly() {
     const core::StopToken asked = core::StopScope::current();
-    const std::uint16_t port = network_.serve(wiring_.page);
-    if (wiring_.from.listens() && recording_ == nullptr)
-      network_.receive(
-          wiring_.from.listens_at,
-          [this](std::span<const std::uint8_t> datagram, const live::Sender& from) {
-            hear(datagram, from);
-          },
-          wiring_.from.peers);
-    Sinks sinks(wiring_, scene_->description.sensor, rate_Hz_, options_.lockstep);
+    const std::uint16_t port = serve();
+    const bool listens = wiring_.from.listens() && recording_ == nullptr;
+    if (listens) listener_.listen(network_);
+    Sinks& sinks = continued_.sinks;
+    sinks.begin(scene_->description, rate_Hz_);
     network_.start();
     if (!quiet_)
       print_address(scene_->description.name, wiring_.page.address, port,
-                    wiring_.takes_stdout() ? stderr : stdout);
+                    wiring_.to.take_stdout() ? stderr : stdout);
     core::StopSource end;
     const auto begin = live::Clock::now();
     std::optional<live::SimulatorWeather> weather;
-    if (wiring_.from.weather && recording_ == nullptr) weather.emplace(desk_, feed_);
+    if (wiring_.from.weather && recording_ == nullptr) weather.emplace(desk_, listener_.feed());
     std::optional<live::Quality> quality;
     if (!options_.lockstep && recording_ == nullptr) quality.emplace(*session_, hub_);
     const auto each_frame = [&](live::Status& now) {
       if (quality) quality->tell(now);
       if (weather) weather->follow();
-      if (wiring_.from.listens() && recording_ == nullptr) tell_source(now);
-      if (options_.lockstep) begin_host_frame();
+      if (listens) listener_.tell(now);
+      if (listens && options_.lockstep) listener_.before_frame(network_);
       sinks.write(hub_.newest());
       line_.show(now, network_.clients());
       const bool enough =
           (options_.seconds > 0.0 &&
-           live::seconds_between(begin, live::Clock::now()) >= options_.seconds) ||
+           live::seconds_between(continued_.begin, live::Clock::now()) >= options_.seconds) ||
           (options_.frames > 0 && now.frames >= static_cast<std::uint64_t>(options_.frames));
-      if (asked.reason() != 0 || enough || sinks.any_ended()) end.request();
+      if (asked.reason() != 0 || enough || sinks.any_ended() || switches()) end.request();
     };
     live::ChannelSettings settings{rate_Hz_, options_.rays_per_cell, begin,
                                    journal_ ? &*journal_ : nullptr};
+    settings.dress = listener_.dress();
+    settings.keep_received = wiring_.to.want_received();
     if (options_.threads > 0) settings.threads = static_cast<unsigned>(options_.threads);
     if (quality) settings.beside_s = [&quality] { return quality->processor_s(); };
     render(settings, each_frame, end.token());
+    if (listens) listener_.leave(network_);
+    continued_.frames = hub_.status().frames;
   }
 
  private:
+  std::uint16_t serve() {
+    live::Endpoint page = wiring_.page;
+    if (continued_.page_port != 0) page.port = continued_.page_port;
+    return continued_.page_port = network_.serve(page);
+  }
+
+  // Whether the scene that a CIGI host asks for is open.
+  bool switches() {
+    live::CigiIg* const ig = listener_.cigi();
+    if (ig == nullptr) return false;
+    const std::int8_t wanted = ig->wanted_database();
+    try {
+      if (!continued_.databases.is_ready(wanted)) return false;
+    } catch (const core::InputError& error) {
+      ig->refuse_database(wanted, core::to_string(error.problems().front()));
+      return false;
+    }
+    continued_.station = ig->station();
+    return true;
+  }
+
   double rate_of() const {
     if (recording_ != nullptr) return recording_->flown_by.rate_Hz;
     return options_.rate_Hz > 0.0 ? options_.rate_Hz
                                   : scene_->description.sensor.scan.frame_rate_Hz;
-  }
-
-  std::size_t kept() const {
-    return options_.lockstep ? live::Mailbox::kKeptInLockstep : live::Mailbox::kKept;
-  }
-
-  std::optional<live::CigiIg> make_ig() {
-    if (!wiring_.from.cigi) return std::nullopt;
-    return std::optional<live::CigiIg>(std::in_place, *session_, wiring_.from.datum, kept());
   }
 
   live::Desk make_desk() {
@@ -190,38 +164,10 @@ class LiveRun {
     return {*session_, hub_, journal_ ? &*journal_ : nullptr, wiring_.access};
   }
 
-  void hear(std::span<const std::uint8_t> datagram, const live::Sender& from) {
-    if (!from.is_peer)
-      ig_ ? ig_->turn_away() : feed_.turn_away();
-    else if (ig_)
-      ig_->take(datagram, from.address + ":" + std::to_string(from.port));
-    else
-      feed_.take(datagram);
-  }
-
-  void tell_source(live::Status& status) const {
-    if (ig_)
-      ig_->tell(status);
-    else
-      feed_.tell(status);
-  }
-
-  // Of CIGI: the host is told that a frame begins.
-  void begin_host_frame() {
-    if (!ig_) return;
-    std::vector<std::uint8_t> message = ig_->begin_frame();
-    const std::string host = ig_->host();
-    if (wiring_.from.host)
-      network_.send(*wiring_.from.host, std::move(message));
-    else if (!host.empty())
-      network_.send(live::parse_endpoint(host, "--from"), std::move(message));
-  }
-
   live::PoseSource heard_poses(const live::ChannelSettings& settings) {
-    const live::Mailbox& mailbox = ig_ ? ig_->mailbox() : feed_.mailbox();
-    return [this, poses = live::source_of(mailbox, scene_->frame, settings.begin,
+    return [this, poses = live::source_of(listener_.mailbox(), scene_->frame, settings.begin,
                                           settings.journal)](double now_s, double at_s) {
-      begin_host_frame();
+      listener_.before_frame(network_);
       return poses(now_s, at_s);
     };
   }
@@ -235,11 +181,10 @@ class LiveRun {
     const bool listens = wiring_.from.listens();
     const live::Flight flown = listens ? live::Flight() : flight();
     if (recording_ != nullptr)
-      live::run_replay(*session_, *recording_, listens ? &feed_ : nullptr, &flown, desk_,
+      live::run_replay(*session_, *recording_, listens ? &listener_.feed() : nullptr, &flown, desk_,
                        {options_.speed, options_.lockstep, settings.begin}, hub_, told, stop);
     else if (options_.lockstep && listens)
-      live::run_lockstep(*session_, ig_ ? ig_->mailbox() : feed_.mailbox(), settings, hub_, told,
-                         stop);
+      live::run_lockstep(*session_, listener_.mailbox(), settings, hub_, told, stop);
     else if (options_.lockstep)
       live::run_lockstep(*session_, flown, settings, hub_, told, stop);
     else
@@ -251,14 +196,14 @@ class LiveRun {
   const Wiring& wiring_;
   const live::Recording* recording_;
   bool quiet_;
+  Continued& continued_;
   std::unique_ptr<session::Session> session_;
   std::shared_ptr<const scenes::Scene> scene_;
   double rate_Hz_;
   live::Hub hub_;
   std::optional<live::Journal> journal_;
   live::Desk desk_;
-  live::Feed feed_;
-  std::optional<live::CigiIg> ig_;
+  LiveListener listener_;
   live::Network network_;
   StatusLine line_;
 };
@@ -277,7 +222,22 @@ int fly(const LiveOptions& given, const CommonOptions& common) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader of raw frames that leaves is a good end
   const StopOnSignals stop_on_signals;
   try {
-    LiveRun(options, wiring, recording ? &*recording : nullptr, common.quiet).fly();
+    const auto open = [&](const std::string& scene) {
+      LiveOptions other = options;
+      other.scene = scene;
+      return opened(other, wiring.from, common.quiet);
+    };
+    std::unique_ptr<session::Session> session = open(options.scene);
+    Continued continued{{options.scene, session->scene()->description, open},
+                        {wiring.to, options.lockstep}};
+    while (session) {
+      continued.station.database = continued.databases.current();
+      continued.station.others = continued.databases.others();
+      LiveRun(options, wiring, recording ? &*recording : nullptr, common.quiet, std::move(session),
+              continued)
+          .fly();
+      session = continued.databases.take();
+    }
   } catch (const core::Stopped&) {  // while the scene was opened: as good an end
   }
   return kExitDone;

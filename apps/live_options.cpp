@@ -18,10 +18,11 @@ void add_poses(CLI::App& command, LiveOptions& options) {
               "Where the aircraft is: circle (round the runway, no simulator needed), ils (the "
               "scene's own trajectory, again and again), csv:FILE (that of a file with columns "
               "time_s, latitude_deg, longitude_deg, height_m), native-fdm:[ADDRESS:]PORT "
-              "(FlightGear with --native-fdm=socket,out,16,127.0.0.1,PORT,udp) or "
-              "fg-generic:[ADDRESS:]PORT (FlightGear with the shipped add-on) or "
+              "(FlightGear with --native-fdm=socket,out,16,127.0.0.1,PORT,udp), "
+              "fg-generic:[ADDRESS:]PORT (FlightGear with the shipped add-on), "
               "cigi:[ADDRESS:]PORT (a CIGI 3.3 host, answered where it sends from, or at "
-              ",host=ADDRESS:PORT). "
+              ",host=ADDRESS:PORT) or xplane:[ADDRESS:]PORT (X-Plane, which listens at 49000 and "
+              "is asked for its position; xplane:beacon finds it on the network). "
               "Behind it ,datum=egm96 (the default) or ,datum=ellipsoid tells what heights count "
               "from (a scene whose own datum is unknown takes them as they are), and ,peer=ADDRESS "
               "whose packets count, which an ADDRESS beyond this machine's own needs; "
@@ -56,7 +57,9 @@ void add_sinks(CLI::App& command, LiveOptions& options) {
       .add_option("--to", options.to,
                   "Where frames go beside the page: shm:NAME (a ring of the newest frames in "
                   "shared memory, /dev/shm/NAME; docs/live.md has its layout), raw-bscope:FILE or "
-                  "raw-cscope:FILE (8-bit grey, for ffmpeg; - is the standard output)")
+                  "raw-cscope:FILE (8-bit grey, for ffmpeg; - is the standard output) or "
+                  "cat240:ADDRESS:PORT (ASTERIX 240 radar video, unicast or multicast; "
+                  "docs/live-cat240.md has what may stand behind it)")
       ->type_name("SINK");
   command
       .add_option(

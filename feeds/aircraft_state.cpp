@@ -12,8 +12,9 @@ bool finite(const AircraftState& state) {
   for (const double value :
        {state.longitude_rad, state.latitude_rad, state.altitude_m, state.height_above_ground_m,
         state.attitude.roll_rad, state.attitude.pitch_rad, state.attitude.heading_rad,
-        state.v_N_mps.x, state.v_N_mps.y, state.v_N_mps.z, state.visibility_m, state.clock_s,
-        state.rain_norm.value_or(0.0), state.snow_norm.value_or(0.0)})
+        state.v_N_mps.x, state.v_N_mps.y, state.v_N_mps.z, state.clock_s,
+        state.visibility_m.value_or(0.0), state.rain_norm.value_or(0.0),
+        state.snow_norm.value_or(0.0)})
     if (!std::isfinite(value)) return false;
   return true;
 }

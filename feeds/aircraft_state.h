@@ -14,10 +14,9 @@ struct AircraftState {
   double height_above_ground_m = 0.0;
   core::Attitude attitude;
   glm::dvec3 v_N_mps{0.0};  // north, east, down
-  double visibility_m = 0.0;
-  // What falls where the aircraft is, as the simulator draws it: 0 none, 1 its heaviest. Nothing where
-  // the protocol does not tell.
-  std::optional<double> rain_norm, snow_norm;
+  // Where the aircraft is; nothing where the protocol does not tell. What falls as the simulator draws it:
+  // 0 none, 1 its heaviest.
+  std::optional<double> visibility_m, rain_norm, snow_norm;
   double clock_s = 0.0;  // of the simulator
 };
 

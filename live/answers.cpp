@@ -37,6 +37,7 @@ Json status_json(const Status& status) {
       {"packets", status.packets},
       {"bad_packets", bad},
       {"unused_packets", unused},
+      {"host_time", status.host_time.empty() ? Json(nullptr) : Json(status.host_time)},
       {"height_offset_m", status.height_offset_m ? Json(*status.height_offset_m) : Json(nullptr)}};
 }
 

@@ -1,34 +1,31 @@
 #include "live/cigi_ig.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
-#include <cmath>
+#include <chrono>
 
 #include "core/errors.h"
-#include "feeds/aircraft_state.h"
 #include "live/cigi_answers.h"
 #include "live/feed.h"
-#include "terrain/geoid.h"
 
 namespace fanbeam::live {
 namespace {
 
 namespace cigi = feeds::cigi;
 
-constexpr std::int8_t kOwnDatabase = 1, kNoDatabase = -128;
-constexpr std::size_t kMostEntities = 4096, kMostAsked = 1024, kMostPeriodic = 1024;
+constexpr std::int8_t kNoDatabase = -128;
+constexpr std::size_t kMostAsked = 1024, kMostPeriodic = 1024;
 constexpr std::size_t kDatagram_bytes = 1400;  // stays whole on any network
 constexpr std::chrono::seconds kPatience(5);   // with a host that is silent
 
-// Of severity 0 to 5.
-constexpr std::array<double, 6> kRain_mm_per_h{0.0, 1.0, 3.0, 8.0, 20.0, 50.0};
-constexpr std::array<double, 6> kSnow_mm_per_h{0.0, 0.5, 1.0, 2.0, 4.0, 8.0};
+template <class... Each>
+struct Overloaded : Each... {
+  using Each::operator()...;
+};
 
-double by_severity(const std::array<double, 6>& rates, std::uint8_t severity) {
-  return rates[std::min<std::size_t>(severity, rates.size() - 1)];
-}
-
-double marshall_palmer_mm_per_h(double water_g_per_m3) {
-  return std::pow(water_g_per_m3 / 0.072, 1.0 / 0.88);
+void append(std::vector<std::uint8_t>& message, const std::vector<std::uint8_t>& packet) {
+  message.insert(message.end(), packet.begin(), packet.end());
 }
 
 // Later, in numbers that begin again after the largest.
@@ -36,28 +33,16 @@ bool is_later(std::uint32_t frame, std::uint32_t than) {
   return static_cast<std::int32_t>(frame - than) > 0;
 }
 
-core::Attitude enabled(const cigi::ViewControl& view) {
-  const auto part = [&](unsigned bit, double angle_rad) {
-    return (view.enables >> bit & 1U) != 0U ? angle_rad : 0.0;
-  };
-  return {part(3, view.attitude.roll_rad), part(4, view.attitude.pitch_rad),
-          part(5, view.attitude.heading_rad)};
-}
-
-glm::dvec3 enabled_offset_m(const cigi::ViewControl& view) {
-  glm::dvec3 offset_m{0.0};
-  for (int axis = 0; axis < 3; ++axis)
-    if ((view.enables >> axis & 1) != 0) offset_m[axis] = view.offset_m[axis];
-  return offset_m;
-}
-
 }  // namespace
 
-CigiIg::CigiIg(session::Session& session, core::VerticalDatum datum, std::size_t kept)
+CigiIg::CigiIg(session::Session& session, core::VerticalDatum datum, std::size_t kept,
+               const CigiStation& station)
     : session_(session),
       datum_(datum_of(session.scene()->description, datum)),
-      own_{session.scene()->weather, session.scene()->description.surface_state},
-      mailbox_(kept) {}
+      mailbox_(kept),
+      station_(station),
+      entities_(datum_),
+      conditions_(*session.scene()) {}
 
 void CigiIg::turn_away() {
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -107,73 +92,60 @@ void CigiIg::take(std::span<const std::uint8_t> datagram, const std::string& hos
     nonfinite_ += message->nonfinite;
     for (const std::uint8_t id : message->passed_over) ++passed_over_[id];
     const double time_s = control_.timestamp_valid ? 1e-5 * control_.timestamp_10us
-                                                   : seconds_between(begin_, arrived);
+                                                   : seconds_between(station_.begin, arrived);
     for (const cigi::HostPacket& packet : message->packets) take(packet, time_s);
-    if (control_.mode == cigi::Mode::operate) pose = sensor_pose();
+    if (control_.mode == cigi::Mode::operate) pose = entities_.pose(view_, session_.scene()->frame);
   }
   if (pose) mailbox_.put(*pose, {datagram.begin(), datagram.end()}, arrived);
 }
 
+// Reset: what the host says from then on counts, in standby too.
 void CigiIg::enter(cigi::Mode mode) {
-  if (mode == cigi::Mode::operate && control_.mode == cigi::Mode::standby) wanted_ = own_;
   if (mode != cigi::Mode::standby || control_.mode == cigi::Mode::standby) return;
   entities_.clear();
   periodic_.clear();
   asked_.clear();
+  view_ = {};
+  host_time_.clear();
+  conditions_.reset();
 }
 
 void CigiIg::take(const cigi::HostPacket& packet, double time_s) {
-  if (const auto* entity = std::get_if<cigi::EntityControl>(&packet)) {
-    place(*entity, time_s);
-  } else if (const auto* rate = std::get_if<cigi::RateControl>(&packet)) {
-    const auto known = entities_.find(rate->entity);
-    if (rate->of_part || known == entities_.end()) return;
-    known->second.v_N_mps = rate->body_axes ? known->second.pose.q_NB * rate->v_mps : rate->v_mps;
-  } else if (const auto* view = std::get_if<cigi::ViewControl>(&packet)) {
-    view_ = *view;
-  } else if (const auto* layer = std::get_if<cigi::WeatherControl>(&packet)) {
-    set(*layer);
-  } else if (const auto* air = std::get_if<cigi::AtmosphereControl>(&packet)) {
-    if (!air->enabled) return;
-    weather().temperature_C = air->temperature_C;
-    weather().humidity = 0.01 * air->humidity_percent;
-    weather().pressure_hPa = air->pressure_hPa;
-  } else if (const auto* ground = std::get_if<cigi::SurfaceConditions>(&packet)) {
-    if (ground->scope == 0 && ground->condition <= 3)
-      wanted_.surfaces =
-          ground->enabled ? static_cast<materials::SurfaceState>(ground->condition) : own_.surfaces;
-  } else if (const auto* height = std::get_if<cigi::HeightRequest>(&packet)) {
-    ask(*height, height->update_period);
-  } else if (const auto* sight = std::get_if<cigi::SightRequest>(&packet)) {
-    ask(*sight, sight->update_period);
-  }
+  const auto scene = session_.scene();
+  const auto count = [&](std::uint8_t id, bool means_something) {
+    if (!means_something) ++passed_over_[id];
+  };
+  std::visit(
+      Overloaded{
+          [&](const cigi::EntityControl& one) { entities_.place(one, time_s, scene->frame); },
+          [&](const cigi::RateControl& one) { entities_.move(one); },
+          [&](const cigi::ViewControl& one) { view_ = one; },
+          [&](const cigi::ViewDefinition& one) { conditions_.take(one); },
+          [&](const cigi::AtmosphereControl& one) { count(10, conditions_.take(one, *scene)); },
+          [&](const cigi::WeatherControl& one) { count(12, conditions_.take(one, *scene)); },
+          [&](const cigi::SurfaceConditions& one) { count(15, conditions_.take(one)); },
+          [&](const cigi::SensorControl& one) { count(17, conditions_.take(one)); },
+          [&](const cigi::ComponentControl& one) {
+            count(4, conditions_.take(one, control_.host_frame));
+          },
+          [&](const cigi::CelestialControl& one) { count(9, set(one)); },
+          [&](const cigi::HeightRequest& one) { ask(one, one.update_period); },
+          [&](const cigi::SightRequest& one) { ask(one, one.update_period); },
+      },
+      packet);
 }
 
-void CigiIg::place(const cigi::EntityControl& packet, double time_s) {
-  constexpr std::uint8_t kActive = 1;
-  if (packet.state != kActive) {
-    entities_.erase(packet.entity);
-    return;
-  }
-  const bool possible = feeds::is_on_earth(packet.place.x, packet.place.y, packet.place.z);
-  // What is attached to another entity is no aircraft.
-  if (packet.attached || !possible || entities_.size() >= kMostEntities) return;
-  Entity now;
-  now.time_s = time_s;
-  now.pose.position = {packet.place.x, packet.place.y, packet.place.z};
-  now.pose.position.height_m = terrain::ellipsoidal_height_m(now.pose.position, datum_);
-  now.pose.q_NB = core::quaternion_from(packet.attitude);
-  const auto before = entities_.find(packet.entity);
-  constexpr double kMostApart_s = 1.0, kFastest_mps = 2000.0;
-  if (before != entities_.end()) {
-    const double apart_s = time_s - before->second.time_s;
-    const auto scene = session_.scene();
-    const glm::dvec3 moved_m = scene->frame.to_local_m(now.pose.position) -
-                               scene->frame.to_local_m(before->second.pose.position);
-    if (apart_s > 0.0 && apart_s < kMostApart_s && glm::length(moved_m) < kFastest_mps * apart_s)
-      now.pose.v_N_mps = moved_m / apart_s * scene->frame.north_east_down_at(now.pose.position);
-  }
-  entities_[packet.entity] = now;
+bool CigiIg::set(const cigi::CelestialControl& packet) {
+  const std::uint32_t month = packet.date / 1'000'000, day = packet.date / 10'000 % 100,
+                      year = packet.date % 10'000;
+  const std::chrono::year_month_day date{std::chrono::year(static_cast<int>(year)),
+                                         std::chrono::month(month), std::chrono::day(day)};
+  constexpr std::uint8_t kHours = 24, kMinutes = 60;
+  if (!packet.valid || !date.ok() || packet.hour >= kHours || packet.minute >= kMinutes)
+    return false;
+  host_time_ =
+      fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}Z", year, month, day, packet.hour, packet.minute);
+  return true;
 }
 
 void CigiIg::ask(const Question& question, std::uint8_t period) {
@@ -193,122 +165,110 @@ void CigiIg::ask(const Question& question, std::uint8_t period) {
   }
 }
 
-atmosphere::Weather& CigiIg::weather() {
-  if (!wanted_.weather) wanted_.weather = session_.scene()->weather;
-  return *wanted_.weather;
-}
-
-void CigiIg::set(const cigi::WeatherControl& packet) {
-  constexpr std::uint8_t kFog = 0, kRain = 4, kSnow = 5;
-  if (packet.scope != 0 ||
-      (packet.layer != kFog && packet.layer != kRain && packet.layer != kSnow)) {
-    ++passed_over_[12];
-    return;
-  }
-  atmosphere::Weather& now = weather();
-  const double water = packet.enabled ? std::max(packet.aerosol_g_per_m3, 0.0) : 0.0;
-  const std::uint8_t severity = packet.enabled ? packet.severity : std::uint8_t{0};
-  if (packet.layer == kRain) {
-    now.rain_rate_mm_per_h =
-        water > 0.0 ? marshall_palmer_mm_per_h(water) : by_severity(kRain_mm_per_h, severity);
-  } else if (packet.layer == kSnow) {
-    now.snow_rate_mm_per_h = by_severity(kSnow_mm_per_h, severity);
-  } else {
-    now.visibility_m.reset();
-    now.liquid_water_g_per_m3.reset();
-    if (water > 0.0)
-      now.liquid_water_g_per_m3 = water;
-    else if (packet.enabled)
-      now.visibility_m = packet.visibility_m;
-    if (packet.enabled && packet.thickness_m > 0.0)
-      now.fog_top_m =
-          packet.base_m + packet.thickness_m - session_.scene()->weather.origin_height_m;
-  }
-}
-
-std::optional<core::Pose> CigiIg::entity_pose(std::uint16_t entity) const {
-  const auto known = entities_.find(entity);
-  if (known == entities_.end()) return std::nullopt;
-  core::Pose pose = known->second.pose;
-  if (known->second.v_N_mps) pose.v_N_mps = *known->second.v_N_mps;
-  return pose;
-}
-
-std::optional<core::Pose> CigiIg::sensor_pose() const {
-  std::optional<core::Pose> pose = entity_pose(view_.entity);
-  if (!pose) return std::nullopt;
-  const glm::dvec3 offset_m = enabled_offset_m(view_);
-  if (offset_m != glm::dvec3(0.0)) {
-    const auto scene = session_.scene();
-    pose->position = scene->frame.to_geodetic(scene->frame.to_local_m(pose->position) +
-                                              scene->frame.north_east_down_at(pose->position) *
-                                                  (pose->q_NB * offset_m));
-  }
-  pose->q_NB = pose->q_NB * core::quaternion_from(enabled(view_));
-  return pose;
-}
-
 std::vector<std::uint8_t> CigiIg::answer(const scenes::Scene& scene, const Asked& asked) const {
   if (const auto* height = std::get_if<cigi::HeightRequest>(&asked.question))
-    return cigi::height_response(height_answer(scene, datum_, *height, entity_pose(height->entity)),
-                                 asked.host_frame);
+    return cigi::height_response(
+        height_answer(scene, datum_, *height, entities_.pose(height->entity)), asked.host_frame);
   const auto& sight = std::get<cigi::SightRequest>(asked.question);
-  return cigi::sight_response(sight_answer(scene, datum_, sight, entity_pose(sight.entity)),
+  return cigi::sight_response(sight_answer(scene, datum_, sight, entities_.pose(sight.entity)),
                               asked.host_frame);
 }
 
-void CigiIg::apply(const Wanted& wanted) {
-  try {
-    if (wanted.weather) session_.set(*wanted.weather);
-    if (wanted.surfaces) session_.set(*wanted.surfaces);
-  } catch (const core::InputError& error) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    refusal_ = core::to_string(error.problems().front());
-  }
+// Of what is refused the host is told; what came with it is in force all the same.
+void CigiIg::apply(CigiConditions::Changes& changes) {
+  const auto try_to = [&](const auto& set) {
+    try {
+      set();
+      return true;
+    } catch (const core::InputError& error) {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      refusal_ = core::to_string(error.problems().front());
+      return false;
+    }
+  };
+  if (changes.weather) try_to([&] { session_.set(*changes.weather); });
+  if (changes.surfaces) try_to([&] { session_.set(*changes.surfaces); });
+  if (changes.sensor && !try_to([&] { session_.set(*changes.sensor); })) changes.events.clear();
+}
+
+std::int8_t CigiIg::wanted_database() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return control_.database == 0 ? station_.database : control_.database;
+}
+
+void CigiIg::refuse_database(std::int8_t number, const std::string& why) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  std::erase(station_.others, number);
+  refusal_ = why;
+}
+
+CigiStation CigiIg::station() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return station_;
+}
+
+std::int8_t CigiIg::told_database() const {
+  const std::int8_t wanted = control_.database;
+  if (wanted == 0 || wanted == station_.database) return station_.database;
+  const auto& others = station_.others;
+  const bool opens = std::find(others.begin(), others.end(), wanted) != others.end();
+  return opens ? static_cast<std::int8_t>(-wanted) : kNoDatabase;
 }
 
 std::vector<std::uint8_t> CigiIg::start_of_frame(Clock::time_point now) {
   cigi::StartOfFrame told;
-  const bool ours = control_.database == 0 || control_.database == kOwnDatabase;
-  told.database = ours ? kOwnDatabase : kNoDatabase;
+  told.database = told_database();
   told.mode = control_.mode;
   told.minor_version = std::min<std::uint8_t>(control_.minor_version, 3);
-  told.ig_frame = ++ig_frame_;
+  told.ig_frame = ++station_.ig_frame;
   told.timestamp_10us = static_cast<std::uint32_t>(
-      static_cast<std::uint64_t>(1e5 * seconds_between(begin_, now)) & 0xffffffffU);
+      static_cast<std::uint64_t>(1e5 * seconds_between(station_.begin, now)) & 0xffffffffU);
   told.last_host_frame = control_.host_frame;
   return cigi::start_of_frame(told);
 }
 
+std::vector<std::uint8_t> CigiIg::answers(const scenes::Scene& scene, std::size_t room_bytes) {
+  constexpr std::size_t kLargestAnswer_bytes = 56;
+  for (auto& [key, periodic] : periodic_)
+    if (station_.ig_frame % periodic.second == 0 && asked_.size() < kMostAsked)
+      asked_.push_back({periodic.first.question, control_.host_frame});
+  std::vector<std::uint8_t> all;
+  while (!asked_.empty() && all.size() + kLargestAnswer_bytes <= room_bytes) {
+    append(all, answer(scene, asked_.front()));
+    asked_.pop_front();
+  }
+  return all;
+}
+
 std::vector<std::uint8_t> CigiIg::begin_frame(Clock::time_point now) {
-  Wanted wanted;
+  CigiConditions::Changes changes;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    std::swap(wanted, wanted_);
+    changes = conditions_.changes();
   }
-  apply(wanted);
+  apply(changes);
   const auto scene = session_.scene();
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<std::uint8_t> message = start_of_frame(now);
-  const auto append = [&](const std::vector<std::uint8_t>& packet) {
-    message.insert(message.end(), packet.begin(), packet.end());
-  };
-  if (!refusal_.empty()) append(cigi::ig_message(1, refusal_));
+  if (!refusal_.empty()) append(message, cigi::ig_message(1, refusal_));
   refusal_.clear();
-  for (auto& [key, periodic] : periodic_)
-    if (ig_frame_ % periodic.second == 0 && asked_.size() < kMostAsked)
-      asked_.push_back({periodic.first.question, control_.host_frame});
-  constexpr std::size_t kLargestAnswer_bytes = 56;
-  while (!asked_.empty() && message.size() + kLargestAnswer_bytes <= kDatagram_bytes) {
-    append(answer(*scene, asked_.front()));
-    asked_.pop_front();
-  }
+  for (const cigi::Event& event : changes.events) append(message, cigi::event_notification(event));
+  if (conditions_.response())
+    append(message, cigi::sensor_response(*conditions_.response(), control_.host_frame));
+  append(message, answers(*scene, kDatagram_bytes - message.size()));
   return message;
+}
+
+void CigiIg::dress(LiveFrame& frame) const {
+  const auto scene = session_.scene();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  show(conditions_.view(), scene->description.sensor, frame);
 }
 
 void CigiIg::tell(Status& status) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   status.packets = messages_;
+  status.host_time = host_time_;
   status.bad_packets.clear();
   const auto add = [&](std::string reason, std::uint64_t count) {
     if (count > 0) status.bad_packets.emplace_back(std::move(reason), count);

@@ -4,13 +4,10 @@
 //
 // Pose: entity 0, or the entity that the last View Control names, with that packet's offset and
 // angles. Velocity is that of Rate Control, else what the last two places were apart, over the host's
-// timestamps where it has them. Only in mode operate; standby lets the picture stand, and operate after
-// it begins with the scene's own weather and ground again (reset).
-// Weather: ground fog (layer 0), rain (4) and snow (5) of Weather Control with scope global. Water in
-// g/m3 counts where it is above 0: of fog itself, of rain by Marshall and Palmer (1948) in the form
-// W = 0.072 R^0.88 (R in mm/h). Else fog has its visibility, and rain and snow a rate by severity 1 to 5:
-// rain 1, 3, 8, 20, 50, snow 0.5, 1, 2, 4, 8 mm/h. Atmosphere Control sets temperature, humidity and
-// pressure. Terrestrial Surface Conditions with scope global: 0 dry, 1 wet, 2 dry snow, 3 wet snow.
+// timestamps where it has them. Only in mode operate; standby lets the picture stand, and going there
+// forgets what the host said: entities, questions, weather, ground, sensor and view are the scene's own.
+// Date and time of its world go into the status; the radar sees no sun.
+// Weather, ground, sensor and view: live/cigi_conditions.h.
 // Questions (cigi_answers.h) are answered in the next frame, periodic ones again and again; at most
 // what one datagram holds, the others in the frames after. Packets with no meaning here are counted by
 // name.
@@ -33,17 +30,28 @@
 
 #include "feeds/cigi/host_packets.h"
 #include "feeds/cigi/ig_packets.h"
+#include "live/cigi_conditions.h"
+#include "live/cigi_entities.h"
 #include "live/hub.h"
 #include "live/mailbox.h"
 #include "session/session.h"
 
 namespace fanbeam::live {
 
+// What stays while a host switches scenes.
+struct CigiStation {
+  std::int8_t database = 1;           // that is open
+  std::vector<std::int8_t> others{};  // that may be asked for
+  std::uint32_t ig_frame = 0;
+  Clock::time_point begin = Clock::now();  // of timestamps
+};
+
 class CigiIg {
  public:
-  // The scene's own database is number 1; a host that asks for another is told -128. `kept`:
-  // live/mailbox.h. `session` must outlive it.
-  CigiIg(session::Session& session, core::VerticalDatum datum, std::size_t kept = Mailbox::kKept);
+  // A host that asks for one of the station's other databases is told its number, negative, until it
+  // is open; for any other -128. `kept`: live/mailbox.h. `session` must outlive it.
+  CigiIg(session::Session& session, core::VerticalDatum datum, std::size_t kept = Mailbox::kKept,
+         const CigiStation& station = {});
 
   // Any bytes. `host`: who sent them.
   void take(std::span<const std::uint8_t> datagram, const std::string& host,
@@ -57,6 +65,13 @@ class CigiIg {
   // What the host asked for in weather and surfaces comes into force, then the message of a frame at
   // `now`: start of frame first. Call it before each frame.
   std::vector<std::uint8_t> begin_frame(Clock::time_point now = Clock::now());
+  // The number that the host asks for; the open one's where it leaves the choice to us.
+  std::int8_t wanted_database() const;
+  // It cannot be opened: the host is told so, and why.
+  void refuse_database(std::int8_t number, const std::string& why);
+  CigiStation station() const;
+  // What the host wants to see of a frame, before it is shown.
+  void dress(LiveFrame& frame) const;
   void tell(Status& status) const;
 
  private:
@@ -65,48 +80,34 @@ class CigiIg {
     Question question;
     std::uint32_t host_frame = 0;
   };
-  struct Entity {
-    core::Pose pose;
-    double time_s = 0.0;
-    std::optional<glm::dvec3> v_N_mps;  // told
-  };
-  // What was asked of the conditions since the last frame.
-  struct Wanted {
-    std::optional<atmosphere::Weather> weather;
-    std::optional<materials::SurfaceState> surfaces;
-  };
-
   bool follows(const feeds::cigi::IgControl& control, const std::string& host,
                Clock::time_point arrived);
   void enter(feeds::cigi::Mode mode);
   void take(const feeds::cigi::HostPacket& packet, double time_s);
-  void place(const feeds::cigi::EntityControl& packet, double time_s);
+  bool set(const feeds::cigi::CelestialControl& packet);
   void ask(const Question& question, std::uint8_t period);
-  atmosphere::Weather& weather();
-  void set(const feeds::cigi::WeatherControl& packet);
-  std::optional<core::Pose> sensor_pose() const;
-  std::optional<core::Pose> entity_pose(std::uint16_t entity) const;
   std::vector<std::uint8_t> answer(const scenes::Scene& scene, const Asked& asked) const;
-  void apply(const Wanted& wanted);
+  void apply(CigiConditions::Changes& changes);
+  std::vector<std::uint8_t> answers(const scenes::Scene& scene, std::size_t room_bytes);
+  std::int8_t told_database() const;
   std::vector<std::uint8_t> start_of_frame(Clock::time_point now);
 
   session::Session& session_;
   core::VerticalDatum datum_;
-  Wanted own_;  // of the scene
-  Clock::time_point begin_ = Clock::now();
   Mailbox mailbox_;
 
   mutable std::mutex mutex_;
   std::string host_;
   std::optional<Clock::time_point> heard_;
   feeds::cigi::IgControl control_{};
-  std::uint32_t ig_frame_ = 0;
-  std::map<std::uint16_t, Entity> entities_;
+  CigiStation station_;
+  CigiEntities entities_;
   feeds::cigi::ViewControl view_{};
   std::deque<Asked> asked_;
   std::map<std::pair<std::size_t, std::uint16_t>, std::pair<Asked, std::uint8_t>> periodic_;
-  Wanted wanted_;
-  std::string refusal_;  // to be told
+  CigiConditions conditions_;
+  std::string host_time_;  // that it says it is there, ISO 8601
+  std::string refusal_;    // to be told
   std::uint64_t messages_ = 0, foreign_ = 0, late_ = 0, nonfinite_ = 0, unanswered_ = 0;
   std::array<std::uint64_t, 6> faults_{};
   std::array<std::uint64_t, 256> passed_over_{};

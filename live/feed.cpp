@@ -48,6 +48,16 @@ void Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrive
   newest_ = state;
 }
 
+void Feed::tell_visibility(double visibility_m) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  visibility_m_ = visibility_m;
+}
+
+void Feed::tell_rain(double norm) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  rain_norm_ = norm;
+}
+
 void Feed::turn_away() { count(feeds::PacketFault::foreign); }
 
 void Feed::count(feeds::PacketFault fault) {
@@ -66,7 +76,10 @@ void Feed::compare_heights(const core::Pose& pose, double told_m) {
 
 std::optional<feeds::AircraftState> Feed::newest() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return newest_;
+  std::optional<feeds::AircraftState> state = newest_;
+  if (state && visibility_m_) state->visibility_m = visibility_m_;
+  if (state && rain_norm_) state->rain_norm = rain_norm_;
+  return state;
 }
 
 void Feed::tell(Status& status) const {

@@ -40,6 +40,9 @@ class Feed {
   void take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
   // One that nobody asked for: counted.
   void turn_away();
+  // Of a simulator that tells its weather apart from its packets.
+  void tell_visibility(double visibility_m);
+  void tell_rain(double norm);
   // Its pose, above the ellipsoid; nothing for bytes that are no packet. Leaves the mailbox alone.
   std::optional<core::Pose> pose_in(std::span<const std::uint8_t> datagram) const;
   const Mailbox& mailbox() const { return mailbox_; }
@@ -60,6 +63,7 @@ class Feed {
   Mailbox mailbox_;
   mutable std::mutex mutex_;
   std::optional<feeds::AircraftState> newest_;
+  std::optional<double> visibility_m_, rain_norm_;  // told apart
   std::uint64_t packets_ = 0;
   std::array<std::uint64_t, feeds::kPacketFaults> bad_{};
   std::deque<double> offsets_m_;  // the simulator's height above ground less ours

@@ -42,6 +42,7 @@ std::shared_ptr<LiveFrame> FrameMaker::rendered(const session::Session::Moment& 
   auto frame = std::make_shared<LiveFrame>();
   frame->bscope = sensors::bscope_picture(scene->description.sensor, made.bscope_grey);
   frame->cscope = sensors::cscope_picture(scene->description.sensor, made.cscope_grey);
+  if (settings_.keep_received) frame->received_W = made.received_W();
   frame->outside_volume =
       std::find(made.events.begin(), made.events.end(), "outside_volume") != made.events.end();
   return frame;
@@ -74,6 +75,7 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   frame->pose_age_ms = status_.pose_age_ms;
   tell(frame_s, processor_s() - spent_s);
   const bool outside = frame->outside_volume;
+  if (settings_.dress) settings_.dress(*frame);
   hub_.publish(std::move(frame));
   return Made{frame_s, outside};
 }

@@ -21,6 +21,9 @@ struct ChannelSettings {
   Clock::time_point begin = Clock::now();
   Journal* journal = nullptr;
   unsigned threads = std::thread::hardware_concurrency();  // that frames may take
+  // What is done to a frame before it is shown; none: nothing.
+  std::function<void(LiveFrame&)> dress{};
+  bool keep_received = false;  // LiveFrame::received_W
   // Processor time that this process spent on other things than frames, s; none: it does not.
   std::function<double()> beside_s{};
 };

@@ -29,6 +29,8 @@ struct LiveFrame {
   core::Pose pose;                   // of the frame's middle
   session::Session::Moment under{};  // conditions
   core::Picture8 bscope, cscope;
+  std::vector<double>
+      received_W{};      // of the B-scope's cells, near row first; where a sink wants it
   double samples = 0.0;  // as fanbeam render --rays-per-cell takes it
   double frame_ms = 0.0;
   double pose_age_ms = 0.0;               // between the pose's arrival and the frame's beginning
@@ -44,6 +46,7 @@ struct Status {
   std::uint64_t late_by_processor = 0;
   std::uint64_t refused = 0;                // poses that nothing can be rendered at
   std::string refusal;                      // the last one's words
+  std::string host_time;                    // that a CIGI host says it is there; empty: none told
   double wanted_Hz = 0.0, rate_Hz = 0.0;    // rate: of the last two seconds
   double frame_ms = 0.0, slowest_ms = 0.0;  // the last one, the slowest of two seconds
   double processor_ms = 0.0;                // of the last one, all threads

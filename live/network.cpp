@@ -104,6 +104,16 @@ std::string sender(const udp::endpoint& from) {
   return asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
 }
 
+// On the network that the system chooses, and within this machine.
+void join(udp::socket& socket, const asio::ip::address& group, error_code& error) {
+  socket.set_option(asio::ip::multicast::join_group(group), error);
+  if (!group.is_v4()) return;
+  error_code within;
+  socket.set_option(
+      asio::ip::multicast::join_group(group.to_v4(), asio::ip::address_v4::loopback()), within);
+  if (!within) error = within;
+}
+
 [[noreturn]] void refuse_port(const Endpoint& endpoint, const error_code& error) {
   core::throw_input_error(core::ErrorClass::io,
                           core::Place{endpoint.address + ":" + std::to_string(endpoint.port)}, "",
@@ -199,7 +209,8 @@ Network::Network(const Desk& desk, Hub& hub) : inside_(std::make_unique<Inside>(
 
 Network::~Network() {
   inside_->hub.on_frame({});
-  inside_->context.stop();
+  // Behind what was sent last.
+  asio::post(inside_->context, [inside = inside_.get()] { inside->context.stop(); });
   if (inside_->thread.joinable()) inside_->thread.join();
 }
 
@@ -222,7 +233,11 @@ std::uint16_t Network::receive(const Endpoint& endpoint, Datagram datagram, Peer
   udp::socket socket(inside_->context);
   error_code error;
   socket.open(at.protocol(), error);
+  // Others on this machine may listen to the group too.
+  const bool group = at.address().is_multicast();
+  if (!error && group) socket.set_option(udp::socket::reuse_address(true), error);
   if (!error) socket.bind(at, error);
+  if (!error && group) join(socket, at.address(), error);
   if (error) refuse_port(endpoint, error);
   auto receiver = std::make_unique<Inside::Receiver>(
       Inside::Receiver{std::move(socket), std::move(datagram), std::move(peers)});

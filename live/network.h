@@ -58,7 +58,7 @@ class Network {
 
   // Both before start(). Throw InputError E-IO when the port is taken. Give the port.
   std::uint16_t serve(const Endpoint& endpoint);
-  // Called on the thread.
+  // Called on the thread. An endpoint of multicast is a group that is joined.
   using Datagram = std::function<void(std::span<const std::uint8_t>, const Sender&)>;
   std::uint16_t receive(const Endpoint& endpoint, Datagram datagram, Peers peers = {});
 

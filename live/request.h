@@ -16,7 +16,7 @@ struct Answer {
   int status = 200;
   std::string type = "application/json";
   std::string body;
-  std::string location, set_cookie;  // headers, where they are not empty
+  std::string location{}, set_cookie{};  // headers, where they are not empty
 };
 
 // {"error": why}

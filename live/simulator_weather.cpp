@@ -29,8 +29,8 @@ std::string weather_body(const feeds::AircraftState& state) {
   if (rain < kLeast_mm_per_h || snow > rain) rain = 0.0;
   if (snow < kLeast_mm_per_h || rain > 0.0) snow = 0.0;
   Json body{{"rain_rate_mm_per_h", rain}, {"snow_rate_mm_per_h", snow}};
-  if (state.visibility_m < kFog_m)
-    body["visibility_m"] = std::max(kThickest_m, rounded(state.visibility_m));
+  if (state.visibility_m && *state.visibility_m < kFog_m)
+    body["visibility_m"] = std::max(kThickest_m, rounded(*state.visibility_m));
   return body.dump();
 }
 

@@ -176,6 +176,12 @@ struct TrajectoryDescription {
   core::Place place;
 };
 
+// [[database]]: another scene that a CIGI host of fanbeam live may switch to by its number.
+struct DatabaseDescription {
+  int number = 0;     // 2 to 127; this scene is 1
+  std::string scene;  // a folder beside this scene's, or a shipped scene's name
+};
+
 // [flight_volume]: heights in the scene's datum that an aircraft may have.
 struct FlightHeights {
   std::optional<double> lowest_m, highest_m;
@@ -205,6 +211,7 @@ struct SceneDescription {
   materials::SurfaceState surface_state = materials::SurfaceState::dry;
   TrajectoryDescription trajectory;
   FlightHeights flight_heights;
+  std::vector<DatabaseDescription> databases;
   // Of the scene's [accuracy]; 0 when it does not say.
   double rays_per_cell = 0.0, accuracy_grey = 0.0, time_budget_ms = 0.0;
   renderer::CasterWish caster = renderer::CasterWish::automatic;

@@ -218,6 +218,23 @@ void list_files(SceneDescription& scene) {
     scene.files.push_back(buildings.file);
 }
 
+void read_databases(ConfigTable& root, SceneDescription& scene) {
+  constexpr std::size_t kMost = 126;
+  for (ConfigTable& table : root.tables("database", kMost)) {
+    const int number = static_cast<int>(table.integer("number", 2, 127, 2));
+    if (!table.has("number"))
+      table.error(core::ErrorClass::ref, "number", "missing", "2 to 127; this scene is number 1");
+    const std::string name = table.required_text("scene");
+    if (!name.empty() && !core::is_safe_word(name))
+      table.error(core::ErrorClass::range, "scene", "\"" + name + "\"",
+                  "the name of a folder beside this scene's, or of a shipped scene");
+    const auto same = [&](const DatabaseDescription& one) { return one.number == number; };
+    if (table.has("number") && std::any_of(scene.databases.begin(), scene.databases.end(), same))
+      table.error(core::ErrorClass::ref, "number", std::to_string(number), "a number of its own");
+    scene.databases.push_back({number, name});
+  }
+}
+
 }  // namespace
 
 SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
@@ -243,6 +260,7 @@ SceneDescription read_scene(const fs::path& path, const SceneOptions& options,
   read_trajectory(root, search, scene);
   read_display(root, scene.sensor.range, scene.sensor.display);
   read_accuracy(root.table("accuracy"), scene);
+  read_databases(root, scene);
   scene.material_library = root.has("material_library")
                                ? search.find(root, "material_library")
                                : options.shipped / "materials" / "library.toml";

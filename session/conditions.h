@@ -32,6 +32,7 @@ struct SensorSettings {
   std::optional<bool> stabilised{};
   std::optional<double> low_dB{}, high_dB{};  // of the display's window, low below high
   std::optional<sensors::Display::CScopeMode> cscope_mode{};
+  std::optional<double> noise_figure{};  // of the receiver, linear, 1 to 1e6
 };
 
 // Rays, or slices, per range cell and column: the same for every frame. 0: the caster's default.

@@ -74,6 +74,10 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
     sensor.display.cscope_top_rad += tilt_rad - sensor.antenna.boresight_elevation_rad;
     sensor.antenna.boresight_elevation_rad = tilt_rad;
   }
+  if (settings.noise_figure) {
+    core::check_range(problems, "noise_figure", *settings.noise_figure, {1.0, 1e6});
+    sensor.receiver.noise_figure = *settings.noise_figure;
+  }
   sensors::Display& display = sensor.display;
   sensor.scan.stabilised = settings.stabilised.value_or(sensor.scan.stabilised);
   display.cscope_mode = settings.cscope_mode.value_or(display.cscope_mode);

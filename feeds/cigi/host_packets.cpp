@@ -81,6 +81,54 @@ HostPacket weather_control(Fields& f) {
   return packet;
 }
 
+HostPacket view_definition(Fields& f) {
+  ViewDefinition packet;
+  packet.enables = f.bits(5, 0, 6);
+  packet.near_m = f.number32(8);
+  packet.far_m = f.number32(12);
+  packet.left_rad = angle_at(f, 16);
+  packet.right_rad = angle_at(f, 20);
+  packet.top_rad = angle_at(f, 24);
+  packet.bottom_rad = angle_at(f, 28);
+  return packet;
+}
+
+HostPacket sensor_control(Fields& f) {
+  SensorControl packet;
+  packet.view = f.at<std::uint16_t>(2);
+  packet.sensor = f.byte(4);
+  packet.on = f.bits(5, 0) != 0;
+  packet.black_hot = f.bits(5, 1) != 0;
+  packet.line_dropout = f.bits(5, 2) != 0;
+  packet.automatic_gain = f.bits(5, 3) != 0;
+  packet.track_mode = f.bits(5, 5, 3);
+  packet.extended_response = f.bits(6, 0) != 0;
+  packet.gain = f.number32(8);
+  packet.level = f.number32(12);
+  packet.noise = f.number32(20);
+  return packet;
+}
+
+template <std::size_t Words>
+HostPacket component_control(Fields& f) {
+  ComponentControl packet;
+  packet.component = f.at<std::uint16_t>(2);
+  packet.instance = f.at<std::uint16_t>(4);
+  packet.of = f.bits(6, 0, 6);
+  packet.state = f.byte(7);
+  for (std::size_t i = 0; i < Words; ++i) packet.words[i] = f.at<std::uint32_t>(8 + 4 * i);
+  return packet;
+}
+
+HostPacket celestial_control(Fields& f) {
+  CelestialControl packet;
+  packet.hour = f.byte(2);
+  packet.minute = f.byte(3);
+  packet.valid = f.bits(4, 4) != 0;
+  packet.date = f.at<std::uint32_t>(8);
+  return packet;
+}
+
 HostPacket surface_conditions(Fields& f) {
   SurfaceConditions packet;
   packet.condition = f.at<std::uint16_t>(4);
@@ -142,12 +190,12 @@ constexpr Kind kKinds[] = {
     {kIgControl, kIgControl_bytes, "ig_control", nullptr},
     {2, 48, "entity_control", entity_control},
     {3, 24, "conformal_clamped_entity_control", nullptr},
-    {4, 32, "component_control", nullptr},
-    {5, 16, "short_component_control", nullptr},
+    {4, 32, "component_control", component_control<6>},
+    {5, 16, "short_component_control", component_control<2>},
     {6, 32, "articulated_part_control", nullptr},
     {7, 16, "short_articulated_part_control", nullptr},
     {8, 32, "rate_control", rate_control},
-    {9, 16, "celestial_sphere_control", nullptr},
+    {9, 16, "celestial_sphere_control", celestial_control},
     {10, 32, "atmosphere_control", atmosphere_control},
     {11, 48, "environmental_region_control", nullptr},
     {12, 56, "weather_control", weather_control},
@@ -155,11 +203,11 @@ constexpr Kind kKinds[] = {
     {14, 32, "wave_control", nullptr},
     {15, 8, "terrestrial_surface_conditions_control", surface_conditions},
     {16, 32, "view_control", view_control},
-    {17, 24, "sensor_control", nullptr},
+    {17, 24, "sensor_control", sensor_control},
     {18, 8, "motion_tracker_control", nullptr},
     {19, 24, "earth_reference_model_definition", nullptr},
     {20, 24, "trajectory_definition", nullptr},
-    {21, 32, "view_definition", nullptr},
+    {21, 32, "view_definition", view_definition},
     {22, 40, "collision_detection_segment_definition", nullptr},
     {23, 48, "collision_detection_volume_definition", nullptr},
     {24, 32, "hat_hot_request", height_request},

@@ -71,6 +71,36 @@ struct WeatherControl {
   double visibility_m = 0.0, base_m = 0.0, thickness_m = 0.0, aerosol_g_per_m3 = 0.0;
 };
 
+// Which part of the field of view is wanted.
+struct ViewDefinition {
+  std::uint8_t enables = 0;  // bits: near, far, left, right, top, bottom
+  double near_m = 0.0, far_m = 0.0;
+  double left_rad = 0.0, right_rad = 0.0, top_rad = 0.0, bottom_rad = 0.0;
+};
+
+struct SensorControl {
+  std::uint16_t view = 0;
+  std::uint8_t sensor = 0;
+  bool on = false, black_hot = false, line_dropout = false, automatic_gain = false;
+  std::uint8_t track_mode = 0;  // 0 off
+  bool extended_response = false;
+  double gain = 0.0, level = 0.0, noise = 0.0;  // 0 to 1
+};
+
+// A switch that the image generator defines; of a short packet four words are 0.
+struct ComponentControl {
+  std::uint16_t component = 0, instance = 0;
+  std::uint8_t of = 0;  // 0 entity, 1 view, 2 view group, 3 sensor, ...
+  std::uint8_t state = 0;
+  std::array<std::uint32_t, 6> words{};
+};
+
+struct CelestialControl {
+  bool valid = false;  // date and time are to be taken
+  std::uint8_t hour = 0, minute = 0;
+  std::uint32_t date = 0;  // MMDDYYYY in decimal digits
+};
+
 struct SurfaceConditions {
   std::uint16_t condition = 0;
   bool enabled = false;
@@ -102,8 +132,9 @@ struct SightRequest {
   double azimuth_rad = 0.0, elevation_rad = 0.0, least_m = 0.0, most_m = 0.0;
 };
 
-using HostPacket = std::variant<EntityControl, RateControl, ViewControl, AtmosphereControl,
-                                WeatherControl, SurfaceConditions, HeightRequest, SightRequest>;
+using HostPacket = std::variant<EntityControl, RateControl, ViewControl, ViewDefinition,
+                                AtmosphereControl, WeatherControl, SurfaceConditions, SensorControl,
+                                ComponentControl, CelestialControl, HeightRequest, SightRequest>;
 
 enum class MessageFault { none, length, version, order, size, first };
 const char* name_of(MessageFault fault);

@@ -80,6 +80,23 @@ Bytes sight_response(const SightResponse& told, std::uint32_t host_frame, bool s
       .bytes();
 }
 
+Bytes sensor_response(const SensorResponse& told, std::uint32_t host_frame, bool swap) {
+  return Packet(told.extended ? 107 : 106, told.extended ? 48 : 24, swap)
+      .put(2, told.view)
+      .put(4, told.sensor)
+      .put(20, host_frame)
+      .bytes();
+}
+
+Bytes event_notification(const Event& told, bool swap) {
+  return Packet(116, 16, swap)
+      .put(2, told.event)
+      .put(4, told.data[0])
+      .put(8, told.data[1])
+      .put(12, told.data[2])
+      .bytes();
+}
+
 Bytes ig_message(std::uint16_t number, std::string_view text, bool swap) {
   constexpr std::size_t kMost = 100;
   text = text.substr(0, kMost);

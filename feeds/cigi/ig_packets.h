@@ -44,10 +44,26 @@ struct SightResponse {
   double normal_azimuth_rad = 0.0, normal_elevation_rad = 0.0;
 };
 
+// Of a sensor that tracks nothing: it searches, without a gate.
+struct SensorResponse {
+  std::uint16_t view = 0;
+  std::uint8_t sensor = 0;
+  bool extended = false;
+};
+
+// Something that the host asked for is in force; what data mean is the image generator's to define.
+struct Event {
+  std::uint16_t event = 0;
+  std::array<std::uint32_t, 3> data{};
+};
+
 Bytes start_of_frame(const StartOfFrame& told, bool swap = false);
 // `host_frame`: that of the request, of which the lowest four bits go into the answer.
 Bytes height_response(const HeightResponse& told, std::uint32_t host_frame, bool swap = false);
 Bytes sight_response(const SightResponse& told, std::uint32_t host_frame, bool swap = false);
+// `host_frame`: that whose sensor control the picture shows.
+Bytes sensor_response(const SensorResponse& told, std::uint32_t host_frame, bool swap = false);
+Bytes event_notification(const Event& told, bool swap = false);
 // Text beyond 100 bytes is cut.
 Bytes ig_message(std::uint16_t number, std::string_view text, bool swap = false);
 

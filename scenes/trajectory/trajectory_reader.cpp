@@ -21,14 +21,15 @@ void read_packets(ConfigTable& table, const std::filesystem::path& file, TrackPa
   if (!table.has("protocol")) {
     if (capture)
       table.error(core::ErrorClass::ref, "protocol", "missing",
-                  "\"native-fdm\" or \"fg-generic\": whose packets the capture holds");
+                  "\"native-fdm\", \"fg-generic\" or \"xplane\": whose packets the capture holds");
     if (table.has("port"))
       table.error(core::ErrorClass::ref, "port", "without a protocol", "protocol beside it");
     return;
   }
-  static_assert(feeds::kProtocols.size() == 2, "all of them are named here");
+  static_assert(feeds::kProtocols.size() == 3, "all of them are named here");
   packets.protocol = &feeds::kProtocols[table.choice(
-      "protocol", {feeds::kProtocols[0].name, feeds::kProtocols[1].name}, 0)];
+      "protocol", {feeds::kProtocols[0].name, feeds::kProtocols[1].name, feeds::kProtocols[2].name},
+      0)];
   if (table.has("port"))
     packets.port = static_cast<std::uint16_t>(table.integer("port", 1, 65535, 1));
   if (table.has("columns"))

@@ -7,6 +7,7 @@ import json
 import math
 import os
 import re
+import shutil
 import socket
 import struct
 import subprocess
@@ -33,9 +34,9 @@ class Host:
     def pack(self, layout, *values):
         return struct.pack(self.order + layout, *values)
 
-    def send(self, *packets, mode=OPERATE):
+    def send(self, *packets, mode=OPERATE, database=1):
         self.frame += 1
-        head = self.pack("BBBbBBHIIII", 1, 24, 3, 1, mode, 0, 0x8000, self.frame, 0, self.ig_frame, 0)
+        head = self.pack("BBBbBBHIIII", 1, 24, 3, database, mode, 0, 0x8000, self.frame, 0, self.ig_frame, 0)
         message = head + b"".join(packets)
         self.wire.sendto(message, ("127.0.0.1", self.port))
         self.keep(message, self.wire.getsockname()[1], self.port)
@@ -74,15 +75,17 @@ class Host:
 
 
 class Cigi(unittest.TestCase):
-    def start(self, *options, order="<"):
+    def start(self, *options, order="<", scene="braunschweig-26"):
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
             one.bind(("127.0.0.1", 0))
             port = one.getsockname()[1]
-        live = subprocess.Popen([FANBEAM, "live", "braunschweig-26", "--http", "0", "--rays-per-cell", "0.5", "--from",
+        live = subprocess.Popen([FANBEAM, "live", scene, "--http", "0", "--rays-per-cell", "0.5", "--from",
                                  f"cigi:{port},datum=ellipsoid", *options], stdout=subprocess.PIPE, text=True)
         self.addCleanup(self.end, live)
         self.url = re.search(r"http://\S+", live.stdout.readline()).group(0)
-        return Host(port, order)
+        host = Host(port, order)
+        self.addCleanup(host.wire.close)
+        return host
 
     def end(self, live):
         live.terminate()
@@ -100,7 +103,6 @@ class Cigi(unittest.TestCase):
                 math.sin(i), -3.0, 264.0 + math.cos(i))
 
     def tshark(self, host, *fields):
-        host.wire.close()
         with tempfile.NamedTemporaryFile(suffix=".pcap") as file:
             host.write(file)
             self.assertEqual(self.read(file.name, ["-Y", "_ws.malformed || _ws.expert"]), "")
@@ -175,6 +177,78 @@ class Cigi(unittest.TestCase):
             time.sleep(0.2)
         self.assertEqual(self.asked("api/weather")["rain_rate_mm_per_h"], 20)
         self.assertEqual(self.asked("api/status")["unused_packets"], {"user_defined (201)": 1})
+
+    def test_sensor_view_switches_and_time(self):
+        for order in ("<", ">"):
+            host = self.start("--lockstep", order=order)
+            self.ports = [host.port]
+            with urllib.request.urlopen(f"{self.url}frames", timeout=60) as frames:
+                host.send(host.entity(*self.approach(0)),
+                          host.pack("BBHBBBBffff", 17, 24, 1, 3, 1 | 2 << 5, 0, 0, 0.75, 0.25, 0.0, 0.5),
+                          host.pack("BBHBBBBffffff", 21, 32, 1, 0, 3, 0, 0, 1000.0, 2000.0, 0.0, 0.0, 0.0, 0.0),
+                          host.pack("BBHHBBfIIIII", 4, 32, 1, 7, 3, 1, -5.0, 0, 0, 0, 0, 0),
+                          host.pack("BBHHBBII", 5, 16, 2, 7, 3, 0, 0, 0),
+                          host.pack("BBBBBBHIf", 9, 16, 14, 5, 16, 0, 0, 11252026, 0.0))
+                told = {}
+                while not {106, 116} <= told.keys():
+                    told.update((packet[0], packet) for packet in host.receive())
+                # In force with the frame after.
+                host.send(host.entity(*self.approach(1)))
+                for _ in range(2):
+                    head, pictures = frames.read(int.from_bytes(frames.read(4), "little")).split(b"\n", 1)
+                columns, rows = json.loads(head)["bscope"]
+            # The view is from 1000 to 2000 m: cells of 6.67 m from 200 m on, the top row the farthest.
+            lit = {row for row in range(rows) if any(pictures[row * columns : (row + 1) * columns])}
+            self.assertGreater(len(lit), 100)
+            self.assertTrue(all(1000 <= 200 + 6.67 * (rows - row - 0.5) <= 2000 for row in lit))
+            self.assertEqual(self.asked("api/status")["host_time"], "2026-11-25T14:05Z")
+            self.assertAlmostEqual(self.asked("api/sensor")["tilt_deg"], -5.0, places=6)
+            rows = self.tshark(host, "cigi.event_notification.event_id", "cigi.event_notification.data_1",
+                               "cigi.sensor_response.view_id", "cigi.sensor_response.frame_ctr", "cigi.sensor_control.gain",
+                               "cigi.view_def.far", "cigi.celestial_sphere_control.date",
+                               "cigi.component_control.component_id", "cigi.short_component_control.instance_id")
+            told = [next((row[i] for row in rows if row[i]), None) for i in range(9)]
+            self.assertEqual([int(word, 0) for word in told[0].split()], [1, 2])
+            self.assertEqual((int(told[2], 0), float(told[4]), float(told[5]), int(told[6]), int(told[7], 0), int(told[8], 0)),
+                             (1, 0.75, 2000.0, 11252026, 1, 7))
+
+    def test_scenes_are_switched_by_database_number(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        shipped = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "scenes", "flat-grass")
+        base = shutil.copytree(shipped, os.path.join(folder.name, "base"))
+        with open(os.path.join(base, "scene.toml"), "a", encoding="utf-8") as file:
+            file.write('[[database]]\nnumber = 2\nscene = "obstacle-field"\n[[database]]\nnumber = 3\nscene = "nowhere"\n')
+        host = self.start("--rate", "8", scene=base)
+        self.ports = [host.port]
+        told, numbers = [], []
+
+        def ask(database, until):
+            end = time.monotonic() + 60
+            while time.monotonic() < end:
+                host.send(host.entity(52.0, 10.03, 200.0), database=database)
+                try:
+                    packets = host.receive()
+                except TimeoutError:
+                    continue
+                numbers.append(struct.unpack_from("<I", packets[0], 8)[0])
+                told.append(struct.unpack_from("<b", packets[0], 3)[0])
+                texts = [packet[4:].rstrip(b"\0").decode() for packet in packets if packet[0] == 117]
+                if until(told[-1], texts):
+                    return texts
+            self.fail(f"database {database} in vain: {told}")
+
+        ask(1, lambda database, _: database == 1)
+        ask(2, lambda database, _: database == -2)
+        ask(2, lambda database, _: database == 2)
+        self.assertEqual(self.asked("api/status")["scene"], "obstacle-field")
+        [text] = ask(3, lambda _, texts: texts)
+        self.assertIn("nowhere", text)
+        ask(3, lambda database, _: database == -128)
+        ask(1, lambda database, _: database == 1)
+        self.assertEqual(self.asked("api/status")["scene"], "flat-grass")
+        self.assertEqual(numbers, sorted(set(numbers)), "frame numbers go on")
+        self.tshark(host)
 
 
 if __name__ == "__main__":

@@ -167,6 +167,10 @@ from_longitude_deg = 8.5
 from_elevation_m = 100.0
 from_bearing_deg = 250.0
 onto_runway = "01"
+
+[[database]]
+number = 2
+scene = "innsbruck-26"
 )";
 
 inline void write_full_scene(const TemporaryFolder& folder) {

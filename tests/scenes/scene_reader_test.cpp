@@ -153,3 +153,27 @@ roll_deg = 2.0
   CHECK(fixed.at.behind_threshold_m == -500.0);
   CHECK(fixed.roll_rad == radians(2.0));
 }
+
+TEST_CASE("Databases have numbers of their own and names of folders; all that is wrong is told",
+          "[scene_reader]") {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", tests::kSmallScene +
+                                 "[[database]]\nnumber = 2\nscene = \"innsbruck-26\"\n"
+                                 "[[database]]\nnumber = 127\nscene = \"obstacle-field\"\n");
+  const auto scene = read(folder.path());
+  REQUIRE(scene.databases.size() == 2);
+  CHECK(scene.databases[1].number == 127);
+  CHECK(scene.databases[1].scene == "obstacle-field");
+  folder.write("scene.toml", tests::kSmallScene +
+                                 "[[database]]\nnumber = 1\nscene = \"innsbruck-26\"\n"
+                                 "[[database]]\nscene = \"../../etc\"\n"
+                                 "[[database]]\nnumber = 9\n"
+                                 "[[database]]\nnumber = 9\nscene = \"obstacle-field\"\n");
+  core::ProblemList problems;
+  scenes::read_scene(folder.path(), {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+  std::vector<std::string> fields;
+  for (const core::Problem& problem : problems.all()) fields.push_back(problem.field);
+  CHECK(fields == std::vector<std::string>{"database[0].number", "database[1].number",
+                                           "database[1].scene", "database[2].scene",
+                                           "database[3].number"});
+}

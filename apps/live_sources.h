@@ -1,0 +1,34 @@
+// What --from of fanbeam live says of where poses come from.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/geodetic.h"
+#include "feeds/protocol.h"
+#include "live/network.h"
+
+namespace fanbeam::apps {
+
+// circle, ils, csv:FILE, or the protocol and address of a simulator; then ",datum=DATUM",
+// ",peer=ADDRESS", ",weather=WHOSE" and ",host=ADDRESS:PORT" (of CIGI: where answers go), in any order.
+struct PosesFrom {
+  bool circle = false;
+  std::string csv;
+  const feeds::Protocol* protocol = nullptr;
+  bool cigi = false;
+  std::optional<live::Endpoint> host;  // of CIGI, else whoever sends
+  bool beacon = false;                 // where X-Plane is, its own beacon tells
+  live::Endpoint listens_at;           // of a protocol that is asked for: the simulator's place
+  live::Peers peers;
+  core::VerticalDatum datum = core::VerticalDatum::egm96;  // what heights count from
+  bool weather = false;                                    // that of the simulator counts
+
+  bool listens() const { return protocol != nullptr || cigi; }
+  bool subscribes() const { return protocol != nullptr && protocol->subscribed; }
+};
+
+// Throws InputError.
+PosesFrom poses_from(const std::string& source);
+
+}  // namespace fanbeam::apps

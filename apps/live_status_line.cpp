@@ -1,0 +1,52 @@
+#include "apps/live_status_line.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+namespace fanbeam::apps {
+namespace {
+
+// Empty while simulator and scene agree on the ground.
+std::string offset_text(const live::Status& status) {
+  if (!live::is_lasting_offset(status)) return {};
+  return fmt::format("  heights {:+.0f} m off: is its datum right?", -*status.height_offset_m);
+}
+
+std::string error_text(const live::Status& status) {
+  if (!status.errors) return {};
+  return fmt::format(" ({:.1f}, {:.1f} grey)", status.errors->bscope_grey,
+                     status.errors->cscope_grey);
+}
+
+}  // namespace
+
+StatusLine::StatusLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
+
+StatusLine::~StatusLine() {
+  if (shown_) std::fputs("\n", stderr);
+}
+
+void StatusLine::show(const live::Status& status, int viewers) {
+  const auto now = live::Clock::now();
+  if (!shown_ || now - last_ < std::chrono::milliseconds(500)) return;
+  last_ = now;
+  if (status.waiting)
+    fmt::print(stderr, "\r\033[Kwaiting for a pose from {}", status.source);
+  else
+    fmt::print(
+        stderr,
+        "\r\033[K{:.1f} Hz  frame {:.0f} ms  sampling {:g}{}  pose age {:.0f} ms{}  late {}  "
+        "{} watching{}",
+        status.rate_Hz, status.frame_ms, status.samples, error_text(status), status.pose_age_ms,
+        status.stale ? " (stale)" : "", status.late, viewers, offset_text(status));
+}
+
+void print_address(const std::string& scene, const std::string& address, std::uint16_t port,
+                   std::FILE* to) {
+  const bool six = address.find(':') != std::string::npos;
+  fmt::print(to, "{}: look at http://{}:{}/ (Ctrl-C ends)\n", scene,
+             six ? "[" + address + "]" : address, port);
+  std::fflush(to);
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,137 @@
+#include "live/cigi_conditions.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "core/units.h"
+
+namespace fanbeam::live {
+namespace {
+
+namespace cigi = feeds::cigi;
+
+// Of severity 0 to 5.
+constexpr std::array<double, 6> kRain_mm_per_h{0.0, 1.0, 3.0, 8.0, 20.0, 50.0};
+constexpr std::array<double, 6> kSnow_mm_per_h{0.0, 0.5, 1.0, 2.0, 4.0, 8.0};
+
+double by_severity(const std::array<double, 6>& rates, std::uint8_t severity) {
+  return rates[std::min<std::size_t>(severity, rates.size() - 1)];
+}
+
+double marshall_palmer_mm_per_h(double water_g_per_m3) {
+  return std::pow(water_g_per_m3 / 0.072, 1.0 / 0.88);
+}
+
+double share(double value) { return std::clamp(value, 0.0, 1.0); }
+
+}  // namespace
+
+CigiConditions::CigiConditions(const scenes::Scene& own)
+    : own_weather_(own.weather),
+      own_surfaces_(own.description.surface_state),
+      own_sensor_(own.description.sensor) {}
+
+void CigiConditions::reset() {
+  sensor_ = {};
+  view_ = {};
+  response_.reset();
+  changes_ = {own_weather_, own_surfaces_, sensor_, {}};
+}
+
+CigiConditions::Changes CigiConditions::changes() { return std::exchange(changes_, {}); }
+
+atmosphere::Weather& CigiConditions::weather(const scenes::Scene& now) {
+  if (!changes_.weather) changes_.weather = now.weather;
+  return *changes_.weather;
+}
+
+bool CigiConditions::take(const cigi::WeatherControl& packet, const scenes::Scene& scene) {
+  constexpr std::uint8_t kFog = 0, kRain = 4, kSnow = 5;
+  if (packet.scope != 0 || (packet.layer != kFog && packet.layer != kRain && packet.layer != kSnow))
+    return false;
+  atmosphere::Weather& now = weather(scene);
+  const double water = packet.enabled ? std::max(packet.aerosol_g_per_m3, 0.0) : 0.0;
+  const std::uint8_t severity = packet.enabled ? packet.severity : std::uint8_t{0};
+  if (packet.layer == kRain) {
+    now.rain_rate_mm_per_h =
+        water > 0.0 ? marshall_palmer_mm_per_h(water) : by_severity(kRain_mm_per_h, severity);
+  } else if (packet.layer == kSnow) {
+    now.snow_rate_mm_per_h = by_severity(kSnow_mm_per_h, severity);
+  } else {
+    now.visibility_m.reset();
+    now.liquid_water_g_per_m3.reset();
+    if (water > 0.0)
+      now.liquid_water_g_per_m3 = water;
+    else if (packet.enabled)
+      now.visibility_m = packet.visibility_m;
+    if (packet.enabled && packet.thickness_m > 0.0)
+      now.fog_top_m = packet.base_m + packet.thickness_m - scene.weather.origin_height_m;
+  }
+  return true;
+}
+
+bool CigiConditions::take(const cigi::AtmosphereControl& packet, const scenes::Scene& now) {
+  if (!packet.enabled) return false;
+  weather(now).temperature_C = packet.temperature_C;
+  weather(now).humidity = 0.01 * packet.humidity_percent;
+  weather(now).pressure_hPa = packet.pressure_hPa;
+  return true;
+}
+
+bool CigiConditions::take(const cigi::SurfaceConditions& packet) {
+  constexpr std::uint16_t kLast = 3;
+  if (packet.scope != 0 || packet.condition > kLast) return false;
+  changes_.surfaces =
+      packet.enabled ? static_cast<materials::SurfaceState>(packet.condition) : own_surfaces_;
+  return true;
+}
+
+bool CigiConditions::take(const cigi::SensorControl& packet) {
+  view_.on = packet.on;
+  view_.black_hot = packet.black_hot;
+  response_.reset();
+  if (packet.on && packet.track_mode != 0)
+    response_ = {packet.view, packet.sensor, packet.extended_response};
+  const sensors::Display& own = own_sensor_.display;
+  const double own_span_dB = own.high_dB - own.low_dB;
+  const double span_dB = own_span_dB * std::pow(4.0, 0.5 - share(packet.gain));
+  const double middle_dB =
+      (own.low_dB + own.high_dB) / 2 + (0.5 - share(packet.level)) * own_span_dB;
+  sensor_.low_dB = middle_dB - span_dB / 2;
+  sensor_.high_dB = middle_dB + span_dB / 2;
+  sensor_.noise_figure =
+      own_sensor_.receiver.noise_figure * std::pow(10.0, 2.0 * share(packet.noise));
+  changes_.sensor = sensor_;
+  return !packet.line_dropout && !packet.automatic_gain;
+}
+
+bool CigiConditions::take(const cigi::ComponentControl& packet, std::uint32_t host_frame) {
+  constexpr std::uint8_t kSensorClass = 3;
+  constexpr std::uint16_t kTilt = 1, kStabilisation = 2, kHeights = 3;
+  using CScopeMode = sensors::Display::CScopeMode;
+  if (packet.of != kSensorClass) return false;
+  if (packet.component == kTilt && packet.state <= 1) {
+    const auto tilt_deg = static_cast<double>(std::bit_cast<float>(packet.words[0]));
+    if (packet.state == 1 && !(std::abs(tilt_deg) <= 90.0)) return false;
+    sensor_.boresight_elevation_rad.reset();
+    if (packet.state == 1) sensor_.boresight_elevation_rad = core::radians(tilt_deg);
+  } else if (packet.component == kStabilisation && packet.state <= 1) {
+    sensor_.stabilised = packet.state == 1;
+  } else if (packet.component == kHeights && packet.state <= 2) {
+    sensor_.cscope_mode = static_cast<CScopeMode>(packet.state);
+  } else {
+    return false;
+  }
+  changes_.sensor = sensor_;
+  constexpr std::size_t kMostEvents = 16;  // a frame
+  if (changes_.events.size() < kMostEvents)
+    changes_.events.push_back({packet.component, {packet.instance, packet.state, host_frame}});
+  return true;
+}
+
+void CigiConditions::take(const cigi::ViewDefinition& packet) { view_.window = packet; }
+
+}  // namespace fanbeam::live

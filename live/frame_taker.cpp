@@ -1,0 +1,68 @@
+#include "live/frame_taker.h"
+
+#include <utility>
+
+#include "core/stop.h"
+
+namespace fanbeam::live {
+
+FrameTaker::FrameTaker(Put put, bool every_frame)
+    : put_(std::move(put)), every_frame_(every_frame) {
+  if (!every_frame_) thread_ = std::thread([this] { run(); });
+}
+
+FrameTaker::~FrameTaker() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    leaving_ = true;
+  }
+  changed_.notify_all();
+  if (thread_.joinable()) thread_.join();
+}
+
+bool FrameTaker::ended() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return ended_;
+}
+
+bool FrameTaker::leaving() const {
+  // In lockstep the sink is called by the channel's own thread.
+  if (core::StopScope::current().reason() != 0) return true;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return leaving_;
+}
+
+void FrameTaker::write(const std::shared_ptr<const LiveFrame>& frame) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!frame || frame->number == taken_ || ended_) return;
+    newest_ = frame;
+    if (every_frame_) taken_ = frame->number;
+  }
+  if (every_frame_)
+    put(*frame);
+  else
+    changed_.notify_all();
+}
+
+void FrameTaker::run() {
+  for (;;) {
+    std::shared_ptr<const LiveFrame> frame;
+    {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [&] { return leaving_ || (newest_ && newest_->number != taken_); });
+      if (leaving_) return;
+      frame = newest_;
+      taken_ = frame->number;
+    }
+    put(*frame);
+  }
+}
+
+void FrameTaker::put(const LiveFrame& frame) {
+  if (put_(frame)) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ended_ = true;
+}
+
+}  // namespace fanbeam::live

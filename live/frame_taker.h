@@ -1,0 +1,46 @@
+// Hands frames to a sink that may take longer than they come: on a thread of its own the newest one, the
+// others are missed. Where every frame is wanted (lockstep) the caller's thread waits for the sink
+// instead. Thread-safe.
+#pragma once
+
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include "live/hub.h"
+
+namespace fanbeam::live {
+
+class FrameTaker {
+ public:
+  // `put` asks leaving() now and then, and gives false when the sink takes no more.
+  using Put = std::function<bool(const LiveFrame&)>;
+  FrameTaker(Put put, bool every_frame);
+  ~FrameTaker();  // the sink is called no more
+  FrameTaker(const FrameTaker&) = delete;
+  FrameTaker& operator=(const FrameTaker&) = delete;
+
+  // A frame that was given before is left out.
+  void write(const std::shared_ptr<const LiveFrame>& frame);
+  // The sink gave false.
+  bool ended() const;
+  // Of the sink's thread: nobody waits for what it is about.
+  bool leaving() const;
+
+ private:
+  void run();
+  void put(const LiveFrame& frame);
+
+  Put put_;
+  bool every_frame_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::shared_ptr<const LiveFrame> newest_;
+  std::uint64_t taken_ = 0;  // number of the frame
+  bool ended_ = false, leaving_ = false;
+  std::thread thread_;  // unless every frame is wanted
+};
+
+}  // namespace fanbeam::live

@@ -1,0 +1,187 @@
+// What a CIGI host says of sensor, view, switches and time. TShark reads whole sessions (cigi_test.py).
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "core/units.h"
+#include "tests/live/cigi_station.h"
+
+using namespace fanbeam;
+using namespace fanbeam::tests;
+using namespace feeds::cigi;
+
+namespace {
+
+Bytes sensor_control(std::uint8_t flags, float gain, float level, float noise,
+                     std::uint8_t response = 0) {
+  return Packet(17, 24, false)
+      .put<std::uint16_t>(2, 6)
+      .put<std::uint8_t>(4, 2)
+      .put(5, flags)
+      .put(6, response)
+      .put(8, gain)
+      .put(12, level)
+      .put(20, noise)
+      .bytes();
+}
+
+Bytes component(std::uint16_t number, std::uint8_t state, float word = 0.0F, std::uint8_t of = 3) {
+  return Packet(4, 32, false)
+      .put(2, number)
+      .put<std::uint16_t>(4, 40)
+      .put(6, of)
+      .put(7, state)
+      .put(8, word)
+      .bytes();
+}
+
+}  // namespace
+
+TEST_CASE("Gain, level and noise of a host set the display's levels and the noise figure",
+          "[cigi]") {
+  Station station;
+  const sensors::Sensor own = station.session->scene()->description.sensor;
+  const double span_dB = own.display.high_dB - own.display.low_dB;
+  const auto sensor_after = [&](const Bytes& packet, std::uint32_t frame) {
+    station.hear(message(frame, {packet}));
+    station.ig.begin_frame();
+    return station.session->scene()->description.sensor;
+  };
+  // The middles are the sensor's own.
+  sensors::Sensor now = sensor_after(sensor_control(1, 0.5F, 0.5F, 0.0F), 1);
+  CHECK(now.display.low_dB == Approx(own.display.low_dB));
+  CHECK(now.display.high_dB == Approx(own.display.high_dB));
+  CHECK(now.receiver.noise_figure == own.receiver.noise_figure);
+  // Full gain halves the span about its middle, full level moves it down by half of the own span, and
+  // noise is 20 dB more; beyond 1 is as 1.
+  now = sensor_after(sensor_control(1, 1.0F, 1.0F, 7.0F), 2);
+  CHECK(now.display.high_dB - now.display.low_dB == Approx(span_dB / 2));
+  CHECK(now.display.high_dB + now.display.low_dB ==
+        Approx(own.display.high_dB + own.display.low_dB - span_dB));
+  CHECK(now.receiver.noise_figure == Approx(100.0 * own.receiver.noise_figure));
+  // Standby forgets it.
+  station.hear(message(3, {}, kStandby));
+  station.ig.begin_frame();
+  CHECK(station.session->scene()->description.sensor.display.low_dB == own.display.low_dB);
+  // What is asked for and not there is counted: automatic gain, dropped lines.
+  station.hear(message(4, {sensor_control(1 | 8, 0.5F, 0.5F, 0.0F)}));
+  CHECK(all_of(station.told().unused_packets) == 1);
+}
+
+TEST_CASE("A sensor whose tracker is asked for searches, in every frame until it is off",
+          "[cigi]") {
+  Station station;
+  station.hear(message(9, {sensor_control(1 | 2 << 5, 0.5F, 0.5F, 0.0F)}));
+  for (int frame = 0; frame < 2; ++frame) {
+    const auto packets = packets_in(station.ig.begin_frame());
+    REQUIRE(packets.size() == 2);
+    CHECK(packets[1].first == 106);
+    CHECK(packets[1].second.at<std::uint16_t>(2) == 6);
+    CHECK(packets[1].second.byte(4) == 2);
+    CHECK(packets[1].second.byte(5) == 0);
+    CHECK(packets[1].second.at<std::uint32_t>(20) == 9);
+  }
+  station.hear(message(10, {sensor_control(1 | 2 << 5, 0.5F, 0.5F, 0.0F, 1)}));
+  CHECK(packets_in(station.ig.begin_frame())[1].first == 107);
+  station.hear(message(11, {sensor_control(1, 0.5F, 0.5F, 0.0F)}));
+  CHECK(packets_in(station.ig.begin_frame()).size() == 1);
+}
+
+TEST_CASE("Switches of the radar are told in an event once they are in force", "[cigi]") {
+  Station station;
+  station.hear(message(21, {component(1, 1, -4.5F), component(2, 0), component(3, 2),
+                            component(1, 1, 91.0F), component(9, 1), component(1, 0, 0.0F, 0)}));
+  const auto packets = packets_in(station.ig.begin_frame());
+  const sensors::Sensor now = station.session->scene()->description.sensor;
+  CHECK(now.antenna.boresight_elevation_rad == core::radians(-4.5));
+  CHECK_FALSE(now.scan.stabilised);
+  CHECK(now.display.cscope_mode == sensors::Display::CScopeMode::shadow);
+  REQUIRE(packets.size() == 4);
+  CHECK(packets[1].first == 116);
+  CHECK(packets[1].second.at<std::uint16_t>(2) == 1);
+  CHECK(packets[1].second.at<std::uint32_t>(4) == 40);
+  CHECK(packets[1].second.at<std::uint32_t>(8) == 1);
+  CHECK(packets[1].second.at<std::uint32_t>(12) == 21);
+  CHECK(packets[3].second.at<std::uint16_t>(2) == 3);
+  CHECK(all_of(station.told().unused_packets) == 3);
+  CHECK(packets_in(station.ig.begin_frame()).size() == 1);  // told once
+}
+
+TEST_CASE("A view's near, far and sides blank what lies beyond them", "[cigi]") {
+  Station station;
+  sensors::Sensor sensor = station.session->scene()->description.sensor;
+  const auto frame_now = [&] {
+    live::LiveFrame frame;
+    const auto cells = static_cast<std::size_t>(sensor.scan.columns * sensor.range.cells);
+    frame.bscope = {sensor.scan.columns, sensor.range.cells, std::vector<std::uint8_t>(cells, 9)};
+    frame.cscope = {sensor.scan.columns, sensor.display.cscope_rows, {}};
+    frame.cscope.pixels.assign(
+        static_cast<std::size_t>(sensor.scan.columns * sensor.display.cscope_rows), 9);
+    frame.received_W.assign(cells, 1.0);
+    station.ig.dress(frame);
+    return frame;
+  };
+  const auto lit = [](const auto& cells) {
+    return std::count_if(cells.begin(), cells.end(), [](auto cell) { return cell != 0; });
+  };
+  const auto view = [](std::uint8_t enables, float near_m, float far_m, float left, float right,
+                       float top, float bottom) {
+    return Packet(21, 32, false)
+        .put<std::uint8_t>(5, enables)
+        .put(8, near_m)
+        .put(12, far_m)
+        .put(16, left)
+        .put(20, right)
+        .put(24, top)
+        .put(28, bottom)
+        .bytes();
+  };
+  CHECK(lit(frame_now().bscope.pixels) == sensor.scan.columns * sensor.range.cells);
+  // Ten range cells, from the fifth on.
+  const auto near_m = static_cast<float>(sensor.range.minimum_m + 4.0 * sensor.range.cell_m),
+             far_m = static_cast<float>(sensor.range.minimum_m + 14.0 * sensor.range.cell_m);
+  station.hear(message(1, {view(1 | 2, near_m, far_m, 1.0F, 1.0F, -1.0F, 1.0F)}));
+  live::LiveFrame frame = frame_now();
+  CHECK(lit(frame.bscope.pixels) == 10 * sensor.scan.columns);
+  CHECK(lit(frame.received_W) == 10 * sensor.scan.columns);
+  CHECK(lit(frame.cscope.pixels) == sensor.scan.columns * sensor.display.cscope_rows);
+  // Near cells are at the picture's foot, and first in watts.
+  CHECK(frame.bscope.pixels[static_cast<std::size_t>(sensor.range.cells - 5) *
+                            static_cast<std::size_t>(sensor.scan.columns)] == 9);
+  CHECK(frame.received_W[static_cast<std::size_t>(4 * sensor.scan.columns)] == 1.0);
+  // The right half, and what is above the middle of the C-scope.
+  const auto middle_deg = static_cast<float>(
+      core::degrees(sensor.display.cscope_top_rad - sensor.display.cscope_span_rad / 2));
+  station.hear(message(2, {view(4 | 32, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, middle_deg)}));
+  frame = frame_now();
+  CHECK(lit(frame.bscope.pixels) == sensor.scan.columns / 2 * sensor.range.cells);
+  CHECK(frame.bscope.pixels.back() == 9);
+  CHECK(frame.bscope.pixels.front() == 0);
+  CHECK(lit(frame.cscope.pixels) == sensor.scan.columns / 2 * (sensor.display.cscope_rows / 2));
+  CHECK(frame.cscope.pixels.back() == 0);
+  // Black-hot, then off.
+  station.hear(message(
+      3, {view(0, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F), sensor_control(1 | 2, 0.5F, 0.5F, 0.0F)}));
+  CHECK(frame_now().bscope.pixels.front() == 246);
+  station.hear(message(4, {sensor_control(0, 0.5F, 0.5F, 0.0F)}));
+  frame = frame_now();
+  CHECK(lit(frame.bscope.pixels) + lit(frame.cscope.pixels) + lit(frame.received_W) == 0);
+}
+
+TEST_CASE("Date and time of the host's world are told, impossible ones counted", "[cigi]") {
+  Station station;
+  const auto celestial = [](std::uint8_t hour, std::uint32_t date, std::uint8_t flags = 16) {
+    return Packet(9, 16, false)
+        .put(2, hour)
+        .put<std::uint8_t>(3, 5)
+        .put(4, flags)
+        .put(8, date)
+        .bytes();
+  };
+  CHECK(station.told().host_time.empty());
+  station.hear(message(1, {celestial(6, 2'29'2024)}));
+  CHECK(station.told().host_time == "2024-02-29T06:05Z");
+  station.hear(message(2, {celestial(6, 2'29'2023), celestial(24, 2'28'2023),
+                           celestial(7, 2'28'2023, 0), celestial(7, 4294967295U)}));
+  CHECK(station.told().host_time == "2024-02-29T06:05Z");
+  CHECK(all_of(station.told().unused_packets) == 4);
+}
