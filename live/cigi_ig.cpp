@@ -23,6 +23,8 @@ template <class... Each>
 struct Overloaded : Each... {
   using Each::operator()...;
 };
+template <class... Each>
+Overloaded(Each...) -> Overloaded<Each...>;  // clang 14 asks for it
 
 void append(std::vector<std::uint8_t>& message, const std::vector<std::uint8_t>& packet) {
   message.insert(message.end(), packet.begin(), packet.end());

@@ -21,9 +21,8 @@ std::uint64_t number(const Bytes& bytes, std::size_t at, std::size_t octets) {
 }
 
 // Where things stand in a video message: 3 octets of block, 2 of FSPEC, and then the items.
-constexpr std::size_t kCounterAt = 8, kStartAt = 12, kEndAt = 14, kFirstAt = 16, kDurationAt = 20,
-                      kResolutionAt = 24, kOctetsAt = 26, kCellsAt = 28, kBlocksAt = 31,
-                      kVideoAt = 32;
+constexpr std::size_t kCounterAt = 8, kFirstAt = 16, kResolutionAt = 24, kOctetsAt = 26,
+                      kCellsAt = 28, kBlocksAt = 31, kVideoAt = 32;
 
 Bytes ramp(std::size_t count) {
   Bytes cells(count);
