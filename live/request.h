@@ -9,7 +9,7 @@ struct Request {
   std::string method, target;  // target: with its query
   std::string host, origin, content_type;
   std::string body;
-  std::string authorization, cookie;
+  std::string authorization{}, cookie{};
 };
 
 struct Answer {

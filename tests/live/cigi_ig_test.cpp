@@ -13,6 +13,7 @@
 #include "live/cigi_answers.h"
 #include "terrain/geoid.h"
 #include "tests/live/cigi_station.h"
+#include "tests/processor_time.h"
 #include "tests/shared_data.h"
 
 using namespace fanbeam;
@@ -271,7 +272,7 @@ TEST_CASE("F11 of any bytes every good message is taken, and what is refused is 
   Station station;
   std::mt19937 random(3);
   std::uint64_t sent = 0, good = 0;
-  for (int i = 0; i < 1'000'000; ++i) {
+  for (int i = 0; i < tests::kMillion; ++i) {
     Bytes bytes = message(static_cast<std::uint32_t>(i + 1), {entity(52.0, 10.0, 300.0)});
     const auto kind = random() % 5;
     if (kind == 0) bytes.resize(random() % bytes.size());
