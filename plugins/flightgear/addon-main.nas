@@ -73,8 +73,9 @@ var follow_shown = func {
 # not visible never gets it.
 var arrived = func(image) (image.get("size[0]") or 0) > 0;
 
+# Scaled is the group, which stays: an image that is drawn before it is taken fills the window too.
 var take = func {
-    asked.setScale(kSize[0] / asked.get("size[0]"), kSize[1] / asked.get("size[1]"));
+    root.setScale(kSize[0] / asked.get("size[0]"), kSize[1] / asked.get("size[1]"));
     asked.set("z-index", 1);
     if (shown != nil) shown.del();
     shown = asked;
