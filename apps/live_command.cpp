@@ -146,6 +146,9 @@ class LiveRun {
     } catch (const core::InputError& error) {
       ig->refuse_database(wanted, core::to_string(error.problems().front()));
       return false;
+    } catch (const std::exception& error) {  // no room for two scenes: this one flies on
+      ig->refuse_database(wanted, error.what());
+      return false;
     }
     continued_.station = ig->station();
     return true;
@@ -182,7 +185,8 @@ class LiveRun {
     const live::Flight flown = listens ? live::Flight() : flight();
     if (recording_ != nullptr)
       live::run_replay(*session_, *recording_, listens ? &listener_.feed() : nullptr, &flown, desk_,
-                       {options_.speed, options_.lockstep, settings.begin}, hub_, told, stop);
+                       {options_.speed, options_.lockstep, settings.begin, settings.keep_received},
+                       hub_, told, stop);
     else if (options_.lockstep && listens)
       live::run_lockstep(*session_, listener_.mailbox(), settings, hub_, told, stop);
     else if (options_.lockstep)

@@ -1,6 +1,9 @@
 #include "apps/live_databases.h"
 
 #include <chrono>
+#include <exception>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include "core/errors.h"
@@ -11,7 +14,8 @@ namespace {
 // A scene beside that of the list, or one that is shipped.
 std::string scene_named(const std::string& name, const std::filesystem::path& folder) {
   const std::filesystem::path beside = folder.parent_path() / name;
-  return std::filesystem::exists(beside / "scene.toml") ? beside.string() : name;
+  std::error_code refused;
+  return std::filesystem::exists(beside / "scene.toml", refused) ? beside.string() : name;
 }
 
 }  // namespace
@@ -37,9 +41,14 @@ bool LiveDatabases::is_ready(std::int8_t wanted) {
   if (wanted != refused_) refused_ = 0;
   if (future_.valid()) {
     if (future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
-    refused_ = opening_;  // unless this does not throw
-    ready_ = future_.get();
-    refused_ = 0;
+    try {
+      ready_ = future_.get();
+    } catch (const std::exception&) {
+      if (opening_ == wanted) {
+        refused_ = wanted;
+        throw;
+      }  // else the host has changed its mind, as below
+    }
   }
   if (ready_ && opening_ == wanted) return true;
   ready_.reset();  // the host has changed its mind

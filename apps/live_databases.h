@@ -31,7 +31,7 @@ class LiveDatabases {
   std::vector<std::int8_t> others() const;
 
   // Call it each frame with the number that the host wants: begins to open that scene, and gives true
-  // once it is open. Throws InputError, once, for one that cannot be opened; it is tried again when the
+  // once it is open. Throws, once, what opening it threw; it is tried again when the
   // host has asked for another one in between.
   bool is_ready(std::int8_t wanted);
   // That scene, which is the current one from now on; null where none is ready.

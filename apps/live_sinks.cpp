@@ -74,6 +74,11 @@ live::RadarVideoSettings video_to(const std::string& text) {
   if (video.to.port == 0)
     core::throw_input_error(core::ErrorClass::range, "--to", "\"" + text + "\"", "a port from 1");
   for (const auto& [key, value] : words.options) take_video_option(key, value, video);
+  const bool six = video.to.address.find(':') != std::string::npos ||
+                   video.interface.find(':') != std::string::npos;
+  if (six && !video.interface.empty())
+    core::throw_input_error(core::ErrorClass::unsupported, "--to", "\"" + text + "\"",
+                            "interface= of IPv4 alone");
   return video;
 }
 
@@ -101,11 +106,6 @@ void add_sink(const std::string& text, FramesTo& to) {
     refuse_sink(text, kSinks);
 }
 
-Sinks::Sinks(const FramesTo& to, bool every_frame) : to_(to), every_frame_(every_frame) {
-  for (const RawSink& sink : to.raw)
-    raw_.push_back(std::make_unique<live::RawFrames>(sink.scope, sink.file, every_frame));
-}
-
 void Sinks::begin(const scenes::SceneDescription& scene, double rate_Hz) {
   shared_.clear();
   video_.clear();
@@ -114,6 +114,10 @@ void Sinks::begin(const scenes::SceneDescription& scene, double rate_Hz) {
   for (const live::RadarVideoSettings& video : to_.video)
     video_.push_back(
         std::make_unique<live::RadarVideo>(video, scene.sensor, scene.name, rate_Hz, every_frame_));
+  // Last, as it empties files that are there.
+  if (raw_.empty())
+    for (const RawSink& sink : to_.raw)
+      raw_.push_back(std::make_unique<live::RawFrames>(sink.scope, sink.file, every_frame_));
 }
 
 void Sinks::write(const std::shared_ptr<const live::LiveFrame>& frame) {

@@ -33,9 +33,8 @@ void add_sink(const std::string& text, FramesTo& to);
 // Frames go to all of them.
 class Sinks {
  public:
-  // Of files and pipes, which stay open while scenes are switched.
-  Sinks(const FramesTo& to, bool every_frame);
-  // Of what takes frames of one scene's sizes: from now on that scene's.
+  Sinks(const FramesTo& to, bool every_frame) : to_(to), every_frame_(every_frame) {}
+  // Frames are that scene's from now on. Files and pipes are opened the first time and stay open.
   void begin(const scenes::SceneDescription& scene, double rate_Hz);
   void write(const std::shared_ptr<const live::LiveFrame>& frame);
   bool any_ended() const;

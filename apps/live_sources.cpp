@@ -48,6 +48,8 @@ void check_flight(const std::string& source, const PosesFrom& from) {
 void check_simulator(const std::string& source, const PosesFrom& from) {
   if (from.cigi && from.weather) refuse_source(source, "no weather= of cigi: its packets set it");
   if (!from.cigi && from.host) refuse_source(source, "host= of cigi");
+  if (from.subscribes() && !from.beacon && from.listens_at.port == 0)
+    refuse_source(source, "a port from 1: where X-Plane listens");
   if (from.subscribes() && !from.peers.addresses.empty())
     refuse_source(source, "no peer= of xplane: only the simulator's own packets count");
   if (!from.subscribes() && from.listens_at.beyond_loopback && from.peers.addresses.empty())

@@ -46,12 +46,12 @@ std::optional<AircraftState> decode_xplane(std::span<const std::uint8_t> datagra
   return fault == PacketFault::none ? std::optional(state) : std::nullopt;
 }
 
-std::vector<std::pair<std::int32_t, double>> decode_xplane_values(
+std::optional<std::vector<std::pair<std::int32_t, double>>> decode_xplane_values(
     std::span<const std::uint8_t> datagram) {
   constexpr std::size_t kPair_bytes = 8;
-  std::vector<std::pair<std::int32_t, double>> values;
   if (!begins(datagram, "RREF") || (datagram.size() - kWord_bytes) % kPair_bytes != 0)
-    return values;
+    return std::nullopt;
+  std::vector<std::pair<std::int32_t, double>> values;
   const Fields f(datagram.subspan(kWord_bytes), kSwapLittle);
   for (std::size_t at = 0; at < datagram.size() - kWord_bytes; at += kPair_bytes) {
     const auto value = static_cast<double>(f.at<float>(at + 4));

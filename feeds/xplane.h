@@ -28,8 +28,8 @@ inline constexpr std::uint16_t kBeaconPort = 49707;
 std::optional<AircraftState> decode_xplane(std::span<const std::uint8_t> datagram,
                                            PacketFault& fault);
 
-// Index and value, finite ones alone; none where it is no RREF or not of whole pairs.
-std::vector<std::pair<std::int32_t, double>> decode_xplane_values(
+// Index and value, finite ones alone. Nothing where it is no RREF, or not of whole pairs.
+std::optional<std::vector<std::pair<std::int32_t, double>>> decode_xplane_values(
     std::span<const std::uint8_t> datagram);
 
 struct XPlaneBeacon {

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "core/units.h"
@@ -38,47 +39,72 @@ void CigiConditions::reset() {
   sensor_ = {};
   view_ = {};
   response_.reset();
+  weather_.reset();
+  edits_.clear();
   changes_ = {own_weather_, own_surfaces_, sensor_, {}};
 }
 
 CigiConditions::Changes CigiConditions::changes() { return std::exchange(changes_, {}); }
 
-atmosphere::Weather& CigiConditions::weather(const scenes::Scene& now) {
-  if (!changes_.weather) changes_.weather = now.weather;
-  return *changes_.weather;
-}
-
-bool CigiConditions::take(const cigi::WeatherControl& packet, const scenes::Scene& scene) {
+bool CigiConditions::take(const cigi::WeatherControl& packet) {
   constexpr std::uint8_t kFog = 0, kRain = 4, kSnow = 5;
   if (packet.scope != 0 || (packet.layer != kFog && packet.layer != kRain && packet.layer != kSnow))
     return false;
-  atmosphere::Weather& now = weather(scene);
   const double water = packet.enabled ? std::max(packet.aerosol_g_per_m3, 0.0) : 0.0;
   const std::uint8_t severity = packet.enabled ? packet.severity : std::uint8_t{0};
   if (packet.layer == kRain) {
-    now.rain_rate_mm_per_h =
+    const double rate_mm_per_h =
         water > 0.0 ? marshall_palmer_mm_per_h(water) : by_severity(kRain_mm_per_h, severity);
+    edits_.push_back([=](atmosphere::Weather& now) { now.rain_rate_mm_per_h = rate_mm_per_h; });
   } else if (packet.layer == kSnow) {
-    now.snow_rate_mm_per_h = by_severity(kSnow_mm_per_h, severity);
+    const double rate_mm_per_h = by_severity(kSnow_mm_per_h, severity);
+    edits_.push_back([=](atmosphere::Weather& now) { now.snow_rate_mm_per_h = rate_mm_per_h; });
   } else {
-    now.visibility_m.reset();
-    now.liquid_water_g_per_m3.reset();
-    if (water > 0.0)
-      now.liquid_water_g_per_m3 = water;
-    else if (packet.enabled)
-      now.visibility_m = packet.visibility_m;
-    if (packet.enabled && packet.thickness_m > 0.0)
-      now.fog_top_m = packet.base_m + packet.thickness_m - scene.weather.origin_height_m;
+    edits_.push_back([=](atmosphere::Weather& now) {
+      now.visibility_m.reset();
+      now.liquid_water_g_per_m3.reset();
+      if (water > 0.0)
+        now.liquid_water_g_per_m3 = water;
+      else if (packet.enabled)
+        now.visibility_m = packet.visibility_m;
+      if (packet.enabled && packet.thickness_m > 0.0)
+        now.fog_top_m = packet.base_m + packet.thickness_m - now.origin_height_m;
+    });
   }
   return true;
 }
 
-bool CigiConditions::take(const cigi::AtmosphereControl& packet, const scenes::Scene& now) {
+bool CigiConditions::take(const cigi::AtmosphereControl& packet) {
   if (!packet.enabled) return false;
-  weather(now).temperature_C = packet.temperature_C;
-  weather(now).humidity = 0.01 * packet.humidity_percent;
-  weather(now).pressure_hPa = packet.pressure_hPa;
+  edits_.push_back([=](atmosphere::Weather& now) {
+    now.temperature_C = packet.temperature_C;
+    now.humidity = 0.01 * packet.humidity_percent;
+    now.pressure_hPa = packet.pressure_hPa;
+  });
   return true;
+}
+
+std::vector<std::string> CigiConditions::settle(const scenes::Scene& now) {
+  std::vector<std::string> refusals;
+  if (edits_.empty()) return refusals;
+  // Taken over where it can be; else why not.
+  const auto try_with = [&](std::span<const Edit> edits) -> std::optional<std::string> {
+    atmosphere::Weather made = *weather_;
+    for (const Edit& edit : edits) edit(made);
+    const core::ProblemList problems =
+        atmosphere::problems_in(made, own_sensor_.waveform.frequency_Hz);
+    for (const core::Problem& problem : problems.all())
+      if (problem.is_error()) return core::to_string(problem);
+    weather_ = made;
+    return std::nullopt;
+  };
+  if (!weather_) weather_ = now.weather;
+  if (try_with(edits_))
+    for (const Edit& edit : edits_)
+      if (const auto why = try_with({&edit, 1})) refusals.push_back(*why);
+  edits_.clear();
+  changes_.weather = weather_;
+  return refusals;
 }
 
 bool CigiConditions::take(const cigi::SurfaceConditions& packet) {

@@ -15,7 +15,9 @@
 // component as event, its instance, state and the host's frame as data.
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "feeds/cigi/host_packets.h"
@@ -41,13 +43,18 @@ class CigiConditions {
 
   // The scene's own, all of it.
   void reset();
-  // Each gives false for a packet that means nothing here. `now` is the scene as it is.
-  bool take(const feeds::cigi::WeatherControl& packet, const scenes::Scene& now);
-  bool take(const feeds::cigi::AtmosphereControl& packet, const scenes::Scene& now);
+  // Each gives false for a packet that means nothing here.
+  bool take(const feeds::cigi::WeatherControl& packet);
+  bool take(const feeds::cigi::AtmosphereControl& packet);
   bool take(const feeds::cigi::SurfaceConditions& packet);
   bool take(const feeds::cigi::SensorControl& packet);
   bool take(const feeds::cigi::ComponentControl& packet, std::uint32_t host_frame);
   void take(const feeds::cigi::ViewDefinition& packet);
+
+  // Behind the packets of a message: the weather that they make together. Where that cannot be, they are
+  // taken one by one, and those left out that it cannot be with; why is returned. A host's first packet
+  // changes the weather of `now`, later ones what the host made of it.
+  std::vector<std::string> settle(const scenes::Scene& now);
 
   Changes changes();
   const CigiView& view() const { return view_; }
@@ -55,11 +62,13 @@ class CigiConditions {
   const std::optional<feeds::cigi::SensorResponse>& response() const { return response_; }
 
  private:
-  atmosphere::Weather& weather(const scenes::Scene& now);
+  using Edit = std::function<void(atmosphere::Weather&)>;
 
   atmosphere::Weather own_weather_;
   materials::SurfaceState own_surfaces_;
   sensors::Sensor own_sensor_;
+  std::vector<Edit> edits_;                     // of the message
+  std::optional<atmosphere::Weather> weather_;  // the host's, once it said anything
   Changes changes_;
   session::SensorSettings sensor_;
   CigiView view_;

@@ -54,25 +54,25 @@ void CigiIg::turn_away() {
 
 std::string CigiIg::host() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return host_;
+  return station_.host;
 }
 
 // Whether a message is of the host and the next one; a host that was silent may begin anywhere.
 bool CigiIg::follows(const cigi::IgControl& control, const std::string& host,
                      Clock::time_point arrived) {
-  const bool silent = !heard_ || arrived - *heard_ > kPatience;
-  if (!silent && host != host_) {
+  const bool silent = !station_.heard || arrived - *station_.heard > kPatience;
+  if (!silent && host != station_.host) {
     ++foreign_;
     return false;
   }
   constexpr std::chrono::seconds kRestart(1);
-  if (!silent && !is_later(control.host_frame, control_.host_frame) &&
-      arrived - *heard_ < kRestart) {
+  if (!silent && !is_later(control.host_frame, station_.control.host_frame) &&
+      arrived - *station_.heard < kRestart) {
     ++late_;
     return false;
   }
-  host_ = host;
-  heard_ = arrived;
+  station_.host = host;
+  station_.heard = arrived;
   return true;
 }
 
@@ -90,20 +90,24 @@ void CigiIg::take(std::span<const std::uint8_t> datagram, const std::string& hos
     }
     if (!follows(message->control, host, arrived)) return;
     enter(message->control.mode);
-    control_ = message->control;
+    station_.control = message->control;
+    if (station_.control.database != refused_) refused_ = 0;
     nonfinite_ += message->nonfinite;
     for (const std::uint8_t id : message->passed_over) ++passed_over_[id];
-    const double time_s = control_.timestamp_valid ? 1e-5 * control_.timestamp_10us
-                                                   : seconds_between(station_.begin, arrived);
+    const double time_s = station_.control.timestamp_valid
+                              ? 1e-5 * station_.control.timestamp_10us
+                              : seconds_between(station_.begin, arrived);
     for (const cigi::HostPacket& packet : message->packets) take(packet, time_s);
-    if (control_.mode == cigi::Mode::operate) pose = entities_.pose(view_, session_.scene()->frame);
+    for (const std::string& why : conditions_.settle(*session_.scene())) refuse(why);
+    if (station_.control.mode == cigi::Mode::operate)
+      pose = entities_.pose(view_, session_.scene()->frame);
   }
   if (pose) mailbox_.put(*pose, {datagram.begin(), datagram.end()}, arrived);
 }
 
 // Reset: what the host says from then on counts, in standby too.
 void CigiIg::enter(cigi::Mode mode) {
-  if (mode != cigi::Mode::standby || control_.mode == cigi::Mode::standby) return;
+  if (mode != cigi::Mode::standby || station_.control.mode == cigi::Mode::standby) return;
   entities_.clear();
   periodic_.clear();
   asked_.clear();
@@ -123,12 +127,12 @@ void CigiIg::take(const cigi::HostPacket& packet, double time_s) {
           [&](const cigi::RateControl& one) { entities_.move(one); },
           [&](const cigi::ViewControl& one) { view_ = one; },
           [&](const cigi::ViewDefinition& one) { conditions_.take(one); },
-          [&](const cigi::AtmosphereControl& one) { count(10, conditions_.take(one, *scene)); },
-          [&](const cigi::WeatherControl& one) { count(12, conditions_.take(one, *scene)); },
+          [&](const cigi::AtmosphereControl& one) { count(10, conditions_.take(one)); },
+          [&](const cigi::WeatherControl& one) { count(12, conditions_.take(one)); },
           [&](const cigi::SurfaceConditions& one) { count(15, conditions_.take(one)); },
           [&](const cigi::SensorControl& one) { count(17, conditions_.take(one)); },
           [&](const cigi::ComponentControl& one) {
-            count(4, conditions_.take(one, control_.host_frame));
+            count(one.brief ? 5 : 4, conditions_.take(one, station_.control.host_frame));
           },
           [&](const cigi::CelestialControl& one) { count(9, set(one)); },
           [&](const cigi::HeightRequest& one) { ask(one, one.update_period); },
@@ -143,7 +147,9 @@ bool CigiIg::set(const cigi::CelestialControl& packet) {
   const std::chrono::year_month_day date{std::chrono::year(static_cast<int>(year)),
                                          std::chrono::month(month), std::chrono::day(day)};
   constexpr std::uint8_t kHours = 24, kMinutes = 60;
-  if (!packet.valid || !date.ok() || packet.hour >= kHours || packet.minute >= kMinutes)
+  constexpr std::uint32_t kMonths = 12;  // more would wrap around in std::chrono
+  if (!packet.valid || month > kMonths || !date.ok() || packet.hour >= kHours ||
+      packet.minute >= kMinutes)
     return false;
   host_time_ =
       fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}Z", year, month, day, packet.hour, packet.minute);
@@ -152,7 +158,7 @@ bool CigiIg::set(const cigi::CelestialControl& packet) {
 
 void CigiIg::ask(const Question& question, std::uint8_t period) {
   const std::uint16_t number = std::visit([](const auto& one) { return one.request; }, question);
-  const Asked asked{question, control_.host_frame};
+  const Asked asked{question, station_.control.host_frame};
   const auto key = std::pair(question.index(), number);
   if (period == 0) {
     periodic_.erase(key);
@@ -184,7 +190,7 @@ void CigiIg::apply(CigiConditions::Changes& changes) {
       return true;
     } catch (const core::InputError& error) {
       const std::lock_guard<std::mutex> lock(mutex_);
-      refusal_ = core::to_string(error.problems().front());
+      refuse(core::to_string(error.problems().front()));
       return false;
     }
   };
@@ -195,13 +201,18 @@ void CigiIg::apply(CigiConditions::Changes& changes) {
 
 std::int8_t CigiIg::wanted_database() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return control_.database == 0 ? station_.database : control_.database;
+  return station_.control.database == 0 ? station_.database : station_.control.database;
 }
 
 void CigiIg::refuse_database(std::int8_t number, const std::string& why) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::erase(station_.others, number);
-  refusal_ = why;
+  refused_ = number;
+  refuse(why);
+}
+
+void CigiIg::refuse(const std::string& why) {
+  constexpr std::size_t kMost = 8;  // a frame
+  if (refusals_.size() < kMost) refusals_.push_back(why);
 }
 
 CigiStation CigiIg::station() const {
@@ -210,22 +221,23 @@ CigiStation CigiIg::station() const {
 }
 
 std::int8_t CigiIg::told_database() const {
-  const std::int8_t wanted = control_.database;
+  const std::int8_t wanted = station_.control.database;
   if (wanted == 0 || wanted == station_.database) return station_.database;
   const auto& others = station_.others;
-  const bool opens = std::find(others.begin(), others.end(), wanted) != others.end();
+  const bool opens =
+      wanted != refused_ && std::find(others.begin(), others.end(), wanted) != others.end();
   return opens ? static_cast<std::int8_t>(-wanted) : kNoDatabase;
 }
 
 std::vector<std::uint8_t> CigiIg::start_of_frame(Clock::time_point now) {
   cigi::StartOfFrame told;
   told.database = told_database();
-  told.mode = control_.mode;
-  told.minor_version = std::min<std::uint8_t>(control_.minor_version, 3);
+  told.mode = station_.control.mode;
+  told.minor_version = std::min<std::uint8_t>(station_.control.minor_version, 3);
   told.ig_frame = ++station_.ig_frame;
   told.timestamp_10us = static_cast<std::uint32_t>(
       static_cast<std::uint64_t>(1e5 * seconds_between(station_.begin, now)) & 0xffffffffU);
-  told.last_host_frame = control_.host_frame;
+  told.last_host_frame = station_.control.host_frame;
   return cigi::start_of_frame(told);
 }
 
@@ -233,7 +245,7 @@ std::vector<std::uint8_t> CigiIg::answers(const scenes::Scene& scene, std::size_
   constexpr std::size_t kLargestAnswer_bytes = 56;
   for (auto& [key, periodic] : periodic_)
     if (station_.ig_frame % periodic.second == 0 && asked_.size() < kMostAsked)
-      asked_.push_back({periodic.first.question, control_.host_frame});
+      asked_.push_back({periodic.first.question, station_.control.host_frame});
   std::vector<std::uint8_t> all;
   while (!asked_.empty() && all.size() + kLargestAnswer_bytes <= room_bytes) {
     append(all, answer(scene, asked_.front()));
@@ -252,11 +264,11 @@ std::vector<std::uint8_t> CigiIg::begin_frame(Clock::time_point now) {
   const auto scene = session_.scene();
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<std::uint8_t> message = start_of_frame(now);
-  if (!refusal_.empty()) append(message, cigi::ig_message(1, refusal_));
-  refusal_.clear();
+  for (const std::string& why : std::exchange(refusals_, {}))
+    append(message, cigi::ig_message(1, why));
   for (const cigi::Event& event : changes.events) append(message, cigi::event_notification(event));
   if (conditions_.response())
-    append(message, cigi::sensor_response(*conditions_.response(), control_.host_frame));
+    append(message, cigi::sensor_response(*conditions_.response(), station_.control.host_frame));
   append(message, answers(*scene, kDatagram_bytes - message.size()));
   return message;
 }

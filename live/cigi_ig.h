@@ -44,6 +44,10 @@ struct CigiStation {
   std::vector<std::int8_t> others{};  // that may be asked for
   std::uint32_t ig_frame = 0;
   Clock::time_point begin = Clock::now();  // of timestamps
+  // Whom we talk to, when it was heard, and what it said last: it may be waiting for us.
+  std::string host{};
+  std::optional<Clock::time_point> heard{};
+  feeds::cigi::IgControl control{};
 };
 
 class CigiIg {
@@ -90,6 +94,7 @@ class CigiIg {
   void apply(CigiConditions::Changes& changes);
   std::vector<std::uint8_t> answers(const scenes::Scene& scene, std::size_t room_bytes);
   std::int8_t told_database() const;
+  void refuse(const std::string& why);
   std::vector<std::uint8_t> start_of_frame(Clock::time_point now);
 
   session::Session& session_;
@@ -97,17 +102,15 @@ class CigiIg {
   Mailbox mailbox_;
 
   mutable std::mutex mutex_;
-  std::string host_;
-  std::optional<Clock::time_point> heard_;
-  feeds::cigi::IgControl control_{};
   CigiStation station_;
   CigiEntities entities_;
   feeds::cigi::ViewControl view_{};
   std::deque<Asked> asked_;
   std::map<std::pair<std::size_t, std::uint16_t>, std::pair<Asked, std::uint8_t>> periodic_;
   CigiConditions conditions_;
-  std::string host_time_;  // that it says it is there, ISO 8601
-  std::string refusal_;    // to be told
+  std::string host_time_;              // that it says it is there, ISO 8601
+  std::int8_t refused_ = 0;            // database that cannot be opened; 0: none
+  std::vector<std::string> refusals_;  // to be told
   std::uint64_t messages_ = 0, foreign_ = 0, late_ = 0, nonfinite_ = 0, unanswered_ = 0;
   std::array<std::uint64_t, 6> faults_{};
   std::array<std::uint64_t, 256> passed_over_{};

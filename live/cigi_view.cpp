@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace fanbeam::live {
 namespace {
@@ -49,6 +50,7 @@ void show(const CigiView& view, const sensors::Sensor& sensor, LiveFrame& frame)
   if (view.black_hot) {
     turn_around(frame.bscope);
     turn_around(frame.cscope);
+    std::swap(frame.low_dB, frame.high_dB);
   }
   if (view.on && window.enables == 0) return;
   blank(frame.bscope, [&](int row, int column) {

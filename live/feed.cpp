@@ -33,19 +33,20 @@ std::optional<core::Pose> Feed::pose_in(std::span<const std::uint8_t> datagram) 
   return state ? std::optional(placed(*state)) : std::nullopt;
 }
 
-void Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrived) {
+bool Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrived) {
   feeds::PacketFault fault{};
   const auto state = protocol_.decode(datagram, fault);
   if (state && protocol_.fine_clock)
     fault = gate_.take(state->clock_s,
                        std::chrono::duration<double>(arrived.time_since_epoch()).count());
   count(fault);
-  if (fault != feeds::PacketFault::none) return;
+  if (fault != feeds::PacketFault::none) return false;
   const core::Pose pose = placed(*state);
   mailbox_.put(pose, {datagram.begin(), datagram.end()}, arrived);
   compare_heights(pose, state->height_above_ground_m);
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_ = state;
+  return true;
 }
 
 void Feed::tell_visibility(double visibility_m) {

@@ -36,8 +36,8 @@ class Feed {
   Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
        const feeds::Protocol& protocol = feeds::kProtocols[0], std::size_t kept = Mailbox::kKept);
 
-  // Any bytes, from one thread.
-  void take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
+  // Any bytes, from one thread; whether they are a packet of use.
+  bool take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
   // One that nobody asked for: counted.
   void turn_away();
   // Of a simulator that tells its weather apart from its packets.

@@ -42,6 +42,8 @@ std::shared_ptr<LiveFrame> FrameMaker::rendered(const session::Session::Moment& 
   auto frame = std::make_shared<LiveFrame>();
   frame->bscope = sensors::bscope_picture(scene->description.sensor, made.bscope_grey);
   frame->cscope = sensors::cscope_picture(scene->description.sensor, made.cscope_grey);
+  frame->low_dB = scene->description.sensor.display.low_dB;
+  frame->high_dB = scene->description.sensor.display.high_dB;
   if (settings_.keep_received) frame->received_W = made.received_W();
   frame->outside_volume =
       std::find(made.events.begin(), made.events.end(), "outside_volume") != made.events.end();

@@ -60,7 +60,7 @@ void FrameTaker::run() {
 }
 
 void FrameTaker::put(const LiveFrame& frame) {
-  if (put_(frame)) return;
+  if (put_(frame, *this)) return;
   const std::lock_guard<std::mutex> lock(mutex_);
   ended_ = true;
 }

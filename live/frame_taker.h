@@ -15,8 +15,8 @@ namespace fanbeam::live {
 
 class FrameTaker {
  public:
-  // `put` asks leaving() now and then, and gives false when the sink takes no more.
-  using Put = std::function<bool(const LiveFrame&)>;
+  // It asks leaving() now and then, and gives false when the sink takes no more.
+  using Put = std::function<bool(const LiveFrame&, const FrameTaker&)>;
   FrameTaker(Put put, bool every_frame);
   ~FrameTaker();  // the sink is called no more
   FrameTaker(const FrameTaker&) = delete;

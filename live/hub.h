@@ -29,8 +29,9 @@ struct LiveFrame {
   core::Pose pose;                   // of the frame's middle
   session::Session::Moment under{};  // conditions
   core::Picture8 bscope, cscope;
-  std::vector<double>
-      received_W{};      // of the B-scope's cells, near row first; where a sink wants it
+  double low_dB = 0.0, high_dB = 0.0;  // of grey 0 and 255
+  // Of the B-scope's cells, near row first; where a sink wants it.
+  std::vector<double> received_W{};
   double samples = 0.0;  // as fanbeam render --rays-per-cell takes it
   double frame_ms = 0.0;
   double pose_age_ms = 0.0;               // between the pose's arrival and the frame's beginning

@@ -99,17 +99,18 @@ RadarVideo::RadarVideo(const RadarVideoSettings& settings, const sensors::Sensor
           static_cast<std::uint32_t>(std::lround(sensor.range.minimum_m / sensor.range.cell_m))),
       cell_duration_fs_(duration_fs(sensor.range.cell_m)),
       wire_(std::make_unique<Wire>(settings)) {
-  taker_.emplace([this](const LiveFrame& frame) { return put(frame); }, every_frame);
+  taker_.emplace(
+      [this](const LiveFrame& frame, const FrameTaker& taker) { return put(frame, taker); },
+      every_frame);
 }
 
 RadarVideo::~RadarVideo() { taker_.reset(); }
 
 std::string RadarVideo::summary_of(const LiveFrame& frame) const {
   const core::Geodetic& at = frame.pose.position;
-  const std::string cells =
-      settings_.bits == cat240::CellBits::sixteen
-          ? "16 bit dBW=-250+0.005(v-1)"
-          : fmt::format("8 bit {:g} to {:g} dB", sensor_.display.low_dB, sensor_.display.high_dB);
+  const std::string cells = settings_.bits == cat240::CellBits::sixteen
+                                ? "16 bit dBW=-250+0.005(v-1)"
+                                : fmt::format("8 bit {:g} to {:g} dB", frame.low_dB, frame.high_dB);
   return fmt::format(
       "fanbeam {:.40} lat {:.6f} lon {:.6f} deg h {:.1f} m WGS84 heading {:.2f} deg; azimuth {}; "
       "range {:+.3f} m; {}",
@@ -157,7 +158,7 @@ void RadarVideo::send_column(const LiveFrame& frame, int column) {
     wire_->send(message);
 }
 
-bool RadarVideo::put(const LiveFrame& frame) {
+bool RadarVideo::put(const LiveFrame& frame, const FrameTaker& taker) {
   constexpr std::chrono::seconds kBetweenSummaries(1);
   constexpr std::chrono::milliseconds kShortestNap(1);
   constexpr double kOfPeriod = 0.9;
@@ -168,7 +169,7 @@ bool RadarVideo::put(const LiveFrame& frame) {
     wire_->send(cat240::summary(settings_.source, time_of_day_s(), summary_of(frame)));
   }
   const int columns = sensor_.scan.columns;
-  for (int column = 0; column < columns && !taker_->leaving(); ++column) {
+  for (int column = 0; column < columns && !taker.leaving(); ++column) {
     send_column(frame, column);
     const std::chrono::duration<double> spent_s(kOfPeriod * period_s_ * (column + 1) / columns);
     const auto due = begin + std::chrono::duration_cast<Clock::duration>(spent_s);

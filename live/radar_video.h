@@ -14,7 +14,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "feeds/cat240.h"
 #include "live/frame_taker.h"
@@ -30,7 +32,7 @@ struct RadarVideoSettings {
   bool true_bearings = false;  // else from the nose
   bool zlib = false;
   feeds::cat240::Source source;
-  std::string interface;  // that multicast leaves by, its address; empty: the system's choice
+  std::string interface;  // that multicast leaves by, its IPv4 address; empty: the system's choice
   int hops = 1;           // of multicast: how many networks it crosses
 };
 
@@ -48,7 +50,7 @@ class RadarVideo {
 
  private:
   struct Wire;
-  bool put(const LiveFrame& frame);
+  bool put(const LiveFrame& frame, const FrameTaker& taker);
   std::string summary_of(const LiveFrame& frame) const;
   std::vector<std::uint8_t> cells_of(const LiveFrame& frame, int column) const;
   void send_column(const LiveFrame& frame, int column);

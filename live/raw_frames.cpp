@@ -19,7 +19,9 @@ RawFrames::RawFrames(Scope scope, const std::string& file, bool every_frame) : s
   if (file_ < 0)
     core::throw_input_error(core::ErrorClass::io, core::Place{file}, "--to", std::strerror(errno),
                             "a file or pipe that can be written");
-  taker_.emplace([this](const LiveFrame& frame) { return put(frame); }, every_frame);
+  taker_.emplace(
+      [this](const LiveFrame& frame, const FrameTaker& taker) { return put(frame, taker); },
+      every_frame);
 }
 
 RawFrames::~RawFrames() {
@@ -28,14 +30,14 @@ RawFrames::~RawFrames() {
 }
 
 // Whole, or until the reader is gone; a reader that stands still holds nobody's end up.
-bool RawFrames::put(const LiveFrame& frame) {
+bool RawFrames::put(const LiveFrame& frame, const FrameTaker& taker) {
   constexpr int kNap_ms = 100;
   const core::Picture8& picture = scope_ == Scope::bscope ? frame.bscope : frame.cscope;
   std::size_t done = 0;
   while (done < picture.pixels.size()) {
     pollfd ready{file_, POLLOUT, 0};
     ::poll(&ready, 1, kNap_ms);
-    if (taker_->leaving()) return true;
+    if (taker.leaving()) return true;
     if ((ready.revents & (POLLOUT | POLLERR | POLLHUP)) == 0) continue;
     // No more than a pipe takes at once: it would wait for its reader.
     const std::size_t part = std::min<std::size_t>(picture.pixels.size() - done, PIPE_BUF);

@@ -26,7 +26,7 @@ class RawFrames {
   bool ended() const { return taker_->ended(); }
 
  private:
-  bool put(const LiveFrame& frame);
+  bool put(const LiveFrame& frame, const FrameTaker& taker);
 
   Scope scope_;
   int file_ = -1;

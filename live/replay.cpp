@@ -9,6 +9,12 @@
 namespace fanbeam::live {
 namespace {
 
+ChannelSettings channel_settings(const Recording& recording, const ReplaySettings& settings) {
+  ChannelSettings channel{recording.flown_by.rate_Hz, 0.0, settings.begin};
+  channel.keep_received = settings.keep_received;
+  return channel;
+}
+
 class Replay {
  public:
   Replay(session::Session& session, const Recording& recording, const Feed* feed,
@@ -23,7 +29,7 @@ class Replay {
         told_(told),
         stop_(stop),
         predictor_(session.scene()->frame),
-        maker_(session, hub, ChannelSettings{recording.flown_by.rate_Hz, 0.0, settings.begin}) {}
+        maker_(session, hub, channel_settings(recording, settings)) {}
 
   void run() {
     for (const auto& event : recording_.events) {

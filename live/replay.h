@@ -14,6 +14,7 @@ struct ReplaySettings {
   bool lockstep =
       false;  // every frame, as fast as they are made; else frames that are late are left out
   Clock::time_point begin = Clock::now();
+  bool keep_received = false;  // LiveFrame::received_W
 };
 
 // `feed` decodes the packets of a recording that has some (its mailbox is not used), `flight` is that

@@ -35,16 +35,18 @@ void XPlaneLink::take(std::span<const std::uint8_t> datagram, const Sender& from
       feed_.turn_away();
       return;
     }
-    const auto values = feeds::decode_xplane_values(datagram);
-    for (const auto& [index, value] : values) {
-      if (index == kVisibility) feed_.tell_visibility(value);
-      if (index == kRain) feed_.tell_rain(value);
-      weather_heard_ = arrived;
+    if (const auto values = feeds::decode_xplane_values(datagram)) {
+      for (const auto& [index, value] : *values) {
+        if (index == kVisibility) feed_.tell_visibility(value);
+        if (index == kRain) feed_.tell_rain(value);
+        weather_heard_ = arrived;
+      }
+      return;
     }
-    if (!values.empty()) return;
-    heard_ = arrived;
   }
-  feed_.take(datagram, arrived);
+  if (!feed_.take(datagram, arrived)) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  heard_ = arrived;
 }
 
 void XPlaneLink::take_beacon(std::span<const std::uint8_t> datagram, const Sender& from,

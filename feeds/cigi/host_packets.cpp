@@ -116,6 +116,7 @@ HostPacket component_control(Fields& f) {
   packet.instance = f.at<std::uint16_t>(4);
   packet.of = f.bits(6, 0, 6);
   packet.state = f.byte(7);
+  packet.brief = Words < packet.words.size();
   for (std::size_t i = 0; i < Words; ++i) packet.words[i] = f.at<std::uint32_t>(8 + 4 * i);
   return packet;
 }

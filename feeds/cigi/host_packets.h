@@ -92,6 +92,7 @@ struct ComponentControl {
   std::uint16_t component = 0, instance = 0;
   std::uint8_t of = 0;  // 0 entity, 1 view, 2 view group, 3 sensor, ...
   std::uint8_t state = 0;
+  bool brief = false;  // came as Short Component Control
   std::array<std::uint32_t, 6> words{};
 };
 

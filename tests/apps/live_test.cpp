@@ -1,4 +1,8 @@
 // fanbeam live as a user starts and stops it.
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -88,6 +92,10 @@ TEST_CASE("Lockstep writes the same raw pictures every time, and a recording the
   CHECK(first.size() == 3U * 164U * 524U);
   CHECK(bytes_of("--lockstep --frames 3 --threads 1", "second") == first);
   CHECK(bytes_of("--lockstep --replay " + record, "again") == first);
+  // Watts are made again too.
+  CHECK(run_fanbeam("live flat-grass --http 0 --lockstep --replay " + record +
+                    " --to cat240:127.0.0.1:8600,bits=16")
+            .exit_code == 0);
   // As fast as it was flown, some of the frames.
   CHECK(bytes_of("--speed 2 --replay " + record, "paced").size() % (164U * 524U) == 0);
 }
@@ -119,4 +127,46 @@ TEST_CASE("A trajectory of one's own flies in live", "[live]") {
   CHECK(result.exit_code == 0);
   CHECK(run_fanbeam("live flat-grass --http 0 --frames 1 --from csv:" + table + ".not").exit_code ==
         4);
+}
+
+TEST_CASE("What cannot be of sources and sinks is told all at once, before anything is written",
+          "[live]") {
+  const TemporaryFolder folder;
+  folder.write("film.raw", "kept");
+  const std::string film = (folder.path() / "film.raw").string();
+  const Result result = run_fanbeam(
+      "live flat-grass --http 0 --from xplane:127.0.0.1:49000,peer=127.0.0.1 --to raw-bscope:" +
+      film +
+      " --to cat240:127.0.0.1:0 --to cat240:127.0.0.1:8600,bits=9 "
+      "--to cat240:127.0.0.1:8600,source=1/256 --to cat240:[::1]:8600,interface=127.0.0.1 "
+      "--to cat240:127.0.0.1:8600,hops=-1 --to cat240:nowhere:8600 --to cat420:127.0.0.1:8600");
+  CHECK(result.exit_code == 2);
+  for (const char* told : {"no peer= of xplane", "a port from 1", "bits=8 or bits=16",
+                           "source=SAC/SIC", "interface= of IPv4", "hops=N",
+                           "an address in numbers", "\"cat420:127.0.0.1:8600\"", "8 errors"}) {
+    INFO(told << "\n" << result.output);
+    CHECK(result.output.find(told) != std::string::npos);
+  }
+  CHECK(fanbeam::core::read_file(film, 100) == "kept");
+  CHECK(run_fanbeam("live flat-grass --http 0 --from xplane:0").exit_code == 2);
+}
+
+TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") {
+  const TemporaryFolder folder;
+  folder.write("film.raw", "kept");
+  const std::string film = (folder.path() / "film.raw").string();
+  const int other = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in at{};
+  at.sin_family = AF_INET;
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof at;
+  REQUIRE(::bind(other, reinterpret_cast<sockaddr*>(&at), size) == 0);
+  REQUIRE(::listen(other, 1) == 0);
+  REQUIRE(::getsockname(other, reinterpret_cast<sockaddr*>(&at), &size) == 0);
+  const Result taken = run_fanbeam("live flat-grass --http " + std::to_string(ntohs(at.sin_port)) +
+                                   " --frames 1 --to raw-bscope:" + film);
+  ::close(other);
+  CHECK(taken.exit_code == 4);
+  CHECK(taken.output.find("a port that is free") != std::string::npos);
+  CHECK(fanbeam::core::read_file(film, 100) == "kept");
 }

@@ -64,13 +64,13 @@ TEST_CASE("Values are pairs of index and number; those that are not finite are l
   const float infinite = std::numeric_limits<float>::infinity();
   const auto values =
       feeds::decode_xplane_values(tests::xplane_values({{0, 800.0F}, {1, infinite}, {1, 0.5F}}));
-  REQUIRE(values.size() == 2);
-  CHECK(values[0] == std::pair(std::int32_t{0}, 800.0));
-  CHECK(values[1] == std::pair(std::int32_t{1}, 0.5));
+  REQUIRE((values && values->size() == 2));
+  CHECK((*values)[0] == std::pair(std::int32_t{0}, 800.0));
+  CHECK((*values)[1] == std::pair(std::int32_t{1}, 0.5));
   auto cut = tests::xplane_values({{0, 800.0F}});
   cut.pop_back();
-  CHECK(feeds::decode_xplane_values(cut).empty());
-  CHECK(feeds::decode_xplane_values(xplane_position(1.0, 1.0, 1.0)).empty());
+  CHECK_FALSE(feeds::decode_xplane_values(cut).has_value());
+  CHECK_FALSE(feeds::decode_xplane_values(xplane_position(1.0, 1.0, 1.0)).has_value());
 }
 
 TEST_CASE("A beacon tells the port, and whether it is the simulator itself", "[xplane]") {

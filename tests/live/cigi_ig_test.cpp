@@ -92,6 +92,42 @@ TEST_CASE("Each frame begins with its number, the host's and the mode", "[cigi]"
   CHECK(told[0].second.at<std::int8_t>(3) == -128);  // no such database
 }
 
+TEST_CASE(
+    "A database that may be opened is told as its negative number, one that cannot be as -128",
+    "[cigi]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::CigiStation before;
+  before.others = {2, 3};
+  before.ig_frame = 77;
+  CigiIg ig(*session, core::VerticalDatum::scene, live::Mailbox::kKept, before);
+  std::uint32_t number = 0;
+  const auto told = [&](std::int8_t database) {
+    ig.take(message(++number, {}, kOperate, false, database), "a:1");
+    return packets_in(ig.begin_frame());
+  };
+  CHECK(told(1)[0].second.at<std::int8_t>(3) == 1);
+  CHECK(told(2)[0].second.at<std::int8_t>(3) == -2);
+  CHECK(ig.wanted_database() == 2);
+  ig.refuse_database(2, "no such folder");
+  const auto refused = told(2);
+  CHECK(refused[0].second.at<std::int8_t>(3) == -128);
+  REQUIRE(refused.size() == 2);
+  CHECK(refused[1].first == 117);
+  CHECK(told(0)[0].second.at<std::int8_t>(3) == 1);   // which is ours to choose
+  CHECK(told(2)[0].second.at<std::int8_t>(3) == -2);  // tried again
+  CHECK(told(-3)[0].second.at<std::int8_t>(3) == -128);
+  // Whoever waits for us is told of the next frame without asking again.
+  const live::CigiStation after = ig.station();
+  CHECK(after.host == "a:1");
+  CigiIg next(*session, core::VerticalDatum::scene, live::Mailbox::kKept, after);
+  CHECK(next.host() == "a:1");
+  const auto first = packets_in(next.begin_frame());
+  CHECK(first[0].second.at<std::uint32_t>(8) == 77 + 6 + 1);
+  CHECK(first[0].second.at<std::uint32_t>(16) == number);
+  CHECK(first[0].second.bits(5, 0, 2) == 1);
+}
+
 TEST_CASE("F13 messages that come twice, late or from a second host are left out", "[cigi]") {
   Station station;
   const auto fly = [&](std::uint32_t frame, const char* host = "a:1") {
@@ -139,9 +175,17 @@ TEST_CASE("Weather and wet ground of a host come into force with the next frame"
   REQUIRE(packets.size() == 2);
   CHECK(packets[1].first == 117);
   CHECK(station.session->scene()->weather.liquid_water_g_per_m3 == Approx(0.2));
+  // Nor does it keep out what came with it; rain and snow that change places do so together.
+  station.hear(message(31, {weather(0, 2.0F, 0.0F), weather(4, 0.0F, 0.0F, 1)}));
+  CHECK(packets_in(station.ig.begin_frame()).size() == 2);
+  CHECK(station.session->scene()->weather.rain_rate_mm_per_h == 1.0);
+  station.hear(message(32, {weather(5, 0.0F, 0.0F, 2), weather(4, 0.0F, 0.0F, 0)}));
+  CHECK(packets_in(station.ig.begin_frame()).size() == 1);
+  CHECK(station.session->scene()->weather.snow_rate_mm_per_h == 1.0);
+  CHECK(station.session->scene()->weather.rain_rate_mm_per_h == 0.0);
   // Standby and back: the scene's own weather and ground, which a host's dry ground is not.
-  station.hear(message(4, {}, kStandby));
-  station.hear(message(5, {}, kOperate));
+  station.hear(message(40, {}, kStandby));
+  station.hear(message(41, {}, kOperate));
   station.ig.begin_frame();
   scene = station.session->scene();
   CHECK(scene->weather.visibility_m == 400.0);

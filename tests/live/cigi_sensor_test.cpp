@@ -104,6 +104,9 @@ TEST_CASE("Switches of the radar are told in an event once they are in force", "
   CHECK(packets[3].second.at<std::uint16_t>(2) == 3);
   CHECK(all_of(station.told().unused_packets) == 3);
   CHECK(packets_in(station.ig.begin_frame()).size() == 1);  // told once
+  const Bytes brief = Packet(5, 16, false).put<std::uint16_t>(2, 9).put<std::uint8_t>(6, 3).bytes();
+  station.hear(message(22, {brief}));
+  CHECK(station.told().unused_packets.back().first == "short_component_control (5)");
 }
 
 TEST_CASE("A view's near, far and sides blank what lies beyond them", "[cigi]") {
@@ -180,8 +183,9 @@ TEST_CASE("Date and time of the host's world are told, impossible ones counted",
   CHECK(station.told().host_time.empty());
   station.hear(message(1, {celestial(6, 2'29'2024)}));
   CHECK(station.told().host_time == "2024-02-29T06:05Z");
-  station.hear(message(2, {celestial(6, 2'29'2023), celestial(24, 2'28'2023),
-                           celestial(7, 2'28'2023, 0), celestial(7, 4294967295U)}));
+  station.hear(
+      message(2, {celestial(6, 2'29'2023), celestial(24, 2'28'2023), celestial(7, 2'28'2023, 0),
+                  celestial(7, 4294967295U), celestial(7, 257'01'2024)}));
   CHECK(station.told().host_time == "2024-02-29T06:05Z");
-  CHECK(all_of(station.told().unused_packets) == 4);
+  CHECK(all_of(station.told().unused_packets) == 5);
 }

@@ -8,6 +8,7 @@
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
+#include <string>
 
 #include "core/errors.h"
 #include "core/units.h"
@@ -129,6 +130,20 @@ TEST_CASE("F15 columns of a frame are spread over its period, and nobody waits f
     // The second column is due 0.45 of the period after the first one.
     CHECK(live::seconds_between(first, live::Clock::now()) > 0.2 / kRate_Hz);
   }
+}
+
+TEST_CASE("The summary tells the levels of its frame, and a channel ends in the middle of a sweep",
+          "[radar_video][threads]") {
+  const Ear ear;
+  live::RadarVideo video(to(ear), small_sensor(), "test", 0.5, false);
+  const auto frame = small_frame(1);
+  frame->low_dB = 7.5;
+  frame->high_dB = -31.0;
+  video.write(frame);
+  const auto summary = ear.hear();
+  const std::string text(summary.begin() + 9, summary.end() - 3);
+  CHECK(text.find("8 bit 7.5 to -31 dB") != std::string::npos);
+  ear.hear();
 }
 
 TEST_CASE("A place that cannot be sent to and cells beyond the category are refused",

@@ -85,6 +85,16 @@ TEST_CASE("F12 packets of others than the simulator are counted and left alone",
   CHECK(talk.status().bad_packets.size() == 1);
 }
 
+TEST_CASE("What says nothing of the aircraft does not count as heard", "[xplane_link]") {
+  Talk talk(kSimulator);
+  CHECK(talk.requests_after(0.0) == 3);
+  for (double t = 0.1; t < 1.2; t += 0.1) {
+    talk.link.take(tests::xplane_values({{0, 700.0F}}), kFromThere, talk.at(t));
+    talk.link.take(tests::xplane_beacon(49000), kFromThere, talk.at(t));
+  }
+  CHECK(talk.requests_after(1.2) == 3);
+}
+
 TEST_CASE("A beacon tells where to ask; another simulator's counts when the first is silent",
           "[xplane_link]") {
   Talk talk(std::nullopt);
