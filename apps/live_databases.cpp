@@ -6,8 +6,6 @@
 #include <system_error>
 #include <utility>
 
-#include "core/errors.h"
-
 namespace fanbeam::apps {
 namespace {
 
@@ -38,21 +36,17 @@ std::vector<std::int8_t> LiveDatabases::others() const {
 }
 
 bool LiveDatabases::is_ready(std::int8_t wanted) {
-  if (wanted != refused_) refused_ = 0;
   if (future_.valid()) {
     if (future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
     try {
       ready_ = future_.get();
     } catch (const std::exception&) {
-      if (opening_ == wanted) {
-        refused_ = wanted;
-        throw;
-      }  // else the host has changed its mind, as below
+      if (opening_ == wanted) throw;
     }
   }
   if (ready_ && opening_ == wanted) return true;
   ready_.reset();  // the host has changed its mind
-  if (wanted == current_ || wanted == refused_ || scenes_.count(wanted) == 0) return false;
+  if (wanted == current_ || scenes_.count(wanted) == 0) return false;
   opening_ = wanted;
   future_ = std::async(std::launch::async, [this, scene = scenes_.at(wanted)] {
     const core::StopToken token = leaving_.token();

@@ -31,8 +31,7 @@ class LiveDatabases {
   std::vector<std::int8_t> others() const;
 
   // Call it each frame with the number that the host wants: begins to open that scene, and gives true
-  // once it is open. Throws, once, what opening it threw; it is tried again when the
-  // host has asked for another one in between.
+  // once it is open. Throws what opening it threw; asked again, it tries again.
   bool is_ready(std::int8_t wanted);
   // That scene, which is the current one from now on; null where none is ready.
   std::unique_ptr<session::Session> take();
@@ -40,7 +39,7 @@ class LiveDatabases {
  private:
   Opener opener_;
   std::map<std::int8_t, std::string> scenes_;
-  std::int8_t current_ = 1, opening_ = 0, refused_ = 0;
+  std::int8_t current_ = 1, opening_ = 0;
   core::StopSource leaving_;
   std::unique_ptr<session::Session> ready_;
   std::future<std::unique_ptr<session::Session>> future_;

@@ -97,10 +97,10 @@ void CigiIg::take(std::span<const std::uint8_t> datagram, const std::string& hos
     const double time_s = station_.control.timestamp_valid
                               ? 1e-5 * station_.control.timestamp_10us
                               : seconds_between(station_.begin, arrived);
-    for (const cigi::HostPacket& packet : message->packets) take(packet, time_s);
-    for (const std::string& why : conditions_.settle(*session_.scene())) refuse(why);
-    if (station_.control.mode == cigi::Mode::operate)
-      pose = entities_.pose(view_, session_.scene()->frame);
+    const auto scene = session_.scene();
+    for (const cigi::HostPacket& packet : message->packets) take(packet, time_s, scene->frame);
+    for (const std::string& why : conditions_.settle(*scene)) refuse(why);
+    if (station_.control.mode == cigi::Mode::operate) pose = entities_.pose(view_, scene->frame);
   }
   if (pose) mailbox_.put(*pose, {datagram.begin(), datagram.end()}, arrived);
 }
@@ -116,29 +116,27 @@ void CigiIg::enter(cigi::Mode mode) {
   conditions_.reset();
 }
 
-void CigiIg::take(const cigi::HostPacket& packet, double time_s) {
-  const auto scene = session_.scene();
+void CigiIg::take(const cigi::HostPacket& packet, double time_s, const terrain::LocalFrame& frame) {
   const auto count = [&](std::uint8_t id, bool means_something) {
     if (!means_something) ++passed_over_[id];
   };
-  std::visit(
-      Overloaded{
-          [&](const cigi::EntityControl& one) { entities_.place(one, time_s, scene->frame); },
-          [&](const cigi::RateControl& one) { entities_.move(one); },
-          [&](const cigi::ViewControl& one) { view_ = one; },
-          [&](const cigi::ViewDefinition& one) { conditions_.take(one); },
-          [&](const cigi::AtmosphereControl& one) { count(10, conditions_.take(one)); },
-          [&](const cigi::WeatherControl& one) { count(12, conditions_.take(one)); },
-          [&](const cigi::SurfaceConditions& one) { count(15, conditions_.take(one)); },
-          [&](const cigi::SensorControl& one) { count(17, conditions_.take(one)); },
-          [&](const cigi::ComponentControl& one) {
-            count(one.brief ? 5 : 4, conditions_.take(one, station_.control.host_frame));
-          },
-          [&](const cigi::CelestialControl& one) { count(9, set(one)); },
-          [&](const cigi::HeightRequest& one) { ask(one, one.update_period); },
-          [&](const cigi::SightRequest& one) { ask(one, one.update_period); },
-      },
-      packet);
+  std::visit(Overloaded{
+                 [&](const cigi::EntityControl& one) { entities_.place(one, time_s, frame); },
+                 [&](const cigi::RateControl& one) { entities_.move(one); },
+                 [&](const cigi::ViewControl& one) { view_ = one; },
+                 [&](const cigi::ViewDefinition& one) { conditions_.take(one); },
+                 [&](const cigi::AtmosphereControl& one) { count(10, conditions_.take(one)); },
+                 [&](const cigi::WeatherControl& one) { count(12, conditions_.take(one)); },
+                 [&](const cigi::SurfaceConditions& one) { count(15, conditions_.take(one)); },
+                 [&](const cigi::SensorControl& one) { count(17, conditions_.take(one)); },
+                 [&](const cigi::ComponentControl& one) {
+                   count(one.brief ? 5 : 4, conditions_.take(one, station_.control.host_frame));
+                 },
+                 [&](const cigi::CelestialControl& one) { count(9, set(one)); },
+                 [&](const cigi::HeightRequest& one) { ask(one, one.update_period); },
+                 [&](const cigi::SightRequest& one) { ask(one, one.update_period); },
+             },
+             packet);
 }
 
 bool CigiIg::set(const cigi::CelestialControl& packet) {
@@ -201,7 +199,8 @@ void CigiIg::apply(CigiConditions::Changes& changes) {
 
 std::int8_t CigiIg::wanted_database() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return station_.control.database == 0 ? station_.database : station_.control.database;
+  const std::int8_t wanted = station_.control.database;
+  return wanted == 0 || wanted == refused_ ? station_.database : wanted;
 }
 
 void CigiIg::refuse_database(std::int8_t number, const std::string& why) {

@@ -69,7 +69,8 @@ class CigiIg {
   // What the host asked for in weather and surfaces comes into force, then the message of a frame at
   // `now`: start of frame first. Call it before each frame.
   std::vector<std::uint8_t> begin_frame(Clock::time_point now = Clock::now());
-  // The number that the host asks for; the open one's where it leaves the choice to us.
+  // The number that the host asks for; the open one's where it leaves the choice to us, or asks for one
+  // that was refused and for no other since.
   std::int8_t wanted_database() const;
   // It cannot be opened: the host is told so, and why.
   void refuse_database(std::int8_t number, const std::string& why);
@@ -87,7 +88,7 @@ class CigiIg {
   bool follows(const feeds::cigi::IgControl& control, const std::string& host,
                Clock::time_point arrived);
   void enter(feeds::cigi::Mode mode);
-  void take(const feeds::cigi::HostPacket& packet, double time_s);
+  void take(const feeds::cigi::HostPacket& packet, double time_s, const terrain::LocalFrame& frame);
   bool set(const feeds::cigi::CelestialControl& packet);
   void ask(const Question& question, std::uint8_t period);
   std::vector<std::uint8_t> answer(const scenes::Scene& scene, const Asked& asked) const;

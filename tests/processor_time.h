@@ -15,11 +15,11 @@ inline double processor_time_s() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr double kAtOnce_s = 100.0;
 inline constexpr double kSanitizerMemory = 10.0;  // factor for limits of memory
-inline constexpr int kMillion = 100'000;          // random inputs
+inline constexpr int kRandomInputs = 100'000;
 #else
 inline constexpr double kAtOnce_s = 5.0;
 inline constexpr double kSanitizerMemory = 1.0;
-inline constexpr int kMillion = 1'000'000;
+inline constexpr int kRandomInputs = 1'000'000;
 #endif
 
 }  // namespace fanbeam::tests
