@@ -12,19 +12,11 @@
 #include <system_error>
 #include <tuple>
 
-#include "apps/shipped_names.h"
+#include "session/shipped.h"
 
 namespace fanbeam::apps {
-namespace {
 
 namespace fs = std::filesystem;
-
-bool holds_shipped_files(const fs::path& folder) {
-  return fs::is_regular_file(folder / "materials" / "library.toml") &&
-         fs::is_regular_file(folder / "sensors" / "hivision.toml");
-}
-
-}  // namespace
 
 void set_up_log(const CommonOptions& options) {
   auto logger = spdlog::stderr_color_mt("fanbeam");
@@ -34,17 +26,7 @@ void set_up_log(const CommonOptions& options) {
                                   : spdlog::level::from_str(options.log_level));
 }
 
-fs::path shipped_folder() {
-  const fs::path program = fs::read_symlink("/proc/self/exe");
-  for (fs::path folder = program.parent_path(); folder.has_relative_path();
-       folder = folder.parent_path()) {
-    if (holds_shipped_files(folder / "share" / "fanbeam")) return folder / "share" / "fanbeam";
-    if (holds_shipped_files(folder)) return folder;
-  }
-  core::throw_input_error(core::ErrorClass::io, core::Place{program.string()}, "shipped files",
-                          "not found",
-                          "share/fanbeam beside the installed program, or a source tree around it");
-}
+fs::path shipped_folder() { return session::shipped_above(fs::read_symlink("/proc/self/exe")); }
 
 void check_data_folder(const std::string& from_command_line, core::ProblemList& problems) {
   std::error_code refused;
@@ -67,14 +49,7 @@ std::vector<fs::path> data_folders(const std::string& from_command_line) {
 }
 
 fs::path find_scene(const std::string& name) {
-  const fs::path shipped = shipped_folder();
-  std::error_code refused;  // such as a name too long to be one
-  for (const fs::path& candidate : {fs::path(name), shipped / name, shipped / "scenes" / name})
-    if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused))
-      return candidate;
-  core::throw_input_error(core::ErrorClass::io, core::Place{name}, "scene", "not found",
-                          "a folder with scene.toml, or one of the shipped scenes:" +
-                              nearest_first(name, shipped_scenes()));
+  return session::find_scene(name, shipped_folder());
 }
 
 void print_problems(std::vector<core::Problem> problems) {

@@ -6,12 +6,12 @@
 #include "apps/fmcw_command.h"
 #include "apps/render_command.h"
 #include "apps/scene_choice.h"
-#include "apps/shipped_names.h"
 #include "core/units.h"
 #include "materials/library/material_library.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "scenes/scene_reader.h"
 #include "sensors/sensor_file.h"
+#include "session/shipped.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -47,7 +47,7 @@ std::vector<std::string> missing_files(const core::ProblemList& problems) {
 Listing listed_scenes(const std::vector<std::filesystem::path>& data_folders) {
   Listing listing{{"data", "what it shows"}, {}, {}};
   bool complete = true;
-  for (const std::string& name : shipped_scenes()) {
+  for (const std::string& name : session::shipped_scenes(shipped_folder())) {
     core::ProblemList problems;
     const scenes::SceneDescription scene =
         scenes::read_scene(find_scene(name), {shipped_folder(), data_folders, {}}, problems);
@@ -73,7 +73,7 @@ Listing listed_sensors() {
   Listing listing{{"band", "range", "field of view", "cells", "radar"},
                   {},
                   "fanbeam render --sensor NAME looks with it."};
-  for (const std::string& name : shipped_sensors()) {
+  for (const std::string& name : session::shipped_sensors(shipped_folder())) {
     core::ProblemList problems;
     const std::filesystem::path file = find_sensor(name);
     const sensors::Sensor sensor = sensors::read_sensor(file, problems);

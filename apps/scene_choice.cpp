@@ -1,12 +1,11 @@
 #include "apps/scene_choice.h"
 
 #include <CLI/CLI.hpp>
-#include <system_error>
 
 #include "apps/common.h"
-#include "apps/shipped_names.h"
 #include "apps/value_words.h"
 #include "scenes/scene_reader.h"
+#include "session/shipped.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -46,13 +45,7 @@ void add_scene_choice(CLI::App& command, SceneChoice& choice) {
 }
 
 fs::path find_sensor(const std::string& name) {
-  const fs::path shipped = shipped_folder() / "sensors";
-  std::error_code refused;
-  for (const fs::path& candidate : {fs::path(name), shipped / (name + ".toml")})
-    if (fs::is_regular_file(candidate, refused)) return candidate;
-  core::throw_input_error(
-      core::ErrorClass::io, "--sensor", "\"" + name + "\" not found",
-      "a sensor file, or one of the shipped sensors:" + nearest_first(name, shipped_sensors()));
+  return session::find_sensor(name, shipped_folder(), "--sensor");
 }
 
 scenes::SceneDescription read_chosen_scene(const SceneChoice& choice, core::ProblemList& problems) {

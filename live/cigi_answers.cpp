@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "feeds/aircraft_state.h"
+#include "scenes/ground_below.h"
 #include "terrain/geoid.h"
 
 namespace fanbeam::live {
@@ -34,23 +35,6 @@ std::optional<glm::dvec3> local_m(const scenes::Scene& scene, core::VerticalDatu
   core::Geodetic at{place.x, place.y, place.z};
   at.height_m += datum_height_m(at, datum);
   return scene.frame.to_local_m(at);
-}
-
-// On the ground below a place, or above it, along the vertical there.
-std::optional<core::Geodetic> foot_of(const scenes::Scene& scene, core::Geodetic at) {
-  constexpr int kMostSteps = 8;
-  constexpr double kNear_m = 1e-5;
-  const terrain::HeightField* ground = scene.world.surfaces().terrain();
-  if (ground == nullptr) return std::nullopt;
-  for (int step = 0; step < kMostSteps; ++step) {
-    const glm::dvec3 local = scene.frame.to_local_m(at);
-    const auto ground_m = ground->height_at(local.x, local.y);
-    if (!ground_m) return std::nullopt;
-    const double above_m = local.z - *ground_m;
-    at.height_m -= above_m;
-    if (std::abs(above_m) < kNear_m) break;
-  }
-  return at;
 }
 
 struct Normal {
@@ -96,7 +80,7 @@ feeds::cigi::HeightResponse height_answer(const scenes::Scene& scene, core::Vert
   const auto place_m = local_m(scene, datum, request.place, request.of_entity, entity);
   if (!place_m) return answer;
   const core::Geodetic place = scene.frame.to_geodetic(*place_m);
-  const auto foot = foot_of(scene, place);
+  const auto foot = scenes::ground_below(scene, place);
   if (!foot) return answer;
   answer.valid = true;
   const double above_m = place.height_m - foot->height_m;

@@ -29,7 +29,8 @@ RawFrames::~RawFrames() {
   ::close(file_);
 }
 
-// Whole, or until the reader is gone; a reader that stands still holds nobody's end up.
+// Whole, also at the end of the flight, or until the reader is gone; a reader that stands still holds
+// nobody's end up.
 bool RawFrames::put(const LiveFrame& frame, const FrameTaker& taker) {
   constexpr int kNap_ms = 100;
   const core::Picture8& picture = scope_ == Scope::bscope ? frame.bscope : frame.cscope;
@@ -37,8 +38,10 @@ bool RawFrames::put(const LiveFrame& frame, const FrameTaker& taker) {
   while (done < picture.pixels.size()) {
     pollfd ready{file_, POLLOUT, 0};
     ::poll(&ready, 1, kNap_ms);
-    if (taker.leaving()) return true;
-    if ((ready.revents & (POLLOUT | POLLERR | POLLHUP)) == 0) continue;
+    if ((ready.revents & (POLLOUT | POLLERR | POLLHUP)) == 0) {
+      if (taker.leaving()) return true;
+      continue;
+    }
     // No more than a pipe takes at once: it would wait for its reader.
     const std::size_t part = std::min<std::size_t>(picture.pixels.size() - done, PIPE_BUF);
     const ssize_t count = ::write(file_, picture.pixels.data() + done, part);

@@ -43,6 +43,14 @@ foreach(file bscope/00000.png cscope/00000.png run.json)
   endif()
 endforeach()
 
+# import fanbeam, which finds the installed files from where it lies itself.
+file(WRITE "${SCRATCH}/elsewhere/look.py" "import fanbeam
+scene = fanbeam.Scene.open('flat-grass')
+assert fanbeam.__file__.startswith('${prefix}'), fanbeam.__file__
+assert scene.render(0).bscope.shape == (524, 164)
+")
+run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/lib/python3/dist-packages" /usr/bin/python3 look.py)
+
 run("${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}/tests/install/consumer" -B "${SCRATCH}/consumer"
     "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}" -DCMAKE_BUILD_TYPE=Release)
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/consumer")

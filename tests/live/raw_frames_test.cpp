@@ -80,6 +80,18 @@ TEST_CASE("F15 a reader that stands still holds nobody up, and gets whole pictur
   ::close(reader);
 }
 
+TEST_CASE("The end of the flight cuts no picture in a file", "[raw_frames][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "frames.raw";
+  constexpr std::size_t kSize = 20'000'000;  // far from written when the end comes
+  {
+    RawFrames raw(RawFrames::Scope::bscope, file.string(), false);
+    raw.write(frame_of(1, kSize));
+    while (std::filesystem::file_size(file) == 0) std::this_thread::yield();
+  }
+  CHECK(std::filesystem::file_size(file) == kSize);
+}
+
 TEST_CASE("A reader that leaves ends the pictures, not the program", "[raw_frames][threads]") {
   std::signal(SIGPIPE, SIG_IGN);
   const tests::TemporaryFolder folder;

@@ -1,0 +1,88 @@
+#include "bindings/python/convert.h"
+
+#include "core/number_range.h"
+#include "core/stop.h"
+#include "core/units.h"
+
+namespace fanbeam::bindings {
+namespace {
+
+struct PoseField {
+  const char* name;
+  core::NumberRange range;
+  const char* unit;
+};
+constexpr std::array<PoseField, 10> kPoseFields = {
+    {{"pose.time_s", {}, "s"},
+     {"pose.latitude_deg", {-90.0, 90.0}, "deg"},
+     {"pose.longitude_deg", {-540.0, 540.0}, "deg"},
+     {"pose.height_m", {-20000.0, 1.0e6}, "m"},
+     {"pose.roll_deg", {}, "deg"},
+     {"pose.pitch_deg", {}, "deg"},
+     {"pose.heading_deg", {}, "deg"},
+     {"pose.north_mps", {}, "m/s"},
+     {"pose.east_mps", {}, "m/s"},
+     {"pose.down_mps", {}, "m/s"}}};
+
+void check(const PoseNumbers& numbers) {
+  core::ProblemList problems;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    core::check_range(problems, kPoseFields[i].name, numbers[i], kPoseFields[i].range,
+                      kPoseFields[i].unit);
+  problems.throw_if_errors();
+}
+
+void raise(const core::InputError& error) {
+  const py::object type = py::module_::import("fanbeam._errors").attr("InputError");
+  PyErr_SetObject(type.ptr(), problems_list(error.problems()).ptr());
+}
+
+}  // namespace
+
+core::Pose pose_of(const PoseNumbers& numbers) {
+  check(numbers);
+  core::Pose pose;
+  pose.time_s = numbers[0];
+  pose.position = {core::radians(numbers[1]), core::radians(numbers[2]), numbers[3]};
+  pose.q_NB = core::quaternion_from(
+      {core::radians(numbers[4]), core::radians(numbers[5]), core::radians(numbers[6])});
+  pose.v_N_mps = glm::dvec3(numbers[7], numbers[8], numbers[9]);
+  return pose;
+}
+
+PoseNumbers numbers_of(const core::Pose& pose) {
+  const core::Attitude attitude = core::attitude_from(pose.q_NB);
+  return {pose.time_s,
+          core::degrees(pose.position.latitude_rad),
+          core::degrees(pose.position.longitude_rad),
+          pose.position.height_m,
+          core::degrees(attitude.roll_rad),
+          core::degrees(attitude.pitch_rad),
+          core::degrees(attitude.heading_rad),
+          pose.v_N_mps.x,
+          pose.v_N_mps.y,
+          pose.v_N_mps.z};
+}
+
+py::list problems_list(const std::vector<core::Problem>& problems) {
+  const py::object type = py::module_::import("fanbeam._errors").attr("Problem");
+  py::list result;
+  for (const core::Problem& problem : problems)
+    result.append(type(problem.code, problem.place.file, problem.place.line, problem.place.column,
+                       problem.field, problem.value, problem.expected, core::to_string(problem)));
+  return result;
+}
+
+void translate_errors() {
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const core::InputError& error) {
+      raise(error);
+    } catch (const core::Stopped&) {
+      PyErr_SetNone(PyExc_KeyboardInterrupt);
+    }
+  });
+}
+
+}  // namespace fanbeam::bindings

@@ -1,0 +1,85 @@
+"""What there is: shipped scenes, sensors and materials, and the air."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from fanbeam import _core, _paths
+from fanbeam._errors import warn
+
+
+def scenes() -> list[str]:
+    """Names of the scenes that ship with fanbeam, as Scene.open takes them."""
+    return _core.shipped_scenes(_paths.shipped())
+
+
+def sensors() -> list[str]:
+    """Names of the sensors that ship with fanbeam, as Scene.open takes them."""
+    return _core.shipped_sensors(_paths.shipped())
+
+
+class Material(NamedTuple):
+    """A surface of the library: `confidence` is "seen", "fitted", "recalled" or "assumed"."""
+
+    name: str
+    model: str
+    confidence: str
+    source: str
+    note: str
+
+
+def _library(library: str | os.PathLike[str] | None) -> Path:
+    return _paths.shipped() / "materials" / "library.toml" if library is None else Path(library)
+
+
+def materials(library: str | os.PathLike[str] | None = None) -> list[Material]:
+    """The materials of a library file, in its order; of the shipped one unless told otherwise."""
+    return [Material(*row) for row in _core.materials(_library(library))]
+
+
+def nrcs(
+    material: str,
+    grazing_rad: npt.ArrayLike,
+    *,
+    frequency_Hz: float = 35e9,
+    polarisation: str = "HH",
+    state: str = "dry",
+    extrapolate: bool = False,
+    library: str | os.PathLike[str] | None = None,
+) -> npt.NDArray[np.float64]:
+    """Normalised radar cross section sigma0, linear, of a material at grazing angles 0 to pi/2.
+
+    `polarisation` is "HH" or "VV", `state` what the weather left: "dry", "wet", "dry-snow" or
+    "wet-snow". A frequency or polarisation that the material's model is not known for is refused
+    unless `extrapolate`. The shape is that of `grazing_rad`.
+    """
+    told: list[Any] = []
+    values = _core.nrcs(
+        _library(library), material, np.asarray(grazing_rad, float), frequency_Hz, polarisation, state, extrapolate, told
+    )
+    warn(told)
+    return values
+
+
+class Atmosphere:
+    """Loss along straight paths through layered air: gases (ITU-R P.676), fog (P.840), rain (P.838), snow.
+
+    Weather as in Scene.set_weather; without any, a standard day. Heights are above the ground that the
+    weather is told for. Losses are one way.
+    """
+
+    def __init__(self, frequency_Hz: float = 35e9, **weather: float | bool | None):
+        self._air = _core.Air(weather, frequency_Hz)
+
+    def one_way_dB_per_km(self, height_m: float = 0.0) -> dict[str, float]:
+        """Specific attenuation at a height by cause: "gas", "fog", "rain", "snow"."""
+        return self._air.one_way_dB_per_km(height_m)
+
+    def one_way_dB(self, from_height_m: float, to_height_m: float, length_m: float) -> float:
+        """Loss of a straight path of `length_m` between two heights."""
+        return self._air.one_way_dB(from_height_m, to_height_m, length_m)

@@ -1,0 +1,25 @@
+"""Where files lie: what ships with fanbeam, and data."""
+
+from __future__ import annotations
+
+import functools
+import os
+from pathlib import Path
+
+from fanbeam import _core
+
+
+@functools.cache
+def shipped() -> Path:
+    return Path(_core.shipped_above(Path(__file__).resolve()))
+
+
+def data_folders(first: str | os.PathLike[str] | None) -> list[Path]:
+    """`first`, then what FANBEAM_DATA names, then shared/data beside a source tree."""
+    folders = [Path(first)] if first is not None else []
+    if named := os.environ.get("FANBEAM_DATA"):
+        folders.append(Path(named))
+    beside = shipped().parent / "shared" / "data"
+    if beside.is_dir():
+        folders.append(beside)
+    return folders

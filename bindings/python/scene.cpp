@@ -1,0 +1,257 @@
+#include "bindings/python/scene.h"
+
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "bindings/python/frame.h"
+#include "bindings/python/interruptible.h"
+#include "bindings/python/scene_handle.h"
+#include "bindings/python/weather_fields.h"
+#include "core/number_range.h"
+#include "core/units.h"
+#include "renderer/plan/caster_choice.h"
+#include "renderer/plan/plan.h"
+#include "scenes/ground_below.h"
+#include "session/records/run_record.h"
+#include "session/sampling_choice.h"
+
+namespace fanbeam::bindings {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
+                            const std::vector<fs::path>& data, const fs::path& sensor,
+                            const std::string& effects, const std::string& caster,
+                            std::optional<bool> sample, std::uint64_t seed, int threads,
+                            py::list& warnings) {
+  refuse_in_fork();
+  session::Setup setup;
+  setup.shipped = shipped;
+  setup.data_folders = data;
+  setup.sensor = sensor;
+  if (!effects.empty()) setup.build.wishes = renderer::parse_effect_wishes(effects);
+  if (!caster.empty()) {
+    const auto& words = renderer::kCasterWishes;
+    if (std::find(words.begin(), words.end(), caster) == words.end())
+      core::throw_input_error(core::ErrorClass::ref, "caster", "\"" + caster + "\"",
+                              "rays, profile or auto");
+    setup.build.caster = renderer::caster_wish(caster);
+  }
+  setup.sample = sample;
+  setup.seed = seed;
+  core::require_range("threads", threads, {0, 1024});
+  setup.threads = threads;
+  core::ProblemList problems;
+  std::unique_ptr<Scene> opened;
+  without_lock([&](const core::StopToken& stop) {
+    const core::StopScope scope(stop);
+    opened = std::make_unique<Scene>(scene, setup, problems);
+  });
+  for (const py::handle warning : problems_list(problems.all())) warnings.append(warning);
+  return opened;
+}
+
+session::TargetState target_of(const py::handle& target) {
+  session::TargetState state;
+  state.name = target.attr("name").cast<std::string>();
+  state.position = {core::radians(target.attr("latitude_deg").cast<double>()),
+                    core::radians(target.attr("longitude_deg").cast<double>()),
+                    target.attr("height_m").cast<double>()};
+  const auto attitude = target.attr("attitude_deg").cast<std::optional<std::array<double, 3>>>();
+  if (attitude)
+    state.q_NB = core::quaternion_from({core::radians((*attitude)[0]), core::radians((*attitude)[1]),
+                                        core::radians((*attitude)[2])});
+  const auto rcs_m2 = target.attr("rcs_m2").cast<std::optional<double>>();
+  if (rcs_m2) {
+    core::require_range("target.rcs_m2", *rcs_m2, {0.0, 1.0e9}, "m2");
+    state.rcs = materials::ConstantRcs{*rcs_m2};
+  }
+  return state;
+}
+
+py::list set_targets(const Scene& scene, const py::sequence& targets) {
+  std::vector<session::TargetState> states;
+  for (const py::handle target : targets) states.push_back(target_of(target));
+  return problems_list(
+      scene.session().set(std::span<const session::TargetState>(states)).all());
+}
+
+py::list set_weather(const Scene& scene, const py::dict& changes) {
+  session::Session& session = scene.session();
+  return problems_list(session.set(changed_weather(session.scene()->weather, changes)).all());
+}
+
+py::list set_surface(const Scene& scene, const std::string& word) {
+  const auto& names = materials::kSurfaceStateNames;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (word == names[i])
+      return problems_list(scene.session().set(static_cast<materials::SurfaceState>(i)).all());
+  core::throw_input_error(core::ErrorClass::ref, "surface", "\"" + word + "\"",
+                          "dry, wet, dry-snow or wet-snow");
+}
+
+// All of them; what is None is the scene's own.
+py::list set_sensor(const Scene& scene, std::optional<double> tilt_deg,
+                    std::optional<bool> stabilised, std::optional<double> low_dB,
+                    std::optional<double> high_dB, const std::optional<std::string>& cscope_mode,
+                    std::optional<double> noise_figure_dB) {
+  session::SensorSettings settings;
+  if (tilt_deg) settings.boresight_elevation_rad = core::radians(*tilt_deg);
+  settings.stabilised = stabilised;
+  settings.low_dB = low_dB;
+  settings.high_dB = high_dB;
+  if (noise_figure_dB) {
+    core::require_range("noise_figure_dB", *noise_figure_dB, {0.0, 60.0}, "dB");
+    settings.noise_figure = std::pow(10.0, *noise_figure_dB / 10.0);
+  }
+  if (cscope_mode) {
+    using Mode = sensors::Display::CScopeMode;
+    if (*cscope_mode == "true_elevation")
+      settings.cscope_mode = Mode::true_elevation;
+    else if (*cscope_mode == "flat_earth")
+      settings.cscope_mode = Mode::flat_earth;
+    else if (*cscope_mode == "shadow")
+      settings.cscope_mode = Mode::shadow;
+    else
+      core::throw_input_error(core::ErrorClass::ref, "cscope_mode", "\"" + *cscope_mode + "\"",
+                              "true_elevation, flat_earth or shadow");
+  }
+  return problems_list(scene.session().set(settings).all());
+}
+
+py::list set_sampling(const Scene& scene, const std::string& kind, double value) {
+  session::SamplingWish wish;
+  if (kind == "samples") {
+    if (value != 0.0)
+      core::require_range("samples_per_cell", value, {renderer::kFewestRaysPerCell, 10000.0});
+    wish = session::Samples{value};
+  } else if (kind == "accuracy") {
+    core::require_range("accuracy_grey", value, {0.0, 255.0, true}, "grey levels");
+    wish = session::Accuracy{value};
+  } else if (kind == "time_budget") {
+    core::require_range("time_budget_ms", value, {0.1, 1e7}, "ms");
+    wish = session::TimeBudget{value, {}};
+  } else {
+    wish = renderer::reference_sampling(scene.session().seed());
+  }
+  core::ProblemList problems;
+  without_lock([&](const core::StopToken& stop) {
+    const core::StopScope scope(stop);
+    problems.append(scene.session().set(wish).all());
+  });
+  return problems_list(problems.all());
+}
+
+py::dict render(const Scene& scene, const PoseNumbers& pose, std::uint64_t frame_index, bool bscope,
+                bool cscope, bool layers, bool cscope_layers) {
+  const session::Session& session = scene.session();
+  renderer::Products wanted;
+  wanted.bscope = bscope;
+  wanted.cscope = cscope;
+  wanted.layers = layers || cscope_layers;
+  wanted.cscope_layers = cscope_layers;
+  const core::Pose at = pose_of(pose);
+  const session::Session::Moment now = session.now();
+  const auto frame = std::make_shared<renderer::Frame>();
+  without_lock([&](const core::StopToken& stop) {
+    *frame = session.render(now, at, frame_index, wanted, stop);
+  });
+  const std::shared_ptr<const scenes::Scene> under = session.scene(now);
+  py::dict result = frame_dict(frame, wanted, under->description.sensor);
+  result["sampling"] = session::caster_text(session.sampling(now));
+  return result;
+}
+
+// A row for each frame of the scene's flight.
+py::array_t<double> trajectory(const Scene& scene) {
+  const std::shared_ptr<const scenes::Scene> now = scene.session().scene();
+  const int frames = now->frame_count();
+  py::array_t<double> rows({static_cast<std::size_t>(frames), std::tuple_size_v<PoseNumbers>});
+  auto to = rows.mutable_unchecked<2>();
+  for (int frame = 0; frame < frames; ++frame) {
+    const PoseNumbers numbers = numbers_of(now->trajectory->at(now->trajectory->frame_time_s(
+        frame, now->description.sensor.scan.frame_rate_Hz)));
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      to(frame, static_cast<py::ssize_t>(i)) = numbers[i];
+  }
+  return rows;
+}
+
+// Above the ellipsoid; None where there is no ground.
+std::optional<double> ground_height_m(const Scene& scene, double latitude_deg,
+                                      double longitude_deg) {
+  const core::Geodetic at =
+      pose_of({0.0, latitude_deg, longitude_deg, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}).position;
+  const auto ground = scenes::ground_below(*scene.session().scene(), at);
+  if (!ground) return std::nullopt;
+  return ground->height_m;
+}
+
+py::list plan(const Scene& scene) {
+  py::list rows;
+  for (const core::EffectDecision& decision : scene.session().scene()->plan.decisions)
+    rows.append(py::make_tuple(core::name_of(decision.effect), decision.on, decision.reason,
+                               decision.bound_grey, decision.bound_dB));
+  return rows;
+}
+
+py::dict facts(const Scene& scene) {
+  const std::shared_ptr<const scenes::Scene> now = scene.session().scene();
+  const sensors::Sensor& sensor = now->description.sensor;
+  const renderer::Geometry& geometry = *now->world.geometry;
+  std::vector<std::string> objects = geometry.object_names;
+  for (const renderer::PointTarget& target : now->world.targets) objects.push_back(target.name);
+  py::dict result;
+  result["name"] = now->description.name;
+  result["sensor"] = sensor.name;
+  result["frequency_Hz"] = sensor.waveform.frequency_Hz;
+  result["frame_rate_Hz"] = sensor.scan.frame_rate_Hz;
+  result["columns"] = sensor.scan.columns;
+  result["field_of_view_rad"] = sensor.scan.field_of_view_rad;
+  result["range_minimum_m"] = sensor.range.minimum_m;
+  result["range_cell_m"] = sensor.range.cell_m;
+  result["range_cells"] = sensor.range.cells;
+  result["cscope_rows"] = sensor.display.cscope_rows;
+  result["cscope_top_rad"] = sensor.display.cscope_top_rad;
+  result["cscope_span_rad"] = sensor.display.cscope_span_rad;
+  result["window_dB"] = py::make_tuple(sensor.display.low_dB, sensor.display.high_dB);
+  result["noise_W"] = sensor.noise_power_W();
+  result["caster"] = renderer::name_of(now->caster.chosen);
+  result["caster_reason"] = now->caster.reason;
+  result["surface"] =
+      materials::kSurfaceStateNames[static_cast<std::size_t>(now->description.surface_state)];
+  result["materials"] = geometry.material_names;
+  result["objects"] = objects;
+  return result;
+}
+
+}  // namespace
+
+void add_scene(py::module_& module) {
+  py::class_<Scene>(module, "Scene", "Of fanbeam.Scene, which documents it.")
+      .def(py::init(&open), py::arg("scene"), py::arg("shipped"), py::arg("data"),
+           py::arg("sensor"), py::arg("effects"), py::arg("caster"), py::arg("sample"),
+           py::arg("seed"), py::arg("threads"), py::arg("warnings"))
+      .def("set_weather", &set_weather, py::arg("changes"))
+      .def("weather", [](const Scene& scene) { return weather_dict(scene.session().scene()->weather); })
+      .def("set_surface", &set_surface, py::arg("state"))
+      .def("set_sensor", &set_sensor, py::arg("tilt_deg"), py::arg("stabilised"), py::arg("low_dB"),
+           py::arg("high_dB"), py::arg("cscope_mode"), py::arg("noise_figure_dB"))
+      .def("set_targets", &set_targets, py::arg("targets"))
+      .def("set_sampling", &set_sampling, py::arg("kind"), py::arg("value"))
+      .def("render", &render, py::arg("pose"), py::arg("frame_index"), py::arg("bscope"),
+           py::arg("cscope"), py::arg("layers"), py::arg("cscope_layers"))
+      .def("ground_height_m", &ground_height_m, py::arg("latitude_deg"), py::arg("longitude_deg"))
+      .def("trajectory", &trajectory)
+      .def("plan", &plan)
+      .def("facts", &facts);
+}
+
+}  // namespace fanbeam::bindings

@@ -1,0 +1,175 @@
+// fanbeam._signal: what fanbeam/signal.py is written over. Links FFTW.
+#include <pybind11/complex.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "bindings/python/convert.h"
+#include "bindings/python/interruptible.h"
+#include "bindings/python/scene_handle.h"
+#include "core/number_range.h"
+#include "session/signal/chain.h"
+#include "session/signal/paths.h"
+#include "session/signal/waveform_choice.h"
+#include "session/signal/waveform_figures.h"
+
+namespace fanbeam::bindings {
+namespace {
+
+// Of kWaveformNumbers by the name of their option, "bandwidth", "sample_rate": in SI, into the units
+// that the options have.
+template <class Settings>
+void take_numbers(const std::map<std::string, double>& numbers, Settings& settings) {
+  core::ProblemList problems;
+  std::map<std::string, double> rest = numbers;
+  for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i) {
+    const session::WaveformNumber& known = session::kWaveformNumbers[i];
+    std::string name = std::string(known.option).substr(2);
+    std::replace(name.begin(), name.end(), '-', '_');
+    const auto found = rest.find(name);
+    if (found == rest.end()) continue;
+    core::check_range(problems, name, found->second,
+                      {known.least * known.to_SI, known.most * known.to_SI}, "(SI)");
+    settings.numbers[i] = found->second / known.to_SI;
+    rest.erase(found);
+  }
+  std::string names;
+  for (const session::WaveformNumber& known : session::kWaveformNumbers)
+    names += (names.empty() ? "" : ", ") + std::string(known.option).substr(2);
+  std::replace(names.begin(), names.end(), '-', '_');
+  for (const auto& [name, value] : rest)
+    problems.error(core::ErrorClass::ref, {}, name, core::number_text(value), names);
+  problems.throw_if_errors();
+}
+
+session::FmcwSettings settings_of(const py::dict& told) {
+  session::FmcwSettings settings;
+  settings.waveform = told["waveform"].cast<std::string>();
+  take_numbers(told["numbers"].cast<std::map<std::string, double>>(), settings);
+  settings.real = told["real"].cast<bool>();
+  settings.transmitters = told["transmitters"].cast<int>();
+  settings.receivers = told["receivers"].cast<int>();
+  settings.false_alarm_probability = told["false_alarm_probability"].cast<double>();
+  settings.rays_per_cell = told["rays_per_cell"].cast<double>();
+  settings.line_width_Hz = told["line_width_Hz"].cast<double>();
+  settings.adc_bits = told["adc_bits"].cast<int>();
+  settings.unfold = told["unfold"].cast<bool>();
+  settings.seed = told["seed"].cast<std::uint64_t>();
+  core::ProblemList problems;
+  core::check_range(problems, "transmitters", settings.transmitters, {1, 64});
+  core::check_range(problems, "receivers", settings.receivers, {1, 64});
+  core::check_range(problems, "false_alarm_probability", settings.false_alarm_probability,
+                    {1e-12, 0.1});
+  core::check_range(problems, "rays_per_cell", settings.rays_per_cell, {0.3, 1000.0});
+  core::check_range(problems, "line_width_Hz", settings.line_width_Hz, {0.0, 1e6}, "Hz");
+  core::check_range(problems, "adc_bits", settings.adc_bits, {0, 24});
+  problems.throw_if_errors();
+  return settings;
+}
+
+// [channel, chirp, sample] over the cube's memory.
+py::array cube_array(const signal::FloatCube& cube, const py::object& owner) {
+  if (cube.values.empty()) return py::array_t<std::complex<float>>(std::vector<py::ssize_t>{0, 0, 0});
+  return py::array(py::dtype::of<std::complex<float>>(),
+                   {cube.shape.channels, cube.shape.chirps, cube.shape.samples},
+                   cube.values.data(), owner);
+}
+
+py::object map_array(const signal::PowerMap& map, const py::object& owner) {
+  if (map.values_W.empty()) return py::none();
+  return rows_of(map.values_W, static_cast<std::size_t>(map.columns), false, owner);
+}
+
+struct Made {
+  session::FmcwRadar radar;
+  session::FmcwPaths paths;
+  session::FmcwFrame frame;
+};
+
+// A row a detection: range, radial speed, azimuth, elevation, power, snr, cluster (-1 for none).
+py::object detections_array(const std::optional<session::FmcwDetections>& found) {
+  if (!found) return py::none();
+  py::array_t<double> rows({found->detections.size(), std::size_t{7}});
+  auto to = rows.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < found->detections.size(); ++i) {
+    const signal::RadarDetection& at = found->detections[i];
+    const double values[] = {at.range_m,     at.radial_speed_mps, at.azimuth_rad,
+                             at.elevation_rad, at.power_W,        at.snr,
+                             static_cast<double>(found->clusters[i])};
+    for (int k = 0; k < 7; ++k) to(static_cast<py::ssize_t>(i), k) = values[k];
+  }
+  return rows;
+}
+
+py::dict axes_of(const session::FmcwRadar& radar) {
+  py::dict result;
+  result["azimuth_rad"] = radar.azimuths_rad;
+  result["range_step_m"] = radar.axes.range_step_m;
+  result["doppler_step_Hz"] = radar.axes.doppler_step_Hz;
+  result["doppler_cells"] = radar.axes.doppler_cells;
+  result["wavelength_m"] = radar.axes.wavelength_m;
+  return result;
+}
+
+py::dict frame(const Scene& scene, int index, const std::set<std::string>& products,
+               const py::dict& told) {
+  const session::FmcwSettings settings = settings_of(told);
+  const std::shared_ptr<const scenes::Scene> now = scene.session().scene();
+  const sensors::Sensor& sensor = now->description.sensor;
+  const auto made = std::make_shared<Made>();
+  made->radar = session::fmcw_radar(settings, sensor);
+  without_lock([&](const core::StopToken& stop) {
+    const core::StopScope scope(stop);
+    made->paths = session::fmcw_paths(*now, index, settings);
+    made->frame = session::fmcw_frame(made->radar, sensor, made->paths.paths, index, settings,
+                                      products, {now->plan, now->accuracy_grey, now->options.wishes});
+  });
+  const py::object owner = owner_of(made);
+  py::list beats;
+  for (const signal::FloatCube& beat : made->frame.beats) beats.append(cube_array(beat, owner));
+  py::dict result;
+  result["beats"] = beats;
+  result["cube"] = made->frame.cube.values.empty() ? py::object(py::none())
+                                                   : py::object(cube_array(made->frame.cube, owner));
+  result["range_doppler_W"] = map_array(made->frame.range_doppler, owner);
+  result["range_azimuth_W"] = map_array(made->frame.range_azimuth, owner);
+  result["detections"] = detections_array(made->frame.found);
+  result["axes"] = axes_of(made->radar);
+  result["waveform"] = session::waveform_json(made->radar.waveform);
+  result["paths"] = made->paths.paths.size();
+  result["rays"] = made->paths.rays;
+  result["noise_cell_W"] = made->radar.noise_cell_W;
+  result["synthesis_error"] = made->frame.synthesis_error;
+  result["warnings"] = problems_list(made->frame.warnings);
+  return result;
+}
+
+std::string waveform(const std::string& kind, const std::map<std::string, double>& numbers,
+                     bool real, bool down_first) {
+  session::WaveformSettings settings;
+  settings.kind = kind;
+  settings.real = real;
+  settings.down_first = down_first;
+  take_numbers(numbers, settings);
+  return session::waveform_json(session::chosen_waveform(settings));
+}
+
+}  // namespace
+}  // namespace fanbeam::bindings
+
+PYBIND11_MODULE(_signal, module) {
+  using namespace fanbeam;
+  module.doc() = "What fanbeam.signal is written over; use that.";
+  bindings::py::module_::import("fanbeam._core");
+  bindings::translate_errors();
+  module.def("frame", &bindings::frame, bindings::py::arg("scene"), bindings::py::arg("index"),
+             bindings::py::arg("products"), bindings::py::arg("told"));
+  module.def("waveform", &bindings::waveform, bindings::py::arg("kind"),
+             bindings::py::arg("numbers"), bindings::py::arg("real"),
+             bindings::py::arg("down_first"));
+}

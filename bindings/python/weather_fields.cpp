@@ -1,0 +1,67 @@
+#include "bindings/python/weather_fields.h"
+
+#include <pybind11/stl.h>
+
+#include <optional>
+#include <string>
+#include <variant>
+
+namespace fanbeam::bindings {
+namespace {
+
+namespace py = pybind11;
+using atmosphere::Weather;
+
+using Member = std::variant<std::optional<double> Weather::*, double Weather::*, bool Weather::*>;
+struct Field {
+  const char* name;
+  Member member;
+};
+
+const Field kFields[] = {{"visibility_m", &Weather::visibility_m},
+                         {"liquid_water_g_per_m3", &Weather::liquid_water_g_per_m3},
+                         {"fog_top_m", &Weather::fog_top_m},
+                         {"rain_rate_mm_per_h", &Weather::rain_rate_mm_per_h},
+                         {"rain_top_m", &Weather::rain_top_m},
+                         {"melting_layer", &Weather::melting_layer},
+                         {"melting_height_m", &Weather::melting_height_m},
+                         {"snow_rate_mm_per_h", &Weather::snow_rate_mm_per_h},
+                         {"snow_top_m", &Weather::snow_top_m},
+                         {"temperature_C", &Weather::temperature_C},
+                         {"pressure_hPa", &Weather::pressure_hPa},
+                         {"humidity", &Weather::humidity}};
+
+}  // namespace
+
+Weather changed_weather(Weather weather, const py::dict& changes) {
+  for (const auto& [key, entry] : changes) {
+    const py::handle value = entry;
+    const auto name = key.cast<std::string>();
+    const Field* found = nullptr;
+    for (const Field& field : kFields)
+      if (name == field.name) found = &field;
+    if (found == nullptr) throw py::type_error("the weather has no \"" + name + "\"");
+    try {
+      const auto put = [value](auto& place) {
+        place = value.cast<std::decay_t<decltype(place)>>();
+      };
+      std::visit([&](auto member) { put(weather.*member); }, found->member);
+    } catch (const py::cast_error&) {
+      throw py::type_error(name + ": expected a number, not " +
+                           py::repr(value).cast<std::string>());
+    }
+    if (name == "visibility_m" && weather.visibility_m) weather.liquid_water_g_per_m3.reset();
+    if (name == "liquid_water_g_per_m3" && weather.liquid_water_g_per_m3)
+      weather.visibility_m.reset();
+  }
+  return weather;
+}
+
+py::dict weather_dict(const Weather& weather) {
+  py::dict result;
+  for (const Field& field : kFields)
+    std::visit([&](auto member) { result[field.name] = weather.*member; }, field.member);
+  return result;
+}
+
+}  // namespace fanbeam::bindings

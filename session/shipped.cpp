@@ -1,0 +1,75 @@
+#include "session/shipped.h"
+
+#include <algorithm>
+#include <system_error>
+
+#include "core/errors.h"
+#include "core/spelling.h"
+
+namespace fanbeam::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool holds_shipped_files(const fs::path& folder) {
+  return fs::is_regular_file(folder / "materials" / "library.toml") &&
+         fs::is_regular_file(folder / "sensors" / "hivision.toml");
+}
+
+// " b a c": those that look most like `wanted` first.
+std::string nearest_first(const std::string& wanted, const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : core::nearest_names(wanted, names, names.size()))
+    text += " " + name;
+  return text;
+}
+
+}  // namespace
+
+fs::path shipped_above(const fs::path& file) {
+  for (fs::path folder = file.parent_path(); folder.has_relative_path();
+       folder = folder.parent_path()) {
+    if (holds_shipped_files(folder / "share" / "fanbeam")) return folder / "share" / "fanbeam";
+    if (holds_shipped_files(folder)) return folder;
+  }
+  core::throw_input_error(core::ErrorClass::io, core::Place{file.string()}, "shipped files",
+                          "not found", "share/fanbeam above it, or a source tree around it");
+}
+
+std::vector<std::string> shipped_scenes(const fs::path& shipped) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(shipped / "scenes"))
+    if (fs::is_regular_file(entry.path() / "scene.toml"))
+      names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::vector<std::string> shipped_sensors(const fs::path& shipped) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(shipped / "sensors"))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+fs::path find_scene(const std::string& name, const fs::path& shipped) {
+  std::error_code refused;  // such as a name too long to be one
+  for (const fs::path& candidate : {fs::path(name), shipped / name, shipped / "scenes" / name})
+    if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused))
+      return candidate;
+  core::throw_input_error(core::ErrorClass::io, core::Place{name}, "scene", "not found",
+                          "a folder with scene.toml, or one of the shipped scenes:" +
+                              nearest_first(name, shipped_scenes(shipped)));
+}
+
+fs::path find_sensor(const std::string& name, const fs::path& shipped, const std::string& field) {
+  std::error_code refused;
+  for (const fs::path& candidate : {fs::path(name), shipped / "sensors" / (name + ".toml")})
+    if (fs::is_regular_file(candidate, refused)) return candidate;
+  core::throw_input_error(core::ErrorClass::io, field, "\"" + name + "\" not found",
+                          "a sensor file, or one of the shipped sensors:" +
+                              nearest_first(name, shipped_sensors(shipped)));
+}
+
+}  // namespace fanbeam::session

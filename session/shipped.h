@@ -1,0 +1,28 @@
+// Where the files that ship with fanbeam lie, and how scenes and sensors are named.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fanbeam::session {
+
+// The folder with scenes/, sensors/ and materials/: share/fanbeam beside what is installed, the
+// source tree around a build; looked for from `file` upwards. Throws InputError E-IO where neither
+// is there.
+std::filesystem::path shipped_above(const std::filesystem::path& file);
+
+// Sorted. Throw std::filesystem::filesystem_error where the folder cannot be read.
+std::vector<std::string> shipped_scenes(const std::filesystem::path& shipped);
+std::vector<std::string> shipped_sensors(const std::filesystem::path& shipped);
+
+// A folder with scene.toml, that file, or the name of a shipped scene ("braunschweig-26",
+// "scenes/braunschweig-26"). Throws InputError E-IO with the names there are.
+std::filesystem::path find_scene(const std::string& name, const std::filesystem::path& shipped);
+
+// A sensor file, or the name of a shipped sensor ("hivision-94"). Throws InputError E-IO, about
+// `field`.
+std::filesystem::path find_sensor(const std::string& name, const std::filesystem::path& shipped,
+                                  const std::string& field);
+
+}  // namespace fanbeam::session

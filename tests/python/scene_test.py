@@ -1,0 +1,284 @@
+"""Scenes, conditions and frames, held against the program's own files and closed forms."""
+
+import multiprocessing
+import os
+import pickle
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+import tomllib
+
+import fanbeam
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="module")
+def grass():
+    return fanbeam.Scene.open("flat-grass")
+
+
+@pytest.fixture(scope="module")
+def runway():
+    return fanbeam.Scene.open("braunschweig-26")
+
+
+def png_pixels(path):
+    """Grey rows of a PNG, by a decoder that is not ours."""
+    raw = subprocess.run(
+        ["ffmpeg", "-v", "error", "-i", path, "-f", "rawvideo", "-pix_fmt", "gray", "-"], check=True, capture_output=True
+    ).stdout
+    return np.frombuffer(raw, np.uint8)
+
+
+def test_frames_are_those_that_the_program_writes(runway, program, tmp_path):
+    subprocess.run([program, "render", "braunschweig-26", "--frames", "1200", "-o", tmp_path, "-q"], check=True)
+    frame = runway.render(1200)
+    assert frame.bscope.shape == frame.cscope.shape == (524, 164)
+    assert np.array_equal(frame.bscope.ravel(), png_pixels(tmp_path / "bscope" / "01200.png"))
+    assert np.array_equal(frame.cscope.ravel(), png_pixels(tmp_path / "cscope" / "01200.png"))
+
+
+def test_the_picture_of_flat_grass_is_its_closed_form(grass):
+    # Display "stc" is the NRCS of flat ground at full beam: a sin(psi) + b sin(psi)^c, two-way beam
+    # and air taken off. Held at the boresight's range, where the beam takes 0 dB.
+    frame = grass.render(0, cscope=False)
+    at = int(np.argmin(np.abs(grass.range_m - 60.0 / np.sin(np.radians(3.8)))))
+    psi = np.arcsin(60.0 / grass.range_m[at])
+    sigma0_dB = 10 * np.log10(fanbeam.nrcs("short_grass", psi))
+    loss_dB = 2 * fanbeam.Atmosphere().one_way_dB(60.0, 0.0, grass.range_m[at])
+    low_dB, high_dB = grass.facts["window_dB"]
+    grey = 255 * (sigma0_dB - loss_dB - low_dB) / (high_dB - low_dB)
+    assert frame.bscope_grey[at, 82] == pytest.approx(grey, abs=0.5)
+
+
+def test_arrays_share_the_memory_of_the_frame_and_outlive_its_scene():
+    scene = fanbeam.Scene.open("flat-grass")
+    frame = scene.render(0, layers=True)
+    assert not frame.bscope_W.flags.owndata and frame.bscope_W.strides[0] < 0
+    before = frame.bscope_W.copy()
+    del scene
+    assert np.array_equal(frame.bscope_W, before)
+    assert pickle.loads(pickle.dumps(frame)).bscope_W.tobytes() == before.tobytes()
+
+
+def test_all_pictures_have_the_farthest_range_on_top(grass):
+    frame = grass.render(0, layers=True, cscope_layers=True)
+    assert grass.range_m[0] > grass.range_m[-1] and grass.elevation_rad[0] > grass.elevation_rad[-1]
+    seen = frame.layers["visibility"][:, 82] > 0.99
+    # Flat ground: sin(grazing) = height / range, whatever the row.
+    sine = np.sin(frame.layers["grazing_rad"][seen, 82])
+    assert np.allclose(sine, 60.0 / grass.range_m[seen], rtol=0.03)
+    rows = frame.cscope_layers["visibility"][:, 82] > 0.99
+    down = np.sin(-grass.elevation_rad[rows])
+    # A row of the C-scope is 0.019 degrees high: its mean range is within what it covers.
+    assert np.allclose(60.0 / frame.cscope_layers["range_m"][rows, 82], down, atol=4e-4)
+    assert grass.materials[frame.layers["material"][seen, 82][0]] == "short_grass"
+    assert grass.objects[frame.layers["object"][seen, 82][0]] == "terrain"
+
+
+def test_watts_follow_the_radar_equation_with_rain(grass):
+    scene = fanbeam.Scene.open("flat-grass", effects="none,+rain")
+    dry = scene.render(0, cscope=False).bscope_W[:, 82]
+    scene.set_weather(rain_rate_mm_per_h=10.0)
+    wet = scene.render(0, cscope=False).bscope_W[:, 82]
+    air = fanbeam.Atmosphere(rain_rate_mm_per_h=10.0)
+    assert scene.weather["rain_rate_mm_per_h"] == 10.0
+    row = 262
+    loss_dB = 2 * air.one_way_dB_per_km(30.0)["rain"] * scene.range_m[row] / 1000
+    assert 10 * np.log10(dry[row] / wet[row]) == pytest.approx(loss_dB, rel=0.01)
+
+
+def test_conditions_change_what_they_name_alone(grass):
+    scene = fanbeam.Scene.open("flat-grass")
+    scene.set_weather(visibility_m=200.0, temperature_C=5.0)
+    scene.set_weather(liquid_water_g_per_m3=0.3)
+    assert scene.weather["visibility_m"] is None and scene.weather["temperature_C"] == 5.0
+    scene.set_weather(liquid_water_g_per_m3=None)
+    assert scene.weather["liquid_water_g_per_m3"] is None
+    scene.set_sensor(tilt_deg=-6.0)
+    scene.set_sensor(low_dB=-50.0)
+    assert scene.facts["window_dB"][0] == -50.0
+    assert scene.facts["cscope_top_rad"] == pytest.approx(grass.facts["cscope_top_rad"] - np.radians(2.2))
+    scene.set_surface("wet")
+    assert scene.surface == "wet"
+
+
+def test_a_target_stands_where_it_is_put(grass):
+    scene = fanbeam.Scene.open("flat-grass")
+    north_deg = np.degrees(1500.0 / 6371000.0)
+    here = scene.trajectory[0]
+    scene.set_targets([fanbeam.Target("mast", here.latitude_deg + north_deg, here.longitude_deg, 10.0, rcs_m2=1000.0)])
+    frame = scene.render(0, cscope=False, layers=True)
+    assert scene.objects[-1] == "mast"
+    rows, columns = np.nonzero(frame.layers["object"] == len(scene.objects) - 1)
+    assert set(columns) <= {81, 82}
+    assert np.abs(scene.range_m[rows] - np.hypot(1500.0, 50.0)).max() < 10.0
+    scene.set_targets([])
+    assert "mast" not in scene.objects
+
+
+def test_the_ground_is_where_the_scene_has_it(grass):
+    assert grass.ground_height_m(52.0, 10.0) == pytest.approx(0.0, abs=1e-6)
+    assert grass.ground_height_m(53.0, 10.0) is None
+    with pytest.raises(fanbeam.InputError, match="latitude"):
+        grass.ground_height_m(91.0, 10.0)
+
+
+def test_every_problem_is_told_at_once(grass):
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.render(fanbeam.Pose(95.0, float("nan"), 1e9))
+    assert [problem.field for problem in told.value.problems] == ["pose.latitude_deg", "pose.longitude_deg", "pose.height_m"]
+    assert [problem.code for problem in told.value.problems] == ["E-RANGE", "E-NONFINITE", "E-RANGE"]
+    with pytest.raises(fanbeam.InputError, match="flat-grass"):
+        fanbeam.Scene.open("flat-gras")
+    with pytest.raises(fanbeam.InputError, match="rain_rate"):
+        grass.set_weather(rain_rate_mm_per_h=-1.0)
+    assert grass.weather["rain_rate_mm_per_h"] == 0.0
+    with pytest.raises(fanbeam.InputError, match="E-REF"):
+        grass.set_targets([fanbeam.Target("nobody", 52.0, 10.0, 0.0)])
+    with pytest.raises(TypeError):
+        grass.set_weather(rain=3)
+    with pytest.raises(TypeError, match="rain_rate"):
+        grass.set_weather(rain_rate_mm_per_h="much")
+    with pytest.raises(IndexError):
+        grass.render(7)
+    with pytest.raises(TypeError):
+        grass.render("now")
+
+
+def test_problems_of_files_have_their_line(tmp_path):
+    (tmp_path / "scene.toml").write_text('[scene]\nname = "x"\nwrong = 1\n', encoding="utf-8")
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.Scene.open(tmp_path)
+    assert any(problem.file.endswith("scene.toml") and problem.line == 3 for problem in told.value.problems)
+
+
+def test_the_plan_says_why(runway):
+    assert runway.plan.runs("fog") and not runway.plan.runs("rain")
+    assert all(effect.reason for effect in runway.plan)
+    with pytest.raises(KeyError, match="double-bounce"):
+        runway.plan.runs("bounce")
+
+
+def test_a_flight_is_a_sequence_and_columns(runway):
+    flight = runway.trajectory
+    assert len(flight) > 1000
+    assert flight[-1].time_s == flight.time_s[-1] and len(flight[10:20]) == 10
+    assert np.all(np.diff(flight.height_m) < 0)  # an approach
+    with pytest.raises(AttributeError, match="heading_deg"):
+        flight.altitude
+
+
+def test_threads_render_the_bytes_of_one(runway):
+    frames = range(1000, 1004)
+    one = [runway.render(frame).bscope_W.tobytes() for frame in frames]
+    found = {}
+    workers = [threading.Thread(target=lambda k=k: found.update({k: runway.render(k).bscope_W.tobytes()})) for k in frames]
+    for worker in workers:
+        worker.start()
+    for worker in workers:
+        worker.join()
+    assert [found[k] for k in frames] == one
+
+
+def test_pythons_lock_is_free_while_a_frame_is_made(runway):
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.wait(0.001):
+            ticks.append(time.monotonic())
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    begin = time.monotonic()
+    for frame in range(1000, 1010):
+        runway.render(frame)
+    seconds = time.monotonic() - begin
+    done.set()
+    thread.join()
+    # Held, the other thread would tick some ten times.
+    assert len(ticks) > max(30, 100 * seconds)
+
+
+def worker_bytes(scene):
+    return scene.render(0).bscope_W.tobytes()
+
+
+@pytest.mark.parametrize("method", ["spawn", "forkserver"])
+def test_a_scene_travels_to_other_processes_with_its_conditions(method):
+    scene = fanbeam.Scene.open("flat-grass", seed=3)
+    scene.set_weather(rain_rate_mm_per_h=20.0)
+    scene.set_sensor(tilt_deg=-5.0)
+    scene.set_targets([fanbeam.Target("mast", 52.01, 10.0, 10.0, rcs_m2=100.0)])
+    scene.set_samples(2.0)
+    with multiprocessing.get_context(method).Pool(1) as pool:
+        assert pool.apply(worker_bytes, (scene,)) == worker_bytes(scene)
+
+
+def test_in_a_forked_child_a_scene_says_what_to_do(grass):
+    read, write = os.pipe()
+    child = os.fork()
+    if child == 0:
+        told = []
+        for attempt in (lambda: grass.render(0), lambda: fanbeam.Scene.open("flat-grass")):
+            try:
+                attempt()
+            except RuntimeError as error:
+                told.append("spawn" in str(error))
+        os.write(write, bytes([told == [True, True]]))
+        os._exit(0)
+    assert os.read(read, 1) == b"\x01"
+    assert os.waitpid(child, 0)[1] == 0
+    grass.render(0)
+
+
+def test_ctrl_c_ends_a_reference_within_a_second():
+    # A frame that takes a minute.
+    script = textwrap.dedent("""
+        import fanbeam, signal, threading, os, time
+        scene = fanbeam.Scene.open("braunschweig-26")
+        scene.set_reference()
+        threading.Timer(1.0, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+        begin = time.monotonic()
+        try:
+            scene.render(1000)
+        except KeyboardInterrupt:
+            print(time.monotonic() - begin)
+    """)
+    ended = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120, check=True)
+    assert 0.9 < float(ended.stdout) < 4.0
+
+
+def test_sampling_is_told_in_the_frame(grass):
+    scene = fanbeam.Scene.open("flat-grass", caster="rays")
+    scene.set_samples(2.0)
+    assert scene.render(0).meta["sampling"].startswith("rays, 2 per range cell")
+    scene.set_accuracy(0.5)
+    frame = scene.render(0)
+    assert max(frame.meta["estimated_error_grey"]) <= 0.25
+
+
+def test_lookups(root):
+    assert {"braunschweig-26", "flat-grass"} <= set(fanbeam.scenes())
+    assert "hivision" in fanbeam.sensors()
+    assert "short_grass" in [material.name for material in fanbeam.materials()]
+    angles = np.radians([[3.0, 10.0], [30.0, 60.0]])
+    values = fanbeam.nrcs("short_grass", angles)
+    assert values.shape == (2, 2)
+    row = tomllib.loads((root / "materials" / "library.toml").read_text(encoding="utf-8"))["short_grass"]
+    assert row["reference_frequency_GHz"] == 35
+    sine = np.sin(angles)
+    assert np.allclose(values, row["a"] * sine + row["b"] * sine ** row["c"], rtol=1e-12)
+    with pytest.raises(fanbeam.InputError, match="short_grass"):
+        fanbeam.nrcs("short_gras", 0.1)
+    with pytest.raises(fanbeam.InputError, match="grazing_rad"):
+        fanbeam.nrcs("short_grass", 2.0)
+    # Recommendation ITU-R P.838-3 at 35 GHz, horizontal: k = 0.3374 , alpha = 0.9047
+    assert fanbeam.Atmosphere(35e9, rain_rate_mm_per_h=10.0).one_way_dB_per_km(0.0)["rain"] == pytest.approx(
+        0.3374 * 10**0.9047, rel=1e-3
+    )
+
+

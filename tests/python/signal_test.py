@@ -1,0 +1,63 @@
+"""Beat signals and detections, held against closed forms."""
+
+import subprocess
+import sys
+
+import fanbeam
+import fanbeam.signal
+import numpy as np
+import pytest
+
+
+@pytest.fixture(scope="module")
+def lone_target():
+    # Ground beyond 600 m folds in range: far below this target.
+    scene = fanbeam.Scene.open("flat-grass", effects="none")
+    here = scene.trajectory[0]
+    north_deg = np.degrees(400.0 / 6371000.0)
+    scene.set_targets([fanbeam.Target("mast", here.latitude_deg + north_deg, here.longitude_deg, 60.0, rcs_m2=1e5)])
+    return scene
+
+
+def test_a_target_is_detected_where_it_stands(lone_target):
+    numbers = {"bandwidth": 150e6, "ramp": 40e-6, "chirps": 64}
+    want = ("beat", "range-doppler", "detections")
+    with pytest.warns(fanbeam.FanbeamWarning, match="W-FOLDED"):
+        seen = fanbeam.signal.frame(lone_target, 0, want=want, waveform="chirp-sequence", numbers=numbers)
+    assert len(seen.beats) == 1 and seen.beats[0].dtype == np.complex64 and seen.beats[0].shape[0] == 12
+    assert seen.range_doppler_W.shape == (len(seen.speed_mps), len(seen.range_m))
+    strongest = seen.detections[np.argmax(seen.detections["power_W"])]
+    # A degree of latitude is 0.2 % longer here than on the sphere that the target was placed by.
+    assert strongest["range_m"] == pytest.approx(400.0, abs=1.0)
+    assert strongest["radial_speed_mps"] == pytest.approx(0.0, abs=0.05)
+    assert np.degrees(strongest["azimuth_rad"]) == pytest.approx(0.0, abs=0.1)
+    row, column = np.unravel_index(np.argmax(seen.range_doppler_W), seen.range_doppler_W.shape)
+    assert abs(seen.range_m[column] - strongest["range_m"]) <= seen.range_m[1]
+    assert abs(seen.speed_mps[row]) <= seen.speed_mps[1] - seen.speed_mps[0]
+
+
+def test_the_waveform_tells_its_resolution():
+    told = fanbeam.signal.waveform("chirp-sequence", bandwidth=150e6)
+    stage = told["stages"][0]
+    assert stage["range_cell_m"] == pytest.approx(299792458.0 / (2 * 150e6), rel=1e-12)
+    wavelength_m = 299792458.0 / told["centre_frequency_Hz"]
+    assert stage["speed_cell_mps"] == pytest.approx(wavelength_m / (2 * told["duration_s"]), rel=1e-9)
+    with pytest.raises(fanbeam.InputError, match="bandwidth"):
+        fanbeam.signal.waveform("chirp-sequence", band=150e6)
+    with pytest.raises(fanbeam.InputError, match="bandwidth"):
+        fanbeam.signal.waveform("chirp-sequence", bandwidth=-1.0)
+
+
+def test_what_is_wanted_is_checked(lone_target):
+    with pytest.raises(ValueError, match="beats"):
+        fanbeam.signal.frame(lone_target, 0, want=("beats",))
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.frame(lone_target, 0, transmitters=0, adc_bits=99)
+    assert {problem.field for problem in told.value.problems} == {"transmitters", "adc_bits"}
+
+
+def test_fftw_comes_with_signals_alone():
+    script = "import fanbeam; print('fftw' in open('/proc/self/maps').read())"
+    plain = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    both = subprocess.run([sys.executable, "-c", "import fanbeam.signal; " + script], capture_output=True, text=True, check=True)
+    assert (plain.stdout.strip(), both.stdout.strip()) == ("False", "True")
