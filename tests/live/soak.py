@@ -237,7 +237,7 @@ def hours_of_replay(hours):
                 frames.append(json.load(answer)["frames"])
             memory.append(resident_MB(live.pid))
         except (OSError, AttributeError):
-            break  # it ended
+            continue  # busy for long, or at its end
         print(f"\r{frames[-1] / 3600 / RATE_Hz:.2f} of {hours:g} h, {memory[-1]:.0f} MB", end="", file=sys.stderr, flush=True)
     print(file=sys.stderr)
     code, taken_s = live.wait(30), time.monotonic() - begin
