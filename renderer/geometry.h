@@ -10,11 +10,14 @@
 
 namespace fanbeam::renderer {
 
+enum class ObjectKind { terrain, surface, runway, marking, box, building, model };
+
 struct Geometry {
   std::unique_ptr<const terrain::RayScene> surfaces;
   terrain::Solids solids{};                   // the buildings of `surfaces`, for the profile caster
   std::vector<std::string> material_names{};  // by material id
   std::vector<std::string> object_names{};    // by terrain::ObjectId
+  std::vector<ObjectKind> object_kinds{};     // the same
 };
 
 }  // namespace fanbeam::renderer

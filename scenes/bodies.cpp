@@ -16,6 +16,7 @@ namespace fanbeam::scenes {
 namespace {
 
 using core::ErrorClass;
+using renderer::ObjectKind;
 using terrain::PlacedMesh;
 
 // Walls go this far into the ground, so that no gap shows on a slope between two posts.
@@ -79,7 +80,7 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
   prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
   terrain::Extrusion extrusion =
       terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
-  add_prisms({prism}, std::move(extrusion), {added(box.name, bodies.objects)}, names, box.place,
+  add_prisms({prism}, std::move(extrusion), {bodies.objects.add(box.name, ObjectKind::box)}, names, box.place,
              "box material", bodies);
 }
 
@@ -130,7 +131,8 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
   std::vector<terrain::ObjectId> objects;
   for (std::size_t i = 0; i < prisms.size(); ++i)
     objects.push_back(
-        added(buildings.file.filename().string() + " " + std::to_string(i + 1), bodies.objects));
+        bodies.objects.add(buildings.file.filename().string() + " " + std::to_string(i + 1),
+                           ObjectKind::building));
   add_prisms(prisms, std::move(city), std::move(objects), names, buildings.place,
              "buildings material", bodies);
 }
@@ -169,7 +171,8 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
                            core::names_there_text(name, used));
   }
   for (const std::string& part : placed.mesh.part_names)
-    placed.object_of_part.push_back(added(model.name + ": " + part, bodies.objects));
+    placed.object_of_part.push_back(
+        bodies.objects.add(model.name + ": " + part, ObjectKind::model));
   if (!placed.mesh.vertices_m.empty())
     bodies.solids.others.push_back(terrain::box_around(placed.mesh));
   bodies.meshes.push_back(std::move(placed));
@@ -177,9 +180,10 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
 
 }  // namespace
 
-terrain::ObjectId added(const std::string& name, Objects& objects) {
-  objects.push_back(name);
-  return static_cast<terrain::ObjectId>(objects.size() - 1);
+terrain::ObjectId Objects::add(const std::string& name, ObjectKind kind) {
+  names.push_back(name);
+  kinds.push_back(kind);
+  return static_cast<terrain::ObjectId>(names.size() - 1);
 }
 
 std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
@@ -198,13 +202,14 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
         surface.to_left_m - surface.from_left_m,
         names.id(surface.material, surface.place, "surface.material")));
     patches.back().object =
-        added("surface " + std::to_string(&surface - scene.surfaces.data() + 1), objects);
+        objects.add("surface " + std::to_string(&surface - scene.surfaces.data() + 1),
+                    ObjectKind::surface);
   }
   for (std::size_t i = 0; i < ground.runways().size(); ++i) {
     const RunwayDescription& described = scene.runways[i];
     const std::string name = "runway " + described.ends[0].name + "/" + described.ends[1].name;
-    const terrain::ObjectId pavement = added(name, objects);
-    const terrain::ObjectId markings = added(name + " markings", objects);
+    const terrain::ObjectId pavement = objects.add(name, ObjectKind::runway);
+    const terrain::ObjectId markings = objects.add(name + " markings", ObjectKind::marking);
     for (terrain::SurfacePatch& patch :
          terrain::runway_patches(ground.runways()[i], pavement, markings))
       patches.push_back(std::move(patch));

@@ -13,11 +13,14 @@
 
 namespace fanbeam::scenes {
 
-// Names of what a scene is made of, by terrain::ObjectId: the terrain first.
-using Objects = std::vector<std::string>;
+// What a scene is made of, by terrain::ObjectId: the terrain first.
+struct Objects {
+  std::vector<std::string> names{};
+  std::vector<renderer::ObjectKind> kinds{};
 
-// The id of another one.
-terrain::ObjectId added(const std::string& name, Objects& objects);
+  // The id of another one.
+  terrain::ObjectId add(const std::string& name, renderer::ObjectKind kind);
+};
 
 // The rectangles of [[surface]] in file order, the runways on top of them. Adds "surface 1" and so
 // on, "runway 36/18" and "runway 36/18 markings" to `objects`.

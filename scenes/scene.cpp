@@ -29,10 +29,14 @@ std::vector<std::string> names_of(const materials::MaterialLibrary& library,
 std::vector<RunwayPlace> runway_places(const SceneDescription& scene, const Ground& ground) {
   std::vector<RunwayPlace> places;
   for (std::size_t i = 0; i < scene.runways.size(); ++i) {
+    const terrain::Runway& runway = ground.runways()[i];
     RunwayPlace place;
+    place.width_m = runway.width_m;
+    place.strip_half_width_m = runway.strip_half_width_m;
     for (const int end : {0, 1})
       place.ends[end] = {scene.runways[i].ends[end].name,
-                         ground.on_ground_m(ground.runways()[i].threshold_m(end), 0.0)};
+                         ground.on_ground_m(runway.threshold_m(end), 0.0),
+                         ground.on_ground_m(runway.ends[end].pavement_end_m, 0.0)};
     places.push_back(std::move(place));
   }
   return places;
@@ -63,7 +67,8 @@ std::shared_ptr<const renderer::Geometry> geometry_of(const Ground& ground,
       std::make_unique<terrain::RayScene>(ground.field(), std::move(patches),
                                           std::move(bodies.meshes), options.instruction_set,
                                           options.robust),
-      std::move(bodies.solids), std::move(material_names), std::move(bodies.objects)});
+      std::move(bodies.solids), std::move(material_names), std::move(bodies.objects.names),
+      std::move(bodies.objects.kinds)});
 }
 
 }  // namespace
@@ -79,7 +84,8 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   SceneSetting setting{description, options,
                        terrain::LocalFrame(ellipsoidal_origin(description), description.earth)};
   const Ground ground(description, setting.frame, names, problems);
-  Objects objects = {"terrain"};
+  Objects objects;
+  objects.add("terrain", renderer::ObjectKind::terrain);
   std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names, objects);
   ModelMaterials model_materials(description, library.size(), problems);
   Bodies bodies =

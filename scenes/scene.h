@@ -26,13 +26,16 @@
 
 namespace fanbeam::scenes {
 
-// A runway's thresholds on the ground, local metres.
+// A runway on the ground, local metres.
 struct RunwayPlace {
   struct End {
     std::string name;  // of a landing on this threshold
     glm::dvec3 threshold_m{0.0};
+    glm::dvec3 pavement_end_m{0.0};  // in front of a displaced threshold
   };
   End ends[2];
+  double width_m = 0.0;
+  double strip_half_width_m = 0.0;  // level ground on each side of the centre line
 };
 
 // Grey levels that a picture may be off; half of it is for effects left out.

@@ -15,6 +15,8 @@
 #include "scenes/scene.h"
 #include "sensors/display/display.h"
 #include "session/frame_choice.h"
+#include "session/labels/labels_json.h"
+#include "session/labels/run_labels.h"
 #include "session/products/detection_product.h"
 #include "session/products/frame_writer.h"
 #include "session/products/layers_product.h"
@@ -33,10 +35,20 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
-bool has_layers(const FrameRecord& frame) {
-  return std::any_of(frame.files.begin(), frame.files.end(), [](const std::string& file) {
-    return file.starts_with("layers/") || file.starts_with("cscope_layers/");
+bool has_any(const FrameRecord& frame, std::initializer_list<const char*> products) {
+  return std::any_of(frame.files.begin(), frame.files.end(), [&](const std::string& file) {
+    return std::any_of(products.begin(), products.end(), [&](const char* product) {
+      return file.starts_with(std::string(product) + "/");
+    });
   });
+}
+
+bool has_layers(const FrameRecord& frame) { return has_any(frame, {"layers", "cscope_layers"}); }
+bool has_labels(const FrameRecord& frame) { return has_any(frame, {"labels"}); }
+
+bool want_labels(const ProductSet& products) {
+  return products.contains("labels") || products.contains("masks") ||
+         products.contains("cscope_masks");
 }
 
 // Effects that the sequence runs and this frame does not.
@@ -92,6 +104,7 @@ class Run {
                                         : settings.output,
                 fingerprint_, settings.overwrite) {
     session_.set(record_.choice.sampling);
+    if (want_labels(settings.products)) labeller_ = std::make_unique<const Labeller>(scene_);
   }
 
   void render_frames(const ProgressListener& progress);
@@ -115,6 +128,7 @@ class Run {
   RunRecord record_;
   std::string fingerprint_;
   OutputFolder output_;
+  std::unique_ptr<const Labeller> labeller_{};  // where labels are wanted
 };
 
 void Run::render_frames(const ProgressListener& progress) {
@@ -185,6 +199,10 @@ void Run::write_records() {
     core::write_file_atomically(output_.path() / kLayersFile, layers_json(scene_));
     record_.films.insert(kLayersFile);
   }
+  if (std::any_of(record_.frames.begin(), record_.frames.end(), has_labels)) {
+    write_run_labels(output_.path(), scene_, record_.frames);
+    record_.films.insert(kRunLabelFiles.begin(), kRunLabelFiles.end());
+  }
   std::set<std::string> files = record_.films;
   for (const FrameRecord& record : record_.frames)
     files.insert(record.files.begin(), record.files.end());
@@ -216,6 +234,12 @@ FrameOutput Run::render_frame(const core::EffectPlan& plan, FrameRecord& record)
   output.metadata = frame_metadata(scene_, record_.choice.sampling, record, fingerprint_);
   if (settings_.products.contains("figure") || settings_.products.contains("ppi_figure"))
     output.figure = figure_facts(scene_, record.pose, record.index, settings_.range_unit);
+  if (labeller_) {
+    output.labels = labeller_->labels(scene_, record.pose, output.frame);
+    if (settings_.products.contains("labels"))
+      output.labels_text =
+          labels_json(output.labels, scene_, record.index, record.pose, output.metadata);
+  }
   if (settings_.products.contains("obstacles"))
     output.obstacle_table = obstacle_table(output.frame.obstacles, output.metadata);
   if (settings_.products.contains("detections"))

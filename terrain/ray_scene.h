@@ -132,6 +132,13 @@ class RayScene {
   // mesh (floats). For checks, not for the ray loop.
   std::array<glm::dvec3, 3> triangle(std::uint32_t geometry, std::uint32_t primitive) const;
 
+  // How many geometries there are, the terrain among them, and triangles of a mesh: what to go
+  // through with object() and triangle().
+  std::size_t geometry_count() const { return mesh_material_.size(); }
+  std::size_t mesh_triangles(std::uint32_t geometry) const {
+    return mesh_material_[geometry].size();
+  }
+
   const HeightField* terrain() const { return has_terrain_ ? &terrain_ : nullptr; }
   // Over the ground's border where there is none below; over the origin's height without ground.
   double height_above_ground_m(const glm::dvec3& at_m) const {

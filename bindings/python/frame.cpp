@@ -52,11 +52,9 @@ py::dict frame_dict(const std::shared_ptr<const renderer::Frame>& frame,
     result["cscope_grey"] = rows_of(frame->cscope_grey, columns, false, owner);
     result["cscope_W_m3"] = rows_of(frame->cscope_W_m3, columns, false, owner);
   }
-  if (frame->layers) {
-    result["layers"] = layers_dict(frame->layers->bscope, columns, true, owner);
-    if (wanted.cscope_layers)
-      result["cscope_layers"] = layers_dict(frame->layers->cscope, columns, false, owner);
-  }
+  if (wanted.layers) result["layers"] = layers_dict(frame->layers->bscope, columns, true, owner);
+  if (wanted.cscope_layers)
+    result["cscope_layers"] = layers_dict(frame->layers->cscope, columns, false, owner);
   result["noise_W"] = frame->noise_W;
   result["rays"] = frame->rays;
   result["slices"] = frame->slices;

@@ -18,6 +18,7 @@
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
 #include "scenes/ground_below.h"
+#include "session/labels/labels_json.h"
 #include "session/records/run_record.h"
 #include "session/sampling_choice.h"
 
@@ -150,21 +151,29 @@ py::list set_sampling(const Scene& scene, const std::string& kind, double value)
 }
 
 py::dict render(const Scene& scene, const PoseNumbers& pose, std::uint64_t frame_index, bool bscope,
-                bool cscope, bool layers, bool cscope_layers) {
+                bool cscope, bool layers, bool cscope_layers, bool labels) {
   const session::Session& session = scene.session();
   renderer::Products wanted;
-  wanted.bscope = bscope;
+  wanted.bscope = bscope || labels;
   wanted.cscope = cscope;
-  wanted.layers = layers || cscope_layers;
-  wanted.cscope_layers = cscope_layers;
+  wanted.cscope_layers = cscope_layers || labels;
+  wanted.layers = layers || wanted.cscope_layers;
   const core::Pose at = pose_of(pose);
   const session::Session::Moment now = session.now();
   const auto frame = std::make_shared<renderer::Frame>();
+  const std::shared_ptr<const scenes::Scene> under = session.scene(now);
+  std::string text;
   without_lock([&](const core::StopToken& stop) {
     *frame = session.render(now, at, frame_index, wanted, stop);
+    if (!labels) return;
+    const session::FrameLabels found = scene.labeller(under)->labels(*under, at, *frame);
+    text = session::labels_json(found, *under, static_cast<int>(frame_index), at, {});
   });
-  const std::shared_ptr<const scenes::Scene> under = session.scene(now);
+  wanted.bscope = bscope;
+  wanted.layers = layers;
+  wanted.cscope_layers = cscope_layers;
   py::dict result = frame_dict(frame, wanted, under->description.sensor);
+  result["labels"] = labels ? py::object(py::str(text)) : py::object(py::none());
   result["sampling"] = session::caster_text(session.sampling(now));
   return result;
 }
@@ -247,7 +256,7 @@ void add_scene(py::module_& module) {
       .def("set_targets", &set_targets, py::arg("targets"))
       .def("set_sampling", &set_sampling, py::arg("kind"), py::arg("value"))
       .def("render", &render, py::arg("pose"), py::arg("frame_index"), py::arg("bscope"),
-           py::arg("cscope"), py::arg("layers"), py::arg("cscope_layers"))
+           py::arg("cscope"), py::arg("layers"), py::arg("cscope_layers"), py::arg("labels"))
       .def("ground_height_m", &ground_height_m, py::arg("latitude_deg"), py::arg("longitude_deg"))
       .def("trajectory", &trajectory)
       .def("plan", &plan)

@@ -42,4 +42,14 @@ session::Session& Scene::session() const {
   return *session_;
 }
 
+std::shared_ptr<const session::Labeller> Scene::labeller(
+    const std::shared_ptr<const scenes::Scene>& scene) const {
+  const std::lock_guard<std::mutex> lock(labelling_);
+  if (labelled_ != scene) {
+    labeller_ = std::make_shared<const session::Labeller>(*scene);
+    labelled_ = scene;
+  }
+  return labeller_;
+}
+
 }  // namespace fanbeam::bindings

@@ -5,8 +5,10 @@
 
 #include <filesystem>
 #include <memory>
+#include <mutex>
 
 #include "core/errors.h"
+#include "session/labels/frame_labels.h"
 #include "session/session.h"
 
 namespace fanbeam::bindings {
@@ -23,8 +25,14 @@ class Scene {
   // Throws std::runtime_error (RuntimeError) in a process forked from the one that opened it: the
   // threads that it renders with are not there.
   session::Session& session() const;
+  // Of a scene that the session gave; made anew when the conditions have changed.
+  std::shared_ptr<const session::Labeller> labeller(
+      const std::shared_ptr<const scenes::Scene>& scene) const;
 
  private:
+  mutable std::mutex labelling_;
+  mutable std::shared_ptr<const scenes::Scene> labelled_;
+  mutable std::shared_ptr<const session::Labeller> labeller_;
   std::unique_ptr<session::Session> session_;
   pid_t opened_by_;
 };

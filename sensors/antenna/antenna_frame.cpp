@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/constants.h"
 #include "core/errors.h"
 #include "core/pose.h"
 
@@ -72,6 +73,12 @@ std::optional<AntennaAngles> all_round_angles(const AntennaFrame& frame,
   const glm::dvec3 fru = components(frame, from_antenna_m);
   if (!finite(fru) || fru == glm::dvec3(0.0)) return std::nullopt;
   return plane_angles(fru);
+}
+
+std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,
+                                    const Scan& scan) {
+  return scan.field_of_view_rad > core::kPi ? all_round_angles(frame, from_antenna_m)
+                                            : angles(frame, from_antenna_m, scan.surface);
 }
 
 }  // namespace fanbeam::sensors

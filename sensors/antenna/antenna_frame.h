@@ -58,4 +58,8 @@ std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3&
 std::optional<AntennaAngles> all_round_angles(const AntennaFrame& frame,
                                               const glm::dvec3& from_antenna_m);
 
+// Of the two the one that the scan needs: all round where it turns by more than half a circle.
+std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,
+                                    const Scan& scan);
+
 }  // namespace fanbeam::sensors

@@ -13,9 +13,7 @@ constexpr int kSteps = 256;  // of a centre line
 std::optional<SeenPoint> seen_from(const sensors::AntennaFrame& antenna, const sensors::Scan& scan,
                                    const glm::dvec3& point_m) {
   const glm::dvec3 away_m = point_m - antenna.position_m;
-  const auto angles = scan.field_of_view_rad > core::kPi
-                          ? sensors::all_round_angles(antenna, away_m)
-                          : sensors::angles(antenna, away_m, scan.surface);
+  const auto angles = sensors::angles(antenna, away_m, scan);
   if (!angles) return std::nullopt;
   return SeenPoint{glm::length(away_m), angles->azimuth_rad, angles->elevation_rad};
 }

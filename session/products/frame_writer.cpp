@@ -12,6 +12,7 @@
 #include "session/products/detection_product.h"
 #include "session/products/frame_table.h"
 #include "session/products/layers_product.h"
+#include "session/products/mask_product.h"
 
 namespace fanbeam::session {
 namespace {
@@ -45,7 +46,8 @@ std::vector<double> farthest_on_top(const std::vector<double>& values, int colum
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,
                                  int index) {
   const bool exr = product == "power" || product == "layers" || product == "cscope_layers";
-  return folder / product / fmt::format("{:05}.{}", index, exr ? "exr" : "png");
+  return folder / product /
+         fmt::format("{:05}.{}", index, exr ? "exr" : product == "labels" ? "json" : "png");
 }
 
 core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& right) {
@@ -178,6 +180,14 @@ void FrameWriter::write(const FrameOutput& output) const {
   if (products_.contains("obstacles"))
     core::write_file_atomically(frame_table_path(folder_, "obstacles", output.index),
                                 output.obstacle_table);
+  if (products_.contains("labels"))
+    core::write_file_atomically(frame_path(folder_, "labels", output.index), output.labels_text);
+  if (products_.contains("masks"))
+    core::write_png(frame_path(folder_, "masks", output.index),
+                    bscope_mask(output.labels, sensor_), output.metadata);
+  if (products_.contains("cscope_masks"))
+    core::write_png(frame_path(folder_, "cscope_masks", output.index),
+                    cscope_mask(output.labels, sensor_), output.metadata);
   if (products_.contains("power")) {
     core::Image image{sensor_.scan.columns, sensor_.range.cells, {}};
     image.layers.push_back({"power_W", farthest_on_top(frame.received_W(), sensor_.scan.columns)});

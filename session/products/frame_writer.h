@@ -16,6 +16,7 @@
 #include "renderer/frame_renderer.h"
 #include "sensors/sensor.h"
 #include "session/figure/figure_facts.h"
+#include "session/labels/frame_labels.h"
 #include "session/products/products.h"
 
 namespace fanbeam::session {
@@ -29,6 +30,8 @@ struct FrameOutput {
   std::string detection_table{};  // of the product "detections"
   std::string obstacle_table{};   // of the product "obstacles"
   FigureFacts figure{};           // of the products "figure" and "ppi_figure"
+  std::string labels_text{};      // of the product "labels"
+  FrameLabels labels{};           // of the products "masks" and "cscope_masks"
 };
 
 std::filesystem::path frame_path(const std::filesystem::path& folder, const std::string& product,

@@ -7,12 +7,15 @@ renderer::Products wanted_of(const ProductSet& products) {
       products.contains("pair") || products.contains("figure") || products.contains("preview");
   const bool plan_view =
       products.contains("ppi") || products.contains("ppi_north") || products.contains("ppi_figure");
-  return {both || plan_view || products.contains("bscope"),
+  const bool labels = products.contains("labels");
+  const bool cscope_truth =
+      products.contains("cscope_layers") || products.contains("cscope_masks") || labels;
+  return {both || plan_view || labels || products.contains("bscope"),
           both || products.contains("cscope"),
           products.contains("detections"),
           products.contains("obstacles"),
-          products.contains("layers"),
-          products.contains("cscope_layers")};
+          products.contains("layers") || products.contains("masks") || cscope_truth,
+          cscope_truth};
 }
 
 }  // namespace fanbeam::session

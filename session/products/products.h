@@ -14,7 +14,7 @@ struct Product {
   std::string_view name, what;
   std::string_view files;  // below the output folder, of frame 0
 };
-inline constexpr std::array<Product, 13> kProducts = {
+inline constexpr std::array<Product, 16> kProducts = {
     {{"bscope", "range over azimuth, PNG", "bscope/00000.png"},
      {"cscope", "elevation over azimuth, PNG", "cscope/00000.png"},
      {"pair", "both side by side", "pair/00000.png"},
@@ -25,6 +25,10 @@ inline constexpr std::array<Product, 13> kProducts = {
      {"power", "EXR, watts, noise included", "power/00000.exr"},
      {"layers", "EXR, ground truth by B-scope cell", "layers/00000.exr"},
      {"cscope_layers", "EXR, the same by C-scope cell", "cscope_layers/00000.exr"},
+     {"labels", "JSON, what is where; and all frames' as labels.json, coco.json, lard.csv",
+      "labels/00000.json"},
+     {"masks", "PNG, what B-scope cells show", "masks/00000.png"},
+     {"cscope_masks", "PNG, the same of C-scope cells", "cscope_masks/00000.png"},
      {"detections", "mask and CSV", "detections/00000.png and .csv"},
      {"obstacles", "CSV, heights from shadows", "obstacles/00000.csv"},
      {"preview", "video", "preview.mp4, .gif or .apng"}}};

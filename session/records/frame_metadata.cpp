@@ -4,8 +4,10 @@
 
 #include <algorithm>
 
-#include "core/units.h"
 #include "core/effect_plan.h"
+#include "core/files.h"
+#include "core/units.h"
+#include "session/labels/labels_json.h"
 #include "session/products/frame_table.h"
 #include "session/records/output_folder.h"
 #include "session/version.h"
@@ -93,6 +95,13 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
                     : ""}};
 }
 
+core::Metadata metadata_of(const fs::path& file) {
+  constexpr std::uint64_t kLargestLabels_bytes = 1ULL << 28U;
+  if (file.extension() == ".csv") return table_metadata(file);
+  if (file.extension() != ".json") return core::read_metadata(file);
+  return labels_metadata(core::read_file(file, kLargestLabels_bytes), file.string());
+}
+
 bool take_over(const fs::path& folder, const ProductSet& products, const std::string& fingerprint,
                FrameRecord& record) {
   if (products.contains("preview")) return false;
@@ -101,9 +110,8 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
     if (!fs::is_regular_file(file)) return false;
     core::Metadata metadata;
     try {
-      const bool table = file.extension() == ".csv";
-      metadata = table ? table_metadata(file) : core::read_metadata(file);
-      if (!table) core::read_image(file);  // whole?
+      metadata = metadata_of(file);
+      if (file.extension() != ".csv" && file.extension() != ".json") core::read_image(file);  // whole?
     } catch (const core::InputError&) {
       return false;  // damaged: render it again
     }

@@ -15,6 +15,10 @@ namespace fanbeam::session {
 core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampling& sampling,
                               const FrameRecord& record, const std::string& fingerprint);
 
+// What frame_metadata said to a picture, a table or labels that were written with it; nothing where they
+// have none. Throws InputError for a damaged file.
+core::Metadata metadata_of(const std::filesystem::path& file);
+
 // Fills `record` with what an earlier run with the same input left of this frame; false when any
 // product is missing, damaged or of another input.
 bool take_over(const std::filesystem::path& folder, const ProductSet& products,

@@ -12,10 +12,11 @@
 #include "core/image.h"
 #include "core/json_size.h"
 #include "core/text.h"
-#include "session/products/frame_table.h"
+#include "session/labels/run_labels.h"
 #include "session/products/frame_writer.h"
 #include "session/products/layers_product.h"
 #include "session/products/products.h"
+#include "session/records/frame_metadata.h"
 
 namespace fanbeam::session {
 namespace {
@@ -41,14 +42,22 @@ std::optional<int> frame_of(const fs::path& relative) {
   const auto [end, status] = std::from_chars(stem.data(), stem.data() + stem.size(), index);
   const bool number = status == std::errc() && end == stem.data() + stem.size() && index >= 0 &&
                       fmt::format("{:05}", index) == stem;
-  const bool picture = extension == ".png" || extension == ".exr" || extension == ".csv";
+  const bool picture = extension == ".png" || extension == ".exr" || extension == ".csv" ||
+                       (extension == ".json" && *relative.begin() == "labels");
   if (!number || !picture || !is_product(relative.begin()->string())) return std::nullopt;
   return index;
 }
 
+// What is written of all frames together.
+bool is_of_run(const std::string& name) {
+  return name == kLayersFile ||
+         std::find(kRunLabelFiles.begin(), kRunLabelFiles.end(), name) != kRunLabelFiles.end();
+}
+
 // A film, or a file in the folder of a product: what a record may have removed, whoever wrote it.
 bool may_be_replaced(const fs::path& relative) {
-  const bool film = relative.parent_path().empty() && relative.stem() == "preview";
+  const bool film = relative.parent_path().empty() &&
+                    (relative.stem() == "preview" || is_of_run(relative.generic_string()));
   return film || (std::distance(relative.begin(), relative.end()) == 2 &&
                   std::all_of(relative.begin(), relative.end(), [](const fs::path& part) {
                     return core::is_safe_word(part.string());
@@ -113,7 +122,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
     const bool record =
-        (name == "run.json" && has_record) || name == "timing.json" || name == kLayersFile;
+        (name == "run.json" && has_record) || name == "timing.json" || is_of_run(name);
     if (!record && !listed_.contains(name) && !is_of_this_input(relative)) others.push_back(name);
     return others.size() <= kMostNamed;
   });
@@ -132,9 +141,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
 bool OutputFolder::is_of_this_input(const fs::path& relative) const {
   if (!frame_of(relative)) return false;
   try {
-    const core::Metadata metadata = relative.extension() == ".csv"
-                                        ? table_metadata(folder_ / relative)
-                                        : core::read_metadata(folder_ / relative);
+    const core::Metadata metadata = metadata_of(folder_ / relative);
     return std::find(metadata.begin(), metadata.end(),
                      std::pair<std::string, std::string>("fanbeam:input", fingerprint_)) !=
            metadata.end();

@@ -82,7 +82,7 @@ TEST_CASE("bash completes values of options, also behind an equals sign and in l
     for (const char* sign : {"+", "-"}) wishes.insert(sign + std::string(effect.name()));
   CHECK((bash.offered("fanbeam render --products ''") == products));
   CHECK((bash.offered("fanbeam render --products bscope,cs") ==
-         Words{"bscope,cscope", "bscope,cscope_layers"}));
+         Words{"bscope,cscope", "bscope,cscope_layers", "bscope,cscope_masks"}));
   CHECK((bash.offered("fanbeam plan --effects ''") == wishes));
   CHECK((bash.offered("fanbeam render --effects +rain,-gas,-dou") ==
          Words{"+rain,-gas,-double-bounce"}));

@@ -19,6 +19,12 @@ def test_the_tour_runs_and_draws(root, tmp_path):
         assert (tmp_path / name).stat().st_size > 10_000
 
 
+def test_labels_can_be_drawn(root, tmp_path):
+    script = root / "bindings" / "python" / "examples" / "show_labels.py"
+    subprocess.run([sys.executable, script, "braunschweig-26", "950", tmp_path / "labels.png"], check=True, timeout=300)
+    assert (tmp_path / "labels.png").stat().st_size > 30_000
+
+
 def test_type_hints_hold():
     checked = subprocess.run(
         ["mypy", "--strict", "--cache-dir", os.devnull, "-p", "fanbeam"], cwd=PACKAGE.parent, capture_output=True, text=True

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import operator
 import os
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from types import EllipsisType
 from typing import Any, NamedTuple, TypedDict, overload
@@ -182,6 +183,7 @@ class Frame:
     # double_bounce (share of the power), material and object (indices of Scene.materials, .objects)
     layers: Layers | None
     cscope_layers: Layers | None  # of the C-scope; range_m in the place of elevation_rad
+    labels: dict[str, Any] | None  # what is where: runways, lights, obstacles, buildings; docs/labels.md
     meta: dict[str, Any] = field(repr=False)  # pose, frame_index, noise_W, rays, events, ...
 
     @property
@@ -393,6 +395,7 @@ class Scene:
         cscope: bool = True,
         layers: bool = False,
         cscope_layers: bool = False,
+        labels: bool = False,
     ) -> Frame:
         """What the radar sees from a Pose, or in a frame of the scene's flight.
 
@@ -409,11 +412,11 @@ class Scene:
             pose = flight[number]
         if frame_index is None:
             frame_index = number
-        made = self._core.render(pose._numbers(), frame_index, bscope, cscope, layers, cscope_layers)
-        pictures = ("bscope", "cscope", "bscope_grey", "cscope_grey", "bscope_W", "cscope_W_m3", "layers", "cscope_layers")
-        meta = {name: value for name, value in made.items() if name not in pictures}
-        shown = {name: made[name] for name in pictures}
-        return Frame(**shown, meta={"pose": pose, "frame_index": frame_index, **meta})
+        made = self._core.render(pose._numbers(), frame_index, bscope, cscope, layers, cscope_layers, labels)
+        if labels:
+            made["labels"] = json.loads(made["labels"])
+        shown = {item.name: made.pop(item.name) for item in fields(Frame) if item.name != "meta"}
+        return Frame(**shown, meta={"pose": pose, "frame_index": frame_index, **made})
 
     def ground_height_m(self, latitude_deg: float, longitude_deg: float) -> float | None:
         """Of the terrain there, above the ellipsoid; None where the scene has none."""
