@@ -1,4 +1,5 @@
 #include "apps/atmosphere_command.h"
+#include "apps/campaign_command.h"
 #include "apps/command_line.h"
 #include "apps/compare_command.h"
 #include "apps/cost_command.h"
@@ -24,6 +25,9 @@ int main(int argc, char** argv) {
   line.add(add_render_command, render);
   line.add(add_plan_command, explain_plan);
   line.add(add_cost_command, cost);
+
+  line.heading("Data sets");
+  line.add(add_campaign_command, campaign);
 
   line.heading("Flying");
   line.add(add_live_command, fly);

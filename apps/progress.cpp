@@ -19,8 +19,9 @@ std::string minutes_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string what, int total, bool quiet)
+Progress::Progress(std::string what, int total, bool quiet, std::string things)
     : what_(std::move(what)),
+      things_(std::move(things)),
       total_(total),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
@@ -43,18 +44,18 @@ void Progress::step(int done) {
     draw_bar(done, rate, left_s);
   } else if (100 * done >= next_line_percent_ * total_) {
     next_line_percent_ = 100 * done / total_ / 10 * 10 + 10;
-    fmt::print(stderr, "{}: {} of {} frames, {:.1f} frames/s, {} left\n", what_, done, total_, rate,
-               minutes_text(left_s));
+    fmt::print(stderr, "{}: {} of {} {}, {:.1f} {}/s, {} left\n", what_, done, total_, things_,
+               rate, things_, minutes_text(left_s));
   }
 }
 
 void Progress::draw_bar(int done, double rate, double left_s) {
   constexpr int kWidth = 30;
   const int filled = static_cast<int>(static_cast<long>(kWidth) * done / total_);
-  fmt::print(stderr, "\r{} [{}{}] {}/{} frames  {:.1f} frames/s  {} left ", what_,
+  fmt::print(stderr, "\r{} [{}{}] {}/{} {}  {:.1f} {}/s  {} left ", what_,
              std::string(static_cast<std::size_t>(filled), '#'),
-             std::string(static_cast<std::size_t>(kWidth - filled), '.'), done, total_, rate,
-             minutes_text(left_s));
+             std::string(static_cast<std::size_t>(kWidth - filled), '.'), done, total_, things_,
+             rate, things_, minutes_text(left_s));
   std::fflush(stderr);
 }
 

@@ -9,7 +9,7 @@ namespace fanbeam::apps {
 class Progress {
  public:
   // Silent when `quiet`. Writes to standard error.
-  Progress(std::string what, int total, bool quiet);
+  Progress(std::string what, int total, bool quiet, std::string things = "frames");
   ~Progress();
 
   void step(int done);
@@ -18,6 +18,7 @@ class Progress {
   void draw_bar(int done, double rate, double left_s);
 
   std::string what_;
+  std::string things_;
   int total_;
   bool quiet_;
   bool terminal_;

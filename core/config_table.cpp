@@ -74,6 +74,10 @@ bool ConfigTable::is_text(std::string_view key) const {
   return has(key) && static_cast<const toml::table*>(table_)->get(key)->is_string();
 }
 
+bool ConfigTable::is_table(std::string_view key) const {
+  return has(key) && static_cast<const toml::table*>(table_)->get(key)->is_table();
+}
+
 ConfigTable ConfigTable::table(std::string_view key) {
   const auto* node = static_cast<const toml::node*>(find(key));
   ConfigTable child;

@@ -38,6 +38,7 @@ class ConfigTable {
   bool has(std::string_view key) const;
   // For keys that take a text or a table.
   bool is_text(std::string_view key) const;
+  bool is_table(std::string_view key) const;
 
   double number(std::string_view key, NumberRange range, double fallback);
   std::optional<double> optional_number(std::string_view key, NumberRange range);

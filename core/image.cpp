@@ -159,4 +159,6 @@ Image read_image(const std::filesystem::path& path) {
   return image;
 }
 
+std::string image_library() { return std::string("OpenImageIO ") + OIIO_VERSION_STRING; }
+
 }  // namespace fanbeam::core

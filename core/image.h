@@ -46,4 +46,7 @@ Metadata read_metadata(const std::filesystem::path& path);
 // (damaged), E-LIMIT before allocation above 32 million values.
 Image read_image(const std::filesystem::path& path);
 
+// "OpenImageIO 2.4.7.1": what writes pictures, for records.
+std::string image_library();
+
 }  // namespace fanbeam::core

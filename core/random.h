@@ -26,6 +26,8 @@ inline constexpr std::uint32_t kStreamTarget = 6;  // phases and fluctuation
 inline constexpr std::uint32_t kStreamReceiverNoise = 7;
 inline constexpr std::uint32_t kStreamPhaseNoise = 8;
 inline constexpr std::uint32_t kStreamCfarCalibration = 9;
+inline constexpr std::uint32_t kStreamCampaign = 11;        // values of runs
+inline constexpr std::uint32_t kStreamCampaignFlight = 12;  // how their flights wander
 inline constexpr std::uint32_t kStreamHighway = 20;    // measurements of road scenarios
 inline constexpr std::uint32_t kStreamFrameEcho = 10;  // places and phases of scatterers
 

@@ -15,12 +15,10 @@
 #include "scenes/scene.h"
 #include "sensors/display/display.h"
 #include "session/frame_choice.h"
-#include "session/labels/labels_json.h"
 #include "session/labels/run_labels.h"
-#include "session/products/detection_product.h"
+#include "session/products/frame_output.h"
 #include "session/products/frame_writer.h"
 #include "session/products/layers_product.h"
-#include "session/products/obstacle_product.h"
 #include "session/products/preview.h"
 #include "session/records/frame_metadata.h"
 #include "session/records/output_folder.h"
@@ -45,11 +43,6 @@ bool has_any(const FrameRecord& frame, std::initializer_list<const char*> produc
 
 bool has_layers(const FrameRecord& frame) { return has_any(frame, {"layers", "cscope_layers"}); }
 bool has_labels(const FrameRecord& frame) { return has_any(frame, {"labels"}); }
-
-bool want_labels(const ProductSet& products) {
-  return products.contains("labels") || products.contains("masks") ||
-         products.contains("cscope_masks");
-}
 
 // Effects that the sequence runs and this frame does not.
 core::EffectSet left_out(const core::EffectPlan& sequence, const core::EffectPlan& frame) {
@@ -200,7 +193,7 @@ void Run::write_records() {
     record_.films.insert(kLayersFile);
   }
   if (std::any_of(record_.frames.begin(), record_.frames.end(), has_labels)) {
-    write_run_labels(output_.path(), scene_, record_.frames);
+    write_run_labels(output_.path(), record_.frames);
     record_.films.insert(kRunLabelFiles.begin(), kRunLabelFiles.end());
   }
   std::set<std::string> files = record_.films;
@@ -220,32 +213,13 @@ void Run::remove_leftovers() const {
 
 FrameOutput Run::render_frame(const core::EffectPlan& plan, FrameRecord& record) const {
   const Clock::time_point begin = Clock::now();
-  FrameOutput output{record.index,
-                     core::attitude_from(record.pose.q_NB).heading_rad,
-                     session_.render_flown(record.index, plan, wanted_of(settings_.products)),
-                     {}};
+  renderer::Frame frame =
+      session_.render_flown(record.index, plan, wanted_of(settings_.products));
   record.frame_ms = 1000.0 * seconds_since(begin);
-  record.rays = output.frame.rays;
-  record.slices = output.frame.slices;
-  record.blanked = output.frame.blanked;
-  record.unprojected = output.frame.unprojected;
-  record.events = output.frame.events;
-  record.error = output.frame.error;
-  output.metadata = frame_metadata(scene_, record_.choice.sampling, record, fingerprint_);
-  if (settings_.products.contains("figure") || settings_.products.contains("ppi_figure"))
-    output.figure = figure_facts(scene_, record.pose, record.index, settings_.range_unit);
-  if (labeller_) {
-    output.labels = labeller_->labels(scene_, record.pose, output.frame);
-    if (settings_.products.contains("labels"))
-      output.labels_text =
-          labels_json(output.labels, scene_, record.index, record.pose, output.metadata);
-  }
-  if (settings_.products.contains("obstacles"))
-    output.obstacle_table = obstacle_table(output.frame.obstacles, output.metadata);
-  if (settings_.products.contains("detections"))
-    output.detection_table = detection_table(scene_.description.sensor, record.index, record.time_s,
-                                             output.metadata, output.frame.detections);
-  return output;
+  return frame_output(scene_,
+                      {settings_.products, fingerprint_, record_.choice.sampling,
+                       settings_.range_unit, labeller_.get()},
+                      std::move(frame), record);
 }
 
 Sequence Run::result() const {

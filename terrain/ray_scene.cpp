@@ -305,4 +305,6 @@ void check_ray(const glm::dvec3& origin_m, const glm::dvec3& direction, double n
   check("ray far limit", far_m, -kLargest, kLargest);
 }
 
+std::string ray_library() { return std::string("embree ") + RTC_VERSION_STRING; }
+
 }  // namespace fanbeam::terrain

@@ -175,6 +175,9 @@ class RayScene {
   MeshTops tops_;
 };
 
+// "embree 3.13.5": what casts, for records.
+std::string ray_library();
+
 // Throws InputError E-NONFINITE or E-RANGE for a ray that the library must not see.
 void check_ray(const glm::dvec3& origin_m, const glm::dvec3& direction, double near_m,
                double far_m);

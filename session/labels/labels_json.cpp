@@ -121,6 +121,13 @@ Json pose_json(const core::Pose& pose) {
           {"down_mps", pose.v_N_mps.z}};
 }
 
+Json weather_json(const atmosphere::Weather& weather) {
+  return {{"fog", atmosphere::has_fog(weather)},
+          {"visibility_m", weather.visibility_m ? Json(*weather.visibility_m) : Json(nullptr)},
+          {"rain_rate_mm_per_h", weather.rain_rate_mm_per_h},
+          {"snow_rate_mm_per_h", weather.snow_rate_mm_per_h}};
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> runs_of(const MaskLabel& mask, std::uint32_t cells) {
@@ -152,6 +159,7 @@ std::string labels_json(const FrameLabels& labels, const scenes::Scene& scene, i
                {"frame", frame},
                {"time_s", pose.time_s},
                {"pose", pose_json(pose)},
+               {"weather", weather_json(scene.weather)},
                {"bscope", {{"columns", sensor.scan.columns}, {"rows", sensor.range.cells}}},
                {"cscope", {{"columns", sensor.scan.columns}, {"rows", sensor.display.cscope_rows}}}};
   json["runways"] = Json::array();

@@ -10,13 +10,15 @@
 //                3050 m (lateral) and 305 m (vertical) behind the near threshold.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "scenes/scene.h"
 #include "session/records/run_record.h"
 
 namespace fanbeam::session {
@@ -24,8 +26,32 @@ namespace fanbeam::session {
 inline constexpr std::array<std::string_view, 3> kRunLabelFiles = {"labels.json", "coco.json",
                                                                    "lard.csv"};
 
-// Of the frames whose files hold labels. Throws InputError E-IO and E-PARSE.
-void write_run_labels(const std::filesystem::path& folder, const scenes::Scene& scene,
-                      const std::vector<FrameRecord>& frames);
+// Of one run, or of many: whose frames are added in their order.
+class RunLabels {
+ public:
+  RunLabels();
+  ~RunLabels();
+  RunLabels(const RunLabels&) = delete;
+  RunLabels& operator=(const RunLabels&) = delete;
+
+  // A frame whose `files` (relative to `folder` / `prefix`) hold labels; others are left out. Its pictures
+  // are named with the prefix. `frames`: of its run, for LARD's scenario. Throws InputError E-IO and E-PARSE.
+  void add(const std::filesystem::path& folder, const std::string& prefix,
+           const std::set<std::string>& files, std::size_t frames);
+
+  std::size_t frames() const { return frames_; }
+  std::string all() const;
+  std::string coco() const;
+  std::string lard() const;
+
+ private:
+  struct Coco;
+  std::unique_ptr<Coco> coco_;
+  std::string all_, lard_;
+  std::size_t frames_ = 0;
+};
+
+// The three files of a run, of the frames that have labels.
+void write_run_labels(const std::filesystem::path& folder, const std::vector<FrameRecord>& frames);
 
 }  // namespace fanbeam::session

@@ -37,6 +37,8 @@ const std::map<std::string, Names>& layers() {
         "signal", "tracking"}},
       {"measure",
        {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes", "session"}},
+      {"datasets",
+       {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes", "session"}},
       {"live",
        {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes", "session",
         "feeds"}},
@@ -47,7 +49,7 @@ const std::map<std::string, Names>& layers() {
         "session/signal", "signal"}},
       {"apps",
        {"core", "feeds", "live", "materials", "atmosphere", "terrain", "sensors", "renderer",
-        "signal", "tracking", "scenes", "session", "session/signal", "measure"}}};
+        "signal", "tracking", "scenes", "session", "session/signal", "measure", "datasets"}}};
   return kLayers;
 }
 
@@ -69,6 +71,7 @@ constexpr Confined kConfined[] = {
     {"GeographicLib/.*", "terrain"},     {"(gdal|ogr|cpl_|gdal/).*", "terrain"},
     {"(geos_c\\.h|geos/.*)", "terrain"}, {"proj(_.*)?\\.h", "terrain"},
     {"OpenImageIO/.*", "core"},          {"fftw3\\.h", "signal"},
+    {"openssl/.*", "datasets"},
     {"nanoflann\\.hpp", "signal"},       {"boost/(asio|beast).*", "live"},
 };
 

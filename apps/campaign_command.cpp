@@ -1,0 +1,197 @@
+#include "apps/campaign_command.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "apps/campaign_plan.h"
+#include "apps/progress.h"
+#include "apps/stop_on_signals.h"
+#include "core/files.h"
+#include "core/parallel.h"
+#include "core/stop.h"
+#include "core/text.h"
+#include "datasets/campaign.h"
+#include "datasets/ledger.h"
+#include "datasets/slurm.h"
+#include "datasets/worker.h"
+
+namespace fanbeam::apps {
+namespace {
+
+namespace fs = std::filesystem;
+using datasets::Campaign;
+
+Campaign read_checked(const CampaignOptions& options, const CommonOptions& common) {
+  core::ProblemList problems;
+  Campaign campaign = datasets::read_campaign(options.file, problems);
+  problems.throw_if_errors();
+  if (!common.quiet) print_problems(problems.all());
+  return campaign;
+}
+
+fs::path folder_of(const std::string& told, const Campaign& campaign) {
+  return told.empty() ? core::default_output_folder(campaign.name) : fs::path(told);
+}
+
+// Every N-th run beginning with the K-th.
+std::vector<int> shard_of(const std::vector<int>& runs, const std::string& text) {
+  if (text.empty()) return runs;
+  const std::size_t slash = text.find('/');
+  const auto part = core::parse_number(text.substr(0, slash));
+  const auto parts =
+      core::parse_number(slash == std::string::npos ? "" : text.substr(slash + 1));
+  const bool whole = part.error == core::NumberError::none &&
+                     parts.error == core::NumberError::none &&
+                     part.value == std::floor(part.value) && parts.value == std::floor(parts.value);
+  if (!whole || part.value < 1 || part.value > parts.value || parts.value > 1e6)
+    core::throw_input_error(core::ErrorClass::range, "--shard", "\"" + text + "\"",
+                            "K/N with K from 1 to N, such as 3/8");
+  std::vector<int> mine;
+  for (auto i = static_cast<std::size_t>(part.value) - 1; i < runs.size();
+       i += static_cast<std::size_t>(parts.value))
+    mine.push_back(runs[i]);
+  return mine;
+}
+
+std::vector<int> chosen_runs(const CampaignOptions& options, const Campaign& campaign) {
+  if (!options.runs.empty()) return datasets::runs_in(options.runs, campaign.runs, "--runs");
+  std::vector<int> runs(static_cast<std::size_t>(campaign.runs));
+  std::iota(runs.begin(), runs.end(), 0);
+  return runs;
+}
+
+int run(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
+  const core::ThreadLimit threads(options.threads);
+  const fs::path output = folder_of(options.output, campaign);
+  const std::vector<int> runs = shard_of(chosen_runs(options, campaign), options.shard);
+  datasets::Worker worker(campaign,
+                          {output, shipped_folder(), data_folders(options.data), options.replace});
+  int made = 0, elsewhere = 0;
+  std::vector<int> failed;
+  const StopOnSignals stop_on_signals;
+  try {
+    Progress progress(campaign.name, static_cast<int>(runs.size()), common.quiet, "runs");
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      core::throw_if_stopped();
+      switch (worker.make(runs[i])) {
+        case datasets::RunEnd::made:
+          ++made;
+          break;
+        case datasets::RunEnd::elsewhere:
+          ++elsewhere;
+          break;
+        case datasets::RunEnd::failed:
+          failed.push_back(runs[i]);
+          spdlog::error("run {} failed: {}", runs[i],
+                        datasets::failed_file(output, runs[i]).string());
+          break;
+        case datasets::RunEnd::there:
+          break;
+      }
+      progress.step(static_cast<int>(i) + 1);
+    }
+  } catch (const core::Stopped&) {
+    return end_by_stop_signal();
+  }
+  if (!common.quiet)
+    fmt::print("{} of {} runs made, {} there before, {} made by others now, {} failed: {}\n", made,
+               runs.size(),
+               runs.size() - static_cast<std::size_t>(made + elsewhere) - failed.size(), elsewhere,
+               failed.size(), fs::absolute(output).lexically_normal().string());
+  return failed.empty() ? kExitDone : kExitInvalidInput;
+}
+
+int status(const CampaignOptions& options, const Campaign& campaign) {
+  const datasets::Status found =
+      datasets::status_of(campaign, folder_of(options.output, campaign));
+  if (options.json) {
+    const nlohmann::ordered_json json = {{"campaign", campaign.name},  {"runs", found.runs},
+                                         {"made", found.made},         {"under_way", found.under_way},
+                                         {"failed", found.failed},     {"missing", found.missing()}};
+    fmt::print("{}\n", json.dump(1));
+  } else {
+    fmt::print("{}: {} of {} runs there, {} under way, {} failed, {} missing\n", campaign.name,
+               found.made, found.runs, found.under_way, found.failed, found.missing());
+  }
+  return kExitDone;
+}
+
+int merge(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
+  const datasets::Merged merged =
+      datasets::merge(campaign, folder_of(options.output, campaign));
+  if (common.quiet) return kExitDone;
+  fmt::print("{} of {} runs, {} frames\n", merged.runs, campaign.runs, merged.frames);
+  for (const fs::path& file : merged.files)
+    fmt::print("{}\n", fs::absolute(file).lexically_normal().string());
+  return kExitDone;
+}
+
+// As a shell takes it back.
+std::string quoted(const std::string& text) {
+  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") ==
+      std::string::npos)
+    return text;
+  return "'" + text + "'";
+}
+
+int verify(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
+  const std::vector<int> runs = chosen_runs(options, campaign);
+  const std::vector<datasets::Damage> damages =
+      datasets::verify(campaign, folder_of(options.output, campaign), runs);
+  std::vector<int> wrong;
+  for (const datasets::Damage& damage : damages) {
+    fmt::print("run {}: {}\n", damage.run, damage.what);
+    if (wrong.empty() || wrong.back() != damage.run) wrong.push_back(damage.run);
+  }
+  if (wrong.empty()) {
+    if (!common.quiet) fmt::print("{} runs, every file as recorded\n", runs.size());
+    return kExitDone;
+  }
+  const std::string folder = options.output.empty() ? "" : " -o " + quoted(options.output);
+  fmt::print("{} of {} runs are to be made again:\nfanbeam campaign run {}{} --runs {} --replace\n",
+             wrong.size(), runs.size(), quoted(options.file), folder, datasets::runs_text(wrong));
+  return kExitCompareFailed;
+}
+
+int slurm(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
+  Campaign placed = campaign;
+  placed.file = fs::absolute(campaign.file).lexically_normal();
+  const fs::path script = options.output.empty() ? fs::path("job.sh") : fs::path(options.output);
+  core::write_file_atomically(
+      script,
+      datasets::slurm_script(
+          placed, {fs::read_symlink("/proc/self/exe"),
+                   fs::absolute(folder_of(options.folder, campaign)).lexically_normal(),
+                   options.data.empty() ? "" : fs::absolute(options.data).string(), options.tasks,
+                   options.threads}));
+  if (!common.quiet) fmt::print("bash {}\n", quoted(script.string()));
+  return kExitDone;
+}
+
+}  // namespace
+
+int campaign(const CampaignOptions& options, const CommonOptions& common) {
+  const Campaign campaign = read_checked(options, common);
+  switch (options.task) {
+    case CampaignOptions::Task::plan:
+      return plan_campaign(options, campaign);
+    case CampaignOptions::Task::run:
+      return run(options, common, campaign);
+    case CampaignOptions::Task::status:
+      return status(options, campaign);
+    case CampaignOptions::Task::merge:
+      return merge(options, common, campaign);
+    case CampaignOptions::Task::verify:
+      return verify(options, common, campaign);
+    case CampaignOptions::Task::slurm:
+      return slurm(options, common, campaign);
+  }
+  return kExitBug;
+}
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,11 @@
+// What `fanbeam campaign plan` prints.
+#pragma once
+
+#include "apps/campaign_command.h"
+#include "datasets/campaign.h"
+
+namespace fanbeam::apps {
+
+int plan_campaign(const CampaignOptions& options, const datasets::Campaign& campaign);
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,170 @@
+#include "datasets/campaign.h"
+
+#include <algorithm>
+#include <boost/random/sobol.hpp>
+#include <limits>
+
+#include "core/config_table.h"
+#include "core/files.h"
+#include "core/spelling.h"
+#include "core/text.h"
+#include "datasets/sha256.h"
+#include "materials/library/surface_state.h"
+#include "session/products/products.h"
+
+namespace fanbeam::datasets {
+namespace {
+
+namespace fs = std::filesystem;
+using core::ConfigTable;
+using core::ErrorClass;
+
+constexpr std::uint64_t kLargestFile_bytes = 4U << 20U;
+
+void read_frames(ConfigTable table, FrameSpread& frames) {
+  frames.count = static_cast<int>(table.integer("count", 1, 100'000, 5));
+  frames.from = table.number("from", {0.0, 1.0}, 0.0);
+  frames.to = table.number("to", {0.0, 1.0}, 1.0);
+  if (!(frames.from <= frames.to))
+    table.error(ErrorClass::range, "to", core::number_text(frames.to),
+                "at least " + core::number_text(frames.from) + ", where it begins");
+}
+
+void read_products(ConfigTable& table, std::vector<std::string>& products) {
+  products = table.texts("products");
+  if (products.empty()) products = {"bscope", "cscope", "labels"};
+  std::vector<std::string> known;
+  for (const session::Product& product : session::kProducts)
+    if (product.name != "preview" && product.name != "figure" && product.name != "ppi_figure")
+      known.emplace_back(product.name);
+  for (const std::string& product : products)
+    if (std::find(known.begin(), known.end(), product) == known.end())
+      table.error(ErrorClass::ref, "products", "\"" + product + "\"",
+                  "one of" + core::names_there_text(product, known));
+}
+
+void read_campaign_table(ConfigTable table, Campaign& campaign) {
+  campaign.name = table.required_text("name");
+  if (!core::is_safe_word(campaign.name))
+    table.error(ErrorClass::range, "name", "\"" + campaign.name + "\"",
+                "letters, digits, - and _: it names folders");
+  campaign.scenes = table.texts("scenes");
+  if (campaign.scenes.empty())
+    table.error(ErrorClass::ref, "scenes", "none", "at least one scene");
+  campaign.plan =
+      static_cast<Campaign::Plan>(table.choice("plan", {"grid", "sobol", "random"}, 2));
+  campaign.runs = static_cast<int>(table.integer("runs", 1, kMostRuns, 1));
+  campaign.seed = static_cast<std::uint64_t>(
+      table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 0));
+  read_frames(table.table("frames"), campaign.frames);
+  read_products(table, campaign.products);
+  const std::size_t level = table.choice("isa", {"v2", "v3", "v4"}, 1);
+  campaign.isa = std::array{core::InstructionLevel::v2, core::InstructionLevel::v3,
+                            core::InstructionLevel::v4}[level];
+  campaign.sample = table.choice("realisation", {"mean", "sample"}, 0) == 1;
+  campaign.samples_per_cell = table.number("samples_per_cell", {0.3, 10000.0}, 0.0);
+  campaign.sensor = table.text("sensor", "");
+}
+
+std::vector<std::string> surface_words() {
+  const auto& words = materials::kSurfaceStateNames;
+  return {words.begin(), words.end()};
+}
+
+void read_parameters(ConfigTable table, Campaign& campaign) {
+  if (table.has("scene"))
+    campaign.parameters.push_back({"scene", read_distribution(table, "scene", campaign.scenes)});
+  else if (campaign.scenes.size() > 1) {
+    Distribution::Choice each;
+    for (const std::string& scene : campaign.scenes) each.values.emplace_back(scene);
+    each.weights.assign(each.values.size(), 1.0 / static_cast<double>(each.values.size()));
+    campaign.parameters.push_back({"scene", Distribution(each)});
+  }
+  if (table.has("surface"))
+    campaign.parameters.push_back({"surface", read_distribution(table, "surface", surface_words())});
+  for (const char* name : {"weather", "sensor", "flight"}) {
+    ConfigTable part = table.table(name);
+    for (const ParameterKind& kind : kParameters)
+      if (kind.table == std::string_view(name) && part.has(kind.key))
+        campaign.parameters.push_back({std::string(name) + "." + kind.key,
+                                       read_distribution(part, kind.key, kind.range)});
+  }
+  if (campaign.find("weather.visibility_m") != nullptr &&
+      campaign.find("weather.liquid_water_g_per_m3") != nullptr)
+    table.error(ErrorClass::ref, "weather", "visibility_m and liquid_water_g_per_m3",
+                "one of the two: the other follows from it");
+}
+
+void read_traffic(ConfigTable table, Campaign& campaign) {
+  const std::string name = table.required_text("name");
+  if (!core::is_safe_word(name) ||
+      std::find(campaign.traffic.begin(), campaign.traffic.end(), name) != campaign.traffic.end())
+    table.error(ErrorClass::range, "name", "\"" + name + "\"",
+                "letters, digits, - and _, once in the file");
+  campaign.traffic.push_back(name);
+  const auto take = [&](const char* key, const core::NumberRange& range, double otherwise) {
+    const std::string whole = "traffic." + name + "." + key;
+    campaign.parameters.push_back({whole, table.has(key)
+                                              ? read_distribution(table, key, range)
+                                              : Distribution(Value{otherwise})});
+  };
+  take("rcs_m2", {0.0, 1e6}, 10.0);
+  take("along_m", {-10'000.0, 10'000.0}, 500.0);
+  take("across_m", {-5'000.0, 5'000.0}, 0.0);
+  take("height_m", {0.0, 500.0}, 1.0);
+  // Above the share that is told it is not there.
+  const double present = table.number("present", {0.0, 1.0}, 1.0);
+  Distribution::Choice there{{Value{1.0}, Value{0.0}}, {present, 1.0 - present}};
+  campaign.parameters.push_back({"traffic." + name + ".present", Distribution(there)});
+}
+
+// Of a grid the runs are what its values make.
+void settle_plan(ConfigTable& root, Campaign& campaign) {
+  std::size_t varying = 0;
+  double product = 1.0;
+  for (const Parameter& parameter : campaign.parameters) {
+    if (parameter.distribution.is_constant()) continue;
+    ++varying;
+    const std::size_t count = parameter.distribution.count();
+    if (campaign.plan == Campaign::Plan::grid && count == 0)
+      root.error(ErrorClass::range, "campaign", "plan \"grid\" with a range of " + parameter.name,
+                 "values = [...] for everything that varies, or the plan \"sobol\"");
+    product *= static_cast<double>(std::max<std::size_t>(count, 1));
+  }
+  if (campaign.plan == Campaign::Plan::grid) {
+    if (product * campaign.runs > kMostRuns)
+      root.error(ErrorClass::limit, "campaign", core::number_text(product) + " combinations",
+                 "at most " + std::to_string(kMostRuns) + " runs");
+    else
+      campaign.runs *= static_cast<int>(product);
+  }
+  constexpr std::size_t kMostDimensions = boost::random::default_sobol_table::max_dimension;
+  if (campaign.plan == Campaign::Plan::sobol && varying > kMostDimensions)
+    root.error(ErrorClass::limit, "campaign", std::to_string(varying) + " varying parameters",
+               "at most " + std::to_string(kMostDimensions) + " of a Sobol plan");
+}
+
+}  // namespace
+
+const Parameter* Campaign::find(std::string_view wanted) const {
+  for (const Parameter& parameter : parameters)
+    if (parameter.name == wanted) return &parameter;
+  return nullptr;
+}
+
+Campaign read_campaign(const fs::path& file, core::ProblemList& problems) {
+  Campaign campaign;
+  campaign.file = file;
+  ConfigTable root = ConfigTable::from_file(file, problems);
+  if (!root.present()) return campaign;
+  campaign.text_hash = sha256(core::read_file(file, kLargestFile_bytes));
+  read_campaign_table(root.table("campaign"), campaign);
+  read_parameters(root.table("parameters"), campaign);
+  for (ConfigTable& traffic : root.tables("traffic", 1000))
+    read_traffic(std::move(traffic), campaign);
+  settle_plan(root, campaign);
+  root.report_unknown_keys();
+  return campaign;
+}
+
+}  // namespace fanbeam::datasets

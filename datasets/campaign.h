@@ -1,0 +1,112 @@
+// A campaign: many runs of one or more scenes, each a short flight under conditions drawn for it.
+//
+//   [campaign]
+//   name = "fog-approaches"
+//   scenes = ["braunschweig-26"]       names of shipped scenes, or folders beside this file
+//   runs = 200                         of a grid: how often it is gone through, 1 unless given
+//   plan = "sobol"                     "grid", "sobol" or "random"
+//   seed = 1
+//   frames = { count = 5, from = 0.3, to = 0.95 }       spread over that part of the flight
+//   products = ["bscope", "labels"]
+//   isa = "v3"                         every machine makes the same bytes
+//   realisation = "mean"               or "sample"
+//   samples_per_cell = 4               optional, as --rays-per-cell
+//   sensor = "hivision"                optional, a name or a file beside this one
+//
+//   [parameters]                       all optional; values and distributions: distribution.h
+//   surface = "wet"
+//   weather.visibility_m = { log_uniform = [150, 2000] }
+//   flight.lateral_m = { normal = [0, 10], within = [-40, 40] }
+//
+//   [[traffic]]                        a point scatterer, from the threshold that the flight lands on
+//   name = "car"
+//   rcs_m2 = { log_uniform = [1, 30] }
+//   along_m = { uniform = [100, 900] }
+//   across_m = 0
+//   present = 0.5                      in this share of the runs
+//
+// kParameters lists all parameters. Every drawn value is a pure function of file and run number.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "core/machine.h"
+#include "datasets/distribution.h"
+
+namespace fanbeam::datasets {
+
+struct ParameterKind {
+  const char* table;  // "" directly below [parameters]
+  const char* key;
+  core::NumberRange range;
+  const char* what;
+};
+inline constexpr std::array<ParameterKind, 20> kParameters = {{
+    {"weather", "visibility_m", {10.0, 100000.0}, "fog below its top"},
+    {"weather", "liquid_water_g_per_m3", {0.0, 20.0}, "the same by its water"},
+    {"weather", "fog_top_m", {-2000.0, 12000.0}, "above the scene's origin"},
+    {"weather", "rain_rate_mm_per_h", {0.0, 300.0}, "rain everywhere"},
+    {"weather", "snow_rate_mm_per_h", {0.0, 50.0}, "water equivalent"},
+    {"weather", "temperature_C", {-60.0, 50.0}, "of the air at the origin"},
+    {"weather", "pressure_hPa", {300.0, 1100.0}, "of the air at the origin"},
+    {"weather", "humidity", {0.0, 1.0}, "relative"},
+    {"sensor", "tilt_deg", {-60.0, 60.0}, "boresight elevation"},
+    {"sensor", "noise_figure_dB", {0.0, 60.0}, "of the receiver"},
+    {"flight", "lateral_m", {-2000.0, 2000.0}, "right of the scene's flight"},
+    {"flight", "vertical_m", {-500.0, 5000.0}, "above it"},
+    {"flight", "heading_deg", {-90.0, 90.0}, "added to its heading"},
+    {"flight", "pitch_deg", {-45.0, 45.0}, "added to its pitch"},
+    {"flight", "roll_deg", {-60.0, 60.0}, "added to its roll"},
+    {"flight", "speed_factor", {0.1, 10.0}, "times its speed"},
+    {"flight", "time_s", {-1e6, 1e6}, "added to its time: moves the scene's targets"},
+    {"flight", "turbulence_m", {0.0, 200.0}, "RMS of the path aside and in height"},
+    {"flight", "turbulence_deg", {0.0, 30.0}, "RMS of roll, pitch and heading"},
+    {"traffic", "present", {0.0, 1.0}, "share of the runs that it is in"},
+}};
+
+// One that varies, or is set.
+struct Parameter {
+  std::string name;  // "weather.visibility_m", "traffic.car.along_m", "scene", "surface"
+  Distribution distribution;
+};
+
+struct FrameSpread {
+  int count = 1;
+  double from = 0.0, to = 1.0;  // shares of the flight
+};
+
+struct Campaign {
+  enum class Plan { grid, sobol, random };
+
+  std::filesystem::path file;
+  std::string text_hash;  // SHA-256 of the file
+  std::string name;
+  std::vector<std::string> scenes;  // as the file names them
+  Plan plan = Plan::random;
+  int runs = 1;  // all of them
+  std::uint64_t seed = 0;
+  FrameSpread frames;
+  std::vector<std::string> products;
+  core::InstructionLevel isa = core::InstructionLevel::v3;
+  bool sample = false;
+  double samples_per_cell = 0.0;
+  std::string sensor;
+  std::vector<Parameter> parameters;
+  std::vector<std::string> traffic;  // names
+
+  const Parameter* find(std::string_view name) const;
+};
+
+inline constexpr int kMostRuns = 100'000'000;
+
+// Every problem of the file is in `problems`, with line and column; with errors there the campaign must
+// not be used.
+Campaign read_campaign(const std::filesystem::path& file, core::ProblemList& problems);
+
+}  // namespace fanbeam::datasets

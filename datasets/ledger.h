@@ -1,0 +1,46 @@
+// What of a campaign is there, whether it is whole, and all of it together.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "datasets/campaign.h"
+
+namespace fanbeam::datasets {
+
+struct Status {
+  int runs = 0, made = 0, under_way = 0, failed = 0;
+  int missing() const { return runs - made - under_way - failed; }
+};
+// Reads names alone; others may work meanwhile.
+Status status_of(const Campaign& campaign, const std::filesystem::path& output);
+
+// Numbers as ranges, "3,17,40:42": as runs_in takes them; B of A:B is not meant.
+std::string runs_text(const std::vector<int>& runs);
+// Throws InputError E-PARSE or E-RANGE for `field`.
+std::vector<int> runs_in(const std::string& text, int runs, const std::string& field);
+
+// One line of what is wrong with a run.
+struct Damage {
+  int run = 0;
+  std::string what;  // "missing", "bscope/00600.png: other bytes than recorded", ...
+};
+// Every file of every run that is there against its SHA-256, and every record against the campaign's
+// file, level of instructions and the program and libraries that made most of the runs.
+std::vector<Damage> verify(const Campaign& campaign, const std::filesystem::path& output,
+                           const std::vector<int>& runs);
+
+struct Merged {
+  int runs = 0, frames = 0;
+  std::vector<std::filesystem::path> files;
+};
+// Writes, of the runs that are there, into the campaign's folder:
+//   index.csv      a row for each frame: run, frame, time, pose, every drawn value, its files
+//   manifest.json  campaign, program, and the SHA-256 of every run's record
+//   coco.json, lard.csv   of all runs, where they have labels; pictures as runs/000123/bscope/00600.png
+// Throws InputError E-UNSUPPORTED for runs that another file, program, library or level of instructions
+// made than the rest, E-PARSE for records that cannot be read.
+Merged merge(const Campaign& campaign, const std::filesystem::path& output);
+
+}  // namespace fanbeam::datasets

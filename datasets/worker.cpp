@@ -1,0 +1,284 @@
+#include "datasets/worker.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "core/files.h"
+#include "core/image.h"
+#include "core/stop.h"
+#include "core/units.h"
+#include "datasets/run_conditions.h"
+#include "datasets/run_flight.h"
+#include "datasets/sha256.h"
+#include "session/products/frame_output.h"
+#include "session/products/layers_product.h"
+#include "session/records/output_folder.h"
+#include "session/records/run_record.h"
+#include "session/shipped.h"
+#include "session/version.h"
+#include "terrain/ray_scene.h"
+
+namespace fanbeam::datasets {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct MadeFrame {
+  session::FrameRecord record;
+  std::vector<std::string> files;
+};
+
+namespace {
+
+constexpr int kFrameBits = 24;  // of the number that keys what is random; the run's stands above
+
+fs::path hidden(const fs::path& campaign, int run, const char* ending) {
+  return campaign / "runs" / fmt::format(".{:06}{}", run, ending);
+}
+
+// Held until the end of the process, if need be.
+class RunLock {
+ public:
+  explicit RunLock(fs::path file) : file_(std::move(file)) {
+    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor_ < 0)
+      core::throw_input_error(core::ErrorClass::io, core::Place{file_.string()}, "lock",
+                              std::strerror(errno), "a folder that can be written to");
+    held_ = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+    // Another one may have removed the file between the two.
+    struct stat mine {}, there {};
+    held_ = held_ && ::fstat(descriptor_, &mine) == 0 && ::stat(file_.c_str(), &there) == 0 &&
+            mine.st_ino == there.st_ino;
+  }
+  ~RunLock() {
+    if (held_) ::unlink(file_.c_str());
+    ::close(descriptor_);
+  }
+  RunLock(const RunLock&) = delete;
+  RunLock& operator=(const RunLock&) = delete;
+  bool held() const { return held_; }
+
+ private:
+  fs::path file_;
+  int descriptor_ = -1;
+  bool held_ = false;
+};
+
+Json value_json(const Value& value) {
+  if (const auto* number = std::get_if<double>(&value)) return *number;
+  return std::get<std::string>(value);
+}
+
+Json pose_json(const core::Pose& pose) {
+  const core::Attitude attitude = core::attitude_from(pose.q_NB);
+  return {{"latitude_deg", core::degrees(pose.position.latitude_rad)},
+          {"longitude_deg", core::degrees(pose.position.longitude_rad)},
+          {"height_m", pose.position.height_m},
+          {"roll_deg", core::degrees(attitude.roll_rad)},
+          {"pitch_deg", core::degrees(attitude.pitch_rad)},
+          {"heading_deg", core::degrees(attitude.heading_rad)}};
+}
+
+void write_failure(const Campaign& campaign, const fs::path& output, int run, const Draw& draw,
+                   const std::vector<core::Problem>& problems) {
+  Json json = {{"fanbeam_failed_run", 1},
+               {"campaign", campaign.name},
+               {"campaign_sha256", campaign.text_hash},
+               {"run", run}};
+  for (const auto& [name, value] : draw.values) json["parameters"][name] = value_json(value);
+  json["problems"] = Json::array();
+  for (const core::Problem& problem : problems) json["problems"].push_back(to_string(problem));
+  core::write_file_atomically(failed_file(output, run), json.dump(1) + "\n");
+}
+
+// A folder beside the campaign's file, else as session::find_scene.
+fs::path scene_path(const Campaign& campaign, const std::string& name, const fs::path& shipped) {
+  const fs::path beside = campaign.file.parent_path() / name;
+  std::error_code refused;
+  if (fs::exists(beside / "scene.toml", refused)) return beside;
+  return session::find_scene(name, shipped);
+}
+
+}  // namespace
+
+fs::path run_folder(const fs::path& campaign, int run) {
+  return campaign / "runs" / fmt::format("{:06}", run);
+}
+
+fs::path failed_file(const fs::path& campaign, int run) {
+  return campaign / "failed" / fmt::format("{:06}.json", run);
+}
+
+// A scene held open, and what it was when it was opened.
+struct Worker::Stage {
+  std::unique_ptr<session::Session> session;
+  std::shared_ptr<const scenes::Scene> own;
+  std::vector<core::Problem> refused;  // why it could not be opened
+};
+
+Worker::Worker(const Campaign& campaign, WorkerSettings settings)
+    : campaign_(campaign), settings_(std::move(settings)), drawer_(campaign) {
+  core::limit_instructions(campaign.isa, "campaign.isa");
+}
+
+Worker::~Worker() = default;
+
+Worker::Stage& Worker::stage_of(const std::string& scene) {
+  std::unique_ptr<Stage>& stage = stages_[scene];
+  if (stage && stage->refused.empty()) return *stage;
+  if (stage) throw core::InputError(stage->refused);
+  stage = std::make_unique<Stage>();
+  try {
+    session::Setup setup;
+    setup.shipped = settings_.shipped;
+    setup.data_folders = settings_.data_folders;
+    setup.sample = campaign_.sample;
+    setup.seed = campaign_.seed;
+    if (!campaign_.sensor.empty())
+      setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor");
+    core::ProblemList problems;
+    stage->session = std::make_unique<session::Session>(
+        scene_path(campaign_, scene, settings_.shipped), setup, problems);
+    stage->own = stage->session->scene();
+    if (stage->own->frame_count() == 0)
+      core::throw_input_error(core::ErrorClass::ref, core::Place{scene}, "[trajectory]", "missing",
+                              "a scene with a flight");
+    if (campaign_.samples_per_cell > 0.0)
+      stage->session->set(session::Samples{campaign_.samples_per_cell});
+  } catch (const core::InputError& error) {
+    stage->refused = error.problems();
+    throw;
+  }
+  return *stage;
+}
+
+RunEnd Worker::make(int run) {
+  const fs::path place = run_folder(settings_.output, run);
+  const auto there = [&] { return !settings_.replace && fs::exists(place / kRunRecord); };
+  if (there()) return RunEnd::there;
+  std::error_code made;
+  fs::create_directories(place.parent_path(), made);
+  const RunLock lock(hidden(settings_.output, run, ".lock"));
+  if (!lock.held()) return RunEnd::elsewhere;
+  if (there()) return RunEnd::there;
+  const fs::path making = hidden(settings_.output, run, "");
+  fs::remove_all(making);  // of a worker that was killed
+  const auto begin = std::chrono::steady_clock::now();
+  Draw draw;
+  draw.run = run;
+  try {
+    draw = drawer_.draw(run);
+    render(draw, making);
+  } catch (const core::InputError& error) {
+    fs::remove_all(making);
+    const auto& problems = error.problems();
+    // A full disk is no fault of the run.
+    if (error.has(core::ErrorClass::io) && problems.front().place.file.starts_with(making.string()))
+      throw;
+    write_failure(campaign_, settings_.output, run, draw, problems);
+    return RunEnd::failed;
+  } catch (...) {
+    std::error_code ignored;
+    fs::remove_all(making, ignored);
+    throw;
+  }
+  fs::remove_all(place);
+  fs::rename(making, place);
+  fs::remove(failed_file(settings_.output, run));
+  cost_.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return RunEnd::made;
+}
+
+void Worker::render(const Draw& draw, const fs::path& folder) {
+  const std::string scene_name = draw.word("scene").value_or(campaign_.scenes.front());
+  Stage& stage = stage_of(scene_name);
+  session::Session& session = *stage.session;
+  set_conditions(session, campaign_, draw, *stage.own);
+  const session::Session::Moment now = session.now();
+  const std::shared_ptr<const scenes::Scene> scene = session.scene(now);
+  const session::ProductSet products(campaign_.products.begin(), campaign_.products.end());
+  std::unique_ptr<const session::Labeller> labeller;
+  if (session::want_labels(products)) labeller = std::make_unique<const session::Labeller>(*scene);
+
+  session::RunRecord settings;
+  settings.choice.sampling = session.sampling(now);
+  settings.seed = session.seed();
+  const session::OutputSettings output{products, session::input_fingerprint(*scene, settings),
+                                       settings.choice.sampling, "", labeller.get()};
+  std::vector<MadeFrame> frames;
+  session::FrameWriter writer(folder, products, scene->description.sensor);
+  for (const int index : frames_of(campaign_.frames, stage.own->frame_count())) {
+    core::throw_if_stopped();
+    MadeFrame made;
+    made.record.index = index;
+    made.record.pose = run_pose(
+        draw, campaign_.seed,
+        stage.own->trajectory->at(stage.own->trajectory->frame_time_s(
+            index, stage.own->description.sensor.scan.frame_rate_Hz)));
+    made.record.time_s = made.record.pose.time_s;
+    const std::uint64_t key =
+        (static_cast<std::uint64_t>(draw.run) << kFrameBits) + static_cast<std::uint64_t>(index);
+    renderer::Frame frame =
+        session.render(now, made.record.pose, key, session::wanted_of(products));
+    writer.push(session::frame_output(*scene, output, std::move(frame), made.record));
+    for (const std::string& file : session::frame_files(products, index))
+      made.files.push_back(file);
+    frames.push_back(std::move(made));
+  }
+  writer.finish();
+  if (products.contains("layers") || products.contains("cscope_layers"))
+    core::write_file_atomically(folder / session::kLayersFile, session::layers_json(*scene));
+  cost_.bytes = write_record(draw, stage, folder, output.fingerprint, frames);
+  cost_.frames = static_cast<int>(frames.size());
+}
+
+std::uint64_t Worker::write_record(const Draw& draw, const Stage& stage, const fs::path& folder,
+                                   const std::string& fingerprint,
+                                   const std::vector<MadeFrame>& frames) const {
+  Json json = {{"fanbeam_run", 1},
+               {"campaign", campaign_.name},
+               {"campaign_sha256", campaign_.text_hash},
+               {"run", draw.run},
+               {"scene", stage.own->description.name},
+               {"sensor", stage.own->description.sensor.name},
+               {"seed", campaign_.seed},
+               {"isa", core::short_name_of(campaign_.isa)},
+               {"version", session::version_text()},
+               {"commit", session::commit_text()},
+               {"libraries", {terrain::ray_library(), core::image_library()}},
+               {"sampling", session::caster_text(stage.session->sampling())},
+               {"input", fingerprint},
+               {"parameters", Json::object()}};
+  for (const auto& [name, value] : draw.values) json["parameters"][name] = value_json(value);
+  json["frames"] = Json::array();
+  for (const MadeFrame& frame : frames)
+    json["frames"].push_back({{"index", frame.record.index},
+                              {"time_s", frame.record.time_s},
+                              {"pose", pose_json(frame.record.pose)},
+                              {"events", frame.record.events},
+                              {"files", frame.files}});
+  std::uint64_t bytes = 0;
+  json["files"] = Json::object();
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) names.insert(entry.path().lexically_relative(folder).string());
+  for (const std::string& name : names) {
+    const std::uint64_t size = fs::file_size(folder / name);
+    json["files"][name] = {{"sha256", sha256_of_file(folder / name)}, {"bytes", size}};
+    bytes += size;
+  }
+  core::write_file_atomically(folder / kRunRecord, json.dump(1) + "\n");
+  return bytes;
+}
+
+}  // namespace fanbeam::datasets

@@ -1,0 +1,72 @@
+// Renders runs of a campaign into its folder.
+//
+//   DIR/runs/000123/run.json          what was drawn, what was rendered, SHA-256 of every file; written
+//                  /bscope/00600.png  last, before the folder gets its name: a run is there or is not
+//   DIR/failed/000123.json            why a run cannot be: problems, one a line
+//
+// A run is made in a hidden folder beside its place under a lock (flock) of its own, which goes with the
+// process: two workers, on one machine or on several that share the folder, never make one run at once, and
+// what a killed one left is removed by the next. Same bytes for any worker, order and number of threads.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "datasets/campaign.h"
+#include "datasets/draw.h"
+#include "session/session.h"
+
+namespace fanbeam::datasets {
+
+inline constexpr const char* kRunRecord = "run.json";
+
+std::filesystem::path run_folder(const std::filesystem::path& campaign, int run);
+std::filesystem::path failed_file(const std::filesystem::path& campaign, int run);
+
+enum class RunEnd { made, there, elsewhere, failed };
+
+struct WorkerSettings {
+  std::filesystem::path output{};
+  std::filesystem::path shipped{};
+  std::vector<std::filesystem::path> data_folders{};
+  bool replace = false;  // make runs again that are there
+};
+
+class Worker {
+ public:
+  // Sets the level of instructions of the process; E-UNSUPPORTED where the machine has not the campaign's.
+  Worker(const Campaign& campaign, WorkerSettings settings);
+  ~Worker();
+
+  // Throws InputError E-IO for a folder that cannot be written, core::Stopped; all else that is wrong with
+  // a run is written as failed.
+  RunEnd make(int run);
+
+  // What the last made run took.
+  struct Cost {
+    int frames = 0;
+    double seconds = 0.0;
+    std::uint64_t bytes = 0;
+  };
+  const Cost& cost() const { return cost_; }
+
+ private:
+  struct Stage;
+  Stage& stage_of(const std::string& scene);
+  void render(const Draw& draw, const std::filesystem::path& folder);
+  std::uint64_t write_record(const Draw& draw, const Stage& stage,
+                             const std::filesystem::path& folder, const std::string& fingerprint,
+                             const std::vector<struct MadeFrame>& frames) const;
+
+  const Campaign& campaign_;
+  WorkerSettings settings_;
+  Drawer drawer_;
+  std::map<std::string, std::unique_ptr<Stage>> stages_;  // by scene
+  Cost cost_;
+};
+
+}  // namespace fanbeam::datasets

@@ -1,0 +1,153 @@
+// Drawn values: distributions in closed form, plans as pure functions of file and run.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "core/config_table.h"
+#include "datasets/campaign.h"
+#include "datasets/draw.h"
+#include "datasets/run_flight.h"
+#include "datasets/sha256.h"
+#include "tests/terrain/ascii_grid.h"
+
+using namespace fanbeam;
+using datasets::Campaign;
+using datasets::Distribution;
+
+namespace {
+
+double number(const datasets::Value& value) { return std::get<double>(value); }
+
+Campaign campaign_of(const std::string& text) {
+  const tests::TemporaryFolder folder;
+  core::ProblemList problems;
+  Campaign campaign = datasets::read_campaign(folder.write("campaign.toml", text), problems);
+  problems.throw_if_errors();
+  return campaign;
+}
+
+constexpr const char* kThree = R"(
+[parameters]
+surface = { values = ["dry", "wet"] }
+weather.rain_rate_mm_per_h = { values = [0, 2, 10] }
+weather.humidity = 0.5
+)";
+
+std::string head(const std::string& plan, int runs) {
+  return "[campaign]\nname = \"x\"\nscenes = [\"flat-grass\"]\nplan = \"" + plan +
+         "\"\nruns = " + std::to_string(runs) + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("SHA-256 of the standard's examples", "[draw]") {
+  // FIPS 180-4, examples of NIST: "abc" and the empty message.
+  CHECK(datasets::sha256("abc") ==
+        "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  CHECK(datasets::sha256("") ==
+        "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST_CASE("Distributions are the inverse of their law", "[draw]") {
+  const Distribution uniform(Distribution::Uniform{100.0, 300.0, false});
+  CHECK(number(uniform.at(0.25)) == 150.0);
+  const Distribution decades(Distribution::Uniform{1.0, 100.0, true});
+  CHECK(number(decades.at(0.5)) == Approx(10.0).epsilon(1e-14));
+  CHECK(number(decades.at(1.0)) <= 100.0);
+  // A normal law cut at one standard deviation: u = (Phi(x) - Phi(-1)) / (Phi(1) - Phi(-1)).
+  const Distribution normal(Distribution::Normal{5.0, 2.0, 3.0, 7.0});
+  CHECK(number(normal.at(0.5)) == Approx(5.0).epsilon(1e-12));
+  for (const double x : {3.3, 4.0, 6.9}) {
+    const auto phi = [](double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); };
+    const double u = (phi((x - 5.0) / 2.0) - phi(-1.0)) / (phi(1.0) - phi(-1.0));
+    CHECK(number(normal.at(u)) == Approx(x).epsilon(1e-10));
+  }
+  CHECK(number(normal.at(0.0)) >= 3.0);
+  CHECK(number(normal.at(1.0)) <= 7.0);
+  const Distribution choice(Distribution::Choice{{1.0, 2.0, 3.0}, {0.5, 0.0, 0.5}});
+  CHECK(number(choice.at(0.499)) == 1.0);
+  CHECK(number(choice.at(0.5)) == 3.0);
+  CHECK(number(choice.at(std::nextafter(1.0, 0.0))) == 3.0);
+}
+
+TEST_CASE("A grid goes through every combination, as often as it is told", "[draw]") {
+  const Campaign campaign = campaign_of(head("grid", 2) + kThree);
+  REQUIRE(campaign.runs == 12);
+  datasets::Drawer drawer(campaign);
+  std::multiset<std::pair<std::string, double>> seen;
+  for (int run = 0; run < campaign.runs; ++run) {
+    const datasets::Draw draw = drawer.draw(run);
+    seen.insert({*draw.word("surface"), *draw.number("weather.rain_rate_mm_per_h")});
+    CHECK(*draw.number("weather.humidity") == 0.5);
+  }
+  for (const char* surface : {"dry", "wet"})
+    for (const double rain : {0.0, 2.0, 10.0}) CHECK(seen.count({surface, rain}) == 2);
+}
+
+TEST_CASE("A run's values depend on the file and its number alone", "[draw]") {
+  for (const char* plan : {"sobol", "random", "grid"}) {
+    INFO(plan);
+    const Campaign campaign = campaign_of(head(plan, 6) + kThree);
+    datasets::Drawer rising(campaign);
+    std::vector<datasets::Draw> draws;
+    for (int run = 0; run < 6; ++run) draws.push_back(rising.draw(run));
+    datasets::Drawer any(campaign);
+    for (const int run : {5, 0, 3, 3, 1, 4, 2})
+      CHECK((any.draw(run).values == draws[static_cast<std::size_t>(run)].values));
+  }
+}
+
+TEST_CASE("A Sobol plan fills every dimension evenly, whatever the seed", "[draw]") {
+  for (const int seed : {0, 1, 99}) {
+    const Campaign campaign = campaign_of(head("sobol", 256) + "seed = " + std::to_string(seed) +
+                                          "\n[parameters]\nweather.humidity = { uniform = [0, 1] }\n"
+                                          "flight.lateral_m = { uniform = [0, 1] }\n");
+    datasets::Drawer drawer(campaign);
+    std::vector<int> squares(256, 0);
+    for (int run = 0; run < 256; ++run) {
+      const datasets::Draw draw = drawer.draw(run);
+      const int x = static_cast<int>(16 * *draw.number("weather.humidity"));
+      const int y = static_cast<int>(16 * *draw.number("flight.lateral_m"));
+      ++squares[static_cast<std::size_t>(16 * y + x)];
+    }
+    // Of 256 random points a third of 256 squares is empty; of the shifted sequence few are.
+    CHECK(std::count(squares.begin(), squares.end(), 0) < 64);
+    CHECK(*std::max_element(squares.begin(), squares.end()) <= 4);
+  }
+}
+
+TEST_CASE("Runs leave the flight as they are told, and wander as far as they are told", "[draw]") {
+  core::Pose flown;
+  flown.position = {0.9, 0.2, 500.0};
+  flown.v_N_mps = {50.0, 0.0, 1.0};  // northwards
+  datasets::Draw draw;
+  draw.values = {{"flight.lateral_m", 100.0}, {"flight.vertical_m", -20.0},
+                 {"flight.speed_factor", 2.0}, {"flight.heading_deg", 90.0}};
+  flown.time_s = 10.0;
+  const core::Pose pose = datasets::run_pose(draw, 1, flown);
+  // 100 m to the east on the parallel: a / sqrt(1 - e^2 sin^2) cos.
+  const double sine = std::sin(0.9), radius_m = 6378137.0 / std::sqrt(1 - 6.69437999014e-3 * sine * sine);
+  CHECK((pose.position.longitude_rad - 0.2) * radius_m * std::cos(0.9) == Approx(100.0).epsilon(1e-6));
+  CHECK(pose.position.height_m == 480.0);
+  CHECK(pose.time_s == 5.0);
+  CHECK(pose.v_N_mps.x == 100.0);
+  CHECK(core::attitude_from(pose.q_NB).heading_rad == Approx(1.5707963267948966));
+
+  draw.values = {{"flight.turbulence_m", 3.0}};
+  double square = 0.0;
+  int count = 0;
+  for (draw.run = 0; draw.run < 200; ++draw.run)
+    for (int second = 0; second < 60; ++second, ++count) {
+      flown.time_s = second;
+      const double up_m = datasets::run_pose(draw, 1, flown).position.height_m - 500.0;
+      square += up_m * up_m;
+    }
+  CHECK(std::sqrt(square / count) == Approx(3.0).epsilon(0.05));
+}
+
+TEST_CASE("Frames of a run are spread over the part of the flight that is asked for", "[draw]") {
+  using Frames = std::vector<int>;
+  CHECK(datasets::frames_of({5, 0.0, 1.0}, 101) == Frames{0, 25, 50, 75, 100});
+  CHECK(datasets::frames_of({1, 0.2, 0.4}, 101) == Frames{30});
+  CHECK(datasets::frames_of({5, 0.0, 1.0}, 1) == Frames{0});
+}

@@ -1,0 +1,257 @@
+"""Campaigns: same bytes in any order, nothing lost by kills, damage found and repaired, labels of all runs."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+
+import numpy as np
+import pytest
+
+CAMPAIGN = """
+[campaign]
+name = "small"
+scenes = ["flat-grass", "obstacle-field"]
+plan = "sobol"
+runs = 6
+seed = 7
+frames = { count = 2, from = 0.4, to = 0.9 }
+products = ["bscope", "power", "labels"]
+isa = "v2"
+realisation = "sample"
+samples_per_cell = 1
+[parameters]
+scene = { values = ["obstacle-field", "flat-grass"], weights = [3, 1] }
+surface = { values = ["dry", "wet"] }
+weather.visibility_m = { log_uniform = [100, 2000] }
+weather.rain_rate_mm_per_h = { values = [0, 2, 10] }
+flight.lateral_m = { normal = [0, 10], within = [-30, 30] }
+flight.turbulence_deg = 1
+"""
+
+
+def told(program, *arguments, exit_code=0):
+    ended = subprocess.run([program, "campaign", *map(str, arguments)], capture_output=True, text=True)
+    assert ended.returncode == exit_code, ended.stdout + ended.stderr
+    return ended.stdout + ended.stderr
+
+
+def bytes_of(folder):
+    return {
+        str(file.relative_to(folder)): file.read_bytes()
+        for file in sorted(folder.rglob("*"))
+        if file.is_file() and not file.name.startswith(".")
+    }
+
+
+@pytest.fixture(scope="module")
+def campaign(tmp_path_factory):
+    file = tmp_path_factory.mktemp("campaign") / "small.toml"
+    file.write_text(CAMPAIGN, encoding="utf-8")
+    return file
+
+
+@pytest.fixture(scope="module")
+def whole(program, campaign, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("whole")
+    told(program, "run", campaign, "-o", folder)
+    told(program, "merge", campaign, "-o", folder)
+    return folder
+
+
+def test_runs_have_the_same_bytes_in_any_order_and_for_any_number_of_threads(program, campaign, whole, tmp_path):
+    for part in ("3/3", "1/3", "2/3"):
+        told(program, "run", campaign, "-o", tmp_path, "--shard", part, "--threads", "1")
+    assert "6 of 6 runs there" in told(program, "status", campaign, "-o", tmp_path)
+    told(program, "merge", campaign, "-o", tmp_path)
+    assert bytes_of(tmp_path) == bytes_of(whole)
+
+
+def test_two_workers_make_every_run_once(program, campaign, whole, tmp_path):
+    command = [program, "campaign", "run", campaign, "-o", tmp_path]
+    workers = [subprocess.Popen(command, stdout=subprocess.PIPE, text=True) for _ in range(2)]
+    made = sum(int(worker.communicate()[0].splitlines()[-1].split()[0]) for worker in workers)
+    assert [worker.returncode for worker in workers] == [0, 0]
+    assert made == 6
+    told(program, "verify", campaign, "-o", tmp_path)
+    told(program, "merge", campaign, "-o", tmp_path)
+    assert bytes_of(tmp_path) == bytes_of(whole)
+
+
+@pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM])
+def test_a_killed_worker_leaves_no_half_run(program, campaign, whole, tmp_path, how):
+    worker = subprocess.Popen([program, "campaign", "run", campaign, "-o", tmp_path, "-q"])
+    while not list(tmp_path.glob("runs/0*")) and worker.poll() is None:
+        time.sleep(0.005)
+    worker.send_signal(how)
+    worker.wait()
+    for run in tmp_path.glob("runs/0*"):
+        assert bytes_of(run) == bytes_of(whole / "runs" / run.name)
+    told(program, "run", campaign, "-o", tmp_path)
+    told(program, "merge", campaign, "-o", tmp_path)
+    assert bytes_of(tmp_path) == bytes_of(whole)
+    assert not list(tmp_path.glob("runs/.*"))
+
+
+def test_verify_finds_damage_and_prints_what_repairs_it(program, campaign, whole, tmp_path):
+    told(program, "run", campaign, "-o", tmp_path, "-q")
+    assert "every file as recorded" in told(program, "verify", campaign, "-o", tmp_path)
+    picture = next((tmp_path / "runs" / "000002").glob("bscope/*.png"))
+    data = bytearray(picture.read_bytes())
+    data[-20] ^= 1
+    picture.write_bytes(data)
+    next((tmp_path / "runs" / "000004").glob("labels/*.json")).unlink()
+    record = tmp_path / "runs" / "000005" / "run.json"
+    record.write_text(record.read_text(encoding="utf-8")[:-40], encoding="utf-8")
+    said = told(program, "verify", campaign, "-o", tmp_path, exit_code=1)
+    assert "run 2: bscope/" in said and "run 4: labels/" in said and "run 5: run.json" in said
+    command = said.strip().splitlines()[-1]
+    assert command.endswith("--runs 2,4:6 --replace")
+    subprocess.run([program, *command.split()[1:]], check=True, capture_output=True)
+    told(program, "verify", campaign, "-o", tmp_path)
+    told(program, "merge", campaign, "-o", tmp_path)
+    assert bytes_of(tmp_path) == bytes_of(whole)
+
+
+def test_mixtures_are_refused(program, campaign, tmp_path):
+    folder = tmp_path / "out"
+    told(program, "run", campaign, "-o", folder, "--runs", "0:4", "-q")
+    record = folder / "runs" / "000001" / "run.json"
+    json_text = json.loads(record.read_text(encoding="utf-8"))
+    record.write_text(json.dumps({**json_text, "isa": "v4"}), encoding="utf-8")
+    assert "v4" in told(program, "verify", campaign, "-o", folder, "--runs", "0:4", exit_code=1)
+    assert "E-UNSUPPORTED" in told(program, "merge", campaign, "-o", folder, exit_code=3)
+    assert not (folder / "index.csv").exists()
+    # The same of runs that another version of the file made.
+    record.write_text(json.dumps(json_text), encoding="utf-8")
+    other = tmp_path / "small.toml"
+    other.write_text(CAMPAIGN.replace("seed = 7", "seed = 8"), encoding="utf-8")
+    assert "another version" in told(program, "verify", other, "-o", folder, "--runs", "0:4", exit_code=1)
+
+
+def test_one_bad_run_does_not_stop_the_others(program, tmp_path):
+    file = tmp_path / "bad.toml"
+    # Fog below -40 C is refused by the weather.
+    file.write_text(
+        CAMPAIGN.replace('plan = "sobol"\nruns = 6', 'plan = "grid"\nruns = 1')
+        .split("[parameters]")[0]
+        .replace('["flat-grass", "obstacle-field"]', '["flat-grass"]')
+        + "[parameters]\nweather.visibility_m = 200\nweather.temperature_C = { values = [10, -50, 0] }\n",
+        encoding="utf-8",
+    )
+    assert "would be refused: 1 run" in told(program, "plan", file, "--no-pilot", exit_code=3)
+    said = told(program, "run", file, "-o", tmp_path / "out", exit_code=3)
+    assert "2 of 3 runs made" in said and "1 failed" in said
+    failed = json.loads((tmp_path / "out" / "failed" / "000001.json").read_text(encoding="utf-8"))
+    assert "E-RANGE" in failed["problems"][0] and failed["parameters"]["weather.temperature_C"] == -50
+    assert json.loads(told(program, "status", file, "-o", tmp_path / "out", "--json")) == {
+        "campaign": "small", "runs": 3, "made": 2, "under_way": 0, "failed": 1, "missing": 0,
+    }  # fmt: skip
+    assert "run 1: failed" in told(program, "verify", file, "-o", tmp_path / "out", exit_code=1)
+
+
+def test_a_full_disk_loses_nothing(program, campaign, whole, tmp_path):
+    # As a file too large: 30 kB, less than a frame's layers of power.
+    command = f"ulimit -f 30; exec {program} campaign run {campaign} -o {tmp_path} -q"
+    ended = subprocess.run(["bash", "-c", command], capture_output=True, text=True)
+    assert ended.returncode == 4 and "E-IO" in ended.stderr
+    assert not list(tmp_path.glob("runs/0*")) and not (tmp_path / "failed").exists()
+    told(program, "run", campaign, "-o", tmp_path, "-q")
+    told(program, "merge", campaign, "-o", tmp_path)
+    assert bytes_of(tmp_path) == bytes_of(whole)
+
+
+def test_bad_files_tell_all_problems_with_their_lines(program, tmp_path):
+    file = tmp_path / "wrong.toml"
+    file.write_text(
+        """[campaign]
+name = "a b"
+scenes = []
+runs = 0
+plan = "lattice"
+frames = { count = 0, from = 0.9, to = 0.1 }
+products = ["bscop"]
+sead = 3
+[parameters]
+surface = "moist"
+weather.visibility_m = { log_uniform = [-1, 100] }
+weather.rain_rate_mm_per_h = { values = [1, 900] }
+weather.humidity = { uniform = [0.2, 0.8], values = [0.5] }
+flight.lateral_m = { normal = [0, -1], within = [5, -5] }
+flight.sidewards_m = 3
+[[traffic]]
+name = "car"
+rcs_m2 = -4
+""",
+        encoding="utf-8",
+    )
+    said = told(program, "plan", file, exit_code=3)
+    for line in (2, 3, 4, 5, 6, 7, 8, 10, 11, 12, 13, 14, 15, 18):
+        assert f"wrong.toml:{line}:" in said, (line, said)
+    assert "bscope" in said and "seed" in said and "lateral_m" in said
+
+
+def test_the_plan_covers_its_ranges(program, tmp_path):
+    file = tmp_path / "many.toml"
+    text = CAMPAIGN.replace("runs = 6", "runs = 1024")
+    file.write_text(text, encoding="utf-8")
+    begin = time.monotonic()
+    said = told(program, "plan", file, "--no-pilot")
+    assert time.monotonic() - begin < 20
+    assert "1024 runs (sobol) of 2 frames, 2048 frames in all" in said
+    # A Sobol plan of 2^k runs hits a choice of three to four as often as its weights say, to one.
+    counts = next(line for line in said.splitlines() if line.strip().startswith("scene "))
+    assert abs(int(counts.split("obstacle-field in ")[1].split()[0].rstrip(",")) - 768) <= 1
+
+
+def test_draws_follow_their_distributions(program, tmp_path):
+    file = tmp_path / "draws.toml"
+    file.write_text(
+        """[campaign]
+name = "draws"
+scenes = ["flat-grass"]
+runs = 400
+plan = "random"
+frames = { count = 1 }
+products = ["bscope"]
+samples_per_cell = 0.3
+isa = "v2"
+[parameters]
+weather.visibility_m = { log_uniform = [100, 1600] }
+flight.vertical_m = { normal = [5, 4], within = [-20, 30] }
+surface = { values = ["dry", "wet"], weights = [3, 1] }
+""",
+        encoding="utf-8",
+    )
+    told(program, "run", file, "-o", tmp_path / "out", "-q")
+    told(program, "merge", file, "-o", tmp_path / "out", "-q")
+    with open(tmp_path / "out" / "index.csv", encoding="utf-8", newline="") as table:
+        rows = list(csv.DictReader(table))
+    assert len(rows) == 400 and [int(row["run"]) for row in rows] == list(range(400))
+    fog = np.log([float(row["weather.visibility_m"]) for row in rows])
+    up = np.array([float(row["flight.vertical_m"]) for row in rows])
+    # Kolmogorov-Smirnov at 1 in 1000: 1.95 / sqrt(n).
+    even = np.sort((fog - np.log(100)) / np.log(16))
+    assert np.abs(even - (np.arange(400) + 0.5) / 400).max() < 1.95 / 20
+    assert abs(up.mean() - 5) < 4 * 4 / 20 and abs(up.std() - 4) < 0.6
+    wet = sum(row["surface"] == "wet" for row in rows)
+    assert abs(wet - 100) < 4 * np.sqrt(400 * 0.25 * 0.75)
+    # And the flight does as it is told.
+    heights = np.array([float(row["height_m"]) for row in rows])
+    assert np.allclose(heights - heights[0], up - up[0], atol=1e-9)
+
+
+def test_merged_labels_name_the_pictures(whole):
+    coco = json.loads((whole / "coco.json").read_text(encoding="utf-8"))
+    with open(whole / "index.csv", encoding="utf-8", newline="") as table:
+        frames = len(list(csv.DictReader(table)))
+    assert len(coco["images"]) == frames >= 10  # one scene stands still: its frames are one
+    assert all((whole / image["file_name"]).is_file() for image in coco["images"])
+    manifest = json.loads((whole / "manifest.json").read_text(encoding="utf-8"))
+    assert len(manifest["runs"]) == 6
+    with open(whole / "index.csv", encoding="utf-8", newline="") as table:
+        for row in csv.DictReader(table):
+            assert (whole / row["bscope"]).is_file() and (whole / row["labels"]).is_file()
+    assert os.access(whole / "index.csv", os.R_OK)
