@@ -29,6 +29,7 @@ using datasets::Campaign;
 Campaign read_checked(const CampaignOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
   Campaign campaign = datasets::read_campaign(options.file, problems);
+  check_data_folder(options.data, problems);
   problems.throw_if_errors();
   if (!common.quiet) print_problems(problems.all());
   return campaign;

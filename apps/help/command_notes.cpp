@@ -27,13 +27,6 @@ Examples pictures() {
       {"cost",
        {{"fanbeam cost flat-grass --quick", "a short look, to out/flat-grass-cost"},
         {"fanbeam cost --parts ladder,effects -o /tmp/cost", "without numerics and signals"}}},
-      {"campaign",
-       {{"fanbeam campaign plan campaign.toml", "what it comes to, by a pilot of three runs"},
-        {"fanbeam campaign run campaign.toml -o /data/fog", "all that is not there yet"},
-        {"fanbeam campaign run campaign.toml -o /data/fog --shard 2/8",
-         "the second of eight parts, on the second of eight machines"},
-        {"fanbeam campaign verify campaign.toml -o /data/fog",
-         "every file against its hash; says what repairs the rest"}}},
       {"live",
        {{"fanbeam live", "round the default scene's runway; look at http://127.0.0.1:8416/"},
         {"fanbeam live keflavik-10 --from native-fdm:5501", "as FlightGear flies it"},
@@ -43,6 +36,34 @@ Examples pictures() {
          "the same as raw video (docs/live.md shows it in ffmpeg)"},
         {"fanbeam live obstacle-field --from ils --http 0 --to shm:radar --seconds 60",
          "a minute of the scene's approach, for a program that reads shared memory"}}},
+  };
+}
+
+Examples data_sets() {
+  return {
+      {"campaign",
+       {{"fanbeam campaign plan campaign.toml", "what it comes to, by a pilot of three runs"},
+        {"fanbeam campaign run campaign.toml", "all that is not there yet, to out/<its name>"}}},
+      {"campaign plan",
+       {{"fanbeam campaign plan campaign.toml", "time and disk by a pilot of three runs"},
+        {"fanbeam campaign plan campaign.toml --no-pilot", "what is drawn alone"}}},
+      {"campaign run",
+       {{"fanbeam campaign run campaign.toml -o /data/fog", "all that is not there yet"},
+        {"fanbeam campaign run campaign.toml -o /data/fog --shard 2/8",
+         "the second of eight parts, on the second of eight machines"},
+        {"fanbeam campaign run campaign.toml -o /data/fog --runs 3,17,40:43 --replace",
+         "what verify found damaged"}}},
+      {"campaign status",
+       {{"fanbeam campaign status campaign.toml -o /data/fog", "while others work on it"}}},
+      {"campaign merge",
+       {{"fanbeam campaign merge campaign.toml -o /data/fog",
+         "index.csv, manifest.json, coco.json and lard.csv of all runs there"}}},
+      {"campaign verify",
+       {{"fanbeam campaign verify campaign.toml -o /data/fog",
+         "every file against its hash; says what repairs the rest"}}},
+      {"campaign slurm",
+       {{"fanbeam campaign slurm campaign.toml --folder /shared/fog --tasks 8",
+         "a script that has eight nodes do it: bash job.sh"}}},
   };
 }
 
@@ -133,7 +154,7 @@ Examples all_examples() {
                     {"fanbeam render", "pictures of the default scene, to out/braunschweig-26"},
                     {"fanbeam validate my-scene", "what is wrong with a scene of your own"},
                     {"fanbeam help render", "all that render can do, with examples"}}}};
-  for (Examples part : {pictures(), checks(), signals(), look_ups()}) all.merge(part);
+  for (Examples part : {pictures(), data_sets(), checks(), signals(), look_ups()}) all.merge(part);
   return all;
 }
 

@@ -13,6 +13,7 @@
 #include "core/json_size.h"
 #include "core/text.h"
 #include "session/labels/run_labels.h"
+#include "session/products/frame_table.h"
 #include "session/products/frame_writer.h"
 #include "session/products/layers_product.h"
 #include "session/products/products.h"
