@@ -22,10 +22,12 @@ install(FILES "${PROJECT_BINARY_DIR}/generated/c/fanbeam.pc" DESTINATION "${CMAK
 install(EXPORT fanbeamCTargets NAMESPACE fanbeam:: DESTINATION "${package}")
 
 # import fanbeam: where Debian's python3 looks, below whichever prefix.
-set(python_package "lib/python3/dist-packages/fanbeam")
-install(TARGETS fanbeam_python fanbeam_python_signal LIBRARY DESTINATION "${python_package}")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/bindings/python/fanbeam/" DESTINATION "${python_package}"
-        FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed")
+if(TARGET fanbeam_python)
+  set(python_package "lib/python3/dist-packages/fanbeam")
+  install(TARGETS fanbeam_python fanbeam_python_signal LIBRARY DESTINATION "${python_package}")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/bindings/python/fanbeam/" DESTINATION "${python_package}"
+          FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed")
+endif()
 
 foreach(folder materials sensors)
   file(GLOB files CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${folder}/*.toml")
