@@ -212,7 +212,7 @@ def test_draws_follow_their_distributions(program, tmp_path):
         """[campaign]
 name = "draws"
 scenes = ["flat-grass"]
-runs = 400
+runs = 160
 plan = "random"
 frames = { count = 1 }
 products = ["bscope"]
@@ -229,15 +229,15 @@ surface = { values = ["dry", "wet"], weights = [3, 1] }
     told(program, "merge", file, "-o", tmp_path / "out", "-q")
     with open(tmp_path / "out" / "index.csv", encoding="utf-8", newline="") as table:
         rows = list(csv.DictReader(table))
-    assert len(rows) == 400 and [int(row["run"]) for row in rows] == list(range(400))
+    assert len(rows) == 160 and [int(row["run"]) for row in rows] == list(range(160))
     fog = np.log([float(row["weather.visibility_m"]) for row in rows])
     up = np.array([float(row["flight.vertical_m"]) for row in rows])
     # Kolmogorov-Smirnov at 1 in 1000: 1.95 / sqrt(n).
     even = np.sort((fog - np.log(100)) / np.log(16))
-    assert np.abs(even - (np.arange(400) + 0.5) / 400).max() < 1.95 / 20
-    assert abs(up.mean() - 5) < 4 * 4 / 20 and abs(up.std() - 4) < 0.6
+    assert np.abs(even - (np.arange(160) + 0.5) / 160).max() < 1.95 / np.sqrt(160)
+    assert abs(up.mean() - 5) < 4 * 4 / np.sqrt(160) and abs(up.std() - 4) < 0.9
     wet = sum(row["surface"] == "wet" for row in rows)
-    assert abs(wet - 100) < 4 * np.sqrt(400 * 0.25 * 0.75)
+    assert abs(wet - 40) < 4 * np.sqrt(160 * 0.25 * 0.75)
     # And the flight does as it is told.
     heights = np.array([float(row["height_m"]) for row in rows])
     assert np.allclose(heights - heights[0], up - up[0], atol=1e-9)
