@@ -82,8 +82,10 @@ class Page(unittest.TestCase):
             os.makedirs(FOLDER, exist_ok=True)
             self.page.save_screenshot(os.path.join(FOLDER, name + ".png"))
 
-    def mean(self):
-        return self.js("state.frame.bscope.reduce((a, b) => a + b) / state.frame.bscope.length")
+    def far_mean(self):
+        """Of the upper half of the B-scope."""
+        return self.js("(half => half.reduce((a, b) => a + b) / half.length)"
+                       "(state.frame.bscope.slice(0, state.frame.bscope.length / 2))")
 
     def test_frames_arrive_in_order_whole_and_changing(self):
         self.page.execute_script(
@@ -173,15 +175,15 @@ class Page(unittest.TestCase):
         time.sleep(0.3)
         self.assertGreater(self.bright("bscope"), plain + 5)
         self.page.find_element("id", "freeze").click()
-        mean = self.mean()
+        mean = self.far_mean()
         low = self.page.find_element("id", "low")
         low.clear()
         low.send_keys("-35", Keys.TAB)  # black where -55 dB was: darker
-        self.wait(lambda: self.mean() < mean - 10, "darker picture")
+        self.wait(lambda: self.far_mean() < mean - 10, "darker picture")
         self.assertEqual(self.js("fetch('/api/sensor').then(answer => answer.json())")["low_dB"], -35)
         low.clear()
         low.send_keys("-55", Keys.TAB)
-        self.wait(lambda: self.mean() > mean - 10, "picture as it was")
+        self.wait(lambda: self.far_mean() > mean - 10, "picture as it was")
 
     def test_the_plan_view_shows_the_picture_and_outlines_the_runway(self):
         self.assertEqual(self.js("state.runways.map(runway => runway.corners.length)"), [4])
@@ -248,12 +250,13 @@ class Page(unittest.TestCase):
         check(asked("api/sensor", {"tilt_deg": "up"}), "Problems")
         check(self.js("state.frame.head"), "FrameHead")
 
-    def test_rain_set_on_the_page_dims_the_picture_and_the_plan_says_so(self):
-        dry = self.mean()
+    def test_rain_set_on_the_page_dims_what_lies_far_and_the_plan_says_so(self):
+        # Near the antenna it sends more than it takes: where the flight is by now must not matter.
+        dry = self.far_mean()
         rain = self.page.find_element("id", "rain")
         rain.send_keys(Keys.END)
         self.assertEqual(self.page.find_element("id", "raintold").text, "50 mm/h")
-        self.wait(lambda: self.mean() < dry - 10, "darker picture")  # it takes more than it sends
+        self.wait(lambda: self.far_mean() < dry - 20, "darker picture")
         weather = self.js("fetch('/api/weather').then(answer => answer.json())")
         self.assertEqual(weather, {"rain_rate_mm_per_h": 50, "snow_rate_mm_per_h": 0, "visibility_m": 300})
         self.page.find_element("css selector", "summary").click()
@@ -262,7 +265,7 @@ class Page(unittest.TestCase):
         self.assertEqual(dict(rows)["rain-echo"], "on")
         self.keep("live-rain")
         rain.send_keys(Keys.HOME)
-        self.wait(lambda: self.mean() > dry - 5, "dry picture")
+        self.wait(lambda: self.far_mean() > dry - 10, "dry picture")
 
     def test_keys_change_colours_and_marks(self):
         body = self.page.find_element("css selector", "body")
