@@ -15,13 +15,13 @@
 #include "core/files.h"
 #include "core/image.h"
 #include "core/stop.h"
-#include "core/units.h"
 #include "datasets/run_conditions.h"
 #include "datasets/run_flight.h"
 #include "datasets/sha256.h"
 #include "session/products/frame_output.h"
 #include "session/products/layers_product.h"
 #include "session/records/output_folder.h"
+#include "session/records/record_json.h"
 #include "session/records/run_record.h"
 #include "session/shipped.h"
 #include "session/version.h"
@@ -76,16 +76,6 @@ class RunLock {
 Json value_json(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
   return std::get<std::string>(value);
-}
-
-Json pose_json(const core::Pose& pose) {
-  const core::Attitude attitude = core::attitude_from(pose.q_NB);
-  return {{"latitude_deg", core::degrees(pose.position.latitude_rad)},
-          {"longitude_deg", core::degrees(pose.position.longitude_rad)},
-          {"height_m", pose.position.height_m},
-          {"roll_deg", core::degrees(attitude.roll_rad)},
-          {"pitch_deg", core::degrees(attitude.pitch_rad)},
-          {"heading_deg", core::degrees(attitude.heading_rad)}};
 }
 
 void write_failure(const Campaign& campaign, const fs::path& output, int run, const Draw& draw,
@@ -264,7 +254,7 @@ std::uint64_t Worker::write_record(const Draw& draw, const Stage& stage, const f
   for (const MadeFrame& frame : frames)
     json["frames"].push_back({{"index", frame.record.index},
                               {"time_s", frame.record.time_s},
-                              {"pose", pose_json(frame.record.pose)},
+                              {"pose", Json::parse(session::pose_json(frame.record.pose))},
                               {"events", frame.record.events},
                               {"files", frame.files}});
   std::uint64_t bytes = 0;

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/units.h"
+#include "session/records/record_json.h"
 
 namespace fanbeam::session {
 namespace {
@@ -108,17 +109,12 @@ Json object_json(const ObjectLabel& object, const sensors::Sensor& sensor) {
   return json;
 }
 
-Json pose_json(const core::Pose& pose) {
-  const core::Attitude attitude = core::attitude_from(pose.q_NB);
-  return {{"latitude_deg", core::degrees(pose.position.latitude_rad)},
-          {"longitude_deg", core::degrees(pose.position.longitude_rad)},
-          {"height_m", pose.position.height_m},
-          {"roll_deg", core::degrees(attitude.roll_rad)},
-          {"pitch_deg", core::degrees(attitude.pitch_rad)},
-          {"heading_deg", core::degrees(attitude.heading_rad)},
-          {"north_mps", pose.v_N_mps.x},
-          {"east_mps", pose.v_N_mps.y},
-          {"down_mps", pose.v_N_mps.z}};
+Json moving_pose_json(const core::Pose& pose) {
+  Json json = Json::parse(pose_json(pose));
+  json["north_mps"] = pose.v_N_mps.x;
+  json["east_mps"] = pose.v_N_mps.y;
+  json["down_mps"] = pose.v_N_mps.z;
+  return json;
 }
 
 Json weather_json(const atmosphere::Weather& weather) {
@@ -158,7 +154,7 @@ std::string labels_json(const FrameLabels& labels, const scenes::Scene& scene, i
                {"scene", scene.description.name},
                {"frame", frame},
                {"time_s", pose.time_s},
-               {"pose", pose_json(pose)},
+               {"pose", moving_pose_json(pose)},
                {"weather", weather_json(scene.weather)},
                {"bscope", {{"columns", sensor.scan.columns}, {"rows", sensor.range.cells}}},
                {"cscope", {{"columns", sensor.scan.columns}, {"rows", sensor.display.cscope_rows}}}};

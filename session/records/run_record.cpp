@@ -113,16 +113,6 @@ Json receiver_json(const scenes::Scene& scene) {
            "mean signal of one cell and look, square-law detector, known noise, no clutter"}};
 }
 
-Json pose_json(const core::Pose& pose) {
-  const core::Attitude attitude = core::attitude_from(pose.q_NB);
-  return {{"latitude_deg", core::degrees(pose.position.latitude_rad)},
-          {"longitude_deg", core::degrees(pose.position.longitude_rad)},
-          {"height_m", pose.position.height_m},
-          {"roll_deg", core::degrees(attitude.roll_rad)},
-          {"pitch_deg", core::degrees(attitude.pitch_rad)},
-          {"heading_deg", core::degrees(attitude.heading_rad)}};
-}
-
 // Rows of a recorded flight that were left out; first and last by number.
 Json rejected_json(const std::vector<scenes::RejectedRows>& rejected) {
   Json json = Json::array();
@@ -212,7 +202,7 @@ std::string run_json(const scenes::Scene& scene, const RunRecord& record) {
   for (const FrameRecord& frame : record.frames) {
     Json entry = {{"index", frame.index},
                   {"time_s", frame.time_s},
-                  {"pose", pose_json(frame.pose)},
+                  {"pose", Json::parse(pose_json(frame.pose))},
                   {"rays", frame.rays},
                   {"slices", frame.slices},
                   {"blanked", frame.blanked},
