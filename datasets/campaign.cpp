@@ -40,7 +40,7 @@ void read_products(ConfigTable& table, std::vector<std::string>& products) {
   for (const std::string& product : products)
     if (std::find(known.begin(), known.end(), product) == known.end())
       table.error(ErrorClass::ref, "products", "\"" + product + "\"",
-                  "one of" + core::names_there_text(product, known));
+                  "a known one" + core::names_there_text(product, known));
 }
 
 void read_campaign_table(ConfigTable table, Campaign& campaign) {

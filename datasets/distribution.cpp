@@ -25,7 +25,7 @@ void check_word(ConfigTable& table, std::string_view key, const std::string& wor
                 const std::vector<std::string>& words) {
   if (words.empty() || std::find(words.begin(), words.end(), word) != words.end()) return;
   table.error(ErrorClass::ref, key, "\"" + word + "\"",
-              "one of" + core::names_there_text(word, words));
+              "a known one" + core::names_there_text(word, words));
 }
 
 void check_weights(ConfigTable& table, Distribution::Choice& choice) {
@@ -35,7 +35,7 @@ void check_weights(ConfigTable& table, Distribution::Choice& choice) {
   for (const double weight : choice.weights) sum += weight;
   if (choice.weights.size() != choice.values.size() || !(sum > 0.0)) {
     table.error(ErrorClass::range, "weights", std::to_string(choice.weights.size()) + " numbers",
-                std::to_string(choice.values.size()) + ", one for each value, not all 0");
+                std::to_string(choice.values.size()) + " numbers, one for each value, not all 0");
     choice.weights.assign(choice.values.size(), 1.0);
     sum = static_cast<double>(choice.values.size());
   }
@@ -55,7 +55,9 @@ Distribution read_choice(ConfigTable& table, const Allowed& allowed) {
       choice.values.emplace_back(number);
   }
   if (choice.values.empty()) {
-    table.error(ErrorClass::range, "values", "none", "at least one");
+    // Of numbers it is told already.
+    if (std::holds_alternative<std::vector<std::string>>(allowed))
+      table.error(ErrorClass::range, "values", "none", "at least one");
     return {};
   }
   check_weights(table, choice);

@@ -221,6 +221,9 @@ std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,
 }
 
 Merged merge(const Campaign& campaign, const fs::path& output) {
+  if (!fs::is_directory(output / "runs"))
+    core::throw_input_error(core::ErrorClass::io, core::Place{output.string()}, "runs", "none",
+                            "the folder of a campaign; fanbeam campaign run makes it");
   std::map<int, Json> records;
   core::ProblemList problems;
   for (int run = 0; run < campaign.runs; ++run) {

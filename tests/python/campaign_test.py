@@ -131,6 +131,12 @@ def test_mixtures_are_refused(program, campaign, tmp_path):
     assert "another version" in told(program, "verify", other, "-o", folder, "--runs", "0:4", exit_code=1)
 
 
+def test_what_is_no_campaigns_folder_stays_as_it_is(program, campaign, tmp_path):
+    assert "E-IO" in told(program, "merge", campaign, "-o", tmp_path / "none", exit_code=4)
+    assert "6 missing" in told(program, "status", campaign, "-o", tmp_path / "none")
+    assert not (tmp_path / "none").exists()
+
+
 def test_one_bad_run_does_not_stop_the_others(program, tmp_path):
     file = tmp_path / "bad.toml"
     # Fog below -40 C is refused by the weather.
