@@ -25,7 +25,7 @@
 //   across_m = 0
 //   present = 0.5                      in this share of the runs
 //
-// kParameters lists all parameters. Every drawn value is a pure function of file and run number.
+// kParameters lists all parameters but scene, surface and those of traffic. Every drawn value is a pure function of file and run number.
 #pragma once
 
 #include <array>
@@ -42,12 +42,12 @@
 namespace fanbeam::datasets {
 
 struct ParameterKind {
-  const char* table;  // "" directly below [parameters]
+  const char* table;  // below [parameters]
   const char* key;
   core::NumberRange range;
   const char* what;
 };
-inline constexpr std::array<ParameterKind, 20> kParameters = {{
+inline constexpr std::array<ParameterKind, 19> kParameters = {{
     {"weather", "visibility_m", {10.0, 100000.0}, "fog below its top"},
     {"weather", "liquid_water_g_per_m3", {0.0, 20.0}, "the same by its water"},
     {"weather", "fog_top_m", {-2000.0, 12000.0}, "above the scene's origin"},
@@ -67,7 +67,6 @@ inline constexpr std::array<ParameterKind, 20> kParameters = {{
     {"flight", "time_s", {-1e6, 1e6}, "added to its time: moves the scene's targets"},
     {"flight", "turbulence_m", {0.0, 200.0}, "RMS of the path aside and in height"},
     {"flight", "turbulence_deg", {0.0, 30.0}, "RMS of roll, pitch and heading"},
-    {"traffic", "present", {0.0, 1.0}, "share of the runs that it is in"},
 }};
 
 // One that varies, or is set.

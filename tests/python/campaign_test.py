@@ -199,6 +199,16 @@ rcs_m2 = -4
     assert "bscope" in said and "seed" in said and "lateral_m" in said
 
 
+def test_the_example_is_what_its_page_shows(program, root, tmp_path):
+    example = root / "datasets" / "example.toml"
+    assert "24 runs (sobol) of 5 frames, 120 frames in all" in told(program, "plan", example, "--no-pilot")
+    shown = (root / "docs" / "campaigns.md").read_text(encoding="utf-8")
+    for line in example.read_text(encoding="utf-8").splitlines()[1:]:
+        assert f"    {line}\n" in shown or not line
+    said = told(program, "run", example, "-o", tmp_path, "--runs", "0:2")
+    assert "2 of 2 runs made" in said
+
+
 def test_the_plan_covers_its_ranges(program, tmp_path):
     file = tmp_path / "many.toml"
     text = CAMPAIGN.replace("runs = 6", "runs = 1024")
