@@ -154,7 +154,7 @@ std::size_t JsonNode::size(std::size_t most) const {
 std::size_t JsonNode::elements() const { return is_array() ? of(value_).size() : 0; }
 
 JsonNode JsonNode::element(std::size_t index) const {
-  return {*this, &of(value_)[index], std::to_string(index)};
+  return {*this, index < elements() ? &of(value_)[index] : nullptr, std::to_string(index)};
 }
 
 std::optional<double> JsonNode::number(const NumberRange& range) const {

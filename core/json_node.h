@@ -50,7 +50,7 @@ class JsonNode {
   // E-PARSE when this is no array, E-LIMIT above `most` elements: then it counts as empty.
   std::size_t size(std::size_t most) const;
   std::size_t elements() const;  // 0 where this is no array; says nothing
-  JsonNode element(std::size_t index) const;
+  JsonNode element(std::size_t index) const;  // missing where there are not so many
 
   // E-PARSE for another type, E-RANGE outside.
   std::optional<double> number(const NumberRange& range) const;

@@ -4,9 +4,11 @@
 #include <optional>
 
 #include "core/spelling.h"
+#include "scenes/city_bodies.h"
 #include "scenes/file_budget.h"
 #include "scenes/objects.h"
 #include "scenes/placed_problems.h"
+#include "terrain/buildings/cityjson.h"
 #include "terrain/buildings/extrusion.h"
 #include "terrain/buildings/footprints.h"
 #include "terrain/buildings/solid_prisms.h"
@@ -18,9 +20,6 @@ namespace {
 using core::ErrorClass;
 using renderer::ObjectKind;
 using terrain::PlacedMesh;
-
-// Walls go this far into the ground, so that no gap shows on a slope between two posts.
-constexpr double kFoundation_m = 2.0;
 
 struct GroundSpan {
   double lowest_m = 1e300, mean_m = 0.0;
@@ -80,8 +79,8 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
   prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;
   terrain::Extrusion extrusion =
       terrain::extrude({prism}, box.name, {box.wall_material, box.roof_material}, problems);
-  add_prisms({prism}, std::move(extrusion), {bodies.objects.add(box.name, ObjectKind::box)}, names, box.place,
-             "box material", bodies);
+  add_prisms({prism}, std::move(extrusion), {bodies.objects.add(box.name, ObjectKind::box)}, names,
+             box.place, "box material", bodies);
 }
 
 // Footprints beyond the terrain are left out with a warning.
@@ -121,20 +120,30 @@ std::vector<terrain::Prism> prisms_of(const BuildingsDescription& buildings, con
   return prisms;
 }
 
-void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
-                   const MaterialNames& names, FileBudget& budget, core::ProblemList& problems,
-                   Bodies& bodies) {
+void add_footprints(const BuildingsDescription& buildings, const Ground& ground,
+                    const MaterialNames& names, FileBudget& budget, core::ProblemList& problems,
+                    Bodies& bodies) {
   const std::vector<terrain::Prism> prisms = prisms_of(buildings, ground, budget, problems);
   terrain::Extrusion city =
       terrain::extrude(prisms, buildings.file.filename().string(),
                        {buildings.wall_material, buildings.roof_material}, problems);
   std::vector<terrain::ObjectId> objects;
   for (std::size_t i = 0; i < prisms.size(); ++i)
-    objects.push_back(
-        bodies.objects.add(buildings.file.filename().string() + " " + std::to_string(i + 1),
-                           ObjectKind::building));
+    objects.push_back(bodies.objects.add(
+        buildings.file.filename().string() + " " + std::to_string(i + 1), ObjectKind::building));
   add_prisms(prisms, std::move(city), std::move(objects), names, buildings.place,
              "buildings material", bodies);
+}
+
+void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
+                   const MaterialNames& names, FileBudget& budget, core::ProblemList& problems,
+                   Bodies& bodies) {
+  FileBudget looked;  // reading twice counts once
+  const std::string text = looked.read(buildings.file, terrain::kLargestCityFile_bytes);
+  if (!terrain::is_cityjson(text))
+    return add_footprints(buildings, ground, names, budget, problems, bodies);
+  budget.take(buildings.file);
+  add_city(text, buildings, ground, names, problems, bodies);
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,
@@ -147,7 +156,8 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
                                    [&](const std::filesystem::path& file, std::uint64_t most) {
                                      return budget.read(file, most);
                                    });
-  const glm::dvec3 base_m = ground.on_ground_m(*at_m, model.above_ground_m);
+  const glm::dvec3 base_m = model.height_m ? ground.at_height_m(*at_m, *model.height_m)
+                                           : ground.on_ground_m(*at_m, model.above_ground_m);
   const glm::dvec3 forward(std::sin(model.heading_rad), std::cos(model.heading_rad), 0.0);
   const glm::dvec3 right(std::cos(model.heading_rad), -std::sin(model.heading_rad), 0.0);
   for (glm::dvec3& vertex : placed.mesh.vertices_m)
@@ -184,37 +194,6 @@ terrain::ObjectId Objects::add(const std::string& name, ObjectKind kind) {
   names.push_back(name);
   kinds.push_back(kind);
   return static_cast<terrain::ObjectId>(names.size() - 1);
-}
-
-std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
-                                                 const Ground& ground, const MaterialNames& names,
-                                                 Objects& objects) {
-  std::vector<terrain::SurfacePatch> patches;
-  for (const SurfaceDescription& surface : scene.surfaces) {
-    const auto end = ground.landing_end(surface.runway_end, surface.place);
-    if (!end) continue;
-    const glm::dvec2 left(-end->direction.y, end->direction.x);
-    const glm::dvec2 centre = end->threshold_m +
-                              end->direction * ((surface.from_behind_m + surface.to_behind_m) / 2) +
-                              left * ((surface.from_left_m + surface.to_left_m) / 2);
-    patches.push_back(terrain::rectangle_patch(
-        centre, end->direction, surface.to_behind_m - surface.from_behind_m,
-        surface.to_left_m - surface.from_left_m,
-        names.id(surface.material, surface.place, "surface.material")));
-    patches.back().object =
-        objects.add("surface " + std::to_string(&surface - scene.surfaces.data() + 1),
-                    ObjectKind::surface);
-  }
-  for (std::size_t i = 0; i < ground.runways().size(); ++i) {
-    const RunwayDescription& described = scene.runways[i];
-    const std::string name = "runway " + described.ends[0].name + "/" + described.ends[1].name;
-    const terrain::ObjectId pavement = objects.add(name, ObjectKind::runway);
-    const terrain::ObjectId markings = objects.add(name + " markings", ObjectKind::marking);
-    for (terrain::SurfacePatch& patch :
-         terrain::runway_patches(ground.runways()[i], pavement, markings))
-      patches.push_back(std::move(patch));
-  }
-  return patches;
 }
 
 Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const MaterialNames& names,

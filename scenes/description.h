@@ -60,6 +60,7 @@ struct TerrainDescription {
 struct RunwayEndDescription {
   std::string name;  // "26": the designator of a landing on this end's threshold
   core::Geodetic pavement_end;
+  bool on_ground = false;  // as high as the elevation data say, not as pavement_end
   double displaced_m = 0.0;
 };
 
@@ -67,7 +68,7 @@ struct RunwayDescription {
   RunwayEndDescription ends[2];
   double width_m = 45.0, shoulder_m = 7.5, strip_half_width_m = 75.0, blend_m = 100.0;
   bool markings = true, edge_lights = true;
-  std::string approach_lights;  // an end's name, or empty
+  std::vector<std::string> approach_lights;  // names of ends
   double approach_light_slope = 0.0;
   double light_rcs_m2 = 0.0;
   std::string surface = "asphalt_worn", shoulder_material = "asphalt_worn",
@@ -84,12 +85,27 @@ struct SurfaceDescription {
   core::Place place;
 };
 
+// A taxiway or apron of an airport's file: the outline, then holes.
+struct PavementDescription {
+  std::string material;
+  std::vector<std::vector<core::Geodetic>> rings;
+  core::Place place;
+};
+
+struct LightRowDescription {
+  std::string name;
+  std::vector<core::Geodetic> at;
+  double above_ground_m = 0.0, rcs_m2 = 0.0;
+  core::Place place;
+};
+
 struct ModelDescription {
   std::string name;
   std::filesystem::path file;
   std::filesystem::path root;  // the folder its buffers must lie in
   Spot at;
   double above_ground_m = 0.0, heading_rad = 0.0;
+  std::optional<double> height_m;  // in the scene's datum, instead of above the ground
   std::map<std::string, std::string> materials;  // glTF material name to ours
   std::string default_material = "metal";
   std::filesystem::path open_material;       // .xoma or .xomm, empty for none
@@ -111,6 +127,10 @@ struct BuildingsDescription {
   std::string height_property = "render_height", min_height_property = "render_min_height";
   bool base_is_mean = false;
   std::string wall_material = "wall", roof_material = "roof";
+  // Of CityJSON alone.
+  std::string crs;                // "EPSG:28992", where the file does not say
+  bool heights_as_filed = false;  // else each building is moved up or down onto the scene's ground
+  std::map<std::string, std::string> surface_materials;  // "Window" to ours
   core::Place place;
 };
 
@@ -197,6 +217,8 @@ struct SceneDescription {
   terrain::EarthModel earth = terrain::EarthModel::wgs84;
   TerrainDescription terrain;
   std::vector<RunwayDescription> runways;
+  std::vector<PavementDescription> pavements;
+  std::vector<LightRowDescription> light_rows;
   std::vector<SurfaceDescription> surfaces;
   std::vector<ModelDescription> models;
   std::vector<BoxDescription> boxes;

@@ -52,14 +52,40 @@ Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame,
     append_placed(problems, error, terrain.place, "terrain");
     problems.throw_if_errors();
   }
+  const NaturalGround natural(terrain, level_m(), names, problems);
   for (const RunwayDescription& runway : scene.runways)
-    runways_.push_back(place_runway(runway, names));
-  shape(names);
+    runways_.push_back(place_runway(runway, natural, names));
+  if (natural.usable()) shape(natural);
 }
 
 double Ground::level_m() const {
-  if (runways_.empty()) return scene_.origin.height_m;
-  return (runways_[0].ends[0].elevation_m + runways_[0].ends[1].elevation_m) / 2;
+  if (scene_.runways.empty()) return scene_.origin.height_m;
+  const RunwayEndDescription* const ends = scene_.runways[0].ends;
+  return (ends[0].pavement_end.height_m + ends[1].pavement_end.height_m) / 2;
+}
+
+double Ground::elevation_on_ground_m(const RunwayDescription& description, int end,
+                                     const NaturalGround& natural) const {
+  constexpr int kSamples = 61;
+  const core::Geodetic& from = description.ends[end].pavement_end;
+  const terrain::GeodesicLine along =
+      terrain::geodesic_between(from, description.ends[1 - end].pavement_end);
+  double count = 0.0, t_sum = 0.0, tt_sum = 0.0, h_sum = 0.0, th_sum = 0.0;
+  for (int i = 0; i < kSamples; ++i) {
+    const double t = static_cast<double>(i) / (kSamples - 1);
+    const core::Geodetic at = terrain::geodesic_point(from, along.azimuth_rad, t * along.length_m);
+    const auto height_m = natural.height_m(at, local_m(at.latitude_rad, at.longitude_rad));
+    if (!height_m) continue;
+    count += 1.0;
+    t_sum += t;
+    tt_sum += t * t;
+    h_sum += *height_m;
+    th_sum += t * *height_m;
+  }
+  const double spread = count * tt_sum - t_sum * t_sum;
+  if (!(spread > 0.0)) return scene_.origin.height_m;  // beyond the terrain: refused as such
+  const double slope_m = (count * th_sum - t_sum * h_sum) / spread;
+  return (h_sum - slope_m * t_sum) / count;
 }
 
 double Ground::ellipsoidal_m(double height_m, double latitude_rad, double longitude_rad,
@@ -81,14 +107,18 @@ glm::dvec2 Ground::local_m(double latitude_rad, double longitude_rad) const {
 }
 
 terrain::Runway Ground::place_runway(const RunwayDescription& description,
+                                     const NaturalGround& natural,
                                      const MaterialNames& names) const {
   terrain::Runway runway;
   for (const int end : {0, 1}) {
     const RunwayEndDescription& from = description.ends[end];
     core::Geodetic position = from.pavement_end;
+    if (from.on_ground && natural.usable())
+      position.height_m = elevation_on_ground_m(description, end, natural);
+    const double elevation_m = position.height_m;
     position.height_m = ellipsoidal_m(position.height_m, position.latitude_rad,
                                       position.longitude_rad, scene_.datum);
-    runway.ends[end] = {frame_.to_local_m(position), from.displaced_m, from.pavement_end.height_m};
+    runway.ends[end] = {frame_.to_local_m(position), from.displaced_m, elevation_m};
   }
   runway.width_m = description.width_m;
   runway.shoulder_m = description.shoulder_m;
@@ -124,9 +154,7 @@ Zone Ground::zone(glm::dvec2 position_m) const {
   return zone;
 }
 
-void Ground::shape(const MaterialNames& names) {
-  const NaturalGround natural(scene_.terrain, level_m(), names, problems_);
-  if (!natural.usable()) return;
+void Ground::shape(const NaturalGround& natural) {
   std::mutex guard;
   std::size_t outside = 0, in_holes = 0;
   std::pair<std::size_t, std::string> first_outside{field_.height_m.size(), ""};  // post, position
@@ -226,6 +254,21 @@ std::optional<glm::dvec2> Ground::local_m(const Spot& spot) const {
 
 glm::dvec3 Ground::on_ground_m(glm::dvec2 position_m, double above_m) const {
   return {position_m, field_.height_at(position_m.x, position_m.y).value_or(0.0) + above_m};
+}
+
+glm::dvec3 Ground::at_height_m(glm::dvec2 position_m, double height_m) const {
+  double up_m = 0.0;
+  for (int round = 0; round < 3; ++round) {
+    const core::Geodetic g = frame_.to_geodetic({position_m, up_m});
+    up_m += ellipsoidal_m(height_m, g.latitude_rad, g.longitude_rad, scene_.datum) - g.height_m;
+  }
+  return {position_m, up_m};
+}
+
+glm::dvec3 Ground::local_m(const core::Geodetic& position) const {
+  return frame_.to_local_m({position.latitude_rad, position.longitude_rad,
+                            ellipsoidal_m(position.height_m, position.latitude_rad,
+                                          position.longitude_rad, scene_.datum)});
 }
 
 }  // namespace fanbeam::scenes

@@ -72,11 +72,19 @@ class Ground {
   // The point `above_m` over the ground there.
   glm::dvec3 on_ground_m(glm::dvec2 position_m, double above_m) const;
   glm::dvec2 local_m(double latitude_rad, double longitude_rad) const;
+  // The point at a height in the scene's datum there.
+  glm::dvec3 at_height_m(glm::dvec2 position_m, double height_m) const;
+  // Of a position whose height counts from the scene's datum.
+  glm::dvec3 local_m(const core::Geodetic& position) const;
 
  private:
-  terrain::Runway place_runway(const RunwayDescription& description,
+  terrain::Runway place_runway(const RunwayDescription& description, const NaturalGround& natural,
                                const MaterialNames& names) const;
-  void shape(const MaterialNames& names);
+  // Of a runway's end whose elevation is not known, in the scene's datum: on the straight line that the
+  // elevation data under the runway come nearest to.
+  double elevation_on_ground_m(const RunwayDescription& description, int end,
+                               const NaturalGround& natural) const;
+  void shape(const NaturalGround& natural);
   // Local up of a post, nothing where the elevation data end.
   std::optional<double> post_up_m(const NaturalGround& natural, glm::dvec2 position_m) const;
   Zone zone(glm::dvec2 position_m) const;

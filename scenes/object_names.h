@@ -20,10 +20,17 @@ class ObjectNames {
   // each object that is not known at the frequency.
   const materials::TypicalObject* find(core::ConfigTable& table, std::string_view key);
 
+  // The same for a name that stands in no key.
+  const materials::TypicalObject* named(const std::string& name, const core::Place& place,
+                                        core::ProblemList& problems);
+
   bool used() const { return library_.has_value(); }
   const std::filesystem::path& file() const { return file_; }
 
  private:
+  const materials::TypicalObject* look_up(const std::string& name, const core::Place& place,
+                                          const std::string& field, core::ProblemList& problems);
+
   std::filesystem::path file_;
   double frequency_Hz_ = 0.0;
   std::optional<materials::ObjectLibrary> library_;

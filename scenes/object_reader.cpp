@@ -5,6 +5,7 @@
 #include "core/decibel.h"
 #include "core/files.h"
 #include "core/units.h"
+#include "scenes/airport_objects.h"
 #include "scenes/target_reader.h"
 
 namespace fanbeam::scenes {
@@ -14,6 +15,7 @@ using core::ConfigTable;
 using core::radians;
 
 constexpr core::NumberRange kDistance_m{-100000.0, 100000.0};
+constexpr std::size_t kMostAirports = 8;
 constexpr std::size_t kMostRunways = 64;  // each flattens its strip of the terrain
 
 void read_runway_end(ConfigTable& runway, const char* key, RunwayEndDescription& end) {
@@ -45,7 +47,8 @@ RunwayDescription read_runway(ConfigTable& table) {
       table.number("strip_half_width_m", {0, 1000}, runway.strip_half_width_m);
   runway.blend_m = table.number("blend_m", {1, 5000}, runway.blend_m);
   runway.edge_lights = table.boolean("edge_lights", true);
-  runway.approach_lights = table.text("approach_lights", "");
+  if (const std::string end = table.text("approach_lights", ""); !end.empty())
+    runway.approach_lights.push_back(end);
   runway.approach_light_slope = table.number("approach_light_slope", {0, 0.1}, 0.0);
   runway.light_rcs_m2 = rcs_m2_from(table, "light_rcs_dBsm", -10.0);
   ConfigTable fence = table.table("fence");
@@ -107,7 +110,11 @@ ModelDescription read_model(ConfigTable& table, const DataSearch& search) {
   if (!model.file.empty()) model.root = search.root_of(model.file);
   model.name = table.text("name", model.file.stem().string());
   model.at = read_spot(table, "at");
+  if (table.has("height_m")) model.height_m = table.number("height_m", {-1000, 20000}, 0.0);
   model.above_ground_m = table.number("above_ground_m", {-100, 10000}, 0.0);
+  if (model.height_m && table.has("above_ground_m"))
+    table.error(core::ErrorClass::ref, "height_m", "beside above_ground_m",
+                "one of the two: above the scene's datum, or above the ground");
   model.heading_rad = radians(table.number("heading_deg", kHeading_deg, 0.0));
   model.default_material = table.text("default_material", model.default_material);
   ConfigTable materials = table.table("materials");
@@ -139,6 +146,11 @@ BuildingsDescription read_buildings(ConfigTable& table, const DataSearch& search
   buildings.base_is_mean = table.choice("base", {"lowest", "mean"}, 0) == 1;
   buildings.wall_material = table.text("wall", buildings.wall_material);
   buildings.roof_material = table.text("roof", buildings.roof_material);
+  buildings.crs = table.text("crs", "");
+  buildings.heights_as_filed = table.choice("heights", {"on_ground", "as_filed"}, 0) == 1;
+  ConfigTable surfaces = table.table("surfaces");
+  for (const std::string& key : surfaces.keys())
+    buildings.surface_materials[key] = surfaces.text(key, "");
   return buildings;
 }
 
@@ -170,13 +182,26 @@ Spot read_spot(ConfigTable& parent, std::string_view key) {
 void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& objects,
                   SceneDescription& scene) {
   std::set<std::string> ends;
+  const auto check_names = [&](ConfigTable& table, std::size_t first) {
+    for (std::size_t i = first; i < scene.runways.size(); ++i)
+      for (const RunwayEndDescription& end : scene.runways[i].ends)
+        if (!end.name.empty() && !ends.insert(end.name).second)
+          table.error(core::ErrorClass::ref, "", "name \"" + end.name + "\" given twice",
+                      "a name of its own for every runway end");
+  };
   for (ConfigTable& table : root.tables("runway", kMostRunways)) {
     scene.runways.push_back(read_runway(table));
-    for (const RunwayEndDescription& end : scene.runways.back().ends)
-      if (!end.name.empty() && !ends.insert(end.name).second)
-        table.error(core::ErrorClass::ref, "", "name \"" + end.name + "\" given twice",
-                    "a name of its own for every runway end");
+    check_names(table, scene.runways.size() - 1);
   }
+  for (ConfigTable& table : root.tables("airport", kMostAirports)) {
+    const std::size_t before = scene.runways.size();
+    read_airport_table(table, search, objects, scene);
+    check_names(table, before);
+  }
+  if (scene.runways.size() > kMostRunways)
+    root.error(core::ErrorClass::limit, "airport",
+               std::to_string(scene.runways.size()) + " runways",
+               "at most " + std::to_string(kMostRunways));
   for (ConfigTable& table : root.tables("surface")) scene.surfaces.push_back(read_surface(table));
   for (ConfigTable& table : root.tables("model")) scene.models.push_back(read_model(table, search));
   for (ConfigTable& table : root.tables("box")) scene.boxes.push_back(read_box(table));

@@ -22,8 +22,8 @@ struct Objects {
   terrain::ObjectId add(const std::string& name, renderer::ObjectKind kind);
 };
 
-// The rectangles of [[surface]] in file order, the runways on top of them. Adds "surface 1" and so
-// on, "runway 36/18" and "runway 36/18 markings" to `objects`.
+// The pavements of [[airport]], the rectangles of [[surface]] on them, the runways on top, each in file
+// order. Adds "pavement 1", "surface 1" and so on, "runway 36/18" and "runway 36/18 markings" to `objects`.
 std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
                                                  const Ground& ground, const MaterialNames& names,
                                                  Objects& objects);

@@ -48,12 +48,11 @@ void add_runway_reflectors(const RunwayDescription& description, const terrain::
   };
   if (description.edge_lights)
     add_sites(terrain::edge_light_sites(runway), "runway light", description.light_rcs_m2);
-  if (!description.approach_lights.empty()) {
-    if (const auto end = ground.landing_end(description.approach_lights, description.place))
+  for (const std::string& name : description.approach_lights)
+    if (const auto end = ground.landing_end(name, description.place))
       add_sites(
           terrain::approach_light_sites(*end->runway, end->end, description.approach_light_slope),
           "approach light", description.light_rcs_m2);
-  }
   if (description.fence_beyond_m > 0.0)
     add_sites(terrain::post_sites(terrain::perimeter(runway, description.fence_beyond_m), true,
                                   description.fence_spacing_m, description.fence_height_m),
@@ -108,6 +107,16 @@ PointTargets build_targets(const SceneDescription& scene, const Ground& ground,
   for (std::size_t i = 0; i < scene.runways.size(); ++i) {
     add_runway_reflectors(scene.runways[i], ground.runways()[i], ground, targets);
     if (full(scene.runways[i].place, "runway")) return targets;
+  }
+  for (const LightRowDescription& lights : scene.light_rows) {
+    for (const core::Geodetic& at : lights.at) {
+      const glm::dvec2 at_m = ground.local_m(at.latitude_rad, at.longitude_rad);
+      if (ground.field().height_at(at_m.x, at_m.y))
+        add_constant(lights.name, ground.on_ground_m(at_m, lights.above_ground_m), lights.rcs_m2,
+                     targets);
+    }
+    close_group(lights.name, lights.place, targets);
+    if (full(lights.place, "airport")) return targets;
   }
   NearField near_field(scene.sensor);
   for (const LineDescription& line : scene.lines) {

@@ -55,7 +55,10 @@ CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts, const core
     return choice;
   }
   if (wish == CasterWish::automatic && facts.buildings == 0) {
-    choice.reason = "no building stands in the scene, so that rays come as close in the same time";
+    choice.reason =
+        facts.others == 0
+            ? "no building stands in the scene, so that rays come as close in the same time"
+            : "what stands in the scene are shapes that slices leave to rays";
     return choice;
   }
   choice.chosen = CasterKind::profile;

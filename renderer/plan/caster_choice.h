@@ -28,7 +28,7 @@ enum class CasterWish { rays, profile, automatic };
 
 struct CasterFacts {
   std::size_t buildings = 1;  // Solids::prisms
-  std::size_t others = 0;     // models and prisms over open air: Solids::others
+  std::size_t others = 0;     // models, CityJSON, prisms over open air: Solids::others
   bool stabilised = true;     // the antenna, against roll and pitch; others count as tilted
   bool plane_scan = true;
   // Largest angle between the vertical at the aircraft and that of the scene's origin: on a round

@@ -9,6 +9,7 @@
 
 #include "core/errors.h"
 #include "core/geodetic.h"
+#include "scenes/airport/apt_dat_outline.h"
 #include "scenes/airport/runway_surface.h"
 
 namespace fanbeam::scenes {
@@ -29,11 +30,27 @@ struct AirportRunway {
   core::Place place;
 };
 
+// Taxiways and aprons: the outline, then holes.
+struct AirportPavement {
+  RunwaySurface surface;
+  std::vector<AirportLine> rings;
+};
+
+// A precision approach path indicator: the middle of its bar, and the heading of who lands.
+struct AirportPapi {
+  core::Geodetic at;
+  double heading_rad = 0.0;
+};
+
 struct Airport {
   std::string ident;                  // as in the file
   std::string name;                   // may be empty; any text
   std::optional<double> elevation_m;  // above mean sea level
   std::vector<AirportRunway> runways;
+  std::vector<AirportPavement> pavements;   // of apt.dat alone, and so are the rest
+  std::vector<AirportLine> taxiway_lights;  // along which they stand
+  std::vector<AirportPapi> papis;
+  std::size_t other_aids = 0;  // VASI, wig-wag and their like
   core::Place place;
 };
 

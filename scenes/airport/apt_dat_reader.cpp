@@ -59,6 +59,7 @@ class AptDatReader {
       return std::nullopt;
     }
     read_runways();
+    read_surroundings();
     if (problems_.has_errors()) return std::nullopt;
     return std::move(airport_);
   }
@@ -97,6 +98,12 @@ class AptDatReader {
       else if (wanted_)
         problems_.error(ErrorClass::limit, lines_.place(), "runways",
                         "more than " + std::to_string(kMostAirportRunways), "at most that many");
+    } else if (is_surroundings(code)) {
+      if (around_.size() < kMostAirportRows)
+        around_.push_back({std::string(line_), lines_.place()});
+      else if (wanted_ && around_.size() == kMostAirportRows)
+        problems_.error(ErrorClass::limit, lines_.place(), "rows of pavements and lines",
+                        "more than " + std::to_string(kMostAirportRows), "at most that many");
     } else if (code == "10" || code == "101" || code == "102") {
       other_ = code == "10"    ? "only runways of format 810 (row 10)"
                : code == "101" ? "only water runways"
@@ -106,6 +113,7 @@ class AptDatReader {
 
   void begin_airport(const std::vector<std::string_view>& fields) {
     rows_.clear();
+    around_.clear();
     other_.clear();
     in_airport_ = fields.size() >= 5;
     if (!in_airport_) return;
@@ -185,14 +193,69 @@ class AptDatReader {
     airport_.runways.push_back(std::move(runway));
   }
 
+  // Pavements, lines and their corners, visual aids.
+  static bool is_surroundings(std::string_view code) {
+    return code == "21" ||
+           (code.size() == 3 && (code.starts_with("11") || code == "120" || code == "130"));
+  }
+
+  void read_surroundings() {
+    std::optional<AirportPavement> pavement;
+    AptOutline outline;
+    const auto finish = [&] {
+      airport_.taxiway_lights.insert(airport_.taxiway_lights.end(), outline.edge_lights().begin(),
+                                     outline.edge_lights().end());
+      if (pavement && !outline.rings().empty()) {
+        pavement->rings = outline.rings();
+        airport_.pavements.push_back(std::move(*pavement));
+      }
+      pavement.reset();
+      outline = {};
+    };
+    for (const Row& row : around_) {
+      if (problems_.is_full()) return;
+      const std::vector<std::string_view> fields = fields_of(row.text);
+      const std::string_view code = fields[0];
+      if (code == "21") {
+        read_aid(fields, row.place);
+      } else if (code == "110" || code == "120" || code == "130") {
+        finish();
+        if (code != "110" || fields.size() < 2) continue;
+        const auto surface = airport_code(fields[1], "surface", 0, 1'000'000, row.place, problems_);
+        pavement = AirportPavement{surface_of_apt_code(surface.value_or(0)), {}};
+      } else {
+        outline.add(fields, row.place, problems_);
+      }
+    }
+    finish();
+  }
+
+  void read_aid(const std::vector<std::string_view>& fields, const core::Place& place) {
+    constexpr std::size_t kFewest = 5;
+    if (fields.size() < kFewest || (fields[3] != "2" && fields[3] != "3")) {
+      ++airport_.other_aids;
+      return;
+    }
+    const auto angle_rad = [&](std::size_t index, const char* what,
+                               const core::NumberRange& range) {
+      return core::radians(
+          airport_number(fields[index], what, range, "deg", place, problems_).value_or(0.0));
+    };
+    AirportPapi papi;
+    papi.at = {angle_rad(1, "PAPI latitude", kLatitude_deg),
+               angle_rad(2, "PAPI longitude", kLongitude_deg), 0.0};
+    papi.heading_rad = angle_rad(4, "PAPI heading", {-360, 720});
+    airport_.papis.push_back(papi);
+  }
+
   LineReader lines_;
   const std::string& ident_;
   core::ProblemList& problems_;
   std::string_view line_;
   Airport airport_;
   Row head_;
-  std::vector<Row> rows_;  // of the airport at hand
-  std::string other_;      // what it has instead of land runways
+  std::vector<Row> rows_, around_;  // of the airport at hand: runways; what lies beside them
+  std::string other_;               // what it has instead of land runways
   bool in_airport_ = false, wanted_ = false, done_ = false;
   std::vector<std::string> names_;
 };

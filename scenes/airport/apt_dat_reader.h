@@ -6,7 +6,8 @@
 // airport's. Row 100 with 26 fields: code, width in m, surface, shoulder, roughness, centre line
 // lights, edge lights, distance signs, and for each end name, latitude, longitude, displaced
 // threshold in m, blast pad in m, markings, approach lights, touchdown zone lights, identifier
-// lights. A file of the whole world (400 MB) is read line by line and never held in memory.
+// lights. Beside them pavements (row 110) and lines (row 120) with their corners (apt_dat_outline.h), of lines
+// the lights of taxiway edges alone, and PAPI (row 21, types 2 and 3). A file of the whole world (400 MB) is read line by line and never held in memory.
 #pragma once
 
 #include <filesystem>
@@ -19,6 +20,7 @@
 namespace fanbeam::scenes {
 
 inline constexpr std::size_t kMostAirportRunways = 100;
+inline constexpr std::size_t kMostAirportRows = 200'000;   // of pavements, lines and aids
 inline constexpr std::size_t kMostAirportNames = 200'000;  // remembered for suggestions
 
 // The airport whose row 1, or whose ICAO, IATA, FAA or local code (row 1302), is `ident`, whatever

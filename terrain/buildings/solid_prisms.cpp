@@ -130,4 +130,17 @@ Box_m box_around(const TriangleMesh& mesh) {
   return box;
 }
 
+void add_boxes(const TriangleMesh& mesh, Solids& solids) {
+  std::vector<Box_m> boxes(mesh.part_names.size(), {glm::dvec3(1e300), glm::dvec3(-1e300)});
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int corner = 0; corner < 3; ++corner) {
+      const glm::dvec3& vertex = mesh.vertices_m[mesh.triangles[i][corner]];
+      Box_m& box = boxes[mesh.triangle_part[i]];
+      box.low = glm::min(box.low, vertex);
+      box.high = glm::max(box.high, vertex);
+    }
+  for (const Box_m& box : boxes)
+    if (box.low.x <= box.high.x) solids.others.push_back(box);
+}
+
 }  // namespace fanbeam::terrain

@@ -28,4 +28,7 @@ std::size_t add_solids(const std::vector<Prism>& prisms, const Extrusion& extrus
 // Around all vertices; `mesh` must have some.
 Box_m box_around(const TriangleMesh& mesh);
 
+// One for each part of the mesh that has triangles, as what a vertical cut cannot describe.
+void add_boxes(const TriangleMesh& mesh, Solids& solids);
+
 }  // namespace fanbeam::terrain

@@ -44,7 +44,7 @@ TEST_CASE("Scene, terrain and runway arrive in SI", "[scene_reader]") {
   CHECK(runway.width_m == 60.0);
   CHECK_FALSE(runway.markings);
   CHECK_FALSE(runway.edge_lights);
-  CHECK(runway.approach_lights == "19");
+  CHECK(runway.approach_lights == std::vector<std::string>{"19"});
   CHECK(runway.light_rcs_m2 == Approx(0.01));
   CHECK(runway.fence_beyond_m == 80.0);
   CHECK(runway.fence_post_rcs_m2 == Approx(core::power_from_dB(-3.0)));

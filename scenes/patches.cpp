@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "scenes/objects.h"
+#include "terrain/buildings/clean_footprint.h"
+
+namespace fanbeam::scenes {
+namespace {
+
+using renderer::ObjectKind;
+
+// One ring around an outline and its holes: into each hole and back on the shortest way from a corner of
+// what there is. The parity that tells inside from outside does not see the two ways, which lie on each
+// other.
+terrain::Ring_m with_holes(const terrain::Polygon_m& polygon_m) {
+  terrain::Ring_m ring = polygon_m.front();
+  for (std::size_t h = 1; h < polygon_m.size(); ++h) {
+    const terrain::Ring_m& hole = polygon_m[h];
+    std::size_t from = 0, to = 0;
+    double shortest_m2 = 1e300;
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      for (std::size_t k = 0; k < hole.size(); ++k) {
+        const glm::dvec2 way = hole[k] - ring[i];
+        if (glm::dot(way, way) < shortest_m2) {
+          shortest_m2 = glm::dot(way, way);
+          from = i;
+          to = k;
+        }
+      }
+    terrain::Ring_m joined(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(from) + 1);
+    for (std::size_t k = 0; k <= hole.size(); ++k) joined.push_back(hole[(to + k) % hole.size()]);
+    joined.insert(joined.end(), ring.begin() + static_cast<std::ptrdiff_t>(from), ring.end());
+    ring = std::move(joined);
+  }
+  return ring;
+}
+
+void add_pavement(const PavementDescription& pavement, const Ground& ground,
+                  const MaterialNames& names, Objects& objects,
+                  std::vector<terrain::SurfacePatch>& patches) {
+  std::vector<terrain::Ring_m> rings_m;
+  for (const std::vector<core::Geodetic>& ring : pavement.rings) {
+    rings_m.emplace_back();
+    for (const core::Geodetic& corner : ring)
+      rings_m.back().push_back(ground.local_m(corner.latitude_rad, corner.longitude_rad));
+  }
+  const auto is_far = [](const glm::dvec2& p) {
+    return std::max(std::abs(p.x), std::abs(p.y)) > terrain::kLargestCoordinate_m;
+  };
+  for (const terrain::Ring_m& ring_m : rings_m)
+    if (std::any_of(ring_m.begin(), ring_m.end(), is_far)) return;
+  const terrain::Ring_m outer_m = rings_m.front();
+  rings_m.erase(rings_m.begin());
+  const terrain::MaterialId material = names.id(pavement.material, pavement.place, "airport");
+  for (const terrain::Polygon_m& polygon_m : terrain::clean_footprint(outer_m, rings_m)) {
+    patches.push_back({with_holes(polygon_m), material});
+    patches.back().object =
+        objects.add("pavement " + std::to_string(patches.size()), ObjectKind::surface);
+  }
+}
+
+}  // namespace
+
+std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
+                                                 const Ground& ground, const MaterialNames& names,
+                                                 Objects& objects) {
+  std::vector<terrain::SurfacePatch> patches;
+  for (const PavementDescription& pavement : scene.pavements)
+    add_pavement(pavement, ground, names, objects, patches);
+  for (const SurfaceDescription& surface : scene.surfaces) {
+    const auto end = ground.landing_end(surface.runway_end, surface.place);
+    if (!end) continue;
+    const glm::dvec2 left(-end->direction.y, end->direction.x);
+    const glm::dvec2 centre = end->threshold_m +
+                              end->direction * ((surface.from_behind_m + surface.to_behind_m) / 2) +
+                              left * ((surface.from_left_m + surface.to_left_m) / 2);
+    patches.push_back(terrain::rectangle_patch(
+        centre, end->direction, surface.to_behind_m - surface.from_behind_m,
+        surface.to_left_m - surface.from_left_m,
+        names.id(surface.material, surface.place, "surface.material")));
+    patches.back().object = objects.add(
+        "surface " + std::to_string(&surface - scene.surfaces.data() + 1), ObjectKind::surface);
+  }
+  for (std::size_t i = 0; i < ground.runways().size(); ++i) {
+    const RunwayDescription& described = scene.runways[i];
+    const std::string name = "runway " + described.ends[0].name + "/" + described.ends[1].name;
+    const terrain::ObjectId pavement = objects.add(name, ObjectKind::runway);
+    const terrain::ObjectId markings = objects.add(name + " markings", ObjectKind::marking);
+    for (terrain::SurfacePatch& patch :
+         terrain::runway_patches(ground.runways()[i], pavement, markings))
+      patches.push_back(std::move(patch));
+  }
+  return patches;
+}
+
+}  // namespace fanbeam::scenes

@@ -1,0 +1,88 @@
+// City models in scenes: on the ground, of the materials named, and seen as other geometry is.
+#include <cmath>
+#include <fstream>
+
+#include "tests/scenes/built_scene.h"
+#include "tests/terrain/city_files.h"
+
+using namespace fanbeam;
+
+namespace {
+
+// The plain of the small scene around the house of city_files.h.
+std::string city_scene(const std::string& keys) {
+  const std::string place = "latitude_deg = 52.2496, longitude_deg = 10.4647";
+  return R"([scene]
+name = "city"
+origin = { )" +
+         place + R"(, height_m = 70.0 }
+vertical_datum = "scene"
+[terrain]
+half_extent_m = 2500.0
+spacing_m = 50.0
+[[buildings]]
+file = "city.json"
+)" + keys +
+         R"(
+[trajectory.fixed]
+at = { latitude_deg = 52.24, longitude_deg = 10.4647 }
+above_ground_m = 60.0
+)";
+}
+
+struct Town {
+  tests::TemporaryFolder folder;
+  tests::Outcome outcome;
+  explicit Town(const nlohmann::json& city, const std::string& keys = "") {
+    folder.write("city.json", city.dump());
+    outcome = tests::build(folder.write("scene.toml", city_scene(keys)));
+  }
+  const scenes::Scene& scene() const {
+    REQUIRE(outcome.scene);
+    return *outcome.scene;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a building of a city model stands on the scene's ground, whatever height its file gives",
+          "[cityjson]") {
+  const Town town(tests::house());
+  const auto& names = town.scene().world.geometry->object_names;
+  CHECK(std::count(names.begin(), names.end(), "city.json house") == 1);
+  REQUIRE(town.scene().world.solids().others.size() == 1);
+  const terrain::Box_m& box = town.scene().world.solids().others[0];
+  const glm::dvec2 middle = (glm::dvec2(box.low) + glm::dvec2(box.high)) / 2.0;
+  CHECK(box.high.z - tests::ground_m(town.scene(), middle) == Approx(8.0).margin(0.01));
+  CHECK(box.low.z - tests::ground_m(town.scene(), middle) == Approx(-2.0).margin(0.01));
+  // On the ridge, and a metre aside of it, where the roof is 0.75 m lower.
+  CHECK(tests::seen_from_above(town.scene(), middle + glm::dvec2(0.0, 0.01)).up_m ==
+        Approx(box.high.z).margin(0.02));
+  const tests::Seen aside = tests::seen_from_above(town.scene(), middle + glm::dvec2(0.0, 1.0));
+  CHECK(aside.up_m == Approx(box.high.z - 0.75).margin(0.02));
+  CHECK(aside.material == "roof");
+}
+
+TEST_CASE(
+    "as filed, a building keeps its height, and surfaces have the materials that the scene names",
+    "[cityjson]") {
+  const Town town(
+      tests::house(),
+      "heights = \"as_filed\"\nsurfaces = { RoofSurface = \"metal\", Chimney = \"brick\" }");
+  const terrain::Box_m& box = town.scene().world.solids().others.at(0);
+  CHECK(town.scene().frame.to_geodetic(box.high).height_m == Approx(48.0).margin(0.01));
+  CHECK(town.scene().frame.to_geodetic(box.low).height_m == Approx(40.0).margin(0.01));
+  bool told = false;
+  for (const core::Problem& problem : town.outcome.problems)
+    told = told || (problem.code == "W-UNUSED" && problem.value == "\"Chimney\"");
+  CHECK(told);
+  const auto& names = town.scene().world.geometry->material_names;
+  CHECK(std::count(names.begin(), names.end(), "metal") == 1);
+}
+
+TEST_CASE("buildings beyond the terrain are counted and left out", "[cityjson]") {
+  const Town town(tests::house(620000.0));
+  CHECK(town.scene().world.solids().others.empty());
+  REQUIRE(town.outcome.problems.size() == 1);
+  CHECK(town.outcome.problems[0].code == "W-OUTSIDE");
+}
