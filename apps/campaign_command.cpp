@@ -17,6 +17,7 @@
 #include "core/text.h"
 #include "datasets/campaign.h"
 #include "datasets/ledger.h"
+#include "datasets/merge.h"
 #include "datasets/slurm.h"
 #include "datasets/worker.h"
 

@@ -23,6 +23,7 @@ find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(OpenSSL REQUIRED COMPONENTS Crypto)
+find_package(LibArchive REQUIRED)
 find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 find_library(GEOS_C_LIBRARY geos_c REQUIRED)
 # Debian's FFTW comes without CMake package files. The single-precision library has its own name, one header serves both.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/random/sobol.hpp>
+#include <cctype>
 #include <limits>
 
 #include "core/config_table.h"
@@ -43,16 +44,37 @@ void read_products(ConfigTable& table, std::vector<std::string>& products) {
                   "a known one" + core::names_there_text(product, known));
 }
 
+CampaignAirport read_airport_of(ConfigTable& table, const std::vector<CampaignAirport>& others) {
+  CampaignAirport airport;
+  airport.place = table.place("");
+  airport.ident = table.required_text("ident");
+  airport.runway = table.required_text("runway");
+  airport.file = table.required_text("file");
+  airport.elevation = table.required_text("elevation");
+  airport.buildings = table.text("buildings", "");
+  std::string name = airport.ident + "-" + airport.runway;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  airport.name = table.text("name", core::safe_word(name));
+  const auto same = [&](const CampaignAirport& other) { return other.name == airport.name; };
+  if (!core::is_safe_word(airport.name) || std::any_of(others.begin(), others.end(), same))
+    table.error(ErrorClass::range, "name", "\"" + airport.name + "\"",
+                "letters, digits, - and _, once in the file");
+  airport.start_distance_m = table.number("start_distance_m", {500.0, 20000.0}, 5000.0);
+  airport.glide_path_deg = table.number("glide_path_deg", {1.0, 10.0}, 3.0);
+  return airport;
+}
+
 void read_campaign_table(ConfigTable table, Campaign& campaign) {
   campaign.name = table.required_text("name");
   if (!core::is_safe_word(campaign.name))
     table.error(ErrorClass::range, "name", "\"" + campaign.name + "\"",
                 "letters, digits, - and _: it names folders");
   campaign.scenes = table.texts("scenes");
+  for (const CampaignAirport& airport : campaign.airports) campaign.scenes.push_back(airport.name);
   if (campaign.scenes.empty())
-    table.error(ErrorClass::ref, "scenes", "none", "at least one scene");
-  campaign.plan =
-      static_cast<Campaign::Plan>(table.choice("plan", {"grid", "sobol", "random"}, 2));
+    table.error(ErrorClass::ref, "scenes", "none", "at least one scene, or an [[airport]]");
+  campaign.plan = static_cast<Campaign::Plan>(table.choice("plan", {"grid", "sobol", "random"}, 2));
   campaign.runs = static_cast<int>(table.integer("runs", 1, kMostRuns, 1));
   campaign.seed = static_cast<std::uint64_t>(
       table.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 0));
@@ -64,6 +86,7 @@ void read_campaign_table(ConfigTable table, Campaign& campaign) {
   campaign.sample = table.choice("realisation", {"mean", "sample"}, 0) == 1;
   campaign.samples_per_cell = table.number("samples_per_cell", {0.3, 10000.0}, 0.0);
   campaign.sensor = table.text("sensor", "");
+  campaign.archives = table.choice("runs_as", {"folders", "archives"}, 0) == 1;
 }
 
 std::vector<std::string> surface_words() {
@@ -81,13 +104,14 @@ void read_parameters(ConfigTable table, Campaign& campaign) {
     campaign.parameters.push_back({"scene", Distribution(each)});
   }
   if (table.has("surface"))
-    campaign.parameters.push_back({"surface", read_distribution(table, "surface", surface_words())});
+    campaign.parameters.push_back(
+        {"surface", read_distribution(table, "surface", surface_words())});
   for (const char* name : {"weather", "sensor", "flight"}) {
     ConfigTable part = table.table(name);
     for (const ParameterKind& kind : kParameters)
       if (kind.table == std::string_view(name) && part.has(kind.key))
-        campaign.parameters.push_back({std::string(name) + "." + kind.key,
-                                       read_distribution(part, kind.key, kind.range)});
+        campaign.parameters.push_back(
+            {std::string(name) + "." + kind.key, read_distribution(part, kind.key, kind.range)});
   }
   if (campaign.find("weather.visibility_m") != nullptr &&
       campaign.find("weather.liquid_water_g_per_m3") != nullptr)
@@ -104,9 +128,8 @@ void read_traffic(ConfigTable table, Campaign& campaign) {
   campaign.traffic.push_back(name);
   const auto take = [&](const char* key, const core::NumberRange& range, double otherwise) {
     const std::string whole = "traffic." + name + "." + key;
-    campaign.parameters.push_back({whole, table.has(key)
-                                              ? read_distribution(table, key, range)
-                                              : Distribution(Value{otherwise})});
+    campaign.parameters.push_back({whole, table.has(key) ? read_distribution(table, key, range)
+                                                         : Distribution(Value{otherwise})});
   };
   take("rcs_m2", {0.0, 1e6}, 10.0);
   take("along_m", {-10'000.0, 10'000.0}, 500.0);
@@ -158,6 +181,8 @@ Campaign read_campaign(const fs::path& file, core::ProblemList& problems) {
   ConfigTable root = ConfigTable::from_file(file, problems);
   if (!root.present()) return campaign;
   campaign.text_hash = sha256(core::read_file(file, kLargestFile_bytes));
+  for (ConfigTable& airport : root.tables("airport", 1000))
+    campaign.airports.push_back(read_airport_of(airport, campaign.airports));
   read_campaign_table(root.table("campaign"), campaign);
   read_parameters(root.table("parameters"), campaign);
   for (ConfigTable& traffic : root.tables("traffic", 1000))

@@ -2,7 +2,8 @@
 //
 //   [campaign]
 //   name = "fog-approaches"
-//   scenes = ["braunschweig-26"]       names of shipped scenes, or folders beside this file
+//   scenes = ["braunschweig-26"]       names of shipped scenes, or folders beside this file; optional
+//                                      where there are airports
 //   runs = 200                         of a grid: how often it is gone through, 1 unless given
 //   plan = "sobol"                     "grid", "sobol" or "random"
 //   seed = 1
@@ -12,11 +13,22 @@
 //   realisation = "mean"               or "sample"
 //   samples_per_cell = 4               optional, as --rays-per-cell
 //   sensor = "hivision"                optional, a name or a file beside this one
+//   runs_as = "folders"                or "archives": one tar a run
 //
 //   [parameters]                       all optional; values and distributions: distribution.h
 //   surface = "wet"
 //   weather.visibility_m = { log_uniform = [150, 2000] }
 //   flight.lateral_m = { normal = [0, 10], within = [-40, 40] }
+//
+//   [[airport]]                        a scene for each, beside `scenes`: an approach to that runway
+//   ident = "EDNY"                     in `file`: apt.dat, or a table of runways
+//   runway = "24"
+//   file = "runways.csv"               beside this file or in a data folder, as the two below
+//   elevation = "N47E009.hgt"
+//   buildings = "city.geojson"         optional
+//   name = "edny-24"                   of the scene, optional
+//   start_distance_m = 5000            before the threshold, and
+//   glide_path_deg = 3                 optional
 //
 //   [[traffic]]                        a point scatterer, from the threshold that the flight lands on
 //   name = "car"
@@ -80,13 +92,20 @@ struct FrameSpread {
   double from = 0.0, to = 1.0;  // shares of the flight
 };
 
+struct CampaignAirport {
+  std::string name, ident, runway, file, elevation, buildings;
+  double start_distance_m = 5000.0, glide_path_deg = 3.0;
+  core::Place place;
+};
+
 struct Campaign {
   enum class Plan { grid, sobol, random };
 
   std::filesystem::path file;
   std::string text_hash;  // SHA-256 of the file
   std::string name;
-  std::vector<std::string> scenes;  // as the file names them
+  std::vector<std::string> scenes;  // as the file names them, then those of `airports`
+  std::vector<CampaignAirport> airports;
   Plan plan = Plan::random;
   int runs = 1;  // all of them
   std::uint64_t seed = 0;
@@ -96,6 +115,7 @@ struct Campaign {
   bool sample = false;
   double samples_per_cell = 0.0;
   std::string sensor;
+  bool archives = false;  // run_files.h
   std::vector<Parameter> parameters;
   std::vector<std::string> traffic;  // names
 

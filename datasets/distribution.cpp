@@ -152,9 +152,7 @@ std::size_t Distribution::count() const {
   return choice == nullptr ? 0 : choice->values.size();
 }
 
-const Value& Distribution::value(std::size_t i) const {
-  return std::get<Choice>(form_).values[i];
-}
+const Value& Distribution::value(std::size_t i) const { return std::get<Choice>(form_).values[i]; }
 
 Distribution read_distribution(ConfigTable& table, std::string_view key, const Allowed& allowed) {
   const auto* range = std::get_if<core::NumberRange>(&allowed);

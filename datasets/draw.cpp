@@ -77,8 +77,7 @@ Draw Drawer::draw(int run) {
       slower /= distribution.count();
       draw.values[parameter.name] = distribution.value(combination / slower % distribution.count());
     } else if (sequence_) {
-      const double u =
-          sequence_->point[dimension] + uniform(campaign_.seed, kShiftRun, dimension);
+      const double u = sequence_->point[dimension] + uniform(campaign_.seed, kShiftRun, dimension);
       draw.values[parameter.name] = distribution.at(u - std::floor(u));
       ++dimension;
     } else {

@@ -1,4 +1,4 @@
-// What of a campaign is there, whether it is whole, and all of it together.
+// What of a campaign is there, and whether it is whole.
 #pragma once
 
 #include <filesystem>
@@ -30,17 +30,5 @@ struct Damage {
 // file, level of instructions and the program and libraries that made most of the runs.
 std::vector<Damage> verify(const Campaign& campaign, const std::filesystem::path& output,
                            const std::vector<int>& runs);
-
-struct Merged {
-  int runs = 0, frames = 0;
-  std::vector<std::filesystem::path> files;
-};
-// Writes, of the runs that are there, into the campaign's folder:
-//   index.csv      a row for each frame: run, frame, time, pose, every drawn value, its files
-//   manifest.json  campaign, program, and the SHA-256 of every run's record
-//   coco.json, lard.csv   of all runs, where they have labels; pictures as runs/000123/bscope/00600.png
-// Throws InputError E-UNSUPPORTED for runs that another file, program, library or level of instructions
-// made than the rest, E-PARSE for records that cannot be read, E-IO for a folder without runs.
-Merged merge(const Campaign& campaign, const std::filesystem::path& output);
 
 }  // namespace fanbeam::datasets

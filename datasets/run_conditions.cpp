@@ -48,9 +48,9 @@ std::vector<session::TargetState> traffic_of(const Campaign& campaign, const Dra
     const glm::dvec2 at_m = glm::dvec2(landing.threshold_m) + told("along_m") * landing.along +
                             told("across_m") * right;
     const terrain::HeightField* ground = scene.world.surfaces().terrain();
-    const double up_m = (ground == nullptr ? landing.threshold_m.z
-                                           : ground->nearest_height(at_m.x, at_m.y)) +
-                        told("height_m");
+    const double up_m =
+        (ground == nullptr ? landing.threshold_m.z : ground->nearest_height(at_m.x, at_m.y)) +
+        told("height_m");
     session::TargetState target;
     target.name = name;
     target.position = scene.frame.to_geodetic({at_m, up_m});

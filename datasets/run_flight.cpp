@@ -19,9 +19,9 @@ double wandering(std::uint64_t seed, int run, Wander what, double time_s) {
   constexpr double kShortest_s = 3.0, kLongest_s = 20.0;
   double sum = 0.0;
   for (std::uint32_t wave = 0; wave < kWaves; ++wave) {
-    const auto words = core::random_words(
-        {seed, core::kStreamCampaignFlight, static_cast<std::uint64_t>(run)},
-        static_cast<std::uint64_t>(what), wave);
+    const auto words =
+        core::random_words({seed, core::kStreamCampaignFlight, static_cast<std::uint64_t>(run)},
+                           static_cast<std::uint64_t>(what), wave);
     const double period_s =
         kShortest_s * std::pow(kLongest_s / kShortest_s, core::uniform_from(words[0]));
     sum += std::sin(2 * core::kPi * (time_s / period_s + core::uniform_from(words[1])));
@@ -34,9 +34,9 @@ double wandering(std::uint64_t seed, int run, Wander what, double time_s) {
 std::vector<int> frames_of(const FrameSpread& spread, int frame_count) {
   std::vector<int> frames;
   for (int i = 0; i < spread.count; ++i) {
-    const double share = spread.count == 1 ? (spread.from + spread.to) / 2
-                                           : spread.from + (spread.to - spread.from) * i /
-                                                               (spread.count - 1);
+    const double share = spread.count == 1
+                             ? (spread.from + spread.to) / 2
+                             : spread.from + (spread.to - spread.from) * i / (spread.count - 1);
     const int frame = static_cast<int>(std::lround(share * (frame_count - 1)));
     if (frames.empty() || frames.back() != frame) frames.push_back(frame);
   }
@@ -49,7 +49,8 @@ core::Pose run_pose(const Draw& draw, std::uint64_t seed, const core::Pose& flow
   };
   const double speed_factor = draw.number("flight.speed_factor").value_or(1.0);
   const double time_s = flown.time_s / speed_factor;
-  const double rms_m = of_flight("turbulence_m"), rms_rad = core::radians(of_flight("turbulence_deg"));
+  const double rms_m = of_flight("turbulence_m"),
+               rms_rad = core::radians(of_flight("turbulence_deg"));
   const auto wander = [&](Wander what) { return wandering(seed, draw.run, what, time_s); };
 
   core::Pose pose = flown;

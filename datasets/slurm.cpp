@@ -8,17 +8,17 @@ namespace {
 // For a shell.
 std::string quoted(const std::string& text) {
   std::string result = "'";
-  for (const char letter : text) result += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
+  for (const char letter : text)
+    result += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
   return result + "'";
 }
 
 }  // namespace
 
 std::string slurm_script(const Campaign& campaign, const SlurmSettings& settings) {
-  const std::string command =
-      fmt::format("{} campaign", quoted(settings.program.string()));
-  const std::string rest = fmt::format("{} -o {}", quoted(campaign.file.string()),
-                                       quoted(settings.output.string()));
+  const std::string command = fmt::format("{} campaign", quoted(settings.program.string()));
+  const std::string rest =
+      fmt::format("{} -o {}", quoted(campaign.file.string()), quoted(settings.output.string()));
   const std::string data = settings.data.empty() ? "" : " --data " + quoted(settings.data);
   const std::string processors =
       settings.threads > 0 ? fmt::format(" --cpus-per-task={}", settings.threads) : " --exclusive";

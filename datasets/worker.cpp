@@ -1,22 +1,18 @@
 #include "datasets/worker.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <chrono>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "core/files.h"
 #include "core/image.h"
 #include "core/stop.h"
+#include "datasets/airport_scene.h"
 #include "datasets/run_conditions.h"
 #include "datasets/run_flight.h"
+#include "datasets/run_lock.h"
 #include "datasets/sha256.h"
 #include "session/products/frame_output.h"
 #include "session/products/layers_product.h"
@@ -45,33 +41,13 @@ fs::path hidden(const fs::path& campaign, int run, const char* ending) {
   return campaign / "runs" / fmt::format(".{:06}{}", run, ending);
 }
 
-// Held until the end of the process, if need be.
-class RunLock {
- public:
-  explicit RunLock(fs::path file) : file_(std::move(file)) {
-    descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0)
-      core::throw_input_error(core::ErrorClass::io, core::Place{file_.string()}, "lock",
-                              std::strerror(errno), "a folder that can be written to");
-    held_ = ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
-    // Another one may have removed the file between the two.
-    struct stat mine {}, there {};
-    held_ = held_ && ::fstat(descriptor_, &mine) == 0 && ::stat(file_.c_str(), &there) == 0 &&
-            mine.st_ino == there.st_ino;
-  }
-  ~RunLock() {
-    if (held_) ::unlink(file_.c_str());
-    ::close(descriptor_);
-  }
-  RunLock(const RunLock&) = delete;
-  RunLock& operator=(const RunLock&) = delete;
-  bool held() const { return held_; }
-
- private:
-  fs::path file_;
-  int descriptor_ = -1;
-  bool held_ = false;
-};
+// Relative to the folder.
+std::set<std::string> files_below(const fs::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder))
+    if (entry.is_regular_file()) names.insert(entry.path().lexically_relative(folder).string());
+  return names;
+}
 
 Json value_json(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return *number;
@@ -90,19 +66,15 @@ void write_failure(const Campaign& campaign, const fs::path& output, int run, co
   core::write_file_atomically(failed_file(output, run), json.dump(1) + "\n");
 }
 
-// A folder beside the campaign's file, else as session::find_scene.
-fs::path scene_path(const Campaign& campaign, const std::string& name, const fs::path& shipped) {
-  const fs::path beside = campaign.file.parent_path() / name;
-  std::error_code refused;
-  if (fs::exists(beside / "scene.toml", refused)) return beside;
-  return session::find_scene(name, shipped);
+// Where a run is made. A worker that was killed leaves it to the next on this machine.
+fs::path making_place(const Campaign& campaign, const fs::path& output, int run) {
+  if (!campaign.archives) return hidden(output, run, "");
+  const std::string whole = fs::absolute(output).lexically_normal().string() + campaign.text_hash;
+  return fs::temp_directory_path() /
+         fmt::format("fanbeam-{}-{:06}", sha256(whole).substr(0, 16), run);
 }
 
 }  // namespace
-
-fs::path run_folder(const fs::path& campaign, int run) {
-  return campaign / "runs" / fmt::format("{:06}", run);
-}
 
 fs::path failed_file(const fs::path& campaign, int run) {
   return campaign / "failed" / fmt::format("{:06}.json", run);
@@ -131,13 +103,15 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
     session::Setup setup;
     setup.shipped = settings_.shipped;
     setup.data_folders = settings_.data_folders;
+    if (!campaign_.airports.empty())
+      setup.data_folders.insert(setup.data_folders.begin(),
+                                fs::absolute(campaign_.file).parent_path().lexically_normal());
     setup.sample = campaign_.sample;
     setup.seed = campaign_.seed;
     if (!campaign_.sensor.empty())
       setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor");
     core::ProblemList problems;
-    stage->session = std::make_unique<session::Session>(
-        scene_path(campaign_, scene, settings_.shipped), setup, problems);
+    stage->session = std::make_unique<session::Session>(scene_path(scene), setup, problems);
     stage->own = stage->session->scene();
     if (stage->own->frame_count() == 0)
       core::throw_input_error(core::ErrorClass::ref, core::Place{scene}, "[trajectory]", "missing",
@@ -151,42 +125,78 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
   return *stage;
 }
 
+// Of an airport, else a folder beside the campaign's file, else as session::find_scene.
+fs::path Worker::scene_path(const std::string& name) const {
+  for (const CampaignAirport& airport : campaign_.airports)
+    if (airport.name == name)
+      return airport_scene(campaign_, airport, settings_.output, settings_.data_folders);
+  const fs::path beside = campaign_.file.parent_path() / name;
+  std::error_code refused;
+  if (fs::exists(beside / "scene.toml", refused)) return beside;
+  return session::find_scene(name, settings_.shipped);
+}
+
 RunEnd Worker::make(int run) {
-  const fs::path place = run_folder(settings_.output, run);
-  const auto there = [&] { return !settings_.replace && fs::exists(place / kRunRecord); };
+  const auto there = [&] {
+    return !settings_.replace && RunFiles::is_there(settings_.output, run);
+  };
   if (there()) return RunEnd::there;
   std::error_code made;
-  fs::create_directories(place.parent_path(), made);
+  fs::create_directories(settings_.output / "runs", made);
   const RunLock lock(hidden(settings_.output, run, ".lock"));
   if (!lock.held()) return RunEnd::elsewhere;
   if (there()) return RunEnd::there;
-  const fs::path making = hidden(settings_.output, run, "");
-  fs::remove_all(making);  // of a worker that was killed
+  const fs::path making = making_place(campaign_, settings_.output, run);
+  const auto clear = [&] {
+    std::error_code ignored;
+    fs::remove_all(making, ignored);
+    fs::remove(hidden(settings_.output, run, ".tar"), ignored);
+  };
+  clear();  // what a worker left that was killed
   const auto begin = std::chrono::steady_clock::now();
   Draw draw;
   draw.run = run;
   try {
     draw = drawer_.draw(run);
     render(draw, making);
+    put_in_place(run, making);
   } catch (const core::InputError& error) {
-    fs::remove_all(making);
+    clear();
     const auto& problems = error.problems();
     // A full disk is no fault of the run.
-    if (error.has(core::ErrorClass::io) && problems.front().place.file.starts_with(making.string()))
+    const std::string& file = problems.front().place.file;
+    if (error.has(core::ErrorClass::io) &&
+        (file.starts_with(making.string()) ||
+         file.starts_with(hidden(settings_.output, run, "").string())))
       throw;
     write_failure(campaign_, settings_.output, run, draw, problems);
     return RunEnd::failed;
   } catch (...) {
-    std::error_code ignored;
-    fs::remove_all(making, ignored);
+    clear();
     throw;
   }
-  fs::remove_all(place);
-  fs::rename(making, place);
   fs::remove(failed_file(settings_.output, run));
-  cost_.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  cost_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return RunEnd::made;
+}
+
+void Worker::put_in_place(int run, const fs::path& made) const {
+  const fs::path folder = run_folder(settings_.output, run);
+  const fs::path archive = run_archive(settings_.output, run);
+  if (campaign_.archives) {
+    std::vector<std::string> names = {kRunRecord};
+    for (const std::string& name : files_below(made))
+      if (name != kRunRecord) names.push_back(name);
+    const fs::path packing = hidden(settings_.output, run, ".tar");
+    pack(made, names, packing);
+    fs::remove_all(made);
+    fs::rename(packing, archive);
+    fs::remove_all(folder);
+  } else {
+    fs::remove_all(folder);
+    fs::rename(made, folder);
+    fs::remove(archive);
+  }
 }
 
 void Worker::render(const Draw& draw, const fs::path& folder) {
@@ -211,10 +221,9 @@ void Worker::render(const Draw& draw, const fs::path& folder) {
     core::throw_if_stopped();
     MadeFrame made;
     made.record.index = index;
-    made.record.pose = run_pose(
-        draw, campaign_.seed,
-        stage.own->trajectory->at(stage.own->trajectory->frame_time_s(
-            index, stage.own->description.sensor.scan.frame_rate_Hz)));
+    made.record.pose = run_pose(draw, campaign_.seed,
+                                stage.own->trajectory->at(stage.own->trajectory->frame_time_s(
+                                    index, stage.own->description.sensor.scan.frame_rate_Hz)));
     made.record.time_s = made.record.pose.time_s;
     const std::uint64_t key =
         (static_cast<std::uint64_t>(draw.run) << kFrameBits) + static_cast<std::uint64_t>(index);
@@ -259,10 +268,7 @@ std::uint64_t Worker::write_record(const Draw& draw, const Stage& stage, const f
                               {"files", frame.files}});
   std::uint64_t bytes = 0;
   json["files"] = Json::object();
-  std::set<std::string> names;
-  for (const auto& entry : fs::recursive_directory_iterator(folder))
-    if (entry.is_regular_file()) names.insert(entry.path().lexically_relative(folder).string());
-  for (const std::string& name : names) {
+  for (const std::string& name : files_below(folder)) {
     const std::uint64_t size = fs::file_size(folder / name);
     json["files"][name] = {{"sha256", sha256_of_file(folder / name)}, {"bytes", size}};
     bytes += size;

@@ -1,10 +1,12 @@
 // Renders runs of a campaign into its folder.
 //
 //   DIR/runs/000123/run.json          what was drawn, what was rendered, SHA-256 of every file; written
-//                  /bscope/00600.png  last, before the folder gets its name: a run is there or is not
+//                  /bscope/00600.png  last, before the folder gets its name: a run is there or is not.
+//                                     Or all of it in one archive, DIR/runs/000123.tar (run_files.h)
+//   DIR/scenes/edny-24/scene.toml     of the campaign's airports (airport_scene.h)
 //   DIR/failed/000123.json            why a run cannot be: problems, one a line
 //
-// A run is made in a hidden folder beside its place under a lock (flock) of its own, which goes with the
+// A run is made in a hidden folder beside its place (an archive's in the temporary folder) under a lock (flock) of its own, which goes with the
 // process: two workers, on one machine or on several that share the folder, never make one run at once, and
 // what a killed one left is removed by the next. Same bytes for any worker, order and number of threads.
 #pragma once
@@ -18,13 +20,11 @@
 #include "core/errors.h"
 #include "datasets/campaign.h"
 #include "datasets/draw.h"
+#include "datasets/run_files.h"
 #include "session/session.h"
 
 namespace fanbeam::datasets {
 
-inline constexpr const char* kRunRecord = "run.json";
-
-std::filesystem::path run_folder(const std::filesystem::path& campaign, int run);
 std::filesystem::path failed_file(const std::filesystem::path& campaign, int run);
 
 enum class RunEnd { made, there, elsewhere, failed };
@@ -57,6 +57,9 @@ class Worker {
  private:
   struct Stage;
   Stage& stage_of(const std::string& scene);
+  std::filesystem::path scene_path(const std::string& name) const;
+  // Of a run that is whole, in its folder: gives it its name.
+  void put_in_place(int run, const std::filesystem::path& made) const;
   void render(const Draw& draw, const std::filesystem::path& folder);
   std::uint64_t write_record(const Draw& draw, const Stage& stage,
                              const std::filesystem::path& folder, const std::string& fingerprint,

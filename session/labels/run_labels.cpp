@@ -30,14 +30,13 @@ int category_of(const std::string& group) {
 }
 
 constexpr const char* kLardHead =
-    "image;height;width;type;original_dataset;scenario;airport;runway;time_to_landing;weather;night;"
+    "image;height;width;type;original_dataset;scenario;airport;runway;time_to_landing;weather;"
+    "night;"
     "time;slant_distance;along_track_distance;height_above_runway;lateral_path_angle;"
     "vertical_path_angle;yaw;pitch;roll;watermark_height;x_A;y_A;x_B;y_B;x_C;y_C;x_D;y_D\n";
 
 // 0 at south, to 180 at north by west and -180 at north by east.
-double lard_yaw_deg(double heading_deg) {
-  return core::wrap_360_deg(heading_deg) - 180.0;
-}
+double lard_yaw_deg(double heading_deg) { return core::wrap_360_deg(heading_deg) - 180.0; }
 
 // The corners by rising y, then x; nothing unless all are inside.
 std::optional<std::string> lard_corners(const Json& runway, const std::string& scope) {
@@ -55,10 +54,10 @@ std::optional<std::string> lard_corners(const Json& runway, const std::string& s
 
 std::string seconds_to_landing(const Json& frame, const Json& runway, double along_m) {
   const Json &near = runway.at("thresholds").at("near"), &far = runway.at("thresholds").at("far");
-  const double bearing_rad = std::atan2(
-      (far.at("longitude_deg").get<double>() - near.at("longitude_deg").get<double>()) *
-          std::cos(core::radians(near.at("latitude_deg").get<double>())),
-      far.at("latitude_deg").get<double>() - near.at("latitude_deg").get<double>());
+  const double bearing_rad =
+      std::atan2((far.at("longitude_deg").get<double>() - near.at("longitude_deg").get<double>()) *
+                     std::cos(core::radians(near.at("latitude_deg").get<double>())),
+                 far.at("latitude_deg").get<double>() - near.at("latitude_deg").get<double>());
   const double closing_mps =
       frame.at("pose").at("north_mps").get<double>() * std::cos(bearing_rad) +
       frame.at("pose").at("east_mps").get<double>() * std::sin(bearing_rad);
@@ -82,10 +81,11 @@ std::string lard_rows(const Json& frame, const std::string& scope, const std::st
     const double slant_m = runway.at("thresholds").at("near").at("range_m");
     const Json& pose = frame.at("pose");
     rows += fmt::format(
-        "{};{};{};synthetic;fanbeam;{}_{}_{};{};{};{};{};;;{:.2f};{:.2f};{:.2f};{:.2f};{:.2f};{:.4f};"
+        "{};{};{};synthetic;fanbeam;{}_{}_{};{};{};{};{};;;{:.2f};{:.2f};{:.2f};{:.2f};{:.2f};{:."
+        "4f};"
         "{:.4f};{:.4f};0{}\n",
-        file, frame.at(scope).at("rows").get<int>(), frame.at(scope).at("columns").get<int>(), airport, end,
-        frames, airport, end, seconds_to_landing(frame, runway, along_m), weather,
+        file, frame.at(scope).at("rows").get<int>(), frame.at(scope).at("columns").get<int>(),
+        airport, end, frames, airport, end, seconds_to_landing(frame, runway, along_m), weather,
         slant_m / kNauticalMile_m, along_m / kNauticalMile_m, above_m / core::kFoot_m,
         core::degrees(std::atan2(cross_m, along_m + kLateralReference_m)),
         core::degrees(std::atan2(above_m, along_m + kVerticalReference_m)),
@@ -169,14 +169,14 @@ struct RunLabels::Coco {
 
   Json& annotate(const Json& mask, std::size_t image, const std::string& category, int columns,
                  int rows) {
-    json_["annotations"].push_back({{"id", json_["annotations"].size() + 1},
-                                    {"image_id", image},
-                                    {"category_id", category_of(category)},
-                                    {"bbox", mask.at("box")},
-                                    {"area", mask.at("cells")},
-                                    {"iscrowd", 0},
-                                    {"segmentation",
-                                     {{"size", {rows, columns}}, {"counts", mask.at("runs")}}}});
+    json_["annotations"].push_back(
+        {{"id", json_["annotations"].size() + 1},
+         {"image_id", image},
+         {"category_id", category_of(category)},
+         {"bbox", mask.at("box")},
+         {"area", mask.at("cells")},
+         {"iscrowd", 0},
+         {"segmentation", {{"size", {rows, columns}}, {"counts", mask.at("runs")}}}});
     return json_["annotations"].back();
   }
 
@@ -186,13 +186,12 @@ struct RunLabels::Coco {
 RunLabels::RunLabels() : coco_(std::make_unique<Coco>()), lard_(kLardHead) {}
 RunLabels::~RunLabels() = default;
 
-void RunLabels::add(const fs::path& folder, const std::string& prefix,
-                    const std::set<std::string>& files, std::size_t frames) {
-  constexpr std::uint64_t kLargest_bytes = 1ULL << 28U;
+void RunLabels::add(const std::string& prefix, const std::set<std::string>& files,
+                    std::size_t frames,
+                    const std::function<std::string(const std::string& name)>& text_of) {
   const std::string name = name_in(files, "labels");
   if (name.empty()) return;
-  const fs::path file = folder / (prefix + name);
-  const std::string text = core::read_file(file, kLargest_bytes);
+  const std::string text = text_of(name);
   try {
     const Json json = Json::parse(text);
     for (const char* scope : {"bscope", "cscope"}) {
@@ -202,7 +201,7 @@ void RunLabels::add(const fs::path& folder, const std::string& prefix,
       lard_ += lard_rows(json, scope, prefix + picture, frames, weather_word(json.at("weather")));
     }
   } catch (const nlohmann::json::exception& error) {
-    core::throw_input_error(core::ErrorClass::parse, core::Place{file.string()}, "labels",
+    core::throw_input_error(core::ErrorClass::parse, core::Place{prefix + name}, "labels",
                             error.what(), "a file of the product labels");
   }
   all_ += (all_.empty() ? "" : ",\n") + text.substr(0, text.find_last_not_of('\n') + 1);
@@ -217,7 +216,10 @@ std::string RunLabels::lard() const { return lard_; }
 
 void write_run_labels(const fs::path& folder, const std::vector<FrameRecord>& frames) {
   RunLabels labels;
-  for (const FrameRecord& frame : frames) labels.add(folder, "", frame.files, frames.size());
+  for (const FrameRecord& frame : frames)
+    labels.add("", frame.files, frames.size(), [&](const std::string& name) {
+      return core::read_file(folder / name, kLargestLabels_bytes);
+    });
   core::write_file_atomically(folder / kRunLabelFiles[0], labels.all());
   core::write_file_atomically(folder / kRunLabelFiles[1], labels.coco());
   core::write_file_atomically(folder / kRunLabelFiles[2], labels.lard());

@@ -12,7 +12,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -23,6 +25,7 @@
 
 namespace fanbeam::session {
 
+inline constexpr std::uint64_t kLargestLabels_bytes = 1ULL << 28U;  // of a frame
 inline constexpr std::array<std::string_view, 3> kRunLabelFiles = {"labels.json", "coco.json",
                                                                    "lard.csv"};
 
@@ -34,10 +37,10 @@ class RunLabels {
   RunLabels(const RunLabels&) = delete;
   RunLabels& operator=(const RunLabels&) = delete;
 
-  // A frame whose `files` (relative to `folder` / `prefix`) hold labels; others are left out. Its pictures
-  // are named with the prefix. `frames`: of its run, for LARD's scenario. Throws InputError E-IO and E-PARSE.
-  void add(const std::filesystem::path& folder, const std::string& prefix,
-           const std::set<std::string>& files, std::size_t frames);
+  // A frame whose `files` hold labels, which `text_of` answers by name; others are left out. Its pictures
+  // are named with the prefix. `frames`: of its run, for LARD's scenario. Throws InputError E-PARSE.
+  void add(const std::string& prefix, const std::set<std::string>& files, std::size_t frames,
+           const std::function<std::string(const std::string& name)>& text_of);
 
   std::size_t frames() const { return frames_; }
   std::string all() const;

@@ -72,6 +72,7 @@ constexpr Confined kConfined[] = {
     {"(geos_c\\.h|geos/.*)", "terrain"}, {"proj(_.*)?\\.h", "terrain"},
     {"OpenImageIO/.*", "core"},          {"fftw3\\.h", "signal"},
     {"openssl/.*", "datasets"},
+    {"archive(_entry)?\\.h", "datasets"},
     {"nanoflann\\.hpp", "signal"},       {"boost/(asio|beast).*", "live"},
 };
 

@@ -1,0 +1,168 @@
+#include "datasets/merge.h"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "core/files.h"
+#include "datasets/run_files.h"
+#include "datasets/run_makers_private.h"
+#include "datasets/sha256.h"
+#include "session/labels/run_labels.h"
+
+namespace fanbeam::datasets {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string csv_text(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string result = "\"";
+  for (const char letter : text)
+    result += letter == '"' ? std::string("\"\"") : std::string(1, letter);
+  return result + "\"";
+}
+
+std::string cell(const Json& value) {
+  return csv_text(value.is_string()   ? value.get<std::string>()
+                  : value.is_number() ? core::number_text(value.get<double>())
+                                      : value.dump());
+}
+
+constexpr std::string_view kSceneColumn = "scene";  // of every campaign, drawn or not
+
+std::string index_head(const Campaign& campaign) {
+  std::string head =
+      "run,frame,scene,time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg";
+  for (const Parameter& parameter : campaign.parameters)
+    if (parameter.name != kSceneColumn) head += "," + parameter.name;
+  for (const std::string& product : campaign.products) {
+    head += "," + product;
+    if (campaign.archives) head += fmt::format(",{0}_offset,{0}_bytes", product);
+  }
+  return head + "\n";
+}
+
+std::string index_rows(const Campaign& campaign, int run, const RunFiles& files,
+                       const Json& record) {
+  std::string rows;
+  for (const Json& frame : record.at("frames")) {
+    rows += fmt::format("{},{},{},{}", run, frame.at("index").get<int>(), cell(record.at("scene")),
+                        cell(frame.at("time_s")));
+    for (const char* key :
+         {"latitude_deg", "longitude_deg", "height_m", "roll_deg", "pitch_deg", "heading_deg"})
+      rows += "," + cell(frame.at("pose").at(key));
+    for (const Parameter& parameter : campaign.parameters)
+      if (parameter.name != kSceneColumn)
+        rows += "," + cell(record.at("parameters").value(parameter.name, Json("")));
+    for (const std::string& product : campaign.products) {
+      std::optional<RunFiles::Where> found;
+      for (const Json& file : frame.at("files"))
+        if (file.get<std::string>().starts_with(product + "/"))
+          found = files.where(file.get<std::string>());
+      rows += "," + (found ? found->file : "");
+      if (campaign.archives)
+        rows += found ? fmt::format(",{},{}", found->offset, found->bytes) : ",,";
+    }
+    rows += "\n";
+  }
+  return rows;
+}
+
+// What of a campaign's runs is merged, one run after the other.
+class Merger {
+ public:
+  Merger(const Campaign& campaign, const fs::path& output, std::string usual)
+      : campaign_(campaign), output_(output), usual_(std::move(usual)) {
+    manifest_ = {{"fanbeam_campaign", 1},
+                 {"campaign", campaign.name},
+                 {"campaign_sha256", campaign.text_hash},
+                 {"made_by", usual_},
+                 {"runs", Json::object()}};
+    index_ = index_head(campaign);
+  }
+
+  void add(int run, const RunFiles& files, const Json& record, core::ProblemList& problems) {
+    const core::Place place{files.shown(kRunRecord)};
+    try {
+      const std::string wrong = wrong_maker(record, campaign_, usual_);
+      if (!wrong.empty())
+        problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
+                       "one program for all: " + wrong);
+      index_ += index_rows(campaign_, run, files, record);
+      manifest_["runs"][fmt::format("{:06}", run)] =
+          sha256(files.read(kRunRecord, kLargestRecord_bytes));
+      for (const Json& frame : record.at("frames"))
+        labels_.add(fmt::format("runs/{:06}/", run), frame.at("files").get<std::set<std::string>>(),
+                    record.at("frames").size(), [&](const std::string& name) {
+                      return files.read(name, session::kLargestLabels_bytes);
+                    });
+      ++merged_.runs;
+      merged_.frames += static_cast<int>(record.at("frames").size());
+    } catch (const nlohmann::json::exception& error) {
+      problems.error(core::ErrorClass::parse, place, "run", error.what(), kWhole);
+    } catch (const core::InputError& error) {  // files that are gone or cut short
+      problems.append(error.problems());
+    }
+  }
+
+  Merged write() {
+    const auto write_one = [&](const char* name, const std::string& text) {
+      core::write_file_atomically(output_ / name, text);
+      merged_.files.push_back(output_ / name);
+    };
+    write_one("index.csv", index_);
+    write_one("manifest.json", manifest_.dump(1) + "\n");
+    if (labels_.frames() > 0) {
+      write_one("coco.json", labels_.coco());
+      write_one("lard.csv", labels_.lard());
+    }
+    return merged_;
+  }
+
+  static constexpr const char* kWhole = "a record; fanbeam campaign verify tells how to repair it";
+
+ private:
+  const Campaign& campaign_;
+  const fs::path& output_;
+  std::string usual_, index_;
+  Json manifest_;
+  session::RunLabels labels_;
+  Merged merged_;
+};
+
+}  // namespace
+
+Merged merge(const Campaign& campaign, const fs::path& output) {
+  if (!fs::is_directory(output / "runs"))
+    core::throw_input_error(core::ErrorClass::io, core::Place{output.string()}, "runs", "none",
+                            "the folder of a campaign; fanbeam campaign run makes it");
+  core::ProblemList problems;
+  std::map<std::string, int> makers;
+  std::vector<int> whole;
+  for (int run = 0; run < campaign.runs; ++run) {
+    const std::optional<RunFiles> files = RunFiles::of(output, run);
+    if (!files) continue;
+    const Json record = record_in(*files);
+    if (record.is_object()) {
+      ++makers[made_by(record)];
+      whole.push_back(run);
+    } else {
+      problems.error(core::ErrorClass::parse, core::Place{files->shown(kRunRecord)}, "run",
+                     "damaged", Merger::kWhole);
+    }
+  }
+  Merger merger(campaign, output, usual_maker(makers));
+  for (const int run : whole)
+    if (const std::optional<RunFiles> files = RunFiles::of(output, run))
+      merger.add(run, *files, record_in(*files), problems);
+  problems.throw_if_errors();
+  return merger.write();
+}
+
+}  // namespace fanbeam::datasets

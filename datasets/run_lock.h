@@ -1,0 +1,28 @@
+// The right to make a run: a lock (flock) that goes with its process, on one machine and on several that
+// share the folder.
+#pragma once
+
+#include <filesystem>
+
+namespace fanbeam::datasets {
+
+class RunLock {
+ public:
+  // Throws InputError E-IO for a folder that cannot be written to.
+  explicit RunLock(std::filesystem::path file);
+  ~RunLock();
+  RunLock(const RunLock&) = delete;
+  RunLock& operator=(const RunLock&) = delete;
+
+  bool held() const { return held_; }
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+  bool held_ = false;
+};
+
+// Somebody holds it.
+bool is_locked(const std::filesystem::path& file);
+
+}  // namespace fanbeam::datasets

@@ -1,0 +1,46 @@
+#include <algorithm>
+
+#include "core/errors.h"
+#include "datasets/run_makers_private.h"
+
+namespace fanbeam::datasets {
+
+using Json = nlohmann::ordered_json;
+
+Json record_in(const RunFiles& files) {
+  std::string text;
+  try {
+    text = files.read(kRunRecord, kLargestRecord_bytes);
+  } catch (const core::InputError&) {  // not there, or cut short
+    return {};
+  }
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("files") || !json["files"].is_object() ||
+      !json.contains("frames") || !json["frames"].is_array())
+    return {};
+  return json;
+}
+
+std::string made_by(const Json& record) {
+  std::string text;
+  for (const char* key : {"isa", "version", "commit", "libraries"})
+    text += (text.empty() ? "" : " ") + record.value(key, Json()).dump();
+  return text;
+}
+
+std::string usual_maker(const std::map<std::string, int>& runs_of_maker) {
+  const auto most =
+      std::max_element(runs_of_maker.begin(), runs_of_maker.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == runs_of_maker.end() ? "" : most->first;
+}
+
+std::string wrong_maker(const Json& record, const Campaign& campaign, const std::string& usual) {
+  if (record.value("campaign_sha256", "") != campaign.text_hash)
+    return "made by another version of " + campaign.file.filename().string();
+  if (made_by(record) != usual)
+    return "made by " + made_by(record) + ", most of the others by " + usual;
+  return "";
+}
+
+}  // namespace fanbeam::datasets
