@@ -26,7 +26,7 @@ constexpr std::uint64_t kLargestNotes_bytes = 1 << 20;
 
 constexpr const char* kUsage =
     "Usage: fanbeam_bench [--report FILE] [--no-report] [--no-cases] [--estimates] "
-    "[--no-estimates] "
+    "[--no-estimates] [--campaigns] "
     "[--quick] [--threads N] [--benchmark_...]\n"
     "\n"
     "  --report FILE   write the report there instead of to the standard output, and its plots\n"
@@ -35,6 +35,7 @@ constexpr const char* kUsage =
     "  --no-cases      only the report\n"
     "  --estimates     only the report's section on the errors that frames state; not timed\n"
     "  --no-estimates  the report without that section, in a quarter of the time\n"
+    "  --campaigns     only what campaigns and city models cost\n"
     "  --quick         coarse and short, to try the report: its figures mean nothing\n"
     "  --threads N     threads to use (2, which the targets are set for; 0 for all cores)\n"
     "  --benchmark_... options of google-benchmark, as --benchmark_filter=frame\n";
@@ -43,7 +44,7 @@ struct Options {
   std::string report_file;
   bool report = true;
   bool cases = true;
-  bool estimates = true, estimates_alone = false;
+  bool estimates = true, estimates_alone = false, campaigns_alone = false;
   bool quick = false;
   int threads = 2;
 };
@@ -62,6 +63,8 @@ Options parse(int count, char** arguments) {
       options.estimates = false;
     } else if (argument == "--estimates") {
       options.estimates_alone = true;
+    } else if (argument == "--campaigns") {
+      options.campaigns_alone = true;
     } else if (argument == "--quick") {
       options.quick = true;
     } else if (argument == "--report" && has_value) {
@@ -107,6 +110,7 @@ Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int 
     report.scenes.push_back(measure(scene, &scene == &scenes.back(), effort, threads));
   if (const auto obstacles = load(kObstacleScene))
     report.agreement.push_back(measure_agreement(view_at(*obstacles, kDistances_m[1]), effort));
+  report.campaigns = measure_campaigns(effort);
   report.other_cores = machine.other_cores();  // what follows is not timed
   if (estimates) report.estimates = check_estimates(effort);
   return report;
@@ -166,6 +170,11 @@ void run(const Options& options) {
   const Effort effort = options.quick ? quick_effort() : full_effort();
   if (options.estimates_alone) {
     fmt::print("{}", estimates_markdown(check_estimates(effort)));
+    return;
+  }
+  if (options.campaigns_alone) {
+    if (const auto figures = measure_campaigns(effort))
+      fmt::print("{}{}", campaigns_markdown(*figures), campaign_rows(*figures));
     return;
   }
   std::vector<BenchScene> scenes;

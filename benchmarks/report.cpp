@@ -200,6 +200,7 @@ std::string markdown(const Report& report) {
   for (const SceneFigures& scene : report.scenes) out += scaling_markdown(scene);
   for (const SceneFigures& scene : report.scenes)
     for (const ViewFigures& figures : scene.views) out += view_markdown(figures, report.threads);
+  if (report.campaigns) out += campaigns_markdown(*report.campaigns);
   out += estimates_markdown(report.estimates);
   out += report.notes;
   while (out.ends_with("\n\n")) out.pop_back();

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/campaign_cost.h"
 #include "benchmarks/estimate_check.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/plan_cost.h"
@@ -28,6 +29,7 @@ struct Report {
   std::vector<SceneFigures> scenes;
   std::vector<AgreementFigures> agreement;  // in scenes without figures of their own
   std::vector<EstimateCase> estimates;
+  std::optional<CampaignFigures> campaigns;
   std::vector<std::string> skipped;  // scenes without their data
   std::vector<std::string> plots;    // files, as links of the report
   std::string notes;                 // prose to end with

@@ -1,7 +1,6 @@
 #include "benchmarks/sequence.h"
 
 #include <fmt/core.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,33 +8,16 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/scratch_folder.h"
+
 namespace fanbeam::benchmarks {
-namespace {
 
 namespace fs = std::filesystem;
-
-// A folder that is gone with its owner.
-class ScratchFolder {
- public:
-  ScratchFolder() { fs::create_directories(path_); }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_ = fs::temp_directory_path() / fmt::format("fanbeam-bench-{}", getpid());
-};
-
-}  // namespace
 
 std::optional<SequenceFigures> measure_sequence(const View& view, renderer::CasterWish wish,
                                                 int frames, int threads) {
   const std::string& name = view.scene->name;
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path() / "fanbeam";
+  const fs::path program = program_beside();
   const ScratchFolder scratch;
   const int first = std::max(0, view.frame - frames / 2);
   const std::string command =

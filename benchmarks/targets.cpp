@@ -320,6 +320,7 @@ std::string targets_markdown(const Report& report) {
     for (const SequenceFigures& sequence : scene.sequences) out += sequence_row(scene, sequence);
   }
   for (const AgreementFigures& line : report.agreement) out += agreement_rows(line.scene, {line});
+  if (report.campaigns) out += campaign_rows(*report.campaigns);
   if (!report.estimates.empty()) out += estimates_row(report.estimates);
   for (const std::string& name : report.skipped)
     out += fmt::format("| {} | | | not measured: its data were not there | |\n", name);
