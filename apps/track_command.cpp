@@ -38,7 +38,7 @@ tracking::TrackerSettings tracker_of(const TrackOptions& options,
                                      const tracking::SimulationSettings& simulation,
                                      const core::HighwayRadar& radar, double radar_speed_mps) {
   tracking::TrackerSettings settings =
-      tracking::road_tracker(radar, radar_speed_mps, options.acceleration_mps2);
+      tracking::road_tracker(radar, radar_speed_mps, options.acceleration_mps2, options.coast_s);
   if (options.association == "joint") settings.association = tracking::Association::joint;
   // Never certain, so that a miss does not cost infinitely much.
   settings.detection.detection_probability = std::clamp(options.detection_probability, 0.05, 0.98);
@@ -62,7 +62,7 @@ struct Outcome {
   TrackHistory history;
   std::string tracks =
       "time_s,track,confirmed,x_m,y_m,vx_mps,vy_mps,range_m,range_rate_mps,azimuth_rad,moving,"
-      "identity_probability,target\n";
+      "identity_probability,target,existence,nees,xx,xy,xvx,xvy,yy,yvx,yvy,vxvx,vxvy,vyvy\n";
   std::string measurements = "time_s,range_m,range_rate_mps,azimuth_rad\n";
   // Of the last frame.
   tracking::ScenarioFrame last;
@@ -86,6 +86,20 @@ int target_of(const tracking::ScenarioScore& score, int track) {
   return -1;
 }
 
+// The upper triangle, row after row; of a track along one axis x is the range, and y and vy are empty.
+std::string covariance_cells(const tracking::Gaussian& state) {
+  std::string cells;
+  for (int row = 0; row < 4; ++row)
+    for (int column = row; column < 4; ++column) {
+      const bool one_axis = state.size == 2;
+      const bool there = !one_axis || (row % 2 == 0 && column % 2 == 0);
+      cells += there ? fmt::format(",{:.9g}", one_axis ? state.variance(row / 2, column / 2)
+                                                       : state.variance(row, column))
+                     : std::string(",");
+    }
+  return cells;
+}
+
 void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFrame& frame,
               Outcome& outcome) {
   for (const tracking::RadarMeasurement& one : frame.measurements)
@@ -96,11 +110,16 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
     const tracking::PolarPlace place = polar(track.state);
     const int target = target_of(outcome.score, track.id);
     outcome.tracks += fmt::format(
-        "{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g},{}\n",
+        "{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g},{},{:.6g},{}{}\n",
         frame.time_s, track.id, track.confirmed ? 1 : 0, state[0], state[1], state[2], state[3],
         place.range_m, place.range_rate_mps, place.azimuth_rad,
         is_moving(track, {scenario.radar_speed_mps, 0.0}) ? 1 : 0, track.identity_probability,
-        target < 0 ? std::string() : scenario.targets[static_cast<std::size_t>(target)].id);
+        target < 0 ? std::string() : scenario.targets[static_cast<std::size_t>(target)].id,
+        track.existence,
+        target < 0
+            ? std::string()
+            : fmt::format("{:.6g}", nees_of(track, frame.motion[static_cast<std::size_t>(target)])),
+        covariance_cells(combined(track.state)));
   }
 }
 
@@ -177,6 +196,7 @@ nlohmann::ordered_json json_of(const core::HighwayScenario& scenario, const Outc
   json["range_rmse_m"] = score.range_m.rms();
   json["range_error_largest_m"] = score.range_m.largest();
   json["range_rate_rmse_mps"] = score.range_rate_mps.rms();
+  json["nees_mean"] = score.nees.mean();
   json["skipped_updates"] = outcome.skipped_updates;
   json["crossings"] = nlohmann::ordered_json::array();
   for (const tracking::Crossing& one : outcome.crossings)
@@ -257,6 +277,7 @@ int track(const TrackOptions& options, const CommonOptions& common) {
                                  {"range_only", radar.array_elements < 2},
                                  {"noise_figure", radar.noise_figure},
                                  {"acceleration_mps2", options.acceleration_mps2},
+                                 {"coast_s", options.coast_s},
                                  {"detection_probability", options.detection_probability},
                                  {"false_measurements", options.false_per_frame},
                                  {"scenarios", nlohmann::ordered_json::array()}};

@@ -20,6 +20,7 @@ struct TrackOptions {
   double false_per_frame = 0.0;
   std::optional<double> noise_figure_dB{};  // instead of the file's
   double acceleration_mps2 = tracking::kSteady_mps2;
+  double coast_s = tracking::kCoast_s;
   bool range_only = false;
   bool samples = false;
   bool plots = false;

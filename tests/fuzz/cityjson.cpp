@@ -13,7 +13,7 @@ using namespace fanbeam;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const terrain::LocalFrame frame({core::radians(52.1561), core::radians(5.3872), 0.0},
                                          terrain::EarthModel::wgs84);
-  const std::string text = fuzz::text_of(data, size);
+  const std::string text(fuzz::text_of(data, size));
   (void)terrain::is_cityjson(text);
   fuzz::expect_answer([&](core::ProblemList& problems) {
     const terrain::CityModel city = terrain::read_cityjson(

@@ -18,35 +18,6 @@ using tests::line_state;
 using tests::run_key;
 using tests::seen;
 
-namespace {
-
-// (mean - truth)^T P^-1 (mean - truth), by P = L L^T. Infinite where P is not positive definite.
-double squared_distance(const Gaussian& state, const StateVector& truth) {
-  Gaussian root;  // L
-  StateVector solved{};
-  double sum = 0.0;
-  for (int i = 0; i < state.size; ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    double rest = state.mean[row] - truth[row];
-    double pivot = state.variance(i, i);
-    for (int j = 0; j < i; ++j) {
-      double entry = state.variance(i, j);
-      for (int k = 0; k < j; ++k) entry -= root.variance(i, k) * root.variance(j, k);
-      entry /= root.variance(j, j);
-      root.variance(i, j) = entry;
-      pivot -= entry * entry;
-      rest -= entry * solved[static_cast<std::size_t>(j)];
-    }
-    if (!(pivot > 0.0)) return std::numeric_limits<double>::infinity();
-    root.variance(i, i) = std::sqrt(pivot);
-    solved[row] = rest / root.variance(i, i);
-    sum += solved[row] * solved[row];
-  }
-  return sum;
-}
-
-}  // namespace
-
 TEST_CASE("K06 innovations and errors of matched runs are as large as the filter says",
           "[kalman][statistics]") {
   constexpr int kRuns = 50, kSteps = 100;
@@ -68,7 +39,7 @@ TEST_CASE("K06 innovations and errors of matched runs are as large as the filter
                          seen(position_m + 0.1 * noise[0], speed_mps + 0.1 * noise[1], 0.1, 0.1)));
     }
     innovations += told.normalised_innovation_squared / kRuns;
-    errors += squared_distance(state, {position_m, speed_mps}) / kRuns;
+    errors += normalised_error_squared(state, {position_m, speed_mps}) / kRuns;
   }
   CHECK(mean_interval(2, kRuns).contains(innovations));
   CHECK(mean_interval(2, kRuns).contains(errors));
@@ -110,7 +81,7 @@ TEST_CASE("The planar filter is consistent with range, rate and azimuth", "[kalm
       told = update(state, observe(state, 2, Measured::range_rate_and_azimuth, z));
     }
     innovations += told.normalised_innovation_squared / kRuns;
-    errors += squared_distance(state, truth) / kRuns;
+    errors += normalised_error_squared(state, truth) / kRuns;
   }
   CHECK(mean_interval(3, kRuns).contains(innovations));
   CHECK(mean_interval(4, kRuns).contains(errors));
@@ -140,7 +111,7 @@ TEST_CASE("Tracks of measurements from frequencies are as good as they say, by d
                    last = combined(frame.tracker->tracks()[0].state);
                    truth = {frame.truth[0].range_m, frame.truth[0].range_rate_mps};
                  });
-    errors += squared_distance(last, {truth[0], truth[1]}) / kRuns;
+    errors += normalised_error_squared(last, {truth[0], truth[1]}) / kRuns;
   }
   INFO("normalised squared error " << errors);
   CHECK(mean_interval(2, kRuns).contains(errors));

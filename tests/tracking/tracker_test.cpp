@@ -33,22 +33,26 @@ const Track* track_of(const Tracker& tracker, int id) {
 
 }  // namespace
 
-TEST_CASE("A track is confirmed by the second good measurement, coasts, and ends", "[tracker]") {
-  Tracker tracker(settings_for());
-  for (int i = 0; i < 3; ++i) {
-    tracker.update(0.05 * i, {at(100.0 - 0.5 * i, -10.0)});
-    REQUIRE(tracker.tracks().size() == 1);
-    CHECK(confirmed(tracker) == (i < 1 ? 0 : 1));
+TEST_CASE(
+    "A track is confirmed by the second good measurement, coasts as long as it was seen, and ends",
+    "[tracker]") {
+  for (const int seen : {3, 30}) {
+    Tracker tracker(settings_for());
+    for (int i = 0; i < seen; ++i) {
+      tracker.update(0.05 * i, {at(100.0 - 0.5 * i, -10.0)});
+      REQUIRE(tracker.tracks().size() == 1);
+      CHECK(confirmed(tracker) == (i < 1 ? 0 : 1));
+    }
+    const int ends = seen + std::min(seen, 20);  // at most a second
+    for (int i = seen; i < ends; ++i) {
+      tracker.update(0.05 * i, {});
+      REQUIRE(confirmed(tracker) == 1);
+      CHECK(combined(tracker.tracks()[0].state).mean[0] ==
+            Approx(100.0 - 0.5 * i).epsilon(0.0).margin(0.05));
+    }
+    tracker.update(0.05 * ends, {});
+    CHECK(tracker.tracks().empty());
   }
-  for (int i = 3; i < 13; ++i) {
-    REQUIRE_FALSE(tracker.tracks().empty());
-    tracker.update(0.05 * i, {});
-    REQUIRE(confirmed(tracker) == 1);
-    CHECK(combined(tracker.tracks()[0].state).mean[0] ==
-          Approx(100.0 - 0.5 * i).epsilon(0.0).margin(0.05));
-  }
-  tracker.update(0.05 * 13, {});
-  CHECK(tracker.tracks().empty());
 }
 
 TEST_CASE("What a source knows to be wrong counts as its noise does, and nothing is added to it",

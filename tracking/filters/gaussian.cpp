@@ -1,6 +1,7 @@
 #include "tracking/filters/gaussian.h"
 
 #include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 #include "tracking/filters/matrices_private.h"
@@ -43,6 +44,14 @@ Gaussian marginal(const Gaussian& state, int size) {
   store(vector_of(state.mean, size), result.mean);
   store(matrix_of(state.covariance, size, size), result.covariance);
   return result;
+}
+
+double normalised_error_squared(const Gaussian& state, const StateVector& x) {
+  const Eigen::LLT<Matrix> root(matrix_of(state.covariance, state.size, state.size));
+  if (root.info() != Eigen::Success) return std::numeric_limits<double>::infinity();
+  const Vector apart = vector_of(x, state.size) - vector_of(state.mean, state.size);
+  const Vector solved = root.matrixL().solve(apart);
+  return solved.squaredNorm();
 }
 
 }  // namespace fanbeam::tracking

@@ -42,6 +42,10 @@ struct WeightedGaussian {
 // Navigation", 2001, 1.4.16.
 Gaussian moments(const std::vector<WeightedGaussian>& mixture);
 
+// (x - mean)^T P^-1 (x - mean), the normalised estimation error squared when x is the truth; infinite
+// where P is not positive definite.
+double normalised_error_squared(const Gaussian& state, const StateVector& x);
+
 // The first `size` components alone.
 Gaussian marginal(const Gaussian& state, int size);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "core/errors.h"
 
@@ -74,6 +75,10 @@ ImmState start_imm(const ImmModel& model, const Gaussian& kinematic, const ImmSt
     core::throw_input_error(core::ErrorClass::range, "imm.motions",
                             static_cast<double>(model.motions.size()),
                             "at least one, and a sojourn above 0 s");
+  if (!model.at_start.empty() && model.at_start.size() != model.motions.size())
+    core::throw_input_error(core::ErrorClass::range, "imm.at_start",
+                            static_cast<double>(model.at_start.size()),
+                            "one for each model, or none");
   ImmState result;
   result.axes = model.axes();
   const int common = 2 * result.axes;
@@ -91,8 +96,11 @@ ImmState start_imm(const ImmModel& model, const Gaussian& kinematic, const ImmSt
     for (int extra = common; extra < state.size; ++extra)
       state.variance(extra, extra) = sigma * sigma;
     result.states.push_back(state);
-    result.probabilities.push_back(1.0 / static_cast<double>(model.motions.size()));
+    result.probabilities.push_back(
+        model.at_start.empty() ? 1.0 : model.at_start[result.probabilities.size()]);
   }
+  const double all = std::accumulate(result.probabilities.begin(), result.probabilities.end(), 0.0);
+  for (double& probability : result.probabilities) probability /= all;
   return result;
 }
 

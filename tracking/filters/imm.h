@@ -24,6 +24,8 @@ namespace fanbeam::tracking {
 struct ImmModel {
   std::vector<MotionModel> motions;  // at least one; all of the same axes
   double sojourn_s = 2.0;            // above 0
+  // How likely each model is when a track starts; none: all alike. As many as there are models, above 0.
+  std::vector<double> at_start{};
 
   int axes() const { return motions.front().axes; }
 };
@@ -36,7 +38,7 @@ struct ImmState {
 };
 
 // Starts every model from position and velocity. Accelerations and turn rates start at 0 with these
-// standard deviations. E-RANGE for no model, one of other axes than the first (a turn has two), or a state
+// standard deviations. E-RANGE for no model, another number of `at_start`, one of other axes than the first (a turn has two), or a state
 // that is not of two components for each axis.
 struct ImmStart {
   double acceleration_sigma_mps2 = 3.0;

@@ -17,8 +17,8 @@ void check(const MotionModel& model, double step_s, const Gaussian& state) {
   if (!std::isfinite(step_s))
     core::throw_input_error(core::ErrorClass::nonfinite, "step_s", step_s, "a finite step");
   if (step_s < 0.0) core::throw_input_error(core::ErrorClass::time, "step_s", step_s, "0 or later");
-  for (const double noise :
-       {model.acceleration_mps2, model.jerk_density_m2_per_s5, model.turn_density_rad2_per_s3})
+  for (const double noise : {model.acceleration_mps2, model.jerk_density_m2_per_s5,
+                             model.lateral_jerk_share, model.turn_density_rad2_per_s3})
     if (!(noise >= 0.0) || !std::isfinite(noise))
       core::throw_input_error(core::ErrorClass::range, "motion noise", noise, "finite, 0 or more");
   if (state.size != states(model))
@@ -40,13 +40,16 @@ Step polynomial_step(const MotionModel& model, double step_s, const Gaussian& st
                                    {q * t2 * t2 / 8, q * t3 / 3, q * t2 / 2},
                                    {q * t3 / 6, q * t2 / 2, q * t}};
   Step step{Vector(size), Matrix::Zero(size, size), Matrix::Zero(size, size)};
-  for (int axis = 0; axis < axes; ++axis)
+  for (int axis = 0; axis < axes; ++axis) {
+    const double share = axis == 0 ? 1.0 : model.lateral_jerk_share;
     for (int row = 0; row < orders; ++row)
       for (int column = 0; column < orders; ++column) {
         const int r = row * axes + axis, c = column * axes + axis;
         if (column >= row) step.jacobian(r, c) = slope[column - row];
-        step.noise(r, c) = velocity ? white_acceleration[row][column] : white_jerk[row][column];
+        step.noise(r, c) =
+            velocity ? white_acceleration[row][column] : share * white_jerk[row][column];
       }
+  }
   step.mean = step.jacobian * vector_of(state.mean, size);
   return step;
 }

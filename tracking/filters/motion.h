@@ -29,6 +29,7 @@ struct MotionModel {
   int axes = 2;                            // 1: range alone; 2: planar (a turn is always planar)
   double acceleration_mps2 = 1.0;          // sa
   double jerk_density_m2_per_s5 = 1.0;     // q
+  double lateral_jerk_share = 1.0;         // of q, on the second axis: cars brake along the road
   double turn_density_rad2_per_s3 = 0.01;  // qw
   std::array<double, 2> radar_velocity_mps = {0.0, 0.0};  // e: forward, right
 };

@@ -17,16 +17,18 @@ namespace fanbeam::tracking {
 
 inline constexpr double kMatch_m = 3.0;
 
-// Straight on with an unknown acceleration of standard deviation `acceleration_mps2` in each step, or
-// a turn with 0.3 m/s2, each kept for 20 s on average: a turning target that is not seen for a
-// second goes on turning. Speeds are measured to millimetres per second, so that a target that
-// brakes much harder leaves its track at once; the larger the acceleration, the less is known of who
-// is who after a crossing. A radar of one element tells no azimuth: then range alone is tracked, at
+// Straight on with an unknown acceleration of standard deviation `acceleration_mps2` in each step, a turn
+// with 0.3 m/s2, or a manoeuvre: an acceleration of any size that changes by 17 m/s2 in a second along the
+// road, 1.7 across it; each kept for 5 s on average. Speeds are measured to millimetres per second, so that
+// a target that brakes leaves the straight model at once, and comes back to it when it drives on; the
+// larger `acceleration_mps2`, the less is known of who is who after a crossing. Tracks coast for
+// `coast_s` without a measurement. A radar of one element tells no azimuth: then range alone is tracked, at
 // constant speed with the same acceleration, which loses what passes close by. Field of view of the
 // radar.
 inline constexpr double kSteady_mps2 = 0.5;
+inline constexpr double kCoast_s = 1.0;
 TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps,
-                             double acceleration_mps2 = kSteady_mps2);
+                             double acceleration_mps2 = kSteady_mps2, double coast_s = kCoast_s);
 
 struct ScenarioFrame {
   double time_s = 0.0;
@@ -44,10 +46,15 @@ struct ScenarioFrame {
   std::vector<NamedPlace> confirmed(const core::HighwayScenario& scenario) const;
 };
 
+// Of a track that follows this target; infinite where its covariance is none.
+double nees_of(const Track& track, const core::RelativeMotion& motion);
+
 struct ScenarioScore {
   ClearMot mot{kMatch_m};
   MeanSquare gospa_m, ospa_m;
   MeanSquare range_m, range_rate_mps;
+  MeanSquare
+      nees;  // of position and velocity of matched tracks: 4 on average where they are honest, 2 on one axis
   std::set<int> tracks;  // ever confirmed
 
   void add(const core::HighwayScenario& scenario, const ScenarioFrame& frame);

@@ -68,7 +68,7 @@ void Tracker::update(double time_s, const std::vector<RadarMeasurement>& measure
     ++track.coasted;
   }
   time_s_ = time_s;
-  find_unresolved(step_s);
+  find_unresolved(step_s, frame);
   part(frame);
   associate(frame);
   end_and_confirm();
@@ -101,7 +101,8 @@ void Tracker::end_and_confirm() {
   const auto ended = [&](const Track& track) {
     if (!track.confirmed) return track.frames >= settings_.confirm_window;
     const PolarPlace place = polar(track.state);
-    return (track.coasted > settings_.most_coasted && !track.unresolved_with) ||
+    return (track.coasted > std::min(settings_.most_coasted, track.hits) &&
+            !track.unresolved_with) ||
            place.range_m > settings_.most_range_m ||
            std::abs(place.azimuth_rad) > settings_.most_azimuth_rad;
   };

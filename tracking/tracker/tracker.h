@@ -16,12 +16,16 @@
 //                 gets there (J. Ville, 1939; A. Wald, "Sequential Analysis", 1947), as long as
 //                 they are independent and as dense as lambda. Two measurements usually do, three
 //                 near by, where the angle tells little in so short a time
-//   coasting      up to `most_coasted` frames without a measurement, then a track ends; so does one
-//                 predicted outside the field of view
-//   unresolved    two confirmed tracks predicted closer than the resolution on all axes. They are
-//                 not updated until both can be given a measurement of their own again; then the
+//   coasting      up to `most_coasted` frames without a measurement, and no more than it had with one,
+//                 then a track ends: ghosts live by chance, and rarely for long; so does one predicted
+//                 outside the field of view
+//   unresolved    two confirmed tracks predicted closer than the resolution on all axes, of which the
+//                 radar sees but one: no two measurements, one inside each gate. They are not
+//                 updated until both can be given a measurement of their own again; then the
 //                 likelier of the two ways is taken and its probability
-//                 (tracking/association/crossing.h) goes into both tracks. After
+//                 (tracking/association/crossing.h) goes into both tracks. Without azimuth the
+//                 prediction alone decides, and both have to be measured apart as well: what merged
+//                 beats leave of two ranges looks like two. After
 //                 `most_unresolved_s` they are given up: both take part again, are not set aside
 //                 with each other before they have been apart, and the one without measurements
 //                 ends
@@ -78,7 +82,10 @@ class Tracker {
  private:
   struct Frame;
 
-  void find_unresolved(double step_s);
+  bool has_azimuth() const { return settings_.motion.axes() == 2; }
+  void find_unresolved(double step_s, const Frame& frame);
+  std::optional<std::pair<std::size_t, std::size_t>> seen_apart(const Track& a, const Track& b,
+                                                                const Frame& frame) const;
   void part(Frame& frame);
   void part(Track& a, Track& b, Frame& frame);
   void associate(Frame& frame);

@@ -23,7 +23,7 @@ void set_aside(Track& track, const Track& with) {
 }  // namespace
 
 // Pairs stay together until `part` or time separates them.
-void Tracker::find_unresolved(double step_s) {
+void Tracker::find_unresolved(double step_s, const Frame& frame) {
   std::vector<PolarPlace> places;
   for (Track& track : tracks_) {
     places.push_back(polar(track.state));
@@ -43,7 +43,8 @@ void Tracker::find_unresolved(double step_s) {
         continue;
       }
       if (!a.confirmed || !b.confirmed || a.unresolved_with || b.unresolved_with ||
-          a.given_up_with == b.id || b.given_up_with == a.id)
+          a.given_up_with == b.id || b.given_up_with == a.id ||
+          (has_azimuth() && seen_apart(a, b, frame)))
         continue;
       set_aside(a, b);
       set_aside(b, a);
@@ -59,13 +60,15 @@ void Tracker::part(Frame& frame) {
       release(a);
       continue;
     }
-    if (b->id < a.id || unresolved(polar(a.state), polar(b->state), settings_.resolution)) continue;
-    part(a, *b, frame);
+    const bool predicted_apart = !unresolved(polar(a.state), polar(b->state), settings_.resolution);
+    if (b->id > a.id && (has_azimuth() || predicted_apart)) part(a, *b, frame);
   }
 }
 
-// Lets a pair that is predicted apart go if there is a measurement for each.
-void Tracker::part(Track& a, Track& b, Frame& frame) {
+// The likeliest two measurements for the two tracks; nothing where the radar sees one or none there.
+std::optional<std::pair<std::size_t, std::size_t>> Tracker::seen_apart(const Track& a,
+                                                                       const Track& b,
+                                                                       const Frame& frame) const {
   constexpr double kNone = -std::numeric_limits<double>::infinity();
   const std::vector<RadarMeasurement>& seen = frame.measurements;
   const auto fits = [&](const Track& track) {
@@ -81,23 +84,29 @@ void Tracker::part(Track& a, Track& b, Frame& frame) {
   };
   const std::vector<double> fits_a = fits(a), fits_b = fits(b);
   double best = kNone;
-  std::size_t first = 0, second = 0;
+  std::optional<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t i = 0; i < seen.size(); ++i)
-    for (std::size_t j = 0; j < seen.size(); ++j) {
-      if (i == j || !(fits_a[i] + fits_b[j] > best) ||
-          unresolved(polar(seen[i]), polar(seen[j]), settings_.resolution))
-        continue;
-      best = fits_a[i] + fits_b[j];
-      first = i;
-      second = j;
-    }
-  if (best == kNone) return;
-  const double kept = kept_probability(a.state, b.state, measured_, seen[first], seen[second]);
+    for (std::size_t j = 0; j < seen.size(); ++j)
+      if (i != j && fits_a[i] + fits_b[j] > best &&
+          (has_azimuth() || !unresolved(polar(seen[i]), polar(seen[j]), settings_.resolution))) {
+        best = fits_a[i] + fits_b[j];
+        found = {i, j};
+      }
+  return found;
+}
+
+// Lets a pair go if there is a measurement for each.
+void Tracker::part(Track& a, Track& b, Frame& frame) {
+  const auto found = seen_apart(a, b, frame);
+  if (!found) return;
+  const RadarMeasurement &first = frame.measurements[found->first],
+                         &second = frame.measurements[found->second];
+  const double kept = kept_probability(a.state, b.state, measured_, first, second);
   release(a);
   release(b);
-  hit(a, seen[first]);
-  hit(b, seen[second]);
-  frame.used[first] = frame.used[second] = true;
+  hit(a, first);
+  hit(b, second);
+  frame.used[found->first] = frame.used[found->second] = true;
   a.identity_probability *= kept;
   b.identity_probability *= kept;
   crossings_.push_back({frame.time_s, a.id, b.id, 1.0 - kept});

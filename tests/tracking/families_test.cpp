@@ -1,0 +1,174 @@
+// Three families of traffic, drawn at random: cars side by side, cars that brake while nobody sees them for a
+// while, stop-and-go beside an overtaker.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "core/random_normals.h"
+#include "tests/tracking/highway_scenes.h"
+#include "tests/tracking/simulated.h"
+#include "tracking/filters/chi_square.h"
+
+using namespace fanbeam;
+using namespace fanbeam::tracking;
+using namespace fanbeam::tests;
+
+namespace {
+
+// A scenario, and when its last target is not seen.
+struct Drawn {
+  core::HighwayScenario scenario;
+  double hidden_from_s = -1.0, hidden_to_s = -1.0;
+};
+
+struct Score {
+  double mota = 0.0;
+  int runs = 0, without_switch = 0;
+  MeanSquare nees;  // as its own value
+  double worst_mota = 1.0;
+};
+
+double uniform(int run, std::uint64_t what, double low, double high) {
+  // Of a normal number its distribution: uniform.
+  const double n = core::normal_pair(run_key(run, 2525), what, 0)[0];
+  return low + (high - low) * 0.5 * std::erfc(-n / std::sqrt(2.0));
+}
+
+Score score_of(const std::function<Drawn(int)>& draw, int runs) {
+  Score score;
+  for (int run = 0; run < runs; ++run) {
+    const Drawn drawn = draw(run);
+    core::HighwayScenario without = drawn.scenario;
+    without.targets.pop_back();
+    const core::HighwayRadar radar = highway_radar();
+    ScenarioScore one;
+    run_scenario(
+        drawn.scenario, radar, road_tracker(radar, drawn.scenario.radar_speed_mps),
+        [&](int frame) {
+          const double time_s = frame * radar.frame_s;
+          const bool hidden = time_s > drawn.hidden_from_s && time_s < drawn.hidden_to_s;
+          return simulated_frame(hidden ? without : drawn.scenario, radar, {}, 77,
+                                 static_cast<std::uint32_t>(run), frame);
+        },
+        [&](const Frame& frame) {
+          one.add(drawn.scenario, frame);
+          for (const auto& [target, id] : one.mot.current_match())
+            for (const Track& track : frame.tracker->tracks())
+              if (track.id == id && frame.time_s > 0.3)
+                score.nees.add(nees_of(track, frame.motion[static_cast<std::size_t>(target)]));
+        });
+    score.mota += one.mot.mota() / runs;
+    score.worst_mota = std::min(score.worst_mota, one.mot.mota());
+    score.without_switch += one.mot.switches() == 0 ? 1 : 0;
+    ++score.runs;
+  }
+  return score;
+}
+
+// Farther apart than 1.2 cells of range (0.72 m) all the time.
+Drawn side_by_side(int run) {
+  const double range_m = uniform(run, 1, 30.0, 80.0);
+  const double speed_mps = kRoadSpeed_mps + uniform(run, 2, -1.0, 1.0);
+  const double apart_mps = uniform(run, 3, 0.0, 0.5),
+               ahead = uniform(run, 5, -1.0, 1.0) > 0.0 ? 1.0 : -1.0;
+  return {scene(
+      6.0, kRoadSpeed_mps,
+      {car("A", range_m, -1.5, speed_mps),
+       car("B", range_m + ahead * uniform(run, 4, 0.8, 1.8), 1.5, speed_mps + ahead * apart_mps)})};
+}
+
+// Meeting, within a cell for a while, and parting again, or not yet.
+Drawn overtaking(int run) {
+  const double range_m = uniform(run, 1, 30.0, 80.0);
+  const double speed_mps = kRoadSpeed_mps + uniform(run, 2, -1.0, 1.0);
+  const double meeting_mps = uniform(run, 3, 0.3, 0.5);
+  return {scene(12.0, kRoadSpeed_mps,
+                {car("A", range_m, -1.5, speed_mps),
+                 car("B", range_m - uniform(run, 4, 1.2, 2.0), 1.5, speed_mps + meeting_mps)})};
+}
+
+Drawn braking(int run) {
+  core::HighwayTarget other = car("A", uniform(run, 1, 40.0, 60.0), -3.7, kRoadSpeed_mps + 1.0);
+  core::HighwayTarget target = car("B", uniform(run, 2, 90.0, 130.0), 0.0, kRoadSpeed_mps);
+  const double from_s = uniform(run, 3, 0.8, 1.5);
+  target.accelerations = {{from_s, from_s + 2.0, {-6.0, 0.0}}};
+  const double gap_s = uniform(run, 4, 0.6, from_s + 2.0);
+  return {scene(4.5, kRoadSpeed_mps, {other, target}), gap_s, gap_s + 0.6};
+}
+
+Drawn stop_and_go(int run) {
+  core::HighwayTarget jam = car("A", uniform(run, 1, 30.0, 60.0), 0.0, uniform(run, 2, 8.0, 15.0));
+  const double stop_s = uniform(run, 3, 0.5, 1.5);
+  const double braking_mps2 = uniform(run, 4, 2.0, 5.0);
+  const double stopped_s = stop_s + jam.velocity_mps[0] / braking_mps2;
+  const double go_s = stopped_s + uniform(run, 5, 0.5, 1.5);
+  jam.accelerations = {{stop_s, stopped_s, {-braking_mps2, 0.0}}, {go_s, go_s + 3.0, {3.0, 0.0}}};
+  core::HighwayTarget overtaker = car("B", uniform(run, 6, 10.0, 20.0), -3.7, 15.0);
+  return {scene(10.0, 3.0, {jam, overtaker})};
+}
+
+constexpr int kRuns = 100;
+
+std::string words_of(const Score& score) {
+  return "MOTA " + std::to_string(score.mota) + ", without a switch " +
+         std::to_string(score.without_switch) + " of " + std::to_string(score.runs) + ", NEES " +
+         std::to_string(score.nees.mean());
+}
+
+// Of four states; cars that drive straight on, which the tracker does not know, bring it somewhat below.
+void check_honest(const Score& score) {
+  const Interval band = mean_interval(4, kRuns);
+  CHECK(score.nees.mean() <= band.high);
+  CHECK(score.nees.mean() >= 3.0);
+}
+
+}  // namespace
+
+// With one model straight on and one for turns, braking cars had a MOTA of 0.77 and switched in every run,
+// stop-and-go 0.27.
+TEST_CASE("Cars side by side, farther apart than a cell, stay two, each its own",
+          "[tracker][statistics]") {
+  const Score score = score_of(side_by_side, kRuns);
+  INFO(words_of(score));
+  CHECK(score.mota >= 0.97);
+  CHECK(score.without_switch >= 95);
+  check_honest(score);
+}
+
+TEST_CASE("Cars that brake at 6 m/s2 and are not seen for 0.6 s stay one track",
+          "[tracker][statistics]") {
+  const Score score = score_of(braking, kRuns);
+  INFO(words_of(score));
+  CHECK(score.mota >= 0.97);
+  CHECK(score.without_switch >= 95);
+  check_honest(score);
+}
+
+TEST_CASE("Stop-and-go beside an overtaker stays two tracks", "[tracker][statistics]") {
+  const Score score = score_of(stop_and_go, kRuns);
+  INFO(words_of(score));
+  CHECK(score.mota >= 0.97);
+  CHECK(score.without_switch >= 95);
+  check_honest(score);
+}
+
+// Within a cell of range for three to five seconds, where the radar sees one: they are told apart again by
+// the lane that each was in. With the constant resolution that decided before, 80 of 100.
+TEST_CASE("Cars that overtake slowly in the next lane keep their names", "[tracker][statistics]") {
+  const Score score = score_of(overtaking, kRuns);
+  INFO(words_of(score));
+  CHECK(score.mota >= 0.97);
+  CHECK(score.without_switch >= 95);
+}
+
+TEST_CASE("Tracks of S1 to S3 are as good as they say in all four states",
+          "[tracker][statistics]") {
+  for (const core::HighwayScenario& scenario :
+       {one_stopped_car(), six_vehicles(), slow_crossing()}) {
+    const Score score = score_of([&](int) { return Drawn{scenario}; }, 30);
+    INFO(words_of(score));
+    check_honest(score);
+  }
+}
