@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "core/image.h"
 #include "core/effect_plan.h"
+#include "core/image.h"
 #include "sensors/display/display.h"
 #include "session/products/frame_writer.h"
 

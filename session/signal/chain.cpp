@@ -97,19 +97,26 @@ void make_maps(const FmcwRadar& radar, const std::set<std::string>& products, Fm
   const bool detections = wants({"range-doppler", "range-azimuth", "top-view", "detections"});
   const bool angles = wants({"cube", "range-azimuth", "top-view"});
   if (!radar.maps || !(detections || angles)) return;
+  signal::FloatCube scaled;
+  if (radar.power_scale != 1.0) {
+    scaled = frame.beats[0];
+    const auto scale = static_cast<float>(std::sqrt(radar.power_scale));
+    for (std::complex<float>& sample : scaled.values) sample *= scale;
+  }
+  const signal::FloatCube& beat = radar.power_scale != 1.0 ? scaled : frame.beats[0];
   signal::FloatCube range_speed;
-  signal::range_doppler(frame.beats[0], radar.detection.transform, range_speed);
+  signal::range_doppler(beat, radar.detection.transform, range_speed);
   if (detections) {
     frame.range_doppler = signal::range_doppler_map(range_speed, signal::Projection::sum);
     FmcwDetections found;
-    found.detections = signal::detect(frame.beats[0], frame.range_doppler, radar.array,
-                                      radar.timing, radar.detection);
+    found.detections =
+        signal::detect(beat, frame.range_doppler, radar.array, radar.timing, radar.detection);
     found.clusters = signal::detection_clusters(found.detections, {});
     frame.found = std::move(found);
   }
   if (!angles) return;
   signal::compensate_slots(range_speed, radar.array);
-  signal::angle_transform(range_speed, {.kind = signal::WindowKind::taylor},
+  signal::angle_transform(range_speed, {.kind = signal::WindowKind::taylor, .symmetric = true},
                           static_cast<int>(radar.azimuths_rad.size()), frame.cube);
   if (!wants({"range-azimuth", "top-view"})) return;
   frame.range_azimuth = signal::range_azimuth_map(frame.cube, signal::Projection::max);

@@ -49,7 +49,10 @@ FmcwPaths fmcw_paths(const scenes::Scene& scene, int frame, const FmcwSettings& 
     const core::Echo& echo = all.echoes[i];
     const double gain = element_gain(sensor, echo.azimuth_rad);
     if (!(gain > 0.0)) continue;
-    if (i >= all.first_target) result.targets.push_back(echo);
+    if (i >= all.first_target) {
+      result.targets.push_back(echo);
+      result.targets.back().power_W *= gain * gain;  // as in the samples
+    }
     result.paths.push_back({echo.range_m, echo.radial_speed_mps, echo.azimuth_rad,
                             echo.elevation_rad,
                             std::polar(gain * std::sqrt(echo.power_W), all.phase_rad[i])});

@@ -106,8 +106,8 @@ void prepare_maps(const FmcwSettings& options, const sensors::Sensor& sensor, Fm
   settings.transform.kept_range_cells = std::clamp(
       static_cast<int>(std::ceil(sensor.range.maximum_m() / radar.axes.range_step_m)), 2, whole);
   // Echoes of a street span more than the 35 dB of the usual Taylor window.
-  settings.transform.range_window =
-      settings.transform.doppler_window = {.kind = signal::WindowKind::chebyshev, .level_dB = 60.0};
+  settings.transform.range_window = settings.transform.doppler_window = {
+      .kind = signal::WindowKind::chebyshev, .level_dB = 60.0, .symmetric = true};
   settings.refinement = signal::Refinement::windowed;
   settings.unfold = options.unfold && slots > 1;
   settings.cfar = {.kind = signal::CfarKind::ordered_statistic,
@@ -121,8 +121,9 @@ void prepare_maps(const FmcwSettings& options, const sensors::Sensor& sensor, Fm
                               radar.array.channels())
           .design_probability;
   radar.noise_cell_W = signal::noise_sample_W(sensor.receiver.noise_figure, fs_Hz) *
-                       signal::noise_gain(range_weights) * signal::noise_gain(doppler_weights) *
-                       (options.real ? 0.5 : 1.0);
+                       signal::noise_gain(range_weights) * signal::noise_gain(doppler_weights);
+  // Real samples of noise have half of that, which the scale makes up for.
+  radar.power_scale = options.real ? 2.0 : 1.0;
 }
 
 }  // namespace

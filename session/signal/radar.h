@@ -24,6 +24,9 @@ struct FmcwRadar {
   signal::DetectionSettings detection;
   std::vector<double> azimuths_rad;  // of the cube's cells, rising
   double noise_cell_W = 0.0;         // mean, in a cell of one transformed channel
+  // Of maps and spectra over what the transforms of samples give: 2 for real ones, half of whose power lies
+  // at the negative beat.
+  double power_scale = 1.0;
 };
 
 // Which kind of waveform the options mean for this sensor: "automotive-76ghz" from 70 to 82 GHz,

@@ -19,7 +19,8 @@ BeatSpectrum beat_spectrum(const FmcwRadar& radar, const signal::FloatCube& beat
   const int samples = beat.shape.samples, chirps = beat.shape.chirps;
   const auto weights = signal::window_weights(transform.range_window, samples);
   const auto doppler_weights = signal::window_weights(transform.doppler_window, chirps);
-  const double scale = 1.0 / std::accumulate(weights.begin(), weights.end(), 0.0);
+  const double scale =
+      std::sqrt(radar.power_scale) / std::accumulate(weights.begin(), weights.end(), 0.0);
   const signal::Fft<double> fft({samples, 1, 1, samples}, signal::FftDirection::forward);
   BeatSpectrum result;
   result.range_step_m = radar.axes.range_step_m;

@@ -116,6 +116,13 @@ std::vector<double> kaiser(double beta, int length) {
 std::vector<double> window_weights(const Window& window, int length) {
   if (length < 1) refuse("window.length", length, "1 or more");
   if (length == 1) return {1.0};
+  if (window.symmetric) {
+    Window periodic = window;
+    periodic.symmetric = false;
+    std::vector<double> weights = window_weights(periodic, length - 1);
+    weights.push_back(weights.front());
+    return weights;
+  }
   switch (window.kind) {
     case WindowKind::rectangular:
       return std::vector<double>(static_cast<std::size_t>(length), 1.0);

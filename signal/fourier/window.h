@@ -1,7 +1,10 @@
 // Weights that are laid over samples before a Fourier transform, to trade width for side lobes.
 //
-// All are the periodic form for spectra: w[n] of n = 0..N-1 is symmetric about n = N/2, and w[N]
-// would repeat w[0]. With u = n/N:
+// Of the periodic form, for spectra, w[n] of n = 0..N-1 is symmetric about n = N/2, and w[N] would repeat
+// w[0]; the symmetric form of N weights is the periodic one of N - 1 with its first weight again at the
+// end. For the cosine sums periodic is what makes their lines exact; designs of side lobes hold theirs in
+// the symmetric form alone (Taylor of 12 channels: -34.0 dB instead of -28.2; Chebyshev: exactly the
+// level). Periodic, with u = n/N:
 //
 //   rectangular      1
 //   hann             0.5 - 0.5 cos 2 pi u
@@ -11,7 +14,7 @@
 //   taylor           the first N of N + 1 weights, 1 + 2 sum over m < nbar of
 //                    F_m cos(2 pi m (n - N/2) / (N + 1)); level in dB below the peak
 //   chebyshev        the first N of the N + 1 weights of Dolph's window, level in dB; dropping the
-//                    last lifts the side lobes a little (-56.6 dB of -60 for N = 1024)
+//                    last lifts the side lobes (-56.6 dB of -60 for N = 1024)
 //   kaiser           I0(beta sqrt(1 - (2u - 1)^2)) / I0(beta)
 //
 // Sources: F. J. Harris, Proc. IEEE 66, 1978; T. T. Taylor, IRE Trans. AP-3, 1955 (coefficients as
@@ -42,6 +45,7 @@ struct Window {
   int taylor_nbar = 5;
   double level_dB = 35.0;  // Taylor and Chebyshev: side lobes this far below the peak
   double kaiser_beta = 8.6;
+  bool symmetric = false;
   bool operator==(const Window&) const = default;
 };
 

@@ -189,7 +189,7 @@ Waveform stepped(const SteppedParameters& parameters) {
   Waveform waveform =
       base(WaveformKind::stepped, parameters.frequency_Hz, parameters.bandwidth_Hz, true);
   for (int i = 0; i < 2 * parameters.steps; ++i) {
-    const double climb = static_cast<double>(i / 2) / (parameters.steps - 1) - 0.5;
+    const double climb = (i / 2 + 0.5) / parameters.steps - 0.5;
     const double shift_Hz = i % 2 == 0 ? 0.0 : parameters.shift_Hz;
     waveform.segments.push_back(
         {i * parameters.step_s, parameters.step_s,

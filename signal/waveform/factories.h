@@ -91,8 +91,9 @@ Waveform coded_triangle(const CodedTriangleParameters& parameters);
 
 // Two staircases of frequency, interleaved: A_1 B_1 A_2 B_2 ..., B a shift below or above A.
 struct SteppedParameters {
-  double frequency_Hz = 76e9;   // middle of staircase A
-  double bandwidth_Hz = 250e6;  // from its first step to its last
+  double frequency_Hz = 76e9;  // middle of staircase A
+  double bandwidth_Hz =
+      250e6;  // that its steps fill, each B / steps wide: the range cell is c / 2B
   double shift_Hz = -488.28e3;  // of B against A; not 0
   int steps = 256;              // of each staircase; at least 2
   double step_s = 10e-6;
