@@ -9,6 +9,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::uint64_t kLargestCopied_bytes = 1ULL << 30U;
+
 struct Found {
   fs::path file, root;
 };
@@ -26,6 +28,15 @@ Found find(const std::string& name, const char* field, const CampaignAirport& ai
   problems.error(core::ErrorClass::io, airport.place, std::string("airport.") + field,
                  "\"" + name + "\" not found", "a file in one of " + looked);
   return {};
+}
+
+// Unless it is there already, by this worker or another. Whole, whoever is killed meanwhile.
+void put(const fs::path& file, const std::string& bytes) {
+  std::error_code none;
+  if (fs::file_size(file, none) == bytes.size() && !none &&
+      core::read_file(file, bytes.size()) == bytes)
+    return;
+  core::write_file_atomically(file, bytes);
 }
 
 }  // namespace
@@ -54,15 +65,8 @@ fs::path airport_scene(const Campaign& campaign, const CampaignAirport& airport,
   problems.throw_if_errors();
   const fs::path folder = output / "scenes" / airport.name;
   for (const scenes::NewSceneFile& file : scene->files)  // buildings of another data folder
-    if (!fs::exists(folder / file.name)) {
-      fs::create_directories((folder / file.name).parent_path());
-      fs::copy_file(file.from, folder / file.name);
-    }
-  const fs::path text = folder / "scene.toml";
-  std::error_code none;
-  if (!fs::is_regular_file(text, none) ||
-      core::read_file(text, scene->text.size() + (1U << 20U)) != scene->text)
-    core::write_file_atomically(text, scene->text);
+    put(folder / file.name, core::read_file(file.from, kLargestCopied_bytes));
+  put(folder / "scene.toml", scene->text);
   return folder;
 }
 

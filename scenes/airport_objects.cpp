@@ -28,15 +28,18 @@ class AirportTable {
   AirportTable(ConfigTable& table, ObjectNames& objects, SceneDescription& scene)
       : table_(table), objects_(objects), scene_(scene), place_(table.place("")) {}
 
-  void add(const Airport& airport) {
+  // Nothing where the file could not be read: then the table's own keys are still looked at.
+  void add(const std::optional<Airport>& airport) {
     const double light_rcs_m2 = rcs_m2_from(table_, "light_rcs_dBsm", -10.0);
     const std::vector<std::string> wanted = table_.texts("runways");
-    for (const std::string& name : wanted) check_name(name, airport);
-    for (const AirportRunway& runway : airport.runways)
+    const bool taxiways = table_.boolean("taxiways", true), papi = table_.boolean("papi", true);
+    if (!airport) return;
+    for (const std::string& name : wanted) check_name(name, *airport);
+    for (const AirportRunway& runway : airport->runways)
       if (!runway.surface.water && is_wanted(runway, wanted))
-        add_runway(airport, runway, light_rcs_m2);
-    if (table_.boolean("taxiways", true)) add_taxiways(airport, light_rcs_m2);
-    if (table_.boolean("papi", true)) add_papis(airport);
+        add_runway(*airport, runway, light_rcs_m2);
+    if (taxiways) add_taxiways(*airport, light_rcs_m2);
+    if (papi) add_papis(*airport);
   }
 
  private:
@@ -158,7 +161,7 @@ void read_airport_table(ConfigTable& table, const DataSearch& search, ObjectName
     airport = read_airport(file, ident, table.problems());
     scene.files.push_back(file);
   }
-  AirportTable(table, objects, scene).add(airport.value_or(Airport{}));
+  AirportTable(table, objects, scene).add(airport);
 }
 
 }  // namespace fanbeam::scenes

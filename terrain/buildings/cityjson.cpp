@@ -27,19 +27,10 @@ constexpr std::size_t kMostSurfaceKinds = 64;
 // Of a face without semantics: cosine of 60 deg, between its normal and the vertical.
 constexpr double kWallSlope = 0.5;
 
-constexpr std::array<std::string_view, 13> kBuilt = {"Building",
-                                                     "BuildingPart",
-                                                     "BuildingInstallation",
-                                                     "BuildingConstructiveElement",
-                                                     "Bridge",
-                                                     "BridgePart",
-                                                     "BridgeInstallation",
-                                                     "BridgeConstructiveElement",
-                                                     "BuildingUnit",
-                                                     "OtherConstruction",
-                                                     "Tunnel",
-                                                     "TunnelPart",
-                                                     "TunnelInstallation"};
+constexpr std::array<std::string_view, 9> kBuilt = {
+    "Building",         "BuildingPart", "BuildingInstallation", "BuildingConstructiveElement",
+    "Bridge",           "BridgePart",   "BridgeInstallation",   "BridgeConstructiveElement",
+    "OtherConstruction"};
 constexpr std::array<std::string_view, 5> kUnseen = {
     "GroundSurface", "ClosureSurface", "InteriorWallSurface", "CeilingSurface", "FloorSurface"};
 

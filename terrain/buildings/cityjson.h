@@ -5,7 +5,7 @@
 // geometry of the highest LoD from 1 to 3: Solid (its outer shell), MultiSurface, CompositeSurface,
 // MultiSolid, CompositeSolid. Parts belong to the building that they hang under. Left out: grounds and
 // closures, rooms inside, textures, materials, templates (GeometryInstance), other objects of the city
-// (roads, land, water, plants), which are counted in a warning. A surface without semantics is a roof
+// (roads, land, water, plants, tunnels, the units of a building, whose walls its own hold), which are counted in a warning. A surface without semantics is a roof
 // where it looks up, a wall where it stands within 30 deg of the vertical, a ground where it looks down.
 //
 // Coordinates: of metadata.referenceSystem, else of the system that is named; PROJ converts them to
