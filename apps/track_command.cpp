@@ -283,7 +283,8 @@ int track(const TrackOptions& options, const CommonOptions& common) {
                                  {"scenarios", nlohmann::ordered_json::array()}};
   nlohmann::ordered_json timing = nlohmann::ordered_json::array();
   for (const core::HighwayScenario* scenario : chosen) {
-    const Outcome outcome = run_one(options, *scenario, radar, common.quiet);
+    const Outcome outcome =
+        run_one(options, *scenario, radar_of(options, scenario->radar), common.quiet);
     write(options, *scenario, outcome, folder / scenario->id);
     if (!common.quiet) print(*scenario, outcome);
     json["scenarios"].push_back(json_of(*scenario, outcome));

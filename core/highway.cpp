@@ -32,6 +32,12 @@ void change_lane(const LaneChange& change, double time_s, RelativeMotion& motion
 
 }  // namespace
 
+bool is_suppressed(const HighwayTarget& target, double time_s) {
+  return std::any_of(target.suppressed.begin(), target.suppressed.end(), [&](const TimeSpan& span) {
+    return time_s >= span.from_s && time_s < span.to_s;
+  });
+}
+
 RelativeMotion relative_motion(const HighwayTarget& target, double radar_speed_mps, double time_s) {
   RelativeMotion motion;
   if (target.motion == HighwayMotion::circular) {

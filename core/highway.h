@@ -33,6 +33,11 @@ struct LaneChange {
   double lateral_m = 0.0;  // to the right
 };
 
+// From its beginning until before its end.
+struct TimeSpan {
+  double from_s = 0.0, to_s = 0.0;
+};
+
 struct HighwayTarget {
   std::string id, kind;
   double cross_section_m2 = 1.0;
@@ -46,21 +51,15 @@ struct HighwayTarget {
   double radius_m = 0.0;
   double azimuth_rad = 0.0;  // a0
   double angular_rate_rad_per_s = 0.0;
+  std::vector<TimeSpan> suppressed;  // really there, and not measured: behind a lorry, say
 };
+bool is_suppressed(const HighwayTarget& target, double time_s);
 
 // What a scenario states about one target at one time.
 struct HighwayTruth {
   double time_s = 0.0;
   double range_m = 0.0, range_rate_mps = 0.0, azimuth_rad = 0.0;
   bool in_view = true;
-};
-
-struct HighwayScenario {
-  std::string id, title;
-  double duration_s = 0.0;
-  double radar_speed_mps = 0.0;
-  std::vector<HighwayTarget> targets;
-  std::vector<std::vector<HighwayTruth>> truth;  // of each target
 };
 
 struct HighwayRadar {
@@ -75,6 +74,15 @@ struct HighwayRadar {
   int array_elements = 12;                       // virtual, in a line
   double array_pitch_wavelengths = 0.5;
   double frame_s = 0.05;
+};
+
+struct HighwayScenario {
+  std::string id, title;
+  double duration_s = 0.0;
+  double radar_speed_mps = 0.0;
+  HighwayRadar radar;  // the file's, with what the scenario says otherwise
+  std::vector<HighwayTarget> targets;
+  std::vector<std::vector<HighwayTruth>> truth;  // of each target
 };
 
 // Relative to the radar.

@@ -1,7 +1,10 @@
 #include "scenes/highway_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <initializer_list>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -55,29 +58,53 @@ void check_unique(const JsonNode& node, const std::string& id, std::set<std::str
   if (!used.insert(id).second) refuse(node, "id", ErrorClass::ref, id, "a name used once");
 }
 
-core::HighwayRadar radar_of(const JsonNode& radar) {
-  const auto ratio = [&](const char* key, double least_dB) {
-    return core::power_from_dB(number(radar, key, least_dB, 200.0));
+// The format's members of an object.
+void check_keys(const JsonNode& node, std::initializer_list<const char*> known) {
+  for (const std::string& key : node.keys()) {
+    if (std::find(known.begin(), known.end(), key) != known.end() || node.problems().is_full())
+      continue;
+    node.problems().error(
+        ErrorClass::ref, node.place(), node.pointer() + "/" + key, "unknown",
+        "a member of the format" + core::names_there_text(key, {known.begin(), known.end()}));
+  }
+}
+
+// All of it, or of `base` what it says otherwise.
+core::HighwayRadar radar_of(const JsonNode& radar, const core::HighwayRadar* base) {
+  check_keys(radar, {"center_frequency_hz", "sweep_bandwidth_hz", "tx_power_w", "tx_gain_db",
+                     "rx_gain_db", "noise_figure_db", "system_loss_db", "max_range_m",
+                     "virtual_ula_elements", "virtual_ula_spacing_wavelengths", "frame_period_s",
+                     "reference_temperature_k", "propagation_speed_mps"});
+  core::HighwayRadar result = base != nullptr ? *base : core::HighwayRadar{};
+  const auto member = [&](const char* key) {
+    return base != nullptr ? radar.member(key) : radar.required(key);
   };
-  core::HighwayRadar result;
-  result.centre_frequency_Hz = number(radar, "center_frequency_hz", 1e6, 1e13);
-  result.bandwidth_Hz = number(radar, "sweep_bandwidth_hz", 1.0, 1e13);
+  const auto take = [&](const char* key, double low, double high, double& value) {
+    if (const auto number = member(key).number({low, high})) value = *number;
+  };
+  const auto ratio = [&](const char* key, double least_dB, double& value) {
+    if (const auto dB = member(key).number({least_dB, 200.0})) value = core::power_from_dB(*dB);
+  };
+  take("center_frequency_hz", 1e6, 1e13, result.centre_frequency_Hz);
+  take("sweep_bandwidth_hz", 1.0, 1e13, result.bandwidth_Hz);
   if (result.bandwidth_Hz >= result.centre_frequency_Hz)
     refuse(radar, "sweep_bandwidth_hz", ErrorClass::range, core::number_text(result.bandwidth_Hz),
            "below the centre frequency");
-  result.transmitted_W = number(radar, "tx_power_w", 1e-12, 1e12);
-  result.transmit_gain = ratio("tx_gain_db", -200.0);
-  result.receive_gain = ratio("rx_gain_db", -200.0);
-  result.noise_figure = ratio("noise_figure_db", 0.0);
-  result.loss = ratio("system_loss_db", 0.0);
-  result.most_range_m = number(radar, "max_range_m", 1e-3, 1e9);
-  result.array_elements = radar.required("virtual_ula_elements").whole(1, 1'000'000).value_or(1);
-  result.array_pitch_wavelengths = number(radar, "virtual_ula_spacing_wavelengths", 1e-6, 1e6);
-  result.frame_s = number(radar, "frame_period_s", 1e-9, 1e6);
+  take("tx_power_w", 1e-12, 1e12, result.transmitted_W);
+  ratio("tx_gain_db", -200.0, result.transmit_gain);
+  ratio("rx_gain_db", -200.0, result.receive_gain);
+  ratio("noise_figure_db", 0.0, result.noise_figure);
+  ratio("system_loss_db", 0.0, result.loss);
+  take("max_range_m", 1e-3, 1e9, result.most_range_m);
+  if (const auto count = member("virtual_ula_elements").whole(1, 1'000'000))
+    result.array_elements = *count;
+  take("virtual_ula_spacing_wavelengths", 1e-6, 1e6, result.array_pitch_wavelengths);
+  take("frame_period_s", 1e-9, 1e6, result.frame_s);
   return result;
 }
 
 void read_segment(const JsonNode& segment, core::HighwayTarget& result) {
+  check_keys(segment, {"type", "t0_s", "t1_s", "acceleration_mps2", "lateral_m"});
   const std::string type = text(segment, "type");
   const double start_s = number(segment, "t0_s"), end_s = number(segment, "t1_s");
   if (!(end_s - start_s >= kShortest_s))
@@ -92,6 +119,9 @@ void read_segment(const JsonNode& segment, core::HighwayTarget& result) {
 }
 
 core::HighwayTarget target_of(const JsonNode& target) {
+  check_keys(target,
+             {"id", "kind", "rcs_m2", "swerling", "clutter", "motion", "position_m", "velocity_mps",
+              "segments", "radius_m", "azimuth0_rad", "angular_rate_rad_s"});
   core::HighwayTarget result;
   result.id = text(target, "id");
   result.kind = text(target, "kind");
@@ -141,34 +171,59 @@ std::vector<core::HighwayTruth> truth_of(const JsonNode& table) {
   return result;
 }
 
+// The place of the target with the id that `node` gives; told where there is none.
+std::optional<std::size_t> target_named(const JsonNode& node,
+                                        const core::HighwayScenario& scenario) {
+  const std::string id = text(node, "id");
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < scenario.targets.size(); ++i) {
+    if (scenario.targets[i].id == id) return i;
+    ids.push_back(scenario.targets[i].id);
+  }
+  if (!node.problems().is_full())
+    refuse(node, "id", ErrorClass::ref, id, "the id of a target" + core::names_there_text(id, ids));
+  return std::nullopt;
+}
+
 void read_truth(const JsonNode& tables, core::HighwayScenario& result) {
-  std::set<std::string> told;
+  std::set<std::size_t> told;
   const std::size_t count = tables.size(kMostEntries);
   for (std::size_t i = 0; i < count; ++i) {
     const JsonNode table = tables.element(i);
-    const std::string id = text(table, "id");
-    std::size_t owner = 0;
-    while (owner < result.targets.size() && result.targets[owner].id != id) ++owner;
-    if (owner == result.targets.size()) {
-      if (table.problems().is_full()) continue;
-      std::vector<std::string> ids;
-      for (const core::HighwayTarget& target : result.targets) ids.push_back(target.id);
-      refuse(table, "id", ErrorClass::ref, id,
-             "the id of a target" + core::names_there_text(id, ids));
-    } else if (!told.insert(id).second) {
-      refuse(table, "id", ErrorClass::ref, id, "one table for each target");
-    } else {
-      result.truth[owner] = truth_of(table);
-    }
+    const std::optional<std::size_t> owner = target_named(table, result);
+    if (!owner) continue;
+    if (!told.insert(*owner).second)
+      refuse(table, "id", ErrorClass::ref, result.targets[*owner].id, "one table for each target");
+    else
+      result.truth[*owner] = truth_of(table);
   }
 }
 
-core::HighwayScenario scenario_of(const JsonNode& scenario) {
+void read_suppressed(const JsonNode& list, core::HighwayScenario& result) {
+  const std::size_t count = list.size(kMostEntries);
+  for (std::size_t i = 0; i < count; ++i) {
+    const JsonNode one = list.element(i);
+    check_keys(one, {"id", "from_s", "to_s"});
+    const double from_s = number(one, "from_s"), to_s = number(one, "to_s");
+    if (!(to_s > from_s))
+      refuse(one, "to_s", ErrorClass::range, core::number_text(to_s), "after from_s");
+    if (const std::optional<std::size_t> target = target_named(one, result))
+      result.targets[*target].suppressed.push_back({from_s, to_s});
+  }
+}
+
+core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayRadar& radar) {
+  check_keys(scenario, {"id", "title", "duration_s", "ego_speed_mps", "targets", "truth",
+                        "radar_overrides", "suppressed_detections", "purpose", "waveforms",
+                        "events", "acceptance", "seeds", "sweeps", "triangle_intersections_max"});
   core::HighwayScenario result;
   result.id = text(scenario, "id");
   result.title = text(scenario, "title");
   result.duration_s = number(scenario, "duration_s", 1e-6, 1e6);
   result.radar_speed_mps = number(scenario, "ego_speed_mps", -1e4, 1e4);
+  result.radar = radar;
+  if (const JsonNode other = scenario.member("radar_overrides"); other.present())
+    result.radar = radar_of(other, &radar);
   std::set<std::string> names;
   const JsonNode targets = scenario.required("targets");
   const std::size_t count = targets.size(kMostEntries);
@@ -178,6 +233,7 @@ core::HighwayScenario scenario_of(const JsonNode& scenario) {
   }
   result.truth.resize(result.targets.size());
   read_truth(scenario.member("truth"), result);
+  read_suppressed(scenario.member("suppressed_detections"), result);
   return result;
 }
 
@@ -188,14 +244,16 @@ HighwayFile file_of(const JsonNode& root) {
     refuse(root, "format", ErrorClass::unsupported, format + " " + core::number_text(version),
            "\"highway-scenarios\", version 1");
   root.problems().throw_if_errors();
+  check_keys(root, {"format", "version", "radar", "scenarios", "conventions", "waveforms",
+                    "lane_centres_note"});
   HighwayFile result;
   const JsonNode radar = root.required("radar");
-  if (radar.present()) result.radar = radar_of(radar);
+  if (radar.present()) result.radar = radar_of(radar, nullptr);
   const JsonNode scenarios = root.required("scenarios");
   std::set<std::string> names;
   const std::size_t count = scenarios.size(kMostEntries);
   for (std::size_t i = 0; i < count; ++i) {
-    result.scenarios.push_back(scenario_of(scenarios.element(i)));
+    result.scenarios.push_back(scenario_of(scenarios.element(i), result.radar));
     check_unique(scenarios.element(i), result.scenarios.back().id, names);
   }
   return result;

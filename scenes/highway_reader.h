@@ -5,12 +5,14 @@
 // Motion "piecewise-acceleration" has position_m, velocity_mps and segments of two types:
 //   {"type": "acceleration", "t0_s", "t1_s", "acceleration_mps2": [x, y]}
 //   {"type": "lane-change",  "t0_s", "t1_s", "lateral_m"}           (to the left)
-// and "circular" has radius_m, azimuth0_rad, angular_rate_rad_s. Members that describe purpose,
-// waveforms, events and acceptance are not read.
+// and "circular" has radius_m, azimuth0_rad, angular_rate_rad_s. A scenario may have "radar_overrides", with
+// keys of "radar", and "suppressed_detections", [{"id", "from_s", "to_s"}]: a target that is not measured then.
+// Members that describe purpose, waveforms, events and acceptance are not read; docs/highway.schema.json has
+// them all.
 // All problems are told together, each with its JSON pointer ("/scenarios/1/targets/0/rcs_m2"):
 // E-PARSE for what is no JSON or of the wrong type, E-REF for a member that is missing; E-NONFINITE
 // and E-RANGE for values, fractions where a whole number is asked for and segments below a
-// nanosecond included; E-REF also for truth of an unknown target, and for a scenario, target or
+// nanosecond included; E-REF also for a member that the format does not have, with those like it, for truth of an unknown target, and for a scenario, target or
 // truth table whose name was used before; E-UNSUPPORTED for another format or version, or an
 // unknown motion; E-LIMIT for more than 64 MiB, a million values, nesting deeper than 64, more than
 // 1000 scenarios, targets, segments or truth rows of one owner; E-IO.

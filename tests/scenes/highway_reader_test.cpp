@@ -212,3 +212,42 @@ TEST_CASE("No scenario, target or truth table replaces another of its name", "[h
   check_refused(replaced(file, scenario, scenario + ", " + scenario), core::ErrorClass::ref,
                 "/scenarios/1/id");
 }
+
+TEST_CASE("A scenario's own radar and targets that are not measured for a while are read",
+          "[highway]") {
+  const auto with = [](const std::string& members) {
+    return replaced(file_with(kStraight), "]}]}", "]}], " + members + "}");
+  };
+  const scenes::HighwayFile file = scenes::parse_highway(
+      with(R"("radar_overrides": {"noise_figure_db": 10, "frame_period_s": 0.1},
+              "suppressed_detections": [{"id": "A", "from_s": 1, "to_s": 1.6}])"),
+      "test.json");
+  const core::HighwayScenario& scenario = file.scenarios.at(0);
+  CHECK(core::dB_from_power(scenario.radar.noise_figure, -300.0) == Approx(10.0));
+  CHECK(scenario.radar.frame_s == 0.1);
+  CHECK(scenario.radar.bandwidth_Hz == file.radar.bandwidth_Hz);
+  CHECK(core::dB_from_power(file.radar.noise_figure, -300.0) == Approx(4.5));
+  CHECK_FALSE(core::is_suppressed(scenario.targets[0], 0.99));
+  CHECK(core::is_suppressed(scenario.targets[0], 1.0));
+  CHECK_FALSE(core::is_suppressed(scenario.targets[0], 1.6));
+  check_refused(with(R"("radar_overrides": {"noise_figure_db": -1})"), core::ErrorClass::range,
+                "/scenarios/0/radar_overrides/noise_figure_db");
+  check_refused(with(R"("suppressed_detections": [{"id": "B", "from_s": 1, "to_s": 2}])"),
+                core::ErrorClass::ref, "/scenarios/0/suppressed_detections/0/id");
+  check_refused(with(R"("suppressed_detections": [{"id": "A", "from_s": 2, "to_s": 2}])"),
+                core::ErrorClass::range, "/scenarios/0/suppressed_detections/0/to_s");
+}
+
+TEST_CASE("Members that the format does not have are told, with those like them", "[highway]") {
+  const core::InputError error = refusal(replaced(
+      replaced(file_with(kStraight), "\"tx_power_w\"", "\"noise_figre_db\": 3, \"tx_power_w\""),
+      "\"swerling\": 0", "\"swerling\": 0, \"colour\": 1"));
+  CHECK(error.problems().size() == 2);
+  for (const core::Problem& problem : error.problems()) {
+    const std::string text = core::to_string(problem);
+    CHECK((text.find("/radar/noise_figre_db = unknown") != std::string::npos ||
+           text.find("/scenarios/0/targets/0/colour = unknown") != std::string::npos));
+    if (problem.field == "/radar/noise_figre_db")
+      CHECK(text.find("noise_figure_db") != std::string::npos);
+  }
+}

@@ -17,12 +17,6 @@ using namespace fanbeam::tests;
 
 namespace {
 
-// A scenario, and when its last target is not seen.
-struct Drawn {
-  core::HighwayScenario scenario;
-  double hidden_from_s = -1.0, hidden_to_s = -1.0;
-};
-
 struct Score {
   double mota = 0.0;
   int runs = 0, without_switch = 0;
@@ -36,24 +30,16 @@ double uniform(int run, std::uint64_t what, double low, double high) {
   return low + (high - low) * 0.5 * std::erfc(-n / std::sqrt(2.0));
 }
 
-Score score_of(const std::function<Drawn(int)>& draw, int runs) {
+Score score_of(const std::function<core::HighwayScenario(int)>& draw, int runs) {
   Score score;
   for (int run = 0; run < runs; ++run) {
-    const Drawn drawn = draw(run);
-    core::HighwayScenario without = drawn.scenario;
-    without.targets.pop_back();
+    const core::HighwayScenario scenario = draw(run);
     const core::HighwayRadar radar = highway_radar();
     ScenarioScore one;
     run_scenario(
-        drawn.scenario, radar, road_tracker(radar, drawn.scenario.radar_speed_mps),
-        [&](int frame) {
-          const double time_s = frame * radar.frame_s;
-          const bool hidden = time_s > drawn.hidden_from_s && time_s < drawn.hidden_to_s;
-          return simulated_frame(hidden ? without : drawn.scenario, radar, {}, 77,
-                                 static_cast<std::uint32_t>(run), frame);
-        },
-        [&](const Frame& frame) {
-          one.add(drawn.scenario, frame);
+        scenario, radar, {}, road_tracker(radar, scenario.radar_speed_mps), 77,
+        static_cast<std::uint32_t>(run), [&](const Frame& frame) {
+          one.add(scenario, frame);
           for (const auto& [target, id] : one.mot.current_match())
             for (const Track& track : frame.tracker->tracks())
               if (track.id == id && frame.time_s > 0.3)
@@ -68,37 +54,38 @@ Score score_of(const std::function<Drawn(int)>& draw, int runs) {
 }
 
 // Farther apart than 1.2 cells of range (0.72 m) all the time.
-Drawn side_by_side(int run) {
+core::HighwayScenario side_by_side(int run) {
   const double range_m = uniform(run, 1, 30.0, 80.0);
   const double speed_mps = kRoadSpeed_mps + uniform(run, 2, -1.0, 1.0);
   const double apart_mps = uniform(run, 3, 0.0, 0.5),
                ahead = uniform(run, 5, -1.0, 1.0) > 0.0 ? 1.0 : -1.0;
-  return {scene(
+  return scene(
       6.0, kRoadSpeed_mps,
       {car("A", range_m, -1.5, speed_mps),
-       car("B", range_m + ahead * uniform(run, 4, 0.8, 1.8), 1.5, speed_mps + ahead * apart_mps)})};
+       car("B", range_m + ahead * uniform(run, 4, 0.8, 1.8), 1.5, speed_mps + ahead * apart_mps)});
 }
 
 // Meeting, within a cell for a while, and parting again, or not yet.
-Drawn overtaking(int run) {
+core::HighwayScenario overtaking(int run) {
   const double range_m = uniform(run, 1, 30.0, 80.0);
   const double speed_mps = kRoadSpeed_mps + uniform(run, 2, -1.0, 1.0);
   const double meeting_mps = uniform(run, 3, 0.3, 0.5);
-  return {scene(12.0, kRoadSpeed_mps,
-                {car("A", range_m, -1.5, speed_mps),
-                 car("B", range_m - uniform(run, 4, 1.2, 2.0), 1.5, speed_mps + meeting_mps)})};
+  return scene(12.0, kRoadSpeed_mps,
+               {car("A", range_m, -1.5, speed_mps),
+                car("B", range_m - uniform(run, 4, 1.2, 2.0), 1.5, speed_mps + meeting_mps)});
 }
 
-Drawn braking(int run) {
+core::HighwayScenario braking(int run) {
   core::HighwayTarget other = car("A", uniform(run, 1, 40.0, 60.0), -3.7, kRoadSpeed_mps + 1.0);
   core::HighwayTarget target = car("B", uniform(run, 2, 90.0, 130.0), 0.0, kRoadSpeed_mps);
   const double from_s = uniform(run, 3, 0.8, 1.5);
   target.accelerations = {{from_s, from_s + 2.0, {-6.0, 0.0}}};
   const double gap_s = uniform(run, 4, 0.6, from_s + 2.0);
-  return {scene(4.5, kRoadSpeed_mps, {other, target}), gap_s, gap_s + 0.6};
+  target.suppressed = {{gap_s, gap_s + 0.6}};
+  return scene(4.5, kRoadSpeed_mps, {other, target});
 }
 
-Drawn stop_and_go(int run) {
+core::HighwayScenario stop_and_go(int run) {
   core::HighwayTarget jam = car("A", uniform(run, 1, 30.0, 60.0), 0.0, uniform(run, 2, 8.0, 15.0));
   const double stop_s = uniform(run, 3, 0.5, 1.5);
   const double braking_mps2 = uniform(run, 4, 2.0, 5.0);
@@ -106,7 +93,7 @@ Drawn stop_and_go(int run) {
   const double go_s = stopped_s + uniform(run, 5, 0.5, 1.5);
   jam.accelerations = {{stop_s, stopped_s, {-braking_mps2, 0.0}}, {go_s, go_s + 3.0, {3.0, 0.0}}};
   core::HighwayTarget overtaker = car("B", uniform(run, 6, 10.0, 20.0), -3.7, 15.0);
-  return {scene(10.0, 3.0, {jam, overtaker})};
+  return scene(10.0, 3.0, {jam, overtaker});
 }
 
 constexpr int kRuns = 100;
@@ -167,7 +154,7 @@ TEST_CASE("Tracks of S1 to S3 are as good as they say in all four states",
           "[tracker][statistics]") {
   for (const core::HighwayScenario& scenario :
        {one_stopped_car(), six_vehicles(), slow_crossing()}) {
-    const Score score = score_of([&](int) { return Drawn{scenario}; }, 30);
+    const Score score = score_of([&](int) { return scenario; }, 30);
     INFO(words_of(score));
     check_honest(score);
   }

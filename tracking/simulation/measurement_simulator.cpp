@@ -32,7 +32,7 @@ std::vector<Seen> seen_targets(const core::HighwayScenario& scenario,
     const core::HighwayTruth truth =
         truth_at(target, scenario.radar_speed_mps, radar, frame * radar.frame_s);
     const double section_m2 = target.cross_section_m2 * fluctuation(target.fluctuation, draws, i);
-    if (!truth.in_view || !(section_m2 > 0.0) ||
+    if (!truth.in_view || is_suppressed(target, truth.time_s) || !(section_m2 > 0.0) ||
         draws.uniform(i, 8) > settings.detection_probability)
       continue;
     const MeasurementBound bound =

@@ -40,7 +40,7 @@ std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
   for (std::size_t i = 0; i < scenario.targets.size(); ++i) {
     const core::HighwayTarget& target = scenario.targets[i];
     const core::HighwayTruth truth = truth_at(target, scenario.radar_speed_mps, radar, time_s);
-    if (!truth.in_view) continue;
+    if (!truth.in_view || is_suppressed(target, time_s)) continue;
     const double power_W = signal::received_power_W(link, truth.range_m, target.cross_section_m2) /
                            radar.array_elements;
     const double turn = core::uniform_from(core::random_words(key, (run << 32U) + i, 10)[0]);

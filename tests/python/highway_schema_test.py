@@ -1,0 +1,93 @@
+"""Road scenarios: the JSON Schema and the program agree on what is one."""
+
+import copy
+import json
+import os
+import subprocess
+
+import jsonschema
+import pytest
+
+ROOT = os.path.join(os.path.dirname(__file__), "../..")
+SHIPPED = os.path.join(ROOT, "scenes/highway-76ghz/traffic.json")
+SHARED = os.path.join(
+    os.environ.get("FANBEAM_DATA", os.path.join(ROOT, "../shared/data")), "../reference/highway-scenarios.json"
+)
+
+
+@pytest.fixture(scope="module")
+def schema():
+    with open(os.path.join(ROOT, "docs/highway.schema.json"), encoding="utf-8") as file:
+        schema = json.load(file)
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
+@pytest.fixture(scope="module")
+def traffic():
+    with open(SHIPPED, encoding="utf-8") as file:
+        return json.load(file)
+
+
+def test_shipped_and_shared_scenarios_fit(schema):
+    for name in (SHIPPED, SHARED):
+        if not os.path.exists(name):
+            pytest.skip("needs shared data")
+        with open(name, encoding="utf-8") as file:
+            schema.validate(json.load(file))
+
+
+def change(path, value):
+    def apply(scenario):
+        owner = scenario
+        for step in path[:-1]:
+            owner = owner[step]
+        if value is None:
+            del owner[path[-1]]
+        else:
+            owner[path[-1]] = value
+
+    return apply
+
+
+CHANGES = {
+    "own radar": (change(["scenarios", 0, "radar_overrides"], {"noise_figure_db": 12}), True),
+    "not measured": (change(["scenarios", 0, "suppressed_detections"], []), True),
+    "unknown member": (change(["scenarios", 0, "weather"], "rain"), False),
+    "unknown radar member": (change(["scenarios", 0, "radar_overrides"], {"noise_figre_db": 12}), False),
+    "no duration": (change(["scenarios", 0, "duration_s"], None), False),
+    "unknown motion": (change(["scenarios", 0, "targets", 0, "motion"], "spiral"), False),
+    "three numbers": (change(["scenarios", 0, "targets", 0, "position_m"], [1, 2, 3]), False),
+    "noise below none": (change(["radar", "noise_figure_db"], -1), False),
+}
+
+
+@pytest.mark.parametrize("name", CHANGES)
+def test_the_schema_and_the_program_say_the_same(program, schema, traffic, tmp_path, name):
+    apply, good = CHANGES[name]
+    scenario = copy.deepcopy(traffic)
+    apply(scenario)
+    assert schema.is_valid(scenario) == good
+    file = tmp_path / "traffic.json"
+    file.write_text(json.dumps(scenario), encoding="utf-8")
+    ended = subprocess.run([program, "track", file, "-o", tmp_path / "out", "-q"], capture_output=True, text=True)
+    assert ended.returncode == (0 if good else 3), ended.stderr
+
+
+def test_a_scenarios_radar_and_gaps_are_obeyed(program, traffic, tmp_path):
+    """A radar of 30 dB noise figure more measures worse, and a target in a gap not at all."""
+    target = traffic["scenarios"][0]["targets"][0]["id"]
+    errors, measured = [], []
+    for number, extra in enumerate(({}, {"radar_overrides": {"noise_figure_db": 34.5}},
+                                    {"suppressed_detections": [{"id": target, "from_s": 0, "to_s": 1e6}]})):
+        scenario = copy.deepcopy(traffic)
+        scenario["scenarios"][0].update(extra)
+        file = tmp_path / f"{number}.json"
+        file.write_text(json.dumps(scenario), encoding="utf-8")
+        out = tmp_path / f"out{number}"
+        subprocess.run([program, "track", file, "-o", out, "-q"], check=True)
+        errors.append(json.loads((out / "run.json").read_text())["scenarios"][0]["range_rmse_m"])
+        (table,) = out.glob("*/measurements.csv")
+        measured.append(len(table.read_text().splitlines()) - 1)
+    assert errors[1] > 5 * errors[0]
+    assert measured[2] < measured[0]
