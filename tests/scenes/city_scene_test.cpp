@@ -86,3 +86,32 @@ TEST_CASE("buildings beyond the terrain are counted and left out", "[cityjson]")
   REQUIRE(town.outcome.problems.size() == 1);
   CHECK(town.outcome.problems[0].code == "W-OUTSIDE");
 }
+
+TEST_CASE("A model stands at a height of the scene's datum, or above the ground, not both",
+          "[models]") {
+  const auto model = [](const std::string& keys) {
+    return tests::replaced(tests::standing(), "[weather]",
+                           "[[model]]\nfile = \"truck.gltf\"\nat = { runway = \"36\", "
+                           "behind_threshold_m = 500.0, left_m = 400.0 }\n" +
+                               keys + "\n[weather]");
+  };
+  const auto foot_m = [](const scenes::Scene& scene) {
+    const terrain::Box_m& box = scene.world.solids().others.at(0);
+    return scene.frame.to_geodetic(box.low).height_m;
+  };
+  const tests::TemporaryFolder folder;
+  std::filesystem::copy_file(
+      std::filesystem::path(FANBEAM_SOURCE_DIR) / "scenes/braunschweig-26/truck.gltf",
+      folder.path() / "truck.gltf");
+  const auto on_ground = tests::good_scene(folder, model(""));
+  const glm::dvec2 there(on_ground->world.solids().others.at(0).low);
+  const double ground_m = tests::height_m(*on_ground, there);
+  const auto high = tests::good_scene(folder, model("above_ground_m = 30.0"));
+  CHECK(foot_m(*high) - foot_m(*on_ground) == Approx(30.0).margin(1e-3));
+  const auto absolute = tests::good_scene(folder, model("height_m = 100.0"));
+  CHECK(foot_m(*absolute) - foot_m(*on_ground) == Approx(100.0 - ground_m).margin(0.01));
+  const tests::Outcome both =
+      tests::build_text(folder, model("height_m = 100.0\nabove_ground_m = 3.0"));
+  CHECK(both.scene == nullptr);
+  CHECK(core::to_string(both.problems.at(0)).find("one of the two") != std::string::npos);
+}
