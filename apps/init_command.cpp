@@ -189,10 +189,7 @@ void print_next_steps(const InitOptions& options, const scenes::Scene& scene) {
 
 scenes::NewSceneRequest request_from(const InitOptions& options, core::ProblemList& problems) {
   scenes::NewSceneRequest request;
-  std::string name = options.airport + "-" + options.runway;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  request.name = core::safe_word(name);
+  request.name = scenes::landing_name(options.airport, options.runway);
   request.airport = find_airport(options, problems);
   request.airport_source = source_of(options);
   request.runway = options.runway;

@@ -40,12 +40,11 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
   command.add_option("--noise-figure", options.noise_figure_dB, "dB, instead of the file's")
       ->check(number_from(0.0, 60.0));
   command
-      .add_option("--acceleration", options.acceleration_mps2,
-                  "m/s2, unknown to the tracker, of targets that drive straight on: 0.5 for steady "
-                  "traffic; "
-                  "braking has a model of its own, but with --range-only, where 4 to 8 are for "
-                  "targets that "
-                  "brake; more tells less of who is who after a crossing")
+      .add_option(
+          "--acceleration", options.acceleration_mps2,
+          "m/s2, unknown to the tracker, of targets that drive straight on: 0.5 for steady "
+          "traffic. Braking has a model of its own, but not with --range-only: 4 to 8 there. "
+          "More tells less of who is who after a crossing")
       ->check(number_from(0.01, 20.0))
       ->capture_default_str();
   command
@@ -71,8 +70,7 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
       ->capture_default_str();
   command.footer(
       "Writes tracks.csv (with the covariance of x, y, vx, vy and the normalised error squared "
-      "against "
-      "the truth) and measurements.csv for each scenario, run.json with the metrics and "
+      "against the truth) and measurements.csv for each scenario, run.json with the metrics and "
       "timing.json; with --study instead study.md and its plots. Prints where each track ended, "
       "where its target is, and how likely the track is still on the target it began with. "
       "Places are relative to the radar, x forward and y right; azimuths positive right, speeds "

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <vector>
@@ -202,19 +203,19 @@ class Measurement {
                                  "--threads", "2", "-q"});
       best(figures_.render_s, {program_, "render", "obstacle-field", "--isa", "v3", "--frames",
                                frames, "--threads", "2", "-o", path("render"), "-q"});
-      if (bytes_of("one/runs/000000/bscope") != bytes_of("render/bscope"))
+      if (files_of("one/runs/000000/bscope") != files_of("render/bscope"))
         throw std::runtime_error("the campaign and fanbeam render made other pictures");
       fs::remove_all(scratch_.path() / "one");
       fs::remove_all(scratch_.path() / "render");
     }
   }
 
-  // Of all files together.
-  std::uint64_t bytes_of(const std::string& folder) const {
-    std::uint64_t bytes = 0;
+  // Of all files of a folder, by their names.
+  std::map<std::string, std::string> files_of(const std::string& folder) const {
+    std::map<std::string, std::string> files;
     for (const auto& entry : fs::directory_iterator(scratch_.path() / folder))
-      bytes += entry.file_size();
-    return bytes;
+      files[entry.path().filename().string()] = core::read_file(entry.path(), 1U << 28U);
+    return files;
   }
 
   void city() {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/random/sobol.hpp>
-#include <cctype>
 #include <limits>
 
 #include "core/config_table.h"
@@ -11,6 +10,7 @@
 #include "core/text.h"
 #include "datasets/sha256.h"
 #include "materials/library/surface_state.h"
+#include "scenes/airport/airport.h"
 #include "session/products/products.h"
 
 namespace fanbeam::datasets {
@@ -52,10 +52,7 @@ CampaignAirport read_airport_of(ConfigTable& table, const std::vector<CampaignAi
   airport.file = table.required_text("file");
   airport.elevation = table.required_text("elevation");
   airport.buildings = table.text("buildings", "");
-  std::string name = airport.ident + "-" + airport.runway;
-  std::transform(name.begin(), name.end(), name.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  airport.name = table.text("name", core::safe_word(name));
+  airport.name = table.text("name", scenes::landing_name(airport.ident, airport.runway));
   const auto same = [&](const CampaignAirport& other) { return other.name == airport.name; };
   if (!core::is_safe_word(airport.name) || std::any_of(others.begin(), others.end(), same))
     table.error(ErrorClass::range, "name", "\"" + airport.name + "\"",
@@ -174,6 +171,8 @@ const Parameter* Campaign::find(std::string_view wanted) const {
     if (parameter.name == wanted) return &parameter;
   return nullptr;
 }
+
+fs::path Campaign::folder() const { return fs::absolute(file).parent_path().lexically_normal(); }
 
 Campaign read_campaign(const fs::path& file, core::ProblemList& problems) {
   Campaign campaign;

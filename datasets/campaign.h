@@ -120,6 +120,8 @@ struct Campaign {
   std::vector<std::string> traffic;  // names
 
   const Parameter* find(std::string_view name) const;
+  // That its file lies in.
+  std::filesystem::path folder() const;
 };
 
 inline constexpr int kMostRuns = 100'000'000;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -108,29 +107,19 @@ std::vector<int> runs_in(const std::string& text, int runs, const std::string& f
 std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,
                            const std::vector<int>& runs) {
   std::vector<Damage> damages;
-  std::map<std::string, int> makers;
-  std::vector<int> whole;
-  for (const int run : runs) {
-    const std::optional<RunFiles> files = RunFiles::of(output, run);
-    const Json record = files ? record_in(*files) : Json();
-    if (!files)
-      damages.push_back({run, fs::exists(failed_file(output, run)) ? "failed" : "missing"});
-    else if (!record.is_object())
-      damages.push_back({run, std::string(kRunRecord) + ": no record of a run"});
-    else {
-      ++makers[made_by(record)];
-      whole.push_back(run);
-    }
-  }
-  const std::string usual = usual_maker(makers);
-  for (const int run : whole) {
+  const Survey found = survey(output, runs);
+  for (const int run : found.missing)
+    damages.push_back({run, fs::exists(failed_file(output, run)) ? "failed" : "missing"});
+  for (const int run : found.damaged)
+    damages.push_back({run, std::string(kRunRecord) + ": no record of a run"});
+  for (const int run : found.whole) {
     const std::optional<RunFiles> files = RunFiles::of(output, run);
     const Json record = files ? record_in(*files) : Json();
     if (!record.is_object()) {  // changed meanwhile
       damages.push_back({run, std::string(kRunRecord) + ": no record of a run"});
       continue;
     }
-    const std::string wrong = wrong_maker(record, campaign, usual);
+    const std::string wrong = wrong_maker(record, campaign, found.usual_maker);
     if (!wrong.empty()) damages.push_back({run, wrong});
     if (record.value("run", -1) != run) damages.push_back({run, "the record of another run"});
     check_files(run, *files, record, damages);

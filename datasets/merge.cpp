@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <string>
@@ -143,22 +143,14 @@ Merged merge(const Campaign& campaign, const fs::path& output) {
     core::throw_input_error(core::ErrorClass::io, core::Place{output.string()}, "runs", "none",
                             "the folder of a campaign; fanbeam campaign run makes it");
   core::ProblemList problems;
-  std::map<std::string, int> makers;
-  std::vector<int> whole;
-  for (int run = 0; run < campaign.runs; ++run) {
-    const std::optional<RunFiles> files = RunFiles::of(output, run);
-    if (!files) continue;
-    const Json record = record_in(*files);
-    if (record.is_object()) {
-      ++makers[made_by(record)];
-      whole.push_back(run);
-    } else {
-      problems.error(core::ErrorClass::parse, core::Place{files->shown(kRunRecord)}, "run",
-                     "damaged", Merger::kWhole);
-    }
-  }
-  Merger merger(campaign, output, usual_maker(makers));
-  for (const int run : whole)
+  std::vector<int> runs(static_cast<std::size_t>(campaign.runs));
+  std::iota(runs.begin(), runs.end(), 0);
+  const Survey found = survey(output, runs);
+  for (const int run : found.damaged)
+    problems.error(core::ErrorClass::parse, core::Place{run_folder(output, run).string()}, "run",
+                   "damaged", Merger::kWhole);
+  Merger merger(campaign, output, found.usual_maker);
+  for (const int run : found.whole)
     if (const std::optional<RunFiles> files = RunFiles::of(output, run))
       merger.add(run, *files, record_in(*files), problems);
   problems.throw_if_errors();

@@ -2,9 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "datasets/campaign.h"
 #include "datasets/run_files.h"
@@ -16,10 +17,14 @@ inline constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 28U;
 // Null where it is damaged.
 nlohmann::ordered_json record_in(const RunFiles& files);
 
-// Program, libraries and level of instructions.
-std::string made_by(const nlohmann::ordered_json& record);
-// Of most runs, which have one each; by their numbers.
-std::string usual_maker(const std::map<std::string, int>& runs_of_maker);
+// What of a campaign's runs is there, and what made most of it: program, libraries and level of
+// instructions. Holds no records.
+struct Survey {
+  std::vector<int> whole, damaged, missing;
+  std::string usual_maker;
+};
+Survey survey(const std::filesystem::path& campaign, const std::vector<int>& runs);
+
 // Empty for a run that goes with the others.
 std::string wrong_maker(const nlohmann::ordered_json& record, const Campaign& campaign,
                         const std::string& usual);

@@ -104,8 +104,7 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
     setup.shipped = settings_.shipped;
     setup.data_folders = settings_.data_folders;
     if (!campaign_.airports.empty())
-      setup.data_folders.insert(setup.data_folders.begin(),
-                                fs::absolute(campaign_.file).parent_path().lexically_normal());
+      setup.data_folders.insert(setup.data_folders.begin(), campaign_.folder());
     setup.sample = campaign_.sample;
     setup.seed = campaign_.seed;
     if (!campaign_.sensor.empty())
@@ -130,7 +129,7 @@ fs::path Worker::scene_path(const std::string& name) const {
   for (const CampaignAirport& airport : campaign_.airports)
     if (airport.name == name)
       return airport_scene(campaign_, airport, settings_.output, settings_.data_folders);
-  const fs::path beside = campaign_.file.parent_path() / name;
+  const fs::path beside = campaign_.folder() / name;
   std::error_code refused;
   if (fs::exists(beside / "scene.toml", refused)) return beside;
   return session::find_scene(name, settings_.shipped);

@@ -105,7 +105,7 @@ class AirportTable {
     if (!lights.at.empty()) scene_.light_rows.push_back(std::move(lights));
   }
 
-  // Even from the first point on, the last always.
+  // Evenly from the first point on.
   static void add_lights(const AirportLine& line, std::vector<core::Geodetic>& at) {
     double to_next_m = 0.0;
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {

@@ -85,8 +85,7 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
 
 // Footprints beyond the terrain are left out with a warning.
 std::vector<terrain::Prism> prisms_of(const BuildingsDescription& buildings, const Ground& ground,
-                                      FileBudget& budget, core::ProblemList& problems) {
-  budget.take(buildings.file);
+                                      core::ProblemList& problems) {
   const std::vector<terrain::Footprint> footprints = terrain::read_footprints(
       buildings.file, {buildings.height_property, buildings.min_height_property}, problems);
   std::vector<terrain::Prism> prisms;
@@ -121,9 +120,8 @@ std::vector<terrain::Prism> prisms_of(const BuildingsDescription& buildings, con
 }
 
 void add_footprints(const BuildingsDescription& buildings, const Ground& ground,
-                    const MaterialNames& names, FileBudget& budget, core::ProblemList& problems,
-                    Bodies& bodies) {
-  const std::vector<terrain::Prism> prisms = prisms_of(buildings, ground, budget, problems);
+                    const MaterialNames& names, core::ProblemList& problems, Bodies& bodies) {
+  const std::vector<terrain::Prism> prisms = prisms_of(buildings, ground, problems);
   terrain::Extrusion city =
       terrain::extrude(prisms, buildings.file.filename().string(),
                        {buildings.wall_material, buildings.roof_material}, problems);
@@ -138,12 +136,11 @@ void add_footprints(const BuildingsDescription& buildings, const Ground& ground,
 void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
                    const MaterialNames& names, FileBudget& budget, core::ProblemList& problems,
                    Bodies& bodies) {
-  FileBudget looked;  // reading twice counts once
-  const std::string text = looked.read(buildings.file, terrain::kLargestCityFile_bytes);
-  if (!terrain::is_cityjson(text))
-    return add_footprints(buildings, ground, names, budget, problems, bodies);
-  budget.take(buildings.file);
-  add_city(text, buildings, ground, names, problems, bodies);
+  const std::string text = budget.read(buildings.file, terrain::kLargestCityFile_bytes);
+  if (terrain::is_cityjson(text))
+    add_city(text, buildings, ground, names, problems, bodies);
+  else
+    add_footprints(buildings, ground, names, problems, bodies);
 }
 
 void add_model(const ModelDescription& model, const Ground& ground, const MaterialNames& names,

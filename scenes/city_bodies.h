@@ -9,9 +9,6 @@
 
 namespace fanbeam::scenes {
 
-// Walls go this far into the ground, so that no gap shows on a slope between two posts.
-inline constexpr double kFoundation_m = 2.0;
-
 // One mesh, with an object for each building. Unless heights are to be as filed, the lowest point of each
 // building stands on the lowest ground under it, so that a model of another terrain floats nowhere; its
 // lowest corners then go kFoundation_m into the ground. Buildings beyond the terrain are left out with

@@ -15,20 +15,25 @@ fs::path DataSearch::find(core::ConfigTable& table, std::string_view key) const 
   const std::size_t before = table.problems().all().size();
   const std::string name = table.required_text(key);
   if (table.problems().all().size() > before) return {};
+  return find(name, table.place(key), table.path(key), table.problems());
+}
+
+fs::path DataSearch::find(const std::string& name, const core::Place& place,
+                          const std::string& field, core::ProblemList& problems) const {
   std::string searched;
   for (const fs::path& folder : folders_) {
     try {
-      const fs::path candidate = core::path_inside(folder, name, table.place(key), table.path(key));
+      const fs::path candidate = core::path_inside(folder, name, place, field);
       if (fs::is_regular_file(candidate)) return candidate;
     } catch (const core::InputError& error) {
-      table.problems().append(error.problems());
+      problems.append(error.problems());
       return {};
     }
     searched += (searched.empty() ? "" : ", ") + folder.string();
   }
-  table.error(core::ErrorClass::io, key, "\"" + name + "\" not found",
-              "a file in one of: " + searched +
-                  "; name another data folder with --data DIR or FANBEAM_DATA");
+  problems.error(core::ErrorClass::io, place, field, "\"" + name + "\" not found",
+                 "a file in one of: " + searched +
+                     "; name another data folder with --data DIR or FANBEAM_DATA");
   return {};
 }
 

@@ -20,6 +20,10 @@ class DataSearch {
   // is nowhere.
   std::filesystem::path find(core::ConfigTable& table, std::string_view key) const;
 
+  // The same for a name that stands at `place` in the field `field`.
+  std::filesystem::path find(const std::string& name, const core::Place& place,
+                             const std::string& field, core::ProblemList& problems) const;
+
   // The folder that `file` was found in: models may only read files inside it.
   std::filesystem::path root_of(const std::filesystem::path& file) const;
 

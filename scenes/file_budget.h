@@ -15,8 +15,6 @@ class FileBudget {
   // The file's bytes, as core::read_file. Throws InputError E-LIMIT, before reading, when they are
   // more than `largest_bytes` or than the budget has left.
   std::string read(const std::filesystem::path& file, std::uint64_t largest_bytes);
-  // Counts a file that somebody else reads; throws likewise.
-  void take(const std::filesystem::path& file);
 
  private:
   std::uint64_t left_bytes_ = kMostBodyFiles_bytes;

@@ -115,10 +115,7 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description,
     core::Geodetic position = from.pavement_end;
     if (from.on_ground && natural.usable())
       position.height_m = elevation_on_ground_m(description, end, natural);
-    const double elevation_m = position.height_m;
-    position.height_m = ellipsoidal_m(position.height_m, position.latitude_rad,
-                                      position.longitude_rad, scene_.datum);
-    runway.ends[end] = {frame_.to_local_m(position), from.displaced_m, elevation_m};
+    runway.ends[end] = {local_m(position), from.displaced_m, position.height_m};
   }
   runway.width_m = description.width_m;
   runway.shoulder_m = description.shoulder_m;

@@ -41,6 +41,9 @@ struct Bodies {
   Objects objects{};
 };
 
+// Walls go this far into the ground, so that no gap shows on a slope between two posts.
+inline constexpr double kFoundation_m = 2.0;
+
 // Of boxes, buildings and models together; the file that exceeds it is the last one read.
 inline constexpr std::size_t kMostBodyTriangles = 20'000'000;
 // Of lines, runway lights, fences and targets together.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/spelling.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "terrain/local_frame.h"
 
@@ -101,6 +102,13 @@ std::optional<double> designated_bearing_deg(std::string_view name) {
   const Designator designator = designator_of(name);
   if (designator.number == 0) return std::nullopt;
   return 10.0 * designator.number;
+}
+
+std::string landing_name(const std::string& ident, const std::string& runway) {
+  std::string name = ident + "-" + runway;
+  std::transform(name.begin(), name.end(), name.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return core::safe_word(name);
 }
 
 void report_unknown_airport(const std::string& ident, const std::vector<std::string>& known,

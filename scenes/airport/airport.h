@@ -63,6 +63,9 @@ std::string reciprocal_runway(std::string_view name);
 // The nominal magnetic bearing that a designator stands for, 10 to 360 deg; nothing as above.
 std::optional<double> designated_bearing_deg(std::string_view name);
 
+// "edny-24": a scene's usual name for a landing there.
+std::string landing_name(const std::string& ident, const std::string& runway);
+
 // Adds that there is no airport of this name at `place`, with those that look like it.
 void report_unknown_airport(const std::string& ident, const std::vector<std::string>& known,
                             const core::Place& place, core::ProblemList& problems);

@@ -5,7 +5,7 @@
 // same, closing the ring; 115 and 116 end an open line. Between two corners the curve is quadratic when
 // one of them has a control point, cubic when both have; the one before a corner is its mirror image
 // ("Airport Data (apt.dat) File Specification", Laminar Research, format 1100). A piece is an eighth of
-// a curve: 0.8 % of the way between two corners for a quarter of a circle.
+// a curve: off a quarter of a circle by 0.5 % of its radius.
 #pragma once
 
 #include <string_view>

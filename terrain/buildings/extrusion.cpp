@@ -25,12 +25,8 @@ class Extruder {
   Extrusion take() { return std::move(result_); }
 
  private:
-  // Indices of the roof's corners by position, for one polygon.
-  using Corners = std::map<std::pair<double, double>, std::uint32_t>;
-
   bool add_polygon(const Polygon_m& rings_m, const Prism& prism);
-  bool add_roof(const GEOSGeometry* triangles, const Corners& corners);
-  void add_walls(const Ring_m& ring, const Prism& prism, Corners& corners);
+  void add_walls(const Ring_m& ring, const Prism& prism);
   void add_triangle(const glm::uvec3& triangle, std::uint32_t slot);
 
   Geos geos_;
@@ -58,22 +54,22 @@ Extruder::Outcome Extruder::add(const Prism& prism, std::uint32_t index) {
 }
 
 bool Extruder::add_polygon(const Polygon_m& rings_m, const Prism& prism) {
-  const Geos::Geometry polygon = geos_.polygon(rings_m);
-  const Geos::Geometry triangles =
-      geos_.own(GEOSConstrainedDelaunayTriangulation_r(geos_.context(), polygon.get()));
-  if (!triangles) return false;
-  Corners corners;
-  for (const Ring_m& ring : rings_m) add_walls(ring, prism, corners);
-  return add_roof(triangles.get(), corners);
+  const auto roof = geos_.triangulate(rings_m);
+  if (!roof) return false;
+  // Walls put two vertices for each point of the rings, the second at the top.
+  const auto first = static_cast<std::uint32_t>(result_.mesh.vertices_m.size());
+  for (const Ring_m& ring : rings_m) add_walls(ring, prism);
+  for (const glm::uvec3& triangle : *roof)
+    add_triangle(glm::uvec3(first + 1) + 2U * triangle, kRoofSlot);
+  return true;
 }
 
 // Walking a ring with the building on the left, the outside is on the right.
-void Extruder::add_walls(const Ring_m& ring, const Prism& prism, Corners& corners) {
+void Extruder::add_walls(const Ring_m& ring, const Prism& prism) {
   std::vector<glm::dvec3>& vertices = result_.mesh.vertices_m;
   const auto first = static_cast<std::uint32_t>(vertices.size());
   const auto count = static_cast<std::uint32_t>(ring.size());
   for (std::uint32_t i = 0; i < count; ++i) {
-    corners[{ring[i].x, ring[i].y}] = first + 2 * i + 1;
     vertices.emplace_back(ring[i].x, ring[i].y, prism.bottom_m);
     vertices.emplace_back(ring[i].x, ring[i].y, prism.top_m);
   }
@@ -83,25 +79,6 @@ void Extruder::add_walls(const Ring_m& ring, const Prism& prism, Corners& corner
     add_triangle({here, next, next + 1}, kWallSlot);
     add_triangle({here, next + 1, here + 1}, kWallSlot);
   }
-}
-
-bool Extruder::add_roof(const GEOSGeometry* triangles, const Corners& corners) {
-  GEOSContextHandle_t context = geos_.context();
-  for (int i = 0; i < GEOSGetNumGeometries_r(context, triangles); ++i) {
-    const GEOSGeometry* triangle = GEOSGetGeometryN_r(context, triangles, i);
-    Ring_m points = geos_.ring_of(GEOSGetExteriorRing_r(context, triangle));
-    if (points.size() != 3) return false;
-    if (signed_area_m2(points) < 0.0) std::swap(points[1], points[2]);
-    glm::uvec3 indices{0};
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec2& point = points[static_cast<std::size_t>(k)];
-      const auto corner = corners.find({point.x, point.y});
-      if (corner == corners.end()) return false;
-      indices[k] = corner->second;
-    }
-    add_triangle(indices, kRoofSlot);
-  }
-  return true;
 }
 
 void Extruder::add_triangle(const glm::uvec3& triangle, std::uint32_t slot) {

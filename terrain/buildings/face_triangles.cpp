@@ -2,8 +2,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
-#include <utility>
 
 #include "terrain/buildings/geos_private.h"
 
@@ -58,38 +56,19 @@ std::optional<std::vector<glm::uvec3>> face_triangles(const std::vector<glm::dve
     return std::vector<glm::uvec3>{{outline[0], outline[1], outline[2]}};
   const FacePlane plane(vertices_m[outline.front()], glm::normalize(normal_m2));
   Polygon_m flat_m;
-  std::map<std::pair<double, double>, std::uint32_t> corners;
+  std::vector<std::uint32_t> vertex_of;  // by the points of all rings
   for (const std::vector<std::uint32_t>& ring : rings) {
     flat_m.emplace_back();
-    for (const std::uint32_t index : ring) {
-      flat_m.back().push_back(plane.flat_m(vertices_m[index]));
-      corners[{flat_m.back().back().x, flat_m.back().back().y}] = index;
-    }
+    for (const std::uint32_t index : ring) flat_m.back().push_back(plane.flat_m(vertices_m[index]));
+    vertex_of.insert(vertex_of.end(), ring.begin(), ring.end());
   }
   if (rings.size() == 1 && outline.size() == 4 && is_convex(flat_m.front()))
     return std::vector<glm::uvec3>{{outline[0], outline[1], outline[2]},
                                    {outline[0], outline[2], outline[3]}};
-  GEOSContextHandle_t context = geos.context();
-  const Geos::Geometry polygon = geos.polygon(flat_m);
-  if (!polygon) return std::nullopt;
-  const Geos::Geometry parts =
-      geos.own(GEOSConstrainedDelaunayTriangulation_r(context, polygon.get()));
-  if (!parts) return std::nullopt;
-  std::vector<glm::uvec3> triangles;
-  for (int i = 0; i < GEOSGetNumGeometries_r(context, parts.get()); ++i) {
-    Ring_m points =
-        geos.ring_of(GEOSGetExteriorRing_r(context, GEOSGetGeometryN_r(context, parts.get(), i)));
-    if (points.size() != 3) return std::nullopt;
-    if (signed_area_m2(points) < 0.0) std::swap(points[1], points[2]);
-    glm::uvec3 triangle{0};
-    for (int k = 0; k < 3; ++k) {
-      const glm::dvec2& point = points[static_cast<std::size_t>(k)];
-      const auto corner = corners.find({point.x, point.y});
-      if (corner == corners.end()) return std::nullopt;
-      triangle[k] = corner->second;
-    }
-    triangles.push_back(triangle);
-  }
+  std::optional<std::vector<glm::uvec3>> triangles = geos.triangulate(flat_m);
+  if (triangles)
+    for (glm::uvec3& triangle : *triangles)
+      triangle = {vertex_of[triangle.x], vertex_of[triangle.y], vertex_of[triangle.z]};
   return triangles;
 }
 

@@ -1,3 +1,6 @@
+#include <cstdint>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "terrain/buildings/geos_private.h"
@@ -34,6 +37,33 @@ Ring_m Geos::ring_of(const GEOSGeometry* linear_ring) const {
   }
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
   return ring;
+}
+
+std::optional<std::vector<glm::uvec3>> Geos::triangulate(const Polygon_m& rings_m) const {
+  const Geometry outline = polygon(rings_m);
+  if (!outline) return std::nullopt;
+  const Geometry parts = own(GEOSConstrainedDelaunayTriangulation_r(context(), outline.get()));
+  if (!parts) return std::nullopt;
+  std::map<std::pair<double, double>, std::uint32_t> corners;
+  std::uint32_t index = 0;
+  for (const Ring_m& ring : rings_m)
+    for (const glm::dvec2& point : ring) corners[{point.x, point.y}] = index++;
+  std::vector<glm::uvec3> triangles;
+  for (int i = 0; i < GEOSGetNumGeometries_r(context(), parts.get()); ++i) {
+    Ring_m points =
+        ring_of(GEOSGetExteriorRing_r(context(), GEOSGetGeometryN_r(context(), parts.get(), i)));
+    if (points.size() != 3) return std::nullopt;
+    if (signed_area_m2(points) < 0.0) std::swap(points[1], points[2]);
+    glm::uvec3 triangle{0};
+    for (int k = 0; k < 3; ++k) {
+      const glm::dvec2& point = points[static_cast<std::size_t>(k)];
+      const auto corner = corners.find({point.x, point.y});
+      if (corner == corners.end()) return std::nullopt;
+      triangle[k] = corner->second;
+    }
+    triangles.push_back(triangle);
+  }
+  return triangles;
 }
 
 bool Geos::is_counter_clockwise(const GEOSGeometry* linear_ring) const {

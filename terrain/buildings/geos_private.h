@@ -3,7 +3,10 @@
 
 #include <geos_c.h>
 
+#include <glm/vec3.hpp>
 #include <memory>
+#include <optional>
+#include <vector>
 
 #include "terrain/buildings/clean_footprint.h"
 
@@ -30,6 +33,9 @@ class Geos {
   Geometry polygon(const Polygon_m& rings_m) const;
   // Without the closing point and without repeated points.
   Ring_m ring_of(const GEOSGeometry* linear_ring) const;
+  // Without further vertices (constrained Delaunay), counter-clockwise; indices of points count through all
+  // rings, one after the other. Nothing where GEOS cannot.
+  std::optional<std::vector<glm::uvec3>> triangulate(const Polygon_m& rings_m) const;
   // Of a simple ring; by exact signs, so that thin ones far from the origin are right as well.
   bool is_counter_clockwise(const GEOSGeometry* linear_ring) const;
 

@@ -111,43 +111,27 @@ void check_honest(const Score& score) {
   CHECK(score.nees.mean() >= 3.0);
 }
 
+Score check_kept(core::HighwayScenario (*draw)(int)) {
+  const Score score = score_of(draw, kRuns);
+  INFO(words_of(score));
+  CHECK(score.mota >= 0.97);
+  CHECK(score.without_switch >= 95);
+  return score;
+}
+
 }  // namespace
 
 // With one model straight on and one for turns, braking cars had a MOTA of 0.77 and switched in every run,
 // stop-and-go 0.27.
-TEST_CASE("Cars side by side, farther apart than a cell, stay two, each its own",
+TEST_CASE("Cars side by side, that brake unseen for 0.6 s, or stop and go stay one track each",
           "[tracker][statistics]") {
-  const Score score = score_of(side_by_side, kRuns);
-  INFO(words_of(score));
-  CHECK(score.mota >= 0.97);
-  CHECK(score.without_switch >= 95);
-  check_honest(score);
-}
-
-TEST_CASE("Cars that brake at 6 m/s2 and are not seen for 0.6 s stay one track",
-          "[tracker][statistics]") {
-  const Score score = score_of(braking, kRuns);
-  INFO(words_of(score));
-  CHECK(score.mota >= 0.97);
-  CHECK(score.without_switch >= 95);
-  check_honest(score);
-}
-
-TEST_CASE("Stop-and-go beside an overtaker stays two tracks", "[tracker][statistics]") {
-  const Score score = score_of(stop_and_go, kRuns);
-  INFO(words_of(score));
-  CHECK(score.mota >= 0.97);
-  CHECK(score.without_switch >= 95);
-  check_honest(score);
+  for (const auto draw : {side_by_side, braking, stop_and_go}) check_honest(check_kept(draw));
 }
 
 // Within a cell of range for three to five seconds, where the radar sees one: they are told apart again by
 // the lane that each was in. With the constant resolution that decided before, 80 of 100.
 TEST_CASE("Cars that overtake slowly in the next lane keep their names", "[tracker][statistics]") {
-  const Score score = score_of(overtaking, kRuns);
-  INFO(words_of(score));
-  CHECK(score.mota >= 0.97);
-  CHECK(score.without_switch >= 95);
+  check_kept(overtaking);
 }
 
 TEST_CASE("Tracks of S1 to S3 are as good as they say in all four states",
