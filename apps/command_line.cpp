@@ -40,6 +40,10 @@ int CommandLine::run(int argc, const char* const* argv) {
     if (error.get_exit_code() == 0) return program_.exit(error);
     std::cerr << usage_error_text(program_, error);
     return kExitUsage;
+  } catch (...) {  // of a file that an option names and that is read at once
+    return run_guarded([error = std::current_exception()]() -> int {
+      std::rethrow_exception(error);
+    });
   }
   const std::function<int()>& action = actions_.at(program_.get_subcommands().front());
   return run_guarded([&] {

@@ -18,6 +18,7 @@
 #include "session/records/output_folder.h"
 #include "session/session.h"
 #include "session/signal/bscope_product.h"
+#include "session/signal/radar_file.h"
 #include "session/signal/record.h"
 #include "session/signal/signal_files.h"
 
@@ -76,6 +77,10 @@ class Run {
     std::set<std::string> files;
     for (const session::FmcwFrameRecord& frame : records_)
       files.insert(frame.files.begin(), frame.files.end());
+    if (runs_chain()) {
+      files.insert(session::kRadarFile);
+      core::write_file_atomically(output_.path() / session::kRadarFile, radar_toml());
+    }
     output_.keep_only(files);
     core::write_file_atomically(output_.path() / "run.json",
                                 session::fmcw_run_json(scene_, options_, radar_, records_));
@@ -109,6 +114,12 @@ class Run {
 
  private:
   bool runs_chain() const { return products_ != std::set<std::string>{kScan}; }
+
+  std::string radar_toml() const {
+    return session::radar_toml(options_, radar_.waveform_name,
+                               radar_.waveform.centre_frequency_Hz, radar_.waveform.bandwidth_Hz,
+                               radar_.noise_figure);
+  }
 
   void process(int index) {
     session::FmcwFrameRecord record;

@@ -9,10 +9,26 @@
 #include "core/text.h"
 #include "renderer/casting/sampling.h"
 #include "scenes/scene.h"
+#include "session/signal/radar_file.h"
 #include "signal/waveform/waveform.h"
 
 namespace fanbeam::apps {
 namespace {
+
+// Before the options that replace what the file says: they are taken in the order of declaration.
+void add_radar_file(CLI::App& command, FmcwOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--radar",
+          [&options](const std::string& file) {
+            core::ProblemList problems;
+            session::read_radar_file(file, options, problems);
+            problems.throw_if_errors();
+          },
+          "TOML file of a radar: waveform, array, receiver, processing (docs/fmcw.md); options "
+          "replace what it says")
+      ->type_name(kFileValue);
+}
 
 void add_radar(CLI::App& command, FmcwOptions& options) {
   std::vector<std::string> names = {session::kAutomotive};
@@ -45,6 +61,89 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
       .add_option("--adc-bits", options.adc_bits,
                   "Quantise the samples, full scale at the largest (default 0: not)")
       ->check(whole_number_from(0, 24));
+  command
+      .add_option("--adc-full-scale", options.adc_full_scale_dBm,
+                  "Full scale of the quantiser instead, dBm of a tone that just fills it: what is "
+                  "stronger saturates")
+      ->check(number_from(-300.0, 300.0));
+}
+
+void add_window(CLI::App& command, const char* name, signal::Window& window, const char* what) {
+  command
+      .add_option_function<std::string>(
+          name, [&window](const std::string& text) { window = *signal::window_of(text); },
+          std::string(what) + " (default " + signal::name(window) + ")")
+      ->type_name("WINDOW")
+      ->check(CLI::Validator(
+          [](std::string& text) {
+            return signal::window_of(text) ? std::string()
+                                           : text + ": expected " + session::kWindowWords;
+          },
+          ""));
+}
+
+// "4" for both axes, "4,2" for range and Doppler.
+void add_span(CLI::App& command, const char* name, session::CellSpan& span, const char* what) {
+  command
+      .add_option_function<std::vector<int>>(
+          name,
+          [&span](const std::vector<int>& cells) { span = {cells.front(), cells.back()}; },
+          std::string(what) + ": along range and Doppler, or one number for both (default " +
+              std::to_string(span.range) + "," + std::to_string(span.doppler) + ")")
+      ->type_name("N[,N]")
+      ->delimiter(',')
+      ->expected(1, 2)
+      ->check(whole_number_from(0, 64));
+}
+
+void add_processing(CLI::App& command, FmcwOptions& options) {
+  add_window(command, "--range-window", options.range_window,
+             "Over fast time: rectangular, hann, hamming, blackman, blackman-harris, taylor:DB, "
+             "chebyshev:DB or kaiser:BETA");
+  add_window(command, "--doppler-window", options.doppler_window, "Over slow time");
+  add_window(command, "--angle-window", options.angle_window, "Over the channels of a line");
+  command
+      .add_option_function<std::string>(
+          "--cfar",
+          [&options](const std::string& word) { options.cfar = *session::cfar_kind(word); },
+          "Detector: mean of the cells around (ca), ordered statistic (os), greater (go) or "
+          "smaller (so) of two halves' means (default os)")
+      ->check(CLI::IsMember({"ca", "os", "go", "so"}));
+  add_span(command, "--cfar-guard", options.cfar_guard, "Cells on each side that it leaves out");
+  add_span(command, "--cfar-training", options.cfar_training,
+           "Cells on each side beyond them that tell the background");
+  command
+      .add_option("--pfa", options.false_alarm_probability,
+                  "False-alarm probability of a cell of the range-Doppler map")
+      ->check(number_from(1e-12, 0.1))
+      ->capture_default_str();
+  command
+      .add_option_function<std::string>(
+          "--angle-method",
+          [&options](const std::string& word) {
+            options.angle_method = *signal::angle_method(word);
+          },
+          "Directions of a cell: the strongest beam; capon and music tell two inside a beamwidth "
+          "apart, capon sharpens the range-azimuth map too (default beamforming)")
+      ->check(CLI::IsMember({"beamforming", "capon", "music"}));
+  command
+      .add_option("--cluster-place", options.cluster_place_m,
+                  "Metres within which detections are neighbours (default: four widths of the "
+                  "range response)")
+      ->check(number_from(1e-3, 1000.0));
+  command
+      .add_option("--cluster-speed", options.cluster_speed_mps,
+                  "m/s likewise (default: four widths of the Doppler response)")
+      ->check(number_from(1e-3, 1000.0));
+  command
+      .add_option("--cluster-neighbours", options.cluster_neighbours,
+                  "Detections, itself included, that make one the core of a cluster")
+      ->check(whole_number_from(1, 100))
+      ->capture_default_str();
+  command.add_flag(
+      "--unfold", options.unfold,
+      "Tell by the array which fold a detection's speed is in: right for what is alone "
+      "in its cell, wrong at times for clutter");
 }
 
 void add_plan(CLI::App& command, FmcwOptions& options) {
@@ -79,13 +178,10 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
                       " (default: maps and detections where the waveform has them, else beat)")
       ->type_name("PRODUCT")
       ->check(offers(names_of(session::kFmcwProducts)));
+  add_radar_file(command, options);
   add_radar(command, options);
+  add_processing(command, options);
   add_plan(command, options);
-  command
-      .add_option("--pfa", options.false_alarm_probability,
-                  "False-alarm probability of a cell of the range-Doppler map")
-      ->check(number_from(1e-12, 0.1))
-      ->capture_default_str();
   command
       .add_option("--rays-per-cell", options.rays_per_cell,
                   "Scatterers per range cell and azimuth column of the sensor")
@@ -102,10 +198,6 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
       ->capture_default_str();
   command.add_flag("--refuse-folding", options.refuse_folding,
                    "A scatterer beyond the unambiguous spans is an error, not a warning");
-  command.add_flag(
-      "--unfold", options.unfold,
-      "Tell by the array which fold a detection's speed is in: right for what is alone "
-      "in its cell, wrong at times for clutter");
   command.add_option("--seed", options.seed, "Seed of everything random")
       ->check(any_seed())
       ->capture_default_str();

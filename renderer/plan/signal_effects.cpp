@@ -16,9 +16,18 @@ double noise_part_sqrtW(const SignalFacts& signal) {
   return std::sqrt(0.5 * signal.noise_sample_W);
 }
 
+double largest_part_sqrtW(const SignalFacts& signal) {
+  return signal.largest_sample_sqrtW + kLargestNormal * noise_part_sqrtW(signal);
+}
+
 double step_sqrtW(const SignalFacts& signal) {
-  return std::ldexp(signal.largest_sample_sqrtW + kLargestNormal * noise_part_sqrtW(signal),
-                    1 - signal.adc_bits);
+  return std::ldexp(
+      signal.full_scale_sqrtW > 0.0 ? signal.full_scale_sqrtW : largest_part_sqrtW(signal),
+      1 - signal.adc_bits);
+}
+
+bool may_clip(const SignalFacts& signal) {
+  return signal.full_scale_sqrtW > 0.0 && largest_part_sqrtW(signal) > signal.full_scale_sqrtW;
 }
 
 // Noise is there to hide behind, and only pictures are asked for.
@@ -45,11 +54,10 @@ double phase_noise_bound_dB(const SceneFacts& facts) {
   const SignalFacts& signal = *facts.signal;
   if (!noise_hides(facts)) return signal.window_dB;
   const double variance = signal.phase_noise_rad * signal.phase_noise_rad;
-  const double density =
-      signal.phase_noise_samples > 0.0 ? 1.0 / std::tanh(0.5 / signal.phase_noise_samples) : 1.0;
   const double images = signal.complex_baseband ? 1.0 : 2.0;
   const double pedestal_W =
-      signal.beams * signal.echo_W * images * -std::expm1(-variance) * density;
+      signal.beams * signal.echo_W * images * signal.phase_noise_peak *
+      (variance > 0.0 ? -std::expm1(-variance) / variance : 1.0);
   const double raised_dB = core::kDecibelsPerNeper * std::log1p(pedestal_W / signal.noise_sample_W);
   return std::min(signal.window_dB, std::max(raised_dB, core::kDecibelsPerNeper * variance));
 }
@@ -58,7 +66,7 @@ double quantiser_bound_dB(const SceneFacts& facts) {
   const SignalFacts& signal = *facts.signal;
   if (!noise_hides(facts)) return signal.window_dB;
   const double steps = step_sqrtW(signal) / noise_part_sqrtW(signal);
-  if (!(steps <= 1.0)) return signal.window_dB;
+  if (!(steps <= 1.0) || may_clip(signal)) return signal.window_dB;
   return std::min(signal.window_dB, core::kDecibelsPerNeper * std::log1p(steps * steps / 12.0));
 }
 
@@ -85,6 +93,7 @@ std::string quantiser_cause(const SceneFacts& facts, double bound_dB) {
   const std::string steps = "rounding to " + what + ", in steps of " +
                             figure_text(step_sqrtW(signal) / noise_part_sqrtW(signal)) +
                             " of the noise's standard deviation,";
+  if (may_clip(signal)) return whole_text("clipping at the quantiser's full scale", facts);
   if (bound_dB >= signal.window_dB) return whole_text(steps, facts);
   return steps + " can lift the noise by up to " + figure_text(bound_dB) + " dB";
 }

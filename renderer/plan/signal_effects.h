@@ -10,23 +10,25 @@
 //
 //   receiver noise  the floor itself. Over the display's floor as thermal noise is; elsewhere
 //                   thresholds and colours stand on it, and its bound is the whole window.
-//   phase noise     exp(j theta), theta Gauss-Markov of variance v and correlation time t, common to
-//                   all channels: an echo keeps exp(-v) of its power, the rest is a pedestal with a
-//                   density of at most (1 - exp(-v)) coth(1 / (2 fs t)) times that of white noise
-//                   (exp(R) - 1 <= R (exp(v) - 1) / v for 0 <= R <= v, summed over all lags):
-//                     max(10 log10(1 + C P (1 - exp(-v)) coth(1 / (2 fs t)) / N1), 4.34 v)
+//   phase noise     exp(j theta), theta Gaussian, of a density of at most S on either side and a
+//                   variance of at most v whatever the echo's delay (signal/receiver/oscillator.h),
+//                   common to all channels: an echo keeps exp(-v) of its power, the rest is a pedestal
+//                   of a density of at most S (1 - exp(-v)) / v (exp(R) - 1 <= R (exp(v) - 1) / v
+//                   for 0 <= R <= v):
+//                     max(10 log10(1 + C P fs S (1 - exp(-v)) / (v N1)), 4.34 v)
 //                   twice the pedestal for real samples, whose image adds its own.
 //   quantiser       steps q no longer than the noise's standard deviation s per part make an error
 //                   that is white, of q^2 / 12 per part (what is left of its dependence on the
 //                   signal is below 2e-9 q): 10 log10(1 + q^2 / (12 s^2)). Longer ones are not
 //                   hidden: the whole window. q = largest part / 2^(bits - 1), the largest with
-//                   the largest draw there is, 6.77 s.
+//                   the largest draw there is, 6.77 s; or a given full scale, and where the largest
+//                   part may be beyond that, clipping changes anything: the whole window.
 //
 // Where the user switches the noise off nothing hides either: the whole window. The same where
 // samples are a product themselves.
 // Sources: B. Widrow, I. Kollar, "Quantization Noise", 2008, chapter 5 (Gaussian input); M. C.
-// Budge, M. P. Burt, IEEE Radar Conf. 1993 (signal/receiver/receiver_noise.h).
-// Neglected: the few samples that the quantiser clips, by a step at most; the dependence between
+// Budge, M. P. Burt, IEEE Radar Conf. 1993 (signal/receiver/oscillator.h).
+// Neglected: the few samples that a quantiser without a given full scale clips, by a step at most; the dependence between
 // channels that share a receiver in the same moment.
 #pragma once
 

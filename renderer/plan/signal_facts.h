@@ -15,9 +15,11 @@ struct SignalFacts {
   // The receiver.
   double noise_sample_W = 0.0;     // thermal noise of a complex sample, both parts
   bool complex_baseband = true;    // else real samples
-  double phase_noise_rad = 0.0;    // rms; 0: the oscillator has none
-  double phase_noise_samples = 0;  // its correlation time over that from sample to sample
-  int adc_bits = 0;                // 0: no quantiser
+  double phase_noise_rad = 0.0;    // rms, at most of any echo; 0: the oscillator has none
+  // Largest density of that phase at any offset, times the sample rate: 1 rms^2 where it is white.
+  double phase_noise_peak = 0.0;
+  int adc_bits = 0;                 // 0: no quantiser
+  double full_scale_sqrtW = 0.0;    // of the quantiser; 0: the largest part of any sample, noise included
 };
 
 }  // namespace fanbeam::renderer

@@ -51,7 +51,7 @@ std::optional<int> frame_of(const fs::path& relative) {
 
 // What is written of all frames together.
 bool is_of_run(const std::string& name) {
-  return name == kLayersFile ||
+  return name == kLayersFile || name == kRadarFile ||
          std::find(kRunLabelFiles.begin(), kRunLabelFiles.end(), name) != kRunLabelFiles.end();
 }
 

@@ -13,6 +13,9 @@
 
 namespace fanbeam::session {
 
+// The radar of a run at signal level (session/signal/radar_file.h).
+inline constexpr const char* kRadarFile = "radar.toml";
+
 class OutputFolder {
  public:
   // Looks, and changes nothing. Throws InputError (E-RANGE of --overwrite: exit code 2) naming

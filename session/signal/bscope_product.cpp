@@ -23,8 +23,7 @@ SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwSettin
     settings.multipath = renderer::Multipath::coherent;
   settings.swerling = scene.plan.runs(core::EffectId::swerling);
   settings.budget = {scene.plan, scene.accuracy_grey, scene.options.wishes};
-  settings.line_width_Hz = options.line_width_Hz;
-  settings.adc_bits = options.adc_bits;
+  settings.receiver = options;
   settings.seed = options.seed;
   return signal_bscope(scene.world, frame_pose, settings);
 }

@@ -4,18 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <utility>
 
 #include "core/constants.h"
 #include "core/effect_plan.h"
-#include "signal/detection/clusters.h"
 #include "signal/receiver/receiver_noise.h"
 #include "signal/synthesis/beat_synthesis.h"
 #include "signal/synthesis/frame.h"
 #include "signal/synthesis/keystone_synthesis.h"
-#include "signal/transform/angle_transform.h"
-#include "signal/transform/slot_compensation.h"
 #include "signal/waveform/folding.h"
 
 namespace fanbeam::session {
@@ -54,12 +50,24 @@ signal::FloatCube synthesise(const FmcwRadar& radar, int stage,
   return signal::synthesise_beat(waveform, stage, radar.array, paths, fine);
 }
 
-double strongest_delay_s(const std::vector<signal::ScatterPath>& paths) {
-  const auto strongest =
-      std::max_element(paths.begin(), paths.end(), [](const auto& a, const auto& b) {
-        return std::norm(a.amplitude_sqrtW) < std::norm(b.amplitude_sqrtW);
-      });
-  return strongest == paths.end() ? 0.0 : 2.0 * strongest->range_m / core::kSpeedOfLight_mps;
+std::vector<double> delays_s(const std::vector<signal::ScatterPath>& paths) {
+  std::vector<double> result;
+  for (const signal::ScatterPath& path : paths)
+    result.push_back(2.0 * std::abs(path.range_m) / core::kSpeedOfLight_mps);
+  return result;
+}
+
+// Every channel's own gain and phase.
+void apply_channel_errors(const ArraySettings& array, signal::FloatCube& beat) {
+  for (int channel = 0; channel < beat.shape.channels; ++channel) {
+    const auto i = static_cast<std::size_t>(channel);
+    const double gain = array.gain_errors_dB.empty() ? 1.0 : std::pow(10.0, 0.05 * array.gain_errors_dB[i]);
+    const double phase_rad = array.phase_errors_rad.empty() ? 0.0 : array.phase_errors_rad[i];
+    if (gain == 1.0 && phase_rad == 0.0) continue;
+    const auto factor = static_cast<std::complex<float>>(std::polar(gain, phase_rad));
+    for (std::size_t k = beat.index(channel, 0, 0); k < beat.index(channel + 1, 0, 0); ++k)
+      beat.values[k] *= factor;
+  }
 }
 
 double sum_W(const std::vector<signal::ScatterPath>& paths) {
@@ -79,53 +87,6 @@ SamplesShown shown_by(const FmcwRadar& radar, const FmcwSettings& options,
   return shown;
 }
 
-signal::TopViewGrid grid_of(const FmcwRadar& radar) {
-  const double reach_m = radar.axes.range_step_m * (radar.detection.transform.kept_range_cells - 1);
-  signal::TopViewGrid grid;
-  grid.step_m = reach_m / 240.0;
-  grid.rows = 241;
-  grid.columns = 2 * 120 + 1;  // half as far to either side
-  grid.leftmost_m = -120.0 * grid.step_m;
-  return grid;
-}
-
-void make_maps(const FmcwRadar& radar, const std::set<std::string>& products, FmcwFrame& frame) {
-  const auto wants = [&](std::initializer_list<const char*> names) {
-    return std::any_of(names.begin(), names.end(),
-                       [&](const char* name) { return products.contains(name); });
-  };
-  const bool detections = wants({"range-doppler", "range-azimuth", "top-view", "detections"});
-  const bool angles = wants({"cube", "range-azimuth", "top-view"});
-  if (!radar.maps || !(detections || angles)) return;
-  signal::FloatCube scaled;
-  if (radar.power_scale != 1.0) {
-    scaled = frame.beats[0];
-    const auto scale = static_cast<float>(std::sqrt(radar.power_scale));
-    for (std::complex<float>& sample : scaled.values) sample *= scale;
-  }
-  const signal::FloatCube& beat = radar.power_scale != 1.0 ? scaled : frame.beats[0];
-  signal::FloatCube range_speed;
-  signal::range_doppler(beat, radar.detection.transform, range_speed);
-  if (detections) {
-    frame.range_doppler = signal::range_doppler_map(range_speed, signal::Projection::sum);
-    FmcwDetections found;
-    found.detections =
-        signal::detect(beat, frame.range_doppler, radar.array, radar.timing, radar.detection);
-    found.clusters = signal::detection_clusters(found.detections, {});
-    frame.found = std::move(found);
-  }
-  if (!angles) return;
-  signal::compensate_slots(range_speed, radar.array);
-  signal::angle_transform(range_speed, {.kind = signal::WindowKind::taylor, .symmetric = true},
-                          static_cast<int>(radar.azimuths_rad.size()), frame.cube);
-  if (!wants({"range-azimuth", "top-view"})) return;
-  frame.range_azimuth = signal::range_azimuth_map(frame.cube, signal::Projection::max);
-  if (!wants({"top-view"})) return;
-  frame.grid = grid_of(radar);
-  frame.top_view = signal::top_view(frame.range_azimuth, radar.azimuths_rad,
-                                    radar.axes.range_step_m, frame.grid);
-}
-
 }  // namespace
 
 FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
@@ -138,28 +99,34 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
   frame.warnings = signal::folding_warnings(signal::count_folding(radar.waveform, paths, policy));
   const SamplesShown shown = shown_by(radar, options, products);
   const double echo_W = sum_W(paths);
-  const double phase_noise_rad =
-      signal::phase_noise_rms_rad(options.line_width_Hz, strongest_delay_s(paths));
+  const std::vector<double> delays = delays_s(paths);
   for (int stage = 0; stage < radar.waveform.stages(); ++stage) {
-    frame.beats.push_back(synthesise(radar, stage, paths, frame));
-    const auto number = static_cast<std::uint64_t>(frame_number) *
-                            static_cast<std::uint64_t>(radar.waveform.stages()) +
-                        static_cast<std::uint64_t>(stage);
-    const FmcwReceiver receiver{
-        .noise_figure = sensor.receiver.noise_figure,
-        .sample_rate_Hz = radar.waveform.sample_rate_Hz[static_cast<std::size_t>(stage)],
-        .complex_baseband = !options.real,
-        .phase_noise_rad = phase_noise_rad,
-        .adc_bits = options.adc_bits};
-    const core::EffectPlan plan =
-        receiver_plan(budget, shown, sensor, receiver, echo_W, frame.beats.back());
+    signal::FloatCube beat = synthesise(radar, stage, paths, frame);
+    FmcwReceiver receiver = fmcw_receiver(
+        options, radar.noise_figure, radar.waveform.sample_rate_Hz[static_cast<std::size_t>(stage)],
+        !options.real);
+    receiver.longest_delay_s = delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
+    const core::EffectPlan plan = receiver_plan(budget, shown, sensor, receiver, echo_W, beat);
     keep_larger(plan, frame.plan);
     // A stage more is another stretch of time: draws of its own.
-    frame.clipped +=
-        receive(radar.array, receiver, plan, {options.seed, 0, number}, frame.beats.back());
+    const core::RandomKey key{options.seed, 0,
+                              static_cast<std::uint64_t>(frame_number) *
+                                      static_cast<std::uint64_t>(radar.waveform.stages()) +
+                                  static_cast<std::uint64_t>(stage)};
+    if (plan.runs(core::EffectId::phase_noise)) {
+      beat = with_phase_noise(receiver, key, delays, [&](const std::vector<std::size_t>& members) {
+        std::vector<signal::ScatterPath> some;
+        for (const std::size_t i : members) some.push_back(paths[i]);
+        return synthesise(radar, stage, some, frame);
+      });
+      frame.phase_noise_rad =
+          std::max(frame.phase_noise_rad, phase_noise_rad(receiver, beat.shape.samples));
+    }
+    apply_channel_errors(options, beat);
+    frame.clipped += receive(radar.array, receiver, plan, key, beat);
+    frame.beats.push_back(std::move(beat));
   }
-  if (frame.plan.runs(core::EffectId::phase_noise)) frame.phase_noise_rad = phase_noise_rad;
-  make_maps(radar, products, frame);
+  process_samples(radar, options, products, frame);
   return frame;
 }
 

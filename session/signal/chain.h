@@ -47,4 +47,9 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const FmcwSettings& options, const std::set<std::string>& products,
                      const SignalBudget& budget = {});
 
+// Maps and detections of frame.beats[0], as the names of `products` need them: the way down from
+// samples, whoever made them.
+void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
+                     const std::set<std::string>& products, FmcwFrame& frame);
+
 }  // namespace fanbeam::session

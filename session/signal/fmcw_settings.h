@@ -8,6 +8,8 @@
 #include <string>
 
 #include "session/products/products.h"
+#include "session/signal/processing_settings.h"
+#include "session/signal/receiver_settings.h"
 #include "session/signal/waveform_settings.h"
 
 namespace fanbeam::session {
@@ -27,21 +29,16 @@ inline constexpr std::array<Product, 8> kFmcwProducts = {
 inline constexpr const char* kAutomotive = "automotive-76ghz";
 inline constexpr std::size_t kMostDirectPaths = 20'000;
 
-struct FmcwSettings {
+struct FmcwSettings : ProcessingSettings, ArraySettings, ReceiverSettings {
   std::string waveform;  // a kind, or kAutomotive; empty: by the sensor's frequency
   // Of kWaveformNumbers, in their handy units; what is missing is the kind's default.
   std::array<std::optional<double>, kWaveformNumbers.size()> numbers;
-  bool real = false;                      // samples: negative beats read as positive ones
-  int transmitters = 3, receivers = 4;    // 1 to 64 each, on a line, half a wavelength apart
-  double false_alarm_probability = 1e-6;  // of a cell, 1e-12 to 0.1
-  double rays_per_cell = 1.0;             // scatterers, 0.3 to 1000
-  int looks = 0;                          // of the B-scope, to 100 000; 0: the sensor's
-  double dynamic_range_dB = 60.0;         // of maps as pictures, 1 to 300
-  double line_width_Hz = 0.0;             // of the oscillator, to 1e6; 0: no phase noise
-  int adc_bits = 0;                       // to 24; 0: no quantiser
-  bool refuse_folding = false;            // E-RANGE where echoes fold in range or speed
-  bool unfold = false;                    // speeds of detections, by time division
-  std::uint64_t seed = 0;                 // of everything random
+  bool real = false;                // samples: negative beats read as positive ones
+  double rays_per_cell = 1.0;       // scatterers, 0.3 to 1000
+  int looks = 0;                    // of the B-scope, to 100 000; 0: the sensor's
+  double dynamic_range_dB = 60.0;   // of maps as pictures, 1 to 300
+  bool refuse_folding = false;      // E-RANGE where echoes fold in range or speed
+  std::uint64_t seed = 0;           // of everything random
 };
 
 }  // namespace fanbeam::session

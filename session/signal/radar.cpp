@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "core/constants.h"
+#include "core/decibel.h"
 #include "core/errors.h"
+#include "session/signal/receive.h"
 #include "session/signal/waveform_choice.h"
 #include "signal/detection/cfar_calibration.h"
+#include "signal/fourier/window_figures.h"
 #include "signal/receiver/receiver_noise.h"
 #include "signal/transform/angle_transform.h"
 
@@ -45,31 +48,45 @@ WaveformKind kind_of(const std::string& name) {
   return *kind;
 }
 
+// What a sensor file says of the radar, or what stands for it.
+struct Front {
+  double frequency_Hz = 0.0, bandwidth_Hz = 0.0, noise_figure = 1.0;
+  std::optional<double> most_range_m;  // missing: as far as the samples reach
+};
+
+double least_most_range_m(const FmcwSettings& options, const Front& front) {
+  return options.most_range_m.value_or(front.most_range_m.value_or(0.0));
+}
+
 // Samples that reach the last range cell without folding, in whole megahertz.
-double reaching_rate_Hz(const WaveformSettings& wanted, const sensors::Sensor& sensor) {
-  const double bandwidth_Hz = sensor.waveform.bandwidth_Hz;
+double reaching_rate_Hz(const WaveformSettings& wanted, double bandwidth_Hz, double most_range_m) {
   const auto ramp = wanted.numbers[number_of("--ramp")];
   const double ramp_s = ramp ? *ramp * 1e-6 : 20e-6;
-  const double beat_Hz =
-      2.0 * bandwidth_Hz / ramp_s * sensor.range.maximum_m() / core::kSpeedOfLight_mps;
+  const double beat_Hz = 2.0 * bandwidth_Hz / ramp_s * most_range_m / core::kSpeedOfLight_mps;
   return 1e6 * std::ceil(std::max(1e6, 1.05 * beat_Hz) * 1e-6) * (wanted.real ? 2.0 : 1.0);
 }
 
+int transmitters_of(const ArraySettings& array) {
+  return array.transmitters_m.empty() ? array.transmitters
+                                      : static_cast<int>(array.transmitters_m.size());
+}
+
 signal::Waveform waveform_of(const FmcwSettings& options, const std::string& name,
-                             const sensors::Sensor& sensor) {
+                             const Front& front) {
   const WaveformKind kind = kind_of(name);
   WaveformSettings wanted;
   wanted.kind = std::string(signal::name(kind));
   wanted.numbers = options.numbers;
   wanted.real = options.real;
-  suggest("--frequency", sensor.waveform.frequency_Hz, wanted);
+  suggest("--frequency", front.frequency_Hz, wanted);
   if (kind != WaveformKind::continuous && kind != WaveformKind::pulsed)
-    suggest("--bandwidth", sensor.waveform.bandwidth_Hz, wanted);
+    suggest("--bandwidth", front.bandwidth_Hz, wanted);
   if (name == kAutomotive) {
-    suggest("--slots", options.transmitters, wanted);
+    suggest("--slots", transmitters_of(options), wanted);
     suggest("--sample-rate", 20e6, wanted);
   } else if (is_sequence(kind)) {
-    suggest("--sample-rate", reaching_rate_Hz(wanted, sensor), wanted);
+    suggest("--sample-rate",
+            reaching_rate_Hz(wanted, front.bandwidth_Hz, least_most_range_m(options, front)), wanted);
   }
   return chosen_waveform(wanted);
 }
@@ -77,15 +94,59 @@ signal::Waveform waveform_of(const FmcwSettings& options, const std::string& nam
 signal::Array array_of(const FmcwSettings& options, const signal::Waveform& waveform,
                        double pitch_m) {
   signal::Array array = signal::line_array(options.transmitters, options.receivers, pitch_m);
+  if (!options.transmitters_m.empty()) array.transmitters_m = options.transmitters_m;
+  if (!options.receivers_m.empty()) array.receivers_m = options.receivers_m;
+  signal::check(array);
+  const auto channels = static_cast<std::size_t>(array.channels());
+  for (const auto* errors : {&options.gain_errors_dB, &options.phase_errors_rad})
+    if (!errors->empty() && errors->size() != channels)
+      core::throw_input_error(core::ErrorClass::range, "channel errors",
+                              static_cast<double>(errors->size()),
+                              "one for each of " + std::to_string(channels) + " channels");
   const int slots = signal::slots(signal::stage_segments(waveform, 0));
   array.multiplex = slots == 1 ? signal::Multiplex::simultaneous : signal::Multiplex::time_division;
-  if (slots != 1 && slots != options.transmitters)
+  if (slots != 1 && slots != static_cast<int>(array.transmitters_m.size()))
     core::throw_input_error(core::ErrorClass::unsupported, "--slots", slots,
                             "1, or as many as --transmitters");
   return array;
 }
 
-void prepare_maps(const FmcwSettings& options, const sensors::Sensor& sensor, FmcwRadar& radar) {
+// Left to right across the boresight at one pitch, as the Fourier transform over channels needs it.
+bool is_line(const std::vector<glm::dvec3>& elements_m) {
+  if (!signal::is_uniform_line(elements_m)) return false;
+  if (elements_m.size() < 2) return true;
+  const glm::dvec3 pitch_m = elements_m[1] - elements_m[0];
+  return pitch_m.y > 0.0 && std::hypot(pitch_m.x, pitch_m.z) <= 1e-6 * pitch_m.y;
+}
+
+signal::CfarSettings cfar_of(const ProcessingSettings& options, const signal::CellCorrelation& cells,
+                             int looks) {
+  signal::CfarSettings cfar;
+  cfar.kind = options.cfar;
+  cfar.design_probability = options.false_alarm_probability;
+  cfar.along_columns = {options.cfar_guard.range, options.cfar_training.range, false};
+  cfar.along_rows = {options.cfar_guard.doppler, options.cfar_training.doppler, true};
+  cfar.design_probability = signal::calibrated_cfar(cfar, cells, looks).design_probability;
+  return cfar;
+}
+
+signal::ClusterScales clusters_of(const ProcessingSettings& options,
+                                  const signal::RangeDopplerAxes& axes,
+                                  const std::vector<double>& range_weights,
+                                  const std::vector<double>& doppler_weights) {
+  constexpr double kWidths = 4.0;  // parts of a car 3.3 m apart are one at 250 MHz
+  const auto width = [](const std::vector<double>& weights) {
+    return weights.size() < 3 ? 1.0 : signal::window_figures(weights).half_power_width_bins;
+  };
+  signal::ClusterScales scales;
+  scales.place_m = options.cluster_place_m.value_or(kWidths * axes.range_step_m * width(range_weights));
+  scales.speed_mps = options.cluster_speed_mps.value_or(
+      kWidths * (axes.speed_mps(1.0) - axes.speed_mps(0.0)) * width(doppler_weights));
+  scales.least_neighbours = options.cluster_neighbours;
+  return scales;
+}
+
+void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& radar) {
   const auto segments = signal::stage_segments(radar.waveform, 0);
   const int slots = radar.array.slots();
   const int samples = signal::samples_per_segment(radar.waveform, 0);
@@ -103,25 +164,29 @@ void prepare_maps(const FmcwSettings& options, const sensors::Sensor& sensor, Fm
   signal::DetectionSettings& settings = radar.detection;
   // Real samples hold every range twice.
   const int whole = options.real ? samples / 2 : samples;
-  settings.transform.kept_range_cells = std::clamp(
-      static_cast<int>(std::ceil(sensor.range.maximum_m() / radar.axes.range_step_m)), 2, whole);
-  // Echoes of a street span more than the 35 dB of the usual Taylor window.
-  settings.transform.range_window = settings.transform.doppler_window = {
-      .kind = signal::WindowKind::chebyshev, .level_dB = 60.0, .symmetric = true};
+  const double most_range_m = least_most_range_m(options, front);
+  settings.transform.kept_range_cells =
+      most_range_m > 0.0
+          ? std::clamp(static_cast<int>(std::ceil(most_range_m / radar.axes.range_step_m)), 2, whole)
+          : whole;
+  settings.transform.range_window = options.range_window;
+  settings.transform.doppler_window = options.doppler_window;
   settings.refinement = signal::Refinement::windowed;
+  settings.angle = options.angle_method;
   settings.unfold = options.unfold && slots > 1;
-  settings.cfar = {.kind = signal::CfarKind::ordered_statistic,
-                   .design_probability = options.false_alarm_probability,
-                   .along_columns = {2, 4, false},
-                   .along_rows = {2, 2, true}};
   const auto range_weights = signal::window_weights(settings.transform.range_window, samples);
   const auto doppler_weights = signal::window_weights(settings.transform.doppler_window, chirps);
-  settings.cfar.design_probability =
-      signal::calibrated_cfar(settings.cfar, {range_weights, samples, doppler_weights, chirps},
-                              radar.array.channels())
-          .design_probability;
-  radar.noise_cell_W = signal::noise_sample_W(sensor.receiver.noise_figure, fs_Hz) *
+  settings.cfar = cfar_of(options, {range_weights, samples, doppler_weights, chirps},
+                          radar.array.channels());
+  radar.clusters = clusters_of(options, radar.axes, range_weights, doppler_weights);
+  radar.noise_cell_W = signal::noise_sample_W(radar.noise_figure, fs_Hz) *
                        signal::noise_gain(range_weights) * signal::noise_gain(doppler_weights);
+  // The largest of some hundred noise cells is about six times their mean; Capon's sums them.
+  constexpr double kLargestOverMean = 6.0;
+  radar.noise_azimuth_W = radar.noise_cell_W / radar.array.channels() *
+                          (options.angle_method == signal::AngleMethod::capon
+                               ? 1.0 / signal::noise_gain(doppler_weights)
+                               : kLargestOverMean);
   // Real samples of noise have half of that, which the scale makes up for.
   radar.power_scale = options.real ? 2.0 : 1.0;
 }
@@ -136,18 +201,57 @@ std::string waveform_name(const FmcwSettings& options, const sensors::Sensor& se
              : std::string(signal::name(WaveformKind::chirp_sequence));
 }
 
+namespace {
+
+FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front& front) {
+  FmcwRadar radar;
+  radar.waveform_name = name;
+  radar.noise_figure = front.noise_figure;
+  radar.waveform = waveform_of(options, name, front);
+  radar.pitch_m = options.pitch_wavelengths * radar.waveform.wavelength_m();
+  radar.array = array_of(options, radar.waveform, radar.pitch_m);
+  radar.line = is_line(signal::virtual_elements_m(radar.array));
+  if (!radar.line) radar.pitch_m = 0.5 * radar.waveform.wavelength_m();
+  if (!radar.line && options.angle_method != signal::AngleMethod::beamforming)
+    core::throw_input_error(core::ErrorClass::unsupported, "angle method",
+                            std::string(signal::name(options.angle_method)),
+                            "beamforming, or an array on a line at one pitch");
+  radar.maps = is_sequence(radar.waveform.kind);
+  if (radar.maps) prepare_maps(options, front, radar);
+  return radar;
+}
+
+}  // namespace
+
 FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor) {
   if (sensor.scan.surface != sensors::ScanSurface::plane)
     core::throw_input_error(core::ErrorClass::unsupported, "scan.surface", "\"cone\"",
                             "a plane scan: a line array measures cones by itself");
-  FmcwRadar radar;
-  radar.waveform_name = waveform_name(options, sensor);
-  radar.waveform = waveform_of(options, radar.waveform_name, sensor);
-  radar.pitch_m = 0.5 * radar.waveform.wavelength_m();
-  radar.array = array_of(options, radar.waveform, radar.pitch_m);
-  radar.maps = is_sequence(radar.waveform.kind);
-  if (radar.maps) prepare_maps(options, sensor, radar);
-  return radar;
+  if (const auto told = options.numbers[number_of("--frequency")])
+    if (std::abs(*told * 1e9 / sensor.waveform.frequency_Hz - 1.0) > 1e-6)
+      core::throw_input_error(
+          core::ErrorClass::range, "waveform.frequency_GHz", *told,
+          core::number_text(sensor.waveform.frequency_Hz * 1e-9) + ", the scene's sensor's");
+  return made(options, waveform_name(options, sensor),
+              {sensor.waveform.frequency_Hz, sensor.waveform.bandwidth_Hz,
+               noise_figure_of(options, sensor), sensor.range.maximum_m()});
+}
+
+FmcwRadar fmcw_radar(const FmcwSettings& options) {
+  core::ProblemList problems;
+  const auto told = [&](const char* option, const char* key) {
+    const auto value = options.numbers[number_of(option)];
+    if (!value) problems.error(core::ErrorClass::ref, {}, key, "missing", "a number");
+    return value.value_or(1.0);
+  };
+  Front front;
+  front.frequency_Hz = told("--frequency", "waveform.frequency_GHz") * 1e9;
+  front.bandwidth_Hz = told("--bandwidth", "waveform.bandwidth_MHz") * 1e6;
+  if (!options.noise_figure_dB)
+    problems.error(core::ErrorClass::ref, {}, "receiver.noise_figure_dB", "missing", "a number");
+  problems.throw_if_errors();
+  front.noise_figure = core::power_from_dB(*options.noise_figure_dB);
+  return made(options, options.waveform.empty() ? kAutomotive : options.waveform, front);
 }
 
 }  // namespace fanbeam::session

@@ -6,6 +6,7 @@
 
 #include "sensors/sensor.h"
 #include "session/signal/fmcw_settings.h"
+#include "signal/detection/clusters.h"
 #include "signal/detection/detections.h"
 #include "signal/waveform/array.h"
 #include "signal/waveform/waveform.h"
@@ -16,14 +17,18 @@ struct FmcwRadar {
   std::string waveform_name;
   signal::Waveform waveform;
   signal::Array array;
-  double pitch_m = 0.0;
+  double pitch_m = 0.0;         // of a line; else half a wavelength
+  bool line = true;             // virtual elements in order at one pitch
+  double noise_figure = 1.0;
   // Of the chirp sequence in stage 0; nothing of it is valid where `maps` is false.
   bool maps = false;
   signal::CubeTiming timing;
   signal::RangeDopplerAxes axes;
   signal::DetectionSettings detection;
+  signal::ClusterScales clusters;
   std::vector<double> azimuths_rad;  // of the cube's cells, rising
   double noise_cell_W = 0.0;         // mean, in a cell of one transformed channel
+  double noise_azimuth_W = 0.0;      // about the largest of a range-azimuth map without echoes
   // Of maps and spectra over what the transforms of samples give: 2 for real ones, half of whose power lies
   // at the negative beat.
   double power_scale = 1.0;
@@ -36,5 +41,9 @@ std::string waveform_name(const FmcwSettings& options, const sensors::Sensor& se
 // Frequency and sweep are the sensor's; what the options say replaces the rest. Throws InputError
 // for what does not go together, E-UNSUPPORTED for a cone scan.
 FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor);
+
+// The same of a radar that no sensor file describes: its settings say frequency, sweep and noise
+// figure (E-REF where they do not).
+FmcwRadar fmcw_radar(const FmcwSettings& options);
 
 }  // namespace fanbeam::session

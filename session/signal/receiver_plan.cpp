@@ -22,8 +22,14 @@ core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& s
   signal.largest_sample_sqrtW = std::sqrt(receiver.complex_baseband ? largest_W : 2.0 * largest_W);
   signal.noise_sample_W = signal::noise_sample_W(receiver.noise_figure, receiver.sample_rate_Hz);
   signal.complex_baseband = receiver.complex_baseband;
-  signal.phase_noise_rad = receiver.phase_noise_rad;
-  signal.phase_noise_samples = receiver.sample_rate_Hz * signal::PhaseNoise{}.correlation_s;
+  if (!receiver.phase_noise.empty() && echo_W > 0.0) {
+    const signal::ResidualPhase residual =
+        signal::residual_phase(receiver.phase_noise, receiver.longest_delay_s,
+                               receiver.sample_rate_Hz, beat.shape.samples);
+    signal.phase_noise_rad = residual.largest_rms_rad;
+    signal.phase_noise_peak = receiver.sample_rate_Hz * residual.largest_density_rad2_per_Hz;
+  }
+  signal.full_scale_sqrtW = receiver.full_scale_sqrtW;
   signal.adc_bits = receiver.adc_bits;
   renderer::SceneFacts facts;
   facts.sensor = sensor;

@@ -6,7 +6,9 @@
 #include "core/machine.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "sensors/receiver/point_response.h"
+#include "session/records/output_folder.h"
 #include "session/records/record_json.h"
+#include "session/signal/receive.h"
 #include "session/signal/signal_bscope.h"
 #include "session/signal/waveform_figures.h"
 #include "session/version.h"
@@ -24,15 +26,18 @@ Json named_waveform_json(const FmcwRadar& radar) {
 }
 
 Json array_json(const FmcwRadar& radar) {
-  Json elements = Json::array();
+  Json elements = Json::array(), places = Json::array();
   for (const glm::dvec3& element : signal::virtual_elements_m(radar.array))
-    elements.push_back(element.y);
+    (radar.line ? elements : places).push_back(radar.line ? Json(element.y)
+                                                          : Json{element.x, element.y, element.z});
   const bool in_turn = radar.array.multiplex == signal::Multiplex::time_division;
-  return {{"transmitters", radar.array.transmitters_m.size()},
-          {"receivers", radar.array.receivers_m.size()},
-          {"multiplex", in_turn ? "time-division" : "simultaneous"},
-          {"pitch_m", radar.pitch_m},
-          {"virtual_elements_right_m", elements}};
+  Json json = {{"transmitters", radar.array.transmitters_m.size()},
+               {"receivers", radar.array.receivers_m.size()},
+               {"multiplex", in_turn ? "time-division" : "simultaneous"},
+               {"pitch_m", radar.pitch_m}};
+  json[radar.line ? "virtual_elements_right_m" : "virtual_elements_forward_right_up_m"] =
+      radar.line ? elements : places;
+  return json;
 }
 
 // How the cells of maps and cube are numbered.
@@ -47,6 +52,17 @@ Json axes_json(const FmcwRadar& radar) {
           {"range_read_long_m_per_mps", axes.range_per_Doppler_m_s * 2.0 / axes.wavelength_m},
           {"azimuths_rad", radar.azimuths_rad},
           {"noise_cell_W", radar.noise_cell_W}};
+}
+
+Json processing_json(const FmcwSettings& options, const FmcwRadar& radar) {
+  return {{"range_window", signal::name(options.range_window)},
+          {"doppler_window", signal::name(options.doppler_window)},
+          {"angle_window", signal::name(options.angle_window)},
+          {"angle_method", std::string(signal::name(options.angle_method))},
+          {"clusters",
+           {{"place_m", radar.clusters.place_m},
+            {"speed_mps", radar.clusters.speed_mps},
+            {"least_neighbours", radar.clusters.least_neighbours}}}};
 }
 
 // What the B-scope's columns are swept with: the same in all but its frequency.
@@ -142,11 +158,16 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwSettings& option
                {"sensor", scene.description.sensor.name},
                {"seed", options.seed},
                {"rays_per_cell", options.rays_per_cell},
-               {"noise_figure", scene.description.sensor.receiver.noise_figure},
+               {"noise_figure", noise_figure_of(options, scene.description.sensor)},
                {"line_width_Hz", options.line_width_Hz},
                {"adc_bits", options.adc_bits}};
+  if (options.adc_full_scale_dBm) json["adc_full_scale_dBm"] = *options.adc_full_scale_dBm;
+  if (!options.phase_noise.empty())
+    json["phase_noise"] = {{"offsets_Hz", options.phase_noise.offsets_Hz},
+                           {"dBc_per_Hz", options.phase_noise.levels_dBc_per_Hz}};
   if (const auto limit = core::instruction_limit()) json["isa"] = core::short_name_of(*limit);
   if (!radar.waveform.segments.empty()) {  // the chain ran
+    json["files"] = {kRadarFile};
     json["waveform"] = named_waveform_json(radar);
     json["array"] = array_json(radar);
   }
@@ -154,7 +175,10 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwSettings& option
     json["axes"] = axes_json(radar);
     json["cfar"] = {{"kind", std::string(signal::name(radar.detection.cfar.kind))},
                     {"false_alarm_probability", options.false_alarm_probability},
+                    {"guard", {options.cfar_guard.range, options.cfar_guard.doppler}},
+                    {"training", {options.cfar_training.range, options.cfar_training.doppler}},
                     {"design_probability", radar.detection.cfar.design_probability}};
+    json["processing"] = processing_json(options, radar);
   }
   if (!frames.empty() && frames.front().scan) json["bscope"] = scan_json(scene.description.sensor);
   json["input"] = Json::parse(resolved_json(scene.description.resolved));

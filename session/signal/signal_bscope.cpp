@@ -30,14 +30,22 @@ renderer::FrameEchoSettings echo_settings(const SignalBscopeSettings& settings,
   return result;
 }
 
-double phase_noise_rad(const SignalBscopeSettings& settings,
-                       const std::vector<core::Echo>& echoes) {
-  if (!(settings.line_width_Hz > 0.0) || echoes.empty()) return 0.0;
-  const auto strongest = std::max_element(
-      echoes.begin(), echoes.end(),
-      [](const core::Echo& a, const core::Echo& b) { return a.power_W < b.power_W; });
-  return signal::phase_noise_rms_rad(settings.line_width_Hz,
-                                     2.0 * strongest->range_m / core::kSpeedOfLight_mps);
+std::vector<double> delays_s(const std::vector<core::Echo>& echoes) {
+  std::vector<double> result;
+  for (const core::Echo& echo : echoes)
+    result.push_back(2.0 * echo.range_m / core::kSpeedOfLight_mps);
+  return result;
+}
+
+signal::FloatCube beat_of(const sensors::Sensor& sensor, const renderer::FrameEchoes& found,
+                          const std::vector<std::size_t>& members) {
+  std::vector<core::Echo> echoes;
+  std::vector<double> phases_rad;
+  for (const std::size_t i : members) {
+    echoes.push_back(found.echoes[i]);
+    phases_rad.push_back(found.phase_rad[i]);
+  }
+  return signal::scan_beat(sensor, echoes, phases_rad);
 }
 
 double sum_W(const std::vector<core::Echo>& echoes) {
@@ -59,10 +67,9 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
   const sensors::Sensor sensor = with_sweep_window(world.sensor);
   const double taken_off_mps =
       sensor.waveform.doppler_compensated ? glm::length(settings.own_velocity_mps) : 0.0;
-  FmcwReceiver receiver;
-  receiver.noise_figure = sensor.receiver.noise_figure;
-  receiver.sample_rate_Hz = signal::column_sweep(sensor, 0).sample_rate_Hz[0];
-  receiver.adc_bits = settings.adc_bits;
+  FmcwReceiver receiver =
+      fmcw_receiver(settings.receiver, noise_figure_of(settings.receiver, sensor),
+                    signal::column_sweep(sensor, 0).sample_rate_Hz[0], true);
   const SamplesShown shown{.window_dB = sensors::GreyScale(sensor).window_dB(),
                            .over_display_floor = true};
   SignalBscope result;
@@ -77,13 +84,20 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
     result.rays += found.rays;
     result.scatterers += found.echoes.size();
     signal::FloatCube beat = signal::scan_beat(sensor, found.echoes, found.phase_rad);
-    receiver.phase_noise_rad = phase_noise_rad(settings, found.echoes);
+    const std::vector<double> delays = delays_s(found.echoes);
+    receiver.longest_delay_s = delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
     const core::EffectPlan plan =
         receiver_plan(settings.budget, shown, sensor, receiver, sum_W(found.echoes), beat);
     keep_larger(plan, result.plan);
-    if (plan.runs(core::EffectId::phase_noise))
-      result.phase_noise_rad = std::max(result.phase_noise_rad, receiver.phase_noise_rad);
-    result.clipped += receive({}, receiver, plan, {seed, 0, pose.frame_index}, beat);
+    const core::RandomKey key{seed, 0, pose.frame_index};
+    if (plan.runs(core::EffectId::phase_noise)) {
+      beat = with_phase_noise(receiver, key, delays, [&](const std::vector<std::size_t>& members) {
+        return beat_of(sensor, found, members);
+      });
+      result.phase_noise_rad =
+          std::max(result.phase_noise_rad, phase_noise_rad(receiver, beat.shape.samples));
+    }
+    result.clipped += receive({}, receiver, plan, key, beat);
     const std::vector<double> cells_W = signal::scan_cells_W(sensor, beat, taken_off_mps);
     for (std::size_t i = 0; i < cells_W.size(); ++i) result.power_W[i] += cells_W[i] / result.looks;
   }

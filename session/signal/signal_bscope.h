@@ -29,9 +29,8 @@ struct SignalBscopeSettings {
   glm::dvec3 own_velocity_mps{0.0};                           // of the antenna, in scene axes
   renderer::Multipath multipath = renderer::Multipath::none;  // of point targets
   bool swerling = false;
-  SignalBudget budget{};       // decides over noise, phase noise and quantiser
-  double line_width_Hz = 0.0;  // of the oscillator
-  int adc_bits = 0;
+  SignalBudget budget{};  // decides over noise, phase noise and quantiser
+  ReceiverSettings receiver{};
   std::uint64_t seed = 0;
 };
 

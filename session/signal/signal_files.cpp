@@ -19,9 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The largest of some hundred noise cells is about six times their mean: the colours begin there.
-constexpr double kLargestOverMean = 6.0;
-
 class Writer {
  public:
   Writer(const fs::path& folder, const FmcwRadar& radar, const FmcwFrame& frame,
@@ -109,7 +106,9 @@ void Writer::range_azimuth() const {
   const int cells = frame_.range_azimuth.rows;
   const double step = 1.0 / cells * radar_.waveform.wavelength_m() / radar_.pitch_m;
   HeatMap picture;
-  picture.title = title("largest over speeds");
+  picture.title = title(radar_.detection.angle == signal::AngleMethod::capon
+                            ? "Capon, sum over speeds"
+                            : "largest over speeds");
   picture.x = range_axis();
   // Cells are even in the sine of azimuth; the labels are degrees.
   picture.y = {"azimuth, deg (right is up)", -(cells / 2) * step, step, cells, {}};
@@ -118,8 +117,7 @@ void Writer::range_azimuth() const {
   for (const signal::RadarDetection& found : frame_.found->detections)
     picture.marks.emplace_back(found.range_cell * radar_.axes.range_step_m,
                                std::sin(found.azimuth_rad));
-  map("range-azimuth", frame_.range_azimuth,
-      radar_.noise_cell_W / radar_.array.channels() * kLargestOverMean, std::move(picture));
+  map("range-azimuth", frame_.range_azimuth, radar_.noise_azimuth_W, std::move(picture));
 }
 
 void Writer::top_view() const {
@@ -132,8 +130,7 @@ void Writer::top_view() const {
   for (const signal::RadarDetection& found : frame_.found->detections)
     picture.marks.emplace_back(found.range_m * std::sin(found.azimuth_rad),
                                found.range_m * std::cos(found.azimuth_rad));
-  map("top-view", frame_.top_view, radar_.noise_cell_W / radar_.array.channels() * kLargestOverMean,
-      std::move(picture));
+  map("top-view", frame_.top_view, radar_.noise_azimuth_W, std::move(picture));
 }
 
 void Writer::detections() const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "core/constants.h"
 #include "signal/checks_private.h"
@@ -32,6 +33,15 @@ struct Beamformer {
     double aperture_m = 0.0;
     for (const glm::dvec3& a : elements_m)
       aperture_m = std::max(aperture_m, glm::length(a - elements_m[0]));
+    return steps_for(aperture_m);
+  }
+  int vertical_steps() const {
+    double aperture_m = 0.0;
+    for (const glm::dvec3& a : elements_m)
+      aperture_m = std::max(aperture_m, std::abs(a.z - elements_m[0].z));
+    return aperture_m > 0.0 ? steps_for(aperture_m) : 0;
+  }
+  int steps_for(double aperture_m) const {
     // The farthest element from the first is at least half the aperture away.
     const double steps = std::ceil(16.0 * aperture_m / wavelength_m);
     return static_cast<int>(std::clamp(steps, 8.0, 20000.0));
@@ -76,6 +86,49 @@ double angle_of_step(int step, int steps) {
 }
 
 }  // namespace
+
+AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
+                         double wavelength_m) {
+  const Beamformer beam{snapshot, elements_m, wavelength_m};
+  check_input(beam);
+  const int rows = beam.vertical_steps();
+  if (rows == 0) return azimuth_peak(snapshot, elements_m, wavelength_m);
+  const int steps = beam.scan_steps();
+  AnglePeak peak;
+  peak.power = -1.0;
+  for (int row = 0; row <= rows; ++row)
+    for (int step = 0; step <= steps; ++step) {
+      const double azimuth_rad = angle_of_step(step, steps);
+      const double elevation_rad = angle_of_step(row, rows);
+      // Straight up and down all azimuths are one.
+      if ((row == 0 || row == rows) && step > 0) continue;
+      const double power = beam.power(azimuth_rad, elevation_rad);
+      if (power > peak.power) peak = {azimuth_rad, elevation_rad, power};
+    }
+  const double reach_rad = 2.0 * core::kPi / steps, rise_rad = 2.0 * core::kPi / rows;
+  const auto near = [](double centre, double reach) {
+    return std::pair(std::max(-0.5 * core::kPi, centre - reach),
+                     std::min(0.5 * core::kPi, centre + reach));
+  };
+  constexpr int kMostRounds = 60;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const AnglePeak before = peak;
+    const auto [left, right] = near(peak.azimuth_rad, reach_rad);
+    peak.azimuth_rad = climbed(
+        [&](double azimuth_rad) { return beam.power(azimuth_rad, peak.elevation_rad); }, left,
+        right);
+    const auto [low, high] = near(peak.elevation_rad, rise_rad);
+    peak.elevation_rad = climbed(
+        [&](double elevation_rad) { return beam.power(peak.azimuth_rad, elevation_rad); }, low,
+        high);
+    if (std::abs(peak.azimuth_rad - before.azimuth_rad) +
+            std::abs(peak.elevation_rad - before.elevation_rad) <
+        1e-9)
+      break;
+  }
+  peak.power = beam.power(peak.azimuth_rad, peak.elevation_rad);
+  return peak;
+}
 
 AnglePeak azimuth_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
                        double wavelength_m, double elevation_rad) {

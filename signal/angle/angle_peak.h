@@ -29,4 +29,11 @@ AnglePeak azimuth_peak(const std::vector<std::complex<double>>& snapshot,
                        const std::vector<glm::dvec3>& elements_m, double wavelength_m,
                        double elevation_rad = 0.0);
 
+// Azimuth and elevation, from -pi/2 to pi/2 each, of an array that has elements at several heights;
+// as azimuth_peak where it has none. A scan of both at a quarter of the beamwidth, then the two
+// climbed in turn. Elements farther apart than half a wavelength leave directions ambiguous: of equal
+// maxima the first, lowest and furthest left, is told.
+AnglePeak direction_peak(const std::vector<std::complex<double>>& snapshot,
+                         const std::vector<glm::dvec3>& elements_m, double wavelength_m);
+
 }  // namespace fanbeam::signal

@@ -83,18 +83,23 @@ std::vector<double> music_spectrum(const Covariance& covariance, const Steering&
   return powers;
 }
 
+std::vector<double> eigenvalues(const Covariance& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix_of(covariance), Eigen::EigenvaluesOnly);
+  return {eigen.eigenvalues().begin(), eigen.eigenvalues().end()};
+}
+
 int source_count(const Covariance& covariance, int snapshots) {
   if (snapshots < 1) refuse("snapshots", snapshots, "1 or more");
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix_of(covariance), Eigen::EigenvaluesOnly);
+  const std::vector<double> values = eigenvalues(covariance);
   const int n = covariance.elements;
-  const double largest = eigen.eigenvalues()(n - 1);
+  const double largest = values.back();
   if (!(largest > 0.0)) return 0;
   int best = 0;
   double least = 0.0;
   for (int k = 0; k < n; ++k) {
     double logs = 0.0, sum = 0.0;
     for (int i = 0; i < n - k; ++i) {
-      const double value = std::max(eigen.eigenvalues()(i), 1e-15 * largest);
+      const double value = std::max(values[static_cast<std::size_t>(i)], 1e-15 * largest);
       logs += std::log(value);
       sum += value;
     }

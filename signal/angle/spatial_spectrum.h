@@ -34,6 +34,9 @@ std::vector<double> capon_spectrum(const Covariance& covariance, const Steering&
 std::vector<double> music_spectrum(const Covariance& covariance, const Steering& steering,
                                    int sources);
 
+// Rising.
+std::vector<double> eigenvalues(const Covariance& covariance);
+
 int source_count(const Covariance& covariance, int snapshots);
 
 struct SpectrumPeak {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "core/constants.h"
-#include "signal/angle/angle_peak.h"
+#include "signal/angle/plane_wave.h"
 #include "signal/checks_private.h"
 #include "signal/detection/cube_tone.h"
 #include "signal/detection/map_peaks.h"
@@ -52,26 +52,33 @@ class Refiner {
   ToneWeights weights_;
 };
 
-RadarDetection measured(Place place, double snr, const RangeDopplerAxes& axes, const Array& array,
-                        const CubeTiming& timing, bool unfold) {
+// The directions of the waves in a snapshot, and where its Doppler lies once unfolded.
+struct Directions {
+  double doppler_Hz = 0.0;
+  std::vector<SourceDirection> waves;
+};
+
+Directions directions_of(Snapshot snapshot, double doppler_Hz, double noise_W, const Array& array,
+                         const CubeTiming& timing, const DetectionSettings& settings) {
+  Directions found;
+  found.doppler_Hz = doppler_Hz;
+  if (settings.unfold)
+    found.doppler_Hz +=
+        doppler_fold(snapshot, array, doppler_Hz, timing.slot_period_s, timing.wavelength_m).fold /
+        (array.slots() * timing.slot_period_s);
+  compensate_slots(snapshot, array, found.doppler_Hz, timing.slot_period_s);
+  found.waves = source_directions(snapshot, virtual_elements_m(array), timing.wavelength_m,
+                                  settings.angle, noise_W);
+  return found;
+}
+
+// What the place of a peak says, without its direction and power.
+RadarDetection measured(const Place& place, double doppler_Hz, double snr,
+                        const RangeDopplerAxes& axes, const CubeTiming& timing) {
   RadarDetection detection;
   detection.snr = snr;
   detection.range_cell = place.range_cell;
   detection.doppler_cell = place.doppler_cell;
-  double doppler_Hz = axes.doppler_Hz(place.doppler_cell);
-  AnglePeak angle;
-  if (unfold) {
-    const DopplerFold found =
-        doppler_fold(place.snapshot, array, doppler_Hz, timing.slot_period_s, timing.wavelength_m);
-    doppler_Hz += found.fold / (array.slots() * timing.slot_period_s);
-    angle = found.direction;
-  } else {
-    compensate_slots(place.snapshot, array, doppler_Hz, timing.slot_period_s);
-    angle = azimuth_peak(place.snapshot, virtual_elements_m(array), timing.wavelength_m);
-  }
-  detection.azimuth_rad = angle.azimuth_rad;
-  detection.elevation_rad = angle.elevation_rad;
-  detection.power_W = angle.power;
   detection.range_m = axes.range_m(place.range_cell, doppler_Hz);
   // The mixed phase -S tau^2 / 2 takes the beat off the frequency that Doppler counts with: 66 ppm
   // at 60 m and 12.5 MHz/us.
@@ -106,7 +113,17 @@ std::vector<RadarDetection> detect(const Cube<Real>& beat, const PowerMap& map, 
     const double snr = peak.cell.background_W > 0.0
                            ? std::max(0.0, peak.cell.power_W / peak.cell.background_W - 1.0)
                            : std::numeric_limits<double>::infinity();
-    detections.push_back(measured(refiner.run(peak), snr, axes, array, timing, settings.unfold));
+    const Place place = refiner.run(peak);
+    const Directions directions = directions_of(
+        place.snapshot, axes.doppler_Hz(place.doppler_cell),
+        peak.cell.background_W / array.channels(), array, timing, settings);
+    for (const SourceDirection& wave : directions.waves) {
+      RadarDetection detection = measured(place, directions.doppler_Hz, snr, axes, timing);
+      detection.azimuth_rad = wave.azimuth_rad;
+      detection.elevation_rad = wave.elevation_rad;
+      detection.power_W = wave.power_W;
+      detections.push_back(detection);
+    }
   }
   return detections;
 }

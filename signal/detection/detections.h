@@ -6,8 +6,8 @@
 //   maximum_likelihood  from the beat cube (signal/detection/cube_tone.h): to the Cramer-Rao bound
 //                       for a scatterer that is alone within some ten cells, pulled by neighbours
 //   windowed            the same under the transform's windows: not pulled, at the windows' variance
-// Two scatterers in one range-Doppler cell give one detection with a direction between them; where
-// that matters take the snapshots to signal/angle/spatial_spectrum.h.
+// Two scatterers in one range-Doppler cell give one detection with a direction between them, or
+// with AngleMethod::capon and music (signal/angle/source_directions.h, uniform lines) one each.
 //
 // The speed is unambiguous within +-wavelength / (4 repetition). With `unfold`, a time-division
 // array tells which of its folds it is (signal/transform/slot_compensation.h).
@@ -17,6 +17,7 @@
 
 #include <vector>
 
+#include "signal/angle/source_directions.h"
 #include "signal/cube.h"
 #include "signal/detection/cfar.h"
 #include "signal/transform/cube_maps.h"
@@ -42,6 +43,7 @@ struct DetectionSettings {
   RangeDopplerSettings transform;
   CfarSettings cfar;
   Refinement refinement = Refinement::maximum_likelihood;
+  AngleMethod angle = AngleMethod::beamforming;
   bool unfold = false;
 };
 

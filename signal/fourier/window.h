@@ -25,6 +25,9 @@
 // Kaiser beta 0 to 100. E-RANGE otherwise. Weights are not scaled; one of length 1 is 1.
 #pragma once
 
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 namespace fanbeam::signal {
@@ -50,5 +53,12 @@ struct Window {
 };
 
 std::vector<double> window_weights(const Window& window, int length);
+
+// "hann", "blackman-harris", and so on; with its parameter behind a colon where the kind has one:
+// "taylor:35" (dB, and "taylor:45:6" with nbar), "chebyshev:60" (dB), "kaiser:8.6" (beta). Symmetric.
+// Nothing for any other text, and for parameters beyond the limits above.
+std::optional<Window> window_of(std::string_view text);
+// The text that window_of reads.
+std::string name(const Window& window);
 
 }  // namespace fanbeam::signal

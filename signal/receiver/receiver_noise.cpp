@@ -28,24 +28,6 @@ void for_rows(const CubeShape& shape, const Body& body) {
   });
 }
 
-// theta over one chirp.
-std::vector<double> phase_walk_rad(const PhaseNoise& noise, int samples, int chirp) {
-  const core::RandomKey key = with_stream(noise.key, core::kStreamPhaseNoise);
-  std::vector<float> draws(static_cast<std::size_t>(samples));
-  core::normal_numbers(key, 0, static_cast<std::uint64_t>(chirp) << 32U, draws.size(),
-                       draws.data());
-  const double kept = std::exp(-1.0 / (noise.correlation_s * noise.sample_rate_Hz));
-  const double fresh_rad = noise.rms_rad * std::sqrt(1.0 - kept * kept);
-  std::vector<double> phase_rad;
-  phase_rad.reserve(draws.size());
-  for (const float draw : draws) {
-    const double normal = static_cast<double>(draw);
-    phase_rad.push_back(phase_rad.empty() ? noise.rms_rad * normal
-                                          : kept * phase_rad.back() + fresh_rad * normal);
-  }
-  return phase_rad;
-}
-
 }  // namespace
 
 double noise_sample_W(double noise_figure, double sample_rate_Hz) {
@@ -77,32 +59,6 @@ void add_receiver_noise(const Array& array, const ReceiverNoise& noise, Cube<Rea
   });
 }
 
-double phase_noise_rms_rad(double line_width_Hz, double delay_s) {
-  check_not_negative("line_width_Hz", line_width_Hz);
-  check_not_negative("delay_s", delay_s);
-  return std::sqrt(2.0 * core::kPi * line_width_Hz * delay_s);
-}
-
-template <typename Real>
-void apply_phase_noise(const PhaseNoise& noise, Cube<Real>& cube) {
-  check_not_negative("rms_rad", noise.rms_rad);
-  check_positive("correlation_s", noise.correlation_s);
-  check_positive("sample_rate_Hz", noise.sample_rate_Hz);
-  if (noise.rms_rad == 0.0) return;
-  core::parallel_for(static_cast<std::size_t>(cube.shape.chirps), [&](std::size_t chirp) {
-    const int m = static_cast<int>(chirp);
-    std::vector<std::complex<double>> turns;
-    for (const double phase_rad : phase_walk_rad(noise, cube.shape.samples, m))
-      turns.push_back(std::polar(1.0, phase_rad));
-    for (int channel = 0; channel < cube.shape.channels; ++channel)
-      for (int n = 0; n < cube.shape.samples; ++n) {
-        const std::complex<double> value =
-            std::complex<double>(cube.at(channel, m, n)) * turns[static_cast<std::size_t>(n)];
-        cube.at(channel, m, n) = {static_cast<Real>(value.real()), static_cast<Real>(value.imag())};
-      }
-  });
-}
-
 template <typename Real>
 std::size_t quantise(const Quantiser& quantiser, Cube<Real>& cube) {
   check_count("bits", quantiser.bits, 1, 24);
@@ -122,8 +78,6 @@ std::size_t quantise(const Quantiser& quantiser, Cube<Real>& cube) {
 
 template void add_receiver_noise(const Array&, const ReceiverNoise&, FloatCube&);
 template void add_receiver_noise(const Array&, const ReceiverNoise&, DoubleCube&);
-template void apply_phase_noise(const PhaseNoise&, FloatCube&);
-template void apply_phase_noise(const PhaseNoise&, DoubleCube&);
 template std::size_t quantise(const Quantiser&, FloatCube&);
 template std::size_t quantise(const Quantiser&, DoubleCube&);
 

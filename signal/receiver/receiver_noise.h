@@ -1,18 +1,10 @@
-// What a receiver adds to a beat signal: thermal noise, phase noise, quantisation.
+// What a receiver adds to a beat signal: thermal noise and quantisation (phase noise: oscillator.h).
 //
 // Thermal noise is white in time: complex Gaussian of variance k T0 F fs per complex sample (real
 // Gaussian of k T0 F fs / 2 per real one). It belongs to the physical receiver: virtual channels
 // that one receiver serves at the same time (Multiplex::simultaneous) share the sample, channels in
 // time division do not. Windows and transforms correlate it afterwards as they do in a radar; it
 // is never added to spectra.
-//
-// Phase noise is a factor exp(j theta) common to all channels, theta a stationary first-order
-// Gauss-Markov process in each chirp, of rms `rms_rad` and correlation time `correlation_s`, chirps
-// independent. The local oscillator is common to transmitter and receiver, so what is left in a
-// beat grows with the delay: for an oscillator of Lorentzian line width D the variance after the
-// delay tau is 2 pi D tau (range correlation), see phase_noise_rms_rad; take the delay of the
-// strongest echo. Neglected: that other delays see another variance.
-// Source: M. C. Budge, M. P. Burt, "Range correlation effects in radars", IEEE Radar Conf. 1993.
 //
 // The quantiser rounds real and imaginary part to steps of full_scale / 2^(bits - 1), and clips to
 // [-full_scale, full_scale - step].
@@ -43,19 +35,6 @@ struct ReceiverNoise {
 template <typename Real>
 void add_receiver_noise(const Array& array, const ReceiverNoise& noise, Cube<Real>& cube);
 
-// sqrt(2 pi D tau).
-double phase_noise_rms_rad(double line_width_Hz, double delay_s);
-
-struct PhaseNoise {
-  double rms_rad = 0.0;  // 0 changes nothing
-  double correlation_s = 1e-6;
-  double sample_rate_Hz = 0.0;
-  core::RandomKey key;
-};
-
-template <typename Real>
-void apply_phase_noise(const PhaseNoise& noise, Cube<Real>& cube);
-
 struct Quantiser {
   int bits = 12;                  // 1 to 24
   double full_scale_sqrtW = 0.0;  // above 0
@@ -67,8 +46,6 @@ std::size_t quantise(const Quantiser& quantiser, Cube<Real>& cube);
 
 extern template void add_receiver_noise(const Array&, const ReceiverNoise&, FloatCube&);
 extern template void add_receiver_noise(const Array&, const ReceiverNoise&, DoubleCube&);
-extern template void apply_phase_noise(const PhaseNoise&, FloatCube&);
-extern template void apply_phase_noise(const PhaseNoise&, DoubleCube&);
 extern template std::size_t quantise(const Quantiser&, FloatCube&);
 extern template std::size_t quantise(const Quantiser&, DoubleCube&);
 

@@ -65,7 +65,7 @@ DopplerFold doppler_fold(const std::vector<std::complex<double>>& snapshot, cons
     auto compensated = snapshot;
     compensate_slots(compensated, array, doppler_Hz + fold / (slots * slot_period_s),
                      slot_period_s);
-    const AnglePeak direction = azimuth_peak(compensated, elements_m, wavelength_m);
+    const AnglePeak direction = direction_peak(compensated, elements_m, wavelength_m);
     if (direction.power > best.direction.power) best = {fold, direction};
   }
   return best;

@@ -119,3 +119,75 @@ TEST_CASE("Receiver effects of zero magnitude, and pruned ones, change no byte",
   CHECK(made("").plan.runs(core::EffectId::quantiser));
   CHECK_FALSE(made("-quantiser").plan.runs(core::EffectId::quantiser));
 }
+
+TEST_CASE("A fixed full scale saturates, and is free of samples below it", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwSettings options;
+  options.numbers[11] = 16.0;
+  options.adc_bits = 12;
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.amplitude_sqrtW = 1e-3;  // 0 dBm at the port is 31.6 times as much
+  const auto made = [&] { return fmcw_frame(radar, sensor, {path}, 0, options, {"beat"}); };
+  options.adc_full_scale_dBm = -20.0;
+  CHECK(made().clipped == 0);
+  options.adc_full_scale_dBm = -36.0206;  // half the amplitude
+  const FmcwFrame clipped = made();
+  // A tone's part is beyond half its amplitude two thirds of the time.
+  CHECK(static_cast<double>(clipped.clipped) /
+            (2.0 * static_cast<double>(clipped.beats[0].values.size())) ==
+        Approx(2.0 / 3.0).margin(0.01));
+  const double full_scale = std::pow(10.0, 0.05 * (-36.0206 - 30.0));
+  double largest = 0.0;
+  for (const auto& sample : clipped.beats[0].values)
+    largest = std::max(largest, static_cast<double>(std::abs(sample.real())));
+  CHECK(largest == Approx(full_scale).epsilon(1e-6));
+}
+
+TEST_CASE("Errors of channels are in the samples and bend the beam", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwSettings options;
+  options.numbers[11] = 16.0;
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.amplitude_sqrtW = 1e-6;
+  const auto made = [&] { return fmcw_frame(radar, sensor, {path}, 0, options, {"detections"}); };
+  const FmcwFrame good = made();
+  options.gain_errors_dB.assign(12, 0.0);
+  options.gain_errors_dB[3] = 6.0;
+  for (int i = 0; i < 12; ++i) options.phase_errors_rad.push_back(-0.3 * i);  // looks like an angle
+  const FmcwFrame bad = made();
+  REQUIRE(good.found->detections.size() == 1);
+  REQUIRE(!bad.found->detections.empty());
+  CHECK(good.found->detections[0].azimuth_rad == Approx(0.0).margin(1e-3));
+  CHECK(std::sin(bad.found->detections[0].azimuth_rad) ==
+        Approx(0.3 / core::kPi).epsilon(0.02));
+  options.phase_errors_rad.pop_back();
+  CHECK_THROWS_AS(fmcw_radar(options, sensor), core::InputError);
+}
+
+TEST_CASE("An array at two heights measures elevation", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwSettings options;
+  options.numbers[11] = 64.0;
+  const double half_m = 0.5 * core::kSpeedOfLight_mps / sensor.waveform.frequency_Hz;
+  options.transmitters_m = {{0.0, 0.0, 0.0}, {0.0, 4.0 * half_m, half_m}};
+  for (int i = 0; i < 4; ++i) options.receivers_m.emplace_back(0.0, i * half_m, 0.0);
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  CHECK_FALSE(radar.line);
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.azimuth_rad = 0.2;
+  path.elevation_rad = 0.1;
+  path.amplitude_sqrtW = 1e-6;
+  const FmcwFrame frame =
+      fmcw_frame(radar, sensor, {path}, 0, options, {"detections", "range-azimuth"});
+  REQUIRE(frame.found->detections.size() == 1);
+  CHECK(frame.found->detections[0].azimuth_rad == Approx(0.2).margin(2e-3));
+  CHECK(frame.found->detections[0].elevation_rad == Approx(0.1).margin(4e-3));
+  CHECK_FALSE(frame.range_azimuth.values_W.empty());
+  options.angle_method = signal::AngleMethod::music;
+  CHECK_THROWS_AS(fmcw_radar(options, sensor), core::InputError);
+}

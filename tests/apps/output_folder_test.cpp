@@ -147,7 +147,7 @@ TEST_CASE("fmcw replaces what its record lists and refuses other files", "[fmcw]
   CHECK(files_told(out) == files_in(out));
   REQUIRE(fmcw("--frames 1 --products detections").exit_code == 0);
   CHECK(files_in(out) == std::vector<std::string>{"detections/00001.csv", "detections/00001.json",
-                                                  "run.json", "timing.json"});
+                                                  "radar.toml", "run.json", "timing.json"});
   std::ofstream(out / "notes.txt") << "mine";
   CHECK(fmcw("--frames 1 --products detections").exit_code == 2);
   CHECK(fmcw("--frames 1 --products detections --overwrite").exit_code == 0);

@@ -16,7 +16,7 @@ renderer::SceneFacts samples() {
   renderer::SceneFacts facts;
   facts.sensor = tests::hivision();
   facts.noise_shown = true;
-  facts.signal = renderer::SignalFacts{.noise_sample_W = 2.0, .phase_noise_samples = 20.0};
+  facts.signal = renderer::SignalFacts{.noise_sample_W = 2.0, .phase_noise_peak = 0.0};
   return facts;
 }
 
@@ -35,6 +35,7 @@ TEST_CASE("Phase noise lifts the noise by its pedestal or takes exp(-v) of an ec
   // The sum of exp(-|k| / 20) over all lags k.
   double density = 1.0;
   for (int lag = 1; lag < 2000; ++lag) density += 2.0 * std::exp(-lag / 20.0);
+  facts.signal->phase_noise_peak = 1e-6 * density;
   const double lifted = 1e3 * -std::expm1(-1e-6) * density / 2.0;
   CHECK(renderer::phase_noise_bound_dB(facts) ==
         Approx(10.0 * std::log10(1.0 + lifted)).epsilon(1e-9));
@@ -49,6 +50,11 @@ TEST_CASE("Steps that noise hides add a twelfth of their square", "[effects]") {
   facts.signal->largest_sample_sqrtW = 128.0 - 6.77;  // steps of 0.5
   CHECK(renderer::quantiser_bound_dB(facts) == Approx(10.0 * std::log10(1.0 + 0.25 / 12.0)));
   facts.signal->adc_bits = 7;  // of 2
+  CHECK(renderer::quantiser_bound_dB(facts) == 60.0);
+  facts.signal->adc_bits = 9;
+  facts.signal->full_scale_sqrtW = 256.0;  // steps of 1
+  CHECK(renderer::quantiser_bound_dB(facts) == Approx(10.0 * std::log10(1.0 + 1.0 / 12.0)));
+  facts.signal->full_scale_sqrtW = 127.0;  // the largest part may clip
   CHECK(renderer::quantiser_bound_dB(facts) == 60.0);
 }
 

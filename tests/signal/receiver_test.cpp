@@ -129,7 +129,6 @@ TEST_CASE("Noise of nothing changes nothing, and one seed gives one noise", "[re
   cube.at(0, 1, 2) = {1.0, 2.0};
   const std::vector<std::complex<double>> before = cube.values;
   add_receiver_noise(array, {0.0, true, {1, 0, 0}}, cube);
-  apply_phase_noise({0.0, 1e-6, 20e6, {1, 0, 0}}, cube);
   CHECK(cube.values == before);
   DoubleCube again = cube;
   add_receiver_noise(array, {1.0, true, {1, 0, 7}}, cube);
@@ -140,23 +139,6 @@ TEST_CASE("Noise of nothing changes nothing, and one seed gives one noise", "[re
   CHECK(cube.values != again.values);
   CHECK_THROWS_AS(add_receiver_noise(line_array(1, 4, 2e-3), {1.0, true, {}}, cube),
                   core::InputError);
-}
-
-TEST_CASE("Phase noise has its variance and correlation time and keeps power", "[receiver]") {
-  DoubleCube cube({200, 400, 1});
-  for (std::complex<double>& value : cube.values) value = 1.0;
-  apply_phase_noise({0.1, 0.5e-6, 20e6, {3, 0, 0}}, cube);
-  double variance = 0.0, lagged = 0.0;
-  for (int chirp = 0; chirp < 400; ++chirp)
-    for (int n = 10; n < 200; ++n) {
-      const double now = std::arg(cube.at(0, chirp, n)), then = std::arg(cube.at(0, chirp, n - 10));
-      variance += now * now / (400.0 * 190);
-      lagged += now * then / (400.0 * 190);
-    }
-  CHECK(std::sqrt(variance) == Approx(0.1).epsilon(0.03));
-  CHECK(lagged / variance == Approx(std::exp(-1.0)).margin(0.04).epsilon(0.0));
-  CHECK(mean_power(cube) == Approx(1.0).epsilon(1e-12));
-  CHECK(phase_noise_rms_rad(1e3, 6.671e-7) == Approx(0.06474).epsilon(1e-3));
 }
 
 TEST_CASE("The quantiser rounds to its steps, clips and counts", "[receiver]") {

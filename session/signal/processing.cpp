@@ -1,0 +1,88 @@
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <utility>
+
+#include "session/signal/chain.h"
+#include "signal/detection/clusters.h"
+#include "signal/fourier/window.h"
+#include "signal/transform/angle_transform.h"
+#include "signal/transform/capon_map.h"
+#include "signal/transform/slot_compensation.h"
+
+namespace fanbeam::session {
+namespace {
+
+signal::TopViewGrid grid_of(const FmcwRadar& radar) {
+  const double reach_m = radar.axes.range_step_m * (radar.detection.transform.kept_range_cells - 1);
+  signal::TopViewGrid grid;
+  grid.step_m = reach_m / 240.0;
+  grid.rows = 241;
+  grid.columns = 2 * 120 + 1;  // half as far to either side
+  grid.leftmost_m = -120.0 * grid.step_m;
+  return grid;
+}
+
+// Beams even in the sine of azimuth, at elevation 0.
+void form_beams(const FmcwRadar& radar, const ProcessingSettings& settings,
+                const signal::FloatCube& range_speed, signal::FloatCube& cube) {
+  if (radar.line) {
+    signal::angle_transform(range_speed, settings.angle_window,
+                            static_cast<int>(radar.azimuths_rad.size()), cube);
+    return;
+  }
+  signal::beam_transform(range_speed, signal::virtual_elements_m(radar.array),
+                         radar.waveform.wavelength_m(), {radar.azimuths_rad}, {}, cube);
+}
+
+signal::PowerMap capon_map(const FmcwRadar& radar, const signal::FloatCube& range_speed) {
+  const auto weights =
+      signal::window_weights(radar.detection.transform.doppler_window, range_speed.shape.chirps);
+  return signal::capon_range_azimuth(range_speed, signal::virtual_elements_m(radar.array),
+                                     radar.waveform.wavelength_m(), radar.azimuths_rad,
+                                     range_speed.shape.chirps * signal::noise_gain(weights));
+}
+
+}  // namespace
+
+void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
+                     const std::set<std::string>& products, FmcwFrame& frame) {
+  const auto wants = [&](std::initializer_list<const char*> names) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](const char* name) { return products.contains(name); });
+  };
+  const bool detections = wants({"range-doppler", "range-azimuth", "top-view", "detections"});
+  const bool angles = wants({"cube", "range-azimuth", "top-view"});
+  if (!radar.maps || !(detections || angles)) return;
+  signal::FloatCube scaled;
+  if (radar.power_scale != 1.0) {
+    scaled = frame.beats[0];
+    const auto scale = static_cast<float>(std::sqrt(radar.power_scale));
+    for (std::complex<float>& sample : scaled.values) sample *= scale;
+  }
+  const signal::FloatCube& beat = radar.power_scale != 1.0 ? scaled : frame.beats[0];
+  signal::FloatCube range_speed;
+  signal::range_doppler(beat, radar.detection.transform, range_speed);
+  if (detections) {
+    frame.range_doppler = signal::range_doppler_map(range_speed, signal::Projection::sum);
+    FmcwDetections found;
+    found.detections =
+        signal::detect(beat, frame.range_doppler, radar.array, radar.timing, radar.detection);
+    found.clusters = signal::detection_clusters(found.detections, radar.clusters);
+    frame.found = std::move(found);
+  }
+  if (!angles) return;
+  signal::compensate_slots(range_speed, radar.array);
+  if (wants({"cube"}) || settings.angle_method != signal::AngleMethod::capon)
+    form_beams(radar, settings, range_speed, frame.cube);
+  if (!wants({"range-azimuth", "top-view"})) return;
+  frame.range_azimuth = settings.angle_method == signal::AngleMethod::capon
+                            ? capon_map(radar, range_speed)
+                            : signal::range_azimuth_map(frame.cube, signal::Projection::max);
+  if (!wants({"top-view"})) return;
+  frame.grid = grid_of(radar);
+  frame.top_view = signal::top_view(frame.range_azimuth, radar.azimuths_rad,
+                                    radar.axes.range_step_m, frame.grid);
+}
+
+}  // namespace fanbeam::session

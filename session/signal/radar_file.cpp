@@ -1,0 +1,250 @@
+#include "session/signal/radar_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include "core/config_table.h"
+#include "core/units.h"
+#include "signal/waveform/waveform.h"
+
+namespace fanbeam::session {
+namespace {
+
+using core::ConfigTable;
+using core::ErrorClass;
+
+constexpr std::array<std::pair<const char*, signal::CfarKind>, 4> kCfarWords = {
+    {{"ca", signal::CfarKind::cell_averaging},
+     {"os", signal::CfarKind::ordered_statistic},
+     {"go", signal::CfarKind::greatest_of},
+     {"so", signal::CfarKind::smallest_of}}};
+
+void read_waveform(ConfigTable table, FmcwSettings& settings) {
+  if (!table.present()) return;
+  if (const auto kind = table.optional_text("kind")) {
+    std::string known = kAutomotive;
+    for (const signal::WaveformKind each : signal::all_waveform_kinds())
+      known += ", " + std::string(signal::name(each));
+    if (*kind != kAutomotive && !signal::waveform_kind(*kind))
+      table.error(ErrorClass::ref, "kind", "\"" + *kind + "\"", "one of: " + known);
+    settings.waveform = *kind;
+  }
+  settings.real = table.boolean("real", settings.real);
+  for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i) {
+    const WaveformNumber& number = kWaveformNumbers[i];
+    if (const auto value = table.optional_number(number.key, {number.least, number.most}))
+      settings.numbers[i] = *value;
+  }
+}
+
+// The places of one side of the array; empty where the line is meant.
+std::vector<glm::dvec3> read_places(ConfigTable& table, const std::string& side) {
+  constexpr core::NumberRange kPlaces{-10.0, 10.0};
+  const auto list = [&](const char* axis) {
+    return table.numbers(side + axis, kPlaces, 1, 64);
+  };
+  const std::vector<double> right = list("_right_m"), forward = list("_forward_m"),
+                            up = list("_up_m");
+  for (const auto& [axis, values] : {std::pair{"_forward_m", &forward}, std::pair{"_up_m", &up}})
+    if (!values->empty() && values->size() != right.size())
+      table.error(ErrorClass::range, side + axis, std::to_string(values->size()) + " numbers",
+                  "as many as " + side + "_right_m, " + std::to_string(right.size()));
+  std::vector<glm::dvec3> places;
+  for (std::size_t i = 0; i < right.size(); ++i)
+    places.emplace_back(i < forward.size() ? forward[i] : 0.0, right[i],
+                        i < up.size() ? up[i] : 0.0);
+  return places;
+}
+
+void read_array(ConfigTable table, FmcwSettings& settings) {
+  if (!table.present()) return;
+  settings.transmitters = static_cast<int>(table.integer("transmitters", 1, 64, settings.transmitters));
+  settings.receivers = static_cast<int>(table.integer("receivers", 1, 64, settings.receivers));
+  settings.pitch_wavelengths =
+      table.number("pitch_wavelengths", {0.0, 1000.0, true}, settings.pitch_wavelengths);
+  settings.transmitters_m = read_places(table, "transmitter");
+  settings.receivers_m = read_places(table, "receiver");
+  if (settings.transmitters_m.empty() != settings.receivers_m.empty())
+    table.error(ErrorClass::ref,
+                settings.transmitters_m.empty() ? "transmitter_right_m" : "receiver_right_m",
+                "missing", "places of both sides, or of none");
+  settings.gain_errors_dB = table.numbers("gain_errors_dB", {-60.0, 60.0}, 1, 4096);
+  settings.phase_errors_rad = table.numbers("phase_errors_deg", {-360.0, 360.0}, 1, 4096);
+  for (double& phase : settings.phase_errors_rad) phase = core::radians(phase);
+}
+
+void read_receiver(ConfigTable table, FmcwSettings& settings) {
+  if (!table.present()) return;
+  if (const auto figure = table.optional_number("noise_figure_dB", {0.0, 60.0}))
+    settings.noise_figure_dB = figure;
+  settings.line_width_Hz = table.number("line_width_Hz", {0.0, 1e6}, settings.line_width_Hz);
+  signal::PhaseNoiseTable noise;
+  noise.offsets_Hz = table.numbers("phase_noise_offsets_kHz", {0.0, 1e9, true}, 1, 100);
+  noise.levels_dBc_per_Hz = table.numbers("phase_noise_dBc_per_Hz", {-300.0, 60.0}, 1, 100);
+  for (double& offset : noise.offsets_Hz) offset *= 1e3;
+  if (noise.offsets_Hz.size() != noise.levels_dBc_per_Hz.size())
+    table.error(ErrorClass::range, "phase_noise_dBc_per_Hz",
+                std::to_string(noise.levels_dBc_per_Hz.size()) + " numbers",
+                "one for each of " + std::to_string(noise.offsets_Hz.size()) + " offsets");
+  else if (std::adjacent_find(noise.offsets_Hz.begin(), noise.offsets_Hz.end(),
+                              std::greater_equal<>()) != noise.offsets_Hz.end())
+    table.error(ErrorClass::range, "phase_noise_offsets_kHz", "not rising", "rising offsets");
+  else
+    settings.phase_noise = noise;
+  if (!settings.phase_noise.empty() && settings.line_width_Hz > 0.0)
+    table.error(ErrorClass::unsupported, "line_width_Hz", core::number_text(settings.line_width_Hz),
+                "a line width or a table of phase noise, not both");
+  settings.adc_bits = static_cast<int>(table.integer("adc_bits", 0, 24, settings.adc_bits));
+  if (const auto scale = table.optional_number("adc_full_scale_dBm", {-300.0, 300.0}))
+    settings.adc_full_scale_dBm = scale;
+}
+
+void read_window(ConfigTable& table, const char* key, signal::Window& window) {
+  const auto text = table.optional_text(key);
+  if (!text) return;
+  if (const auto found = signal::window_of(*text))
+    window = *found;
+  else
+    table.error(ErrorClass::ref, key, "\"" + *text + "\"", kWindowWords);
+}
+
+void read_span(ConfigTable& table, const char* key, CellSpan& span) {
+  const std::vector<double> cells = table.numbers(key, {0.0, 64.0}, 2, 2);
+  if (cells.size() != 2) return;
+  for (const double count : cells)
+    if (count != std::floor(count))
+      table.error(ErrorClass::range, key, core::number_text(count), "whole numbers");
+  span = {static_cast<int>(cells[0]), static_cast<int>(cells[1])};
+}
+
+void read_processing(ConfigTable table, ProcessingSettings& settings) {
+  if (!table.present()) return;
+  read_window(table, "range_window", settings.range_window);
+  read_window(table, "doppler_window", settings.doppler_window);
+  read_window(table, "angle_window", settings.angle_window);
+  if (table.has("cfar"))
+    settings.cfar = kCfarWords[table.choice("cfar", {"ca", "os", "go", "so"}, 1)].second;
+  read_span(table, "cfar_guard", settings.cfar_guard);
+  read_span(table, "cfar_training", settings.cfar_training);
+  settings.false_alarm_probability =
+      table.number("false_alarm_probability", {1e-12, 0.1}, settings.false_alarm_probability);
+  if (table.has("angle_method"))
+    settings.angle_method = static_cast<signal::AngleMethod>(
+        table.choice("angle_method", {"beamforming", "capon", "music"}, 0));
+  if (const auto place = table.optional_number("cluster_place_m", {0.0, 1000.0, true}))
+    settings.cluster_place_m = place;
+  if (const auto speed = table.optional_number("cluster_speed_mps", {0.0, 1000.0, true}))
+    settings.cluster_speed_mps = speed;
+  settings.cluster_neighbours =
+      static_cast<int>(table.integer("cluster_neighbours", 1, 100, settings.cluster_neighbours));
+  settings.unfold = table.boolean("unfold", settings.unfold);
+  if (const auto range = table.optional_number("most_range_m", {0.0, 1e6, true}))
+    settings.most_range_m = range;
+}
+
+void read(ConfigTable root, FmcwSettings& settings) {
+  if (!root.present()) return;
+  read_waveform(root.table("waveform"), settings);
+  read_array(root.table("array"), settings);
+  read_receiver(root.table("receiver"), settings);
+  read_processing(root.table("processing"), settings);
+  root.report_unknown_keys();
+}
+
+// The shortest text that reads back as the number.
+std::string digits(double value) { return fmt::format("{}", value); }
+
+std::string list(const std::vector<double>& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(digits(value));
+  return fmt::format("[{}]", fmt::join(texts, ", "));
+}
+
+std::string places_toml(const char* side, const std::vector<glm::dvec3>& places) {
+  std::vector<double> forward, right, up;
+  for (const glm::dvec3& place : places) {
+    forward.push_back(place.x);
+    right.push_back(place.y);
+    up.push_back(place.z);
+  }
+  return fmt::format("{0}_forward_m = {1}\n{0}_right_m = {2}\n{0}_up_m = {3}\n", side,
+                     list(forward), list(right), list(up));
+}
+
+std::string array_toml(const ArraySettings& array) {
+  std::string text = "\n[array]\n";
+  if (array.transmitters_m.empty())
+    text += fmt::format("transmitters = {}\nreceivers = {}\npitch_wavelengths = {}\n",
+                        array.transmitters, array.receivers, digits(array.pitch_wavelengths));
+  else
+    text += places_toml("transmitter", array.transmitters_m) +
+            places_toml("receiver", array.receivers_m);
+  return text;
+}
+
+std::string processing_toml(const ProcessingSettings& settings) {
+  std::string text = fmt::format(
+      "\n[processing]\nrange_window = \"{}\"\ndoppler_window = \"{}\"\nangle_window = \"{}\"\n"
+      "cfar = \"{}\"\ncfar_guard = [{}, {}]\ncfar_training = [{}, {}]\n"
+      "false_alarm_probability = {}\nangle_method = \"{}\"\ncluster_neighbours = {}\n",
+      signal::name(settings.range_window), signal::name(settings.doppler_window),
+      signal::name(settings.angle_window), cfar_word(settings.cfar), settings.cfar_guard.range,
+      settings.cfar_guard.doppler, settings.cfar_training.range, settings.cfar_training.doppler,
+      digits(settings.false_alarm_probability), signal::name(settings.angle_method),
+      settings.cluster_neighbours);
+  const auto add = [&](const char* key, const std::optional<double>& value) {
+    if (value) text += fmt::format("{} = {}\n", key, digits(*value));
+  };
+  add("cluster_place_m", settings.cluster_place_m);
+  add("cluster_speed_mps", settings.cluster_speed_mps);
+  add("most_range_m", settings.most_range_m);
+  if (settings.unfold) text += "unfold = true\n";
+  return text;
+}
+
+}  // namespace
+
+void read_radar_file(const std::filesystem::path& file, FmcwSettings& settings,
+                     core::ProblemList& problems) {
+  read(ConfigTable::from_file(file, problems), settings);
+}
+
+void read_radar_text(std::string_view text, const std::string& name, FmcwSettings& settings,
+                     core::ProblemList& problems) {
+  read(ConfigTable::from_text(text, name, problems), settings);
+}
+
+std::string radar_toml(const FmcwSettings& settings, const std::string& waveform,
+                       double frequency_Hz, double bandwidth_Hz, double noise_figure) {
+  std::string text = fmt::format("[waveform]\nkind = \"{}\"\n", waveform);
+  if (settings.real) text += "real = true\n";
+  for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i) {
+    std::optional<double> value = settings.numbers[i];
+    if (std::string_view(kWaveformNumbers[i].option) == "--frequency") value = frequency_Hz * 1e-9;
+    if (std::string_view(kWaveformNumbers[i].option) == "--bandwidth" && bandwidth_Hz > 0.0)
+      value = bandwidth_Hz * 1e-6;
+    if (value) text += fmt::format("{} = {}\n", kWaveformNumbers[i].key, digits(*value));
+  }
+  text += array_toml(settings);
+  text += fmt::format("\n[receiver]\nnoise_figure_dB = {}\n", digits(10.0 * std::log10(noise_figure)));
+  return text + processing_toml(settings);
+}
+
+std::string cfar_word(signal::CfarKind kind) {
+  for (const auto& [word, each] : kCfarWords)
+    if (each == kind) return word;
+  throw core::InternalError("unknown detector");
+}
+
+std::optional<signal::CfarKind> cfar_kind(std::string_view text) {
+  for (const auto& [word, each] : kCfarWords)
+    if (word == text) return each;
+  return std::nullopt;
+}
+
+}  // namespace fanbeam::session

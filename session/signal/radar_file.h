@@ -1,0 +1,50 @@
+// A radar as a TOML file: waveform, array, receiver and what is made of the samples, for
+// fanbeam fmcw --radar and fanbeam track --radar, and written beside samples (radar.toml).
+//
+//   [waveform]    kind "automotive-76ghz" | a kind of fanbeam waveform; real, default false; the
+//                 numbers of kWaveformNumbers by their keys: frequency_GHz, bandwidth_MHz, ramp_us, ...
+//   [array]       transmitters, receivers, 1 to 64, on a line pitch_wavelengths apart (default 0.5);
+//                 or at places within 10 m: transmitter_right_m and receiver_right_m, 1 to 64 numbers each,
+//                 with transmitter_forward_m, transmitter_up_m and so on, 0 where missing;
+//                 gain_errors_dB, +-60, and phase_errors_deg, +-360, one for every channel
+//   [receiver]    noise_figure_dB, 0 to 60; line_width_Hz, 0 to 1e6, or
+//                 phase_noise_offsets_kHz, rising, above 0 to 1e9, with phase_noise_dBc_per_Hz,
+//                 -300 to 60; adc_bits, 0 to 24; adc_full_scale_dBm, +-300
+//   [processing]  range_window, doppler_window, angle_window: "taylor:35" and the like (window.h);
+//                 cfar "ca" | "os" | "go" | "so"; cfar_guard, cfar_training: [range, Doppler] cells on each
+//                 side, 0 to 64; false_alarm_probability, 1e-12 to 0.1; angle_method "beamforming" |
+//                 "capon" | "music"; cluster_place_m, cluster_speed_mps, above 0 to 1000;
+//                 cluster_neighbours, 1 to 100; unfold; most_range_m, above 0 to 1e6
+//
+// All keys are optional; what is missing keeps its default. Unknown keys are errors.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/errors.h"
+#include "session/signal/fmcw_settings.h"
+
+namespace fanbeam::session {
+
+void read_radar_file(const std::filesystem::path& file, FmcwSettings& settings,
+                     core::ProblemList& problems);
+void read_radar_text(std::string_view text, const std::string& name, FmcwSettings& settings,
+                     core::ProblemList& problems);
+
+// A file that read_radar_file reads to the same settings: those of a radar whose frequency and sweep
+// are these, noise figure included.
+std::string radar_toml(const FmcwSettings& settings, const std::string& waveform,
+                       double frequency_Hz, double bandwidth_Hz, double noise_figure);
+
+// What signal::window_of reads, for messages.
+inline constexpr const char* kWindowWords =
+    "rectangular, hann, hamming, blackman, blackman-harris, taylor:DB, chebyshev:DB or kaiser:BETA";
+
+// "ca", "os", "go", "so".
+std::string cfar_word(signal::CfarKind kind);
+std::optional<signal::CfarKind> cfar_kind(std::string_view word);
+
+}  // namespace fanbeam::session
