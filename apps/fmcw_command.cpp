@@ -171,10 +171,15 @@ class Run {
 
 }  // namespace
 
-int fmcw(const FmcwOptions& options, const CommonOptions& common) {
+int fmcw(FmcwOptions& options, const CommonOptions& common) {
   const core::ThreadLimit threads(options.threads);
   core::ProblemList problems;
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
+  if (options.radar_file.empty() && !description.signal_file.empty()) {
+    session::read_radar_file(description.signal_file, options, problems);
+    problems.throw_if_errors();
+    options.put_given_again();
+  }
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty())

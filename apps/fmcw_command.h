@@ -1,6 +1,7 @@
 // fanbeam fmcw: a scene at signal level, from scatterers to detections.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "apps/common.h"
@@ -17,11 +18,15 @@ struct FmcwOptions : SceneChoice, session::FmcwSettings {
   double accuracy_grey = 0.0;  // 0: the scene's, else the default
   std::string effects;         // --effects; empty: what the scene and its samples call for
   bool overwrite = false;      // where other files are
+  std::string radar_file;      // --radar, read already
+  // Puts the options that were given over the settings again: the scene may name a radar file.
+  std::function<void()> put_given_again = [] {};
   int threads = 0;
 };
 
 // Returns an exit code; throws InputError for bad input. Stopped by signals as render is.
-int fmcw(const FmcwOptions& options, const CommonOptions& common);
+// A radar file that the scene names goes into the options, below those that were given.
+int fmcw(FmcwOptions& options, const CommonOptions& common);
 CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOptions& common);
 
 }  // namespace fanbeam::apps

@@ -24,10 +24,15 @@ void add_radar_file(CLI::App& command, FmcwOptions& options) {
             core::ProblemList problems;
             session::read_radar_file(file, options, problems);
             problems.throw_if_errors();
+            options.radar_file = file;
           },
           "TOML file of a radar: waveform, array, receiver, processing (docs/fmcw.md); options "
-          "replace what it says")
+          "replace what it says (default: the one that the scene names, if any)")
       ->type_name(kFileValue);
+  options.put_given_again = [&command] {
+    for (CLI::Option* option : command.get_options())
+      if (option->count() > 0) option->run_callback();
+  };
 }
 
 void add_radar(CLI::App& command, FmcwOptions& options) {

@@ -6,11 +6,14 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/progress.h"
+#include "apps/track/own_data.h"
 #include "apps/track/plots.h"
 #include "apps/track/study.h"
+#include "apps/track/track_table.h"
 #include "core/decibel.h"
 #include "core/files.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "scenes/highway_reader.h"
 #include "session/version.h"
 #include "tracking/simulation/sampled_frame.h"
@@ -61,9 +64,8 @@ struct Outcome {
   tracking::ScenarioScore score;
   TrackHistory history;
   std::string tracks =
-      "time_s,track,confirmed,x_m,y_m,vx_mps,vy_mps,range_m,range_rate_mps,azimuth_rad,moving,"
-      "identity_probability,target,existence,nees,xx,xy,xvx,xvy,yy,yvx,yvy,vxvx,vxvy,vyvy\n";
-  std::string measurements = "time_s,range_m,range_rate_mps,azimuth_rad\n";
+      std::string(kTrackColumns) + ",target,existence,nees," + kCovarianceColumns + "\n";
+  std::string measurements = kMeasurementColumns;
   // Of the last frame.
   tracking::ScenarioFrame last;
   std::vector<tracking::Track> tracks_at_end;
@@ -72,13 +74,6 @@ struct Outcome {
   double measuring_s = 0.0, tracking_s = 0.0;
 };
 
-// Of a track along one axis: all of it lies ahead.
-std::array<double, 4> on_the_road(const tracking::Track& track) {
-  const tracking::Gaussian state = combined(track.state);
-  if (track.state.axes == 1) return {state.mean[0], 0.0, state.mean[1], 0.0};
-  return {state.mean[0], state.mean[1], state.mean[2], state.mean[3]};
-}
-
 // The target that a track follows; -1 for none.
 int target_of(const tracking::ScenarioScore& score, int track) {
   for (const auto& [index, id] : score.mot.current_match())
@@ -86,34 +81,14 @@ int target_of(const tracking::ScenarioScore& score, int track) {
   return -1;
 }
 
-// The upper triangle, row after row; of a track along one axis x is the range, and y and vy are empty.
-std::string covariance_cells(const tracking::Gaussian& state) {
-  std::string cells;
-  for (int row = 0; row < 4; ++row)
-    for (int column = row; column < 4; ++column) {
-      const bool one_axis = state.size == 2;
-      const bool there = !one_axis || (row % 2 == 0 && column % 2 == 0);
-      cells += there ? fmt::format(",{:.9g}", one_axis ? state.variance(row / 2, column / 2)
-                                                       : state.variance(row, column))
-                     : std::string(",");
-    }
-  return cells;
-}
-
 void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFrame& frame,
               Outcome& outcome) {
   for (const tracking::RadarMeasurement& one : frame.measurements)
-    outcome.measurements += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", frame.time_s, one.range_m,
-                                        one.range_rate_mps, one.azimuth_rad);
+    outcome.measurements += measurement_row(frame.time_s, one);
   for (const tracking::Track& track : frame.tracker->tracks()) {
-    const auto state = on_the_road(track);
-    const tracking::PolarPlace place = polar(track.state);
     const int target = target_of(outcome.score, track.id);
     outcome.tracks += fmt::format(
-        "{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g},{},{:.6g},{}{}\n",
-        frame.time_s, track.id, track.confirmed ? 1 : 0, state[0], state[1], state[2], state[3],
-        place.range_m, place.range_rate_mps, place.azimuth_rad,
-        is_moving(track, {scenario.radar_speed_mps, 0.0}) ? 1 : 0, track.identity_probability,
+        "{},{},{:.6g},{}{}\n", track_cells(frame.time_s, track, scenario.radar_speed_mps),
         target < 0 ? std::string() : scenario.targets[static_cast<std::size_t>(target)].id,
         track.existence,
         target < 0
@@ -249,7 +224,31 @@ core::HighwayRadar radar_of(const TrackOptions& options, core::HighwayRadar rada
 
 }  // namespace
 
+namespace {
+
+OwnDataOptions own_data_of(const TrackOptions& options) {
+  OwnDataOptions own;
+  own.input = options.file;
+  own.output = options.output;
+  own.radar_file = options.radar_file;
+  own.sensor = options.sensor;
+  own.data = options.data;
+  own.frames = options.frames;
+  own.radar_speed_mps = options.radar_speed_mps;
+  own.frame_period_s = options.frame_period_s;
+  own.errors = {options.errors[0], options.errors[1], core::radians(options.errors[2])};
+  own.acceleration_mps2 = options.acceleration_mps2;
+  own.coast_s = options.coast_s;
+  own.joint = options.association == "joint";
+  own.plots = options.plots;
+  own.seed = options.seed;
+  return own;
+}
+
+}  // namespace
+
 int track(const TrackOptions& options, const CommonOptions& common) {
+  if (!is_road_scenario(options.file)) return track_own_data(own_data_of(options), common);
   const scenes::HighwayFile file = scenes::read_highway_file(options.file);
   std::vector<const core::HighwayScenario*> chosen;
   std::string known;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/common.h"
 #include "tracking/simulation/scenario_run.h"
@@ -25,6 +26,11 @@ struct TrackOptions {
   bool samples = false;
   bool plots = false;
   bool study = false;
+  // Of what is no road scenario (apps/track/own_data.h).
+  std::string radar_file, frames, sensor, data;
+  std::optional<double> radar_speed_mps{};
+  double frame_period_s = 0.05;
+  std::vector<double> errors{0.3, 0.1, 1.0};  // m, m/s, deg
   std::uint64_t seed = 0;
   int run = 0;
 };

@@ -228,6 +228,7 @@ struct SceneDescription {
   atmosphere::Weather weather;  // its rain cells are in `rain_cells`, not placed yet
   std::vector<RainCellDescription> rain_cells;
   sensors::Sensor sensor;
+  std::filesystem::path signal_file;  // its radar at signal level; empty: none is named
   std::filesystem::path material_library;
   bool allow_extrapolation = false;  // materials may be used outside what their models know
   materials::SurfaceState surface_state = materials::SurfaceState::dry;

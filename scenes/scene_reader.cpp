@@ -158,6 +158,25 @@ fs::path find_sensor(ConfigTable& table, const SceneOptions& options, const fs::
   return {};
 }
 
+// The radar file of the signal level, which only a sensor of the scene's own goes with.
+void find_signal_file(ConfigTable& table, const SceneOptions& options, SceneDescription& scene) {
+  const auto name = table.optional_text("signal");
+  if (!name || !options.sensor.empty()) return;
+  try {
+    const fs::path file =
+        core::path_inside(scene.folder, *name, table.place("signal"), table.path("signal"));
+    if (fs::is_regular_file(file)) {
+      scene.signal_file = file;
+      scene.files.push_back(file);
+    } else {
+      table.error(core::ErrorClass::io, "signal", "\"" + *name + "\" not found",
+                  "a radar file in the scene's folder");
+    }
+  } catch (const core::InputError& error) {
+    table.problems().append(error.problems());
+  }
+}
+
 void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs::path& folder,
                        SceneDescription& scene) {
   ConfigTable table = root.table("sensor");
@@ -168,6 +187,7 @@ void read_sensor_table(ConfigTable& root, const SceneOptions& options, const fs:
     for (const std::string& pattern : scene.sensor.antenna.pattern_files)
       scene.files.emplace_back(pattern);
   }
+  find_signal_file(table, options, scene);
   sensors::Mounting& mounting = scene.sensor.mounting;
   mounting.forward_m = table.number("forward_m", {-100, 100}, mounting.forward_m);
   mounting.right_m = table.number("right_m", {-100, 100}, mounting.right_m);

@@ -10,6 +10,7 @@
 #include "session/products/products.h"
 #include "session/signal/processing_settings.h"
 #include "session/signal/receiver_settings.h"
+#include "session/signal/sample_layout.h"
 #include "session/signal/waveform_settings.h"
 
 namespace fanbeam::session {
@@ -33,6 +34,7 @@ struct FmcwSettings : ProcessingSettings, ArraySettings, ReceiverSettings {
   std::string waveform;  // a kind, or kAutomotive; empty: by the sensor's frequency
   // Of kWaveformNumbers, in their handy units; what is missing is the kind's default.
   std::array<std::optional<double>, kWaveformNumbers.size()> numbers;
+  SampleLayout layout;              // of samples that are read from files
   bool real = false;                // samples: negative beats read as positive ones
   double rays_per_cell = 1.0;       // scatterers, 0.3 to 1000
   int looks = 0;                    // of the B-scope, to 100 000; 0: the sensor's

@@ -10,6 +10,7 @@
 
 #include "core/config_table.h"
 #include "core/units.h"
+#include "session/signal/sample_file.h"
 #include "signal/waveform/waveform.h"
 
 namespace fanbeam::session {
@@ -104,6 +105,18 @@ void read_receiver(ConfigTable table, FmcwSettings& settings) {
     settings.adc_full_scale_dBm = scale;
 }
 
+void read_samples(ConfigTable table, SampleLayout& layout) {
+  if (!table.present()) return;
+  if (const auto axes = table.optional_text("axes")) {
+    if (const auto found = sample_axes(*axes))
+      layout.axes = *found;
+    else
+      table.error(ErrorClass::ref, "axes", "\"" + *axes + "\"", kAxesWords);
+  }
+  layout.scale_sqrtW = table.number("scale_sqrtW", {0.0, 1e9, true}, layout.scale_sqrtW);
+  layout.conjugate = table.boolean("conjugate", layout.conjugate);
+}
+
 void read_window(ConfigTable& table, const char* key, signal::Window& window) {
   const auto text = table.optional_text(key);
   if (!text) return;
@@ -152,6 +165,7 @@ void read(ConfigTable root, FmcwSettings& settings) {
   read_waveform(root.table("waveform"), settings);
   read_array(root.table("array"), settings);
   read_receiver(root.table("receiver"), settings);
+  read_samples(root.table("samples"), settings.layout);
   read_processing(root.table("processing"), settings);
   root.report_unknown_keys();
 }

@@ -10,6 +10,8 @@
 //   [receiver]    noise_figure_dB, 0 to 60; line_width_Hz, 0 to 1e6, or
 //                 phase_noise_offsets_kHz, rising, above 0 to 1e9, with phase_noise_dBc_per_Hz,
 //                 -300 to 60; adc_bits, 0 to 24; adc_full_scale_dBm, +-300
+//   [samples]     of recorded samples (sample_file.h): axes, "channel, chirp, sample" and the like;
+//                 scale_sqrtW, above 0 to 1e9, default 1; conjugate
 //   [processing]  range_window, doppler_window, angle_window: "taylor:35" and the like (window.h);
 //                 cfar "ca" | "os" | "go" | "so"; cfar_guard, cfar_training: [range, Doppler] cells on each
 //                 side, 0 to 64; false_alarm_probability, 1e-12 to 0.1; angle_method "beamforming" |

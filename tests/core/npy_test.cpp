@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <fstream>
 
 #include "core/errors.h"
 #include "tests/core/image_files.h"
@@ -42,4 +43,70 @@ TEST_CASE("One axis and none are tuples too", "[npy]") {
   CHECK(bytes_of(folder.path() / "b.npy").find("'shape': (), }") != std::string::npos);
   CHECK_THROWS_AS(write_npy(folder.path() / "c.npy", {3}, std::vector<double>{1.0}), InternalError);
   CHECK_THROWS_AS(write_npy("/proc/none/c.npy", {1}, std::vector<double>{1.0}), InputError);
+}
+
+namespace {
+
+// Format 1.0 with any dictionary and values.
+std::filesystem::path npy_file(const TemporaryFolder& folder, const std::string& dictionary,
+                               const std::string& values) {
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(dictionary.size());
+  bytes += '\0';
+  const auto file = folder.path() / "in.npy";
+  std::ofstream(file, std::ios::binary) << bytes << dictionary << values;
+  return file;
+}
+
+std::string code_of(const std::filesystem::path& file) {
+  try {
+    const NpyHeader header = read_npy_header(file);
+    read_npy(file, header, 0, header.count());
+  } catch (const InputError& error) {
+    return error.problems().front().code;
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("What was written as a NumPy file is read back, from any place on", "[npy]") {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "cube.npy";
+  const std::vector<std::complex<float>> values{{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}, {-0.5F, 1}};
+  write_npy(file, {2, 3}, values);
+  const NpyHeader header = read_npy_header(file);
+  CHECK(header.type == "<c8");
+  CHECK(header.shape == std::vector<std::size_t>{2, 3});
+  CHECK(read_npy(file, header, 0, 6) == values);
+  CHECK(read_npy(file, header, 4, 2) ==
+        std::vector<std::complex<float>>(values.begin() + 4, values.end()));
+  write_npy(file, {2}, std::vector<double>{1.5, -2.0});
+  CHECK(read_npy(file, read_npy_header(file), 0, 2) ==
+        std::vector<std::complex<float>>{1.5F, -2.0F});
+  const auto whole = npy_file(folder, "{'descr': '<i2', 'fortran_order': False, 'shape': (2,)}",
+                              std::string("\x02\x00\xff\xff", 4));
+  CHECK(read_npy(whole, read_npy_header(whole), 0, 2) ==
+        std::vector<std::complex<float>>{2.0F, -1.0F});
+}
+
+TEST_CASE("NumPy files that lie, are cut or hold what is no number are refused", "[npy]") {
+  const TemporaryFolder folder;
+  CHECK(code_of(folder.path() / "none.npy") == "E-IO");
+  const auto with = [&](const std::string& dictionary, const std::string& values = {}) {
+    return code_of(npy_file(folder, dictionary, values));
+  };
+  CHECK(with("{'descr': '<c8', 'fortran_order': False, 'shape': (1000000000,)}") == "E-PARSE");
+  CHECK(with("{'descr': '<c8', 'fortran_order': False, 'shape': (99999999999, 99999999999)}") ==
+        "E-LIMIT");
+  CHECK(with("{'descr': '<c8', 'fortran_order': False, 'shape': (0, 3)}") == "E-RANGE");
+  CHECK(with("{'descr': '<c8', 'fortran_order': False, 'shape': (-1,)}") == "E-PARSE");
+  CHECK(with("{'descr': '<c8', 'fortran_order': False, 'shape': ()}") == "E-UNSUPPORTED");
+  CHECK(with("{'descr': '>c8', 'fortran_order': False, 'shape': (1,)}") == "E-UNSUPPORTED");
+  CHECK(with("{'descr': '<c8', 'fortran_order': True, 'shape': (1,)}") == "E-UNSUPPORTED");
+  CHECK(with("{'descr': '<f4', 'fortran_order': False, 'shape': (1,)}",
+             std::string("\x00\x00\xc0\x7f", 4)) == "E-NONFINITE");
+  CHECK(with("{}") == "E-UNSUPPORTED");
+  std::ofstream(folder.path() / "text.npy") << "not a NumPy file";
+  CHECK(code_of(folder.path() / "text.npy") == "E-PARSE");
 }

@@ -1,0 +1,23 @@
+// Rows of tracks.csv and measurements.csv.
+#pragma once
+
+#include <string>
+
+#include "tracking/tracker/track.h"
+
+namespace fanbeam::apps {
+
+// x forward, y right, relative to the radar.
+inline constexpr const char* kTrackColumns =
+    "time_s,track,confirmed,x_m,y_m,vx_mps,vy_mps,range_m,range_rate_mps,azimuth_rad,moving,"
+    "identity_probability";
+inline constexpr const char* kCovarianceColumns = "xx,xy,xvx,xvy,yy,yvx,yvy,vxvx,vxvy,vyvy";
+inline constexpr const char* kMeasurementColumns = "time_s,range_m,range_rate_mps,azimuth_rad\n";
+
+// Of kTrackColumns. `radar_speed_mps` forward: moving is meant over ground.
+std::string track_cells(double time_s, const tracking::Track& track, double radar_speed_mps);
+// Of kCovarianceColumns, a comma before each.
+std::string covariance_cells(const tracking::Gaussian& state);
+std::string measurement_row(double time_s, const tracking::RadarMeasurement& measurement);
+
+}  // namespace fanbeam::apps

@@ -1,0 +1,37 @@
+// Detections that are at hand already: of this program (product detections) or of somebody's radar.
+//
+// CSV: a line of column names, then a row a detection. Needed: time_s, range_m, radial_speed_mps
+// (positive receding), azimuth_deg (positive right); taken where they are there: power_W, snr_dB, cluster
+// (a whole number, -1 or empty for none). Other columns are passed over. Rows in the order of time; those
+// of one time are a frame.
+// JSON: {"time_s", "detections": [...]} of one frame, or {"frames": [those]}; a detection has range_m,
+// radial_speed_mps and azimuth_rad, and may have power_W, snr_dB and cluster.
+// A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
+// order of their names.
+//
+// Limits: files of 256 MiB, a million frames, 100 000 detections in a frame; ranges above 0 to 1e6 m, speeds
+// within 1e5 m/s, azimuths within a half turn. What is wrong is told with its place; times that go back
+// are E-TIME.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "core/errors.h"
+#include "signal/detection/detections.h"
+
+namespace fanbeam::session {
+
+struct DetectedFrame {
+  double time_s = 0.0;
+  std::vector<signal::RadarDetection> detections;
+  std::vector<int> clusters;  // of each, or signal::kNoCluster
+};
+
+// Of a folder; none where it holds none.
+std::vector<std::filesystem::path> detection_files(const std::filesystem::path& folder);
+
+std::vector<DetectedFrame> read_detections(const std::filesystem::path& path,
+                                           core::ProblemList& problems);
+
+}  // namespace fanbeam::session

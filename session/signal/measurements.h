@@ -1,0 +1,37 @@
+// From detections to what a tracker takes: one measurement an object, with its errors.
+//
+// Detections of one cluster no longer than an object are one measurement: means weighted with the
+// power, and the weighted deviation of its parts as a systematic error. Longer clusters (a guard rail, a
+// wall) are taken apart again, and so is what has no cluster.
+// Noise, where the radar is known (r the detection's signal to noise in a cell, C channels, N elements
+// of a line, bins of the windows' variance ratio q):
+//   bin       sqrt(6 q / (r C)) / (2 pi) of a range or a Doppler cell
+//   azimuth   sqrt(6 / (r N (N^2 - 1))) / (2 pi pitch / wavelength cos azimuth)
+// (signal/detection/tone.h, angle_peak.h.) Beside it stands what the echo of a body wanders over it:
+// `errors`, as systematic errors.
+#pragma once
+
+#include <vector>
+
+#include "session/signal/detection_file.h"
+#include "session/signal/radar.h"
+#include "tracking/filters/observation.h"
+#include "tracking/tracker/track_geometry.h"
+
+namespace fanbeam::session {
+
+struct BodyErrors {
+  double range_m = 0.3, range_rate_mps = 0.1, azimuth_rad = 0.0174532925199433;
+};
+
+inline constexpr double kLongestObject_m = 8.0;  // a car or a van; lorries may be two
+
+// `radar` null: errors alone.
+std::vector<tracking::RadarMeasurement> measurements_of(const DetectedFrame& frame,
+                                                        const FmcwRadar* radar,
+                                                        const BodyErrors& errors);
+
+// What two targets have to be apart on one axis to be two detections: widths between half powers.
+tracking::Resolution resolution_of(const FmcwRadar& radar);
+
+}  // namespace fanbeam::session

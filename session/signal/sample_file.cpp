@@ -1,0 +1,163 @@
+#include "session/signal/sample_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "core/text.h"
+
+namespace fanbeam::session {
+namespace {
+
+constexpr std::array<const char*, 6> kAxes = {"frame",    "chirp",   "transmitter",
+                                              "receiver", "channel", "sample"};
+constexpr std::size_t kMostFrames = 1'000'000;
+constexpr std::size_t kMostFrameValues = std::size_t{1} << 28U;
+
+bool has(const std::vector<std::string>& axes, const char* name) {
+  return std::find(axes.begin(), axes.end(), name) != axes.end();
+}
+
+// Of an axis; 1 and 0 where it is missing.
+struct Axis {
+  std::size_t length = 1, stride = 0;
+};
+
+Axis axis_of(const std::vector<std::string>& axes, const std::vector<std::size_t>& shape,
+             const char* name) {
+  std::size_t stride = 1;
+  for (std::size_t i = axes.size(); i-- > 0;) {
+    if (axes[i] == name) return {shape[i], stride};
+    stride *= shape[i];
+  }
+  return {};
+}
+
+// Every transmitter's chirps one after the other, as recorders keep them.
+bool in_turn(const std::vector<std::string>& axes, int transmitters) {
+  return transmitters > 1 && !has(axes, "channel") && !has(axes, "transmitter");
+}
+
+}  // namespace
+
+std::optional<std::vector<std::string>> sample_axes(const std::string& text) {
+  std::vector<std::string> axes;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string name(core::trimmed(std::string_view(text).substr(from, comma - from)));
+    from = comma + 1;
+    if (std::find(kAxes.begin(), kAxes.end(), name) == kAxes.end() || has(axes, name.c_str()))
+      return std::nullopt;
+    axes.push_back(name);
+  }
+  if (!has(axes, "sample")) return std::nullopt;
+  if (has(axes, "channel") && (has(axes, "transmitter") || has(axes, "receiver")))
+    return std::nullopt;
+  return axes;
+}
+
+SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRadar& radar,
+                         SampleLayout layout)
+    : layout_(std::move(layout)) {
+  if (!radar.maps)
+    core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar.waveform_name,
+                            "a chirp sequence: the other kinds have no maps");
+  const auto chirps = signal::stage_segments(radar.waveform, 0).size() /
+                      static_cast<std::size_t>(radar.array.slots());
+  shape_ = {signal::samples_per_segment(radar.waveform, 0), static_cast<int>(chirps),
+            radar.array.channels()};
+  transmitters_ = static_cast<int>(radar.array.transmitters_m.size());
+  receivers_ = static_cast<int>(radar.array.receivers_m.size());
+  std::size_t frames = 0;
+  for (std::filesystem::path& path : files) {
+    File file{std::move(path), {}, 1};
+    file.header = core::read_npy_header(file.path);
+    if (layout_.axes.empty())
+      layout_.axes = file.header.shape.size() == 4
+                         ? std::vector<std::string>{"frame", "channel", "chirp", "sample"}
+                         : std::vector<std::string>{"channel", "chirp", "sample"};
+    check(file);
+    file.frames = axis_of(layout_.axes, file.header.shape, "frame").length;
+    frames += file.frames;
+    if (frames > kMostFrames || file.header.count() / file.frames > kMostFrameValues)
+      core::throw_input_error(core::ErrorClass::limit, core::Place{file.path.string()}, "shape",
+                              std::to_string(frames) + " frames",
+                              "a million frames of 2^28 values at most");
+    files_.push_back(std::move(file));
+  }
+  frames_ = static_cast<int>(frames);
+}
+
+void SampleFiles::check(const File& file) const {
+  const std::vector<std::size_t>& shape = file.header.shape;
+  core::ProblemList problems;
+  const auto refuse = [&](const std::string& value, const std::string& expected) {
+    problems.error(core::ErrorClass::range, core::Place{file.path.string()}, "shape", value, expected);
+  };
+  if (shape.size() != layout_.axes.size()) {
+    refuse(std::to_string(shape.size()) + " axes",
+           fmt::format("{}: {}", layout_.axes.size(), fmt::join(layout_.axes, ", ")));
+    problems.throw_if_errors();
+  }
+  const auto length = [&](const char* name) {
+    return axis_of(layout_.axes, shape, name).length;
+  };
+  const auto at_least = [&](const char* name, std::size_t least) {
+    if (length(name) < least)
+      refuse(fmt::format("{} along {}", length(name), name),
+             fmt::format("{} or more, as the waveform has", least));
+  };
+  const auto exactly = [&](const char* name, int count) {
+    if (length(name) != static_cast<std::size_t>(count))
+      refuse(fmt::format("{} along {}", length(name), name),
+             fmt::format("{}, as the array has", count));
+  };
+  at_least("sample", static_cast<std::size_t>(shape_.samples));
+  const bool turns = in_turn(layout_.axes, transmitters_);
+  at_least("chirp", static_cast<std::size_t>(shape_.chirps) *
+                        static_cast<std::size_t>(turns ? transmitters_ : 1));
+  if (has(layout_.axes, "channel")) {
+    exactly("channel", shape_.channels);
+  } else {
+    if (!turns) exactly("transmitter", transmitters_);
+    exactly("receiver", receivers_);
+  }
+  problems.throw_if_errors();
+}
+
+signal::FloatCube SampleFiles::frame(int index) const {
+  auto left = static_cast<std::size_t>(index);
+  auto file = files_.begin();
+  while (left >= file->frames) left -= (file++)->frames;
+  const auto at = [&](const char* name) { return axis_of(layout_.axes, file->header.shape, name); };
+  const Axis frames = at("frame"), chirp = at("chirp"), channel = at("channel"),
+             transmitter = at("transmitter"), receiver = at("receiver"), sample = at("sample");
+  // Where frames are the outermost axis one alone is read.
+  const bool outermost = layout_.axes.front() == "frame";
+  const std::size_t count = file->header.count() / (outermost ? frames.length : 1);
+  const auto values =
+      core::read_npy(file->path, file->header, outermost ? left * count : 0, count);
+  const std::size_t first = outermost ? 0 : left * frames.stride;
+  const bool turns = in_turn(layout_.axes, transmitters_);
+  const auto scale = static_cast<float>(layout_.scale_sqrtW);
+  signal::FloatCube cube(shape_);
+  for (int c = 0; c < shape_.channels; ++c) {
+    const auto t = static_cast<std::size_t>(c / receivers_), r = static_cast<std::size_t>(c % receivers_);
+    for (int m = 0; m < shape_.chirps; ++m) {
+      const std::size_t place =
+          turns ? static_cast<std::size_t>(m * transmitters_) + t : static_cast<std::size_t>(m);
+      const std::size_t row = first + place * chirp.stride +
+                              static_cast<std::size_t>(c) * channel.stride +
+                              t * transmitter.stride + r * receiver.stride;
+      for (int n = 0; n < shape_.samples; ++n) {
+        const std::complex<float> value = scale * values[row + static_cast<std::size_t>(n) * sample.stride];
+        cube.at(c, m, n) = layout_.conjugate ? std::conj(value) : value;
+      }
+    }
+  }
+  return cube;
+}
+
+}  // namespace fanbeam::session

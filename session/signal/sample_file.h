@@ -1,0 +1,56 @@
+// Beat samples that somebody recorded, as NumPy files: of this program (product beat) or of a radar.
+//
+// What the axes mean is text, outermost first: frame, chirp, transmitter, receiver, channel, sample.
+//   channel      transmitter * receivers + receiver; instead of transmitter and receiver
+//   chirp        of one transmitter; where the array has several in time division and the axes name
+//                neither channel nor transmitter, the chirps of all of them in turn
+//   missing      an axis of length 1
+// The default, "channel, chirp, sample", is what product beat writes, a frame a file; with a fourth axis
+// in front frames follow each other in one file. Types <c8, <c16, and <f4, <f8, <i2 for real samples.
+// Values times `scale_sqrtW` are square roots of watts at a receiver's port: it changes the powers that
+// are told, never what is found. `conjugate` is for receivers whose beat falls with range.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/npy.h"
+#include "session/signal/radar.h"
+#include "session/signal/sample_layout.h"
+#include "signal/cube.h"
+
+namespace fanbeam::session {
+
+// The axes of a text, each at most once; nothing for any other text.
+inline constexpr const char* kAxesWords =
+    "sample, and of frame, chirp, transmitter and receiver (or channel), each at most once";
+std::optional<std::vector<std::string>> sample_axes(const std::string& text);
+
+class SampleFiles {
+ public:
+  // All headers are read: their shapes have to fit the radar's first stage (E-RANGE with what was
+  // expected; more samples or chirps than the waveform has are left out, of a ramp's end).
+  SampleFiles(std::vector<std::filesystem::path> files, const FmcwRadar& radar,
+              SampleLayout layout);
+
+  int frames() const { return frames_; }
+  signal::FloatCube frame(int index) const;
+
+ private:
+  struct File {
+    std::filesystem::path path;
+    core::NpyHeader header;
+    std::size_t frames = 1;
+  };
+  void check(const File& file) const;
+
+  std::vector<File> files_;
+  SampleLayout layout_;
+  signal::CubeShape shape_;
+  int transmitters_ = 1, receivers_ = 1;
+  int frames_ = 0;
+};
+
+}  // namespace fanbeam::session

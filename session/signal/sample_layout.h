@@ -1,0 +1,15 @@
+// What the axes and values of recorded samples mean (sample_file.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace fanbeam::session {
+
+struct SampleLayout {
+  std::vector<std::string> axes;  // outermost first; empty: channel, chirp, sample
+  double scale_sqrtW = 1.0;       // above 0 to 1e9
+  bool conjugate = false;
+};
+
+}  // namespace fanbeam::session

@@ -1,0 +1,248 @@
+// fanbeam track on a scene's signals, recorded samples and detections; radar files.
+#include <algorithm>
+#include <complex>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "core/npy.h"
+#include "session/signal/radar_file.h"
+#include "session/signal/sample_file.h"
+#include "tests/apps/program.h"
+
+using namespace fanbeam;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Its first frames, of which targets named with `what` were followed in how many.
+int least_followed(const nlohmann::json& record, const std::string& what) {
+  int least = 1'000'000;
+  for (const auto& target : record["targets"])
+    if (target["name"].get<std::string>().starts_with(what))
+      least = std::min(least, target["followed"].get<int>());
+  return least;
+}
+
+tests::Result track(const fs::path& input, const fs::path& out, const std::string& words = "") {
+  return tests::run_fanbeam("track " + tests::quoted(input) + " -q " + words + " -o " +
+                            tests::quoted(out));
+}
+
+}  // namespace
+
+TEST_CASE("A street is followed from its scene, its detections and its samples alike", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path made = folder.path() / "street", out = folder.path();
+  auto result = tests::run_fanbeam("fmcw street-76ghz -q --frames 0:12 --products beat,detections -o " +
+                                   tests::quoted(made));
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  result = tests::run_fanbeam("track street-76ghz -q --frames 0:12 -o " + tests::quoted(out / "scene"));
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  const nlohmann::json record = tests::json_of(out / "scene/run.json");
+  CHECK(record["kind"] == "scene");
+  for (const char* name : {"car ahead", "oncoming car", "cyclist", "pedestrian, body"}) {
+    INFO(name);
+    CHECK(least_followed(record, name) >= 9);  // a track takes two frames to be told
+  }
+  CHECK(record["moving_tracks"] >= 4);
+  // The folder's detections are those of the scene.
+  REQUIRE(track(made, out / "detections").exit_code == 0);
+  CHECK(tests::json_of(out / "detections/run.json")["kind"] == "detections");
+  const std::string tracks = tests::bytes_of(out / "scene/tracks.csv");
+  CHECK(tests::bytes_of(out / "detections/tracks.csv") == tracks);
+  // One table of all frames.
+  std::string table;
+  for (int i = 0; i < 12; ++i) {
+    std::istringstream lines(tests::bytes_of(made / fmt::format("detections/{:05}.csv", i)));
+    std::string line;
+    for (bool first = true; std::getline(lines, line); first = false)
+      if (!first || i == 0) table += line + "\n";
+  }
+  const fs::path csv = folder.write("all.csv", table);
+  REQUIRE(track(csv, out / "table", "--radar " + tests::quoted(made / "radar.toml")).exit_code == 0);
+  CHECK(tests::json_of(out / "table/run.json")["confirmed_tracks"] ==
+        record["confirmed_tracks"]);
+  // Samples alone.
+  fs::remove_all(made / "detections");
+  REQUIRE(track(made, out / "samples", "--frame-period 0.05").exit_code == 0);
+  const nlohmann::json samples = tests::json_of(out / "samples/run.json");
+  CHECK(samples["kind"] == "samples");
+  CHECK(samples["moving_tracks"] == record["moving_tracks"]);
+}
+
+TEST_CASE("Recorded cubes of another layout give the same tracks", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path made = folder.path() / "street", out = folder.path();
+  REQUIRE(tests::run_fanbeam("fmcw street-76ghz -q --frames 0:4 --products beat --chirps 64 -o " +
+                             tests::quoted(made))
+              .exit_code == 0);
+  REQUIRE(track(made, out / "own").exit_code == 0);
+  // As a recorder keeps it: frame, chirps of the three transmitters in turn, receiver, sample; another
+  // sign of the beat, another unit.
+  constexpr std::size_t kFrames = 4, kChirps = 64, kReceivers = 4, kTransmitters = 3;
+  std::vector<std::complex<float>> recorded;
+  std::size_t samples = 0;
+  for (std::size_t frame = 0; frame < kFrames; ++frame) {
+    const fs::path file = made / fmt::format("beat/{:05}.npy", frame);
+    const core::NpyHeader header = core::read_npy_header(file);
+    samples = header.shape[2];
+    const auto values = core::read_npy(file, header, 0, header.count());
+    for (std::size_t chirp = 0; chirp < kChirps * kTransmitters; ++chirp)
+      for (std::size_t receiver = 0; receiver < kReceivers; ++receiver)
+        for (std::size_t n = 0; n < samples; ++n) {
+          const std::size_t channel = chirp % kTransmitters * kReceivers + receiver;
+          recorded.push_back(
+              1024.0F *
+              std::conj(values[(channel * kChirps + chirp / kTransmitters) * samples + n]));
+        }
+  }
+  const fs::path file = folder.path() / "recorded.npy";
+  core::write_npy(file, {kFrames, kChirps * kTransmitters, kReceivers, samples}, recorded);
+  const fs::path radar = folder.write(
+      "radar.toml", tests::bytes_of(made / "radar.toml") +
+                        "\n[samples]\naxes = \"frame, chirp, receiver, sample\"\n"
+                        "scale_sqrtW = 0.0009765625\nconjugate = true\n");
+  const auto run = track(file, out / "recorded", "--radar " + tests::quoted(radar));
+  INFO(run.output);
+  REQUIRE(run.exit_code == 0);
+  CHECK(tests::bytes_of(out / "recorded/tracks.csv") == tests::bytes_of(out / "own/tracks.csv"));
+  // Another shape is told with what was expected.
+  const fs::path short_axes = folder.write(
+      "short.toml", tests::bytes_of(made / "radar.toml") +
+                        "\n[samples]\naxes = \"frame, receiver, chirp, sample\"\n");
+  const auto refused = track(file, out / "refused", "--radar " + tests::quoted(short_axes));
+  CHECK(refused.exit_code == 3);
+  CHECK(refused.output.find("4 along chirp: expected 192 or more") != std::string::npos);
+  CHECK(refused.output.find("192 along receiver: expected 4") != std::string::npos);
+  CHECK_FALSE(fs::exists(out / "refused"));
+}
+
+TEST_CASE("Tables of detections are refused with every wrong cell", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path csv = folder.write("bad.csv",
+                                    "time_s,range_m,radial_speed_mps,azimuth_deg\n"
+                                    "0,10,1,0\n0,-3,1,0\n0,10,nan,0\n0,10,1\n-1,10,1,0\n");
+  auto run = track(csv, folder.path() / "out");
+  CHECK(run.exit_code == 3);
+  for (const char* told : {"bad.csv:3", "range_m = -3", "bad.csv:4", "E-NONFINITE", "bad.csv:5",
+                           "3 cells", "bad.csv:6", "E-TIME"}) {
+    INFO(told << " in\n" << run.output);
+    CHECK(run.output.find(told) != std::string::npos);
+  }
+  run = track(folder.write("none.csv", "time_s,range\n"), folder.path() / "out");
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("radial_speed_mps = missing") != std::string::npos);
+  run = track(folder.write("half.json", R"({"time_s": 0, "detections": [{"range_m": 1}]})"),
+              folder.path() / "out");
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("/detections/0/azimuth_rad") != std::string::npos);
+  run = track(folder.write("beat.npy", "x"), folder.path() / "out");
+  CHECK(run.exit_code == 2);
+  CHECK(run.output.find("--radar") != std::string::npos);
+}
+
+TEST_CASE("A car by detections alone is followed without a radar", "[track]") {
+  const tests::TemporaryFolder folder;
+  std::string table = "time_s,range_m,radial_speed_mps,azimuth_deg\n";
+  for (int i = 0; i < 20; ++i) table += fmt::format("{},{},-8,5\n", 0.1 * i, 60.0 - 0.8 * i);
+  REQUIRE(track(folder.write("car.csv", table), folder.path() / "out").exit_code == 0);
+  const nlohmann::json record = tests::json_of(folder.path() / "out/run.json");
+  CHECK(record["confirmed_tracks"] == 1);
+  CHECK(record["frame_s"].get<double>() == Approx(0.1));
+  const std::string tracks = tests::bytes_of(folder.path() / "out/tracks.csv");
+  CHECK(tracks.find(",existence,xx,") != std::string::npos);
+}
+
+TEST_CASE("Radar files read back as they were written, and tell all that is wrong", "[fmcw]") {
+  const auto read = [](const std::string& text, core::ProblemList& problems) {
+    session::FmcwSettings settings;
+    session::read_radar_text(text, "radar.toml", settings, problems);
+    return settings;
+  };
+  core::ProblemList problems;
+  const session::FmcwSettings settings = read(R"(
+[waveform]
+kind = "chirp-sequence"
+frequency_GHz = 77
+bandwidth_MHz = 300
+chirps = 32
+[array]
+transmitter_right_m = [0, 0.0077]
+transmitter_up_m = [0, 0.0019]
+receiver_right_m = [0, 0.0019, 0.0039, 0.0058]
+[receiver]
+noise_figure_dB = 12
+phase_noise_offsets_kHz = [100, 1000]
+phase_noise_dBc_per_Hz = [-85, -105]
+[processing]
+range_window = "kaiser:8"
+cfar = "go"
+cfar_training = [6, 0]
+angle_method = "beamforming"
+most_range_m = 90
+)",
+                                              problems);
+  REQUIRE_FALSE(problems.has_errors());
+  CHECK(settings.transmitters_m[1].z == 0.0019);
+  CHECK(settings.phase_noise.offsets_Hz == std::vector<double>{1e5, 1e6});
+  CHECK(settings.cfar == signal::CfarKind::greatest_of);
+  const std::string text =
+      session::radar_toml(settings, settings.waveform, 77e9, 300e6, std::pow(10.0, 1.2));
+  const session::FmcwSettings again = read(text, problems);
+  REQUIRE_FALSE(problems.has_errors());
+  CHECK(session::radar_toml(again, again.waveform, 77e9, 300e6, std::pow(10.0, 1.2)) == text);
+  CHECK(again.receivers_m == settings.receivers_m);
+  CHECK(again.range_window == settings.range_window);
+  CHECK(again.most_range_m == settings.most_range_m);
+  read(R"(
+[waveform]
+kind = "chirps"
+ramp_us = -1
+[array]
+transmitter_right_m = [0.0]
+[receiver]
+line_width_Hz = 10
+phase_noise_offsets_kHz = [100, 100]
+phase_noise_dBc_per_Hz = [-85, -85]
+[samples]
+axes = "chirp, chirp, sample"
+[processing]
+angle_window = "boxcar"
+cfar_guard = [1.5, 2]
+cluster_plaice_m = 3
+)",
+       problems);
+  std::string told;
+  for (const core::Problem& problem : problems.all()) told += to_string(problem) + "\n";
+  for (const char* wrong : {"waveform.kind", "ramp_us", "receiver_right_m", "not rising", "axes", "boxcar",
+                            "1.5", "cluster_plaice_m"}) {
+    INFO(wrong << " in\n" << told);
+    CHECK(told.find(wrong) != std::string::npos);
+  }
+}
+
+TEST_CASE("A scene's own radar file is used, below what the command line says", "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  const auto made = [&](const char* name, const std::string& words) {
+    const fs::path out = folder.path() / name;
+    const auto run = tests::run_fanbeam("fmcw highway-76ghz -q --frames 5 --products detections " +
+                                        words + " -o " + tests::quoted(out));
+    INFO(run.output);
+    REQUIRE(run.exit_code == 0);
+    return tests::json_of(out / "run.json");
+  };
+  const nlohmann::json own = made("own", "");
+  CHECK(own["array"]["multiplex"] == "simultaneous");
+  CHECK(own["frames"][0]["warnings"].empty());  // nothing folds
+  const nlohmann::json more = made("more", "--chirps 64 --cfar ca");
+  CHECK(more["array"]["multiplex"] == "simultaneous");
+  CHECK(more["axes"]["speed_cells"] == 64);
+  CHECK(more["cfar"]["kind"] == "CA");
+  const nlohmann::json other =
+      made("other", "--radar " + tests::quoted(folder.write("r.toml", "[array]\nreceivers = 8\n")));
+  CHECK(other["array"]["receivers"] == 8);
+  CHECK(other["array"]["multiplex"] == "time-division");
+}
