@@ -18,6 +18,7 @@
 #include "session/records/output_folder.h"
 #include "session/session.h"
 #include "session/signal/bscope_product.h"
+#include "session/signal/interferers.h"
 #include "session/signal/radar_file.h"
 #include "session/signal/record.h"
 #include "session/signal/signal_files.h"
@@ -37,6 +38,7 @@ double ms_since(Clock::time_point& begin) {
 
 // The product that has its own sweeps, one a column, and needs nothing of the radar's chain.
 constexpr const char* kScan = "bscope";
+constexpr const char* kInterference = "interference";
 
 // Only samples where the waveform has no maps; asking for more is refused.
 std::set<std::string> chosen_products(const std::string& text, const session::FmcwRadar& radar) {
@@ -140,18 +142,39 @@ class Run {
             bscope.plan,  ms};
   }
 
+  void write_interference(int index, const session::FmcwPaths& paths,
+                          const std::vector<signal::Interferer>& interferers,
+                          const session::SignalBudget& budget,
+                          std::set<std::string>& files) const {
+    const auto cases = session::interference_study(radar_, scene_.description.sensor, paths,
+                                                   interferers, index, options_, budget);
+    const std::string name = fmt::format("{}/{:05}", kInterference, index);
+    core::write_file_atomically(output_.path() / (name + ".csv"),
+                                session::interference_csv(cases));
+    const std::string title =
+        fmt::format("{}, frame {}: other radars", scene_.description.name, index);
+    session::write_plot(session::interference_plot(cases, radar_.axes.range_step_m, title),
+                        output_.path() / (name + ".png"));
+    files.insert({name + ".csv", name + ".png"});
+  }
+
   session::FmcwFrameRecord chain(int index) const {
     Clock::time_point begin = Clock::now();
     const session::FmcwPaths paths = session::fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
+    const std::vector<signal::Interferer> interferers =
+        session::interferers_of(scene_, index, paths);
+    const session::SignalBudget budget{scene_.plan, scene_.accuracy_grey, scene_.options.wishes};
     const session::FmcwFrame frame =
         fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, products_,
-                   {scene_.plan, scene_.accuracy_grey, scene_.options.wishes});
+                   budget, interferers);
     const double signal_ms = ms_since(begin);
     session::FmcwFrameRecord record = session::fmcw_record(scene_, index, paths, frame);
     record.files = session::write_fmcw_products(
         output_.path(), products_, radar_, frame,
         {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
+    if (products_.contains(kInterference))
+      write_interference(index, paths, interferers, budget, record.files);
     record.echoes_ms = echoes_ms;
     record.signal_ms = signal_ms;
     record.writing_ms = ms_since(begin);

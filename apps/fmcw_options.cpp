@@ -109,6 +109,13 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
   add_window(command, "--angle-window", options.angle_window, "Over the channels of a line");
   command
       .add_option_function<std::string>(
+          "--mitigation",
+          [&options](const std::string& word) { options.mitigation = *signal::mitigation_of(word); },
+          "Of samples that other radars' chirps cross ([[interferer]] of the scene): set to 0, or "
+          "filled from the rest of the chirp (default none)")
+      ->check(CLI::IsMember({"none", "zero", "interpolate"}));
+  command
+      .add_option_function<std::string>(
           "--cfar",
           [&options](const std::string& word) { options.cfar = *session::cfar_kind(word); },
           "Detector: mean of the cells around (ca), ordered statistic (os), greater (go) or "

@@ -148,6 +148,18 @@ struct TargetDescription {
   core::Place place;
 };
 
+// Another radar on a target, which `fanbeam fmcw` hears (signal/synthesis/interference.h).
+struct InterfererDescription {
+  std::string name;
+  std::string target;  // the [[target]] that carries it
+  double eirp_W = 0.0;
+  double centre_frequency_Hz = 0.0, bandwidth_Hz = 0.0;
+  bool falling = false;
+  double ramp_s = 0.0, interval_s = 0.0;
+  double start_s = 0.0;  // one of its chirps begins, on the scene's clock
+  core::Place place;
+};
+
 struct WireDescription {
   double radius_m = 0.01;
   double coherence_length_m = 0.0;         // 0 for the distance of two points
@@ -224,6 +236,7 @@ struct SceneDescription {
   std::vector<BoxDescription> boxes;
   std::vector<BuildingsDescription> buildings;
   std::vector<TargetDescription> targets;
+  std::vector<InterfererDescription> interferers;
   std::vector<LineDescription> lines;
   atmosphere::Weather weather;  // its rain cells are in `rain_cells`, not placed yet
   std::vector<RainCellDescription> rain_cells;

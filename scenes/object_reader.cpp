@@ -1,5 +1,6 @@
 #include "scenes/object_reader.h"
 
+#include <algorithm>
 #include <set>
 
 #include "core/decibel.h"
@@ -16,6 +17,7 @@ using core::radians;
 
 constexpr core::NumberRange kDistance_m{-100000.0, 100000.0};
 constexpr std::size_t kMostAirports = 8;
+constexpr std::size_t kMostInterferers = 1000;
 constexpr std::size_t kMostRunways = 64;  // each flattens its strip of the terrain
 
 void read_runway_end(ConfigTable& runway, const char* key, RunwayEndDescription& end) {
@@ -212,6 +214,14 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
     scene.targets.push_back(
         read_target(table, objects, highway, scene.sensor.waveform.polarisation));
   for (const std::filesystem::path& file : highway.files()) scene.files.push_back(file);
+  for (ConfigTable& table : root.tables("interferer", kMostInterferers)) {
+    scene.interferers.push_back(read_interferer(table, scene.sensor.waveform));
+    const std::string& carrier = scene.interferers.back().target;
+    if (std::none_of(scene.targets.begin(), scene.targets.end(),
+                     [&](const TargetDescription& target) { return target.name == carrier; }))
+      table.error(core::ErrorClass::ref, "target", "\"" + carrier + "\"",
+                  "the name of a [[target]] that carries it");
+  }
   for (ConfigTable& table : root.tables("line")) scene.lines.push_back(read_line(table, objects));
 }
 

@@ -114,6 +114,25 @@ TargetDescription read_target(ConfigTable& table, ObjectNames& objects, HighwayP
   return target;
 }
 
+InterfererDescription read_interferer(ConfigTable& table, const sensors::Waveform& own) {
+  InterfererDescription other;
+  other.place = table.place("");
+  other.name = table.text("name", "interferer");
+  other.target = table.required_text("target");
+  other.eirp_W = 1e-3 * core::power_from_dB(table.required_number("eirp_dBm", {-100.0, 100.0}));
+  other.centre_frequency_Hz =
+      1e9 * table.number("frequency_GHz", {1e-3, 1000.0}, 1e-9 * own.frequency_Hz);
+  other.bandwidth_Hz = 1e6 * table.number("bandwidth_MHz", {0.0, 1e5}, 1e-6 * own.bandwidth_Hz);
+  other.falling = table.boolean("falling", false);
+  other.ramp_s = 1e-6 * table.number("ramp_us", {1e-2, 1e9}, 20.0);
+  other.interval_s = 1e-6 * table.number("interval_us", {1e6 * other.ramp_s, 1e9}, 1e6 * other.ramp_s);
+  other.start_s = 1e-6 * table.number("start_us", {-1e9, 1e9}, 0.0);
+  if (!(other.bandwidth_Hz < 2.0 * other.centre_frequency_Hz))
+    table.error(core::ErrorClass::range, "bandwidth_MHz",
+                core::number_text(1e-6 * other.bandwidth_Hz), "less than twice the frequency");
+  return other;
+}
+
 LineDescription read_line(ConfigTable& table, ObjectNames& objects) {
   LineDescription line;
   line.place = table.place("");

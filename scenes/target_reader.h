@@ -17,6 +17,8 @@ double rcs_m2_from(core::ConfigTable& table, std::string_view key, double fallba
 // `polarisation` is the radar's: what a wire is seen with.
 TargetDescription read_target(core::ConfigTable& table, ObjectNames& objects, HighwayPaths& highway,
                               core::Polarisation polarisation);
+// [[interferer]]; carrier and sweep are the sensor's unless it says otherwise.
+InterfererDescription read_interferer(core::ConfigTable& table, const sensors::Waveform& own);
 LineDescription read_line(core::ConfigTable& table, ObjectNames& objects);
 
 }  // namespace fanbeam::scenes

@@ -16,6 +16,7 @@
 #include "session/session.h"
 #include "session/signal/chain.h"
 #include "session/signal/detection_file.h"
+#include "session/signal/interferers.h"
 #include "session/signal/paths.h"
 #include "session/signal/radar_file.h"
 #include "session/signal/sample_file.h"
@@ -68,7 +69,8 @@ class SceneSource : public OwnSource {
     const session::FmcwPaths paths = session::fmcw_paths(*scene_, index, settings_);
     const session::FmcwFrame found = session::fmcw_frame(
         radar_, scene_->description.sensor, paths.paths, index, settings_, kDetections,
-        {scene_->plan, scene_->accuracy_grey, scene_->options.wishes});
+        {scene_->plan, scene_->accuracy_grey, scene_->options.wishes},
+        session::interferers_of(*scene_, index, paths));
     const session::DetectedFrame made = detected(found, time_of(index));
     OwnFrame frame{made.time_s, made.detections.size(),
                    session::measurements_of(made, &radar_, errors_), {}};

@@ -92,7 +92,8 @@ SamplesShown shown_by(const FmcwRadar& radar, const FmcwSettings& options,
 FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const std::vector<signal::ScatterPath>& paths, int frame_number,
                      const FmcwSettings& options, const std::set<std::string>& products,
-                     const SignalBudget& budget) {
+                     const SignalBudget& budget,
+                     const std::vector<signal::Interferer>& interferers) {
   FmcwFrame frame;
   const auto policy =
       options.refuse_folding ? signal::FoldingPolicy::refuse : signal::FoldingPolicy::count;
@@ -122,6 +123,8 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
       frame.phase_noise_rad =
           std::max(frame.phase_noise_rad, phase_noise_rad(receiver, beat.shape.samples));
     }
+    frame.crossed +=
+        signal::add_interference(radar.waveform, stage, radar.array, interferers, beat);
     apply_channel_errors(options, beat);
     frame.clipped += receive(radar.array, receiver, plan, key, beat);
     frame.beats.push_back(std::move(beat));

@@ -12,6 +12,7 @@
 #include "session/signal/radar.h"
 #include "session/signal/receiver_plan.h"
 #include "signal/cube.h"
+#include "signal/synthesis/interference.h"
 #include "signal/transform/cube_maps.h"
 #include "signal/transform/top_view.h"
 
@@ -37,6 +38,8 @@ struct FmcwFrame {
   core::EffectPlan plan;                // of the receiver
   double phase_noise_rad = 0.0;         // 0 where it does not run
   std::size_t clipped = 0;              // parts of samples, by the quantiser
+  std::size_t crossed = 0;              // samples of the first channel that other radars cross
+  std::size_t mended = 0;               // samples of all channels, by the mitigation
 };
 
 // Does what the names of `products` need (kFmcwProducts; maps mark the detections). The draws are
@@ -45,7 +48,8 @@ struct FmcwFrame {
 FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const std::vector<signal::ScatterPath>& paths, int frame,
                      const FmcwSettings& options, const std::set<std::string>& products,
-                     const SignalBudget& budget = {});
+                     const SignalBudget& budget = {},
+                     const std::vector<signal::Interferer>& interferers = {});
 
 // Maps and detections of frame.beats[0], as the names of `products` need them: the way down from
 // samples, whoever made them.

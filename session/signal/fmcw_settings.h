@@ -15,7 +15,7 @@
 
 namespace fanbeam::session {
 
-inline constexpr std::array<Product, 8> kFmcwProducts = {
+inline constexpr std::array<Product, 9> kFmcwProducts = {
     {{"beat", "samples, NPY", "beat/00000.npy"},
      {"spectrum", "power against range of one receiver, PNG and CSV",
       "spectrum/00000.png and .csv"},
@@ -24,6 +24,9 @@ inline constexpr std::array<Product, 8> kFmcwProducts = {
      {"range-azimuth", "map, PNG and EXR", "range-azimuth/00000.png and .exr"},
      {"top-view", "map, PNG and EXR", "top-view/00000.png and .exr"},
      {"detections", "with clusters, CSV and JSON", "detections/00000.csv and .json"},
+     {"interference", "floor and detections without other radars, with them, and with each mitigation, CSV "
+                      "and PNG",
+      "interference/00000.csv and .png"},
      {"bscope", "the sensor's picture from one sweep a column, PNG and EXR",
       "bscope/00000.png and .exr"}}};
 

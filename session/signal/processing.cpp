@@ -54,13 +54,17 @@ void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
   const bool detections = wants({"range-doppler", "range-azimuth", "top-view", "detections"});
   const bool angles = wants({"cube", "range-azimuth", "top-view"});
   if (!radar.maps || !(detections || angles)) return;
-  signal::FloatCube scaled;
+  signal::FloatCube changed;
+  const bool mends = settings.mitigation != signal::Mitigation::none;
+  if (mends || radar.power_scale != 1.0) changed = frame.beats[0];
+  if (mends)
+    frame.mended =
+        signal::mitigate(settings.mitigation, settings.mitigation_threshold, radar.array, changed);
   if (radar.power_scale != 1.0) {
-    scaled = frame.beats[0];
     const auto scale = static_cast<float>(std::sqrt(radar.power_scale));
-    for (std::complex<float>& sample : scaled.values) sample *= scale;
+    for (std::complex<float>& sample : changed.values) sample *= scale;
   }
-  const signal::FloatCube& beat = radar.power_scale != 1.0 ? scaled : frame.beats[0];
+  const signal::FloatCube& beat = changed.values.empty() ? frame.beats[0] : changed;
   signal::FloatCube range_speed;
   signal::range_doppler(beat, radar.detection.transform, range_speed);
   if (detections) {

@@ -6,6 +6,7 @@
 #include "signal/angle/source_directions.h"
 #include "signal/detection/cfar_factor.h"
 #include "signal/fourier/window.h"
+#include "signal/receiver/mitigation.h"
 
 namespace fanbeam::session {
 
@@ -21,6 +22,8 @@ struct ProcessingSettings {
   signal::Window doppler_window{
       .kind = signal::WindowKind::chebyshev, .level_dB = 60.0, .symmetric = true};
   signal::Window angle_window{.kind = signal::WindowKind::taylor, .symmetric = true};
+  signal::Mitigation mitigation = signal::Mitigation::none;  // of other radars' chirps
+  double mitigation_threshold = signal::kCrossedOverMedian;  // over the median of a chirp; above 1 to 1e6
   signal::CfarKind cfar = signal::CfarKind::ordered_statistic;
   CellSpan cfar_guard{2, 2};
   CellSpan cfar_training{4, 2};           // beyond the guard cells; not 0 in both

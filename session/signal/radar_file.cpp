@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/config_table.h"
+#include "core/decibel.h"
 #include "core/units.h"
 #include "session/signal/sample_file.h"
 #include "signal/waveform/waveform.h"
@@ -140,6 +141,11 @@ void read_processing(ConfigTable table, ProcessingSettings& settings) {
   read_window(table, "range_window", settings.range_window);
   read_window(table, "doppler_window", settings.doppler_window);
   read_window(table, "angle_window", settings.angle_window);
+  if (table.has("mitigation"))
+    settings.mitigation = static_cast<signal::Mitigation>(
+        table.choice("mitigation", {"none", "zero", "interpolate"}, 0));
+  if (const auto threshold_dB = table.optional_number("mitigation_threshold_dB", {0.0, 60.0, true}))
+    settings.mitigation_threshold = core::power_from_dB(*threshold_dB);
   if (table.has("cfar"))
     settings.cfar = kCfarWords[table.choice("cfar", {"ca", "os", "go", "so"}, 1)].second;
   read_span(table, "cfar_guard", settings.cfar_guard);
@@ -204,10 +210,11 @@ std::string array_toml(const ArraySettings& array) {
 std::string processing_toml(const ProcessingSettings& settings) {
   std::string text = fmt::format(
       "\n[processing]\nrange_window = \"{}\"\ndoppler_window = \"{}\"\nangle_window = \"{}\"\n"
+      "mitigation = \"{}\"\n"
       "cfar = \"{}\"\ncfar_guard = [{}, {}]\ncfar_training = [{}, {}]\n"
       "false_alarm_probability = {}\nangle_method = \"{}\"\ncluster_neighbours = {}\n",
       signal::name(settings.range_window), signal::name(settings.doppler_window),
-      signal::name(settings.angle_window), cfar_word(settings.cfar), settings.cfar_guard.range,
+      signal::name(settings.angle_window), signal::name(settings.mitigation), cfar_word(settings.cfar), settings.cfar_guard.range,
       settings.cfar_guard.doppler, settings.cfar_training.range, settings.cfar_training.doppler,
       digits(settings.false_alarm_probability), signal::name(settings.angle_method),
       settings.cluster_neighbours);
@@ -217,6 +224,9 @@ std::string processing_toml(const ProcessingSettings& settings) {
   add("cluster_place_m", settings.cluster_place_m);
   add("cluster_speed_mps", settings.cluster_speed_mps);
   add("most_range_m", settings.most_range_m);
+  if (settings.mitigation_threshold != signal::kCrossedOverMedian)
+    text += fmt::format("mitigation_threshold_dB = {}\n",
+                        digits(10.0 * std::log10(settings.mitigation_threshold)));
   if (settings.unfold) text += "unfold = true\n";
   return text;
 }

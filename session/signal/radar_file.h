@@ -13,6 +13,8 @@
 //   [samples]     of recorded samples (sample_file.h): axes, "channel, chirp, sample" and the like;
 //                 scale_sqrtW, above 0 to 1e9, default 1; conjugate
 //   [processing]  range_window, doppler_window, angle_window: "taylor:35" and the like (window.h);
+//                 mitigation "none" | "zero" | "interpolate" of other radars' chirps (mitigation.h), with
+//                 mitigation_threshold_dB, above 0 to 60;
 //                 cfar "ca" | "os" | "go" | "so"; cfar_guard, cfar_training: [range, Doppler] cells on each
 //                 side, 0 to 64; false_alarm_probability, 1e-12 to 0.1; angle_method "beamforming" |
 //                 "capon" | "music"; cluster_place_m, cluster_speed_mps, above 0 to 1000;

@@ -58,6 +58,7 @@ Json processing_json(const FmcwSettings& options, const FmcwRadar& radar) {
   return {{"range_window", signal::name(options.range_window)},
           {"doppler_window", signal::name(options.doppler_window)},
           {"angle_window", signal::name(options.angle_window)},
+          {"mitigation", std::string(signal::name(options.mitigation))},
           {"angle_method", std::string(signal::name(options.angle_method))},
           {"clusters",
            {{"place_m", radar.clusters.place_m},
@@ -109,6 +110,8 @@ Json frame_json(const FmcwFrameRecord& frame) {
                {"synthesis_error", frame.synthesis_error},
                {"phase_noise_rad", frame.phase_noise_rad},
                {"clipped", frame.clipped},
+               {"crossed", frame.crossed},
+               {"mended", frame.mended},
                {"plan", Json::parse(decisions_json(frame.plan))}};
   if (frame.found) {
     json["detections"] = frame.found->detections;
@@ -146,6 +149,8 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
   record.synthesis_error = frame.synthesis_error;
   record.phase_noise_rad = frame.phase_noise_rad;
   record.clipped = frame.clipped;
+  record.crossed = frame.crossed;
+  record.mended = frame.mended;
   record.plan = frame.plan;
   return record;
 }

@@ -44,7 +44,7 @@ struct FmcwFrameRecord {
   std::vector<core::Problem> warnings;
   bool keystone = false;
   double synthesis_error = 0.0, phase_noise_rad = 0.0;
-  std::size_t clipped = 0;
+  std::size_t clipped = 0, crossed = 0, mended = 0;
   core::EffectPlan plan;  // of the receiver
   // For timing.json.
   double echoes_ms = 0.0, signal_ms = 0.0, writing_ms = 0.0;

@@ -246,3 +246,42 @@ TEST_CASE("A scene's own radar file is used, below what the command line says", 
   CHECK(other["array"]["receivers"] == 8);
   CHECK(other["array"]["multiplex"] == "time-division");
 }
+
+TEST_CASE("A car's radar in a scene raises the floor, and mending recovers detections", "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  fs::copy(FANBEAM_SOURCE_DIR "/scenes/street-76ghz", folder.path() / "street",
+           fs::copy_options::recursive);
+  const auto add = [&](const std::string& text) {
+    std::ofstream(folder.path() / "street/scene.toml", std::ios::app) << text;
+  };
+  add("\n[[interferer]]\ntarget = \"oncoming car, plate\"\neirp_dBm = 35\nfalling = true\n"
+      "ramp_us = 23\ninterval_us = 31\nstart_us = 4\n");
+  const fs::path out = folder.path() / "out";
+  auto run = tests::run_fanbeam("fmcw " + tests::quoted(folder.path() / "street") +
+                                " -q --chirps 32 --products interference -o " + tests::quoted(out));
+  INFO(run.output);
+  REQUIRE(run.exit_code == 0);
+  std::istringstream table(tests::bytes_of(out / "interference/00000.csv"));
+  std::string line;
+  std::map<std::string, std::vector<double>> rows;
+  std::getline(table, line);
+  CHECK(line == "case,floor_dBm,rise_dB,mended_samples,detections,recovered,missed,false_detections");
+  while (std::getline(table, line)) {
+    std::istringstream cells(line);
+    std::string name, cell;
+    std::getline(cells, name, ',');
+    while (std::getline(cells, cell, ',')) rows[name].push_back(std::stod(cell));
+  }
+  REQUIRE(rows.size() == 4);
+  CHECK(rows["none"][1] > 3.0);
+  CHECK(rows["zero"][1] < 1.0);
+  CHECK(rows["interpolate"][1] < 1.0);
+  CHECK(rows["none"][4] < rows["zero"][4]);
+  CHECK(rows["interpolate"][4] >= 0.95 * rows["clean"][4]);
+  CHECK(tests::json_of(out / "run.json")["frames"][0]["crossed"] > 100);
+  add("\n[[interferer]]\ntarget = \"nobody\"\neirp_dBm = 35\ninterval_us = 3\n");
+  run = tests::run_fanbeam("validate " + tests::quoted(folder.path() / "street"));
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("interferer[1].target = \"nobody\"") != std::string::npos);
+  CHECK(run.output.find("interval_us") != std::string::npos);
+}

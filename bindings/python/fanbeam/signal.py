@@ -14,6 +14,7 @@ port. docs/fmcw.md tells what is modelled.
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -57,14 +58,15 @@ def frame(
     *,
     want: Iterable[str] = ("beat", "detections"),
     waveform: str = "",
-    transmitters: int = 3,
-    receivers: int = 4,
-    real: bool = False,
+    radar: str | os.PathLike[str] | None = None,
+    transmitters: int | None = None,
+    receivers: int | None = None,
+    real: bool | None = None,
     rays_per_cell: float = 1.0,
-    false_alarm_probability: float = 1e-6,
-    line_width_Hz: float = 0.0,
-    adc_bits: int = 0,
-    unfold: bool = False,
+    false_alarm_probability: float | None = None,
+    line_width_Hz: float | None = None,
+    adc_bits: int | None = None,
+    unfold: bool | None = None,
     seed: int = 0,
     numbers: Mapping[str, float] | None = None,
 ) -> SignalFrame:
@@ -72,6 +74,9 @@ def frame(
 
     want           of "beat", "cube", "range-doppler", "range-azimuth", "detections"
     waveform       a kind ("chirp-sequence", "triangle", ...) or "automotive-76ghz"; "": by the sensor
+    radar          TOML file of a radar, which also has windows, detector, angle method, clusters, channel
+                   errors and places of elements (docs/fmcw.md); the scene's own by default. The other arguments replace what it says
+    transmitters   and receivers of the array, 3 and 4
     numbers        of the waveform, in SI: {"bandwidth": 250e6, "ramp": 20e-6}; docs/fmcw.md lists them
     line_width_Hz  of the oscillator, 0: no phase noise; adc_bits 0: no quantiser
     unfold         speeds of detections, by time division of the transmitters
@@ -81,6 +86,7 @@ def frame(
         raise ValueError(f"want: no {', '.join(sorted(unknown))}")
     told = {
         "waveform": waveform,
+        "radar": "" if radar is None else os.fspath(radar),
         "transmitters": transmitters,
         "receivers": receivers,
         "real": real,
@@ -92,6 +98,7 @@ def frame(
         "seed": seed,
         "numbers": dict(numbers or {}),
     }
+    told = {name: value for name, value in told.items() if value is not None}
     made = _signal.frame(scene._core, range(len(scene.trajectory))[index], products, told)
     warn(made.pop("warnings"))
     axes = made.pop("axes")

@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
@@ -15,6 +16,7 @@
 #include "core/number_range.h"
 #include "session/signal/chain.h"
 #include "session/signal/paths.h"
+#include "session/signal/radar_file.h"
 #include "session/signal/waveform_choice.h"
 #include "session/signal/waveform_figures.h"
 
@@ -47,20 +49,31 @@ void take_numbers(const std::map<std::string, double>& numbers, Settings& settin
   problems.throw_if_errors();
 }
 
-session::FmcwSettings settings_of(const py::dict& told) {
+// `own`: the radar file that the scene names, which another one replaces.
+session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::path& own) {
   session::FmcwSettings settings;
-  settings.waveform = told["waveform"].cast<std::string>();
-  take_numbers(told["numbers"].cast<std::map<std::string, double>>(), settings);
-  settings.real = told["real"].cast<bool>();
-  settings.transmitters = told["transmitters"].cast<int>();
-  settings.receivers = told["receivers"].cast<int>();
-  settings.false_alarm_probability = told["false_alarm_probability"].cast<double>();
-  settings.rays_per_cell = told["rays_per_cell"].cast<double>();
-  settings.line_width_Hz = told["line_width_Hz"].cast<double>();
-  settings.adc_bits = told["adc_bits"].cast<int>();
-  settings.unfold = told["unfold"].cast<bool>();
-  settings.seed = told["seed"].cast<std::uint64_t>();
   core::ProblemList problems;
+  const auto given = told["radar"].cast<std::string>();
+  if (const std::filesystem::path file = given.empty() ? own : std::filesystem::path(given);
+      !file.empty()) {
+    session::read_radar_file(file, settings, problems);
+    problems.throw_if_errors();
+  }
+  if (const auto kind = told["waveform"].cast<std::string>(); !kind.empty()) settings.waveform = kind;
+  take_numbers(told["numbers"].cast<std::map<std::string, double>>(), settings);
+  // What is missing stays as the file or the default has it.
+  const auto take = [&told]<class T>(const char* name, T& value) {
+    if (told.contains(name)) value = told[name].cast<T>();
+  };
+  take("real", settings.real);
+  take("transmitters", settings.transmitters);
+  take("receivers", settings.receivers);
+  take("false_alarm_probability", settings.false_alarm_probability);
+  take("rays_per_cell", settings.rays_per_cell);
+  take("line_width_Hz", settings.line_width_Hz);
+  take("adc_bits", settings.adc_bits);
+  take("unfold", settings.unfold);
+  take("seed", settings.seed);
   core::check_range(problems, "transmitters", settings.transmitters, {1, 64});
   core::check_range(problems, "receivers", settings.receivers, {1, 64});
   core::check_range(problems, "false_alarm_probability", settings.false_alarm_probability,
@@ -118,8 +131,8 @@ py::dict axes_of(const session::FmcwRadar& radar) {
 
 py::dict frame(const Scene& scene, int index, const std::set<std::string>& products,
                const py::dict& told) {
-  const session::FmcwSettings settings = settings_of(told);
   const std::shared_ptr<const scenes::Scene> now = scene.session().scene();
+  const session::FmcwSettings settings = settings_of(told, now->description.signal_file);
   const sensors::Sensor& sensor = now->description.sensor;
   const auto made = std::make_shared<Made>();
   made->radar = session::fmcw_radar(settings, sensor);
