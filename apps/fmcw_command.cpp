@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 #include <set>
 
 #include "apps/option_lists.h"
@@ -22,6 +23,7 @@
 #include "session/signal/radar_file.h"
 #include "session/signal/record.h"
 #include "session/signal/signal_files.h"
+#include "session/signal/spectrogram.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -38,6 +40,7 @@ double ms_since(Clock::time_point& begin) {
 
 // The product that has its own sweeps, one a column, and needs nothing of the radar's chain.
 constexpr const char* kScan = "bscope";
+constexpr const char* kSpectrogram = "spectrogram";  // one of all frames
 constexpr const char* kInterference = "interference";
 
 // Only samples where the waveform has no maps; asking for more is refused.
@@ -67,7 +70,18 @@ class Run {
         output_(options.output.empty()
                     ? core::default_output_folder(scene.description.name, "-fmcw")
                     : fs::path(options.output),
-                "", options.overwrite) {}
+                "", options.overwrite) {
+    if (!products_.contains(kSpectrogram)) return;
+    spectrogram_.emplace(radar_, options.spectrogram_of);
+    const auto& targets = scene.world.targets;
+    if (!options.spectrogram_of.empty() &&
+        std::none_of(targets.begin(), targets.end(), [&](const auto& target) {
+          return target.name.starts_with(options.spectrogram_of);
+        }))
+      core::throw_input_error(core::ErrorClass::ref, "--spectrogram-of",
+                              "\"" + options.spectrogram_of + "\"",
+                              "the beginning of a target's name in the scene");
+  }
 
   void process() {
     Progress progress(scene_.description.name, static_cast<int>(frames_.size()), common_.quiet);
@@ -79,6 +93,9 @@ class Run {
     std::set<std::string> files;
     for (const session::FmcwFrameRecord& frame : records_)
       files.insert(frame.files.begin(), frame.files.end());
+    if (spectrogram_)
+      files.merge(session::write_spectrogram(output_.path(), *spectrogram_,
+                                             scene_.description.name, options_.dynamic_range_dB));
     if (runs_chain()) {
       files.insert(session::kRadarFile);
       core::write_file_atomically(output_.path() / session::kRadarFile, radar_toml());
@@ -158,7 +175,17 @@ class Run {
     files.insert({name + ".csv", name + ".png"});
   }
 
-  session::FmcwFrameRecord chain(int index) const {
+  // Of the targets that the spectrogram looks at.
+  std::vector<double> ranges_of(const session::FmcwPaths& paths) const {
+    std::vector<double> ranges_m;
+    if (spectrogram_->target().empty()) return ranges_m;
+    for (const core::Echo& echo : paths.targets)
+      if (scene_.world.targets[echo.object_id].name.starts_with(spectrogram_->target()))
+        ranges_m.push_back(echo.range_m);
+    return ranges_m;
+  }
+
+  session::FmcwFrameRecord chain(int index) {
     Clock::time_point begin = Clock::now();
     const session::FmcwPaths paths = session::fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
@@ -173,6 +200,7 @@ class Run {
     record.files = session::write_fmcw_products(
         output_.path(), products_, radar_, frame,
         {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
+    if (spectrogram_) spectrogram_->add(record.time_s, frame, ranges_of(paths));
     if (products_.contains(kInterference))
       write_interference(index, paths, interferers, budget, record.files);
     record.echoes_ms = echoes_ms;
@@ -190,6 +218,7 @@ class Run {
   std::set<std::string> products_;
   session::OutputFolder output_;
   std::vector<session::FmcwFrameRecord> records_;
+  std::optional<session::Spectrogram> spectrogram_;
 };
 
 }  // namespace

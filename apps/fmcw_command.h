@@ -18,6 +18,7 @@ struct FmcwOptions : SceneChoice, session::FmcwSettings {
   double accuracy_grey = 0.0;  // 0: the scene's, else the default
   std::string effects;         // --effects; empty: what the scene and its samples call for
   bool overwrite = false;      // where other files are
+  std::string spectrogram_of;  // targets whose names begin with it; empty: all ranges
   std::string radar_file;      // --radar, read already
   // Puts the options that were given over the settings again: the scene may name a radar file.
   std::function<void()> put_given_again = [] {};

@@ -203,6 +203,9 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
       .add_option("--looks", options.looks,
                   "Sweeps per column of the B-scope, their powers averaged (default: the sensor's)")
       ->check(whole_number_from(1, 100000));
+  command.add_option("--spectrogram-of", options.spectrogram_of,
+                     "Name, or its beginning, of targets about whose range the spectrogram looks "
+                     "(default: all ranges)");
   command
       .add_option("--dynamic-range", options.dynamic_range_dB,
                   "Of the pictures' colours, dB from the noise up")

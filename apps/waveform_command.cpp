@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "session/signal/mixer_files.h"
 #include "session/signal/waveform_choice.h"
 #include "session/signal/waveform_figures.h"
 #include "signal/waveform/doppler.h"
@@ -113,12 +114,19 @@ int waveform(const WaveformOptions& options, const CommonOptions& common) {
   try {
     const signal::Waveform made = session::chosen_waveform(options);
     const std::optional<Target> target = target_of(options, made);
+    if (!options.mixer.empty())
+      session::write_mixer(
+          options.mixer, signal::mixer_trace(made, target->path),
+          fmt::format("{}: echo at {:.6g} m, {:.6g} m/s; carrier shown at {:.6g} MHz",
+                      signal::name(made.kind), target->path.range_m, target->path.radial_speed_mps,
+                      1.5e-6 * made.bandwidth_Hz));
     if (options.json) {
       fmt::print("{}\n", json_of(made, target).dump(2));
     } else {
       print_tables(made);
       if (target) print_target(*target);
       if (target && !common.quiet) print_problems(target->warnings);
+      if (!options.mixer.empty()) fmt::print("\nmixer {}\n", options.mixer);
     }
   } catch (const core::InputError& error) {
     std::vector<core::Problem> problems;

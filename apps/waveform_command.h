@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "apps/common.h"
 #include "session/signal/waveform_settings.h"
@@ -12,6 +13,7 @@ struct WaveformOptions : session::WaveformSettings {
   std::optional<double> range_m, speed_mps;  // of a target
   bool refuse_folding = false;
   bool json = false;
+  std::string mixer;  // folder of --mixer; empty: none
 };
 
 int waveform(const WaveformOptions& options, const CommonOptions& common);

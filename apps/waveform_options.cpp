@@ -2,6 +2,7 @@
 
 #include "apps/command_line.h"
 #include "apps/number_range.h"
+#include "apps/value_words.h"
 #include "apps/waveform_command.h"
 #include "signal/waveform/waveform.h"
 
@@ -34,6 +35,12 @@ CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options, Comm
   command
       .add_flag("--refuse-folding", options.refuse_folding,
                 "A target beyond the unambiguous spans is an error")
+      ->needs(range);
+  command
+      .add_option("--mixer", options.mixer,
+                  "Folder for what the mixer gets and gives: transmitted, received, product and beat "
+                  "of the first ramp or step, as tables and a picture")
+      ->type_name(kFolderValue)
       ->needs(range);
   command.add_flag("--json", options.json, "Print JSON");
   command.footer(

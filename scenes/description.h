@@ -140,8 +140,14 @@ struct TargetDescription {
     Spot at;
     double above_ground_m = 0.0;
   };
+  // Fore and aft along the way: a leg, an arm.
+  struct Swing {
+    double amplitude_m = 0.0, period_s = 1.0;
+    double phase_rad = 0.0;  // amplitude sin(2 pi t / period + phase)
+  };
   std::string name;
   materials::RcsModel rcs;
+  std::optional<Swing> swing;
   double heading_rad = 0.0, tilt_rad = 0.0;  // boresight: clockwise from north, up from horizontal
   core::Swerling swerling = core::Swerling::steady;
   std::vector<Waypoint> path;

@@ -75,6 +75,25 @@ core::Swerling read_rcs(ConfigTable& target, ObjectNames& objects, double wire_p
   return core::Swerling::steady;
 }
 
+// Of a target between two waypoints or more. Its way becomes legs of a 24th of the period.
+TargetDescription::Swing read_swing(ConfigTable& target, const TargetDescription& description) {
+  constexpr double kMostSwings = 5000.0;
+  ConfigTable table = target.table("swing");
+  TargetDescription::Swing swing;
+  swing.amplitude_m = table.required_number("amplitude_m", {0.0, 10.0});
+  swing.period_s = table.required_number("period_s", {0.05, 60.0});
+  swing.phase_rad = radians(table.number("phase_deg", {-360.0, 360.0}, 0.0));
+  const double duration_s = description.path.empty() ? 0.0
+                                                     : description.path.back().time_s -
+                                                           description.path.front().time_s;
+  if (description.path.size() < 2)
+    target.error(core::ErrorClass::ref, "swing", "without a way", "two waypoints or more");
+  else if (duration_s > kMostSwings * swing.period_s)
+    table.error(core::ErrorClass::limit, "period_s", core::number_text(swing.period_s),
+                "at most 5000 swings from the first waypoint to the last");
+  return swing;
+}
+
 }  // namespace
 
 double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBsm) {
@@ -102,6 +121,7 @@ TargetDescription read_target(ConfigTable& table, ObjectNames& objects, HighwayP
     target.path.push_back(
         {time_s, read_spot(waypoint, "at"), waypoint.number("above_ground_m", {-100, 20000}, 0.0)});
   }
+  if (table.has("swing")) target.swing = read_swing(table, target);
   if (table.has("highway")) {
     if (!waypoints.empty())
       table.error(core::ErrorClass::ref, "highway", "beside waypoints", "one of the two");

@@ -15,7 +15,7 @@
 
 namespace fanbeam::session {
 
-inline constexpr std::array<Product, 9> kFmcwProducts = {
+inline constexpr std::array<Product, 10> kFmcwProducts = {
     {{"beat", "samples, NPY", "beat/00000.npy"},
      {"spectrum", "power against range of one receiver, PNG and CSV",
       "spectrum/00000.png and .csv"},
@@ -24,6 +24,8 @@ inline constexpr std::array<Product, 9> kFmcwProducts = {
      {"range-azimuth", "map, PNG and EXR", "range-azimuth/00000.png and .exr"},
      {"top-view", "map, PNG and EXR", "top-view/00000.png and .exr"},
      {"detections", "with clusters, CSV and JSON", "detections/00000.csv and .json"},
+     {"spectrogram", "power over speed and time of all frames, micro-Doppler, PNG and EXR",
+      "spectrogram/all.png and .exr"},
      {"interference", "floor and detections without other radars, with them, and with each mitigation, CSV "
                       "and PNG",
       "interference/00000.csv and .png"},

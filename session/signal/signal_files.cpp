@@ -182,4 +182,17 @@ std::set<std::string> write_fmcw_products(const fs::path& folder,
   return writer.files();
 }
 
+std::set<std::string> write_spectrogram(const fs::path& folder, const Spectrogram& spectrogram,
+                                        const std::string& scene, double dynamic_range_dB) {
+  const signal::PowerMap powers = spectrogram.powers();
+  const HeatMap picture = spectrogram.picture(scene, dynamic_range_dB);
+  core::Image image{powers.columns, powers.rows, {{"power_W", powers.values_W}}};
+  core::write_exr(folder / "spectrogram/all.exr", image,
+                  {{"fanbeam:product", "spectrogram"},
+                   {"fanbeam:rows", picture.y.label},
+                   {"fanbeam:columns", picture.x.label}});
+  write_heat_map(picture, folder / "spectrogram/all.png");
+  return {"spectrogram/all.exr", "spectrogram/all.png"};
+}
+
 }  // namespace fanbeam::session

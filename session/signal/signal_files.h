@@ -6,6 +6,7 @@
 #include <string>
 
 #include "session/signal/chain.h"
+#include "session/signal/spectrogram.h"
 
 namespace fanbeam::session {
 
@@ -23,5 +24,10 @@ std::set<std::string> write_fmcw_products(const std::filesystem::path& folder,
                                           const std::set<std::string>& products,
                                           const FmcwRadar& radar, const FmcwFrame& frame,
                                           const FmcwStamp& stamp);
+
+// Files DIR/spectrogram/all.png and .exr; answers as above.
+std::set<std::string> write_spectrogram(const std::filesystem::path& folder,
+                                        const Spectrogram& spectrogram, const std::string& scene,
+                                        double dynamic_range_dB);
 
 }  // namespace fanbeam::session

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/image.h"
 #include "core/npy.h"
 #include "session/signal/radar_file.h"
 #include "session/signal/sample_file.h"
@@ -284,4 +285,52 @@ TEST_CASE("A car's radar in a scene raises the floor, and mending recovers detec
   CHECK(run.exit_code == 3);
   CHECK(run.output.find("interferer[1].target = \"nobody\"") != std::string::npos);
   CHECK(run.output.find("interval_us") != std::string::npos);
+}
+
+TEST_CASE("A pedestrian's legs swing about the body in the spectrogram", "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  auto run = tests::run_fanbeam(
+      "fmcw street-76ghz -q --frames 16:32 --products spectrogram --spectrogram-of pedestrian -o " +
+      tests::quoted(out));
+  INFO(run.output);
+  REQUIRE(run.exit_code == 0);
+  const core::Image image = core::read_image(out / "spectrogram/all.exr");
+  REQUIRE(image.columns == 16);
+  const nlohmann::json axes = tests::json_of(out / "run.json")["axes"];
+  const std::vector<double>& power = image.layers.at(0).values;
+  // The fastest cell well above noise of a frame; frame k is at (k + 1/2) / 20 s.
+  const auto fastest_mps = [&](int frame) {
+    for (int row = 0; row < image.rows; ++row) {
+      const double speed = axes["speed_first_mps"].get<double>() +
+                           row * axes["speed_step_mps"].get<double>();
+      if (speed > -6.0 && power[static_cast<std::size_t>(row * 16 + frame)] >
+                              300.0 * 12.0 * axes["noise_cell_W"].get<double>())
+        return speed;
+    }
+    return 0.0;
+  };
+  // Legs in opposite phase: one is at 1.4 (1 + |cos 2 pi t|) m/s; 2.8 at 1 s, 1.4 at 1.25 s.
+  CHECK(fastest_mps(4) == Approx(-2.8).margin(0.4));
+  CHECK(fastest_mps(9) == Approx(-1.4).margin(0.5));
+  run = tests::run_fanbeam("fmcw street-76ghz -q --products spectrogram --spectrogram-of nobody -o " +
+                           tests::quoted(folder.path() / "none"));
+  CHECK(run.exit_code == 2);
+  CHECK(run.output.find("nobody") != std::string::npos);
+}
+
+TEST_CASE("waveform shows what a mixer gets and gives", "[waveform]") {
+  const tests::TemporaryFolder folder;
+  const fs::path out = folder.path() / "mixer";
+  auto run = tests::run_fanbeam("waveform --range 60 --speed -10 --mixer " + tests::quoted(out));
+  INFO(run.output);
+  REQUIRE(run.exit_code == 0);
+  const std::string beat = tests::bytes_of(out / "beat.csv");
+  CHECK(std::count(beat.begin(), beat.end(), '\n') == 1 + 400);
+  CHECK(tests::bytes_of(out / "mixer.csv").starts_with("time_s,transmitted,received,product\n0,1.0"));
+  CHECK(fs::exists(out / "mixer.png"));
+  run = tests::run_fanbeam("waveform --mixer " + tests::quoted(out));
+  CHECK(run.exit_code == 2);
+  run = tests::run_fanbeam("waveform pulsed --range 60 --mixer " + tests::quoted(out));
+  CHECK(run.exit_code == 3);
 }

@@ -1,0 +1,16 @@
+// A mixer's trace for people: tables and a picture.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "signal/receiver/mixer.h"
+
+namespace fanbeam::session {
+
+// DIR/mixer.csv: the first 20 000 samples of what goes in and what comes out;
+// DIR/beat.csv: all samples of the beat; DIR/mixer.png: both.
+void write_mixer(const std::filesystem::path& folder, const signal::MixerTrace& trace,
+                 const std::string& title);
+
+}  // namespace fanbeam::session
