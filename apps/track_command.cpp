@@ -25,13 +25,24 @@ namespace {
 
 namespace fs = std::filesystem;
 
-tracking::SimulationSettings simulation_of(const TrackOptions& options) {
+// The option, or two stages, or what the scenario names first where it does not name those.
+std::string scheme_of(const TrackOptions& options, const core::HighwayScenario& scenario) {
+  if (!options.scheme.empty()) return options.scheme;
+  const auto& types = scenario.waveform_types;
+  if (types.empty() || std::find(types.begin(), types.end(), "two-stage") != types.end())
+    return "two-stage";
+  return types[0] == "triangle-pair" ? "two-slopes" : types[0] == "triangle" ? "triangle" : "coded";
+}
+
+tracking::SimulationSettings simulation_of(const TrackOptions& options,
+                                           const core::HighwayScenario& scenario) {
   tracking::SimulationSettings settings;
-  settings.scheme = options.scheme == "triangle"          ? tracking::Scheme::triangle
-                    : options.scheme == "sorted-triangle" ? tracking::Scheme::sorted_triangle
-                    : options.scheme == "two-slopes"      ? tracking::Scheme::two_slopes
-                    : options.scheme == "coded"           ? tracking::Scheme::coded
-                                                          : tracking::Scheme::two_stage;
+  const std::string scheme = scheme_of(options, scenario);
+  settings.scheme = scheme == "triangle"          ? tracking::Scheme::triangle
+                    : scheme == "sorted-triangle" ? tracking::Scheme::sorted_triangle
+                    : scheme == "two-slopes"      ? tracking::Scheme::two_slopes
+                    : scheme == "coded"           ? tracking::Scheme::coded
+                                                  : tracking::Scheme::two_stage;
   settings.detection_probability = options.detection_probability;
   settings.false_per_frame = options.false_per_frame;
   return settings;
@@ -106,7 +117,7 @@ Outcome run_one(const TrackOptions& options, const core::HighwayScenario& scenar
   Outcome outcome;
   const int frames = tracking::frames_of(scenario, radar);
   Progress progress(scenario.id, frames, quiet || !(options.samples || frames > kManyFrames));
-  const tracking::SimulationSettings simulation = simulation_of(options);
+  const tracking::SimulationSettings simulation = simulation_of(options, scenario);
   const auto run = static_cast<std::uint32_t>(options.run);
   std::optional<tracking::SampledRadar> sampled;
   if (options.samples) sampled.emplace(radar);
@@ -270,7 +281,6 @@ int track(const TrackOptions& options, const CommonOptions& common) {
                                  {"commit", session::commit_text()},
                                  {"seed", options.seed},
                                  {"run", options.run},
-                                 {"waveform", options.scheme},
                                  {"association", options.association},
                                  {"from_samples", options.samples},
                                  {"range_only", radar.array_elements < 2},
@@ -287,6 +297,7 @@ int track(const TrackOptions& options, const CommonOptions& common) {
     write(options, *scenario, outcome, folder / scenario->id);
     if (!common.quiet) print(*scenario, outcome);
     json["scenarios"].push_back(json_of(*scenario, outcome));
+    json["scenarios"].back()["waveform"] = scheme_of(options, *scenario);
     const double frames = outcome.score.gospa_m.count();
     timing.push_back({{"id", scenario->id},
                       {"measuring_ms_per_scan", 1e3 * outcome.measuring_s / frames},

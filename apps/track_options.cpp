@@ -60,9 +60,9 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
   command
       .add_option("--waveform", options.scheme,
                   "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
-                  "pairs in order), two slopes, two stages, or a coded stretch between two ramps")
-      ->check(CLI::IsMember({"triangle", "sorted-triangle", "two-slopes", "two-stage", "coded"}))
-      ->capture_default_str();
+                  "pairs in order), two slopes, two stages, or a coded stretch between two ramps (default "
+                  "two-stage, or what the scenario names); ramps as the file has them")
+      ->check(CLI::IsMember({"triangle", "sorted-triangle", "two-slopes", "two-stage", "coded"}));
   command
       .add_option("--association", options.association,
                   "Measurements to tracks: best assignment, or joint probabilities")

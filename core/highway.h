@@ -62,6 +62,18 @@ struct HighwayTruth {
   bool in_view = true;
 };
 
+// Timing of the waveforms that a scenario can be measured with.
+struct HighwayWaveforms {
+  double triangle_ramp_s = 2e-3;
+  std::array<double, 2> two_slopes_ramp_s{2e-3, 3e-3};
+  // Two stages: a chirp sequence, then a triangle.
+  int coarse_chirps = 256;
+  double coarse_chirp_s = 20e-6, coarse_rate_Hz = 20e6;
+  double fine_ramp_s = 2e-3, fine_rate_Hz = 500e3;
+  // A flat stretch that hops between two tones, between the ramps of a triangle.
+  double coded_ramp_s = 2e-3, flat_s = 2e-3, hop_Hz = 700e3;
+};
+
 struct HighwayRadar {
   double centre_frequency_Hz = 76e9;
   double bandwidth_Hz = 250e6;
@@ -74,6 +86,8 @@ struct HighwayRadar {
   int array_elements = 12;                       // virtual, in a line
   double array_pitch_wavelengths = 0.5;
   double frame_s = 0.05;
+  HighwayWaveforms waveforms;
+  double ramp_s = 2e-3;  // of the triangle whose beats are told: whoever measures puts its own
 };
 
 struct HighwayScenario {
@@ -81,6 +95,8 @@ struct HighwayScenario {
   double duration_s = 0.0;
   double radar_speed_mps = 0.0;
   HighwayRadar radar;  // the file's, with what the scenario says otherwise
+  // "triangle", "triangle-pair", "two-stage", "up-flat-down", as the scenario names them first.
+  std::vector<std::string> waveform_types;
   std::vector<HighwayTarget> targets;
   std::vector<std::vector<HighwayTruth>> truth;  // of each target
 };

@@ -29,7 +29,7 @@ copy two-stage/S4/ranges s4-ranges
 copy triangle/S2/ranges s2-triangle-ranges
 copy range-only/S3/errors s3-range-only-errors
 copy samples/S2/ranges s2-samples-ranges
-for plot in buffer noise-figure missed ghosts crossing; do copy "study/$plot" "$plot"; done
+for plot in buffer noise-figure reflections-range reflections-speed missed ghosts crossing; do copy "study/$plot" "$plot"; done
 
 # Plots of the study stand beside its tables.
 sed -E 's#^!\[([^]]*)\]\(([a-z-]+)\.png\)#![\1](images/tracking-\2.png)#' "$work/study/study.md" >"$work/study.inc"

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -212,7 +213,119 @@ void read_suppressed(const JsonNode& list, core::HighwayScenario& result) {
   }
 }
 
-core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayRadar& radar) {
+// A waveform of the file: of its timing what its type has.
+struct NamedWaveform {
+  std::string type;
+  core::HighwayWaveforms timing;
+};
+using Waveforms = std::map<std::string, NamedWaveform>;
+
+void take(const NamedWaveform& from, core::HighwayWaveforms& to) {
+  const core::HighwayWaveforms& told = from.timing;
+  if (from.type == "triangle") to.triangle_ramp_s = told.triangle_ramp_s;
+  if (from.type == "triangle-pair") to.two_slopes_ramp_s = told.two_slopes_ramp_s;
+  if (from.type == "two-stage") {
+    to.coarse_chirps = told.coarse_chirps;
+    to.coarse_chirp_s = told.coarse_chirp_s;
+    to.coarse_rate_Hz = told.coarse_rate_Hz;
+    to.fine_ramp_s = told.fine_ramp_s;
+    to.fine_rate_Hz = told.fine_rate_Hz;
+  }
+  if (from.type == "up-flat-down") {
+    to.coded_ramp_s = told.coded_ramp_s;
+    to.flat_s = told.flat_s;
+    to.hop_Hz = told.hop_Hz;
+  }
+}
+
+double time_of(const JsonNode& owner, const char* key, double fallback_s) {
+  return owner.member(key).number({1e-9, 10.0}).value_or(fallback_s);
+}
+
+double rate_of(const JsonNode& owner, double fallback_Hz) {
+  return owner.member("sample_rate_hz").number({1.0, 1e12}).value_or(fallback_Hz);
+}
+
+void read_two_stages(const JsonNode& node, core::HighwayWaveforms& result) {
+  const JsonNode coarse = node.required("coarse"), fine = node.required("fine");
+  check_keys(coarse, {"chirps", "chirp_s", "sample_rate_hz"});
+  check_keys(fine, {"ramp_s", "sample_rate_hz"});
+  result.coarse_chirps = coarse.member("chirps").whole(2, 65536).value_or(result.coarse_chirps);
+  result.coarse_chirp_s = time_of(coarse, "chirp_s", result.coarse_chirp_s);
+  result.coarse_rate_Hz = rate_of(coarse, result.coarse_rate_Hz);
+  result.fine_ramp_s = time_of(fine, "ramp_s", result.fine_ramp_s);
+  result.fine_rate_Hz = rate_of(fine, result.fine_rate_Hz);
+}
+
+// The rate of a lone triangle and its buffer concern samples
+// that track does not make of it.
+void read_waveform(const JsonNode& node, NamedWaveform& named) {
+  core::HighwayWaveforms& result = named.timing;
+  check_keys(node, {"type", "ramp_s", "sample_rate_hz", "ramps_per_buffer", "complex_baseband",
+                    "coarse", "fine", "flat_s", "flat_code", "flat_step_hz"});
+  const std::string type = named.type = text(node, "type");
+  if (node.member("complex_baseband").flag() == false)
+    refuse(node, "complex_baseband", ErrorClass::unsupported, "false", "complex samples");
+  node.member("ramps_per_buffer").whole(1, 1'000'000);
+  rate_of(node, 0.0);
+  if (type == "triangle") {
+    result.triangle_ramp_s = time_of(node, "ramp_s", result.triangle_ramp_s);
+  } else if (type == "triangle-pair") {
+    const std::vector<double> ramps = node.required("ramp_s").numbers({1e-9, 10.0}, 2);
+    if (ramps.size() == 2)
+      result.two_slopes_ramp_s = {ramps[0], ramps[1]};
+    else
+      refuse(node, "ramp_s", ErrorClass::parse, std::to_string(ramps.size()) + " entries",
+             "two numbers");
+  } else if (type == "two-stage") {
+    read_two_stages(node, result);
+  } else if (type == "up-flat-down") {
+    result.coded_ramp_s = time_of(node, "ramp_s", result.coded_ramp_s);
+    result.flat_s = time_of(node, "flat_s", result.flat_s);
+    result.hop_Hz = node.member("flat_step_hz").number({1.0, 1e9}).value_or(result.hop_Hz);
+    if (const auto code = node.member("flat_code").text(); code && *code != "m-sequence-127")
+      refuse(node, "flat_code", ErrorClass::unsupported, *code, "\"m-sequence-127\"");
+  } else if (!type.empty()) {
+    refuse(node, "type", ErrorClass::unsupported, type,
+           "\"triangle\", \"triangle-pair\", \"two-stage\" or \"up-flat-down\"");
+  }
+}
+
+// All of the file; the first of each type counts for every scenario that names no other.
+Waveforms waveforms_of(const JsonNode& table, core::HighwayRadar& radar) {
+  Waveforms named;
+  std::set<std::string> types;
+  if (!table.present()) return named;
+  for (const std::string& name : table.keys()) {
+    const JsonNode node = table.member(name);
+    NamedWaveform& one = named[name];
+    read_waveform(node, one);
+    if (types.insert(one.type).second) take(one, radar.waveforms);
+  }
+  return named;
+}
+
+// The first that a scenario names of a type replaces the file's.
+void choose_waveforms(const JsonNode& names, const Waveforms& named,
+                      core::HighwayScenario& scenario) {
+  if (!names.present()) return;
+  const std::size_t count = names.size(kMostEntries);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string name = names.element(i).text().value_or("");
+    const auto found = named.find(name);
+    if (found == named.end()) {
+      names.element(i).error(ErrorClass::ref, "the name of one of /waveforms");
+      continue;
+    }
+    std::vector<std::string>& types = scenario.waveform_types;
+    if (std::find(types.begin(), types.end(), found->second.type) != types.end()) continue;
+    types.push_back(found->second.type);
+    take(found->second, scenario.radar.waveforms);
+  }
+}
+
+core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayRadar& radar,
+                                  const Waveforms& waveforms) {
   check_keys(scenario, {"id", "title", "duration_s", "ego_speed_mps", "targets", "truth",
                         "radar_overrides", "suppressed_detections", "purpose", "waveforms",
                         "events", "acceptance", "seeds", "sweeps", "triangle_intersections_max"});
@@ -224,6 +337,7 @@ core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayR
   result.radar = radar;
   if (const JsonNode other = scenario.member("radar_overrides"); other.present())
     result.radar = radar_of(other, &radar);
+  choose_waveforms(scenario.member("waveforms"), waveforms, result);
   std::set<std::string> names;
   const JsonNode targets = scenario.required("targets");
   const std::size_t count = targets.size(kMostEntries);
@@ -249,11 +363,12 @@ HighwayFile file_of(const JsonNode& root) {
   HighwayFile result;
   const JsonNode radar = root.required("radar");
   if (radar.present()) result.radar = radar_of(radar, nullptr);
+  const Waveforms waveforms = waveforms_of(root.member("waveforms"), result.radar);
   const JsonNode scenarios = root.required("scenarios");
   std::set<std::string> names;
   const std::size_t count = scenarios.size(kMostEntries);
   for (std::size_t i = 0; i < count; ++i) {
-    result.scenarios.push_back(scenario_of(scenarios.element(i), result.radar));
+    result.scenarios.push_back(scenario_of(scenarios.element(i), result.radar, waveforms));
     check_unique(scenarios.element(i), result.scenarios.back().id, names);
   }
   return result;

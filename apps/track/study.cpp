@@ -20,6 +20,7 @@ int track_study(const std::vector<const core::HighwayScenario*>& scenarios,
   };
   add("buffer", study_buffer(radar, seed));
   add("noise figure", study_noise_figure(radar, seed));
+  add("noise and reflections", study_reflections(radar, seed));
   add("ghosts", study_ghosts(radar, seed));
   add("waveforms and associations", study_tracks(scenarios, radar, seed));
   add("crossings", study_crossing(seed));

@@ -22,6 +22,9 @@ struct StudyPart {
 StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed);
 // The same of one triangle, over the noise figure.
 StudyPart study_noise_figure(const core::HighwayRadar& radar, std::uint64_t seed);
+// Over the noise figure without a reflecting road, and with roads of reflection coefficients -0.7 and -1, antenna
+// and car 0.5 m high, ranges 60 to 140 m: figures 8 and 9 of the paper that the scenarios come from.
+StudyPart study_reflections(const core::HighwayRadar& radar, std::uint64_t seed);
 // Missed targets and ghosts of every waveform over the number of targets: ranges 10 to 200 m,
 // speeds within 60 m/s, one beam, a match within 1 m and 1 m/s, 200 frames.
 StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed);

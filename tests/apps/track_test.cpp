@@ -131,7 +131,7 @@ TEST_CASE("track measures from samples, and refuses what does not go with it", "
   CHECK(tests::run_fanbeam(words + " --range-only").exit_code == 2);
 }
 
-TEST_CASE("track --study writes its five tables and their plots, with the figures of the bounds",
+TEST_CASE("track --study writes its six tables and their plots, with the figures of the bounds",
           "[track]") {
   const tests::TemporaryFolder folder;
   std::string shorter = kScenario;
@@ -154,7 +154,7 @@ TEST_CASE("track --study writes its five tables and their plots, with the figure
     tables.back().emplace_back();
     for (std::string cell; std::getline(cells, cell, '|');) tables.back().back().push_back(cell);
   }
-  REQUIRE(tables.size() == 5);
+  REQUIRE(tables.size() == 6);
   for (const auto& table : tables)
     for (const auto& row : table) CHECK(row.size() == table[0].size());
   // Buffer: 2 to 64 ramps. One triangle of 100 runs meets the bound of its 56.45 dB, 0.249 mm, within four
@@ -167,19 +167,26 @@ TEST_CASE("track --study writes its five tables and their plots, with the figure
   REQUIRE(tables[1].size() == 2 + 11);
   CHECK(std::stod(tables[1].back()[6]) > 0.0);
   CHECK(std::stod(tables[1][2][6]) == 0.0);
+  // Without a road 400 ranges of 60 to 140 m meet their bound, whose square goes with the fourth power
+  // of range: 0.249 mm at 100 m, the root of the mean of (R / 100)^4 there is 1.16. Two rays that may cancel
+  // make it worse whatever the noise.
+  REQUIRE(tables[2].size() == 2 + 9);
+  CHECK(std::stod(tables[2][4][1]) == Approx(0.249 * 1.16).epsilon(0.15));
+  for (const std::size_t row : {2U, 3U, 4U, 5U})
+    CHECK(std::stod(tables[2][row][3]) > 5.0 * std::stod(tables[2][row][1]));
   // Six targets: pairs in order miss two in three, two stages hardly any.
-  REQUIRE(tables[2].size() == 2 + 6);
-  CHECK(std::stod(tables[2][4][1]) == Approx(66.0).margin(6.0).epsilon(0.0));
-  CHECK(std::stod(tables[2][4][5]) <= 1.0);
+  REQUIRE(tables[3].size() == 2 + 6);
+  CHECK(std::stod(tables[3][4][1]) == Approx(66.0).margin(6.0).epsilon(0.0));
+  CHECK(std::stod(tables[3][4][5]) <= 1.0);
   // Five waveforms with two associations, and one row from samples; no identity is exchanged.
-  REQUIRE(tables[3].size() == 2 + 11);
-  for (std::size_t i = 2; i < tables[3].size(); ++i) CHECK(std::stoi(tables[3][i][6]) == 0);
+  REQUIRE(tables[4].size() == 2 + 11);
+  for (std::size_t i = 2; i < tables[4].size(); ++i) CHECK(std::stoi(tables[4][i][6]) == 0);
   // Swaps happen as often as 2 p (1 - p) says: 20000 draws, four standard deviations.
-  REQUIRE(tables[4].size() == 2 + 9);
-  for (std::size_t i = 2; i < tables[4].size(); ++i)
-    CHECK(std::stod(tables[4][i][3]) ==
-          Approx(std::stod(tables[4][i][1])).margin(0.0128).epsilon(0.0));
-  for (const char* plot : {"buffer", "noise-figure", "missed", "ghosts", "crossing"}) {
+  REQUIRE(tables[5].size() == 2 + 9);
+  for (std::size_t i = 2; i < tables[5].size(); ++i)
+    CHECK(std::stod(tables[5][i][3]) ==
+          Approx(std::stod(tables[5][i][1])).margin(0.0128).epsilon(0.0));
+  for (const char* plot : {"buffer", "noise-figure", "reflections-range", "reflections-speed", "missed", "ghosts", "crossing"}) {
     CHECK(page.find("](" + std::string(plot) + ".png)") != std::string::npos);
     for (const char* ending : {".png", ".svg"})
       CHECK(fs::file_size(out / (plot + std::string(ending))) > 1000);

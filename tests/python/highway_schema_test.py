@@ -58,6 +58,12 @@ CHANGES = {
     "no duration": (change(["scenarios", 0, "duration_s"], None), False),
     "unknown motion": (change(["scenarios", 0, "targets", 0, "motion"], "spiral"), False),
     "three numbers": (change(["scenarios", 0, "targets", 0, "position_m"], [1, 2, 3]), False),
+    "waveforms": (change(["waveforms"], {"tri": {"type": "triangle", "ramp_s": 1e-3}}), True),
+    "unknown waveform": (change(["waveforms"], {"tri": {"type": "sawtooth"}}), False),
+    "one slope of two": (change(["waveforms"], {"two": {"type": "triangle-pair", "ramp_s": [2e-3]}}), False),
+    "a ramp of a coarse stage": (
+        change(["waveforms"], {"two": {"type": "two-stage", "coarse": {"ramp_s": 1}, "fine": {}}}), False),
+    "another code": (change(["waveforms"], {"pn": {"type": "up-flat-down", "flat_code": "gold-127"}}), False),
     "noise below none": (change(["radar", "noise_figure_db"], -1), False),
 }
 
@@ -91,3 +97,34 @@ def test_a_scenarios_radar_and_gaps_are_obeyed(program, traffic, tmp_path):
         measured.append(len(table.read_text().splitlines()) - 1)
     assert errors[1] > 5 * errors[0]
     assert measured[2] < measured[0]
+
+
+def test_a_files_ramps_are_obeyed(program, traffic, tmp_path):
+    """Speed errors of one measurement go with the power -1.5 of the ramp's duration: 8 times here; tracks average."""
+    errors = []
+    for ramp_s in (2e-3, 0.5e-3):
+        scenario = copy.deepcopy(traffic)
+        scenario["waveforms"] = {"slow": {"type": "triangle", "ramp_s": 9e-3},
+                                 "tri": {"type": "triangle", "ramp_s": ramp_s}}
+        one = scenario["scenarios"][0]
+        one["waveforms"] = ["tri"]
+        one["targets"] = one["targets"][:1]  # no beats that merge
+        one.pop("truth", None)
+        file = tmp_path / f"{ramp_s}.json"
+        file.write_text(json.dumps(scenario), encoding="utf-8")
+        out = tmp_path / f"out{ramp_s}"
+        subprocess.run([program, "track", file, "-o", out, "-q"], check=True)
+        told = json.loads((out / "run.json").read_text())["scenarios"][0]
+        assert told["waveform"] == "triangle"  # what the scenario names
+        errors.append(told["range_rate_rmse_mps"])
+    assert errors[1] > 3 * errors[0]
+
+
+def test_a_scenario_names_waveforms_that_are_there(program, traffic, tmp_path):
+    scenario = copy.deepcopy(traffic)
+    scenario["scenarios"][0]["waveforms"] = ["nowhere"]
+    file = tmp_path / "traffic.json"
+    file.write_text(json.dumps(scenario), encoding="utf-8")
+    ended = subprocess.run([program, "track", file, "-o", tmp_path / "out", "-q"], capture_output=True, text=True)
+    assert ended.returncode == 3
+    assert "/scenarios/0/waveforms/0" in ended.stderr

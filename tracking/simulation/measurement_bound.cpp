@@ -15,7 +15,7 @@ MeasurementBound bound_at(const core::HighwayRadar& radar, double signal_to_nois
   const double sigma_bins = std::sqrt(6.0 / signal_to_noise) / (2.0 * core::kPi);
   bound.range_sigma_m =
       core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz) * sigma_bins / std::sqrt(2.0);
-  bound.range_rate_sigma_mps = 0.25 * wavelength_m * std::sqrt(2.0) * sigma_bins / kFineRamp_s;
+  bound.range_rate_sigma_mps = 0.25 * wavelength_m * std::sqrt(2.0) * sigma_bins / radar.ramp_s;
   const double n = radar.array_elements;
   bound.azimuth_sigma_rad =
       n < 2.0 ? core::kPi / std::sqrt(3.0)
@@ -34,7 +34,7 @@ MeasurementBound measurement_bound(const core::HighwayRadar& radar, double cross
   link.loss = radar.loss;
   return bound_at(radar,
                   signal::received_power_W(link, range_m, cross_section_m2) /
-                      signal::integrated_noise_W(radar.noise_figure, kFineRamp_s),
+                      signal::integrated_noise_W(radar.noise_figure, radar.ramp_s),
                   azimuth_rad);
 }
 

@@ -1,6 +1,6 @@
 // How well a radar could measure a point target: the bounds of one triangle and of a line array.
 //
-//   e        signal-to-noise ratio after one ramp of 2 ms, from the link budget
+//   e        signal-to-noise ratio after one ramp of T = radar.ramp_s, from the link budget
 //   sigma_R  (c / 2B) sigma_bin / sqrt 2,  sigma_bin = sqrt(6 / e) / (2 pi)
 //   sigma_v  (lambda / 4) sqrt 2 sigma_bin / T
 //   azimuth  sqrt(6 / (r N (N^2 - 1))) / (2 pi d/lambda cos azimuth),  r = e / N
@@ -12,8 +12,6 @@
 #include "core/highway.h"
 
 namespace fanbeam::tracking {
-
-inline constexpr double kFineRamp_s = 2e-3;
 
 struct MeasurementBound {
   double signal_to_noise = 0.0;

@@ -12,8 +12,6 @@
 namespace fanbeam::tracking {
 namespace {
 
-constexpr double kSecondRamp_s = 3e-3;
-
 constexpr std::size_t kFalseCells = 1U << 20U;  // beyond any target's number
 
 double fluctuation(core::Swerling model, const Draws& draws, std::size_t cell) {
@@ -77,14 +75,14 @@ Peaks merged(const Peaks& beats, double closer_than_Hz) {
 
 // `later_s`: from the frame's time to the triangle's turnaround.
 RampPeaks peaks_of(const signal::TriangleModel& model, double later_s,
-                   const std::vector<Seen>& targets, double merge_bins, const Draws& draws,
-                   std::uint32_t draw) {
+                   const std::vector<Seen>& targets, double merge_bins, double bound_ramp_s,
+                   const Draws& draws, std::uint32_t draw) {
   RampPeaks beats;
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const Seen& target = targets[i];
     const signal::BeatPair pair =
         signal::predict(model, {target.range_m + target.rate_mps * later_s, target.rate_mps});
-    const double ratio = target.bound.signal_to_noise * model.ramp_s / kFineRamp_s;
+    const double ratio = target.bound.signal_to_noise * model.ramp_s / bound_ramp_s;
     const double sigma_Hz = std::sqrt(6.0 / ratio) / (2.0 * core::kPi * model.ramp_s);
     const auto noise = draws.normal(i, draw);
     const double beat_Hz[] = {pair.up_Hz + sigma_Hz * noise[0], pair.down_Hz + sigma_Hz * noise[1]};
@@ -154,6 +152,21 @@ void check(const SimulationSettings& settings) {
 
 }  // namespace
 
+double ramp_of(Scheme scheme, const core::HighwayWaveforms& waveforms) {
+  switch (scheme) {
+    case Scheme::triangle:
+    case Scheme::sorted_triangle:
+      return waveforms.triangle_ramp_s;
+    case Scheme::two_slopes:
+      return waveforms.two_slopes_ramp_s[0];
+    case Scheme::two_stage:
+      return waveforms.fine_ramp_s;
+    case Scheme::coded:
+      return waveforms.coded_ramp_s;
+  }
+  throw core::InternalError("unknown scheme");
+}
+
 PairOfPeaks peaks_at(const signal::TriangleModel& model, const RampPeaks& peaks,
                      const signal::RangeSpeed& place) {
   const signal::BeatPair beats = signal::predict(model, place);
@@ -182,21 +195,23 @@ RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad
 }
 
 std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scenario,
-                                              const core::HighwayRadar& radar,
+                                              const core::HighwayRadar& given,
                                               const SimulationSettings& settings,
                                               std::uint64_t seed, std::uint32_t run, int frame) {
   check(settings);
+  core::HighwayRadar radar = given;
+  radar.ramp_s = ramp_of(settings.scheme, given.waveforms);
   const Draws draws(seed, run, frame);
   const std::vector<Seen> targets = seen_targets(scenario, radar, settings, draws, frame);
   signal::TwoSlopesParameters parameters;
   parameters.first.frequency_Hz = radar.centre_frequency_Hz;
   parameters.first.bandwidth_Hz = radar.bandwidth_Hz;
-  parameters.first.ramp_s = kFineRamp_s;
-  parameters.second_ramp_s = kSecondRamp_s;
+  parameters.first.ramp_s = radar.ramp_s;
+  parameters.second_ramp_s = radar.waveforms.two_slopes_ramp_s[1];
   const signal::Waveform waveform = signal::two_slopes(parameters);
   const signal::TriangleModel first = signal::triangle_model(waveform, 0);
   const signal::PairingLimits limits{0.0, 1.1 * radar.most_range_m, settings.most_speed_mps};
-  const RampPeaks peaks = peaks_of(first, 0.0, targets, settings.merge_bins, draws, 1);
+  const RampPeaks peaks = peaks_of(first, 0.0, targets, settings.merge_bins, radar.ramp_s, draws, 1);
   std::vector<RadarMeasurement> result;
   if (settings.scheme == Scheme::two_stage || settings.scheme == Scheme::coded) {
     result = coarse_to_fine(first, peaks, targets, radar, settings, draws);
@@ -209,7 +224,8 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
     } else {
       const signal::TriangleModel second = signal::triangle_model(waveform, 1);
       const double between_s = second.turnaround_s - first.turnaround_s;
-      const RampPeaks later = peaks_of(second, between_s, targets, settings.merge_bins, draws, 2);
+      const RampPeaks later = peaks_of(second, between_s, targets, settings.merge_bins, radar.ramp_s,
+                                       draws, 2);
       places = signal::pair_two_slopes({first, peaks.up.Hz, peaks.down.Hz},
                                        {second, later.up.Hz, later.down.Hz}, {limits, 1.3});
     }

@@ -10,8 +10,8 @@
 //   coarse     (two stages) range and speed with errors of 0.3 m and 0.3 m/s; targets that share
 //              the cells of range and speed (1.2 wide each) and the beam (0.886 lambda / N d)
 //              become one, weighted with power; one that no pair of beats fits is dropped
-//   coarse     (coded) speed from a flat stretch of 2 ms, range from the phase between its two
-//              tones 700 kHz apart, both with the errors of their bounds, c / (4 pi df) sqrt(2 / e)
+//   coarse     (coded) speed from a flat stretch (2 ms), range from the phase between its two
+//              tones (700 kHz apart), both with the errors of their bounds, c / (4 pi df) sqrt(2 / e)
 //              in range; targets that share the cell of speed and the beam become one; one that no
 //              pair fits stays as it is
 // Schemes: one triangle with all pairs, or with pairs in the order of range, two slopes, two
@@ -41,6 +41,9 @@
 namespace fanbeam::tracking {
 
 enum class Scheme { triangle, sorted_triangle, two_slopes, two_stage, coded };
+
+// Of the (first) triangle.
+double ramp_of(Scheme scheme, const core::HighwayWaveforms& waveforms);
 
 struct SimulationSettings {
   Scheme scheme = Scheme::two_stage;

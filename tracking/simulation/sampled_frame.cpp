@@ -95,7 +95,12 @@ SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
   signal::TwoStageParameters parameters;
   parameters.coarse.frequency_Hz = parameters.fine.frequency_Hz = radar.centre_frequency_Hz;
   parameters.coarse.bandwidth_Hz = parameters.fine.bandwidth_Hz = radar.bandwidth_Hz;
-  parameters.fine.ramp_s = kFineRamp_s;
+  const core::HighwayWaveforms& told = radar.waveforms;
+  parameters.fine.ramp_s = radar_.ramp_s = told.fine_ramp_s;
+  parameters.fine.sample_rate_Hz = told.fine_rate_Hz;
+  parameters.coarse.ramp_s = parameters.coarse.interval_s = told.coarse_chirp_s;
+  parameters.coarse.chirps = told.coarse_chirps;
+  parameters.coarse.sample_rate_Hz = told.coarse_rate_Hz;
   waveform_ = signal::two_stage(parameters);
   array_ = signal::line_array(1, radar.array_elements,
                               radar.array_pitch_wavelengths * waveform_.wavelength_m());

@@ -3,7 +3,7 @@
 // assumptions: merging, misses, false measurements and errors are what the processing makes of the
 // samples.
 //
-// Waveform: two stages. A chirp sequence of 256 ramps of 20 us, at 20 MHz, gives range, speed and
+// Waveform: two stages, as HighwayWaveforms has them; the default: a chirp sequence of 256 ramps of 20 us, at 20 MHz, gives range, speed and
 // azimuth by Chebyshev windows of -60 dB, an ordered-statistic detector along range (1e-7 per cell)
 // and the one or two plane waves of a cell (directions.h). A triangle of 2 ms ramps, at 500 kHz,
 // gives the beats (triangle_beats.h). A coarse detection takes the pair
