@@ -49,7 +49,7 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
       .add_option("INPUT", options.file,
                   "JSON file of highway scenarios; or a scene; a folder of fanbeam fmcw; detections, "
                   ".csv or .json; samples, .npy")
-      ->type_name("INPUT")
+      ->type_name(kInputValue)
       ->required();
   add_own_data(command, options);
   command.add_option("--scenario", options.scenario, "Id of one scenario (default: all)");

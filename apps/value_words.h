@@ -14,6 +14,7 @@ inline constexpr const char* kMaterialValue = "MATERIAL";
 inline constexpr const char* kCommandValue = "COMMAND";
 inline constexpr const char* kFramesValue = "FRAMES";
 inline constexpr const char* kFileValue = "FILE";
+inline constexpr const char* kInputValue = "INPUT";  // a scene, a file or a folder
 inline constexpr const char* kFolderValue = "FOLDER";
 
 inline constexpr const char* kOffered = "list ";  // begins the description of `offers`

@@ -29,6 +29,7 @@ std::string kind_of(const OptionText& option) {
   if (begins(kMaterialValue)) return "names materials";
   if (begins(kCommandValue)) return "commands";
   if (begins(kFolderValue)) return "folder";
+  if (begins(kInputValue)) return "names scenes file";
   if (begins(kFileValue)) return "file";
   return "nothing";
 }

@@ -101,6 +101,8 @@ void each_file(const fs::path& folder, Visit visit) {
 
 }  // namespace
 
+const char* const kRadarFile = "radar.toml";
+
 std::set<std::string> frame_files(const std::set<std::string>& products, int index) {
   std::set<std::string> files;
   for (const std::string& product : products) {

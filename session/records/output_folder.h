@@ -14,7 +14,7 @@
 namespace fanbeam::session {
 
 // The radar of a run at signal level (session/signal/radar_file.h).
-inline constexpr const char* kRadarFile = "radar.toml";
+extern const char* const kRadarFile;
 
 class OutputFolder {
  public:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<const char*, 6> kAxes = {"frame",    "chirp",   "transmitter",
                                               "receiver", "channel", "sample"};
-constexpr std::size_t kMostFrames = 1'000'000;
+constexpr std::size_t kMostRecordedFrames = 1'000'000;
 constexpr std::size_t kMostFrameValues = std::size_t{1} << 28U;
 
 bool has(const std::vector<std::string>& axes, const char* name) {
@@ -81,7 +81,7 @@ SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRad
     check(file);
     file.frames = axis_of(layout_.axes, file.header.shape, "frame").length;
     frames += file.frames;
-    if (frames > kMostFrames || file.header.count() / file.frames > kMostFrameValues)
+    if (frames > kMostRecordedFrames || file.header.count() / file.frames > kMostFrameValues)
       core::throw_input_error(core::ErrorClass::limit, core::Place{file.path.string()}, "shape",
                               std::to_string(frames) + " frames",
                               "a million frames of 2^28 values at most");

@@ -103,7 +103,7 @@ TEST_CASE("bash completes scenes, sensors and materials that ship, files and fol
   CHECK(
       (bash.offered("fanbeam render --sensor hivision-") == Words{"hivision-94", "hivision-seed"}));
   CHECK((bash.offered("fanbeam render --data flat") == Words{"flat hills"}));
-  CHECK((bash.offered("fanbeam track flat") == Words{"flat.json", "flat hills"}));
+  CHECK((bash.offered("fanbeam track flat") == Words{"flat-grass", "flat.json", "flat hills"}));
   CHECK((bash.offered("fanbeam materials plot short_grass asphalt_smooth ''").count("concrete") ==
          1));
   CHECK((bash.offered("fanbeam materials plot asphalt_sm") ==
