@@ -41,9 +41,8 @@ int CommandLine::run(int argc, const char* const* argv) {
     std::cerr << usage_error_text(program_, error);
     return kExitUsage;
   } catch (...) {  // of a file that an option names and that is read at once
-    return run_guarded([error = std::current_exception()]() -> int {
-      std::rethrow_exception(error);
-    });
+    return run_guarded(
+        [error = std::current_exception()]() -> int { std::rethrow_exception(error); });
   }
   const std::function<int()>& action = actions_.at(program_.get_subcommands().front());
   return run_guarded([&] {

@@ -94,8 +94,8 @@ class Run {
     for (const session::FmcwFrameRecord& frame : records_)
       files.insert(frame.files.begin(), frame.files.end());
     if (spectrogram_)
-      files.merge(session::write_spectrogram(output_.path(), *spectrogram_,
-                                             scene_.description.name, options_.dynamic_range_dB));
+      files.merge(session::write_spectrogram(output_.path(), *spectrogram_, scene_.description.name,
+                                             options_.dynamic_range_dB));
     if (runs_chain()) {
       files.insert(session::kRadarFile);
       core::write_file_atomically(output_.path() / session::kRadarFile, radar_toml());
@@ -135,9 +135,8 @@ class Run {
   bool runs_chain() const { return products_ != std::set<std::string>{kScan}; }
 
   std::string radar_toml() const {
-    return session::radar_toml(options_, radar_.waveform_name,
-                               radar_.waveform.centre_frequency_Hz, radar_.waveform.bandwidth_Hz,
-                               radar_.noise_figure);
+    return session::radar_toml(options_, radar_.waveform_name, radar_.waveform.centre_frequency_Hz,
+                               radar_.waveform.bandwidth_Hz, radar_.noise_figure);
   }
 
   void process(int index) {
@@ -161,13 +160,11 @@ class Run {
 
   void write_interference(int index, const session::FmcwPaths& paths,
                           const std::vector<signal::Interferer>& interferers,
-                          const session::SignalBudget& budget,
-                          std::set<std::string>& files) const {
+                          const session::SignalBudget& budget, std::set<std::string>& files) const {
     const auto cases = session::interference_study(radar_, scene_.description.sensor, paths,
                                                    interferers, index, options_, budget);
     const std::string name = fmt::format("{}/{:05}", kInterference, index);
-    core::write_file_atomically(output_.path() / (name + ".csv"),
-                                session::interference_csv(cases));
+    core::write_file_atomically(output_.path() / (name + ".csv"), session::interference_csv(cases));
     const std::string title =
         fmt::format("{}, frame {}: other radars", scene_.description.name, index);
     session::write_plot(session::interference_plot(cases, radar_.axes.range_step_m, title),
@@ -192,9 +189,8 @@ class Run {
     const std::vector<signal::Interferer> interferers =
         session::interferers_of(scene_, index, paths);
     const session::SignalBudget budget{scene_.plan, scene_.accuracy_grey, scene_.options.wishes};
-    const session::FmcwFrame frame =
-        fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, products_,
-                   budget, interferers);
+    const session::FmcwFrame frame = fmcw_frame(radar_, scene_.description.sensor, paths.paths,
+                                                index, options_, products_, budget, interferers);
     const double signal_ms = ms_since(begin);
     session::FmcwFrameRecord record = session::fmcw_record(scene_, index, paths, frame);
     record.files = session::write_fmcw_products(

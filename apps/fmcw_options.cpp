@@ -92,7 +92,9 @@ void add_span(CLI::App& command, const char* name, session::CellSpan& span, cons
   command
       .add_option_function<std::vector<int>>(
           name,
-          [&span](const std::vector<int>& cells) { span = {cells.front(), cells.back()}; },
+          [&span](const std::vector<int>& cells) {
+            span = {cells.front(), cells.back()};
+          },
           std::string(what) + ": along range and Doppler, or one number for both (default " +
               std::to_string(span.range) + "," + std::to_string(span.doppler) + ")")
       ->type_name("N[,N]")
@@ -110,7 +112,9 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
   command
       .add_option_function<std::string>(
           "--mitigation",
-          [&options](const std::string& word) { options.mitigation = *signal::mitigation_of(word); },
+          [&options](const std::string& word) {
+            options.mitigation = *signal::mitigation_of(word);
+          },
           "Of samples that other radars' chirps cross ([[interferer]] of the scene): set to 0, or "
           "filled from the rest of the chirp (default none)")
       ->check(CLI::IsMember({"none", "zero", "interpolate"}));

@@ -15,7 +15,7 @@ struct TrackOptions {
   std::string file;
   std::string scenario;  // its id; empty: all of the file
   std::string output;    // default out/<file's name>-tracks
-  std::string scheme;  // empty: two-stage, unless the scenario names others alone
+  std::string scheme;    // empty: two-stage, unless the scenario names others alone
   std::string association = "nearest";
   double detection_probability = 1.0;
   double false_per_frame = 0.0;

@@ -26,13 +26,15 @@ void add_own_data(CLI::App& command, TrackOptions& options) {
                   "m/s forward, which tells what moves (default: the scene's, else 0)")
       ->check(number_from(-1000.0, 1000.0));
   command
-      .add_option("--frame-period", options.frame_period_s, "Seconds from frame to frame of samples")
+      .add_option("--frame-period", options.frame_period_s,
+                  "Seconds from frame to frame of samples")
       ->check(number_from(1e-6, 3600.0))
       ->capture_default_str();
   command
-      .add_option("--body-errors", options.errors,
-                  "How far the echo of a body wanders over it: range in m, speed in m/s, azimuth in "
-                  "deg (default 0.3,0.1,1)")
+      .add_option(
+          "--body-errors", options.errors,
+          "How far the echo of a body wanders over it: range in m, speed in m/s, azimuth in "
+          "deg (default 0.3,0.1,1)")
       ->type_name("M,MPS,DEG")
       ->delimiter(',')
       ->expected(3)
@@ -42,13 +44,14 @@ void add_own_data(CLI::App& command, TrackOptions& options) {
 }  // namespace
 
 CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOptions& common) {
-  CLI::App& command = *program.add_subcommand(
-      "track",
-      "A highway scenario, a scene's signals, recorded samples or detections to tracks and metrics");
+  CLI::App& command = *program.add_subcommand("track",
+                                              "A highway scenario, a scene's signals, recorded "
+                                              "samples or detections to tracks and metrics");
   command
-      .add_option("INPUT", options.file,
-                  "JSON file of highway scenarios; or a scene; a folder of fanbeam fmcw; detections, "
-                  ".csv or .json; samples, .npy")
+      .add_option(
+          "INPUT", options.file,
+          "JSON file of highway scenarios; or a scene; a folder of fanbeam fmcw; detections, "
+          ".csv or .json; samples, .npy")
       ->type_name(kInputValue)
       ->required();
   add_own_data(command, options);
@@ -58,10 +61,11 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
                   "Folder to write to (default out/<file's name>-tracks)")
       ->type_name(kFolderValue);
   command
-      .add_option("--waveform", options.scheme,
-                  "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
-                  "pairs in order), two slopes, two stages, or a coded stretch between two ramps (default "
-                  "two-stage, or what the scenario names); ramps as the file has them")
+      .add_option(
+          "--waveform", options.scheme,
+          "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
+          "pairs in order), two slopes, two stages, or a coded stretch between two ramps (default "
+          "two-stage, or what the scenario names); ramps as the file has them")
       ->check(CLI::IsMember({"triangle", "sorted-triangle", "two-slopes", "two-stage", "coded"}));
   command
       .add_option("--association", options.association,
@@ -112,8 +116,10 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
       "against the truth) and measurements.csv for each scenario, run.json with the metrics and "
       "timing.json; with --study instead study.md and its plots. Prints where each track ended, "
       "where its target is, and how likely the track is still on the target it began with. "
-      "Of a scene, its point targets are the truth: run.json and the summary tell in how many frames "
-      "each was followed within 4 m and 2 m/s. --waveform, --samples, --study and what else concerns "
+      "Of a scene, its point targets are the truth: run.json and the summary tell in how many "
+      "frames "
+      "each was followed within 4 m and 2 m/s. --waveform, --samples, --study and what else "
+      "concerns "
       "the simulated radar belong to highway scenarios alone. "
       "Places are relative to the radar, x forward and y right; azimuths positive right, speeds "
       "positive receding.");

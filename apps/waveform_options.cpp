@@ -37,9 +37,10 @@ CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options, Comm
                 "A target beyond the unambiguous spans is an error")
       ->needs(range);
   command
-      .add_option("--mixer", options.mixer,
-                  "Folder for what the mixer gets and gives: transmitted, received, product and beat "
-                  "of the first ramp or step, as tables and a picture")
+      .add_option(
+          "--mixer", options.mixer,
+          "Folder for what the mixer gets and gives: transmitted, received, product and beat "
+          "of the first ramp or step, as tables and a picture")
       ->type_name(kFolderValue)
       ->needs(range);
   command.add_flag("--json", options.json, "Print JSON");

@@ -28,7 +28,7 @@ constexpr std::array<std::pair<std::string_view, std::size_t>, 5> kNpyTypes = {
     {{"<c8", 8}, {"<c16", 16}, {"<f4", 4}, {"<f8", 8}, {"<i2", 2}}};
 
 [[noreturn]] void refuse_npy(ErrorClass kind, const fs::path& path, const std::string& field,
-                         const std::string& value, const std::string& expected) {
+                             const std::string& value, const std::string& expected) {
   throw_input_error(kind, Place{path.string()}, field, value, expected);
 }
 
@@ -71,7 +71,7 @@ void check_size(const NpyHeader& header, const fs::path& path, std::uintmax_t fi
   const std::uintmax_t needed = header.begin_byte + count * header.value_bytes;
   if (needed > file_bytes)
     refuse_npy(ErrorClass::parse, path, "values", std::to_string(file_bytes) + " bytes",
-           std::to_string(needed) + " bytes, as the shape says");
+               std::to_string(needed) + " bytes, as the shape says");
 }
 
 std::complex<float> npy_value(std::string_view type, const char* bytes) {
@@ -106,8 +106,8 @@ NpyHeader read_npy_header(const fs::path& path) {
       first[6] > 3)
     refuse_npy(ErrorClass::parse, path, "", "no header", "a NumPy file of format 1 to 3");
   const bool is_short = first[6] == 1;
-  const std::size_t length = first[8] + 256U * first[9] +
-                             (is_short ? 0U : 65536U * first[10] + 16777216U * first[11]);
+  const std::size_t length =
+      first[8] + 256U * first[9] + (is_short ? 0U : 65536U * first[10] + 16777216U * first[11]);
   if (length > kMostNpyHeader_bytes)
     refuse_npy(ErrorClass::limit, path, "header", std::to_string(length), "65536 bytes at most");
   NpyHeader header;
@@ -125,7 +125,7 @@ NpyHeader read_npy_header(const fs::path& path) {
     }
   if (header.type.empty())
     refuse_npy(ErrorClass::unsupported, path, "descr", std::string(type.substr(0, 20)),
-           "one of: <c8, <c16, <f4, <f8, <i2");
+               "one of: <c8, <c16, <f4, <f8, <i2");
   if (!behind(text, "fortran_order").starts_with("False"))
     refuse_npy(ErrorClass::unsupported, path, "fortran_order", "not False", "C order");
   header.shape = shape_in(behind(text, "shape"), path);
@@ -145,7 +145,7 @@ std::vector<std::complex<float>> read_npy(const fs::path& path, const NpyHeader&
     values[i] = npy_value(header.type, bytes.data() + i * header.value_bytes);
     if (!std::isfinite(values[i].real()) || !std::isfinite(values[i].imag()))
       refuse_npy(ErrorClass::nonfinite, path, "value " + std::to_string(first + i), "not finite",
-             "finite samples");
+                 "finite samples");
   }
   return values;
 }

@@ -83,9 +83,9 @@ TargetDescription::Swing read_swing(ConfigTable& target, const TargetDescription
   swing.amplitude_m = table.required_number("amplitude_m", {0.0, 10.0});
   swing.period_s = table.required_number("period_s", {0.05, 60.0});
   swing.phase_rad = radians(table.number("phase_deg", {-360.0, 360.0}, 0.0));
-  const double duration_s = description.path.empty() ? 0.0
-                                                     : description.path.back().time_s -
-                                                           description.path.front().time_s;
+  const double duration_s = description.path.empty()
+                                ? 0.0
+                                : description.path.back().time_s - description.path.front().time_s;
   if (description.path.size() < 2)
     target.error(core::ErrorClass::ref, "swing", "without a way", "two waypoints or more");
   else if (duration_s > kMostSwings * swing.period_s)
@@ -145,7 +145,8 @@ InterfererDescription read_interferer(ConfigTable& table, const sensors::Wavefor
   other.bandwidth_Hz = 1e6 * table.number("bandwidth_MHz", {0.0, 1e5}, 1e-6 * own.bandwidth_Hz);
   other.falling = table.boolean("falling", false);
   other.ramp_s = 1e-6 * table.number("ramp_us", {1e-2, 1e9}, 20.0);
-  other.interval_s = 1e-6 * table.number("interval_us", {1e6 * other.ramp_s, 1e9}, 1e6 * other.ramp_s);
+  other.interval_s =
+      1e-6 * table.number("interval_us", {1e6 * other.ramp_s, 1e9}, 1e6 * other.ramp_s);
   other.start_s = 1e-6 * table.number("start_us", {-1e9, 1e9}, 0.0);
   if (!(other.bandwidth_Hz < 2.0 * other.centre_frequency_Hz))
     table.error(core::ErrorClass::range, "bandwidth_MHz",

@@ -93,8 +93,7 @@ std::vector<PointTarget::Waypoint> swung(const std::vector<PointTarget::Waypoint
     for (double leg = result.empty() ? 0.0 : 1.0; leg <= legs; ++leg) {
       const double time_s = leg == legs ? to.time_s : from.time_s + leg / legs * duration_s;
       const double offset_m =
-          swing.amplitude_m *
-          std::sin(2.0 * core::kPi * time_s / swing.period_s + swing.phase_rad);
+          swing.amplitude_m * std::sin(2.0 * core::kPi * time_s / swing.period_s + swing.phase_rad);
       result.push_back({time_s, from.position_m + leg / legs * way_m + offset_m * ahead});
     }
   }

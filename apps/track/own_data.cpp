@@ -73,8 +73,9 @@ void add(const OwnFrame& frame, const tracking::Tracker& tracker, double radar_s
   for (const tracking::RadarMeasurement& one : frame.measurements)
     outcome.measurements += measurement_row(frame.time_s, one);
   for (const tracking::Track& track : tracker.tracks()) {
-    outcome.tracks += fmt::format("{},{:.6g}{}\n", track_cells(frame.time_s, track, radar_speed_mps),
-                                  track.existence, covariance_cells(combined(track.state)));
+    outcome.tracks +=
+        fmt::format("{},{:.6g}{}\n", track_cells(frame.time_s, track, radar_speed_mps),
+                    track.existence, covariance_cells(combined(track.state)));
     if (!track.confirmed) continue;
     Seen& seen = outcome.confirmed[track.id];
     ++seen.frames;
@@ -116,10 +117,9 @@ Outcome run(const OwnDataOptions& options, OwnSource& source, bool quiet) {
 }
 
 std::size_t moving(const Outcome& outcome) {
-  return static_cast<std::size_t>(std::count_if(outcome.confirmed.begin(), outcome.confirmed.end(),
-                                                [](const auto& track) {
-                                                  return 2 * track.second.moving > track.second.frames;
-                                                }));
+  return static_cast<std::size_t>(std::count_if(
+      outcome.confirmed.begin(), outcome.confirmed.end(),
+      [](const auto& track) { return 2 * track.second.moving > track.second.frames; }));
 }
 
 Json json_of(const OwnDataOptions& options, const OwnSource& source, const Outcome& outcome) {

@@ -22,7 +22,7 @@ struct OwnDataOptions {
   std::string input;  // as of TrackOptions::file
   std::string output;
   std::string radar_file, sensor, data;
-  std::string frames;  // of a scene; empty: all
+  std::string frames;                       // of a scene; empty: all
   std::optional<double> radar_speed_mps{};  // missing: the scene's, else 0
   double frame_period_s = 0.05;             // of samples
   session::BodyErrors errors{};

@@ -37,12 +37,13 @@ void OwnHistory::add(const OwnFrame& frame, const tracking::Tracker& tracker,
 
 session::Plot OwnHistory::ranges(const std::string& name) const {
   session::Plot plot;
-  plot.title = name + ": measurements (dots), tracks of what moves in colours, of what stands black";
+  plot.title =
+      name + ": measurements (dots), tracks of what moves in colours, of what stands black";
   plot.x.label = "time, s";
   plot.y.label = "range, m";
   plot.y.low = 0.0;
-  plot.series.push_back({"", measurements_.time_s, measurements_.range_m,
-                         session::PlotSeries::Style::points, kDots});
+  plot.series.push_back(
+      {"", measurements_.time_s, measurements_.range_m, session::PlotSeries::Style::points, kDots});
   for (const auto& [id, line] : tracks_)
     plot.series.push_back({"", line.time_s, line.range_m, session::PlotSeries::Style::line,
                            line.moves() ? colour_of_track(id) : kStanding});

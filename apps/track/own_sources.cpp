@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <memory>
 #include <set>
 #include <system_error>
-#include <glm/geometric.hpp>
 
 #include "apps/scene_choice.h"
 #include "apps/track/own_data.h"
@@ -72,8 +72,8 @@ class SceneSource : public OwnSource {
         {scene_->plan, scene_->accuracy_grey, scene_->options.wishes},
         session::interferers_of(*scene_, index, paths));
     const session::DetectedFrame made = detected(found, time_of(index));
-    OwnFrame frame{made.time_s, made.detections.size(),
-                   session::measurements_of(made, &radar_, errors_), {}};
+    OwnFrame frame{
+        made.time_s, made.detections.size(), session::measurements_of(made, &radar_, errors_), {}};
     std::set<std::uint32_t> seen;
     for (const core::Echo& echo : paths.targets)
       if (seen.insert(echo.object_id).second)  // the direct way comes before the mirrored ones
@@ -84,8 +84,7 @@ class SceneSource : public OwnSource {
 
  private:
   double time_of(int index) const {
-    return scene_->trajectory->frame_time_s(index,
-                                            scene_->description.sensor.scan.frame_rate_Hz);
+    return scene_->trajectory->frame_time_s(index, scene_->description.sensor.scan.frame_rate_Hz);
   }
 
   session::BodyErrors errors_;
@@ -113,7 +112,8 @@ class DetectionSource : public OwnSource {
       if (frames_[i].time_s > frames_[i - 1].time_s)
         steps_s.push_back(frames_[i].time_s - frames_[i - 1].time_s);
     if (!steps_s.empty()) {
-      std::nth_element(steps_s.begin(), steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2),
+      std::nth_element(steps_s.begin(),
+                       steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2),
                        steps_s.end());
       frame_s = steps_s[steps_s.size() / 2];
     }
@@ -123,8 +123,10 @@ class DetectionSource : public OwnSource {
 
   OwnFrame frame(int index) override {
     const session::DetectedFrame& found = frames_[static_cast<std::size_t>(index)];
-    return {found.time_s, found.detections.size(),
-            session::measurements_of(found, radar_ ? &*radar_ : nullptr, errors_), {}};
+    return {found.time_s,
+            found.detections.size(),
+            session::measurements_of(found, radar_ ? &*radar_ : nullptr, errors_),
+            {}};
   }
 
  private:
@@ -155,8 +157,10 @@ class SampleSource : public OwnSource {
     frame.beats.push_back(files_.frame(index));
     session::process_samples(radar_, settings_, kDetections, frame);
     const session::DetectedFrame found = detected(frame, index * frame_s);
-    return {found.time_s, found.detections.size(),
-            session::measurements_of(found, &radar_, errors_), {}};
+    return {found.time_s,
+            found.detections.size(),
+            session::measurements_of(found, &radar_, errors_),
+            {}};
   }
 
  private:

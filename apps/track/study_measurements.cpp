@@ -56,8 +56,8 @@ class TriangleRadar {
     const double mirrored_m = std::hypot(range_m, 2.0 * kHeight_m);
     std::vector<signal::ScatterPath> paths = {{range_m, kSpeed_mps, 0.0, 0.0, amplitude}};
     if (reflection != 0.0) {
-      paths.push_back({0.5 * (range_m + mirrored_m), kSpeed_mps, 0.0, 0.0,
-                       2.0 * reflection * amplitude});
+      paths.push_back(
+          {0.5 * (range_m + mirrored_m), kSpeed_mps, 0.0, 0.0, 2.0 * reflection * amplitude});
       paths.push_back({mirrored_m, kSpeed_mps, 0.0, 0.0, reflection * reflection * amplitude});
     }
     const signal::Array array = signal::line_array(1, 1, 0.5 * waveform_.wavelength_m());
@@ -137,11 +137,11 @@ StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed) {
     const Errors errors = errors_of(radar, triangles, seed);
     const double root = std::sqrt(static_cast<double>(triangles));
     const double ramps = 2.0 * triangles;
-    part.text += fmt::format(
-        "| {} | {:.3f} | {:.3f} | {:.0f} | {:.3f} | {:.3f} | {:.0f} | {:.2f} |\n", 2 * triangles,
-        1e3 * errors.range_m.rms(), 1e3 * bound.range_sigma_m / root,
-        1e3 * errors.uncompensated_m.rms(), 1e3 * errors.speed_mps.rms(),
-        1e3 * bound.range_rate_sigma_mps / root, 1e3 * radar.ramp_s * ramps, errors.ms);
+    part.text +=
+        fmt::format("| {} | {:.3f} | {:.3f} | {:.0f} | {:.3f} | {:.3f} | {:.0f} | {:.2f} |\n",
+                    2 * triangles, 1e3 * errors.range_m.rms(), 1e3 * bound.range_sigma_m / root,
+                    1e3 * errors.uncompensated_m.rms(), 1e3 * errors.speed_mps.rms(),
+                    1e3 * bound.range_rate_sigma_mps / root, 1e3 * radar.ramp_s * ramps, errors.ms);
     const double values[] = {errors.range_m.rms(), bound.range_sigma_m / root,
                              errors.uncompensated_m.rms()};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -214,7 +214,8 @@ StudyPart study_reflections(const core::HighwayRadar& radar, std::uint64_t seed)
   constexpr std::array kRoads = {0.0, -0.7, -1.0};
   StudyPart part;
   part.text =
-      "| noise figure, dB | no road: range, mm rms; speed, mm/s rms; wrong, % | road, -0.7 | road, -1 "
+      "| noise figure, dB | no road: range, mm rms; speed, mm/s rms; wrong, % | road, -0.7 | road, "
+      "-1 "
       "|\n|---|---|---|---|\n";
   session::Plot range, speed;
   range.title = "A car at 60 to 140 m over the road's reflection: error of range";

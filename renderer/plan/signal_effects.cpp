@@ -55,9 +55,8 @@ double phase_noise_bound_dB(const SceneFacts& facts) {
   if (!noise_hides(facts)) return signal.window_dB;
   const double variance = signal.phase_noise_rad * signal.phase_noise_rad;
   const double images = signal.complex_baseband ? 1.0 : 2.0;
-  const double pedestal_W =
-      signal.beams * signal.echo_W * images * signal.phase_noise_peak *
-      (variance > 0.0 ? -std::expm1(-variance) / variance : 1.0);
+  const double pedestal_W = signal.beams * signal.echo_W * images * signal.phase_noise_peak *
+                            (variance > 0.0 ? -std::expm1(-variance) / variance : 1.0);
   const double raised_dB = core::kDecibelsPerNeper * std::log1p(pedestal_W / signal.noise_sample_W);
   return std::min(signal.window_dB, std::max(raised_dB, core::kDecibelsPerNeper * variance));
 }

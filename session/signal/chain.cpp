@@ -61,7 +61,8 @@ std::vector<double> delays_s(const std::vector<signal::ScatterPath>& paths) {
 void apply_channel_errors(const ArraySettings& array, signal::FloatCube& beat) {
   for (int channel = 0; channel < beat.shape.channels; ++channel) {
     const auto i = static_cast<std::size_t>(channel);
-    const double gain = array.gain_errors_dB.empty() ? 1.0 : std::pow(10.0, 0.05 * array.gain_errors_dB[i]);
+    const double gain =
+        array.gain_errors_dB.empty() ? 1.0 : std::pow(10.0, 0.05 * array.gain_errors_dB[i]);
     const double phase_rad = array.phase_errors_rad.empty() ? 0.0 : array.phase_errors_rad[i];
     if (gain == 1.0 && phase_rad == 0.0) continue;
     const auto factor = static_cast<std::complex<float>>(std::polar(gain, phase_rad));
@@ -106,7 +107,8 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
     FmcwReceiver receiver = fmcw_receiver(
         options, radar.noise_figure, radar.waveform.sample_rate_Hz[static_cast<std::size_t>(stage)],
         !options.real);
-    receiver.longest_delay_s = delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
+    receiver.longest_delay_s =
+        delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
     const core::EffectPlan plan = receiver_plan(budget, shown, sensor, receiver, echo_W, beat);
     keep_larger(plan, frame.plan);
     // A stage more is another stretch of time: draws of its own.

@@ -172,8 +172,7 @@ DetectedFrame frame_in(const JsonNode& node) {
     std::array<double, kColumns.size()> values{};
     values[kRange] = one.required("range_m").number(kRanges_m).value_or(1.0);
     values[kSpeed] = one.required("radial_speed_mps").number(kSpeeds_mps).value_or(0.0);
-    values[kAzimuth] =
-        core::degrees(one.required("azimuth_rad").number(kTurn_rad).value_or(0.0));
+    values[kAzimuth] = core::degrees(one.required("azimuth_rad").number(kTurn_rad).value_or(0.0));
     values[kPower] = one.member("power_W").number(kPowers_W).value_or(0.0);
     values[kRatio] = one.member("snr_dB").number(kRatios_dB).value_or(kRatios_dB.high);
     values[kCluster] = one.member("cluster").whole(-1, 1'000'000'000).value_or(signal::kNoCluster);

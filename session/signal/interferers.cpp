@@ -59,12 +59,11 @@ std::vector<signal::Interferer> interferers_of(const scenes::Scene& scene, int f
     one.radial_speed_mps = echo->radial_speed_mps;
     one.azimuth_rad = echo->azimuth_rad;
     one.elevation_rad = echo->elevation_rad;
-    const double gain =
-        sensor.antenna.peak_gain * element_gain(sensor, echo->azimuth_rad) *
-        sensors::one_way_gain_with_side_lobes(
-            sensor.antenna.elevation,
-            echo->elevation_rad - sensor.antenna.boresight_elevation_rad) /
-        sensor.receiver.loss;
+    const double gain = sensor.antenna.peak_gain * element_gain(sensor, echo->azimuth_rad) *
+                        sensors::one_way_gain_with_side_lobes(
+                            sensor.antenna.elevation,
+                            echo->elevation_rad - sensor.antenna.boresight_elevation_rad) /
+                        sensor.receiver.loss;
     one.power_W = signal::interference_power_W(
         other.eirp_W, gain, core::kSpeedOfLight_mps / other.centre_frequency_Hz, echo->range_m);
     result.push_back(one);
@@ -104,7 +103,8 @@ std::vector<InterferenceCase> interference_study(const FmcwRadar& radar,
   FmcwFrame heard =
       fmcw_frame(radar, sensor, paths.paths, frame, settings, products, budget, interferers);
   add("none", heard);
-  for (const signal::Mitigation each : {signal::Mitigation::zero, signal::Mitigation::interpolate}) {
+  for (const signal::Mitigation each :
+       {signal::Mitigation::zero, signal::Mitigation::interpolate}) {
     settings.mitigation = each;
     process_samples(radar, settings, products, heard);
     add(signal::name(each).data(), heard);
@@ -131,7 +131,7 @@ Plot interference_plot(const std::vector<InterferenceCase>& cases, double range_
   plot.key_below = true;
   for (const InterferenceCase& one : cases) {
     PlotSeries series;
-    series.title = one.name == "clean" ? "without other radars"
+    series.title = one.name == "clean"  ? "without other radars"
                    : one.name == "none" ? "with them"
                                         : "crossed samples: " + one.name;
     for (std::size_t cell = 0; cell < one.profile_W.size(); ++cell) {

@@ -17,9 +17,9 @@ std::vector<signal::Interferer> interferers_of(const scenes::Scene& scene, int f
 
 // The frame without interferers, with them, and with each mitigation.
 struct InterferenceCase {
-  std::string name;  // "clean", "none", "zero", "interpolate"
-  double floor_W = 0.0;           // median cell of the range-Doppler map
-  std::size_t mended = 0;         // samples
+  std::string name;        // "clean", "none", "zero", "interpolate"
+  double floor_W = 0.0;    // median cell of the range-Doppler map
+  std::size_t mended = 0;  // samples
   std::size_t detections = 0;
   std::size_t recovered = 0;      // of those of the clean frame, within a cell of range and speed
   std::size_t false_ones = 0;     // near none of them

@@ -27,7 +27,8 @@ class Noise {
     const auto& transform = radar.detection.transform;
     const int samples = signal::samples_per_segment(radar.waveform, 0);
     range_ = std::sqrt(figures_of(transform.range_window, samples).variance_ratio);
-    speed_ = std::sqrt(figures_of(transform.doppler_window, radar.axes.doppler_cells).variance_ratio);
+    speed_ =
+        std::sqrt(figures_of(transform.doppler_window, radar.axes.doppler_cells).variance_ratio);
     const double n = radar.array.channels();
     spread_ = n > 1.0 ? std::sqrt(6.0 / (n * (n * n - 1.0))) : 0.0;
   }
@@ -37,13 +38,12 @@ class Noise {
     const double bin = std::sqrt(6.0 / (ratio * radar_.array.channels())) / (2.0 * core::kPi);
     const signal::RangeDopplerAxes& axes = radar_.axes;
     measurement.range_sigma_m = bin * range_ * axes.range_step_m;
-    measurement.range_rate_sigma_mps =
-        bin * speed_ * (axes.speed_mps(1.0) - axes.speed_mps(0.0));
+    measurement.range_rate_sigma_mps = bin * speed_ * (axes.speed_mps(1.0) - axes.speed_mps(0.0));
     const double turns = radar_.pitch_m / radar_.waveform.wavelength_m();
     // Towards the end of the line the bound grows without end.
     const double across = std::max(0.05, std::cos(measurement.azimuth_rad));
-    measurement.azimuth_sigma_rad = std::min(
-        1.0, spread_ / std::sqrt(ratio) / (2.0 * core::kPi * turns * across));
+    measurement.azimuth_sigma_rad =
+        std::min(1.0, spread_ / std::sqrt(ratio) / (2.0 * core::kPi * turns * across));
   }
 
  private:
@@ -144,8 +144,8 @@ tracking::Resolution resolution_of(const FmcwRadar& radar) {
       (axes.speed_mps(1.0) - axes.speed_mps(0.0)) *
       figures_of(transform.doppler_window, axes.doppler_cells).half_power_width_bins;
   constexpr double kBeamwidth = 0.8859;
-  resolution.azimuth_rad =
-      std::min(1.0, kBeamwidth * radar.waveform.wavelength_m() / (radar.pitch_m * radar.array.channels()));
+  resolution.azimuth_rad = std::min(
+      1.0, kBeamwidth * radar.waveform.wavelength_m() / (radar.pitch_m * radar.array.channels()));
   return resolution;
 }
 

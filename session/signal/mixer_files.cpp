@@ -27,20 +27,25 @@ std::string script(const signal::MixerTrace& trace, const std::string& title,
   // Some thirty turns of what is shown as the carrier.
   const auto rows = static_cast<std::size_t>(30.0 / (trace.carrier_Hz * trace.step_s));
   const double step_us = 1e6 * trace.step_s;
-  std::string text = fmt::format(
-      "set terminal pngcairo size 960,760 font 'DejaVu Sans,11'\nset output {}\n",
-      gnuplot_text(output.string()));
-  text += data("sent", trace.transmitted, rows, step_us) + data("heard", trace.received, rows, step_us) +
+  std::string text =
+      fmt::format("set terminal pngcairo size 960,760 font 'DejaVu Sans,11'\nset output {}\n",
+                  gnuplot_text(output.string()));
+  text += data("sent", trace.transmitted, rows, step_us) +
+          data("heard", trace.received, rows, step_us) +
           data("product", trace.product, rows, step_us) +
           data("beat", trace.beat, kMostRows, 1e6 * trace.sample_s);
   text += "set multiplot layout 3,1 title " + gnuplot_text(title) +
-          "\nset grid\nset yrange [-1.15:1.15]\nset key outside right\nset lmargin 9\nset rmargin 20\nset samples 2000\n";
+          "\nset grid\nset yrange [-1.15:1.15]\nset key outside right\nset lmargin 9\nset rmargin "
+          "20\nset samples 2000\n";
   text += fmt::format("set xrange [0:{:.6g}]\nset ylabel 'signals'\n",
                       static_cast<double>(rows) * step_us);
-  text += "plot $sent smooth csplines lw 1.5 title 'transmitted', $heard smooth csplines lw 1.5 title 'received'\n";
+  text +=
+      "plot $sent smooth csplines lw 1.5 title 'transmitted', $heard smooth csplines lw 1.5 title "
+      "'received'\n";
   text += "set ylabel 'product'\nplot $product smooth csplines lw 1.5 lc 3 title 'mixer out'\n";
-  text += fmt::format("set xrange [0:{:.6g}]\nset yrange [-0.6:0.6]\nset ylabel 'beat'\nset xlabel 'time, us'\n",
-                      1e6 * trace.sample_s * static_cast<double>(std::min(kMostRows, trace.beat.size())));
+  text += fmt::format(
+      "set xrange [0:{:.6g}]\nset yrange [-0.6:0.6]\nset ylabel 'beat'\nset xlabel 'time, us'\n",
+      1e6 * trace.sample_s * static_cast<double>(std::min(kMostRows, trace.beat.size())));
   return text + "plot $beat with lines lw 1.5 lc 4 title 'low pass'\nunset multiplot\n";
 }
 

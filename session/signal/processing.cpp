@@ -51,7 +51,8 @@ void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
     return std::any_of(names.begin(), names.end(),
                        [&](const char* name) { return products.contains(name); });
   };
-  const bool detections = wants({"range-doppler", "range-azimuth", "top-view", "detections", "spectrogram"});
+  const bool detections =
+      wants({"range-doppler", "range-azimuth", "top-view", "detections", "spectrogram"});
   const bool angles = wants({"cube", "range-azimuth", "top-view"});
   if (!radar.maps || !(detections || angles)) return;
   signal::FloatCube changed;

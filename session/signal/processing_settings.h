@@ -23,7 +23,8 @@ struct ProcessingSettings {
       .kind = signal::WindowKind::chebyshev, .level_dB = 60.0, .symmetric = true};
   signal::Window angle_window{.kind = signal::WindowKind::taylor, .symmetric = true};
   signal::Mitigation mitigation = signal::Mitigation::none;  // of other radars' chirps
-  double mitigation_threshold = signal::kCrossedOverMedian;  // over the median of a chirp; above 1 to 1e6
+  double mitigation_threshold =
+      signal::kCrossedOverMedian;  // over the median of a chirp; above 1 to 1e6
   signal::CfarKind cfar = signal::CfarKind::ordered_statistic;
   CellSpan cfar_guard{2, 2};
   CellSpan cfar_training{4, 2};           // beyond the guard cells; not 0 in both
@@ -32,9 +33,9 @@ struct ProcessingSettings {
   // Distances within which detections are neighbours; missing: four widths between half powers.
   std::optional<double> cluster_place_m;    // above 0 to 1000
   std::optional<double> cluster_speed_mps;  // above 0 to 1000
-  int cluster_neighbours = 2;               // a detection with as many, itself included, is a core; 1 to 100
-  bool unfold = false;                      // speeds of detections, by time division
-  std::optional<double> most_range_m;       // of the maps; missing: the sensor's, or all there is
+  int cluster_neighbours = 2;  // a detection with as many, itself included, is a core; 1 to 100
+  bool unfold = false;         // speeds of detections, by time division
+  std::optional<double> most_range_m;  // of the maps; missing: the sensor's, or all there is
 };
 
 }  // namespace fanbeam::session

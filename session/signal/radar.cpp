@@ -86,7 +86,8 @@ signal::Waveform waveform_of(const FmcwSettings& options, const std::string& nam
     suggest("--sample-rate", 20e6, wanted);
   } else if (is_sequence(kind)) {
     suggest("--sample-rate",
-            reaching_rate_Hz(wanted, front.bandwidth_Hz, least_most_range_m(options, front)), wanted);
+            reaching_rate_Hz(wanted, front.bandwidth_Hz, least_most_range_m(options, front)),
+            wanted);
   }
   return chosen_waveform(wanted);
 }
@@ -119,8 +120,8 @@ bool is_line(const std::vector<glm::dvec3>& elements_m) {
   return pitch_m.y > 0.0 && std::hypot(pitch_m.x, pitch_m.z) <= 1e-6 * pitch_m.y;
 }
 
-signal::CfarSettings cfar_of(const ProcessingSettings& options, const signal::CellCorrelation& cells,
-                             int looks) {
+signal::CfarSettings cfar_of(const ProcessingSettings& options,
+                             const signal::CellCorrelation& cells, int looks) {
   signal::CfarSettings cfar;
   cfar.kind = options.cfar;
   cfar.design_probability = options.false_alarm_probability;
@@ -139,7 +140,8 @@ signal::ClusterScales clusters_of(const ProcessingSettings& options,
     return weights.size() < 3 ? 1.0 : signal::window_figures(weights).half_power_width_bins;
   };
   signal::ClusterScales scales;
-  scales.place_m = options.cluster_place_m.value_or(kWidths * axes.range_step_m * width(range_weights));
+  scales.place_m =
+      options.cluster_place_m.value_or(kWidths * axes.range_step_m * width(range_weights));
   scales.speed_mps = options.cluster_speed_mps.value_or(
       kWidths * (axes.speed_mps(1.0) - axes.speed_mps(0.0)) * width(doppler_weights));
   scales.least_neighbours = options.cluster_neighbours;
@@ -167,7 +169,8 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   const double most_range_m = least_most_range_m(options, front);
   settings.transform.kept_range_cells =
       most_range_m > 0.0
-          ? std::clamp(static_cast<int>(std::ceil(most_range_m / radar.axes.range_step_m)), 2, whole)
+          ? std::clamp(static_cast<int>(std::ceil(most_range_m / radar.axes.range_step_m)), 2,
+                       whole)
           : whole;
   settings.transform.range_window = options.range_window;
   settings.transform.doppler_window = options.doppler_window;
@@ -176,8 +179,8 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   settings.unfold = options.unfold && slots > 1;
   const auto range_weights = signal::window_weights(settings.transform.range_window, samples);
   const auto doppler_weights = signal::window_weights(settings.transform.doppler_window, chirps);
-  settings.cfar = cfar_of(options, {range_weights, samples, doppler_weights, chirps},
-                          radar.array.channels());
+  settings.cfar =
+      cfar_of(options, {range_weights, samples, doppler_weights, chirps}, radar.array.channels());
   radar.clusters = clusters_of(options, radar.axes, range_weights, doppler_weights);
   radar.noise_cell_W = signal::noise_sample_W(radar.noise_figure, fs_Hz) *
                        signal::noise_gain(range_weights) * signal::noise_gain(doppler_weights);

@@ -17,8 +17,8 @@ struct FmcwRadar {
   std::string waveform_name;
   signal::Waveform waveform;
   signal::Array array;
-  double pitch_m = 0.0;         // of a line; else half a wavelength
-  bool line = true;             // virtual elements in order at one pitch
+  double pitch_m = 0.0;  // of a line; else half a wavelength
+  bool line = true;      // virtual elements in order at one pitch
   double noise_figure = 1.0;
   // Of the chirp sequence in stage 0; nothing of it is valid where `maps` is false.
   bool maps = false;

@@ -47,9 +47,7 @@ void read_waveform(ConfigTable table, FmcwSettings& settings) {
 // The places of one side of the array; empty where the line is meant.
 std::vector<glm::dvec3> read_places(ConfigTable& table, const std::string& side) {
   constexpr core::NumberRange kPlaces{-10.0, 10.0};
-  const auto list = [&](const char* axis) {
-    return table.numbers(side + axis, kPlaces, 1, 64);
-  };
+  const auto list = [&](const char* axis) { return table.numbers(side + axis, kPlaces, 1, 64); };
   const std::vector<double> right = list("_right_m"), forward = list("_forward_m"),
                             up = list("_up_m");
   for (const auto& [axis, values] : {std::pair{"_forward_m", &forward}, std::pair{"_up_m", &up}})
@@ -65,7 +63,8 @@ std::vector<glm::dvec3> read_places(ConfigTable& table, const std::string& side)
 
 void read_array(ConfigTable table, FmcwSettings& settings) {
   if (!table.present()) return;
-  settings.transmitters = static_cast<int>(table.integer("transmitters", 1, 64, settings.transmitters));
+  settings.transmitters =
+      static_cast<int>(table.integer("transmitters", 1, 64, settings.transmitters));
   settings.receivers = static_cast<int>(table.integer("receivers", 1, 64, settings.receivers));
   settings.pitch_wavelengths =
       table.number("pitch_wavelengths", {0.0, 1000.0, true}, settings.pitch_wavelengths);
@@ -214,8 +213,9 @@ std::string processing_toml(const ProcessingSettings& settings) {
       "cfar = \"{}\"\ncfar_guard = [{}, {}]\ncfar_training = [{}, {}]\n"
       "false_alarm_probability = {}\nangle_method = \"{}\"\ncluster_neighbours = {}\n",
       signal::name(settings.range_window), signal::name(settings.doppler_window),
-      signal::name(settings.angle_window), signal::name(settings.mitigation), cfar_word(settings.cfar), settings.cfar_guard.range,
-      settings.cfar_guard.doppler, settings.cfar_training.range, settings.cfar_training.doppler,
+      signal::name(settings.angle_window), signal::name(settings.mitigation),
+      cfar_word(settings.cfar), settings.cfar_guard.range, settings.cfar_guard.doppler,
+      settings.cfar_training.range, settings.cfar_training.doppler,
       digits(settings.false_alarm_probability), signal::name(settings.angle_method),
       settings.cluster_neighbours);
   const auto add = [&](const char* key, const std::optional<double>& value) {
@@ -255,7 +255,8 @@ std::string radar_toml(const FmcwSettings& settings, const std::string& waveform
     if (value) text += fmt::format("{} = {}\n", kWaveformNumbers[i].key, digits(*value));
   }
   text += array_toml(settings);
-  text += fmt::format("\n[receiver]\nnoise_figure_dB = {}\n", digits(10.0 * std::log10(noise_figure)));
+  text +=
+      fmt::format("\n[receiver]\nnoise_figure_dB = {}\n", digits(10.0 * std::log10(noise_figure)));
   return text + processing_toml(settings);
 }
 

@@ -30,7 +30,8 @@ FmcwReceiver fmcw_receiver(const ReceiverSettings& settings, double noise_figure
   receiver.sample_rate_Hz = sample_rate_Hz;
   receiver.complex_baseband = complex_baseband;
   receiver.phase_noise = settings.phase_noise;
-  if (settings.line_width_Hz > 0.0) receiver.phase_noise = signal::lorentzian(settings.line_width_Hz);
+  if (settings.line_width_Hz > 0.0)
+    receiver.phase_noise = signal::lorentzian(settings.line_width_Hz);
   receiver.adc_bits = settings.adc_bits;
   if (settings.adc_full_scale_dBm)
     receiver.full_scale_sqrtW = std::pow(10.0, 0.05 * (*settings.adc_full_scale_dBm - 30.0));
@@ -54,7 +55,8 @@ signal::FloatCube with_phase_noise(const FmcwReceiver& receiver, const core::Ran
   signal::FloatCube sum;
   for (const signal::DelayGroup& group : signal::delay_groups(delays_s)) {
     signal::FloatCube part = synthesise(group.members);
-    signal::apply_oscillator(receiver.phase_noise, group.delay_s, receiver.sample_rate_Hz, key, part);
+    signal::apply_oscillator(receiver.phase_noise, group.delay_s, receiver.sample_rate_Hz, key,
+                             part);
     if (sum.values.empty()) {
       sum = std::move(part);
       continue;

@@ -28,8 +28,8 @@ Json named_waveform_json(const FmcwRadar& radar) {
 Json array_json(const FmcwRadar& radar) {
   Json elements = Json::array(), places = Json::array();
   for (const glm::dvec3& element : signal::virtual_elements_m(radar.array))
-    (radar.line ? elements : places).push_back(radar.line ? Json(element.y)
-                                                          : Json{element.x, element.y, element.z});
+    (radar.line ? elements : places)
+        .push_back(radar.line ? Json(element.y) : Json{element.x, element.y, element.z});
   const bool in_turn = radar.array.multiplex == signal::Multiplex::time_division;
   Json json = {{"transmitters", radar.array.transmitters_m.size()},
                {"receivers", radar.array.receivers_m.size()},

@@ -94,16 +94,15 @@ void SampleFiles::check(const File& file) const {
   const std::vector<std::size_t>& shape = file.header.shape;
   core::ProblemList problems;
   const auto refuse = [&](const std::string& value, const std::string& expected) {
-    problems.error(core::ErrorClass::range, core::Place{file.path.string()}, "shape", value, expected);
+    problems.error(core::ErrorClass::range, core::Place{file.path.string()}, "shape", value,
+                   expected);
   };
   if (shape.size() != layout_.axes.size()) {
     refuse(std::to_string(shape.size()) + " axes",
            fmt::format("{}: {}", layout_.axes.size(), fmt::join(layout_.axes, ", ")));
     problems.throw_if_errors();
   }
-  const auto length = [&](const char* name) {
-    return axis_of(layout_.axes, shape, name).length;
-  };
+  const auto length = [&](const char* name) { return axis_of(layout_.axes, shape, name).length; };
   const auto at_least = [&](const char* name, std::size_t least) {
     if (length(name) < least)
       refuse(fmt::format("{} along {}", length(name), name),
@@ -137,14 +136,14 @@ signal::FloatCube SampleFiles::frame(int index) const {
   // Where frames are the outermost axis one alone is read.
   const bool outermost = layout_.axes.front() == "frame";
   const std::size_t count = file->header.count() / (outermost ? frames.length : 1);
-  const auto values =
-      core::read_npy(file->path, file->header, outermost ? left * count : 0, count);
+  const auto values = core::read_npy(file->path, file->header, outermost ? left * count : 0, count);
   const std::size_t first = outermost ? 0 : left * frames.stride;
   const bool turns = in_turn(layout_.axes, transmitters_);
   const auto scale = static_cast<float>(layout_.scale_sqrtW);
   signal::FloatCube cube(shape_);
   for (int c = 0; c < shape_.channels; ++c) {
-    const auto t = static_cast<std::size_t>(c / receivers_), r = static_cast<std::size_t>(c % receivers_);
+    const auto t = static_cast<std::size_t>(c / receivers_),
+               r = static_cast<std::size_t>(c % receivers_);
     for (int m = 0; m < shape_.chirps; ++m) {
       const std::size_t place =
           turns ? static_cast<std::size_t>(m * transmitters_) + t : static_cast<std::size_t>(m);
@@ -152,7 +151,8 @@ signal::FloatCube SampleFiles::frame(int index) const {
                               static_cast<std::size_t>(c) * channel.stride +
                               t * transmitter.stride + r * receiver.stride;
       for (int n = 0; n < shape_.samples; ++n) {
-        const std::complex<float> value = scale * values[row + static_cast<std::size_t>(n) * sample.stride];
+        const std::complex<float> value =
+            scale * values[row + static_cast<std::size_t>(n) * sample.stride];
         cube.at(c, m, n) = layout_.conjugate ? std::conj(value) : value;
       }
     }

@@ -85,7 +85,8 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
     result.scatterers += found.echoes.size();
     signal::FloatCube beat = signal::scan_beat(sensor, found.echoes, found.phase_rad);
     const std::vector<double> delays = delays_s(found.echoes);
-    receiver.longest_delay_s = delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
+    receiver.longest_delay_s =
+        delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
     const core::EffectPlan plan =
         receiver_plan(settings.budget, shown, sensor, receiver, sum_W(found.echoes), beat);
     keep_larger(plan, result.plan);

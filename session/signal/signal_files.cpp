@@ -106,9 +106,9 @@ void Writer::range_azimuth() const {
   const int cells = frame_.range_azimuth.rows;
   const double step = 1.0 / cells * radar_.waveform.wavelength_m() / radar_.pitch_m;
   HeatMap picture;
-  picture.title = title(radar_.detection.angle == signal::AngleMethod::capon
-                            ? "Capon, sum over speeds"
-                            : "largest over speeds");
+  picture.title =
+      title(radar_.detection.angle == signal::AngleMethod::capon ? "Capon, sum over speeds"
+                                                                 : "largest over speeds");
   picture.x = range_axis();
   // Cells are even in the sine of azimuth; the labels are degrees.
   picture.y = {"azimuth, deg (right is up)", -(cells / 2) * step, step, cells, {}};

@@ -19,7 +19,8 @@ std::pair<int, int> shown_rows(const signal::PowerMap& map, double least_dBm) {
   const int rest = map.rows / 2;
   for (int row = 0; row < map.rows; ++row)
     for (int column = 0; column < map.columns; ++column)
-      if (dBm(map.at(row, column)) >= least_dBm) furthest = std::max(furthest, std::abs(row - rest));
+      if (dBm(map.at(row, column)) >= least_dBm)
+        furthest = std::max(furthest, std::abs(row - rest));
   if (furthest == 0) return {0, map.rows - 1};
   const int reach = furthest + furthest / 4 + 4;
   return {std::max(0, rest - reach), std::min(map.rows - 1, rest + reach)};
@@ -35,9 +36,9 @@ void Spectrogram::add(double time_s, const FmcwFrame& frame,
   if (target_.empty()) gates.emplace_back(0, map.columns - 1);
   for (const double range_m : target_ranges_m) {
     const double step_m = radar_.axes.range_step_m;
-    gates.emplace_back(std::max(0, static_cast<int>(std::floor((range_m - kAbout_m) / step_m))),
-                       std::min(map.columns - 1,
-                                static_cast<int>(std::ceil((range_m + kAbout_m) / step_m))));
+    gates.emplace_back(
+        std::max(0, static_cast<int>(std::floor((range_m - kAbout_m) / step_m))),
+        std::min(map.columns - 1, static_cast<int>(std::ceil((range_m + kAbout_m) / step_m))));
   }
   for (const auto& [first, last] : gates)
     for (int row = 0; row < map.rows; ++row)

@@ -18,7 +18,8 @@ namespace fanbeam::session {
 class Spectrogram {
  public:
   // `target`: name or beginning of the names of targets; empty for all ranges.
-  Spectrogram(const FmcwRadar& radar, std::string target) : radar_(radar), target_(std::move(target)) {}
+  Spectrogram(const FmcwRadar& radar, std::string target)
+      : radar_(radar), target_(std::move(target)) {}
 
   // Where no such target is seen the column is empty.
   void add(double time_s, const FmcwFrame& frame, const std::vector<double>& target_ranges_m);

@@ -114,13 +114,13 @@ AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>
   for (int round = 0; round < kMostRounds; ++round) {
     const AnglePeak before = peak;
     const auto [left, right] = near(peak.azimuth_rad, reach_rad);
-    peak.azimuth_rad = climbed(
-        [&](double azimuth_rad) { return beam.power(azimuth_rad, peak.elevation_rad); }, left,
-        right);
+    peak.azimuth_rad =
+        climbed([&](double azimuth_rad) { return beam.power(azimuth_rad, peak.elevation_rad); },
+                left, right);
     const auto [low, high] = near(peak.elevation_rad, rise_rad);
-    peak.elevation_rad = climbed(
-        [&](double elevation_rad) { return beam.power(peak.azimuth_rad, elevation_rad); }, low,
-        high);
+    peak.elevation_rad =
+        climbed([&](double elevation_rad) { return beam.power(peak.azimuth_rad, elevation_rad); },
+                low, high);
     if (std::abs(peak.azimuth_rad - before.azimuth_rad) +
             std::abs(peak.elevation_rad - before.elevation_rad) <
         1e-9)

@@ -19,7 +19,7 @@ constexpr double kLeastBeams = 0.2;  // between two directions
 constexpr double kBeamwidth = 0.8859;
 constexpr int kBeamsOfGrid = 16;  // within a beamwidth
 constexpr int kTurns = 30;
-constexpr double kStill = 1e-6;  // of the sine
+constexpr double kStill = 1e-6;           // of the sine
 constexpr double kLeastRelative = 1e-12;  // of the strongest, where there is no noise
 
 struct Line {
@@ -56,8 +56,8 @@ std::vector<double> candidates_rad(const Snapshot& snapshot, const Line& line, A
   std::size_t most = static_cast<std::size_t>(kept) - 1;
   std::vector<double> powers;
   if (method == AngleMethod::music) {
-    const auto above = std::count_if(values.begin(), values.end(),
-                                     [&](double value) { return value > least_W; });
+    const auto above =
+        std::count_if(values.begin(), values.end(), [&](double value) { return value > least_W; });
     most = std::clamp<std::size_t>(static_cast<std::size_t>(above), 1, most);
     powers = music_spectrum(covariance, steering, static_cast<int>(most));
   } else {
@@ -71,8 +71,8 @@ std::vector<double> candidates_rad(const Snapshot& snapshot, const Line& line, A
     const auto below = static_cast<std::size_t>(peak.beam);
     const double share = peak.beam - std::floor(peak.beam);
     const std::size_t above = std::min(below + 1, azimuths.size() - 1);
-    result.push_back(std::asin((1.0 - share) * std::sin(azimuths[below]) +
-                               share * std::sin(azimuths[above])));
+    result.push_back(
+        std::asin((1.0 - share) * std::sin(azimuths[below]) + share * std::sin(azimuths[above])));
   }
   return result;
 }
@@ -172,7 +172,9 @@ std::vector<SourceDirection> source_directions(const Snapshot& snapshot,
   const std::vector<double> candidates = candidates_rad(snapshot, line, method, noise_W);
   Fit best = fitted(snapshot, line, {alone.azimuth_rad});
   for (std::size_t count = 2; count <= candidates.size(); ++count) {
-    Fit more = fitted(snapshot, line, {candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count)});
+    Fit more =
+        fitted(snapshot, line,
+               {candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count)});
     if (!(best.left_W - more.left_W > kLeastOverNoise * noise_W) ||
         !holds(more, kLeastBeams * beam_sine(line)))
       break;

@@ -114,9 +114,9 @@ std::vector<RadarDetection> detect(const Cube<Real>& beat, const PowerMap& map, 
                            ? std::max(0.0, peak.cell.power_W / peak.cell.background_W - 1.0)
                            : std::numeric_limits<double>::infinity();
     const Place place = refiner.run(peak);
-    const Directions directions = directions_of(
-        place.snapshot, axes.doppler_Hz(place.doppler_cell),
-        peak.cell.background_W / array.channels(), array, timing, settings);
+    const Directions directions =
+        directions_of(place.snapshot, axes.doppler_Hz(place.doppler_cell),
+                      peak.cell.background_W / array.channels(), array, timing, settings);
     for (const SourceDirection& wave : directions.waves) {
       RadarDetection detection = measured(place, directions.doppler_Hz, snr, axes, timing);
       detection.azimuth_rad = wave.azimuth_rad;

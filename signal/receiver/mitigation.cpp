@@ -85,8 +85,7 @@ std::optional<Mitigation> mitigation_of(std::string_view text) {
   return std::nullopt;
 }
 
-std::size_t mitigate(Mitigation mitigation, double threshold, const Array& array,
-                     FloatCube& cube) {
+std::size_t mitigate(Mitigation mitigation, double threshold, const Array& array, FloatCube& cube) {
   if (!(threshold > 1.0)) refuse("threshold", threshold, "above 1");
   if (cube.shape.channels != array.channels())
     refuse("cube.channels", cube.shape.channels, "the channels of the array");

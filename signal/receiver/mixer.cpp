@@ -14,7 +14,7 @@ namespace fanbeam::signal {
 namespace {
 
 constexpr double kMostSamples = 3e7;
-constexpr double kSweepsOfRate = 9.0;   // samples a second of the product over the sweep
+constexpr double kSweepsOfRate = 9.0;  // samples a second of the product over the sweep
 constexpr double kStop_dB = 100.0;
 
 // Kaiser, "Nonrecursive digital filter design using the I0-sinh window function", 1974.
@@ -69,8 +69,7 @@ MixerTrace mixer_trace(const Waveform& waveform, const ScatterPath& echo) {
   // The filter needs what comes before and after the segment: the ramp goes on.
   for (int n = -reach; n < static_cast<int>(count) + reach; ++n) {
     const double in_s = n * trace.step_s;
-    const double delay_s =
-        geometry.at(segment.start_s + in_s).length_m / core::kSpeedOfLight_mps;
+    const double delay_s = geometry.at(segment.start_s + in_s).length_m / core::kSpeedOfLight_mps;
     const double sent = shown_Hz * in_s + 0.5 * segment.slope_Hz_per_s * in_s * in_s;
     const double beat = beat_turns(waveform, segment, in_s, delay_s);
     const double s = turned(sent), r = turned(sent - beat);
@@ -82,8 +81,9 @@ MixerTrace mixer_trace(const Waveform& waveform, const ScatterPath& echo) {
   }
   const auto filtered = convolved(product, {taps.begin(), taps.end()});
   for (int n = 0; n < samples; ++n)
-    trace.beat.push_back(
-        filtered[static_cast<std::size_t>(n) * static_cast<std::size_t>(times) + 2 * static_cast<std::size_t>(reach)].real());
+    trace.beat.push_back(filtered[static_cast<std::size_t>(n) * static_cast<std::size_t>(times) +
+                                  2 * static_cast<std::size_t>(reach)]
+                             .real());
   return trace;
 }
 

@@ -21,11 +21,11 @@
 namespace fanbeam::signal {
 
 struct MixerTrace {
-  double carrier_Hz = 0.0;      // where the transmitted signal is shown, at the middle of its sweep
-  double step_s = 0.0;          // of the three below, from the segment's start
+  double carrier_Hz = 0.0;  // where the transmitted signal is shown, at the middle of its sweep
+  double step_s = 0.0;      // of the three below, from the segment's start
   std::vector<double> transmitted, received, product;
-  double sample_s = 0.0;        // of the beat
-  std::vector<double> beat;     // of amplitude 1/2
+  double sample_s = 0.0;     // of the beat
+  std::vector<double> beat;  // of amplitude 1/2
 };
 
 MixerTrace mixer_trace(const Waveform& waveform, const ScatterPath& echo);

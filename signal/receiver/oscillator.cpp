@@ -54,7 +54,8 @@ void check(const PhaseNoiseTable& table) {
 double phase_density_rad2_per_Hz(const PhaseNoiseTable& table, double offset_Hz) {
   const std::vector<double>& at = table.offsets_Hz;
   const std::vector<double>& level = table.levels_dBc_per_Hz;
-  const auto next = static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), offset_Hz) - at.begin());
+  const auto next =
+      static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), offset_Hz) - at.begin());
   double dB = next == 0 ? level.front() : level.back();
   if (next > 0 && next < at.size()) {
     const double share = std::log(offset_Hz / at[next - 1]) / std::log(at[next] / at[next - 1]);
@@ -74,8 +75,7 @@ ResidualPhase residual_phase(const PhaseNoiseTable& table, double delay_s, doubl
     const double offset_Hz = k * step_Hz;
     const double density = phase_density_rad2_per_Hz(table, offset_Hz);
     variance += 2.0 * step_Hz * density * correlated(offset_Hz, delay_s);
-    const double most =
-        density * std::min(4.0, std::pow(2.0 * core::kPi * offset_Hz * delay_s, 2));
+    const double most = density * std::min(4.0, std::pow(2.0 * core::kPi * offset_Hz * delay_s, 2));
     bound += 2.0 * step_Hz * most;
     largest = std::max(largest, most);
   }
@@ -95,8 +95,7 @@ void apply_oscillator(const PhaseNoiseTable& table, double delay_s, double sampl
   for (int k = 0; k < offsets; ++k) {
     const double offset_Hz = k * step_Hz;
     const double sigma =
-        k == 0 ? 0.0
-               : std::sqrt(2.0 * step_Hz * phase_density_rad2_per_Hz(table, offset_Hz));
+        k == 0 ? 0.0 : std::sqrt(2.0 * step_Hz * phase_density_rad2_per_Hz(table, offset_Hz));
     scale.push_back(sigma * (1.0 - std::polar(1.0, -2.0 * core::kPi * offset_Hz * delay_s)));
   }
   core::parallel_for(static_cast<std::size_t>(cube.shape.chirps), [&](std::size_t chirp) {
@@ -107,14 +106,16 @@ void apply_oscillator(const PhaseNoiseTable& table, double delay_s, double sampl
     for (std::size_t k = 0; k < scale.size(); ++k)
       lines[k] = scale[k] * std::complex<double>(normals[2 * k], normals[2 * k + 1]);
     // Unscaled: the sum over the offsets at every sample.
-    Fft<double>({.length = kPeriods * samples, .stride = 1, .batches = 1, .distance = kPeriods * samples},
-                FftDirection::inverse)
+    Fft<double>(
+        {.length = kPeriods * samples, .stride = 1, .batches = 1, .distance = kPeriods * samples},
+        FftDirection::inverse)
         .run(lines.data());
     const int m = static_cast<int>(chirp);
     for (int n = 0; n < samples; ++n) {
       const auto turn = static_cast<std::complex<float>>(
           std::polar(1.0, lines[static_cast<std::size_t>(n)].real()));
-      for (int channel = 0; channel < cube.shape.channels; ++channel) cube.at(channel, m, n) *= turn;
+      for (int channel = 0; channel < cube.shape.channels; ++channel)
+        cube.at(channel, m, n) *= turn;
     }
   });
 }

@@ -13,8 +13,8 @@
 namespace fanbeam::signal {
 namespace {
 
-constexpr double kCorner = 0.45;          // of the sample rate
-constexpr double kBeyondCorners = 3.2;    // |H| below 1e-4
+constexpr double kCorner = 0.45;        // of the sample rate
+constexpr double kBeyondCorners = 3.2;  // |H| below 1e-4
 constexpr double kMostCrossings = 1e8;
 
 void check(const Interferer& one) {
@@ -24,8 +24,8 @@ void check(const Interferer& one) {
   check_not_negative("interferer.power_W", one.power_W);
   if (!(one.interval_s >= one.duration_s && std::isfinite(one.interval_s)))
     refuse("interferer.interval_s", one.interval_s, "at least the chirp's duration");
-  for (const double value : {one.slope_Hz_per_s, one.start_s, one.radial_speed_mps, one.azimuth_rad,
-                             one.elevation_rad})
+  for (const double value :
+       {one.slope_Hz_per_s, one.start_s, one.radial_speed_mps, one.azimuth_rad, one.elevation_rad})
     if (!std::isfinite(value))
       core::throw_input_error(core::ErrorClass::nonfinite, "interferer", value, "finite");
 }
@@ -42,8 +42,8 @@ class Crossing {
       : segment_(segment), other_(other), corner_Hz_(kCorner * sample_rate_Hz) {
     const glm::dvec3 u = direction(other.azimuth_rad, other.elevation_rad);
     // Far from the array: |x - p| = R + v t - u . p.
-    ahead_s_ = (u.x * receiver_m.x + u.y * receiver_m.y + u.z * receiver_m.z) /
-               core::kSpeedOfLight_mps;
+    ahead_s_ =
+        (u.x * receiver_m.x + u.y * receiver_m.y + u.z * receiver_m.z) / core::kSpeedOfLight_mps;
   }
 
   double delay_s(double time_s) const {
@@ -61,9 +61,10 @@ class Crossing {
   // Where chirp k is heard, in the receiver's band.
   Stretch stretch(double k) const {
     const double begin_s = begin_of(k) - segment_.start_s;
-    Stretch heard{std::max(0.0, begin_s), std::min(segment_.duration_s, begin_s + other_.duration_s)};
-    const double at_0_Hz = segment_.start_frequency_Hz - other_.start_frequency_Hz +
-                           other_.slope_Hz_per_s * begin_s;
+    Stretch heard{std::max(0.0, begin_s),
+                  std::min(segment_.duration_s, begin_s + other_.duration_s)};
+    const double at_0_Hz =
+        segment_.start_frequency_Hz - other_.start_frequency_Hz + other_.slope_Hz_per_s * begin_s;
     const double slope = segment_.slope_Hz_per_s - other_.slope_Hz_per_s;
     const double band_Hz = kBeyondCorners * corner_Hz_;
     if (slope == 0.0) {

@@ -162,8 +162,7 @@ TEST_CASE("Errors of channels are in the samples and bend the beam", "[fmcw]") {
   REQUIRE(good.found->detections.size() == 1);
   REQUIRE(!bad.found->detections.empty());
   CHECK(good.found->detections[0].azimuth_rad == Approx(0.0).margin(1e-3));
-  CHECK(std::sin(bad.found->detections[0].azimuth_rad) ==
-        Approx(0.3 / core::kPi).epsilon(0.02));
+  CHECK(std::sin(bad.found->detections[0].azimuth_rad) == Approx(0.3 / core::kPi).epsilon(0.02));
   options.phase_errors_rad.pop_back();
   CHECK_THROWS_AS(fmcw_radar(options, sensor), core::InputError);
 }

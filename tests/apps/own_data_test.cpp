@@ -1,9 +1,9 @@
 // fanbeam track on a scene's signals, recorded samples and detections; radar files.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <complex>
 #include <sstream>
-
-#include <fmt/format.h>
 
 #include "core/image.h"
 #include "core/npy.h"
@@ -35,11 +35,12 @@ tests::Result track(const fs::path& input, const fs::path& out, const std::strin
 TEST_CASE("A street is followed from its scene, its detections and its samples alike", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path made = folder.path() / "street", out = folder.path();
-  auto result = tests::run_fanbeam("fmcw street-76ghz -q --frames 0:12 --products beat,detections -o " +
-                                   tests::quoted(made));
+  auto result = tests::run_fanbeam(
+      "fmcw street-76ghz -q --frames 0:12 --products beat,detections -o " + tests::quoted(made));
   INFO(result.output);
   REQUIRE(result.exit_code == 0);
-  result = tests::run_fanbeam("track street-76ghz -q --frames 0:12 -o " + tests::quoted(out / "scene"));
+  result =
+      tests::run_fanbeam("track street-76ghz -q --frames 0:12 -o " + tests::quoted(out / "scene"));
   INFO(result.output);
   REQUIRE(result.exit_code == 0);
   const nlohmann::json record = tests::json_of(out / "scene/run.json");
@@ -63,9 +64,9 @@ TEST_CASE("A street is followed from its scene, its detections and its samples a
       if (!first || i == 0) table += line + "\n";
   }
   const fs::path csv = folder.write("all.csv", table);
-  REQUIRE(track(csv, out / "table", "--radar " + tests::quoted(made / "radar.toml")).exit_code == 0);
-  CHECK(tests::json_of(out / "table/run.json")["confirmed_tracks"] ==
-        record["confirmed_tracks"]);
+  REQUIRE(track(csv, out / "table", "--radar " + tests::quoted(made / "radar.toml")).exit_code ==
+          0);
+  CHECK(tests::json_of(out / "table/run.json")["confirmed_tracks"] == record["confirmed_tracks"]);
   // Samples alone.
   fs::remove_all(made / "detections");
   REQUIRE(track(made, out / "samples", "--frame-period 0.05").exit_code == 0);
@@ -102,18 +103,18 @@ TEST_CASE("Recorded cubes of another layout give the same tracks", "[track]") {
   }
   const fs::path file = folder.path() / "recorded.npy";
   core::write_npy(file, {kFrames, kChirps * kTransmitters, kReceivers, samples}, recorded);
-  const fs::path radar = folder.write(
-      "radar.toml", tests::bytes_of(made / "radar.toml") +
-                        "\n[samples]\naxes = \"frame, chirp, receiver, sample\"\n"
-                        "scale_sqrtW = 0.0009765625\nconjugate = true\n");
+  const fs::path radar =
+      folder.write("radar.toml", tests::bytes_of(made / "radar.toml") +
+                                     "\n[samples]\naxes = \"frame, chirp, receiver, sample\"\n"
+                                     "scale_sqrtW = 0.0009765625\nconjugate = true\n");
   const auto run = track(file, out / "recorded", "--radar " + tests::quoted(radar));
   INFO(run.output);
   REQUIRE(run.exit_code == 0);
   CHECK(tests::bytes_of(out / "recorded/tracks.csv") == tests::bytes_of(out / "own/tracks.csv"));
   // Another shape is told with what was expected.
-  const fs::path short_axes = folder.write(
-      "short.toml", tests::bytes_of(made / "radar.toml") +
-                        "\n[samples]\naxes = \"frame, receiver, chirp, sample\"\n");
+  const fs::path short_axes =
+      folder.write("short.toml", tests::bytes_of(made / "radar.toml") +
+                                     "\n[samples]\naxes = \"frame, receiver, chirp, sample\"\n");
   const auto refused = track(file, out / "refused", "--radar " + tests::quoted(short_axes));
   CHECK(refused.exit_code == 3);
   CHECK(refused.output.find("4 along chirp: expected 192 or more") != std::string::npos);
@@ -218,8 +219,8 @@ cluster_plaice_m = 3
        problems);
   std::string told;
   for (const core::Problem& problem : problems.all()) told += to_string(problem) + "\n";
-  for (const char* wrong : {"waveform.kind", "ramp_us", "receiver_right_m", "not rising", "axes", "boxcar",
-                            "1.5", "cluster_plaice_m"}) {
+  for (const char* wrong : {"waveform.kind", "ramp_us", "receiver_right_m", "not rising", "axes",
+                            "boxcar", "1.5", "cluster_plaice_m"}) {
     INFO(wrong << " in\n" << told);
     CHECK(told.find(wrong) != std::string::npos);
   }
@@ -266,7 +267,8 @@ TEST_CASE("A car's radar in a scene raises the floor, and mending recovers detec
   std::string line;
   std::map<std::string, std::vector<double>> rows;
   std::getline(table, line);
-  CHECK(line == "case,floor_dBm,rise_dB,mended_samples,detections,recovered,missed,false_detections");
+  CHECK(line ==
+        "case,floor_dBm,rise_dB,mended_samples,detections,recovered,missed,false_detections");
   while (std::getline(table, line)) {
     std::istringstream cells(line);
     std::string name, cell;
@@ -302,8 +304,8 @@ TEST_CASE("A pedestrian's legs swing about the body in the spectrogram", "[fmcw]
   // The fastest cell well above noise of a frame; frame k is at (k + 1/2) / 20 s.
   const auto fastest_mps = [&](int frame) {
     for (int row = 0; row < image.rows; ++row) {
-      const double speed = axes["speed_first_mps"].get<double>() +
-                           row * axes["speed_step_mps"].get<double>();
+      const double speed =
+          axes["speed_first_mps"].get<double>() + row * axes["speed_step_mps"].get<double>();
       if (speed > -6.0 && power[static_cast<std::size_t>(row * 16 + frame)] >
                               300.0 * 12.0 * axes["noise_cell_W"].get<double>())
         return speed;
@@ -313,8 +315,9 @@ TEST_CASE("A pedestrian's legs swing about the body in the spectrogram", "[fmcw]
   // Legs in opposite phase: one is at 1.4 (1 + |cos 2 pi t|) m/s; 2.8 at 1 s, 1.4 at 1.25 s.
   CHECK(fastest_mps(4) == Approx(-2.8).margin(0.4));
   CHECK(fastest_mps(9) == Approx(-1.4).margin(0.5));
-  run = tests::run_fanbeam("fmcw street-76ghz -q --products spectrogram --spectrogram-of nobody -o " +
-                           tests::quoted(folder.path() / "none"));
+  run =
+      tests::run_fanbeam("fmcw street-76ghz -q --products spectrogram --spectrogram-of nobody -o " +
+                         tests::quoted(folder.path() / "none"));
   CHECK(run.exit_code == 2);
   CHECK(run.output.find("nobody") != std::string::npos);
 }
@@ -327,7 +330,8 @@ TEST_CASE("waveform shows what a mixer gets and gives", "[waveform]") {
   REQUIRE(run.exit_code == 0);
   const std::string beat = tests::bytes_of(out / "beat.csv");
   CHECK(std::count(beat.begin(), beat.end(), '\n') == 1 + 400);
-  CHECK(tests::bytes_of(out / "mixer.csv").starts_with("time_s,transmitted,received,product\n0,1.0"));
+  CHECK(
+      tests::bytes_of(out / "mixer.csv").starts_with("time_s,transmitted,received,product\n0,1.0"));
   CHECK(fs::exists(out / "mixer.png"));
   run = tests::run_fanbeam("waveform --mixer " + tests::quoted(out));
   CHECK(run.exit_code == 2);

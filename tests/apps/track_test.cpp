@@ -186,7 +186,8 @@ TEST_CASE("track --study writes its six tables and their plots, with the figures
   for (std::size_t i = 2; i < tables[5].size(); ++i)
     CHECK(std::stod(tables[5][i][3]) ==
           Approx(std::stod(tables[5][i][1])).margin(0.0128).epsilon(0.0));
-  for (const char* plot : {"buffer", "noise-figure", "reflections-range", "reflections-speed", "missed", "ghosts", "crossing"}) {
+  for (const char* plot : {"buffer", "noise-figure", "reflections-range", "reflections-speed",
+                           "missed", "ghosts", "crossing"}) {
     CHECK(page.find("](" + std::string(plot) + ".png)") != std::string::npos);
     for (const char* ending : {".png", ".svg"})
       CHECK(fs::file_size(out / (plot + std::string(ending))) > 1000);

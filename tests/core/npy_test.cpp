@@ -73,7 +73,8 @@ std::string code_of(const std::filesystem::path& file) {
 TEST_CASE("What was written as a NumPy file is read back, from any place on", "[npy]") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "cube.npy";
-  const std::vector<std::complex<float>> values{{1, 2}, {3, 4}, {5, 6}, {7, 8}, {9, 10}, {-0.5F, 1}};
+  const std::vector<std::complex<float>> values{{1, 2}, {3, 4},  {5, 6},
+                                                {7, 8}, {9, 10}, {-0.5F, 1}};
   write_npy(file, {2, 3}, values);
   const NpyHeader header = read_npy_header(file);
   CHECK(header.type == "<c8");

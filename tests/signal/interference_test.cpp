@@ -55,7 +55,8 @@ double energy(const FloatCube& cube) {
 
 }  // namespace
 
-TEST_CASE("A crossing brings the power of the band over the difference of slopes", "[interference]") {
+TEST_CASE("A crossing brings the power of the band over the difference of slopes",
+          "[interference]") {
   const Waveform waveform = chirps(16);
   const FloatCube cube = heard(waveform, {}, falling(4e-12));
   // Per chirp P fs 2 corner (pi / 16) / sin(pi / 16) / |S - Q| samples' worth.

@@ -7,9 +7,8 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "signal/receiver/link_budget.h"
-#include "signal/receiver/receiver_noise.h"
-
 #include "signal/receiver/mixer.h"
+#include "signal/receiver/receiver_noise.h"
 #include "signal/synthesis/beat_phase.h"
 #include "tests/signal/default_waveform.h"
 
@@ -168,11 +167,11 @@ TEST_CASE("Behind the low pass the mixer's product is the difference alone", "[r
     double worst = 0.0, product = 0.0;
     for (std::size_t n = 0; n < trace.beat.size(); ++n) {
       const double in_s = static_cast<double>(n) * trace.sample_s;
-      const double delay_s =
-          geometry.at(segment.start_s + in_s).length_m / core::kSpeedOfLight_mps;
+      const double delay_s = geometry.at(segment.start_s + in_s).length_m / core::kSpeedOfLight_mps;
       const double turns = beat_turns(waveform, segment, in_s, delay_s);
-      worst = std::max(worst, std::abs(trace.beat[n] -
-                                       0.5 * std::cos(2.0 * core::kPi * (turns - std::floor(turns)))));
+      worst = std::max(
+          worst,
+          std::abs(trace.beat[n] - 0.5 * std::cos(2.0 * core::kPi * (turns - std::floor(turns)))));
     }
     for (const double value : trace.product) product += value * value;
     INFO(name(kind));

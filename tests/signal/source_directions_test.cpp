@@ -111,10 +111,10 @@ TEST_CASE("Two waves within a beamwidth are two by Capon and MUSIC, one by beams
       int good = 0;
       for (int trial = 0; trial < kTrials; ++trial) {
         const double phase_rad = 2.0 * kPi * std::fmod(0.754877666 * trial, 1.0);
-        auto found = source_directions(
-            snapshot_of(elements_m, {{-3.0, snr, 0.0}, {3.0, snr, phase_rad}},
-                        static_cast<std::uint32_t>(5000 + trial)),
-            elements_m, kWavelength_m, method, 1.0);
+        auto found =
+            source_directions(snapshot_of(elements_m, {{-3.0, snr, 0.0}, {3.0, snr, phase_rad}},
+                                          static_cast<std::uint32_t>(5000 + trial)),
+                              elements_m, kWavelength_m, method, 1.0);
         if (found.size() != 2) continue;
         if (found[0].azimuth_rad > found[1].azimuth_rad) std::swap(found[0], found[1]);
         good += std::abs(degrees(found[0].azimuth_rad) + 3.0) < 3.0 &&
@@ -153,13 +153,14 @@ TEST_CASE("Capon and MUSIC refuse arrays that are no line, and noise that is non
   const Snapshot snapshot(8, 1.0);
   CHECK_THROWS_AS(source_directions(snapshot, bent, kWavelength_m, AngleMethod::music, 1.0),
                   core::InputError);
-  CHECK(source_directions(snapshot, bent, kWavelength_m, AngleMethod::beamforming, 1.0).size() == 1);
+  CHECK(source_directions(snapshot, bent, kWavelength_m, AngleMethod::beamforming, 1.0).size() ==
+        1);
   CHECK_THROWS_AS(
       source_directions(snapshot, line_of(8), kWavelength_m, AngleMethod::capon, std::nan("")),
       core::InputError);
   // All zero: one direction, no power.
-  const auto nothing = source_directions(Snapshot(8), line_of(8), kWavelength_m,
-                                         AngleMethod::music, 0.0);
+  const auto nothing =
+      source_directions(Snapshot(8), line_of(8), kWavelength_m, AngleMethod::music, 0.0);
   REQUIRE(nothing.size() == 1);
   CHECK(nothing.front().power_W == 0.0);
 }
@@ -169,7 +170,8 @@ TEST_CASE("An array with elements at two heights tells azimuth and elevation", "
   std::vector<glm::dvec3> elements_m = line_of(6);
   for (const double right_m : {-4e-3, 0.0, 4e-3})
     for (const double up_m : {2e-3, 4e-3, 6e-3}) elements_m.emplace_back(0.0, right_m, up_m);
-  for (const auto& [azimuth_deg, elevation_deg] : {std::pair{11.0, 7.0}, {-35.0, -12.0}, {0.0, 25.0}}) {
+  for (const auto& [azimuth_deg, elevation_deg] :
+       {std::pair{11.0, 7.0}, {-35.0, -12.0}, {0.0, 25.0}}) {
     const Steering wave = steering_vectors(
         elements_m, kWavelength_m, BeamGrid{{radians(azimuth_deg)}, {radians(elevation_deg)}});
     const AnglePeak peak = direction_peak(wave.values, elements_m, kWavelength_m);

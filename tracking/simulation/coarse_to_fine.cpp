@@ -43,9 +43,10 @@ std::vector<Seen> coarse_targets(const std::vector<Seen>& targets, const core::H
   const bool coded = settings.scheme == Scheme::coded;
   const double wavelength_m = core::kSpeedOfLight_mps / radar.centre_frequency_Hz;
   const double cell_m = core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz);
-  const double cell_mps = wavelength_m / (2.0 * (coded ? radar.waveforms.flat_s
-                                                     : radar.waveforms.coarse_chirps *
-                                                           radar.waveforms.coarse_chirp_s));
+  const double cell_mps =
+      wavelength_m /
+      (2.0 * (coded ? radar.waveforms.flat_s
+                    : radar.waveforms.coarse_chirps * radar.waveforms.coarse_chirp_s));
   const double beam = beam_rad(radar);
   return merged(targets, [&](const Seen& a, const Seen& b) {
     return (coded || std::abs(a.range_m - b.range_m) < settings.merge_bins * cell_m) &&
@@ -60,8 +61,9 @@ signal::RangeSpeed coarse_sigma(const Seen& target, const core::HighwayRadar& ra
     return {settings.coarse_range_sigma_m, settings.coarse_speed_sigma_mps};
   const double ratio = target.bound.signal_to_noise * radar.waveforms.flat_s / radar.ramp_s;
   const double wavelength_m = core::kSpeedOfLight_mps / radar.centre_frequency_Hz;
-  return {core::kSpeedOfLight_mps / (4.0 * core::kPi * radar.waveforms.hop_Hz) * std::sqrt(2.0 / ratio),
-          0.5 * wavelength_m * std::sqrt(6.0 / ratio) / (2.0 * core::kPi * radar.waveforms.flat_s)};
+  return {
+      core::kSpeedOfLight_mps / (4.0 * core::kPi * radar.waveforms.hop_Hz) * std::sqrt(2.0 / ratio),
+      0.5 * wavelength_m * std::sqrt(6.0 / ratio) / (2.0 * core::kPi * radar.waveforms.flat_s)};
 }
 
 }  // namespace

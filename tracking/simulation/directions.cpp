@@ -23,8 +23,9 @@ std::vector<double> directions_rad(const Snapshot& snapshot,
   signal::AnglePeak second;
   Snapshot other(snapshot.size());  // the second wave
   for (int turn = 0; turn < kTurns; ++turn) {
-    const Snapshot wave =
-        signal::wave_from(signal::without(snapshot, other), elements_m, wavelength_m, first.azimuth_rad).values;
+    const Snapshot wave = signal::wave_from(signal::without(snapshot, other), elements_m,
+                                            wavelength_m, first.azimuth_rad)
+                              .values;
     const Snapshot rest = signal::without(snapshot, wave);
     second = signal::azimuth_peak(rest, elements_m, wavelength_m);
     if (second.power < kLeastShare * first.power) return {alone_rad};

@@ -211,7 +211,8 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
   const signal::Waveform waveform = signal::two_slopes(parameters);
   const signal::TriangleModel first = signal::triangle_model(waveform, 0);
   const signal::PairingLimits limits{0.0, 1.1 * radar.most_range_m, settings.most_speed_mps};
-  const RampPeaks peaks = peaks_of(first, 0.0, targets, settings.merge_bins, radar.ramp_s, draws, 1);
+  const RampPeaks peaks =
+      peaks_of(first, 0.0, targets, settings.merge_bins, radar.ramp_s, draws, 1);
   std::vector<RadarMeasurement> result;
   if (settings.scheme == Scheme::two_stage || settings.scheme == Scheme::coded) {
     result = coarse_to_fine(first, peaks, targets, radar, settings, draws);
@@ -224,8 +225,8 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
     } else {
       const signal::TriangleModel second = signal::triangle_model(waveform, 1);
       const double between_s = second.turnaround_s - first.turnaround_s;
-      const RampPeaks later = peaks_of(second, between_s, targets, settings.merge_bins, radar.ramp_s,
-                                       draws, 2);
+      const RampPeaks later =
+          peaks_of(second, between_s, targets, settings.merge_bins, radar.ramp_s, draws, 2);
       places = signal::pair_two_slopes({first, peaks.up.Hz, peaks.down.Hz},
                                        {second, later.up.Hz, later.down.Hz}, {limits, 1.3});
     }

@@ -6,6 +6,8 @@
 #include "core/constants.h"
 #include "core/errors.h"
 #include "core/random.h"
+#include "signal/angle/angle_peak.h"
+#include "signal/angle/plane_wave.h"
 #include "signal/detection/map_peaks.h"
 #include "signal/receiver/link_budget.h"
 #include "signal/receiver/receiver_noise.h"
@@ -19,12 +21,9 @@ namespace fanbeam::tracking {
 namespace {
 
 constexpr double kFalseAlarm = 1e-7;
-constexpr double kCoarseSigma_m = 0.3, kCoarseSigma_mps = 0.3, kGate = 4.0;
 constexpr double kMostSpeed_mps = 70.0;
 // azimuth_peak steps over a quarter of a beamwidth at most, up to here.
 constexpr double kWidestArray_wavelengths = 1250.0;
-// Side lobes of neighbours, the bend of beats, the direction of a moving target.
-constexpr double kSystematic_m = 0.005, kSystematic_mps = 0.005, kSystematic_rad = 5e-4;
 constexpr int kCoarse = 0, kFine = 1;  // stages
 
 std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
@@ -52,36 +51,6 @@ std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
     paths.push_back(path);
   }
   return paths;
-}
-
-struct Pair {
-  double misfit = kGate * kGate;
-  std::size_t up = 0, down = 0;
-  signal::RangeSpeed place;
-  bool found = false;
-};
-
-// The pair of beats that fits a coarse place best, if any does and better than `best`.
-void try_place(const signal::TriangleModel& model, const SampledBeats& beats,
-               const signal::RangeSpeed& coarse, Pair& best) {
-  for (std::size_t i = 0; i < beats.up.size(); ++i)
-    for (std::size_t j = 0; j < beats.down.size(); ++j) {
-      const signal::RangeSpeed pair = solve(model, {beats.up[i].Hz, beats.down[j].Hz});
-      const double misfit =
-          std::pow((pair.range_m - coarse.range_m) / kCoarseSigma_m, 2) +
-          std::pow((pair.radial_speed_mps - coarse.radial_speed_mps) / kCoarseSigma_mps, 2);
-      if (misfit < best.misfit) best = {misfit, i, j, pair, true};
-    }
-}
-
-// Two coarse detections of one pair and one direction are one target.
-bool seen_before(const std::vector<Pair>& pairs, const std::vector<RadarMeasurement>& result,
-                 const Pair& pair, double azimuth_rad, double apart) {
-  for (std::size_t i = 0; i < pairs.size(); ++i)
-    if (pairs[i].up == pair.up && pairs[i].down == pair.down &&
-        std::abs(std::sin(result[i].azimuth_rad) - std::sin(azimuth_rad)) < apart)
-      return true;
-  return false;
 }
 
 }  // namespace
@@ -137,10 +106,12 @@ std::vector<SampledRadar::Coarse> SampledRadar::coarse_of(const signal::FloatCub
     std::vector<std::complex<double>> snapshot;
     for (int channel = 0; channel < cube.shape.channels; ++channel)
       snapshot.emplace_back(cube.at(channel, peak.cell.row, peak.cell.column));
-    for (const double azimuth_rad :
-         directions_rad(snapshot, elements_m, axes_.wavelength_m, beam_sine()))
+    const std::vector<double> directions =
+        directions_rad(snapshot, elements_m, axes_.wavelength_m, beam_sine());
+    for (const double azimuth_rad : directions)
       result.push_back({axes_.range_m(peak.column, axes_.doppler_Hz(peak.row)),
-                        axes_.speed_mps(peak.row), azimuth_rad, peak.cell.power_W});
+                        axes_.speed_mps(peak.row), azimuth_rad, peak.cell.power_W,
+                        directions.size()});
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const Coarse& a, const Coarse& b) { return a.power_W > b.power_W; });
@@ -164,37 +135,72 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
   };
   const signal::TriangleModel model = signal::triangle_model(waveform_, kFine);
   const double fine_rate_Hz = waveform_.sample_rate_Hz[kFine];
-  const SampledBeats beats =
-      triangle_beats(received(kFine), model, fine_rate_Hz,
-                     signal::noise_sample_W(radar_.noise_figure, fine_rate_Hz));
   const std::vector<Coarse> detections = coarse_of(received(kCoarse));
+  std::vector<std::vector<signal::RangeSpeed>> places;  // of each, one for every fold
+  std::vector<signal::RangeSpeed> all;
+  for (const Coarse& one : detections) {
+    places.push_back(folded(one));
+    all.insert(all.end(), places.back().begin(), places.back().end());
+  }
+  SampledBeats beats =
+      triangle_beats(received(kFine), model, fine_rate_Hz,
+                     signal::noise_sample_W(radar_.noise_figure, fine_rate_Hz), all);
+  find_directions(beats.up);
+  find_directions(beats.down);
+  std::vector<Found> found;
+  for (std::size_t i = 0; i < detections.size(); ++i) {
+    Pair best;
+    for (const signal::RangeSpeed& place : places[i]) try_place(model, beats, place, best);
+    if (!best.found) continue;
+    add(apart(model, beats, best, detections[i]), found);
+  }
+  // Beats that no place has taken: another target in the cell of one that has.
+  for (std::size_t i = 0; i < detections.size(); ++i)
+    for (const signal::RangeSpeed& place : places[i]) {
+      Pair best;
+      try_place(model, left_over(beats, found), place, best);
+      if (best.found &&
+          std::abs(beats.up[best.up].azimuth_rad - beats.down[best.down].azimuth_rad) < kAgree_rad)
+        add(apart(model, beats, best, detections[i]), found);
+    }
+  std::vector<RadarMeasurement> result;
+  for (const Found& one : found) result.push_back(measured(beats, one));
+  return result;
+}
+
+// Direction of every beat, and whether one plane wave is all that it has.
+void SampledRadar::find_directions(std::vector<Beat>& beats) const {
+  const auto elements_m = signal::virtual_elements_m(array_);
+  if (elements_m.size() < 2) return;
+  for (Beat& beat : beats) {
+    beat.azimuth_rad =
+        signal::azimuth_peak(beat.amplitudes, elements_m, axes_.wavelength_m).azimuth_rad;
+    const signal::PlaneWave wave =
+        signal::wave_from(beat.amplitudes, elements_m, axes_.wavelength_m, beat.azimuth_rad);
+    double all = 0.0, rest = 0.0;
+    for (const auto& value : beat.amplitudes) all += std::norm(value);
+    for (const auto& value : signal::without(beat.amplitudes, wave.values))
+      rest += std::norm(value);
+    // 1e-4 for what neighbours leave; noise leaves all but one of its channels.
+    const auto channels = static_cast<double>(beat.amplitudes.size());
+    beat.lone_wave = rest < all * (1e-4 + 4.0 * channels / beat.signal_to_noise);
+  }
+}
+
+// At the turnaround of the triangle.
+std::vector<signal::RangeSpeed> SampledRadar::folded(const Coarse& one) const {
   const auto chirps = signal::stage_segments(waveform_, kCoarse);
   const double middle_s = 0.5 * (chirps.front().middle_s() + chirps.back().middle_s());
-  const double folds_Hz = 1.0 / repetition_s_;
-  std::vector<Pair> pairs;
-  std::vector<RadarMeasurement> result;
-  for (const Coarse& one : detections) {
-    Pair best;
-    for (const int fold : {0, -1, 1}) {
-      const double more_Hz = fold * folds_Hz;
-      const double speed_mps = one.speed_mps + 0.5 * waveform_.wavelength_m() * more_Hz;
-      if (std::abs(speed_mps) > kMostSpeed_mps) continue;
-      const double range_m =
-          one.range_m - core::kSpeedOfLight_mps / (2.0 * slope_Hz_per_s_) * more_Hz;
-      try_place(model, beats, {range_m - speed_mps * middle_s, speed_mps}, best);
-    }
-    if (!best.found || seen_before(pairs, result, best, one.azimuth_rad, 0.5 * beam_sine()))
-      continue;
-    const double ratio =
-        std::min(beats.up[best.up].signal_to_noise, beats.down[best.down].signal_to_noise);
-    const MeasurementBound bound = bound_at(radar_, ratio, one.azimuth_rad);
-    const double wider = std::sqrt(beats.variance_ratio);
-    pairs.push_back(best);
-    result.push_back({best.place.range_m, best.place.radial_speed_mps, one.azimuth_rad,
-                      wider * bound.range_sigma_m, wider * bound.range_rate_sigma_mps,
-                      bound.azimuth_sigma_rad, kSystematic_m, kSystematic_mps, kSystematic_rad});
+  std::vector<signal::RangeSpeed> places;
+  for (const int fold : {0, -1, 1}) {
+    const double more_Hz = fold / repetition_s_;
+    const double speed_mps = one.speed_mps + 0.5 * waveform_.wavelength_m() * more_Hz;
+    if (std::abs(speed_mps) > kMostSpeed_mps) continue;
+    const double range_m =
+        one.range_m - core::kSpeedOfLight_mps / (2.0 * slope_Hz_per_s_) * more_Hz;
+    places.push_back({range_m - speed_mps * middle_s, speed_mps});
   }
-  return result;
+  return places;
 }
 
 }  // namespace fanbeam::tracking

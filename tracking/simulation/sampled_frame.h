@@ -6,9 +6,13 @@
 // Waveform: two stages, as HighwayWaveforms has them; the default: a chirp sequence of 256 ramps of 20 us, at 20 MHz, gives range, speed and
 // azimuth by Chebyshev windows of -60 dB, an ordered-statistic detector along range (1e-7 per cell)
 // and the one or two plane waves of a cell (directions.h). A triangle of 2 ms ramps, at 500 kHz,
-// gives the beats (triangle_beats.h). A coarse detection takes the pair
-// of beats that fits best within four standard deviations (0.3 m, 0.3 m/s), at its own speed or at
-// one of its folds by the chirps' rate (2 vmax = 98.6 m/s); one without a pair is dropped.
+// gives the beats (triangle_beats.h), each with the direction that its amplitudes over the channels have.
+// A coarse detection takes the pair of beats that fits best within four standard deviations (0.3 m,
+// 0.3 m/s; 6 mrad between directions of beats that are one plane wave each), at its own speed or at
+// one of its folds by the chirps' rate (2 vmax = 98.6 m/s); one without a pair is dropped. Where a beat is
+// one of two tones of a peak, both targets are told, each with the other ramp's beat from its direction, or
+// where that is not split, with the one there is and an error that says so. Beats that no detection has
+// taken make a second target within a cell.
 // Array: a line of `radar.array_elements` receivers that share the gain, so that their coherent sum
 // has the ratio of the link budget. Phases of targets are random in every frame.
 // Ranges belong to the turnaround of the triangle, which is the time of the frame.
@@ -32,6 +36,7 @@
 #include "signal/waveform/array.h"
 #include "signal/waveform/waveform.h"
 #include "tracking/filters/observation.h"
+#include "tracking/simulation/triangle_beats.h"
 
 namespace fanbeam::tracking {
 
@@ -48,7 +53,35 @@ class SampledRadar {
   // A local maximum of the coarse map.
   struct Coarse {
     double range_m = 0.0, speed_mps = 0.0, azimuth_rad = 0.0, power_W = 0.0;
+    std::size_t directions = 1;  // that the cell has
   };
+  static constexpr double kAgree_rad = 0.006;  // directions of a target's two beats
+  // A pair of beats that fits a coarse place.
+  struct Pair {
+    double misfit = 16.0;  // four standard deviations, squared
+    std::size_t up = 0, down = 0;
+    signal::RangeSpeed coarse, place;
+    bool found = false;
+  };
+  struct Found {
+    std::size_t up = 0, down = 0;
+    signal::RangeSpeed place;
+    double azimuth_rad = 0.0;
+    bool half_merged = false;  // one of its beats is another target's too
+    bool merged = false;       // both are those of two targets
+  };
+  void add(const std::vector<Found>& more, std::vector<Found>& found) const;
+  static SampledBeats left_over(SampledBeats beats, const std::vector<Found>& found);
+  void find_directions(std::vector<Beat>& beats) const;
+  static double misfit(const signal::TriangleModel& model, const SampledBeats& beats,
+                       std::size_t up, std::size_t down, const signal::RangeSpeed& coarse);
+  static void try_place(const signal::TriangleModel& model, const SampledBeats& beats,
+                        const signal::RangeSpeed& coarse, Pair& best);
+  static bool seen_before(const std::vector<Found>& found, const Found& one, double apart);
+  std::vector<signal::RangeSpeed> folded(const Coarse& one) const;
+  static std::vector<Found> apart(const signal::TriangleModel& model, const SampledBeats& beats,
+                                  const Pair& best, const Coarse& coarse);
+  RadarMeasurement measured(const SampledBeats& beats, const Found& one) const;
   double beam_sine() const;
   std::vector<Coarse> coarse_of(const signal::FloatCube& samples) const;
 

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/constants.h"
 #include "core/parallel.h"
 #include "signal/detection/tone.h"
+#include "signal/detection/two_tones.h"
 #include "signal/fourier/fft.h"
 #include "signal/fourier/window.h"
 #include "signal/fourier/window_figures.h"
@@ -104,10 +107,69 @@ std::vector<signal::Tone> tones_of(const signal::ToneRecords& records,
   return tones;
 }
 
+// Where a ramp has the beat of a coarse place, and how much it bends.
+struct Hint {
+  double bin = 0.0, curvature_bins = 0.0;
+};
+
+std::vector<Hint> hints_of(const std::vector<signal::RangeSpeed>& coarse,
+                           const signal::TriangleModel& model, bool up, double bin_Hz) {
+  std::vector<Hint> hints;
+  for (const signal::RangeSpeed& place : coarse) {
+    const signal::BeatPair beats = predict(model, place);
+    // d2 phi / dt2 = 4 pi S tau', over the ramp.
+    const double drift_Hz = 4.0 * (up ? 1.0 : -1.0) * model.slope_Hz_per_s *
+                            place.radial_speed_mps / core::kSpeedOfLight_mps * model.ramp_s;
+    hints.push_back({(up ? beats.up_Hz : beats.down_Hz) / bin_Hz, drift_Hz / bin_Hz});
+  }
+  return hints;
+}
+
+constexpr double kHintReach = 2.5;  // bins
+
+const Hint* nearest_hint(const std::vector<Hint>& hints, double bin, double count) {
+  const Hint* best = nullptr;
+  for (const Hint& hint : hints)
+    if (bins_apart(hint.bin, bin, count) < kHintReach &&
+        (best == nullptr || bins_apart(hint.bin, bin, count) < bins_apart(best->bin, bin, count)))
+      best = &hint;
+  return best;
+}
+
+// The tones of a ramp as beats, those apart that make one peak.
+std::vector<Beat> beats_of(const signal::ToneRecords& records,
+                           const std::vector<signal::Tone>& tones, const std::vector<Hint>& hints,
+                           double bin_Hz, double noise_W) {
+  const auto count = static_cast<double>(records.front().size());
+  std::vector<Beat> beats;
+  const auto put = [&](const signal::Tone& tone, std::size_t peak) {
+    const double bin = tone.bin - count * std::floor((tone.bin + 0.5 * count) / count);
+    beats.push_back(
+        {bin * bin_Hz, count * tone.power / noise_W, tone.amplitudes, static_cast<int>(peak)});
+  };
+  for (std::size_t i = 0; i < tones.size(); ++i) {
+    std::optional<std::pair<signal::Tone, signal::Tone>> two;
+    if (const Hint* hint = nearest_hint(hints, tones[i].bin, count)) {
+      signal::ToneRecords rest = records;
+      for (std::size_t j = 0; j < tones.size(); ++j)
+        if (j != i) subtract(tones[j], rest);
+      two = signal::two_tones(rest, tones[i].bin, hint->curvature_bins, noise_W);
+    }
+    if (two) {
+      put(two->first, i);
+      put(two->second, i);
+    } else {
+      put(tones[i], i);
+    }
+  }
+  return beats;
+}
+
 }  // namespace
 
 SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::TriangleModel& model,
-                            double sample_rate_Hz, double noise_W) {
+                            double sample_rate_Hz, double noise_W,
+                            const std::vector<signal::RangeSpeed>& coarse) {
   const int count = samples.shape.samples;
   const auto weights =
       signal::window_weights({.kind = signal::WindowKind::chebyshev, .level_dB = 60.0}, count);
@@ -126,13 +188,15 @@ SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::Tria
   });
   // The first chirp is the ramp up where its middle comes before the turnaround.
   const int up = model.up_middle_s < 0.0 ? 0 : 1;
-  for (int ramp = 0; ramp < 2; ++ramp)
-    for (const signal::Tone& tone : tones[ramp]) {
-      const double half = 0.5 * count;
-      const double bin = tone.bin - count * std::floor((tone.bin + half) / count);
-      (ramp == up ? result.up : result.down)
-          .push_back({bin * sample_rate_Hz / count, count * tone.power / noise_W});
-    }
+  const double bin_Hz = sample_rate_Hz / count;
+  std::vector<Beat> beats[2];
+  core::parallel_for(2, [&](std::size_t ramp) {
+    const bool is_up = static_cast<int>(ramp) == up;
+    const auto hints = hints_of(coarse, model, is_up, bin_Hz);
+    beats[ramp] = beats_of(records[ramp], tones[ramp], hints, bin_Hz, noise_W);
+  });
+  result.up = std::move(beats[up]);
+  result.down = std::move(beats[1 - up]);
   return result;
 }
 

@@ -59,7 +59,8 @@ session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::p
     session::read_radar_file(file, settings, problems);
     problems.throw_if_errors();
   }
-  if (const auto kind = told["waveform"].cast<std::string>(); !kind.empty()) settings.waveform = kind;
+  if (const auto kind = told["waveform"].cast<std::string>(); !kind.empty())
+    settings.waveform = kind;
   take_numbers(told["numbers"].cast<std::map<std::string, double>>(), settings);
   // What is missing stays as the file or the default has it.
   const auto take = [&told]<class T>(const char* name, T& value) {
@@ -87,10 +88,11 @@ session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::p
 
 // [channel, chirp, sample] over the cube's memory.
 py::array cube_array(const signal::FloatCube& cube, const py::object& owner) {
-  if (cube.values.empty()) return py::array_t<std::complex<float>>(std::vector<py::ssize_t>{0, 0, 0});
+  if (cube.values.empty())
+    return py::array_t<std::complex<float>>(std::vector<py::ssize_t>{0, 0, 0});
   return py::array(py::dtype::of<std::complex<float>>(),
-                   {cube.shape.channels, cube.shape.chirps, cube.shape.samples},
-                   cube.values.data(), owner);
+                   {cube.shape.channels, cube.shape.chirps, cube.shape.samples}, cube.values.data(),
+                   owner);
 }
 
 py::object map_array(const signal::PowerMap& map, const py::object& owner) {
@@ -111,8 +113,12 @@ py::object detections_array(const std::optional<session::FmcwDetections>& found)
   auto to = rows.mutable_unchecked<2>();
   for (std::size_t i = 0; i < found->detections.size(); ++i) {
     const signal::RadarDetection& at = found->detections[i];
-    const double values[] = {at.range_m,     at.radial_speed_mps, at.azimuth_rad,
-                             at.elevation_rad, at.power_W,        at.snr,
+    const double values[] = {at.range_m,
+                             at.radial_speed_mps,
+                             at.azimuth_rad,
+                             at.elevation_rad,
+                             at.power_W,
+                             at.snr,
                              static_cast<double>(found->clusters[i])};
     for (int k = 0; k < 7; ++k) to(static_cast<py::ssize_t>(i), k) = values[k];
   }
@@ -139,16 +145,18 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   without_lock([&](const core::StopToken& stop) {
     const core::StopScope scope(stop);
     made->paths = session::fmcw_paths(*now, index, settings);
-    made->frame = session::fmcw_frame(made->radar, sensor, made->paths.paths, index, settings,
-                                      products, {now->plan, now->accuracy_grey, now->options.wishes});
+    made->frame =
+        session::fmcw_frame(made->radar, sensor, made->paths.paths, index, settings, products,
+                            {now->plan, now->accuracy_grey, now->options.wishes});
   });
   const py::object owner = owner_of(made);
   py::list beats;
   for (const signal::FloatCube& beat : made->frame.beats) beats.append(cube_array(beat, owner));
   py::dict result;
   result["beats"] = beats;
-  result["cube"] = made->frame.cube.values.empty() ? py::object(py::none())
-                                                   : py::object(cube_array(made->frame.cube, owner));
+  result["cube"] = made->frame.cube.values.empty()
+                       ? py::object(py::none())
+                       : py::object(cube_array(made->frame.cube, owner));
   result["range_doppler_W"] = map_array(made->frame.range_doppler, owner);
   result["range_azimuth_W"] = map_array(made->frame.range_azimuth, owner);
   result["detections"] = detections_array(made->frame.found);

@@ -1,0 +1,172 @@
+#include "signal/detection/two_tones.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/constants.h"
+#include "signal/checks_private.h"
+#include "signal/unit_phasor_private.h"
+
+namespace fanbeam::signal {
+namespace {
+
+constexpr double kReach = 1.6, kStep = 0.1, kFinest = 1e-4;  // bins
+constexpr double kLeastApart = 1.0 / 3.0;
+constexpr double kLeastShare = 0.01;  // of the stronger one's power
+constexpr double kModelError = 1e-4;  // of the energy
+constexpr double kCloser = 0.02;      // places nearer than that are one
+
+using Sums = std::vector<std::complex<double>>;  // of every record
+
+// Records without the bend, sums over them at places about the peak.
+class Correlator {
+ public:
+  Correlator(const ToneRecords& records, double curvature_bins) : records_(records) {
+    const auto count = static_cast<double>(records.front().size());
+    const double middle = 0.5 * (count - 1.0);
+    for (auto& record : records_)
+      for (std::size_t n = 0; n < record.size(); ++n) {
+        const double t = (static_cast<double>(n) - middle) / count;
+        record[n] *= unit_phasor(-0.5 * curvature_bins * t * t);
+      }
+  }
+  double count() const { return static_cast<double>(records_.front().size()); }
+  std::size_t records() const { return records_.size(); }
+
+  // With the phase of the middle sample.
+  Sums at(double bin) const {
+    Sums sums;
+    const std::size_t n_samples = records_.front().size();
+    const double middle = 0.5 * (count() - 1.0);
+    const std::complex<double> step = unit_phasor(-bin / count());
+    const std::complex<double> first = unit_phasor(bin * middle / count());
+    for (const auto& record : records_) {
+      std::complex<double> sum = 0.0, phasor = first;
+      for (std::size_t n = 0; n < n_samples; ++n) {
+        sum += record[n] * phasor;
+        phasor *= step;
+      }
+      sums.push_back(sum);
+    }
+    return sums;
+  }
+
+  // Mean of exp(j 2 pi apart n / N) about the middle sample: real.
+  double overlap(double apart) const {
+    const double x = core::kPi * apart;
+    const double denominator = count() * std::sin(x / count());
+    return std::abs(denominator) < 1e-12 ? 1.0 : std::sin(x) / denominator;
+  }
+
+  // Energy that tones at the two places explain.
+  double explained(const Sums& p, const Sums& q, double apart) const {
+    const double rho = overlap(apart);
+    double sum = 0.0;
+    for (std::size_t c = 0; c < p.size(); ++c)
+      sum += std::norm(p[c]) + std::norm(q[c]) - 2.0 * rho * (std::conj(p[c]) * q[c]).real();
+    return sum / (count() * (1.0 - rho * rho));
+  }
+
+  Tone tone(double bin, const Sums& own, const Sums& other, double apart) const {
+    const double rho = overlap(apart), scale = 1.0 / (count() * (1.0 - rho * rho));
+    Tone tone;
+    tone.bin = bin;
+    const double middle_turns = bin * 0.5 * (count() - 1.0) / count();
+    for (std::size_t c = 0; c < own.size(); ++c) {
+      const std::complex<double> amplitude = scale * (own[c] - rho * other[c]);
+      tone.amplitudes.push_back(amplitude * unit_phasor(-middle_turns));
+      tone.power += std::norm(amplitude);
+    }
+    return tone;
+  }
+
+ private:
+  ToneRecords records_;
+};
+
+struct Places {
+  double first = 0.0, second = 0.0, energy = -1.0;
+};
+
+// The best pair with its places within `reach` of these, `step` apart.
+Places best_near(const Correlator& correlator, const Places& centre, double reach, double step) {
+  const auto grid = [&](double about) {
+    std::vector<std::pair<double, Sums>> places;
+    const int steps = static_cast<int>(std::lround(reach / step));
+    for (int i = -steps; i <= steps; ++i)
+      places.emplace_back(about + i * step, correlator.at(about + i * step));
+    return places;
+  };
+  const auto first = grid(centre.first);
+  const auto second = centre.first == centre.second ? first : grid(centre.second);
+  Places best;
+  for (const auto& [a, p] : first)
+    for (const auto& [b, q] : second) {
+      if (b - a < kCloser) continue;
+      const double energy = correlator.explained(p, q, b - a);
+      if (energy > best.energy) best = {a, b, energy};
+    }
+  return best;
+}
+
+double energy_of_one(const Correlator& correlator, double near_bin) {
+  double centre = near_bin, best = -1.0;
+  for (double step = 0.3; step > kFinest; step *= 0.5) {
+    double place = centre;
+    for (const double bin : {centre - step, centre, centre + step}) {
+      double energy = 0.0;
+      for (const auto& sum : correlator.at(bin)) energy += std::norm(sum);
+      if (energy > best) {
+        best = energy;
+        place = bin;
+      }
+    }
+    centre = place;
+  }
+  return best / correlator.count();
+}
+
+// A lone tone leaves nothing but noise in the bins beside its own: the cheap answer to most peaks.
+bool leaves_more(const Correlator& correlator, double bin, double noise_W) {
+  const auto energy_at = [&](double place) {
+    double energy = 0.0;
+    for (const auto& sum : correlator.at(place)) energy += std::norm(sum);
+    return energy / correlator.count();
+  };
+  double beside = 0.0;
+  for (const double off : {-2.0, -1.0, 1.0, 2.0}) beside += energy_at(bin + off);
+  const double c = 4.0 * static_cast<double>(correlator.records());
+  return beside > noise_W * (c + 6.0 * std::sqrt(c) + 20.0) &&
+         beside > kModelError * energy_at(bin);
+}
+
+}  // namespace
+
+std::optional<std::pair<Tone, Tone>> two_tones(const ToneRecords& records, double near_bin,
+                                               double curvature_bins, double noise_W) {
+  if (records.empty() || records.front().size() < 2)
+    refuse("samples", records.empty() ? 0.0 : static_cast<double>(records.front().size()),
+           "2 or more");
+  check_not_negative("noise_W", noise_W);
+  const Correlator correlator(records, curvature_bins);
+  if (!leaves_more(correlator, near_bin, noise_W)) return std::nullopt;
+  Places best = best_near(correlator, {near_bin, near_bin, 0.0}, kReach, kStep);
+  for (double step = 0.25 * kStep; step > kFinest; step *= 0.25)
+    best = best_near(correlator, best, 4.0 * step, step);
+  const auto c = static_cast<double>(correlator.records());
+  const double gained = best.energy - energy_of_one(correlator, near_bin);
+  if (!(gained > noise_W * (c + 6.0 * std::sqrt(c) + 20.0) && gained > kModelError * best.energy) ||
+      best.second - best.first < kLeastApart)
+    return std::nullopt;
+  const Sums p = correlator.at(best.first), q = correlator.at(best.second);
+  const double apart = best.second - best.first;
+  std::pair<Tone, Tone> tones{correlator.tone(best.first, p, q, apart),
+                              correlator.tone(best.second, q, p, apart)};
+  if (std::min(tones.first.power, tones.second.power) <
+      kLeastShare * std::max(tones.first.power, tones.second.power))
+    return std::nullopt;
+  return tones;
+}
+
+}  // namespace fanbeam::signal
