@@ -53,6 +53,19 @@ std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
   return paths;
 }
 
+// Of what neighbours and noise leave beside a wave: shares of its energy.
+constexpr double kFineLeft = 1e-4, kCoarseLeft = 2e-4;
+
+// Whether the wave from there is all but `share` of the energy, and four times the noise.
+bool is_lone_wave(const signal::Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
+                  double wavelength_m, double azimuth_rad, double share, double noise) {
+  const signal::PlaneWave wave = signal::wave_from(snapshot, elements_m, wavelength_m, azimuth_rad);
+  double all = 0.0, rest = 0.0;
+  for (const auto& value : snapshot) all += std::norm(value);
+  for (const auto& value : signal::without(snapshot, wave.values)) rest += std::norm(value);
+  return rest < share * all + 4.0 * noise;
+}
+
 }  // namespace
 
 SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
@@ -108,10 +121,13 @@ std::vector<SampledRadar::Coarse> SampledRadar::coarse_of(const signal::FloatCub
       snapshot.emplace_back(cube.at(channel, peak.cell.row, peak.cell.column));
     const std::vector<double> directions =
         directions_rad(snapshot, elements_m, axes_.wavelength_m, beam_sine());
+    const bool lone =
+        directions.size() == 1 && is_lone_wave(snapshot, elements_m, axes_.wavelength_m,
+                                               directions[0], kCoarseLeft, peak.cell.background_W);
     for (const double azimuth_rad : directions)
       result.push_back({axes_.range_m(peak.column, axes_.doppler_Hz(peak.row)),
                         axes_.speed_mps(peak.row), azimuth_rad, peak.cell.power_W,
-                        directions.size()});
+                        directions.size(), lone});
   }
   std::stable_sort(result.begin(), result.end(),
                    [](const Coarse& a, const Coarse& b) { return a.power_W > b.power_W; });
@@ -175,15 +191,12 @@ void SampledRadar::find_directions(std::vector<Beat>& beats) const {
   for (Beat& beat : beats) {
     beat.azimuth_rad =
         signal::azimuth_peak(beat.amplitudes, elements_m, axes_.wavelength_m).azimuth_rad;
-    const signal::PlaneWave wave =
-        signal::wave_from(beat.amplitudes, elements_m, axes_.wavelength_m, beat.azimuth_rad);
-    double all = 0.0, rest = 0.0;
+    // Noise of the amplitudes of all channels.
+    double all = 0.0;
     for (const auto& value : beat.amplitudes) all += std::norm(value);
-    for (const auto& value : signal::without(beat.amplitudes, wave.values))
-      rest += std::norm(value);
-    // 1e-4 for what neighbours leave; noise leaves all but one of its channels.
     const auto channels = static_cast<double>(beat.amplitudes.size());
-    beat.lone_wave = rest < all * (1e-4 + 4.0 * channels / beat.signal_to_noise);
+    beat.lone_wave = is_lone_wave(beat.amplitudes, elements_m, axes_.wavelength_m, beat.azimuth_rad,
+                                  kFineLeft, all * channels / beat.signal_to_noise);
   }
 }
 

@@ -54,6 +54,7 @@ class SampledRadar {
   struct Coarse {
     double range_m = 0.0, speed_mps = 0.0, azimuth_rad = 0.0, power_W = 0.0;
     std::size_t directions = 1;  // that the cell has
+    bool lone_wave = false;      // one plane wave is all that it has
   };
   static constexpr double kAgree_rad = 0.006;  // directions of a target's two beats
   // A pair of beats that fits a coarse place.
@@ -79,8 +80,8 @@ class SampledRadar {
                         const signal::RangeSpeed& coarse, Pair& best);
   static bool seen_before(const std::vector<Found>& found, const Found& one, double apart);
   std::vector<signal::RangeSpeed> folded(const Coarse& one) const;
-  static std::vector<Found> apart(const signal::TriangleModel& model, const SampledBeats& beats,
-                                  const Pair& best, const Coarse& coarse);
+  std::vector<Found> apart(const signal::TriangleModel& model, const SampledBeats& beats,
+                           const Pair& best, const Coarse& coarse) const;
   RadarMeasurement measured(const SampledBeats& beats, const Found& one) const;
   double beam_sine() const;
   std::vector<Coarse> coarse_of(const signal::FloatCube& samples) const;

@@ -13,6 +13,8 @@ namespace {
 constexpr double kCoarseSigma_m = 0.3, kCoarseSigma_mps = 0.3;
 // Side lobes of neighbours, the bend of beats, the direction of a moving target.
 constexpr double kSystematic_m = 0.005, kSystematic_mps = 0.005, kSystematic_rad = 5e-4;
+// Of a beam: farther apart two directions are two coarse detections.
+constexpr double kOneCell = 0.6;
 constexpr double kNowhere_Hz = 1e15;
 constexpr double kUnresolved_bins = 0.7;  // between tones that could be two
 
@@ -78,17 +80,22 @@ SampledBeats SampledRadar::left_over(SampledBeats beats, const std::vector<Found
 // beat of the other ramp, near enough in range and speed, that comes from its direction.
 std::vector<SampledRadar::Found> SampledRadar::apart(const signal::TriangleModel& model,
                                                      const SampledBeats& beats, const Pair& best,
-                                                     const Coarse& coarse) {
+                                                     const Coarse& coarse) const {
   const std::vector<std::size_t> up = of_peak(beats.up, best.up);
   const std::vector<std::size_t> down = of_peak(beats.down, best.down);
-  if (up.size() == 1 && down.size() == 1) {
-    // Not pulled by a neighbour in the coarse cell.
+  // The coarse cell's direction, whose neighbours in speed are out of the way; where another target pulls it,
+  // the triangle's, if that is one target's.
+  const auto as_it_is = [&] {
     const Beat &rising = beats.up[best.up], &falling = beats.down[best.down];
-    const bool lone = rising.lone_wave && falling.lone_wave;
-    return {{best.up, best.down, best.place,
-             lone ? 0.5 * (rising.azimuth_rad + falling.azimuth_rad) : coarse.azimuth_rad, false,
-             !lone && coarse.directions == 1}};
-  }
+    const double fine_rad = 0.5 * (rising.azimuth_rad + falling.azimuth_rad);
+    const bool fine =
+        !coarse.lone_wave && coarse.directions == 1 && rising.lone_wave && falling.lone_wave &&
+        std::abs(std::sin(fine_rad) - std::sin(coarse.azimuth_rad)) < kOneCell * beam_sine();
+    return Found{best.up,    best.down,
+                 best.place, fine ? fine_rad : coarse.azimuth_rad,
+                 false,      !fine && !coarse.lone_wave && coarse.directions == 1};
+  };
+  if (up.size() == 1 && down.size() == 1) return {as_it_is()};
   const bool by_up = up.size() > 1;
   const std::vector<Beat>& others = by_up ? beats.down : beats.up;
   std::vector<Found> result;
@@ -108,9 +115,14 @@ std::vector<SampledRadar::Found> SampledRadar::apart(const signal::TriangleModel
       alone = true;
     }
     const std::size_t i = by_up ? one : other, j = by_up ? other : one;
+    // The tone of a target that is elsewhere and only shares this peak.
+    if (!alone && !(misfit(model, beats, i, j, best.coarse) < Pair{}.misfit)) continue;
+    if (std::abs(std::sin(azimuth) - std::sin(coarse.azimuth_rad)) > kOneCell * beam_sine())
+      continue;
     result.push_back(
         {i, j, solve(model, {beats.up[i].Hz, beats.down[j].Hz}), azimuth, !alone, false});
   }
+  if (result.empty()) result.push_back(as_it_is());
   return result;
 }
 
