@@ -179,8 +179,8 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   settings.unfold = options.unfold && slots > 1;
   const auto range_weights = signal::window_weights(settings.transform.range_window, samples);
   const auto doppler_weights = signal::window_weights(settings.transform.doppler_window, chirps);
-  settings.cfar =
-      cfar_of(options, {range_weights, samples, doppler_weights, chirps}, radar.array.channels());
+  settings.cfar = cfar_of(options, {range_weights, samples, doppler_weights, chirps},
+                          signal::independent_channels(radar.array));
   radar.clusters = clusters_of(options, radar.axes, range_weights, doppler_weights);
   radar.noise_cell_W = signal::noise_sample_W(radar.noise_figure, fs_Hz) *
                        signal::noise_gain(range_weights) * signal::noise_gain(doppler_weights);

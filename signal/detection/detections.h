@@ -12,7 +12,7 @@
 // The speed is unambiguous within +-wavelength / (4 repetition). With `unfold`, a time-division
 // array tells which of its folds it is (signal/transform/slot_compensation.h).
 // The detector is that of CfarSettings on the sum over channels; calibrate its design probability
-// with looks = channels (signal/detection/cfar_calibration.h).
+// with looks = independent_channels(array) (signal/detection/cfar_calibration.h).
 #pragma once
 
 #include <vector>

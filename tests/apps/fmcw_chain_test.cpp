@@ -190,3 +190,33 @@ TEST_CASE("An array at two heights measures elevation", "[fmcw]") {
   options.angle_method = signal::AngleMethod::music;
   CHECK_THROWS_AS(fmcw_radar(options, sensor), core::InputError);
 }
+
+TEST_CASE("False alarms are as many as asked for, in turn and at once, by every detector",
+          "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  for (const int slots : {1, 3})
+    for (const signal::CfarKind kind :
+         {signal::CfarKind::ordered_statistic, signal::CfarKind::cell_averaging,
+          signal::CfarKind::greatest_of, signal::CfarKind::smallest_of}) {
+      FmcwSettings options;
+      options.waveform = "chirp-sequence";
+      options.numbers[2] = 20.0;  // MHz
+      options.numbers[11] = 128.0;
+      options.numbers[12] = slots;
+      options.cfar = kind;
+      options.false_alarm_probability = 1e-4;
+      const FmcwRadar radar = fmcw_radar(options, sensor);
+      // Local maxima alone are detections: of exceedances, which come in neighbours, hardly fewer at this rate.
+      std::size_t found = 0;
+      constexpr int kFrames = 24;
+      for (int frame = 0; frame < kFrames; ++frame)
+        found +=
+            fmcw_frame(radar, sensor, {}, frame, options, {"detections"}).found->detections.size();
+      const double cells = kFrames * 128.0 * radar.detection.transform.kept_range_cells;
+      const double expected = cells * options.false_alarm_probability;
+      INFO(signal::name(kind) << ", " << slots << " slots: " << found << " for " << expected);
+      // Four standard deviations and a tenth of the calibration and the edges; two of five may be neighbours.
+      CHECK(static_cast<double>(found) < 1.1 * expected + 4.0 * std::sqrt(expected));
+      CHECK(static_cast<double>(found) > 0.6 * expected - 4.0 * std::sqrt(expected));
+    }
+}

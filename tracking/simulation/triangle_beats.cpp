@@ -66,13 +66,14 @@ double bins_apart(double a, double b, double count) {
   return std::abs(std::remainder(a - b, count));
 }
 
-void subtract(const signal::Tone& tone, signal::ToneRecords& records) {
+// `times` -1 takes it away.
+void add(const signal::Tone& tone, double times, signal::ToneRecords& records) {
   const std::size_t count = records.front().size();
   for (std::size_t n = 0; n < count; ++n) {
     const std::complex<double> phasor = std::polar(
         1.0, 2.0 * core::kPi * tone.bin * static_cast<double>(n) / static_cast<double>(count));
     for (std::size_t channel = 0; channel < records.size(); ++channel)
-      records[channel][n] -= tone.amplitudes[channel] * phasor;
+      records[channel][n] += times * tone.amplitudes[channel] * phasor;
   }
 }
 
@@ -92,7 +93,7 @@ std::vector<signal::Tone> tones_of(const signal::ToneRecords& records,
       for (std::size_t j = 0; j < tones.size(); ++j) {
         if (j == i || lost[i] || bins_apart(bins[i], bins[j], count) > kTouching) continue;
         if (rest.empty()) rest = records;
-        subtract(tones[j], rest);
+        add(tones[j], -1.0, rest);
       }
       if (rest.empty()) continue;
       signal::Tone tone = signal::refined_tone(rest, tones[i].bin, weights);
@@ -141,6 +142,8 @@ std::vector<Beat> beats_of(const signal::ToneRecords& records,
                            const std::vector<signal::Tone>& tones, const std::vector<Hint>& hints,
                            double bin_Hz, double noise_W) {
   const auto count = static_cast<double>(records.front().size());
+  signal::ToneRecords rest = records;  // without all tones
+  for (const signal::Tone& tone : tones) add(tone, -1.0, rest);
   std::vector<Beat> beats;
   const auto put = [&](const signal::Tone& tone, std::size_t peak) {
     const double bin = tone.bin - count * std::floor((tone.bin + 0.5 * count) / count);
@@ -150,10 +153,9 @@ std::vector<Beat> beats_of(const signal::ToneRecords& records,
   for (std::size_t i = 0; i < tones.size(); ++i) {
     std::optional<std::pair<signal::Tone, signal::Tone>> two;
     if (const Hint* hint = nearest_hint(hints, tones[i].bin, count)) {
-      signal::ToneRecords rest = records;
-      for (std::size_t j = 0; j < tones.size(); ++j)
-        if (j != i) subtract(tones[j], rest);
-      two = signal::two_tones(rest, tones[i].bin, hint->curvature_bins, noise_W);
+      signal::ToneRecords own = rest;
+      add(tones[i], 1.0, own);
+      two = signal::two_tones(own, tones[i].bin, hint->curvature_bins, noise_W);
     }
     if (two) {
       put(two->first, i);
