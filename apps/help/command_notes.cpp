@@ -105,6 +105,8 @@ Examples signals() {
        {{"fanbeam fmcw", "maps and detections of a street, to out/street-76ghz-fmcw"},
         {"fanbeam fmcw street-76ghz --frames 0:3 --products cube,detections --unfold",
          "three frames: range, speed and azimuth, and what is in them"},
+        {"fanbeam fmcw street-76ghz --range-window hann --cfar ca --angle-method music",
+         "another window, detector and method of direction"},
         {"fanbeam fmcw braunschweig-26 --products bscope",
          "an aircraft's picture from beat signals"}}},
       {"waveform",
@@ -114,7 +116,10 @@ Examples signals() {
       {"track",
        {{"fanbeam track highway.json --plots", "tracks and errors of every scenario in the file"},
         {"fanbeam track highway.json --scenario crossing --association joint --seed 3",
-         "one of them, with another association and another draw"}}},
+         "one of them, with another association and another draw"},
+        {"fanbeam track street-76ghz --frames 0:40 --plots",
+         "a scene: signals, detections, tracks"},
+        {"fanbeam track recorded.npy --radar radar.toml", "samples of a radar of your own"}}},
   };
 }
 
@@ -166,7 +171,8 @@ const std::map<std::string_view, ExitCode>& own_exit_codes() {
       {"regress", {"1", "pictures differ or are not approved", ""}},
       {"regress run", {"1", "pictures differ or are not approved", ""}},
       {"render", {"130 or 143", "stopped by Ctrl-C or kill", "whole files only are left"}},
-      {"campaign verify", {"1", "runs are missing or damaged", "the command that makes them again is printed"}},
+      {"campaign verify",
+       {"1", "runs are missing or damaged", "the command that makes them again is printed"}},
       {"campaign run", {"130 or 143", "stopped by Ctrl-C or kill", "whole runs only are left"}},
       {"fmcw", {"130 or 143", "stopped by Ctrl-C or kill", "whole files only are left"}},
       {"", {"1", "comparison failed", "pictures differ by more than is allowed"}},
