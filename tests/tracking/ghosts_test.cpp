@@ -67,8 +67,9 @@ TEST_CASE("Six targets: a sorted triangle misses two in three, two stages one in
   CHECK(stages.ghosts_per_frame <= 0.02);
 }
 
-TEST_CASE("A coded stretch keeps targets of different speeds, and merges those of one speed",
-          "[highway]") {
+TEST_CASE(
+    "A coded stretch keeps targets of different speeds, and of one speed by the triangle's beats",
+    "[highway]") {
   SimulationSettings settings;
   settings.scheme = Scheme::coded;
   const auto seen = [&](double other_mps) {
@@ -79,5 +80,10 @@ TEST_CASE("A coded stretch keeps targets of different speeds, and merges those o
   REQUIRE(apart.size() == 2);
   CHECK(apart[0].range_m == Approx(40.0).epsilon(0.0).margin(0.01));
   CHECK(apart[1].range_m == Approx(90.0).epsilon(0.0).margin(0.01));
-  CHECK(seen(-10.2).size() == 1);
+  // In one cell of speed, where the stretch tells a range between them: neither that nor crossed pairs.
+  const auto together = seen(-10.2);
+  REQUIRE(together.size() == 2);
+  CHECK(together[0].range_m + together[1].range_m == Approx(130.0).epsilon(0.0).margin(0.02));
+  CHECK(std::abs(together[0].range_m - together[1].range_m) ==
+        Approx(50.0).epsilon(0.0).margin(0.02));
 }

@@ -66,6 +66,29 @@ signal::RangeSpeed coarse_sigma(const Seen& target, const core::HighwayRadar& ra
       0.5 * wavelength_m * std::sqrt(6.0 / ratio) / (2.0 * core::kPi * radar.waveforms.flat_s)};
 }
 
+// A flat stretch has no cells of range: of targets that share its speed it tells a range between them. What
+// is left are the pairs of beats with that speed; crossed pairs have another by 1 m/s for every 0.6 m.
+std::vector<RadarMeasurement> pairs_of_speed(const signal::TriangleModel& fine,
+                                             const RampPeaks& peaks, const Seen& coarse,
+                                             double most_apart_mps, const core::HighwayRadar& radar,
+                                             const SimulationSettings& settings) {
+  const signal::PairingLimits limits{0.0, 1.1 * radar.most_range_m, settings.most_speed_mps};
+  std::vector<RadarMeasurement> result;
+  for (const signal::RangeSpeed& place :
+       signal::pair_all(fine, peaks.up.Hz, peaks.down.Hz, limits)) {
+    if (std::abs(place.radial_speed_mps - coarse.rate_mps) > most_apart_mps) continue;
+    const PairOfPeaks pair = peaks_at(fine, peaks, place);
+    const double up_rad = peaks.up.azimuth_rad[pair.up];
+    const double down_rad = peaks.down.azimuth_rad[pair.down];
+    RadarMeasurement one = with_sigmas(place, 0.5 * (up_rad + down_rad), coarse.bound);
+    state_spread(fine, peaks, pair, one);
+    one.azimuth_systematic_rad =
+        0.5 * std::hypot(peaks.up.spread_rad[pair.up], peaks.down.spread_rad[pair.down]);
+    result.push_back(one);
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<RadarMeasurement> coarse_to_fine(
@@ -85,15 +108,17 @@ std::vector<RadarMeasurement> coarse_to_fine(
         std::max(sigma.radial_speed_mps, settings.coarse_speed_sigma_mps);
     const std::optional<signal::RangeSpeed> refined =
         signal::refine_two_stage({place}, {fine, peaks.up.Hz, peaks.down.Hz}, options).front();
-    if (!refined && settings.scheme == Scheme::two_stage) continue;
-    RadarMeasurement measured =
-        with_sigmas(refined.value_or(place), coarse[i].azimuth_rad, coarse[i].bound);
-    if (refined) {
-      state_spread(fine, peaks, peaks_at(fine, peaks, *refined), measured);
-    } else {
-      measured.range_sigma_m = options.coarse_range_sigma_m;
-      measured.range_rate_sigma_mps = options.coarse_speed_sigma_mps;
+    if (settings.scheme == Scheme::coded && (!refined || coarse[i].merged)) {
+      const double cell_mps =
+          0.5 * core::kSpeedOfLight_mps / radar.centre_frequency_Hz / radar.waveforms.flat_s;
+      const auto found =
+          pairs_of_speed(fine, peaks, coarse[i], settings.merge_bins * cell_mps, radar, settings);
+      result.insert(result.end(), found.begin(), found.end());
+      continue;
     }
+    if (!refined) continue;
+    RadarMeasurement measured = with_sigmas(*refined, coarse[i].azimuth_rad, coarse[i].bound);
+    state_spread(fine, peaks, peaks_at(fine, peaks, *refined), measured);
     // Two directions, evenly up to a beam apart, as for merged beats.
     if (coarse[i].merged) measured.azimuth_systematic_rad = beam_rad(radar) / std::sqrt(12.0);
     result.push_back(measured);

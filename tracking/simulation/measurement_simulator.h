@@ -12,8 +12,8 @@
 //              become one, weighted with power; one that no pair of beats fits is dropped
 //   coarse     (coded) speed from a flat stretch (2 ms), range from the phase between its two
 //              tones (700 kHz apart), both with the errors of their bounds, c / (4 pi df) sqrt(2 / e)
-//              in range; targets that share the cell of speed and the beam become one; one that no
-//              pair fits stays as it is
+//              in range; targets that share the cell of speed and the beam become one. Of such
+//              ones, and of one that no pair fits, all pairs of beats within 1.2 cells of its speed
 // Schemes: one triangle with all pairs, or with pairs in the order of range, two slopes, two
 // stages, and a coded stretch between the ramps of one triangle, both refined as of
 // signal/pairing/ghost_free.h. The azimuth of a pair is the mean of those of its two beats, and
