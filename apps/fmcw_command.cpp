@@ -159,10 +159,10 @@ class Run {
   }
 
   void write_interference(int index, const session::FmcwPaths& paths,
-                          const std::vector<signal::Interferer>& interferers,
-                          const session::SignalBudget& budget, std::set<std::string>& files) const {
-    const auto cases = session::interference_study(radar_, scene_.description.sensor, paths,
-                                                   interferers, index, options_, budget);
+                          const session::FmcwFrame& frame, const session::SignalBudget& budget,
+                          std::set<std::string>& files) const {
+    const auto cases = session::interference_study(radar_, scene_.description.sensor, paths, frame,
+                                                   index, options_, budget);
     const std::string name = fmt::format("{}/{:05}", kInterference, index);
     core::write_file_atomically(output_.path() / (name + ".csv"), session::interference_csv(cases));
     const std::string title =
@@ -186,11 +186,10 @@ class Run {
     Clock::time_point begin = Clock::now();
     const session::FmcwPaths paths = session::fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
-    const std::vector<signal::Interferer> interferers =
-        session::interferers_of(scene_, index, paths);
     const session::SignalBudget budget{scene_.plan, scene_.accuracy_grey, scene_.options.wishes};
-    const session::FmcwFrame frame = fmcw_frame(radar_, scene_.description.sensor, paths.paths,
-                                                index, options_, products_, budget, interferers);
+    const session::FmcwFrame frame =
+        fmcw_frame(radar_, scene_.description.sensor, paths.paths, index, options_, products_,
+                   budget, paths.interferers);
     const double signal_ms = ms_since(begin);
     session::FmcwFrameRecord record = session::fmcw_record(scene_, index, paths, frame);
     record.files = session::write_fmcw_products(
@@ -198,7 +197,7 @@ class Run {
         {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
     if (spectrogram_) spectrogram_->add(record.time_s, frame, ranges_of(paths));
     if (products_.contains(kInterference))
-      write_interference(index, paths, interferers, budget, record.files);
+      write_interference(index, paths, frame, budget, record.files);
     record.echoes_ms = echoes_ms;
     record.signal_ms = signal_ms;
     record.writing_ms = ms_since(begin);

@@ -13,7 +13,6 @@
 #include "core/decibel.h"
 #include "core/files.h"
 #include "core/text.h"
-#include "core/units.h"
 #include "scenes/highway_reader.h"
 #include "session/version.h"
 #include "tracking/simulation/sampled_frame.h"
@@ -235,31 +234,8 @@ core::HighwayRadar radar_of(const TrackOptions& options, core::HighwayRadar rada
 
 }  // namespace
 
-namespace {
-
-OwnDataOptions own_data_of(const TrackOptions& options) {
-  OwnDataOptions own;
-  own.input = options.file;
-  own.output = options.output;
-  own.radar_file = options.radar_file;
-  own.sensor = options.sensor;
-  own.data = options.data;
-  own.frames = options.frames;
-  own.radar_speed_mps = options.radar_speed_mps;
-  own.frame_period_s = options.frame_period_s;
-  own.errors = {options.errors[0], options.errors[1], core::radians(options.errors[2])};
-  own.acceleration_mps2 = options.acceleration_mps2;
-  own.coast_s = options.coast_s;
-  own.joint = options.association == "joint";
-  own.plots = options.plots;
-  own.seed = options.seed;
-  return own;
-}
-
-}  // namespace
-
 int track(const TrackOptions& options, const CommonOptions& common) {
-  if (!is_road_scenario(options.file)) return track_own_data(own_data_of(options), common);
+  if (!is_road_scenario(options.file)) return track_own_data(options, common);
   const scenes::HighwayFile file = scenes::read_highway_file(options.file);
   std::vector<const core::HighwayScenario*> chosen;
   std::string known;

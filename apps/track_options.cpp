@@ -116,11 +116,10 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
       "against the truth) and measurements.csv for each scenario, run.json with the metrics and "
       "timing.json; with --study instead study.md and its plots. Prints where each track ended, "
       "where its target is, and how likely the track is still on the target it began with. "
-      "Of a scene, its point targets are the truth: run.json and the summary tell in how many "
-      "frames "
-      "each was followed within 4 m and 2 m/s. --waveform, --samples, --study and what else "
-      "concerns "
-      "the simulated radar belong to highway scenarios alone. "
+      "Of a scene, its point targets are the truth: run.json and the summary tell how often each "
+      "was "
+      "followed within 4 m and 2 m/s. --waveform, --samples, --study and what else concerns the "
+      "simulated radar belong to highway scenarios alone. "
       "Places are relative to the radar, x forward and y right; azimuths positive right, speeds "
       "positive receding.");
   add_common_options(command, common);

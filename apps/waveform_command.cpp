@@ -115,11 +115,9 @@ int waveform(const WaveformOptions& options, const CommonOptions& common) {
     const signal::Waveform made = session::chosen_waveform(options);
     const std::optional<Target> target = target_of(options, made);
     if (!options.mixer.empty())
-      session::write_mixer(
-          options.mixer, signal::mixer_trace(made, target->path),
-          fmt::format("{}: echo at {:.6g} m, {:.6g} m/s; carrier shown at {:.6g} MHz",
-                      signal::name(made.kind), target->path.range_m, target->path.radial_speed_mps,
-                      1.5e-6 * made.bandwidth_Hz));
+      session::write_mixer(options.mixer, signal::mixer_trace(made, target->path),
+                           fmt::format("{}: echo at {:.6g} m, {:.6g} m/s", signal::name(made.kind),
+                                       target->path.range_m, target->path.radial_speed_mps));
     if (options.json) {
       fmt::print("{}\n", json_of(made, target).dump(2));
     } else {

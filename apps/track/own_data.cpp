@@ -24,14 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-tracking::TrackerSettings tracker_of(const OwnDataOptions& options, const OwnSource& source) {
+tracking::TrackerSettings tracker_of(const TrackOptions& options, const OwnSource& source) {
   core::HighwayRadar radar;
   radar.frame_s = source.frame_s;
   radar.most_range_m = source.most_range_m;
   radar.most_azimuth_rad = core::kPi;
   tracking::TrackerSettings settings = tracking::road_tracker(
       radar, source.radar_speed_mps, options.acceleration_mps2, options.coast_s);
-  if (options.joint) settings.association = tracking::Association::joint;
+  if (options.association == "joint") settings.association = tracking::Association::joint;
   if (source.resolution) settings.resolution = *source.resolution;
   return settings;
 }
@@ -44,8 +44,9 @@ struct Seen {
   int frames = 0, moving = 0;
 };
 
+// Of every scatterer of a name, in every frame.
 struct Followed {
-  int frames = 0, followed = 0;
+  int seen = 0, followed = 0;
 };
 
 struct Outcome {
@@ -83,7 +84,7 @@ void add(const OwnFrame& frame, const tracking::Tracker& tracker, double radar_s
   }
   for (const OwnTarget& target : frame.targets) {
     Followed& one = outcome.targets[target.name];
-    ++one.frames;
+    ++one.seen;
     one.followed += std::any_of(tracker.tracks().begin(), tracker.tracks().end(),
                                 [&](const auto& track) { return follows(track, target); })
                         ? 1
@@ -95,7 +96,7 @@ void add(const OwnFrame& frame, const tracking::Tracker& tracker, double radar_s
   outcome.history.add(frame, tracker, radar_speed_mps);
 }
 
-Outcome run(const OwnDataOptions& options, OwnSource& source, bool quiet) {
+Outcome run(const TrackOptions& options, OwnSource& source, bool quiet) {
   using Clock = std::chrono::steady_clock;
   const auto seconds = [](Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
@@ -122,10 +123,10 @@ std::size_t moving(const Outcome& outcome) {
       [](const auto& track) { return 2 * track.second.moving > track.second.frames; }));
 }
 
-Json json_of(const OwnDataOptions& options, const OwnSource& source, const Outcome& outcome) {
+Json json_of(const TrackOptions& options, const OwnSource& source, const Outcome& outcome) {
   Json targets = Json::array();
   for (const auto& [name, one] : outcome.targets)
-    targets.push_back({{"name", name}, {"frames", one.frames}, {"followed", one.followed}});
+    targets.push_back({{"name", name}, {"seen", one.seen}, {"followed", one.followed}});
   Json json = {{"version", session::version_text()},
                {"commit", session::commit_text()},
                {"input", source.name},
@@ -133,13 +134,13 @@ Json json_of(const OwnDataOptions& options, const OwnSource& source, const Outco
                {"seed", options.seed},
                {"radar_speed_mps", source.radar_speed_mps},
                {"frame_s", source.frame_s},
-               {"association", options.joint ? "joint" : "nearest"},
+               {"association", options.association},
                {"acceleration_mps2", options.acceleration_mps2},
                {"coast_s", options.coast_s},
                {"errors",
-                {{"range_m", options.errors.range_m},
-                 {"range_rate_mps", options.errors.range_rate_mps},
-                 {"azimuth_rad", options.errors.azimuth_rad}}},
+                {{"range_m", options.errors[0]},
+                 {"range_rate_mps", options.errors[1]},
+                 {"azimuth_deg", options.errors[2]}}},
                {"frames", outcome.frames},
                {"detections", outcome.detections},
                {"measurements", outcome.measured},
@@ -161,12 +162,13 @@ void print(const OwnSource& source, const Outcome& outcome) {
   fmt::print("{} tracks confirmed, {} of them of something that moves\n", outcome.confirmed.size(),
              moving(outcome));
   for (const auto& [name, one] : outcome.targets)
-    fmt::print("     {:<32} followed in {:>3} of {} frames\n", name, one.followed, one.frames);
+    fmt::print("     {:<32} followed {:>3} of {} times that it is seen\n", name, one.followed,
+               one.seen);
 }
 
 }  // namespace
 
-int track_own_data(const OwnDataOptions& options, const CommonOptions& common) {
+int track_own_data(const TrackOptions& options, const CommonOptions& common) {
   const std::unique_ptr<OwnSource> source = own_source(options);
   const fs::path folder = options.output.empty() ? fs::path("out") / (source->name + "-tracks")
                                                  : fs::path(options.output);

@@ -12,29 +12,17 @@
 #include <vector>
 
 #include "apps/common.h"
+#include "apps/track_command.h"
 #include "session/signal/fmcw_settings.h"
 #include "session/signal/measurements.h"
 #include "tracking/tracker/tracker.h"
 
 namespace fanbeam::apps {
 
-struct OwnDataOptions {
-  std::string input;  // as of TrackOptions::file
-  std::string output;
-  std::string radar_file, sensor, data;
-  std::string frames;                       // of a scene; empty: all
-  std::optional<double> radar_speed_mps{};  // missing: the scene's, else 0
-  double frame_period_s = 0.05;             // of samples
-  session::BodyErrors errors{};
-  double acceleration_mps2 = 0.5, coast_s = 1.0;
-  bool joint = false, plots = false;
-  std::uint64_t seed = 0;
-};
-
 // Whether `input` is a road scenario: a JSON file that has scenarios.
 bool is_road_scenario(const std::string& input);
 
-int track_own_data(const OwnDataOptions& options, const CommonOptions& common);
+int track_own_data(const TrackOptions& options, const CommonOptions& common);
 
 // What is measured frame after frame, from one of the sources.
 struct OwnTarget {
@@ -60,6 +48,6 @@ class OwnSource {
 };
 
 // Throws InputError for whatever is wrong with the input.
-std::unique_ptr<OwnSource> own_source(const OwnDataOptions& options);
+std::unique_ptr<OwnSource> own_source(const TrackOptions& options);
 
 }  // namespace fanbeam::apps

@@ -10,13 +10,13 @@
 #include "core/files.h"
 #include "core/json_node.h"
 #include "core/text.h"
+#include "core/units.h"
 #include "scenes/scene.h"
 #include "session/frame_choice.h"
 #include "session/records/output_folder.h"
 #include "session/session.h"
 #include "session/signal/chain.h"
 #include "session/signal/detection_file.h"
-#include "session/signal/interferers.h"
 #include "session/signal/paths.h"
 #include "session/signal/radar_file.h"
 #include "session/signal/sample_file.h"
@@ -32,11 +32,15 @@ session::DetectedFrame detected(const session::FmcwFrame& frame, double time_s) 
   return {time_s, frame.found->detections, frame.found->clusters};
 }
 
+session::BodyErrors errors_of(const TrackOptions& options) {
+  return {options.errors[0], options.errors[1], core::radians(options.errors[2])};
+}
+
 class SceneSource : public OwnSource {
  public:
-  explicit SceneSource(const OwnDataOptions& options) : errors_(options.errors) {
+  explicit SceneSource(const TrackOptions& options) : errors_(errors_of(options)) {
     SceneChoice choice;
-    choice.scene = options.input;
+    choice.scene = options.file;
     choice.sensor = options.sensor;
     choice.data = options.data;
     core::ProblemList problems;
@@ -69,8 +73,7 @@ class SceneSource : public OwnSource {
     const session::FmcwPaths paths = session::fmcw_paths(*scene_, index, settings_);
     const session::FmcwFrame found = session::fmcw_frame(
         radar_, scene_->description.sensor, paths.paths, index, settings_, kDetections,
-        {scene_->plan, scene_->accuracy_grey, scene_->options.wishes},
-        session::interferers_of(*scene_, index, paths));
+        {scene_->plan, scene_->accuracy_grey, scene_->options.wishes}, paths.interferers);
     const session::DetectedFrame made = detected(found, time_of(index));
     OwnFrame frame{
         made.time_s, made.detections.size(), session::measurements_of(made, &radar_, errors_), {}};
@@ -96,15 +99,15 @@ class SceneSource : public OwnSource {
 
 class DetectionSource : public OwnSource {
  public:
-  DetectionSource(const OwnDataOptions& options, std::optional<session::FmcwRadar> radar)
-      : errors_(options.errors), radar_(std::move(radar)) {
+  DetectionSource(const TrackOptions& options, std::optional<session::FmcwRadar> radar)
+      : errors_(errors_of(options)), radar_(std::move(radar)) {
     core::ProblemList problems;
-    frames_ = session::read_detections(options.input, problems);
+    frames_ = session::read_detections(options.file, problems);
     problems.throw_if_errors();
     if (frames_.empty())
-      core::throw_input_error(core::ErrorClass::range, core::Place{options.input}, "detections",
+      core::throw_input_error(core::ErrorClass::range, core::Place{options.file}, "detections",
                               "none", "at least one frame");
-    name = core::safe_word(fs::absolute(options.input).lexically_normal().stem().string());
+    name = core::safe_word(fs::absolute(options.file).lexically_normal().stem().string());
     kind = "detections";
     radar_speed_mps = options.radar_speed_mps.value_or(0.0);
     std::vector<double> steps_s;
@@ -137,13 +140,13 @@ class DetectionSource : public OwnSource {
 
 class SampleSource : public OwnSource {
  public:
-  SampleSource(const OwnDataOptions& options, const std::vector<fs::path>& files,
+  SampleSource(const TrackOptions& options, const std::vector<fs::path>& files,
                session::FmcwSettings settings)
-      : errors_(options.errors),
+      : errors_(errors_of(options)),
         settings_(std::move(settings)),
         radar_(session::fmcw_radar(settings_)),
         files_(files, radar_, settings_.layout) {
-    name = core::safe_word(fs::absolute(options.input).lexically_normal().stem().string());
+    name = core::safe_word(fs::absolute(options.file).lexically_normal().stem().string());
     kind = "samples";
     radar_speed_mps = options.radar_speed_mps.value_or(0.0);
     frame_s = options.frame_period_s;
@@ -191,10 +194,10 @@ session::FmcwSettings settings_in(const fs::path& file) {
 }
 
 // --radar, or what the folder that fmcw wrote says.
-std::optional<fs::path> radar_file_of(const OwnDataOptions& options) {
+std::optional<fs::path> radar_file_of(const TrackOptions& options) {
   if (!options.radar_file.empty()) return options.radar_file;
   std::error_code status;
-  const fs::path beside = fs::path(options.input) / session::kRadarFile;
+  const fs::path beside = fs::path(options.file) / session::kRadarFile;
   if (fs::is_regular_file(beside, status)) return beside;
   return std::nullopt;
 }
@@ -214,8 +217,8 @@ bool is_road_scenario(const std::string& input) {
          !(root.member("detections").present() || root.member("frames").present());
 }
 
-std::unique_ptr<OwnSource> own_source(const OwnDataOptions& options) {
-  const fs::path input = options.input;
+std::unique_ptr<OwnSource> own_source(const TrackOptions& options) {
+  const fs::path input = options.file;
   std::error_code status;
   const bool is_folder = fs::is_directory(input, status);
   const bool is_scene = is_folder ? fs::is_regular_file(input / "scene.toml", status)

@@ -118,7 +118,8 @@ const std::vector<Effect>& sample_effects() {
        "k T0 F fs, IEEE Std 686 noise figure", always, receiver_noise_dB, receiver_noise_cause, ""},
       {core::EffectId::phase_noise, "phase noise of the oscillator", "Budge and Burt 1993",
        has_phase_noise, phase_noise_bound_dB, phase_noise_cause,
-       "no line width of the oscillator was given (--line-width), or nothing echoes"},
+       "no line width or table of phase noise was given (--line-width, --radar), or nothing "
+       "echoes"},
       {core::EffectId::quantiser, "rounding of the samples", "Widrow and Kollar 2008",
        has_quantiser, quantiser_bound_dB, quantiser_cause,
        "no number of bits was given (--adc-bits)"},

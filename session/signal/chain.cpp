@@ -41,12 +41,12 @@ signal::FloatCube synthesise(const FmcwRadar& radar, int stage,
     signal::KeystoneBeat beat = signal::keystone_beat(waveform, stage, radar.array, paths);
     if (stage == 0) {
       frame.keystone = true;
-      frame.synthesis_error = beat.estimated_error;
+      frame.synthesis_error = std::max(frame.synthesis_error, beat.estimated_error);
     }
     return std::move(beat.cube);
   }
   const signal::SynthesisOptions fine;
-  if (stage == 0) frame.synthesis_error = fine.relative_error;
+  if (stage == 0) frame.synthesis_error = std::max(frame.synthesis_error, fine.relative_error);
   return signal::synthesise_beat(waveform, stage, radar.array, paths, fine);
 }
 
@@ -117,6 +117,10 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                                       static_cast<std::uint64_t>(radar.waveform.stages()) +
                                   static_cast<std::uint64_t>(stage)};
     if (plan.runs(core::EffectId::phase_noise)) {
+      if (stage == 0) {  // made anew, echoes of one delay at a time
+        frame.keystone = false;
+        frame.synthesis_error = 0.0;
+      }
       beat = with_phase_noise(receiver, key, delays, [&](const std::vector<std::size_t>& members) {
         std::vector<signal::ScatterPath> some;
         for (const std::size_t i : members) some.push_back(paths[i]);

@@ -11,9 +11,9 @@
 namespace fanbeam::session {
 namespace {
 
-const core::Echo* echo_of(const scenes::Scene& scene, const FmcwPaths& paths,
+const core::Echo* echo_of(const scenes::Scene& scene, const std::vector<core::Echo>& targets,
                           const std::string& target) {
-  for (const core::Echo& echo : paths.targets)
+  for (const core::Echo& echo : targets)
     if (scene.world.targets[echo.object_id].name == target) return &echo;
   return nullptr;
 }
@@ -40,13 +40,13 @@ std::size_t count_near(const std::vector<signal::RadarDetection>& of,
 }  // namespace
 
 std::vector<signal::Interferer> interferers_of(const scenes::Scene& scene, int frame,
-                                               const FmcwPaths& paths) {
+                                               const std::vector<core::Echo>& targets) {
   const sensors::Sensor& sensor = scene.world.sensor;
   const double time_s =
       scene.trajectory->frame_time_s(frame, scene.description.sensor.scan.frame_rate_Hz);
   std::vector<signal::Interferer> result;
   for (const scenes::InterfererDescription& other : scene.description.interferers) {
-    const core::Echo* echo = echo_of(scene, paths, other.target);
+    const core::Echo* echo = echo_of(scene, targets, other.target);
     if (echo == nullptr) continue;
     signal::Interferer one;
     const double half_Hz = (other.falling ? -0.5 : 0.5) * other.bandwidth_Hz;
@@ -73,14 +73,13 @@ std::vector<signal::Interferer> interferers_of(const scenes::Scene& scene, int f
 
 std::vector<InterferenceCase> interference_study(const FmcwRadar& radar,
                                                  const sensors::Sensor& sensor,
-                                                 const FmcwPaths& paths,
-                                                 const std::vector<signal::Interferer>& interferers,
-                                                 int frame, const FmcwSettings& options,
+                                                 const FmcwPaths& paths, FmcwFrame heard, int frame,
+                                                 const FmcwSettings& options,
                                                  const SignalBudget& budget) {
   const std::set<std::string> products = {"range-doppler", "detections"};
   std::vector<InterferenceCase> cases;
   std::vector<signal::RadarDetection> clean;
-  const auto add = [&](const char* name, const FmcwFrame& found) {
+  const auto add = [&](const std::string& name, const FmcwFrame& found) {
     InterferenceCase one;
     one.name = name;
     const signal::PowerMap& map = found.range_doppler;
@@ -100,14 +99,12 @@ std::vector<InterferenceCase> interference_study(const FmcwRadar& radar,
   FmcwSettings settings = options;
   settings.mitigation = signal::Mitigation::none;
   add("clean", fmcw_frame(radar, sensor, paths.paths, frame, settings, products, budget));
-  FmcwFrame heard =
-      fmcw_frame(radar, sensor, paths.paths, frame, settings, products, budget, interferers);
-  add("none", heard);
   for (const signal::Mitigation each :
-       {signal::Mitigation::zero, signal::Mitigation::interpolate}) {
+       {signal::Mitigation::none, signal::Mitigation::zero, signal::Mitigation::interpolate}) {
     settings.mitigation = each;
+    heard.mended = 0;
     process_samples(radar, settings, products, heard);
-    add(signal::name(each).data(), heard);
+    add(std::string(signal::name(each)), heard);
   }
   return cases;
 }

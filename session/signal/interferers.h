@@ -10,10 +10,10 @@
 
 namespace fanbeam::session {
 
-// One for every [[interferer]] whose target the frame sees: a target that is hidden or out of the
+// One for every [[interferer]] whose target is among these echoes, those that the frame sees: a target that is hidden or out of the
 // field of view hides its radar too. Power by Friis with the sensor's one-way pattern and loss.
 std::vector<signal::Interferer> interferers_of(const scenes::Scene& scene, int frame,
-                                               const FmcwPaths& paths);
+                                               const std::vector<core::Echo>& targets);
 
 // The frame without interferers, with them, and with each mitigation.
 struct InterferenceCase {
@@ -25,11 +25,11 @@ struct InterferenceCase {
   std::size_t false_ones = 0;     // near none of them
   std::vector<double> profile_W;  // mean over speeds, of every range cell
 };
+// `heard`: that frame as fmcw_frame made it with them, whose samples nothing has mended.
 std::vector<InterferenceCase> interference_study(const FmcwRadar& radar,
                                                  const sensors::Sensor& sensor,
-                                                 const FmcwPaths& paths,
-                                                 const std::vector<signal::Interferer>& interferers,
-                                                 int frame, const FmcwSettings& options,
+                                                 const FmcwPaths& paths, FmcwFrame heard, int frame,
+                                                 const FmcwSettings& options,
                                                  const SignalBudget& budget);
 
 std::string interference_csv(const std::vector<InterferenceCase>& cases);

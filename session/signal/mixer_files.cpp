@@ -34,9 +34,11 @@ std::string script(const signal::MixerTrace& trace, const std::string& title,
           data("heard", trace.received, rows, step_us) +
           data("product", trace.product, rows, step_us) +
           data("beat", trace.beat, kMostRows, 1e6 * trace.sample_s);
-  text += "set multiplot layout 3,1 title " + gnuplot_text(title) +
-          "\nset grid\nset yrange [-1.15:1.15]\nset key outside right\nset lmargin 9\nset rmargin "
-          "20\nset samples 2000\n";
+  text +=
+      "set multiplot layout 3,1 title " +
+      gnuplot_text(fmt::format("{}; carrier shown at {:.6g} MHz", title, 1e-6 * trace.carrier_Hz)) +
+      "\nset grid\nset yrange [-1.15:1.15]\nset key outside right\nset lmargin 9\nset rmargin "
+      "20\nset samples 2000\n";
   text += fmt::format("set xrange [0:{:.6g}]\nset ylabel 'signals'\n",
                       static_cast<double>(rows) * step_us);
   text +=

@@ -7,6 +7,7 @@
 #include "core/effect_plan.h"
 #include "renderer/stages/frame_echoes.h"
 #include "sensors/antenna/beam_pattern.h"
+#include "session/signal/interferers.h"
 
 namespace fanbeam::session {
 namespace {
@@ -57,6 +58,7 @@ FmcwPaths fmcw_paths(const scenes::Scene& scene, int frame, const FmcwSettings& 
                             echo.elevation_rad,
                             std::polar(gain * std::sqrt(echo.power_W), all.phase_rad[i])});
   }
+  result.interferers = interferers_of(scene, frame, result.targets);
   return result;
 }
 

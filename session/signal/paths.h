@@ -8,6 +8,7 @@
 #include "scenes/scene.h"
 #include "session/signal/fmcw_settings.h"
 #include "signal/scatter_path.h"
+#include "signal/synthesis/interference.h"
 
 namespace fanbeam::session {
 
@@ -15,6 +16,7 @@ struct FmcwPaths {
   std::uint64_t rays = 0;
   std::vector<core::Echo> targets;  // the echoes of point targets among the paths
   std::vector<signal::ScatterPath> paths;
+  std::vector<signal::Interferer> interferers;  // that the frame hears (interferers.h)
 };
 
 // One-way power of an array's element towards an azimuth, relative to its peak: the sensor's

@@ -54,7 +54,7 @@ struct Front {
   std::optional<double> most_range_m;  // missing: as far as the samples reach
 };
 
-double least_most_range_m(const FmcwSettings& options, const Front& front) {
+double wanted_range_m(const FmcwSettings& options, const Front& front) {
   return options.most_range_m.value_or(front.most_range_m.value_or(0.0));
 }
 
@@ -86,8 +86,7 @@ signal::Waveform waveform_of(const FmcwSettings& options, const std::string& nam
     suggest("--sample-rate", 20e6, wanted);
   } else if (is_sequence(kind)) {
     suggest("--sample-rate",
-            reaching_rate_Hz(wanted, front.bandwidth_Hz, least_most_range_m(options, front)),
-            wanted);
+            reaching_rate_Hz(wanted, front.bandwidth_Hz, wanted_range_m(options, front)), wanted);
   }
   return chosen_waveform(wanted);
 }
@@ -166,7 +165,7 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   signal::DetectionSettings& settings = radar.detection;
   // Real samples hold every range twice.
   const int whole = options.real ? samples / 2 : samples;
-  const double most_range_m = least_most_range_m(options, front);
+  const double most_range_m = wanted_range_m(options, front);
   settings.transform.kept_range_cells =
       most_range_m > 0.0
           ? std::clamp(static_cast<int>(std::ceil(most_range_m / radar.axes.range_step_m)), 2,

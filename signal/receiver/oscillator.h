@@ -50,7 +50,7 @@ void apply_oscillator(const PhaseNoiseTable& table, double delay_s, double sampl
                       const core::RandomKey& key, FloatCube& cube);
 
 // Echoes that may share a delay. Up to 32 echoes keep their own; more are gathered where delays lie
-// within a 32nd of the logarithm of their span: 0.18 of the delay, 0.8 dB of the residue, for delays up
+// within a 32nd of the logarithm of their span: 9 % of the delay and 0.8 dB of the residue, for delays up
 // to 300 times the shortest.
 struct DelayGroup {
   double delay_s = 0.0;

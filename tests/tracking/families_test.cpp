@@ -173,7 +173,7 @@ TEST_CASE("A coded stretch follows six cars of like speeds", "[tracker][statisti
   CHECK(false_tracks / scans <= 0.25);
 }
 
-// A hundred runs each take minutes: side by side MOTA 0.990 and overtaking 0.995, no switch, by 30 and 16 of
+// A hundred runs each take minutes: side by side MOTA 0.990 and overtaking 0.995, no switch, by 40 and 20 of
 // them (0.941 and 0.65 before two tones were sought in a peak and directions taken from the triangle).
 TEST_CASE("From samples, cars side by side and overtaking keep their names",
           "[sampled][statistics]") {

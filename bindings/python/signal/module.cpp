@@ -147,7 +147,7 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
     made->paths = session::fmcw_paths(*now, index, settings);
     made->frame =
         session::fmcw_frame(made->radar, sensor, made->paths.paths, index, settings, products,
-                            {now->plan, now->accuracy_grey, now->options.wishes});
+                            {now->plan, now->accuracy_grey, now->options.wishes}, made->paths.interferers);
   });
   const py::object owner = owner_of(made);
   py::list beats;
