@@ -105,6 +105,34 @@ core::HighwayScenario stop_and_go(int run) {
   return scene(10.0, 3.0, {jam, overtaker});
 }
 
+// By 3.7 m within 2.4 to 4 s, behind another car.
+core::HighwayScenario lane_change(int run) {
+  const double from_s = uniform(run, 1, 0.5, 1.5), half_s = uniform(run, 2, 1.2, 2.0);
+  const double across_mps2 = 3.7 / (half_s * half_s);
+  core::HighwayTarget target =
+      car("A", uniform(run, 3, 30.0, 80.0), 0.0, kRoadSpeed_mps + uniform(run, 4, -3.0, 3.0));
+  target.accelerations = {{from_s, from_s + half_s, {0.0, across_mps2}},
+                          {from_s + half_s, from_s + 2.0 * half_s, {0.0, -across_mps2}}};
+  const core::HighwayTarget ahead =
+      car("B", target.position_m[0] + uniform(run, 5, 10.0, 30.0), 0.0, kRoadSpeed_mps + 1.0);
+  return scene(7.0, kRoadSpeed_mps, {target, ahead});
+}
+
+// As the tracker expects: 0.5 m/s2 along and across, another one in each scan.
+core::HighwayScenario wandering(int run) {
+  std::vector<core::HighwayTarget> cars = {
+      car("A", uniform(run, 1, 30.0, 60.0), -3.7, kRoadSpeed_mps + uniform(run, 2, -2.0, 2.0)),
+      car("B", uniform(run, 3, 80.0, 120.0), 0.0, kRoadSpeed_mps + uniform(run, 4, -2.0, 2.0))};
+  std::uint64_t draw = 100;
+  for (core::HighwayTarget& one : cars)
+    for (int scan = 0; scan < 120; ++scan) {
+      const auto n = core::normal_pair(run_key(run, 2525), draw++, 0);
+      one.accelerations.push_back(
+          {scan * kStep_s, (scan + 1) * kStep_s, {kSteady_mps2 * n[0], kSteady_mps2 * n[1]}});
+    }
+  return scene(6.0, kRoadSpeed_mps, cars);
+}
+
 constexpr int kRuns = 100;
 
 std::string words_of(const Score& score) {
@@ -113,7 +141,13 @@ std::string words_of(const Score& score) {
          std::to_string(score.nees.mean());
 }
 
-// Of four states; cars that drive straight on, which the tracker does not know, bring it somewhat below.
+bool in_band(const Score& score) {
+  const Interval band = mean_interval(4, kRuns);
+  return score.nees.mean() >= band.low && score.nees.mean() <= band.high;
+}
+
+// Of four states; cars that drive straight on, which the tracker does not know, bring it somewhat below: their speed across the
+// line of sight errs by 0.6 of what is told.
 void check_honest(const Score& score) {
   const Interval band = mean_interval(4, kRuns);
   CHECK(score.nees.mean() <= band.high);
@@ -137,6 +171,16 @@ TEST_CASE("Cars side by side, that brake unseen for 0.6 s, or stop and go stay o
   for (const auto draw : {side_by_side, braking, stop_and_go}) check_honest(check_kept(draw));
 }
 
+// Cars that do what the tracker expects, and cars that change lanes, whose turn begins and ends at once.
+TEST_CASE("Tracks of cars that wander and that change lanes err by as much as they say",
+          "[tracker][statistics]") {
+  for (const auto draw : {wandering, lane_change, braking}) {
+    const Score score = check_kept(draw);
+    INFO(words_of(score));
+    CHECK(in_band(score));
+  }
+}
+
 // Within a cell of range for three to five seconds, where the radar sees one: they are told apart again by
 // the lane that each was in. With the constant resolution that decided before, 80 of 100.
 TEST_CASE("Cars that overtake slowly in the next lane keep their names", "[tracker][statistics]") {
@@ -144,7 +188,8 @@ TEST_CASE("Cars that overtake slowly in the next lane keep their names", "[track
 }
 
 // Six cars anywhere within 8 m/s. Where targets of one speed merged to a range between them MOTA was 0.44, with
-// a false track in every scan.
+// a false track in every scan; 0.958 and 0.17 where pairs of beats were taken by their speed alone. The three
+// that are left are of two cars beside each other that merge in range, speed and direction.
 TEST_CASE("A coded stretch follows six cars of like speeds", "[tracker][statistics]") {
   SimulationSettings simulation;
   simulation.scheme = Scheme::coded;
@@ -169,8 +214,8 @@ TEST_CASE("A coded stretch follows six cars of like speeds", "[tracker][statisti
     false_tracks += one.mot.false_tracks();
   }
   INFO("MOTA " << mota << ", false tracks a scan " << false_tracks / scans);
-  CHECK(mota >= 0.94);
-  CHECK(false_tracks / scans <= 0.25);
+  CHECK(mota >= 0.98);
+  CHECK(false_tracks / scans <= 0.005);
 }
 
 // A hundred runs each take minutes: side by side MOTA 0.990 and overtaking 0.995, no switch, by 40 and 20 of

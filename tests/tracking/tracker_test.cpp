@@ -225,7 +225,7 @@ TEST_CASE("A track whose partner is gone takes part again with all of its coasti
           "[tracker]") {
   // Both are one from the third frame on; the right one drifts out of the field of view.
   TrackerSettings settings = settings_for();
-  settings.most_azimuth_rad = 0.1;
+  settings.most_azimuth_rad = 0.09;
   Tracker tracker(settings);
   int frame = 0;
   for (; frame < 3; ++frame)

@@ -66,27 +66,78 @@ signal::RangeSpeed coarse_sigma(const Seen& target, const core::HighwayRadar& ra
       0.5 * wavelength_m * std::sqrt(6.0 / ratio) / (2.0 * core::kPi * radar.waveforms.flat_s)};
 }
 
+// What has been measured so far, and which beats it explains.
+class FoundPairs {
+ public:
+  explicit FoundPairs(const RampPeaks& peaks)
+      : peaks_(peaks), up_(peaks.up.Hz.size(), false), down_(peaks.down.Hz.size(), false) {}
+
+  // A lone beat is of one target.
+  bool can_be(const PairOfPeaks& pair) const {
+    return !(up_[pair.up] && is_lone(peaks_.up, pair.up)) &&
+           !(down_[pair.down] && is_lone(peaks_.down, pair.down)) &&
+           !(up_[pair.up] && down_[pair.down]);
+  }
+  void add(const RadarMeasurement& measurement, const PairOfPeaks& pair) {
+    measurements.push_back(measurement);
+    up_[pair.up] = down_[pair.down] = true;
+  }
+
+  std::vector<RadarMeasurement> measurements;
+
+ private:
+  static bool is_lone(const Peaks& peaks, std::size_t i) { return peaks.spread_Hz[i] == 0.0; }
+
+  const RampPeaks& peaks_;
+  std::vector<bool> up_, down_;
+};
+
+// How far apart the directions of two beats are, over what two beats of one target may be.
+double direction_misfit(const RampPeaks& peaks, const PairOfPeaks& pair, double sigma_rad) {
+  const double apart_rad = peaks.up.azimuth_rad[pair.up] - peaks.down.azimuth_rad[pair.down];
+  return std::abs(apart_rad) /
+         (sigma_rad + peaks.up.spread_rad[pair.up] + peaks.down.spread_rad[pair.down]);
+}
+
 // A flat stretch has no cells of range: of targets that share its speed it tells a range between them. What
-// is left are the pairs of beats with that speed; crossed pairs have another by 1 m/s for every 0.6 m.
-std::vector<RadarMeasurement> pairs_of_speed(const signal::TriangleModel& fine,
-                                             const RampPeaks& peaks, const Seen& coarse,
-                                             double most_apart_mps, const core::HighwayRadar& radar,
-                                             const SimulationSettings& settings) {
+// is left are the pairs of beats with one of their speeds that come from one direction, those that agree best
+// first; crossed pairs have another speed by 1 m/s for every 0.6 m.
+void add_pairs_of_speed(const signal::TriangleModel& fine, const RampPeaks& peaks,
+                        const std::vector<Seen>& coarse, const core::HighwayRadar& radar,
+                        const SimulationSettings& settings, FoundPairs& found) {
+  constexpr double kMostMisfit = 4.0;
+  struct Candidate {
+    double misfit;
+    signal::RangeSpeed place;
+    PairOfPeaks pair;
+    const Seen* coarse;
+  };
+  const double cell_mps =
+      0.5 * core::kSpeedOfLight_mps / radar.centre_frequency_Hz / radar.waveforms.flat_s;
   const signal::PairingLimits limits{0.0, 1.1 * radar.most_range_m, settings.most_speed_mps};
-  std::vector<RadarMeasurement> result;
+  std::vector<Candidate> candidates;
   for (const signal::RangeSpeed& place :
        signal::pair_all(fine, peaks.up.Hz, peaks.down.Hz, limits)) {
-    if (std::abs(place.radial_speed_mps - coarse.rate_mps) > most_apart_mps) continue;
     const PairOfPeaks pair = peaks_at(fine, peaks, place);
+    for (const Seen& one : coarse) {
+      if (std::abs(place.radial_speed_mps - one.rate_mps) > settings.merge_bins * cell_mps)
+        continue;
+      const double misfit = direction_misfit(peaks, pair, one.bound.azimuth_sigma_rad);
+      if (misfit <= kMostMisfit) candidates.push_back({misfit, place, pair, &one});
+    }
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.misfit < b.misfit; });
+  for (const auto& [misfit, place, pair, one] : candidates) {
+    if (!found.can_be(pair)) continue;
     const double up_rad = peaks.up.azimuth_rad[pair.up];
     const double down_rad = peaks.down.azimuth_rad[pair.down];
-    RadarMeasurement one = with_sigmas(place, 0.5 * (up_rad + down_rad), coarse.bound);
-    state_spread(fine, peaks, pair, one);
-    one.azimuth_systematic_rad =
+    RadarMeasurement measured = with_sigmas(place, 0.5 * (up_rad + down_rad), one->bound);
+    state_spread(fine, peaks, pair, measured);
+    measured.azimuth_systematic_rad =
         0.5 * std::hypot(peaks.up.spread_rad[pair.up], peaks.down.spread_rad[pair.down]);
-    result.push_back(one);
+    found.add(measured, pair);
   }
-  return result;
 }
 
 }  // namespace
@@ -95,7 +146,8 @@ std::vector<RadarMeasurement> coarse_to_fine(
     const signal::TriangleModel& fine, const RampPeaks& peaks, const std::vector<Seen>& targets,
     const core::HighwayRadar& radar, const SimulationSettings& settings, const Draws& draws) {
   const std::vector<Seen> coarse = coarse_targets(targets, radar, settings);
-  std::vector<RadarMeasurement> result;
+  FoundPairs found(peaks);
+  std::vector<Seen> by_speed_alone;
   for (std::size_t i = 0; i < coarse.size(); ++i) {
     const signal::RangeSpeed sigma = coarse_sigma(coarse[i], radar, settings);
     const auto noise = draws.normal(i, 3);
@@ -109,21 +161,19 @@ std::vector<RadarMeasurement> coarse_to_fine(
     const std::optional<signal::RangeSpeed> refined =
         signal::refine_two_stage({place}, {fine, peaks.up.Hz, peaks.down.Hz}, options).front();
     if (settings.scheme == Scheme::coded && (!refined || coarse[i].merged)) {
-      const double cell_mps =
-          0.5 * core::kSpeedOfLight_mps / radar.centre_frequency_Hz / radar.waveforms.flat_s;
-      const auto found =
-          pairs_of_speed(fine, peaks, coarse[i], settings.merge_bins * cell_mps, radar, settings);
-      result.insert(result.end(), found.begin(), found.end());
+      by_speed_alone.push_back(coarse[i]);
       continue;
     }
     if (!refined) continue;
+    const PairOfPeaks pair = peaks_at(fine, peaks, *refined);
     RadarMeasurement measured = with_sigmas(*refined, coarse[i].azimuth_rad, coarse[i].bound);
-    state_spread(fine, peaks, peaks_at(fine, peaks, *refined), measured);
+    state_spread(fine, peaks, pair, measured);
     // Two directions, evenly up to a beam apart, as for merged beats.
     if (coarse[i].merged) measured.azimuth_systematic_rad = beam_rad(radar) / std::sqrt(12.0);
-    result.push_back(measured);
+    found.add(measured, pair);
   }
-  return result;
+  add_pairs_of_speed(fine, peaks, by_speed_alone, radar, settings, found);
+  return found.measurements;
 }
 
 }  // namespace fanbeam::tracking

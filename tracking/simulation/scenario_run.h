@@ -18,13 +18,15 @@ namespace fanbeam::tracking {
 inline constexpr double kMatch_m = 3.0;
 
 // Straight on with an unknown acceleration of standard deviation `acceleration_mps2` in each step, a turn
-// with 0.3 m/s2, or a manoeuvre: an acceleration of any size that changes by 17 m/s2 in a second along the
-// road, 1.7 across it; each kept for 5 s on average. Speeds are measured to millimetres per second, so that
-// a target that brakes leaves the straight model at once, and comes back to it when it drives on; the
-// larger `acceleration_mps2`, the less is known of who is who after a crossing. Tracks coast for
-// `coast_s` without a measurement. A radar of one element tells no azimuth: then range alone is tracked, at
-// constant speed with the same acceleration, which loses what passes close by. Field of view of the
-// radar.
+// with 0.2 m/s2, whose rate changes by 1.8 deg/s in a second, or a manoeuvre: an acceleration of any size
+// that changes by 17 m/s2 in a second along the road, 5.5 across it; each left after 10 s on average. Speeds
+// are measured to millimetres per second, so that a target that brakes leaves the straight model at once,
+// and comes back to it when it drives on; the larger `acceleration_mps2`, the less is known of who is who
+// after a crossing. Tracks coast for `coast_s` without a measurement. A radar of one element tells no
+// azimuth: then range alone is tracked, at constant speed with the same acceleration, which loses what
+// passes close by. Field of view of the radar.
+// Two targets are within the radar's resolution nearer than 2.2 c / 2B in range, as far as merged beats are
+// biased, 1.2 bins of a ramp in speed, and the array's beam in azimuth.
 inline constexpr double kSteady_mps2 = 0.5;
 inline constexpr double kCoast_s = 1.0;
 TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps,
