@@ -23,7 +23,7 @@ renderer::Sampling Effort::reference(std::uint64_t seed) const {
 Effort full_effort() {
   Effort effort;
   effort.rays = {0.5, 1, 2, 4, 8, 16, 32};
-  effort.slices = {1, 2, 4, 8, 12, 16, 24, 32, 64};
+  effort.slices = {0.5, 1, 2, 4, 8, 12, 16, 24, 32, 64};
   effort.plain_rays = {2, 12, 36};
   effort.dithered_rays = {2, 6, 12, 24, 60};
   effort.looks = {1, 5, 20};

@@ -11,7 +11,7 @@
 namespace fanbeam::scenes {
 namespace {
 
-constexpr FlightVolume kNowhere{1e300, 1e300, -1e300, -1e300, 1e300, -1e300, 0.0};
+constexpr FlightVolume kNowhere{1e300, 1e300, -1e300, -1e300, 1e300, -1e300, 1e300, 0.0};
 
 constexpr double kBulge_m = 8.0 * 6.33e6;  // d^2 / 8 R, of the smallest radius
 
@@ -36,6 +36,7 @@ FlightVolume both(const FlightVolume& a, const FlightVolume& b) {
           std::max(a.north_m, b.north_m),
           std::min(a.lowest_m, b.lowest_m),
           std::max(a.highest_m, b.highest_m),
+          std::min(a.least_vertical_turn_rad, b.least_vertical_turn_rad),
           std::max(a.vertical_turn_rad, b.vertical_turn_rad)};
 }
 
@@ -56,7 +57,9 @@ FlightVolume volume_of(const Trajectory& trajectory, const terrain::LocalFrame& 
     volume.north_m = std::max(volume.north_m, at_m.y);
     volume.lowest_m = std::min(volume.lowest_m, at_m.z);
     volume.highest_m = std::max(volume.highest_m, at_m.z);
-    volume.vertical_turn_rad = std::max(volume.vertical_turn_rad, turn_rad(frame, pose.position));
+    const double turned_rad = turn_rad(frame, pose.position);
+    volume.least_vertical_turn_rad = std::min(volume.least_vertical_turn_rad, turned_rad);
+    volume.vertical_turn_rad = std::max(volume.vertical_turn_rad, turned_rad);
   }
   return volume;
 }
@@ -72,6 +75,9 @@ FlightVolume volume_over(const terrain::HeightField& ground, const SiteFacts& si
                                           {volume.west_m, volume.north_m, 0.0},
                                           {volume.east_m, volume.south_m, 0.0},
                                           {volume.east_m, volume.north_m, 0.0}}};
+  const glm::dvec3 nearest_m(std::clamp(0.0, volume.west_m, volume.east_m),
+                             std::clamp(0.0, volume.south_m, volume.north_m), 0.0);
+  volume.least_vertical_turn_rad = turn_rad(frame, frame.to_geodetic(nearest_m));
   double stated_lowest_m = 1e300, stated_highest_m = -1e300;
   for (const glm::dvec3& at_m : places) {
     volume.vertical_turn_rad =

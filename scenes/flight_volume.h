@@ -19,8 +19,8 @@ namespace fanbeam::scenes {
 struct FlightVolume {
   double west_m = 0.0, south_m = 0.0, east_m = 0.0, north_m = 0.0;
   double lowest_m = 0.0, highest_m = 0.0;
-  // Largest angle between the vertical of a place in it and that of the scene's origin.
-  double vertical_turn_rad = 0.0;
+  // Smallest and largest angle between the vertical of a place in it and that of the scene's origin.
+  double least_vertical_turn_rad = 0.0, vertical_turn_rad = 0.0;
 
   bool holds(const glm::dvec3& at_m) const {
     return at_m.x >= west_m && at_m.x <= east_m && at_m.y >= south_m && at_m.y <= north_m &&

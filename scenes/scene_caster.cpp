@@ -12,6 +12,7 @@ renderer::CasterChoice scene_caster(const SceneDescription& scene,
       .others = solids.others.size(),
       .stabilised = scan.stabilised,
       .plane_scan = scan.surface == sensors::ScanSurface::plane,
+      .least_vertical_turn_rad = volume.least_vertical_turn_rad,
       .vertical_turn_rad = volume.vertical_turn_rad,
       .fan_rad = scan.field_of_view_rad + 2.0 * scene.sensor.antenna.azimuth.cut_rad};
   try {

@@ -46,6 +46,7 @@ void check(const renderer::Sampling& sampling, core::ProblemList& problems) {
   within("gap_cells", sampling.gap_cells, 0.1, 1e6);
   within("largest_step_rad", sampling.largest_step_rad, 1e-6, 1.0);
   within("largest_step_rows", sampling.largest_step_rows, 0.01, 1e6);
+  within("bounce_share", sampling.bounce_share, 0.01, 100.0);
   within("jittered_passes", sampling.jittered_passes, 0, 4096);
   within("target_grey", sampling.target_grey, 0.0, 100.0);
 }

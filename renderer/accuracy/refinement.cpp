@@ -63,6 +63,7 @@ Sampling twice_as_many(const Sampling& slices) {
   Sampling finer = profile_sampling_for(2.0 * slices.sub_columns * slices.slices_per_sub_column);
   const double rays = 2.0 * slices.rays_per_cell * slices.sub_columns / finer.sub_columns;
   finer.rays_per_cell = std::max(finer.rays_per_cell, rays);
+  finer.bounce_share = slices.bounce_share;
   return finer;
 }
 

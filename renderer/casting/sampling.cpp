@@ -42,6 +42,7 @@ Sampling profile_sampling_for(double slices) {
       (wanted + sampling.slices_per_sub_column - 1) / sampling.slices_per_sub_column;
   // Few azimuths are left to rays; many slices deserve better ones.
   sampling.rays_per_cell = std::max(1.0, sampling.slices_per_sub_column / 2.0);
+  sampling.bounce_share = std::min(slices, 1.0);
   return sampling;
 }
 

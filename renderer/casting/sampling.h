@@ -27,6 +27,8 @@ struct Sampling {
   double largest_step_rad = 3.0e-3;
   // The same above the horizon, in rows of the C-scope.
   double largest_step_rows = 1.0;
+  // Of the samples of bounces that go with the rest (stages/double_bounce.h).
+  double bounce_share = 1.0;
   // One ray stands for its whole range interval (false: for the cell it falls in, unbiased, wants
   // many rays).
   bool deposit_intervals = true;
@@ -63,8 +65,8 @@ Sampling refined_sampling(CasterKind caster, double target_grey);
 
 inline constexpr double kDefaultSlicesPerColumn = 4.0;
 
-// `slices` azimuth slices per column through the profile caster, at least 1; each crosses every
-// range cell once.
+// `slices` azimuth slices per column through the profile caster; each crosses every range cell once.
+// Below 1 there is one, with as many fewer samples of bounces.
 Sampling profile_sampling_for(double slices);
 
 // One of the two: what `--rays-per-cell` sets, rays or slices, and what it is unless set.

@@ -17,8 +17,10 @@ const double kWidestFan_rad = core::radians(150.0);
 std::string why_not_level(const CasterFacts& facts) {
   if (!facts.plane_scan) return "the scan is a cone";
   if (!facts.stabilised) return "the antenna is not stabilised";
-  if (!(facts.vertical_turn_rad < kLevelWithin_rad))
-    return "the flight leaves the 6 km around the scene's origin in which the Earth is flat enough";
+  if (!(facts.least_vertical_turn_rad < kLevelWithin_rad))
+    return "all of the flight is outside the 6 km around the scene's origin in which the Earth is "
+           "flat "
+           "enough";
   return {};
 }
 
@@ -68,6 +70,8 @@ CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts, const core
                       : "over buildings slices need half of the rays' time at equal error";
   if (facts.others > 0)
     choice.reason += "; azimuths with " + others_text(facts.others) + " in them go to rays";
+  if (facts.others > 0 && !(facts.vertical_turn_rad < kLevelWithin_rad))
+    choice.reason += ", and so do frames from beyond 6 km of the scene's origin";
   return choice;
 }
 

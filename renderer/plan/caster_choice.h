@@ -11,7 +11,8 @@
 //   nothing but ground and prisms   slices, with any antenna
 //   models or prisms over open air  a level antenna sees each azimuth in a vertical half-plane:
 //                                   those azimuths go to rays, all others to slices. With a tilted
-//                                   antenna or a cone scan an azimuth is no half-plane: rays alone.
+//                                   antenna or a cone scan an azimuth is no half-plane: rays alone,
+//                                   for the frames far from the origin, or for all.
 #pragma once
 
 #include <array>
@@ -31,9 +32,9 @@ struct CasterFacts {
   std::size_t others = 0;     // models, CityJSON, prisms over open air: Solids::others
   bool stabilised = true;     // the antenna, against roll and pitch; others count as tilted
   bool plane_scan = true;
-  // Largest angle between the vertical at the aircraft and that of the scene's origin: on a round
-  // Earth even a stabilised antenna is not level in the scene far from its origin.
-  double vertical_turn_rad = 0.0;
+  // Smallest and largest angle between the vertical at the aircraft and that of the scene's origin: on a
+  // round Earth even a stabilised antenna is not level in the scene far from its origin.
+  double least_vertical_turn_rad = 0.0, vertical_turn_rad = 0.0;
   double fan_rad = 0.0;  // field of view with what the azimuth beam reaches beyond it
 };
 

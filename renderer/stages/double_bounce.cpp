@@ -40,7 +40,8 @@ BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& su
   const double per_sub_column = surfaces.caster == CasterKind::profile
                                     ? surfaces.slices_per_sub_column
                                     : surfaces.rays_per_cell;
-  const double samples = std::ldexp(surfaces.sub_columns * per_sub_column / 2.0, level);
+  const double samples =
+      std::ldexp(surfaces.bounce_share * surfaces.sub_columns * per_sub_column / 2.0, level);
   sampling.azimuths = std::clamp(static_cast<int>(std::lround(1.5 * std::sqrt(samples))), 1, 64);
   sampling.rays_per_cell = 0.375 * samples / sampling.azimuths;
   sampling.smallest_change = 0.9 * std::pow(samples, -1.5);

@@ -55,6 +55,7 @@ Json ray_sampling_json(const renderer::Sampling& sampling) {
 Json sampling_json(const renderer::CasterChoice& caster, const renderer::Sampling& sampling) {
   Json json = {{"sub_columns", sampling.sub_columns}};
   if (sampling.target_grey > 0.0) json["refined_to_grey"] = sampling.target_grey;
+  if (sampling.bounce_share != 1.0) json["bounce_share"] = sampling.bounce_share;
   if (caster.chosen == renderer::CasterKind::rays) {
     json.update(ray_sampling_json(sampling));
     return json;
@@ -188,7 +189,11 @@ std::string caster_text(const renderer::Sampling& sampling) {
                        core::number_text(sampling.target_grey));
   if (sampling.caster == renderer::CasterKind::profile) {
     const auto slices = slices_per_column(sampling);
-    return fmt::format("profile, {} {} per column", slices, slices == 1 ? "slice" : "slices");
+    const std::string fewer = sampling.bounce_share < 1.0
+                                  ? fmt::format(", {:g} of its bounces", sampling.bounce_share)
+                                  : "";
+    return fmt::format("profile, {} {} per column{}", slices, slices == 1 ? "slice" : "slices",
+                       fewer);
   }
   return fmt::format("rays, {} per range cell and column",
                      core::number_text(rays_per_cell_and_column(sampling)));

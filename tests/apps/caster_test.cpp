@@ -144,6 +144,22 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
   }
 }
 
+TEST_CASE("Below one slice per column there is one, with fewer rays for bounces", "[caster]") {
+  const TemporaryFolder folder;
+  const auto run_of = [&](const std::string& samples) {
+    render("obstacle-field", folder.path() / samples,
+           "-q --caster profile --frames 500 --products bscope --rays-per-cell " + samples);
+    return json_of(folder.path() / samples / "run.json");
+  };
+  const nlohmann::json half = run_of("0.5"), one = run_of("1");
+  CHECK(half["sampling"]["bounce_share"] == 0.5);
+  CHECK_FALSE(one["sampling"].contains("bounce_share"));
+  CHECK(half["frames"][0]["slices"] == one["frames"][0]["slices"]);
+  CHECK(half["frames"][0]["rays"] < one["frames"][0]["rays"]);
+  CHECK(note(folder.path() / "0.5/bscope/00500.png", "fanbeam:caster") ==
+        "profile, 1 slice per column, 0.5 of its bounces");
+}
+
 TEST_CASE("--resume takes slices up again, but no frame of the other caster", "[caster]") {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";

@@ -20,7 +20,8 @@ struct Tilted {
 std::vector<Tilted> tilted(std::size_t others) {
   return {{{.others = others, .stabilised = false}, "the antenna is not stabilised"},
           {{.others = others, .plane_scan = false}, "the scan is a cone"},
-          {{.others = others, .vertical_turn_rad = 1.1e-3}, "leaves the 6 km around"}};
+          {{.others = others, .least_vertical_turn_rad = 1.1e-3, .vertical_turn_rad = 2e-3},
+           "outside the 6 km around"}};
 }
 
 void check_refused(const CasterFacts& facts, const std::string& why) {
@@ -84,6 +85,12 @@ TEST_CASE("With a level antenna slices leave the azimuths of models to rays", "[
   CHECK(one.others == 1);
   CHECK(one.reason ==
         "asked for; azimuths with the model or building part over open air in them go to rays");
+  // Some of the flight too far away: those frames alone.
+  const auto far =
+      choose_caster(CasterWish::profile,
+                    {.others = 1, .least_vertical_turn_rad = 0.0, .vertical_turn_rad = 1.1e-3});
+  CHECK(far.chosen == CasterKind::profile);
+  CHECK(far.reason == one.reason + ", and so do frames from beyond 6 km of the scene's origin");
   const auto many = choose_caster(CasterWish::automatic, {.others = 12});
   CHECK(many.chosen == CasterKind::profile);
   CHECK(many.others == 12);

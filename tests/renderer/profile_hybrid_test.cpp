@@ -284,6 +284,32 @@ TEST_CASE("A model around the sensor leaves everything to rays", "[profile]") {
   CHECK(found.range_W_per_rad == rays.range_W_per_rad);
 }
 
+TEST_CASE("A frame of a tilted antenna goes to rays alone, the next level one to slices again",
+          "[profile]") {
+  const renderer::World world = yard(true);
+  const renderer::Sampling sampling = renderer::profile_sampling_for(4);
+  const renderer::ProfileCaster slices(world, sampling);
+  const renderer::RayCaster rays(world, sampling);
+  const auto sums_of = [](const renderer::Caster& caster, const sensors::AntennaFrame& antenna) {
+    renderer::FanSums sums;
+    caster.cast(antenna, true, sums);
+    return sums;
+  };
+  const sensors::AntennaFrame level = tests::level_antenna({0.0, 0.0, kHeight_m});
+  sensors::AntennaFrame tilted = level;
+  const double turn_rad = 1.2e-3;  // of the vertical, 7.6 km away
+  tilted.up = {std::sin(turn_rad), 0.0, std::cos(turn_rad)};
+  tilted.right = glm::cross(tilted.forward, tilted.up);
+  const renderer::FanSums before = sums_of(slices, level), between = sums_of(slices, tilted);
+  CHECK(before.slices > 0);
+  CHECK(between.slices == 0);
+  const renderer::FanSums expected = sums_of(rays, tilted);
+  REQUIRE(between.range_W_per_rad.size() == expected.range_W_per_rad.size());
+  CHECK(between.range_W_per_rad == expected.range_W_per_rad);
+  CHECK(between.elevation_W_m3_per_rad == expected.elevation_W_m3_per_rad);
+  CHECK(sums_of(slices, level).range_W_per_rad == before.range_W_per_rad);
+}
+
 TEST_CASE("R10 slices and rays together have the same bytes for 1 and 2 threads", "[profile]") {
   const renderer::World world = yard(true);
   const renderer::FrameRenderer frames(world, renderer::profile_sampling_for(16.0), {}, {});

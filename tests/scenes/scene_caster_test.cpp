@@ -91,8 +91,17 @@ TEST_CASE("On a round Earth even a stabilised antenna is not level far from the 
     return tests::good_scene(folder, text)->caster.chosen;
   };
   CHECK(chosen("6000.0", "") == CasterKind::profile);
-  CHECK(chosen("7000.0", "") == CasterKind::rays);
-  CHECK(chosen("7000.0", "earth = \"plane\"\n") == CasterKind::profile);
+  // Of an approach that begins farther away the frames out there alone are of rays.
+  const auto far = [&](const std::string& earth) {
+    std::string text = with(wish("\"auto\"") + kTruck);
+    text = tests::replaced(text, "start_distance_m = 1500.0", "start_distance_m = 7000.0");
+    text = tests::replaced(text, "half_extent_m = 2500.0", "half_extent_m = 8000.0");
+    text = tests::replaced(text, "[terrain]", earth + "[terrain]");
+    return tests::good_scene(folder, text)->caster;
+  };
+  CHECK(far("").chosen == CasterKind::profile);
+  CHECK(far("").reason.find("frames from beyond 6 km") != std::string::npos);
+  CHECK(far("earth = \"plane\"\n").reason.find("frames from") == std::string::npos);
 }
 
 TEST_CASE("Slices forced where they cannot show the scene are told at the line that forces them",

@@ -246,7 +246,7 @@ TEST_CASE("A time budget chooses a sampling of the ladder, and frames by it repe
   const TemporaryFolder folder;
   const auto session = opened_text(folder, tests::kSmallScene);
   const renderer::CasterKind caster = session->scene()->caster.chosen;
-  const double coarsest_samples = caster == renderer::CasterKind::profile ? 1.0 : 0.5;
+  const double coarsest_samples = caster == renderer::CasterKind::profile ? 0.3 : 0.5;
   const auto alike = [](const renderer::Sampling& a, const renderer::Sampling& b) {
     return a.slices_per_sub_column == b.slices_per_sub_column && a.sub_columns == b.sub_columns &&
            a.rays_per_cell == b.rays_per_cell;
