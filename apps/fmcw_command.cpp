@@ -135,8 +135,12 @@ class Run {
   bool runs_chain() const { return products_ != std::set<std::string>{kScan}; }
 
   std::string radar_toml() const {
-    return session::radar_toml(options_, radar_.waveform_name, radar_.waveform.centre_frequency_Hz,
-                               radar_.waveform.bandwidth_Hz, radar_.noise_figure);
+    const signal::Waveform& waveform = radar_.waveform;
+    return session::radar_toml(
+        options_, radar_.waveform_name,
+        {waveform.centre_frequency_Hz,
+         waveform.kind == signal::WaveformKind::pulsed ? 0.0 : waveform.bandwidth_Hz,
+         radar_.noise_figure, radar_.maps ? waveform.sample_rate_Hz[0] : 0.0});
   }
 
   void process(int index) {

@@ -236,6 +236,7 @@ core::HighwayRadar radar_of(const TrackOptions& options, core::HighwayRadar rada
 
 int track(const TrackOptions& options, const CommonOptions& common) {
   if (!is_road_scenario(options.file)) return track_own_data(options, common);
+  refuse_other_options(options, TrackInput::scenarios);
   const scenes::HighwayFile file = scenes::read_highway_file(options.file);
   std::vector<const core::HighwayScenario*> chosen;
   std::string known;
@@ -251,6 +252,7 @@ int track(const TrackOptions& options, const CommonOptions& common) {
       options.output.empty()
           ? fs::path("out") / (fs::path(options.file).stem().string() + "-tracks")
           : fs::path(options.output);
+  check_output(folder);
   const core::HighwayRadar radar = radar_of(options, file.radar);
   if (options.study) return track_study(chosen, radar, options.seed, folder, common);
   nlohmann::ordered_json json = {{"version", session::version_text()},

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct TrackOptions {
   std::vector<double> errors{0.3, 0.1, 1.0};  // m, m/s, deg
   std::uint64_t seed = 0;
   int run = 0;
+  std::set<std::string> given{};  // names of options that the command line has
 };
 
 // Returns an exit code; throws InputError for bad input.

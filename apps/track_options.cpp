@@ -123,6 +123,10 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
       "Places are relative to the radar, x forward and y right; azimuths positive right, speeds "
       "positive receding.");
   add_common_options(command, common);
+  command.parse_complete_callback([&command, &options] {
+    for (const CLI::Option* option : command.get_options())
+      if (option->count() > 0) options.given.insert(option->get_name());
+  });
   return command;
 }
 

@@ -78,10 +78,10 @@ void add_line(const LineDescription& line, const Ground& ground, core::Polarisat
   close_group(line.name, line.place, targets, true);
 }
 
-// The way with a swing along it, in legs of a 24th of the period or less: speeds to 0.3 %.
+// The way with a swing along it, in legs of a 192nd of the period or less: speeds within 1.7 % of the largest.
 std::vector<PointTarget::Waypoint> swung(const std::vector<PointTarget::Waypoint>& path,
                                          const TargetDescription::Swing& swing) {
-  constexpr double kLegs = 24.0;
+  constexpr double kLegs = 192.0;
   std::vector<PointTarget::Waypoint> result;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const PointTarget::Waypoint &from = path[i - 1], &to = path[i];

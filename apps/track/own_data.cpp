@@ -172,6 +172,7 @@ int track_own_data(const TrackOptions& options, const CommonOptions& common) {
   const std::unique_ptr<OwnSource> source = own_source(options);
   const fs::path folder = options.output.empty() ? fs::path("out") / (source->name + "-tracks")
                                                  : fs::path(options.output);
+  check_output(folder);
   const Outcome outcome = run(options, *source, common.quiet);
   core::write_file_atomically(folder / "tracks.csv", outcome.tracks);
   core::write_file_atomically(folder / "measurements.csv", outcome.measurements);
@@ -180,7 +181,7 @@ int track_own_data(const TrackOptions& options, const CommonOptions& common) {
   const Json timing = {{"measuring_ms_per_scan", 1e3 * outcome.measuring_s / outcome.frames},
                        {"tracking_ms_per_scan", 1e3 * outcome.tracking_s / outcome.frames}};
   core::write_file_atomically(folder / "timing.json", timing.dump(2) + "\n");
-  if (options.plots) {
+  if (options.plots && outcome.measured > 0) {
     session::write_plots(outcome.history.ranges(source->name), folder / "ranges");
     session::write_plots(outcome.history.plan(source->name), folder / "plan");
   }

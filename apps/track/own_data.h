@@ -7,6 +7,8 @@
 //   .npy          samples (session/signal/sample_file.h), with --radar
 #pragma once
 
+#include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +48,15 @@ class OwnSource {
   double radar_speed_mps = 0.0, frame_s = 0.05, most_range_m = 1e6;
   std::optional<tracking::Resolution> resolution{};  // where the radar is known
 };
+
+// What INPUT may be.
+enum class TrackInput { scenarios, scene, detections, samples };
+
+// E-UNSUPPORTED for each option given that says nothing of this kind of input: exit code 2.
+void refuse_other_options(const TrackOptions& options, TrackInput input);
+
+// E-RANGE of --output for a folder with a record that `fanbeam track` has not written: exit code 2.
+void check_output(const std::filesystem::path& folder);
 
 // Throws InputError for whatever is wrong with the input.
 std::unique_ptr<OwnSource> own_source(const TrackOptions& options);

@@ -26,6 +26,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// As `make` gives it; where that fails, told as the file's fault.
+template <class Make>
+session::FmcwRadar radar_in(const fs::path& file, const Make& make) {
+  try {
+    return make();
+  } catch (const core::InputError& error) {
+    throw session::in_radar_file(error, file);
+  }
+}
+
 const std::set<std::string> kDetections = {"detections"};
 
 session::DetectedFrame detected(const session::FmcwFrame& frame, double time_s) {
@@ -52,7 +62,8 @@ class SceneSource : public OwnSource {
     problems.throw_if_errors();
     scene_ = session::Session(description, {}, problems).scene();
     const sensors::Sensor& sensor = scene_->description.sensor;
-    radar_ = session::fmcw_radar(settings_, sensor);
+    const auto radar = [&] { return session::fmcw_radar(settings_, sensor); };
+    radar_ = radar_file.empty() ? radar() : radar_in(radar_file, radar);
     if (!radar_.maps)
       core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar_.waveform_name,
                               "a chirp sequence: the other kinds have no detections");
@@ -141,10 +152,10 @@ class DetectionSource : public OwnSource {
 class SampleSource : public OwnSource {
  public:
   SampleSource(const TrackOptions& options, const std::vector<fs::path>& files,
-               session::FmcwSettings settings)
+               const fs::path& radar_file, session::FmcwSettings settings)
       : errors_(errors_of(options)),
         settings_(std::move(settings)),
-        radar_(session::fmcw_radar(settings_)),
+        radar_(radar_in(radar_file, [this] { return session::fmcw_radar(settings_); })),
         files_(files, radar_, settings_.layout) {
     name = core::safe_word(fs::absolute(options.file).lexically_normal().stem().string());
     kind = "samples";
@@ -224,7 +235,10 @@ std::unique_ptr<OwnSource> own_source(const TrackOptions& options) {
   const bool is_scene = is_folder ? fs::is_regular_file(input / "scene.toml", status)
                                   : input.extension() != ".csv" && input.extension() != ".json" &&
                                         input.extension() != ".npy";
-  if (is_scene) return std::make_unique<SceneSource>(options);
+  if (is_scene) {
+    refuse_other_options(options, TrackInput::scene);
+    return std::make_unique<SceneSource>(options);
+  }
   const auto radar_file = radar_file_of(options);
   std::vector<fs::path> samples;
   if (input.extension() == ".npy") samples = {input};
@@ -232,14 +246,16 @@ std::unique_ptr<OwnSource> own_source(const TrackOptions& options) {
     samples = sample_files_in(input);
     if (samples.empty()) samples = sample_files_in(input / "beat");
   }
+  refuse_other_options(options, samples.empty() ? TrackInput::detections : TrackInput::samples);
   if (!samples.empty()) {
     if (!radar_file)
       core::throw_input_error(core::ErrorClass::ref, "--radar", "not given",
                               "the radar file that belongs to the samples");
-    return std::make_unique<SampleSource>(options, samples, settings_in(*radar_file));
+    return std::make_unique<SampleSource>(options, samples, *radar_file, settings_in(*radar_file));
   }
   std::optional<session::FmcwRadar> radar;
-  if (radar_file) radar = session::fmcw_radar(settings_in(*radar_file));
+  if (radar_file)
+    radar = radar_in(*radar_file, [&] { return session::fmcw_radar(settings_in(*radar_file)); });
   return std::make_unique<DetectionSource>(options, std::move(radar));
 }
 

@@ -121,11 +121,12 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
         frame.keystone = false;
         frame.synthesis_error = 0.0;
       }
-      beat = with_phase_noise(receiver, key, delays, [&](const std::vector<std::size_t>& members) {
-        std::vector<signal::ScatterPath> some;
-        for (const std::size_t i : members) some.push_back(paths[i]);
-        return synthesise(radar, stage, some, frame);
-      });
+      beat = with_phase_noise(radar.array, receiver, key, delays,
+                              [&](const std::vector<std::size_t>& members) {
+                                std::vector<signal::ScatterPath> some;
+                                for (const std::size_t i : members) some.push_back(paths[i]);
+                                return synthesise(radar, stage, some, frame);
+                              });
       frame.phase_noise_rad =
           std::max(frame.phase_noise_rad, phase_noise_rad(receiver, beat.shape.samples));
     }

@@ -27,7 +27,7 @@ constexpr core::JsonLimits kJsonLimits{16, 20'000'000};
 constexpr std::size_t kMostFrames = 1'000'000;
 constexpr std::size_t kMostDetections = 100'000;
 constexpr std::size_t kMostProblems = 100;
-constexpr core::NumberRange kTimes_s{-1e9, 1e9};
+constexpr core::NumberRange kTimes_s{-1e10, 1e10};
 constexpr core::NumberRange kRanges_m{0.0, 1e6, true};
 constexpr core::NumberRange kSpeeds_mps{-1e5, 1e5};
 constexpr core::NumberRange kTurn_rad{-core::kPi, core::kPi};
@@ -90,6 +90,10 @@ class Table {
     width_ = names.size();
     bool good = true;
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
+      if (std::count(names.begin(), names.end(), kColumns[i].name) > 1) {
+        problems_.error(ErrorClass::parse, lines_.place(), kColumns[i].name, "twice", "one column");
+        good = false;
+      }
       const auto found = std::find(names.begin(), names.end(), kColumns[i].name);
       place_[i] = found == names.end() ? width_ : static_cast<std::size_t>(found - names.begin());
       if (found != names.end() || !kColumns[i].needed) continue;
@@ -120,7 +124,8 @@ class Table {
   bool take(std::string_view text, const Column& column, double& value) {
     if (text.empty() && !column.needed) return true;
     const core::ParsedNumber number = core::parse_number(text);
-    if (number.error == core::NumberError::none && column.range.holds(number.value)) {
+    const bool whole = &column != &kColumns[kCluster] || number.value == std::floor(number.value);
+    if (number.error == core::NumberError::none && column.range.holds(number.value) && whole) {
       value = number.value;
       return true;
     }
@@ -128,7 +133,7 @@ class Table {
                     : number.error == core::NumberError::nonfinite  ? ErrorClass::nonfinite
                                                                     : ErrorClass::range,
                     lines_.place(), column.name, core::printable_text(text.substr(0, 40)),
-                    to_string(column.range));
+                    to_string(column.range) + (whole ? "" : ", a whole number"));
     return false;
   }
 
@@ -195,6 +200,26 @@ void read_json(const fs::path& path, std::vector<DetectedFrame>& frames,
   }
 }
 
+// Frames of one time are one frame, as in a table.
+std::vector<DetectedFrame> in_order(std::vector<DetectedFrame> frames, const fs::path& path,
+                                    core::ProblemList& problems) {
+  std::vector<DetectedFrame> result;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    DetectedFrame& one = frames[i];
+    if (result.empty() || one.time_s > result.back().time_s) {
+      result.push_back(std::move(one));
+    } else if (one.time_s == result.back().time_s) {
+      DetectedFrame& same = result.back();
+      same.detections.insert(same.detections.end(), one.detections.begin(), one.detections.end());
+      same.clusters.insert(same.clusters.end(), one.clusters.begin(), one.clusters.end());
+    } else if (problems.all().size() < kMostProblems) {
+      problems.error(ErrorClass::time, {path.string()}, "frame " + std::to_string(i) + " time_s",
+                     core::number_text(one.time_s), "times that do not go back");
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 std::vector<fs::path> detection_files(const fs::path& folder) {
@@ -226,13 +251,7 @@ std::vector<DetectedFrame> read_detections(const fs::path& path, core::ProblemLi
     if (problems.all().size() >= kMostProblems) break;
     read_json(file, frames, problems);
   }
-  for (std::size_t i = 1; i < frames.size(); ++i)
-    if (frames[i].time_s < frames[i - 1].time_s) {
-      problems.error(ErrorClass::time, {path.string()}, "time_s",
-                     core::number_text(frames[i].time_s), "times that do not go back");
-      break;
-    }
-  return frames;
+  return in_order(std::move(frames), path, problems);
 }
 
 }  // namespace fanbeam::session

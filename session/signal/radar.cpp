@@ -205,14 +205,29 @@ std::string waveform_name(const FmcwSettings& options, const sensors::Sensor& se
 
 namespace {
 
+void check_receiver(const ReceiverSettings& receiver) {
+  core::ProblemList problems;
+  if (receiver.adc_full_scale_dBm && receiver.adc_bits == 0)
+    problems.error(core::ErrorClass::ref, {}, "--adc-bits", "0",
+                   "1 or more, or no full scale of the converter");
+  if (receiver.line_width_Hz > 0.0 && !receiver.phase_noise.empty())
+    problems.error(core::ErrorClass::unsupported, {}, "--line-width",
+                   core::number_text(receiver.line_width_Hz),
+                   "a line width or a table of phase noise, not both");
+  problems.throw_if_errors();
+}
+
 FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front& front) {
+  check_receiver(options);
   FmcwRadar radar;
   radar.waveform_name = name;
   radar.noise_figure = front.noise_figure;
   radar.waveform = waveform_of(options, name, front);
   radar.pitch_m = options.pitch_wavelengths * radar.waveform.wavelength_m();
   radar.array = array_of(options, radar.waveform, radar.pitch_m);
-  radar.line = is_line(signal::virtual_elements_m(radar.array));
+  const std::vector<glm::dvec3> elements_m = signal::virtual_elements_m(radar.array);
+  radar.line = is_line(elements_m);
+  if (radar.line && elements_m.size() > 1) radar.pitch_m = elements_m[1].y - elements_m[0].y;
   if (!radar.line) radar.pitch_m = 0.5 * radar.waveform.wavelength_m();
   if (!radar.line && options.angle_method != signal::AngleMethod::beamforming)
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",

@@ -113,7 +113,7 @@ void read_samples(ConfigTable table, SampleLayout& layout) {
     else
       table.error(ErrorClass::ref, "axes", "\"" + *axes + "\"", kAxesWords);
   }
-  layout.scale_sqrtW = table.number("scale_sqrtW", {0.0, 1e9, true}, layout.scale_sqrtW);
+  layout.scale_sqrtW = table.number("scale_sqrtW", {1e-30, 1e9}, layout.scale_sqrtW);
   layout.conjugate = table.boolean("conjugate", layout.conjugate);
 }
 
@@ -203,6 +203,30 @@ std::string array_toml(const ArraySettings& array) {
   else
     text += places_toml("transmitter", array.transmitters_m) +
             places_toml("receiver", array.receivers_m);
+  if (!array.gain_errors_dB.empty())
+    text += fmt::format("gain_errors_dB = {}\n", list(array.gain_errors_dB));
+  if (!array.phase_errors_rad.empty()) {
+    std::vector<double> phases_deg = array.phase_errors_rad;
+    for (double& phase : phases_deg) phase = core::degrees(phase);
+    text += fmt::format("phase_errors_deg = {}\n", list(phases_deg));
+  }
+  return text;
+}
+
+std::string receiver_toml(const ReceiverSettings& receiver, double noise_figure) {
+  std::string text =
+      fmt::format("\n[receiver]\nnoise_figure_dB = {}\n", digits(10.0 * std::log10(noise_figure)));
+  if (receiver.line_width_Hz > 0.0)
+    text += fmt::format("line_width_Hz = {}\n", digits(receiver.line_width_Hz));
+  if (!receiver.phase_noise.empty()) {
+    std::vector<double> offsets_kHz = receiver.phase_noise.offsets_Hz;
+    for (double& offset : offsets_kHz) offset *= 1e-3;
+    text += fmt::format("phase_noise_offsets_kHz = {}\nphase_noise_dBc_per_Hz = {}\n",
+                        list(offsets_kHz), list(receiver.phase_noise.levels_dBc_per_Hz));
+  }
+  if (receiver.adc_bits > 0) text += fmt::format("adc_bits = {}\n", receiver.adc_bits);
+  if (receiver.adc_full_scale_dBm)
+    text += fmt::format("adc_full_scale_dBm = {}\n", digits(*receiver.adc_full_scale_dBm));
   return text;
 }
 
@@ -244,20 +268,32 @@ void read_radar_text(std::string_view text, const std::string& name, FmcwSetting
 }
 
 std::string radar_toml(const FmcwSettings& settings, const std::string& waveform,
-                       double frequency_Hz, double bandwidth_Hz, double noise_figure) {
+                       const RadarFigures& figures) {
   std::string text = fmt::format("[waveform]\nkind = \"{}\"\n", waveform);
   if (settings.real) text += "real = true\n";
   for (std::size_t i = 0; i < kWaveformNumbers.size(); ++i) {
     std::optional<double> value = settings.numbers[i];
-    if (std::string_view(kWaveformNumbers[i].option) == "--frequency") value = frequency_Hz * 1e-9;
-    if (std::string_view(kWaveformNumbers[i].option) == "--bandwidth" && bandwidth_Hz > 0.0)
-      value = bandwidth_Hz * 1e-6;
+    const std::string_view option = kWaveformNumbers[i].option;
+    const double figure_SI = option == "--frequency"     ? figures.frequency_Hz
+                             : option == "--bandwidth"   ? figures.bandwidth_Hz
+                             : option == "--sample-rate" ? figures.sample_rate_Hz
+                                                         : 0.0;
+    if (figure_SI > 0.0) value = figure_SI / kWaveformNumbers[i].to_SI;
     if (value) text += fmt::format("{} = {}\n", kWaveformNumbers[i].key, digits(*value));
   }
-  text += array_toml(settings);
-  text +=
-      fmt::format("\n[receiver]\nnoise_figure_dB = {}\n", digits(10.0 * std::log10(noise_figure)));
-  return text + processing_toml(settings);
+  return text + array_toml(settings) + receiver_toml(settings, figures.noise_figure) +
+         processing_toml(settings);
+}
+
+core::InputError in_radar_file(const core::InputError& error, const std::filesystem::path& file) {
+  std::vector<core::Problem> problems = error.problems();
+  for (core::Problem& problem : problems) {
+    if (problem.place.file.empty()) problem.place.file = file.string();
+    for (const WaveformNumber& number : kWaveformNumbers)
+      if (problem.field == number.option) problem.field = std::string("waveform.") + number.key;
+    if (problem.field.starts_with("--")) problem.field = problem.field.substr(2);
+  }
+  return core::InputError(std::move(problems));
 }
 
 std::string cfar_word(signal::CfarKind kind) {

@@ -11,7 +11,7 @@
 //                 phase_noise_offsets_kHz, rising, above 0 to 1e9, with phase_noise_dBc_per_Hz,
 //                 -300 to 60; adc_bits, 0 to 24; adc_full_scale_dBm, +-300
 //   [samples]     of recorded samples (sample_file.h): axes, "channel, chirp, sample" and the like;
-//                 scale_sqrtW, above 0 to 1e9, default 1; conjugate
+//                 scale_sqrtW, 1e-30 to 1e9, default 1; conjugate
 //   [processing]  range_window, doppler_window, angle_window: "taylor:35" and the like (window.h);
 //                 mitigation "none" | "zero" | "interpolate" of other radars' chirps (mitigation.h), with
 //                 mitigation_threshold_dB, above 0 to 60;
@@ -38,10 +38,19 @@ void read_radar_file(const std::filesystem::path& file, FmcwSettings& settings,
 void read_radar_text(std::string_view text, const std::string& name, FmcwSettings& settings,
                      core::ProblemList& problems);
 
-// A file that read_radar_file reads to the same settings: those of a radar whose frequency and sweep
-// are these, noise figure included.
+// What a radar was made with where its settings leave it to the sensor and the scene; 0: not told.
+struct RadarFigures {
+  double frequency_Hz = 0.0, bandwidth_Hz = 0.0, noise_figure = 1.0;
+  double sample_rate_Hz = 0.0;  // of a chirp sequence
+};
+
+// A file that read_radar_file reads to the same settings, with these figures in them.
 std::string radar_toml(const FmcwSettings& settings, const std::string& waveform,
-                       double frequency_Hz, double bandwidth_Hz, double noise_figure);
+                       const RadarFigures& figures);
+
+// What is wrong with a radar that a file describes, in the file's words: at the file, with the names of its
+// keys instead of options.
+core::InputError in_radar_file(const core::InputError& error, const std::filesystem::path& file);
 
 // What signal::window_of reads, for messages.
 inline constexpr const char* kWindowWords =

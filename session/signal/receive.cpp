@@ -12,7 +12,9 @@ namespace fanbeam::session {
 namespace {
 
 std::size_t convert(const FmcwReceiver& receiver, signal::FloatCube& beat) {
-  double full_scale = receiver.full_scale_sqrtW;
+  // A real tone of that power reaches the square root of twice of it.
+  double full_scale =
+      receiver.full_scale_sqrtW * (receiver.complex_baseband ? 1.0 : std::sqrt(2.0));
   if (!(full_scale > 0.0))
     for (const std::complex<float>& sample : beat.values)
       full_scale = std::max({full_scale, static_cast<double>(std::abs(sample.real())),
@@ -49,14 +51,14 @@ double phase_noise_rad(const FmcwReceiver& receiver, int samples) {
       .rms_rad;
 }
 
-signal::FloatCube with_phase_noise(const FmcwReceiver& receiver, const core::RandomKey& key,
-                                   const std::vector<double>& delays_s,
+signal::FloatCube with_phase_noise(const signal::Array& array, const FmcwReceiver& receiver,
+                                   const core::RandomKey& key, const std::vector<double>& delays_s,
                                    const SynthesiseSome& synthesise) {
   signal::FloatCube sum;
   for (const signal::DelayGroup& group : signal::delay_groups(delays_s)) {
     signal::FloatCube part = synthesise(group.members);
     signal::apply_oscillator(receiver.phase_noise, group.delay_s, receiver.sample_rate_Hz, key,
-                             part);
+                             array, part);
     if (sum.values.empty()) {
       sum = std::move(part);
       continue;

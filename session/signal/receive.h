@@ -37,8 +37,8 @@ double phase_noise_rad(const FmcwReceiver& receiver, int samples);
 
 // The cube of echoes each turned by its own phase: `synthesise` makes that of some of them.
 using SynthesiseSome = std::function<signal::FloatCube(const std::vector<std::size_t>&)>;
-signal::FloatCube with_phase_noise(const FmcwReceiver& receiver, const core::RandomKey& key,
-                                   const std::vector<double>& delays_s,
+signal::FloatCube with_phase_noise(const signal::Array& array, const FmcwReceiver& receiver,
+                                   const core::RandomKey& key, const std::vector<double>& delays_s,
                                    const SynthesiseSome& synthesise);
 
 // The complex cube becomes real samples (signal::keep_real) where the receiver has those. Returns how

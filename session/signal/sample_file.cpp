@@ -68,6 +68,7 @@ SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRad
                       static_cast<std::size_t>(radar.array.slots());
   shape_ = {signal::samples_per_segment(radar.waveform, 0), static_cast<int>(chirps),
             radar.array.channels()};
+  real_ = !radar.waveform.complex_baseband;
   transmitters_ = static_cast<int>(radar.array.transmitters_m.size());
   receivers_ = static_cast<int>(radar.array.receivers_m.size());
   std::size_t frames = 0;
@@ -113,6 +114,12 @@ void SampleFiles::check(const File& file) const {
       refuse(fmt::format("{} along {}", length(name), name),
              fmt::format("{}, as the array has", count));
   };
+  const bool is_complex = file.header.type.find('c') != std::string::npos;
+  if (is_complex == real_)
+    problems.error(core::ErrorClass::unsupported, core::Place{file.path.string()}, "type",
+                   file.header.type,
+                   real_ ? "real samples, as the radar file says (real = true)"
+                         : "complex samples, or real = true in the radar file's [waveform]");
   at_least("sample", static_cast<std::size_t>(shape_.samples));
   const bool turns = in_turn(layout_.axes, transmitters_);
   at_least("chirp", static_cast<std::size_t>(shape_.chirps) *

@@ -50,6 +50,7 @@ class SampleFiles {
   SampleLayout layout_;
   signal::CubeShape shape_;
   int transmitters_ = 1, receivers_ = 1;
+  bool real_ = false;
   int frames_ = 0;
 };
 

@@ -8,7 +8,7 @@ namespace fanbeam::session {
 
 struct SampleLayout {
   std::vector<std::string> axes;  // outermost first; empty: channel, chirp, sample
-  double scale_sqrtW = 1.0;       // above 0 to 1e9
+  double scale_sqrtW = 1.0;       // 1e-30 to 1e9
   bool conjugate = false;
 };
 

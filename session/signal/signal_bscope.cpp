@@ -92,9 +92,9 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
     keep_larger(plan, result.plan);
     const core::RandomKey key{seed, 0, pose.frame_index};
     if (plan.runs(core::EffectId::phase_noise)) {
-      beat = with_phase_noise(receiver, key, delays, [&](const std::vector<std::size_t>& members) {
-        return beat_of(sensor, found, members);
-      });
+      beat = with_phase_noise(
+          {}, receiver, key, delays,
+          [&](const std::vector<std::size_t>& members) { return beat_of(sensor, found, members); });
       result.phase_noise_rad =
           std::max(result.phase_noise_rad, phase_noise_rad(receiver, beat.shape.samples));
     }

@@ -6,6 +6,7 @@
 
 #include "core/errors.h"
 #include "signal/angle/angle_peak.h"
+#include "signal/angle/joint_fit.h"
 #include "signal/angle/plane_wave.h"
 #include "signal/angle/spatial_spectrum.h"
 #include "signal/checks_private.h"
@@ -18,7 +19,7 @@ constexpr double kLeastShare = 0.01;
 constexpr double kLeastBeams = 0.2;  // between two directions
 constexpr double kBeamwidth = 0.8859;
 constexpr int kBeamsOfGrid = 16;  // within a beamwidth
-constexpr int kTurns = 30;
+constexpr int kTurns = 10;
 constexpr double kStill = 1e-6;           // of the sine
 constexpr double kLeastRelative = 1e-12;  // of the strongest, where there is no noise
 
@@ -82,7 +83,12 @@ struct Fit {
   double left_W = 0.0;  // sum over the elements
 };
 
-// The waves near these directions, each fitted to what the others leave, until none moves.
+double beam_sine(const Line& line) {
+  const double pitch_m = glm::length(line.elements_m[1] - line.elements_m[0]);
+  return kBeamwidth * line.wavelength_m / (static_cast<double>(line.elements_m.size()) * pitch_m);
+}
+
+// The waves near these directions, each fitted to what the others leave, then all together.
 Fit fitted(const Snapshot& snapshot, const Line& line, const std::vector<double>& azimuths_rad) {
   Fit fit;
   Snapshot rest = snapshot;
@@ -101,16 +107,16 @@ Fit fitted(const Snapshot& snapshot, const Line& line, const std::vector<double>
     }
     if (furthest < kStill) break;
   }
+  if (fit.waves.size() > 1) {
+    fit_together(snapshot, line.elements_m, line.wavelength_m, 0.25 * beam_sine(line), fit.waves);
+    rest = snapshot;
+    for (const PlaneWave& wave : fit.waves) rest = without(rest, wave.values);
+  }
   std::stable_sort(fit.waves.begin(), fit.waves.end(), [](const PlaneWave& a, const PlaneWave& b) {
     return std::norm(a.amplitude) > std::norm(b.amplitude);
   });
   fit.left_W = energy(rest);
   return fit;
-}
-
-double beam_sine(const Line& line) {
-  const double pitch_m = glm::length(line.elements_m[1] - line.elements_m[0]);
-  return kBeamwidth * line.wavelength_m / (static_cast<double>(line.elements_m.size()) * pitch_m);
 }
 
 bool holds(const Fit& fit, double least_sine) {

@@ -83,7 +83,7 @@ ResidualPhase residual_phase(const PhaseNoiseTable& table, double delay_s, doubl
 }
 
 void apply_oscillator(const PhaseNoiseTable& table, double delay_s, double sample_rate_Hz,
-                      const core::RandomKey& key, FloatCube& cube) {
+                      const core::RandomKey& key, const Array& array, FloatCube& cube) {
   check(table);
   check_not_negative("delay_s", delay_s);
   check_positive("sample_rate_Hz", sample_rate_Hz);
@@ -98,7 +98,9 @@ void apply_oscillator(const PhaseNoiseTable& table, double delay_s, double sampl
         k == 0 ? 0.0 : std::sqrt(2.0 * step_Hz * phase_density_rad2_per_Hz(table, offset_Hz));
     scale.push_back(sigma * (1.0 - std::polar(1.0, -2.0 * core::kPi * offset_Hz * delay_s)));
   }
-  core::parallel_for(static_cast<std::size_t>(cube.shape.chirps), [&](std::size_t chirp) {
+  const int slots = array.slots();
+  const auto in_turn = static_cast<std::size_t>(slots);
+  core::parallel_for(static_cast<std::size_t>(cube.shape.chirps) * in_turn, [&](std::size_t chirp) {
     std::vector<float> normals(2 * static_cast<std::size_t>(offsets));
     core::normal_numbers(draws, 0, static_cast<std::uint64_t>(chirp) << 32U, normals.size(),
                          normals.data());
@@ -110,12 +112,12 @@ void apply_oscillator(const PhaseNoiseTable& table, double delay_s, double sampl
         {.length = kPeriods * samples, .stride = 1, .batches = 1, .distance = kPeriods * samples},
         FftDirection::inverse)
         .run(lines.data());
-    const int m = static_cast<int>(chirp);
+    const int m = static_cast<int>(chirp) / slots, slot = static_cast<int>(chirp) % slots;
     for (int n = 0; n < samples; ++n) {
       const auto turn = static_cast<std::complex<float>>(
           std::polar(1.0, lines[static_cast<std::size_t>(n)].real()));
       for (int channel = 0; channel < cube.shape.channels; ++channel)
-        cube.at(channel, m, n) *= turn;
+        if (slots == 1 || array.transmitter_of(channel) == slot) cube.at(channel, m, n) *= turn;
     }
   });
 }

@@ -19,6 +19,7 @@
 
 #include "core/random.h"
 #include "signal/cube.h"
+#include "signal/waveform/array.h"
 
 namespace fanbeam::signal {
 
@@ -45,9 +46,10 @@ struct ResidualPhase {
 ResidualPhase residual_phase(const PhaseNoiseTable& table, double delay_s, double sample_rate_Hz,
                              int samples);
 
-// Turns the echoes of one delay. The same key gives the same theta for every delay.
+// Turns the echoes of one delay. The same key gives the same theta for every delay. Transmitters that take
+// turns have chirps, and draws, of their own.
 void apply_oscillator(const PhaseNoiseTable& table, double delay_s, double sample_rate_Hz,
-                      const core::RandomKey& key, FloatCube& cube);
+                      const core::RandomKey& key, const Array& array, FloatCube& cube);
 
 // Echoes that may share a delay. Up to 32 echoes keep their own; more are gathered where delays lie
 // within a 32nd of the logarithm of their span: 9 % of the delay and 0.8 dB of the residue, for delays up

@@ -192,10 +192,11 @@ most_range_m = 90
   CHECK(settings.phase_noise.offsets_Hz == std::vector<double>{1e5, 1e6});
   CHECK(settings.cfar == signal::CfarKind::greatest_of);
   const std::string text =
-      session::radar_toml(settings, settings.waveform, 77e9, 300e6, std::pow(10.0, 1.2));
+      session::radar_toml(settings, settings.waveform, {77e9, 300e6, std::pow(10.0, 1.2), 18e6});
   const session::FmcwSettings again = read(text, problems);
   REQUIRE_FALSE(problems.has_errors());
-  CHECK(session::radar_toml(again, again.waveform, 77e9, 300e6, std::pow(10.0, 1.2)) == text);
+  CHECK(session::radar_toml(again, again.waveform, {77e9, 300e6, std::pow(10.0, 1.2), 0.0}) ==
+        text);
   CHECK(again.receivers_m == settings.receivers_m);
   CHECK(again.range_window == settings.range_window);
   CHECK(again.most_range_m == settings.most_range_m);

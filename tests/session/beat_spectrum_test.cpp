@@ -48,3 +48,24 @@ TEST_CASE("A beat spectrum holds a scatterer's power at its range, and the noise
     CHECK(mean_W == Approx(spectrum.noise_W).epsilon(0.06));
   }
 }
+
+TEST_CASE("A full scale in dBm is that of a tone that just fills the converter, real or complex",
+          "[fmcw]") {
+  for (const bool real : {false, true})
+    for (const double above_dB : {-0.1, 0.1}) {
+      const double power_dBm = -40.0;
+      session::ReceiverSettings settings;
+      settings.adc_bits = 12;
+      settings.adc_full_scale_dBm = power_dBm + above_dB;
+      const session::FmcwReceiver receiver = session::fmcw_receiver(settings, 1.0, 20e6, !real);
+      signal::FloatCube beat({1000, 1, 1});
+      const double amplitude = std::pow(10.0, 0.05 * (power_dBm - 30.0));
+      for (int n = 0; n < 1000; ++n)
+        beat.at(0, 0, n) = static_cast<std::complex<float>>(std::polar(amplitude, 0.777 * n));
+      core::EffectPlan plan;
+      plan.decisions.push_back({core::EffectId::quantiser, true, "asked for"});
+      const std::size_t clipped = session::receive({}, receiver, plan, {1, 0, 0}, beat);
+      INFO((real ? "real" : "complex") << ", full scale " << above_dB << " dB above the tone");
+      CHECK((clipped > 0) == (above_dB < 0.0));
+    }
+}

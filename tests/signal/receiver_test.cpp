@@ -181,4 +181,11 @@ TEST_CASE("Behind the low pass the mixer's product is the difference alone", "[r
   }
   CHECK_THROWS_AS(mixer_trace(tests::default_waveform(WaveformKind::pulsed), ScatterPath{100.0}),
                   core::InputError);
+  // Where the sweep is small beside the sample rate no low pass lies between beat and sum.
+  ChirpSequenceParameters narrow;
+  narrow.bandwidth_Hz = 0.49 * narrow.sample_rate_Hz;
+  CHECK_THROWS_AS(mixer_trace(chirp_sequence(narrow), ScatterPath{100.0}), core::InputError);
+  narrow.bandwidth_Hz = 0.5 * narrow.sample_rate_Hz;
+  for (const double value : mixer_trace(chirp_sequence(narrow), ScatterPath{100.0}).beat)
+    CHECK(std::abs(value) < 0.501);
 }

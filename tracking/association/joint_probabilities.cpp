@@ -122,7 +122,7 @@ JointProbabilities joint_probabilities(const CostMatrix& likelihood,
     if (group.measurements.size() > kMostMeasurements)
       core::throw_input_error(core::ErrorClass::limit, "joint.measurements",
                               static_cast<double>(group.measurements.size()),
-                              "at most 16 in tracks that share them; narrow the gate");
+                              "at most 16 in tracks that share them: the best assignment takes more");
     std::vector<std::vector<double>> weight;
     for (const int track : group.tracks) {
       const double there = existence[static_cast<std::size_t>(track)];

@@ -57,7 +57,9 @@ TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed
   settings.most_range_m = radar.most_range_m;
   settings.most_azimuth_rad = radar.most_azimuth_rad;
   settings.resolution = resolution_of(radar);
-  settings.most_coasted = static_cast<int>(std::ceil(coast_s / radar.frame_s - 1e-9));
+  settings.most_coasted =
+      static_cast<int>(std::min(std::ceil(coast_s / radar.frame_s - 1e-9), 1e9));
+  settings.longest_gap_s = (settings.most_coasted + 1.5) * radar.frame_s;
   if (radar.array_elements < 2) {
     MotionModel along;
     along.axes = 1;

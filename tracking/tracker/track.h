@@ -13,6 +13,7 @@ struct Track {
   bool confirmed = false;
   ImmState state;
   int hits = 0, frames = 0, coasted = 0;
+  double unseen_s = 0.0;  // since it was measured last
   // Logarithm of the likelihood of a target over that of false measurements, until it is confirmed.
   double log_ratio = 0.0;
   std::optional<int> unresolved_with;  // id of the other one

@@ -66,7 +66,11 @@ void Tracker::update(double time_s, const std::vector<RadarMeasurement>& measure
     predict(settings_.motion, step_s, track.state);
     ++track.frames;
     ++track.coasted;
+    track.unseen_s += step_s;
   }
+  std::erase_if(tracks_, [&](const Track& track) {
+    return track.unseen_s > settings_.longest_gap_s && !track.unresolved_with;
+  });
   time_s_ = time_s;
   find_unresolved(step_s, frame);
   part(frame);
@@ -86,6 +90,7 @@ void Tracker::hit(Track& track, const RadarMeasurement& measurement) {
       told.log_likelihood + std::log(model.detection_probability / model.clutter_density);
   ++track.hits;
   track.coasted = 0;
+  track.unseen_s = 0.0;
 }
 
 void Tracker::end_and_confirm() {

@@ -18,7 +18,8 @@
 //                 near by, where the angle tells little in so short a time
 //   coasting      up to `most_coasted` frames without a measurement, and no more than it had with one,
 //                 then a track ends: ghosts live by chance, and rarely for long; so does one predicted
-//                 outside the field of view
+//                 outside the field of view. Where frames themselves are missing it ends after
+//                 `longest_gap_s`, before the next frame is looked at
 //   unresolved    two confirmed tracks predicted closer than the resolution on all axes, of which the
 //                 radar sees but one: no two measurements, one inside each gate. They are not
 //                 updated until both can be given a measurement of their own again; then the
@@ -62,6 +63,7 @@ struct TrackerSettings {
   double confirm_ratio = 1e6;
   int confirm_window = 4;
   int most_coasted = 10;
+  double longest_gap_s = 1e300;
   double start_tangential_sigma_mps = 20.0;
   Resolution resolution;
   double most_unresolved_s = 6.0;

@@ -87,6 +87,7 @@ void Tracker::update_joint(const std::vector<std::size_t>& which, Frame& frame) 
     if (joint.missed[row] < 0.5) {
       ++track.hits;
       track.coasted = 0;
+      track.unseen_s = 0.0;
     }
     track.state = moments(parts);
   }

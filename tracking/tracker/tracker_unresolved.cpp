@@ -11,7 +11,7 @@ namespace {
 // Lets a track take part again, with all of its coasting before it.
 void release(Track& track) {
   track.unresolved_with.reset();
-  track.unresolved_s = 0.0;
+  track.unresolved_s = track.unseen_s = 0.0;
   track.coasted = 1;
 }
 

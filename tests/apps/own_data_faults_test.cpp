@@ -1,0 +1,157 @@
+// What fanbeam track refuses of its inputs and of options that do not belong to them, and gaps between frames.
+#include <fmt/format.h>
+
+#include "core/npy.h"
+#include "session/signal/radar.h"
+#include "session/signal/radar_file.h"
+#include "tests/apps/program.h"
+
+using namespace fanbeam;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kRadar = R"([waveform]
+kind = "chirp-sequence"
+frequency_GHz = 76
+bandwidth_MHz = 250
+chirps = 16
+sample_rate_MHz = 4
+[array]
+transmitters = 1
+receivers = 4
+[receiver]
+noise_figure_dB = 12
+)";
+
+tests::Result track(const fs::path& input, const fs::path& out, const std::string& words = "") {
+  return tests::run_fanbeam("track " + tests::quoted(input) + " -q " + words + " -o " +
+                            tests::quoted(out));
+}
+
+std::string car(int first, int last, double begin_s) {
+  std::string rows;
+  for (int i = first; i < last; ++i)
+    rows += fmt::format("{},{},-8,5\n", begin_s + 0.1 * i, 60.0 - 0.8 * i);
+  return rows;
+}
+
+constexpr const char* kColumns = "time_s,range_m,radial_speed_mps,azimuth_deg\n";
+
+}  // namespace
+
+TEST_CASE("A track does not live through half a minute without frames", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path csv =
+      folder.write("gap.csv", kColumns + car(0, 10, 0.0) + "30,200,1,-40\n30.1,200.1,1,-40\n");
+  REQUIRE(track(csv, folder.path() / "out").exit_code == 0);
+  const std::string tracks = tests::bytes_of(folder.path() / "out/tracks.csv");
+  CHECK(tracks.find("\n0.9,1,") != std::string::npos);
+  CHECK(tracks.find("\n30,1,") == std::string::npos);
+  CHECK(tracks.find("\n30,2,") != std::string::npos);
+}
+
+TEST_CASE("JSON frames of one time are one frame, and all that go back are told", "[track]") {
+  const tests::TemporaryFolder folder;
+  const std::string one =
+      R"({"time_s": 0, "detections": [{"range_m": 50, "radial_speed_mps": 1, "azimuth_rad": 0}]})";
+  const fs::path same =
+      folder.write("same.json", R"({"frames": [)" + one + "," + one + "," + one + "]}");
+  REQUIRE(track(same, folder.path() / "out").exit_code == 0);
+  const nlohmann::json record = tests::json_of(folder.path() / "out/run.json");
+  CHECK(record["frames"] == 1);
+  CHECK(record["confirmed_tracks"] == 0);
+  const auto at = [](int s) { return fmt::format(R"({{"time_s": {}, "detections": []}})", s); };
+  const auto run =
+      track(folder.write("back.json", R"({"frames": [)" + at(3) + "," + at(2) + "," + at(1) + "]}"),
+            folder.path() / "back");
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("frame 1 time_s = 2") != std::string::npos);
+  CHECK(run.output.find("frame 2 time_s = 1") != std::string::npos);
+}
+
+TEST_CASE("Options of another kind of input are refused by name", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const auto run = track(csv, folder.path() / "out",
+                         "--frames 0:3 --samples --noise-figure 3 --frame-period 0.1");
+  CHECK(run.exit_code == 2);
+  for (const char* option : {"--frames", "--samples", "--noise-figure", "--frame-period"}) {
+    INFO(option << " in\n" << run.output);
+    CHECK(run.output.find(std::string(option) + " = given") != std::string::npos);
+  }
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+}
+
+TEST_CASE("The record of another command is not written over", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const fs::path record = folder.write("run.json", R"({"command": "render"})");
+  const auto refused = track(csv, folder.path());
+  CHECK(refused.exit_code == 2);
+  CHECK(refused.output.find("--output") != std::string::npos);
+  CHECK(tests::bytes_of(record) == R"({"command": "render"})");
+  REQUIRE(track(csv, folder.path() / "out").exit_code == 0);
+  CHECK(track(csv, folder.path() / "out").exit_code == 0);
+}
+
+TEST_CASE("What contradicts itself in a radar file is the file's fault", "[track]") {
+  const tests::TemporaryFolder folder;
+  std::string text = kRadar;
+  text.insert(text.find("chirps = 16"), "slots = 3\n");
+  const fs::path radar = folder.write("slots.toml", text);
+  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("slots.toml: E-UNSUPPORTED waveform.slots = 3") != std::string::npos);
+}
+
+TEST_CASE("Real samples are not read as complex ones", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path radar = folder.write("radar.toml", kRadar);
+  const std::vector<std::size_t> shape{1, 4, 16, 80};
+  core::write_npy(folder.path() / "real.npy", shape, std::vector<double>(5120, 1.0));
+  const auto run =
+      track(folder.path() / "real.npy", folder.path() / "out", "--radar " + tests::quoted(radar));
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("<f8") != std::string::npos);
+  CHECK(run.output.find("real = true") != std::string::npos);
+}
+
+TEST_CASE("Places on a line have the pitch between them, whatever it is", "[fmcw]") {
+  core::ProblemList problems;
+  session::FmcwSettings settings;
+  session::read_radar_text(R"([waveform]
+frequency_GHz = 76
+bandwidth_MHz = 250
+slots = 1
+kind = "chirp-sequence"
+[array]
+transmitter_right_m = [0.0]
+receiver_right_m = [0.0, 0.0028, 0.0056, 0.0084]
+gain_errors_dB = [0, 1, -1, 0.5]
+phase_errors_deg = [0, 10, 20, -30]
+[receiver]
+noise_figure_dB = 12
+line_width_Hz = 500
+adc_bits = 10
+adc_full_scale_dBm = -30
+)",
+                           "radar.toml", settings, problems);
+  REQUIRE_FALSE(problems.has_errors());
+  const session::FmcwRadar radar = session::fmcw_radar(settings);
+  CHECK(radar.line);
+  CHECK(radar.pitch_m == Approx(0.0028));
+  // What is wrong with the receiver is written too.
+  session::FmcwSettings again;
+  session::read_radar_text(
+      session::radar_toml(settings, "chirp-sequence", {76e9, 250e6, std::pow(10.0, 1.2), 0.0}),
+      "again.toml", again, problems);
+  REQUIRE_FALSE(problems.has_errors());
+  CHECK(again.gain_errors_dB == settings.gain_errors_dB);
+  REQUIRE(again.phase_errors_rad.size() == 4);
+  CHECK(again.phase_errors_rad[3] == Approx(settings.phase_errors_rad[3]));
+  CHECK(again.line_width_Hz == 500.0);
+  CHECK(again.adc_bits == 10);
+  CHECK(again.adc_full_scale_dBm == -30.0);
+}
