@@ -71,7 +71,8 @@ class SceneSource : public OwnSource {
                                      scene_->frame_count());
     name = scene_->description.name;
     kind = "scene";
-    frame_s = 1.0 / sensor.scan.frame_rate_Hz;
+    const int step = indices_.size() > 1 ? indices_[1] - indices_[0] : 1;
+    frame_s = step / sensor.scan.frame_rate_Hz;
     most_range_m = sensor.range.maximum_m();
     resolution = session::resolution_of(radar_);
     radar_speed_mps = options.radar_speed_mps.value_or(
