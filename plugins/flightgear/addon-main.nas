@@ -6,7 +6,7 @@
 #   rate-hz  30                       lines a second; FlightGear sends one a display frame at most
 #   scope    "bscope" or "cscope";    gain-dB, frozen, shown
 # and told:
-#   pictures   how many arrived;    failed   how many did not within five seconds
+#   pictures   how many arrived;    failed   how many did not within five seconds and ten display frames
 #
 # What has to live as long as the add-on stands out here: a timer that only a function holds is
 # collected and never fires.
@@ -23,6 +23,9 @@ var number = 0;
 
 var kSize = [330, 524];  # of the picture in the window
 var kPatience_s = 5;
+# Nor is a picture late that came while FlightGear itself stood still, loading scenery: it is seen some frames later.
+var kLooks = 10;
+var looks = 0;
 
 var now_s = func systime();
 
@@ -86,6 +89,7 @@ var take = func {
 var ask = func {
     number += 1;
     asked_s = now_s();
+    looks = 0;
     asked = root.createChild("image");
     asked.set("z-index", 0);
     asked.setFile(config.getNode("http").getValue() ~ "/frame/" ~ config.getNode("scope").getValue() ~
@@ -96,10 +100,11 @@ var ask = func {
 # not begun.
 var look = func {
     if (window == nil) return;
+    looks += 1;
     if (asked != nil) {
         if (arrived(asked)) {
             take();
-        } elsif (now_s() - asked_s > kPatience_s) {
+        } elsif (now_s() - asked_s > kPatience_s and looks > kLooks) {
             asked.del();
             asked = nil;
             config.getNode("failed").setIntValue(config.getNode("failed").getValue() + 1);
