@@ -230,6 +230,15 @@ TEST_CASE("From samples, cars side by side and overtaking keep their names",
   }
 }
 
+// A post in one cell with the car, apart by an angle that the samples tell.
+TEST_CASE("From samples, a car on a ring road is not taken for the post beside it",
+          "[sampled][statistics]") {
+  const Score score = score_of([](int) { return beaming(); }, 2, true);
+  INFO(words_of(score));
+  CHECK(score.mota >= 0.97);
+  CHECK(score.without_switch == 2);
+}
+
 TEST_CASE("Tracks of S1 to S3 are as good as they say in all four states",
           "[tracker][statistics]") {
   for (const core::HighwayScenario& scenario :
