@@ -227,8 +227,10 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
   radar.array = array_of(options, radar.waveform, radar.pitch_m);
   const std::vector<glm::dvec3> elements_m = signal::virtual_elements_m(radar.array);
   radar.line = is_line(elements_m);
-  if (radar.line && elements_m.size() > 1) radar.pitch_m = elements_m[1].y - elements_m[0].y;
-  if (!radar.line) radar.pitch_m = 0.5 * radar.waveform.wavelength_m();
+  if (!radar.line)
+    radar.pitch_m = 0.5 * radar.waveform.wavelength_m();
+  else if (elements_m.size() > 1)
+    radar.pitch_m = elements_m[1].y - elements_m[0].y;
   if (!radar.line && options.angle_method != signal::AngleMethod::beamforming)
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",
                             std::string(signal::name(options.angle_method)),

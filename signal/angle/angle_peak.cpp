@@ -28,13 +28,14 @@ struct Beamformer {
     return std::norm(sum) / static_cast<double>(snapshot.size() * snapshot.size());
   }
 
-  // Steps over a half-turn of sines, at most a quarter of the beamwidth each.
-  int scan_steps() const {
-    double aperture_m = 0.0;
+  double aperture_m() const {
+    double most_m = 0.0;
     for (const glm::dvec3& a : elements_m)
-      aperture_m = std::max(aperture_m, glm::length(a - elements_m[0]));
-    return steps_for(aperture_m);
+      most_m = std::max(most_m, glm::length(a - elements_m[0]));
+    return most_m;
   }
+  // Steps over a half-turn of sines, at most a quarter of the beamwidth each.
+  int scan_steps() const { return steps_for(aperture_m()); }
   int vertical_steps() const {
     double aperture_m = 0.0;
     for (const glm::dvec3& a : elements_m)
@@ -134,6 +135,7 @@ AnglePeak azimuth_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>& 
                        double wavelength_m, double elevation_rad) {
   const Beamformer beam{snapshot, elements_m, wavelength_m};
   check_input(beam);
+  if (!(beam.aperture_m() > 0.0)) return {0.0, elevation_rad, beam.power(0.0, elevation_rad)};
   const int steps = beam.scan_steps();
   int best = 0;
   double best_power = -1.0;

@@ -13,17 +13,13 @@ namespace {
 constexpr int kSteps = 12, kHalvings = 5;
 constexpr double kThere_rad = 1e-9;
 
-struct Receivers {
-  const std::vector<glm::dvec3>& elements_m;
-  double wavelength_m;
-};
+using Elements = std::vector<glm::dvec3>;
 
-PlaneWave wave_at(const Receivers& line, double azimuth_rad, double elevation_rad,
-                  std::complex<double> amplitude) {
+PlaneWave wave_at(const Elements& elements_m, double wavelength_m, double azimuth_rad,
+                  double elevation_rad, std::complex<double> amplitude) {
   PlaneWave wave{azimuth_rad, elevation_rad, amplitude, {}};
   for (const auto& value :
-       steering_vectors(line.elements_m, line.wavelength_m, {{azimuth_rad}, {elevation_rad}})
-           .values)
+       steering_vectors(elements_m, wavelength_m, {{azimuth_rad}, {elevation_rad}}).values)
     wave.values.push_back(amplitude * value);
   return wave;
 }
@@ -37,9 +33,10 @@ double left(const Snapshot& snapshot, const std::vector<PlaneWave>& waves, Snaps
 }
 
 // Real parts above imaginary ones; for each wave the derivatives by azimuth and by both parts of the amplitude.
-Eigen::MatrixXd derivatives(const Receivers& line, const std::vector<PlaneWave>& waves) {
+Eigen::MatrixXd derivatives(const Elements& elements_m, double wavelength_m,
+                            const std::vector<PlaneWave>& waves) {
   constexpr double kStep_rad = 1e-6;
-  const auto elements = static_cast<Eigen::Index>(line.elements_m.size());
+  const auto elements = static_cast<Eigen::Index>(elements_m.size());
   Eigen::MatrixXd result(2 * elements, 3 * static_cast<Eigen::Index>(waves.size()));
   Eigen::Index column = 0;
   const auto put = [&](const Snapshot& values) {
@@ -51,7 +48,9 @@ Eigen::MatrixXd derivatives(const Receivers& line, const std::vector<PlaneWave>&
   };
   for (const PlaneWave& wave : waves) {
     const auto at = [&](double turn_rad, std::complex<double> amplitude) {
-      return wave_at(line, wave.azimuth_rad + turn_rad, wave.elevation_rad, amplitude).values;
+      return wave_at(elements_m, wavelength_m, wave.azimuth_rad + turn_rad, wave.elevation_rad,
+                     amplitude)
+          .values;
     };
     Snapshot turned = without(at(kStep_rad, wave.amplitude), at(-kStep_rad, wave.amplitude));
     for (auto& value : turned) value /= 2.0 * kStep_rad;
@@ -62,14 +61,14 @@ Eigen::MatrixXd derivatives(const Receivers& line, const std::vector<PlaneWave>&
   return result;
 }
 
-std::vector<PlaneWave> moved(const Receivers& line, const std::vector<PlaneWave>& waves,
-                             const Eigen::VectorXd& step) {
+std::vector<PlaneWave> moved(const Elements& elements_m, double wavelength_m,
+                             const std::vector<PlaneWave>& waves, const Eigen::VectorXd& step) {
   std::vector<PlaneWave> result;
   Eigen::Index at = 0;
   for (const PlaneWave& wave : waves) {
     const double azimuth_rad =
         std::clamp(wave.azimuth_rad + step(at), -0.5 * core::kPi, 0.5 * core::kPi);
-    result.push_back(wave_at(line, azimuth_rad, wave.elevation_rad,
+    result.push_back(wave_at(elements_m, wavelength_m, azimuth_rad, wave.elevation_rad,
                              wave.amplitude + std::complex<double>(step(at + 1), step(at + 2))));
     at += 3;
   }
@@ -78,12 +77,11 @@ std::vector<PlaneWave> moved(const Receivers& line, const std::vector<PlaneWave>
 
 }  // namespace
 
-void fit_together(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
-                  double wavelength_m, double most_step_rad, std::vector<PlaneWave>& waves) {
-  if (waves.empty() || 2 * elements_m.size() <= 3 * waves.size()) return;
-  const Receivers line{elements_m, wavelength_m};
+Snapshot fit_together(const Snapshot& snapshot, const Elements& elements_m, double wavelength_m,
+                      double most_step_rad, std::vector<PlaneWave>& waves) {
   Snapshot rest;
   double left_W = left(snapshot, waves, rest);
+  if (waves.empty() || 2 * elements_m.size() <= 3 * waves.size()) return rest;
   const auto elements = static_cast<Eigen::Index>(elements_m.size());
   for (int turn = 0; turn < kSteps; ++turn) {
     Eigen::VectorXd wanted(2 * elements);
@@ -91,15 +89,16 @@ void fit_together(const Snapshot& snapshot, const std::vector<glm::dvec3>& eleme
       wanted(m) = rest[static_cast<std::size_t>(m)].real();
       wanted(elements + m) = rest[static_cast<std::size_t>(m)].imag();
     }
-    Eigen::VectorXd step = derivatives(line, waves).colPivHouseholderQr().solve(wanted);
+    Eigen::VectorXd step =
+        derivatives(elements_m, wavelength_m, waves).colPivHouseholderQr().solve(wanted);
     double furthest_rad = 0.0;
     for (Eigen::Index i = 0; i < step.size(); i += 3)
       furthest_rad = std::max(furthest_rad, std::abs(step(i)));
-    if (!std::isfinite(furthest_rad)) return;
+    if (!std::isfinite(furthest_rad)) return rest;
     if (furthest_rad > most_step_rad) step *= most_step_rad / furthest_rad;
     bool better = false;
     for (int half = 0; half < kHalvings && !better; ++half, step *= 0.5) {
-      std::vector<PlaneWave> tried = moved(line, waves, step);
+      std::vector<PlaneWave> tried = moved(elements_m, wavelength_m, waves, step);
       Snapshot tried_rest;
       const double tried_W = left(snapshot, tried, tried_rest);
       if (!(tried_W < left_W)) continue;
@@ -108,8 +107,9 @@ void fit_together(const Snapshot& snapshot, const std::vector<glm::dvec3>& eleme
       rest = std::move(tried_rest);
       left_W = tried_W;
     }
-    if (!better || furthest_rad < kThere_rad) return;
+    if (!better || furthest_rad < kThere_rad) break;
   }
+  return rest;
 }
 
 }  // namespace fanbeam::signal

@@ -13,8 +13,8 @@
 namespace fanbeam::signal {
 
 // `most_step_rad` bounds each step in azimuth. Leaves the waves where no step makes less of the rest. Needs more
-// than 1.5 elements for each wave; else nothing happens.
-void fit_together(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
-                  double wavelength_m, double most_step_rad, std::vector<PlaneWave>& waves);
+// than 1.5 elements for each wave; else nothing moves. Returns what is left without the waves.
+Snapshot fit_together(const Snapshot& snapshot, const std::vector<glm::dvec3>& elements_m,
+                      double wavelength_m, double most_step_rad, std::vector<PlaneWave>& waves);
 
 }  // namespace fanbeam::signal

@@ -107,11 +107,9 @@ Fit fitted(const Snapshot& snapshot, const Line& line, const std::vector<double>
     }
     if (furthest < kStill) break;
   }
-  if (fit.waves.size() > 1) {
-    fit_together(snapshot, line.elements_m, line.wavelength_m, 0.25 * beam_sine(line), fit.waves);
-    rest = snapshot;
-    for (const PlaneWave& wave : fit.waves) rest = without(rest, wave.values);
-  }
+  if (fit.waves.size() > 1)
+    rest = fit_together(snapshot, line.elements_m, line.wavelength_m, 0.25 * beam_sine(line),
+                        fit.waves);
   std::stable_sort(fit.waves.begin(), fit.waves.end(), [](const PlaneWave& a, const PlaneWave& b) {
     return std::norm(a.amplitude) > std::norm(b.amplitude);
   });

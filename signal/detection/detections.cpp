@@ -119,9 +119,8 @@ std::vector<RadarDetection> detect(const Cube<Real>& beat, const PowerMap& map, 
                       peak.cell.background_W / array.channels(), array, timing, settings);
     for (const SourceDirection& wave : directions.waves) {
       RadarDetection detection = measured(place, directions.doppler_Hz, snr, axes, timing);
-      // One element tells no direction.
-      detection.azimuth_rad = array.channels() > 1 ? wave.azimuth_rad : 0.0;
-      detection.elevation_rad = array.channels() > 1 ? wave.elevation_rad : 0.0;
+      detection.azimuth_rad = wave.azimuth_rad;
+      detection.elevation_rad = wave.elevation_rad;
       detection.power_W = wave.power_W;
       detections.push_back(detection);
     }

@@ -188,6 +188,18 @@ TEST_CASE("Two waves within a beamwidth reach the bound of two", "[angle][statis
   CHECK(std::sqrt(squares / bounds) < 1.3);
 }
 
+TEST_CASE("One element, or several in one place, tell no direction", "[angle]") {
+  for (const std::size_t elements : {1U, 3U})
+    for (const AngleMethod method : {AngleMethod::beamforming, AngleMethod::music}) {
+      const std::vector<glm::dvec3> places(elements, glm::dvec3(0.0, 0.01, 0.0));
+      const auto found =
+          source_directions(Snapshot(elements, {3.0, 4.0}), places, kWavelength_m, method, 1e-3);
+      REQUIRE(found.size() == 1);
+      CHECK(found[0].azimuth_rad == 0.0);
+      CHECK(found[0].power_W == Approx(25.0));
+    }
+}
+
 TEST_CASE("Powers of two waves beyond a beamwidth are theirs", "[angle]") {
   const auto elements_m = line_of(12);
   const auto found =
