@@ -4,11 +4,21 @@
 #include <cmath>
 #include <utility>
 
+#include "core/dispatch.h"
 #include "core/random.h"
 #include "renderer/casting/deposit.h"
 #include "renderer/casting/sub_column.h"
 
 namespace fanbeam::renderer {
+
+void BounceShare::deposit_in(FanSums& sums) const {
+  const auto at = static_cast<std::size_t>(sub_column);
+  deposit(cells[0], cells[1], power_W_per_rad,
+          &sums.range_W_per_rad[at * static_cast<std::size_t>(sums.cells)], sums.cells);
+  if (sums.rows > 0)
+    deposit(rows[0], rows[1], power_W_m3_per_rad,
+            &sums.elevation_W_m3_per_rad[at * static_cast<std::size_t>(sums.rows)], sums.rows);
+}
 namespace {
 
 // Intervals of elevation that get more rays together, and those beside that have a say.
@@ -26,7 +36,8 @@ struct StripScratch {
   std::vector<double> edges;
   std::vector<AntennaRay> rays;  // first one for each interval and block, [interval][block]
   std::vector<Stands> stands;    // each ray's
-  std::vector<Bounce> bounces;
+  std::vector<BounceEcho> echoes;
+  std::vector<double> shown;  // of what a cell shows, by ray, per solid angle: what its echoes add
 };
 StripScratch& strip_scratch() {
   thread_local StripScratch scratch;
@@ -63,6 +74,7 @@ class Strip {
     }
     aim_fan();
     cast();
+    hold_against_shown();
     refine();
     cast();
     deposit_all(foreign);
@@ -74,14 +86,18 @@ class Strip {
   void clear() {
     scratch_.rays.clear();
     scratch_.stands.clear();
-    scratch_.bounces.clear();
+    scratch_.echoes.clear();
+    traced_ = 0;
   }
   void add_ray(int block, double across, double elevation_rad, const Stands& stands) {
     scratch_.rays.push_back({left_rad_ + (block + across) * block_rad_, elevation_rad});
     scratch_.stands.push_back(stands);
   }
-  // All rays that have no bounce yet.
-  void cast() { cast_ += frame_.tracer.trace(frame_.antenna, scratch_.rays, scratch_.bounces); }
+  // All rays that were not cast yet.
+  void cast() {
+    cast_ += frame_.tracer.trace(frame_.antenna, scratch_.rays, traced_, scratch_.echoes);
+    traced_ = scratch_.rays.size();
+  }
   int place_of(int block) const { return strip_ * sampling_.azimuths + block; }
   std::size_t first_ray(int interval, int block) const {
     return static_cast<std::size_t>(interval * sampling_.azimuths + block);
@@ -135,18 +151,17 @@ class Strip {
     double least = 1e300, most = 0.0;
     for (int j = std::max(begin, 0); j < std::min(end, intervals_); ++j)
       for (int block = 0; block < sampling_.azimuths; ++block) {
-        const Bounce& bounce = scratch_.bounces[first_ray(j, block)];
-        const double change = (shown(bounce.pair) + shown(bounce.image)) * span_rad(j) * block_rad_;
+        const double change = scratch_.shown[first_ray(j, block)] * span_rad(j) * block_rad_;
         least = std::min(least, change);
         most = std::max(most, change);
       }
     return most - least;
   }
 
-  double shown(const BounceEcho& echo) const {
-    return echo.density_W_per_rad2 > 0.0
-               ? echo.density_W_per_rad2 / frame_.shown_W[cell_at(echo.range_m)]
-               : 0.0;
+  void hold_against_shown() {
+    scratch_.shown.assign(scratch_.rays.size(), 0.0);
+    for (const BounceEcho& echo : scratch_.echoes)
+      scratch_.shown[echo.ray] += echo.density_W_per_rad2 / frame_.shown_W[cell_at(echo.range_m)];
   }
 
   // A ray of a reference counts where it was sent: spread it would light what lies beside.
@@ -169,25 +184,21 @@ class Strip {
   }
 
   void deposit_all(std::vector<BounceShare>& foreign) {
-    for (std::size_t i = 0; i < scratch_.rays.size(); ++i) {
-      deposit_echo(scratch_.bounces[i].pair, i, foreign);
-      deposit_echo(scratch_.bounces[i].image, i, foreign);
-    }
+    for (const BounceEcho& echo : scratch_.echoes) deposit_echo(echo, foreign);
   }
 
-  void deposit_echo(const BounceEcho& echo, std::size_t ray, std::vector<BounceShare>& foreign) {
-    if (!(echo.density_W_per_rad2 > 0.0)) return;
+  void deposit_echo(const BounceEcho& echo, std::vector<BounceShare>& foreign) {
     const sensors::RangeGate& gate = frame_.sensor.range;
     const sensors::Display& display = frame_.sensor.display;
     BounceShare share;
     share.sub_column =
         static_cast<int>(std::floor((echo.azimuth_rad - sums_.first_azimuth_rad) / sums_.step_rad));
-    const Stands& stands = scratch_.stands[ray];
+    const Stands& stands = scratch_.stands[echo.ray];
     share.power_W_per_rad =
         echo.density_W_per_rad2 * echo.left * stands.solid_rad2 / sums_.step_rad;
     for (int end = 0; end < 2; ++end) {
       const double ahead_rad =
-          (end == 0 ? stands.low_rad : stands.high_rad) - scratch_.rays[ray].elevation_rad;
+          (end == 0 ? stands.low_rad : stands.high_rad) - scratch_.rays[echo.ray].elevation_rad;
       share.cells[end] = (end_m(echo, ahead_rad) - gate.minimum_m) / gate.cell_m;
       share.rows[end] =
           (display.cscope_top_rad - echo.elevation_rad - echo.elevation_rate * ahead_rad) *
@@ -231,22 +242,15 @@ class Strip {
   int first_, end_;  // sub-columns
   double left_rad_, block_rad_;
   int intervals_ = 0;
+  std::size_t traced_ = 0;  // of the rays
   std::uint64_t cast_ = 0;
 };
 
 }  // namespace
 
-void BounceShare::deposit_in(FanSums& sums) const {
-  const auto at = static_cast<std::size_t>(sub_column);
-  deposit(cells[0], cells[1], power_W_per_rad,
-          &sums.range_W_per_rad[at * static_cast<std::size_t>(sums.cells)], sums.cells);
-  if (sums.rows > 0)
-    deposit(rows[0], rows[1], power_W_m3_per_rad,
-            &sums.elevation_W_m3_per_rad[at * static_cast<std::size_t>(sums.rows)], sums.rows);
-}
-
-std::uint64_t cast_bounce_strip(const BounceFrame& frame, int strip, FanSums& sums,
-                                std::vector<BounceShare>& foreign) {
+FANBEAM_HOT(std::uint64_t, cast_bounce_strip,
+            (const BounceFrame& frame, int strip, FanSums& sums, std::vector<BounceShare>& foreign),
+            (frame, strip, sums, foreign)) {
   Strip rays(frame, strip, sums);
   rays.run(foreign);
   return rays.cast_count();

@@ -1,6 +1,7 @@
 // Series for vector loops, against the standard library over their stated ranges.
 #include "core/series.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -21,6 +22,21 @@ TEST_CASE("Cosine and sine by series are within 1e-9 to a right angle, exact nea
     const double bound = std::abs(angle_rad) < 0.3 ? 1e-15 : 1e-9;
     REQUIRE(std::abs(cosine - std::cos(angle_rad)) < bound);
     REQUIRE(std::abs(sine - std::sin(angle_rad)) < bound);
+  }
+}
+
+TEST_CASE("Arc tangent by series is within 2e-10 in the right half-plane, exact near the axes",
+          "[core][series]") {
+  CHECK(series_arctangent(0.0, 0.0) == 0.0);
+  CHECK(series_arctangent(1.0, 0.0) == kPi / 2);
+  CHECK(series_arctangent(-1e300, 1e-300) == -kPi / 2);
+  for (int i = -kPlaces; i <= kPlaces; ++i) {
+    const double angle_rad = kPi / 2 * i / kPlaces;
+    const double length = std::exp(20.0 * std::sin(i));
+    const double y = length * std::sin(angle_rad), x = length * std::cos(angle_rad);
+    const double from_axis_rad = std::min(std::abs(angle_rad), kPi / 2 - std::abs(angle_rad));
+    const double bound = from_axis_rad < 0.45 ? 1e-15 : 2e-10;
+    REQUIRE(std::abs(series_arctangent(y, x) - std::atan2(y, x)) < bound);
   }
 }
 

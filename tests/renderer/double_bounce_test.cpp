@@ -15,7 +15,7 @@
 namespace {
 
 using namespace fanbeam;
-using renderer::Bounce;
+using renderer::BounceEcho;
 using renderer::BounceTracer;
 
 constexpr double kHeight_m = 60.0;
@@ -131,19 +131,20 @@ TEST_CASE("One ray by way of the ground has the range and the power of the close
   const BounceTracer tracer(world, false);
   const sensors::AntennaFrame antenna = antenna_at(kHeight_m);
   for (const double z_m : {0.5, 3.0, 7.0, 14.5}) {
-    std::vector<Bounce> bounces;
-    tracer.trace(antenna, {{0.0, -std::atan((kHeight_m + z_m) / kDistance_m)}}, bounces);
-    const Bounce& bounce = bounces.at(0);
+    std::vector<BounceEcho> echoes;
+    tracer.trace(antenna, {{0.0, -std::atan((kHeight_m + z_m) / kDistance_m)}}, 0, echoes);
+    REQUIRE(echoes.size() == 2);
+    if (echoes[0].range_m > echoes[1].range_m) std::swap(echoes[0], echoes[1]);
+    const BounceEcho &pair = echoes[0], &image = echoes[1];
     const double from_image_m = std::hypot(kDistance_m, kHeight_m + z_m);
     const double direct_m = std::hypot(kDistance_m, kHeight_m - z_m);
     const double step_rad_per_m = kDistance_m / (from_image_m * from_image_m);
     const Dihedral expected = dihedral_density(world.sensor, z_m);
-    CHECK(bounce.pair.range_m == Approx((from_image_m + direct_m) / 2).margin(2e-3));
-    CHECK(bounce.image.range_m == Approx(from_image_m).margin(2e-3));
-    CHECK(bounce.pair.density_W_per_rad2 == Approx(expected.pair_W / step_rad_per_m).epsilon(1e-3));
-    CHECK(bounce.image.density_W_per_rad2 ==
-          Approx(expected.image_W / step_rad_per_m).epsilon(1e-3));
-    CHECK(bounce.pair.azimuth_rad == Approx(0.0).margin(1e-9));
+    CHECK(pair.range_m == Approx((from_image_m + direct_m) / 2).margin(2e-3));
+    CHECK(image.range_m == Approx(from_image_m).margin(2e-3));
+    CHECK(pair.density_W_per_rad2 == Approx(expected.pair_W / step_rad_per_m).epsilon(1e-3));
+    CHECK(image.density_W_per_rad2 == Approx(expected.image_W / step_rad_per_m).epsilon(1e-3));
+    CHECK(pair.azimuth_rad == Approx(0.0).margin(1e-9));
   }
 }
 
