@@ -44,7 +44,7 @@ StripScratch& strip_scratch() {
   return scratch;
 }
 
-// A picture column's worth of azimuths.
+// A few picture columns' worth of azimuths.
 class Strip {
  public:
   Strip(const BounceFrame& frame, int strip, FanSums& sums)

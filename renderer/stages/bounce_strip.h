@@ -1,4 +1,4 @@
-// The bounces of one picture column's worth of azimuths.
+// The bounces of a few picture columns' worth of azimuths.
 //
 // The fan is cut into intervals of elevation and blocks of azimuth, with one ray in each, at a
 // place of its own. Where the rays around it differ by what shows in their cell, an interval gets
@@ -19,7 +19,7 @@ namespace fanbeam::renderer {
 
 // How finely bounces are sampled.
 struct BounceSampling {
-  int azimuths = 1;            // blocks per picture column
+  int azimuths = 1;            // blocks per strip
   double rays_per_cell = 1.0;  // range cells of ground, per block: without those for what differs
   // Of what a cell shows: where neighbours differ by more, an interval gets a ray for each of it.
   double smallest_change = 0.0;

@@ -9,6 +9,10 @@
 namespace fanbeam::renderer {
 namespace {
 
+// Of a strip: packets are fuller, and both have a say in where more rays go (measured,
+// docs/performance-notes.md).
+constexpr int kPictureColumns = 2;
+
 void add_fan(const BounceFrame& frame, FanSums& sums) {
   const int strips = (sums.sub_columns + frame.sub_columns - 1) / frame.sub_columns;
   std::vector<std::vector<BounceShare>> foreign(static_cast<std::size_t>(strips));
@@ -32,7 +36,7 @@ BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& su
   BounceSampling sampling;
   sampling.jittered_passes = surfaces.jittered_passes;
   sampling.seed = surfaces.seed;
-  sampling.azimuths = surfaces.sub_columns;
+  sampling.azimuths = kPictureColumns * surfaces.sub_columns;
   sampling.rays_per_cell = surfaces.rays_per_cell;
   if (surfaces.jittered_passes > 0) return sampling;
   // Measured (docs/performance-notes.md): half as many as surfaces have, azimuth first, and few rays
@@ -42,8 +46,9 @@ BounceSampling bounce_sampling(const sensors::Sensor& sensor, const Sampling& su
                                     : surfaces.rays_per_cell;
   const double samples =
       std::ldexp(surfaces.bounce_share * surfaces.sub_columns * per_sub_column / 2.0, level);
-  sampling.azimuths = std::clamp(static_cast<int>(std::lround(1.5 * std::sqrt(samples))), 1, 64);
-  sampling.rays_per_cell = 0.375 * samples / sampling.azimuths;
+  const int azimuths = std::clamp(static_cast<int>(std::lround(1.5 * std::sqrt(samples))), 1, 64);
+  sampling.azimuths = kPictureColumns * azimuths;
+  sampling.rays_per_cell = 0.375 * samples / azimuths;
   sampling.smallest_change = 0.9 * std::pow(samples, -1.5);
   sampling.longest_reach_m =
       surfaces.gap_cells / 2 * std::max(1.0, 1.0 / sampling.rays_per_cell) * sensor.range.cell_m;
@@ -63,7 +68,7 @@ void DoubleBounce::add(const sensors::AntennaFrame& antenna, int level, FanSums&
   const BounceSampling sampling = bounce_sampling(world_.sensor, sampling_, level);
   const ElevationFan fan(world_, fan_sampling(sampling_, sampling), ElevationFan::Nearest::antenna);
   add_fan({world_.sensor, sampling, shown_W_, fan, tracer_, antenna, pass_place(level),
-           sampling_.sub_columns},
+           kPictureColumns * sampling_.sub_columns},
           sums);
 }
 
