@@ -55,6 +55,26 @@ std::set<std::string> chosen_products(const std::string& text, const session::Fm
   return products;
 }
 
+// What does not go together is the radar file's fault where it is so without any option.
+session::FmcwRadar radar_of(const FmcwOptions& options, const scenes::SceneDescription& scene) {
+  const fs::path file =
+      options.radar_file.empty() ? fs::path(scene.signal_file) : fs::path(options.radar_file);
+  try {
+    return session::fmcw_radar(options, scene.sensor);
+  } catch (const core::InputError&) {
+    if (file.empty()) throw;
+    session::FmcwSettings alone;
+    core::ProblemList problems;
+    session::read_radar_file(file, alone, problems);
+    try {
+      session::fmcw_radar(alone, scene.sensor);
+    } catch (const core::InputError& error) {
+      throw session::in_radar_file(error, file);
+    }
+    throw;
+  }
+}
+
 class Run {
  public:
   Run(const FmcwOptions& options, const CommonOptions& common, const scenes::Scene& scene,
@@ -65,13 +85,18 @@ class Run {
         threads_(threads),
         frames_(session::parse_frames(options.frames, scene.frame_count())),
         radar_(options.products == kScan ? session::FmcwRadar{}
-                                         : session::fmcw_radar(options, scene.description.sensor)),
+                                         : radar_of(options, scene.description)),
         products_(chosen_products(options.products, radar_)),
         output_(options.output.empty()
                     ? core::default_output_folder(scene.description.name, "-fmcw")
                     : fs::path(options.output),
                 "", options.overwrite) {
-    if (!products_.contains(kSpectrogram)) return;
+    if (!products_.contains(kSpectrogram)) {
+      if (!options.spectrogram_of.empty())
+        core::throw_input_error(core::ErrorClass::range, "--spectrogram-of",
+                                "given without its product", "with --products spectrogram");
+      return;
+    }
     spectrogram_.emplace(radar_, options.spectrogram_of);
     const auto& targets = scene.world.targets;
     if (!options.spectrogram_of.empty() &&

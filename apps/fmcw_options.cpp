@@ -35,6 +35,21 @@ void add_radar_file(CLI::App& command, FmcwOptions& options) {
   };
 }
 
+// Replaces the places that a radar file may give.
+void add_elements(CLI::App& command, const char* name, FmcwOptions& options, int& count,
+                  const char* what) {
+  command
+      .add_option_function<int>(
+          name,
+          [&options, &count](int given) {
+            options.put_on_a_line();
+            count = given;
+          },
+          what)
+      ->check(whole_number_from(1, 64))
+      ->default_str(std::to_string(count));
+}
+
 void add_radar(CLI::App& command, FmcwOptions& options) {
   std::vector<std::string> names = {session::kAutomotive};
   for (const signal::WaveformKind kind : signal::all_waveform_kinds())
@@ -52,12 +67,9 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
         ->check(number_from(number.least, number.most));
   }
   command.add_flag("--real", options.real, "Real samples: negative beats read as positive ones");
-  command.add_option("--transmitters", options.transmitters, "Of the array")
-      ->check(whole_number_from(1, 64))
-      ->capture_default_str();
-  command.add_option("--receivers", options.receivers, "Of the array, half a wavelength apart")
-      ->check(whole_number_from(1, 64))
-      ->capture_default_str();
+  add_elements(command, "--transmitters", options, options.transmitters, "Of the array");
+  add_elements(command, "--receivers", options, options.receivers,
+               "Of the array, half a wavelength apart");
   command
       .add_option("--line-width", options.line_width_Hz,
                   "Of the oscillator, Hz: phase noise (default 0: none)")

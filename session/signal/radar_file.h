@@ -54,7 +54,9 @@ core::InputError in_radar_file(const core::InputError& error, const std::filesys
 
 // What signal::window_of reads, for messages.
 inline constexpr const char* kWindowWords =
-    "rectangular, hann, hamming, blackman, blackman-harris, taylor:DB, chebyshev:DB or kaiser:BETA";
+    "rectangular, hann, hamming, blackman, blackman-harris, taylor:DB (10 to 120; taylor:DB:N, N "
+    "from 1 to 50), "
+    "chebyshev:DB (20 to 200) or kaiser:BETA (0 to 100)";
 
 // "ca", "os", "go", "so".
 std::string cfar_word(signal::CfarKind kind);

@@ -18,6 +18,14 @@ struct ArraySettings {
   // processing does not know; empty: none.
   std::vector<double> gain_errors_dB;    // +-60
   std::vector<double> phase_errors_rad;  // +-2 pi
+
+  // As many elements on a line instead of those at places.
+  void put_on_a_line() {
+    if (!transmitters_m.empty()) transmitters = static_cast<int>(transmitters_m.size());
+    if (!receivers_m.empty()) receivers = static_cast<int>(receivers_m.size());
+    transmitters_m.clear();
+    receivers_m.clear();
+  }
 };
 
 struct ReceiverSettings {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/constants.h"
@@ -13,40 +14,85 @@ namespace {
 constexpr double c_mps = core::kSpeedOfLight_mps;
 constexpr std::size_t kPathsAtOnce = 4096;  // paths of one piece of work
 
-// Sum of squares of the two elements of every channel: what the near field depends on.
-struct NearField {
-  double mean_m2 = 0.0, deviation_m2 = 0.0;
-};
-
-NearField near_field(const Frame& frame) {
-  double sum = 0.0, squares = 0.0;
-  for (const glm::dvec3& t : frame.array.transmitters_m)
-    for (const glm::dvec3& r : frame.array.receivers_m) {
-      const double q_m2 = t.y * t.y + r.y * r.y;
-      sum += q_m2;
-      squares += q_m2 * q_m2;
-    }
-  const double mean_m2 = sum / frame.shape.channels;
-  return {mean_m2, std::sqrt(std::max(0.0, squares / frame.shape.channels - mean_m2 * mean_m2))};
+glm::dvec3 virtual_element_m(const Frame& frame, int channel) {
+  const auto t = static_cast<std::size_t>(frame.array.transmitter_of(channel));
+  const auto r = static_cast<std::size_t>(frame.array.receiver_of(channel));
+  return frame.array.transmitters_m[t] + frame.array.receivers_m[r];
 }
 
-KeystonePath keystone_path(const Frame& frame, double reference_s, const NearField& near_m2,
-                           const ScatterPath& path) {
+// What a channel adds to the two-way length in the near field, times twice the range: the squares
+// of its two elements less those along the direction u of the path. Linear in six products, so that
+// its mean and deviation over a row's channels need no look at them for every path.
+class NearField {
+ public:
+  NearField(const Frame& frame, const ElementRow& row) {
+    for (const int channel : row.channels) {
+      const Products p = products(frame, channel);
+      for (std::size_t i = 0; i < 6; ++i)
+        mean_[i] += p[i] / static_cast<double>(row.channels.size());
+    }
+    for (const int channel : row.channels) {
+      const Products p = products(frame, channel);
+      for (std::size_t i = 0; i < 6; ++i)
+        for (std::size_t j = 0; j < 6; ++j)
+          covariance_[i][j] +=
+              (p[i] - mean_[i]) * (p[j] - mean_[j]) / static_cast<double>(row.channels.size());
+    }
+  }
+
+  double mean_m2(const glm::dvec3& u) const {
+    const Products w = weights(u);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 6; ++i) sum += w[i] * mean_[i];
+    return sum;
+  }
+  double deviation_m2(const glm::dvec3& u) const {
+    const Products w = weights(u);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j) sum += w[i] * covariance_[i][j] * w[j];
+    return std::sqrt(std::max(0.0, sum));
+  }
+
+ private:
+  using Products = std::array<double, 6>;  // xx, yy, zz, xy, xz, yz
+
+  static Products products(const Frame& frame, int channel) {
+    Products sum{};
+    for (const glm::dvec3& p :
+         {frame.array.transmitters_m[static_cast<std::size_t>(frame.array.transmitter_of(channel))],
+          frame.array.receivers_m[static_cast<std::size_t>(frame.array.receiver_of(channel))]}) {
+      const Products of = {p.x * p.x, p.y * p.y, p.z * p.z, p.x * p.y, p.x * p.z, p.y * p.z};
+      for (std::size_t i = 0; i < 6; ++i) sum[i] += of[i];
+    }
+    return sum;
+  }
+  static Products weights(const glm::dvec3& u) {
+    return {1.0 - u.x * u.x,  1.0 - u.y * u.y,  1.0 - u.z * u.z,
+            -2.0 * u.x * u.y, -2.0 * u.x * u.z, -2.0 * u.y * u.z};
+  }
+
+  Products mean_{};
+  std::array<Products, 6> covariance_{};
+};
+
+KeystonePath keystone_path(const Frame& frame, const ElementRow& row, double reference_s,
+                           const NearField& near, const ScatterPath& path) {
   const Segment& segment = frame.segments.front();
   const double middle_Hz = sample_frequency_Hz(frame, frame.shape.samples / 2);
   const double range_m = path.range_m + path.radial_speed_mps * reference_s;
-  const double delay_s = 2.0 * range_m / c_mps;
+  const glm::dvec3 u = direction(path.azimuth_rad, path.elevation_rad);
+  const double delay_s = (2.0 * range_m - u.x * row.forward_m - u.z * row.up_m) / c_mps;
   const double sweep_Hz = segment.slope_Hz_per_s * delay_s;
   const double scale = 1.0 - sweep_Hz / middle_Hz;
   const double rate = 2.0 * path.radial_speed_mps / c_mps;
-  const double sine = std::cos(path.elevation_rad) * std::sin(path.azimuth_rad);
-  const double bulge_per_m2 = middle_Hz / c_mps * (1.0 - sine * sine) / (2.0 * range_m);
+  const double bulge_per_m2 = middle_Hz / c_mps / (2.0 * range_m);
 
   KeystonePath seen;
   seen.rate = rate * scale;
-  seen.sine_s_per_m = sine * scale / c_mps;
+  seen.sine_s_per_m = u.y * scale / c_mps;
   seen.delay_turns_per_sample = sweep_Hz / frame.sample_rate_Hz;
-  const double turns = (middle_Hz - 0.5 * sweep_Hz) * delay_s + bulge_per_m2 * near_m2.mean_m2;
+  const double turns = (middle_Hz - 0.5 * sweep_Hz) * delay_s + bulge_per_m2 * near.mean_m2(u);
   seen.value = path.amplitude_sqrtW * unit_phasor(turns);
 
   const double half_s = 0.5 * frame.interval_s * frame.shape.chirps;
@@ -54,7 +100,7 @@ KeystonePath keystone_path(const Frame& frame, double reference_s, const NearFie
   const double bend = 0.5 * segment.slope_Hz_per_s * moved * moved / std::sqrt(5.0);
   const double ramp_Hz = std::abs(segment.slope_Hz_per_s) * segment.duration_s;
   const double drift = std::abs(sweep_Hz) * 0.5 * ramp_Hz / middle_Hz * std::abs(moved) / 3.0;
-  const double bulge = bulge_per_m2 * near_m2.deviation_m2;
+  const double bulge = bulge_per_m2 * near.deviation_m2(u);
   seen.error_rad = 2.0 * core::kPi * std::sqrt(bulge * bulge + bend * bend + drift * drift);
   return seen;
 }
@@ -74,20 +120,33 @@ double sample_frequency_Hz(const Frame& frame, int sample) {
   return segment.start_frequency_Hz + segment.slope_Hz_per_s * sample / frame.sample_rate_Hz;
 }
 
-double element_m(const Frame& frame, int channel) {
-  return frame.array.transmitters_m[static_cast<std::size_t>(frame.array.transmitter_of(channel))]
-             .y +
-         frame.array.receivers_m[static_cast<std::size_t>(frame.array.receiver_of(channel))].y;
+double element_m(const Frame& frame, int channel) { return virtual_element_m(frame, channel).y; }
+
+std::vector<ElementRow> element_rows(const Frame& frame) {
+  // Sums of the same places in another order differ by rounding.
+  const double alike_m = 1e-6 * frame.waveform.wavelength_m();
+  std::vector<ElementRow> rows;
+  for (int channel = 0; channel < frame.shape.channels; ++channel) {
+    const glm::dvec3 at_m = virtual_element_m(frame, channel);
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const ElementRow& known) {
+      return std::abs(known.forward_m - at_m.x) <= alike_m &&
+             std::abs(known.up_m - at_m.z) <= alike_m;
+    });
+    if (row == rows.end()) row = rows.insert(rows.end(), {at_m.x, at_m.z, {}});
+    row->channels.push_back(channel);
+  }
+  return rows;
 }
 
-std::vector<KeystonePath> keystone_paths(const Frame& frame, double reference_s,
+std::vector<KeystonePath> keystone_paths(const Frame& frame, const ElementRow& row,
+                                         double reference_s,
                                          const std::vector<ScatterPath>& paths) {
-  const NearField near_m2 = near_field(frame);
+  const NearField near(frame, row);
   std::vector<KeystonePath> seen(paths.size());
   core::parallel_for((paths.size() + kPathsAtOnce - 1) / kPathsAtOnce, [&](std::size_t chunk) {
     const std::size_t end = std::min(paths.size(), (chunk + 1) * kPathsAtOnce);
     for (std::size_t i = chunk * kPathsAtOnce; i < end; ++i)
-      seen[i] = keystone_path(frame, reference_s, near_m2, paths[i]);
+      seen[i] = keystone_path(frame, row, reference_s, near, paths[i]);
   });
   return seen;
 }

@@ -22,6 +22,12 @@ struct KeystoneAxes {
   double reference_s = 0.0;  // mid frame
 };
 
+// Channels whose virtual elements lie beside each other: at one place forward and up.
+struct ElementRow {
+  double forward_m = 0.0, up_m = 0.0;
+  std::vector<int> channels;
+};
+
 // What a path is in these variables, and what the variables leave out.
 struct KeystonePath {
   double rate = 0.0, sine_s_per_m = 0.0, delay_turns_per_sample = 0.0;
@@ -31,11 +37,15 @@ struct KeystonePath {
 
 // Frequency transmitted at a sample.
 double sample_frequency_Hz(const Frame& frame, int sample);
-// Position of a channel's virtual element along the line.
+// Position of a channel's virtual element along its row.
 double element_m(const Frame& frame, int channel);
 
-std::vector<KeystonePath> keystone_paths(const Frame& frame, double reference_s,
-                                         const std::vector<ScatterPath>& paths);
+// In the order of their first channels.
+std::vector<ElementRow> element_rows(const Frame& frame);
+
+// As the row sees them.
+std::vector<KeystonePath> keystone_paths(const Frame& frame, const ElementRow& row,
+                                         double reference_s, const std::vector<ScatterPath>& paths);
 KeystoneAxes keystone_axes(const Frame& frame, const std::vector<KeystonePath>& paths, int width,
                            double reference_s);
 

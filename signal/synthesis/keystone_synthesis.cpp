@@ -20,12 +20,6 @@ void check_frame(const Frame& frame) {
   if (!frame.uniform)
     core::throw_input_error(core::ErrorClass::unsupported, "waveform",
                             std::string(name(frame.waveform.kind)), "a chirp sequence");
-  for (const auto* elements : {&frame.array.transmitters_m, &frame.array.receivers_m})
-    for (const glm::dvec3& element_at_m : *elements)
-      if (element_at_m.x != 0.0 || element_at_m.z != 0.0)
-        core::throw_input_error(core::ErrorClass::unsupported, "array element",
-                                element_at_m.x != 0.0 ? element_at_m.x : element_at_m.z,
-                                "elements on the axis to the right");
 }
 
 double mid_frame_s(const Frame& frame) {
@@ -71,6 +65,31 @@ void transform_delays(const SpreadingKernel& kernel, int samples, WaveGrid& grid
 // Of three axes, each with what the width gives, but not below the rounding of sums in float.
 double kernel_error_of(int width) { return 3.0 * std::max(1e-6, spreading_error(width)); }
 
+double error_of(const std::vector<KeystonePath>& paths, const SpreadingKernel& kernel) {
+  double power = 0.0, missed = 0.0;
+  for (const KeystonePath& path : paths) {
+    power += std::norm(path.value);
+    missed += std::norm(path.value) * path.error_rad * path.error_rad;
+  }
+  return power > 0.0 ? std::sqrt(missed / power) + kernel_error_of(kernel.width()) : 0.0;
+}
+
+// Fills the row's channels; the error is the largest of rows.
+void add_row(const Frame& frame, const ElementRow& row, const std::vector<ScatterPath>& paths,
+             const SpreadingKernel& kernel, KeystoneBeat& beat) {
+  const std::vector<KeystonePath> seen = keystone_paths(frame, row, mid_frame_s(frame), paths);
+  const KeystoneAxes axes = keystone_axes(frame, seen, kernel.width(), mid_frame_s(frame));
+  const double cells = static_cast<double>(axes.rate.cells) * axes.sine_s_per_m.cells * axes.delays;
+  if (cells > kMostCells)
+    core::throw_input_error(core::ErrorClass::limit, "grid cells", cells,
+                            "at most 4e8: a narrower span of speeds, or synthesise_beat");
+  beat.estimated_error = std::max(beat.estimated_error, error_of(seen, kernel));
+  WaveGrid grid(kernel, axes.rate.cells, axes.sine_s_per_m.cells, axes.delays);
+  grid.spread(points_of(axes, seen));
+  transform_delays(kernel, frame.shape.samples, grid);
+  transform_rates_and_sines(frame, row.channels, axes, kernel, grid, beat.cube);
+}
+
 }  // namespace
 
 KeystoneBeat keystone_beat(const Waveform& waveform, int stage, const Array& array,
@@ -86,24 +105,7 @@ KeystoneBeat keystone_beat(const Waveform& waveform, int stage, const Array& arr
   if (paths.empty()) return beat;
 
   const SpreadingKernel kernel(std::min(8, kernel_width(options.kernel_error)));
-  const std::vector<KeystonePath> seen = keystone_paths(frame, mid_frame_s(frame), paths);
-  const KeystoneAxes axes = keystone_axes(frame, seen, kernel.width(), mid_frame_s(frame));
-  const double cells = static_cast<double>(axes.rate.cells) * axes.sine_s_per_m.cells * axes.delays;
-  if (cells > kMostCells)
-    core::throw_input_error(core::ErrorClass::limit, "grid cells", cells,
-                            "at most 4e8: a narrower span of speeds, or synthesise_beat");
-  double power = 0.0, missed = 0.0;
-  for (const KeystonePath& path : seen) {
-    power += std::norm(path.value);
-    missed += std::norm(path.value) * path.error_rad * path.error_rad;
-  }
-  if (power > 0.0)
-    beat.estimated_error = std::sqrt(missed / power) + kernel_error_of(kernel.width());
-
-  WaveGrid grid(kernel, axes.rate.cells, axes.sine_s_per_m.cells, axes.delays);
-  grid.spread(points_of(axes, seen));
-  transform_delays(kernel, frame.shape.samples, grid);
-  transform_rates_and_sines(frame, axes, kernel, grid, beat.cube);
+  for (const ElementRow& row : element_rows(frame)) add_row(frame, row, paths, kernel, beat);
   if (!waveform.complex_baseband) keep_real(beat.cube);
   return beat;
 }

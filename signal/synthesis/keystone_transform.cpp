@@ -175,9 +175,9 @@ void do_channel(const Frame& frame, const KeystoneAxes& axes, const Block& block
 
 }  // namespace
 
-void transform_rates_and_sines(const Frame& frame, const KeystoneAxes& axes,
-                               const SpreadingKernel& kernel, const WaveGrid& grid,
-                               FloatCube& cube) {
+void transform_rates_and_sines(const Frame& frame, const std::vector<int>& channels,
+                               const KeystoneAxes& axes, const SpreadingKernel& kernel,
+                               const WaveGrid& grid, FloatCube& cube) {
   const InverseTransform inverse(kernel);
   const int blocks = (frame.shape.samples + kLanes - 1) / kLanes;
   core::parallel_for(static_cast<std::size_t>(blocks), [&](std::size_t at) {
@@ -187,7 +187,7 @@ void transform_rates_and_sines(const Frame& frame, const KeystoneAxes& axes,
       turns_per_step[lane] = block.frequency_Hz[lane] * axes.rate.step * frame.interval_s;
     const std::vector<float> values = gather(grid, block);
     ScaledTransform transform(grid.rates(), frame.shape.chirps, turns_per_step);
-    for (int channel = 0; channel < frame.shape.channels; ++channel)
+    for (const int channel : channels)
       do_channel(frame, axes, block, channel, inverse, values, transform, cube);
   });
 }

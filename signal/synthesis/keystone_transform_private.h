@@ -6,9 +6,10 @@
 
 namespace fanbeam::signal {
 
-// Rows of the grid hold samples: real parts from 0, imaginary parts from delays() on.
-void transform_rates_and_sines(const Frame& frame, const KeystoneAxes& axes,
-                               const SpreadingKernel& kernel, const WaveGrid& grid,
-                               FloatCube& cube);
+// Fills these channels of the cube. Rows of the grid hold samples: real parts from 0, imaginary
+// parts from delays() on.
+void transform_rates_and_sines(const Frame& frame, const std::vector<int>& channels,
+                               const KeystoneAxes& axes, const SpreadingKernel& kernel,
+                               const WaveGrid& grid, FloatCube& cube);
 
 }  // namespace fanbeam::signal

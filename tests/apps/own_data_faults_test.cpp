@@ -104,6 +104,38 @@ TEST_CASE("What contradicts itself in a radar file is the file's fault", "[track
   const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
   CHECK(run.exit_code == 3);
   CHECK(run.output.find("slots.toml: E-UNSUPPORTED waveform.slots = 3") != std::string::npos);
+  const std::string fmcw = "fmcw street-76ghz -q -o " + tests::quoted(folder.path() / "fmcw") +
+                           " --radar " + tests::quoted(radar);
+  const auto signals = tests::run_fanbeam(fmcw);
+  CHECK(signals.exit_code == 3);
+  CHECK(signals.output.find("slots.toml: E-UNSUPPORTED waveform.slots = 3") != std::string::npos);
+  // An option that mends it, and one that breaks it again.
+  CHECK(tests::run_fanbeam(fmcw + " --slots 1").exit_code == 0);
+  CHECK(tests::run_fanbeam(fmcw + " --slots 2").exit_code == 3);
+}
+
+TEST_CASE("Numbers of elements given as options replace a file's places", "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  std::string text = kRadar;
+  const std::string line = "transmitters = 1\nreceivers = 4\n";
+  text.replace(text.find(line), line.size(),
+               "transmitter_right_m = [0.0]\nreceiver_right_m = [0.0, 0.003, 0.007]\n");
+  const fs::path radar = folder.write("places.toml", text), out = folder.path() / "out";
+  const std::string fmcw =
+      "fmcw street-76ghz -q -o " + tests::quoted(out) + " --radar " + tests::quoted(radar);
+  REQUIRE(tests::run_fanbeam(fmcw).exit_code == 0);
+  CHECK(tests::bytes_of(out / "radar.toml").find("0.007") != std::string::npos);
+  REQUIRE(tests::run_fanbeam(fmcw + " --receivers 6").exit_code == 0);
+  CHECK(tests::bytes_of(out / "radar.toml").find("receivers = 6") != std::string::npos);
+  CHECK(tests::bytes_of(out / "radar.toml").find("0.007") == std::string::npos);
+}
+
+TEST_CASE("Whose range a spectrogram looks about is not taken without one", "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  const auto run = tests::run_fanbeam("fmcw street-76ghz -q --spectrogram-of car -o " +
+                                      tests::quoted(folder.path() / "out"));
+  CHECK(run.exit_code == 2);
+  CHECK(run.output.find("--products spectrogram") != std::string::npos);
 }
 
 TEST_CASE("Real samples are not read as complex ones", "[track]") {

@@ -69,7 +69,13 @@ class Properties:
         return self.lines.readline().strip()
 
     def number(self, name):
-        return float(self.get(name) or "nan")
+        return self.numbers([name])[0]
+
+    def numbers(self, names):
+        """Of one display frame: FlightGear answers once in each, whatever has been asked."""
+        self.lines.write("".join(f"get {name}\r\n" for name in names))
+        self.lines.flush()
+        return [float(self.lines.readline().strip() or "nan") for _ in names]
 
     def set(self, name, value):
         self.say(f"set {name} {value}")
@@ -158,18 +164,46 @@ class Flight:
     def pictures(self):
         return self.properties.number("/fanbeam/pictures")
 
+    def way(self, seconds):
+        """FlightGear's places (metres north and east of the first, heading, time) and frames of the radar between."""
+        places, heads = [], []
+        end = time.time() + seconds
+        while time.time() < end:
+            latitude, longitude, heading = self.properties.numbers(
+                ["/position/latitude-deg", "/position/longitude-deg", "/orientation/heading-deg"])
+            if not places:
+                north_m, east_m = 111.2e3, 111.2e3 * math.cos(math.radians(latitude))
+                begin = (latitude, longitude)
+            places.append(((latitude - begin[0]) * north_m, (longitude - begin[1]) * east_m, heading, time.time()))
+            if len(places) > 2 and time.time() < end - 4 and len(heads) < len(places) / 2:
+                head = self.head()
+                heads.append(((head["latitude_deg"] - begin[0]) * north_m,
+                              (head["longitude_deg"] - begin[1]) * east_m, head["heading_deg"], time.time()))
+        return places, heads
+
     def test_1_frames_follow_the_aircraft(self):
-        for _ in range(5):
-            head = self.head()
-            latitude = self.properties.number("/position/latitude-deg")
-            longitude = self.properties.number("/position/longitude-deg")
-            north = (head["latitude_deg"] - latitude) * 111.2e3
-            east = (head["longitude_deg"] - longitude) * 111.2e3 * math.cos(math.radians(latitude))
-            # A second or two of flight: FlightGear draws few frames, and answers once in each.
-            self.assertLess(math.hypot(north, east), 150)
-            turn = (head["heading_deg"] - self.properties.number("/orientation/heading-deg") + 540) % 360 - 180
-            self.assertLess(abs(turn), 15)
-            time.sleep(1)
+        """On the way that FlightGear says it flew, at most some seconds behind or ahead of it: it draws and tells few
+        places, and the radar's frames lie between."""
+        places, heads = self.way(20)
+        self.assertGreater(len(heads), 4)
+        self.assertGreater(sum(math.dist(a[:2], b[:2]) for a, b in zip(places, places[1:])), 200)
+        farthest = oldest = 0.0
+        for north, east, heading, at in heads:
+            nearest = None
+            for a, b in zip(places, places[1:]):
+                step = (b[0] - a[0], b[1] - a[1])
+                square = step[0] ** 2 + step[1] ** 2
+                share = ((north - a[0]) * step[0] + (east - a[1]) * step[1]) / square if square > 0 else 0
+                share = min(max(share, 0), 1)
+                off = math.hypot(north - a[0] - share * step[0], east - a[1] - share * step[1])
+                if nearest is None or off < nearest[0]:
+                    nearest = (off, a[3] + share * (b[3] - a[3]), a[2])
+            farthest, oldest = max(farthest, nearest[0]), max(oldest, abs(at - nearest[1]))
+            self.assertLess(abs((heading - nearest[2] + 540) % 360 - 180), 15)
+        print(f"\n{self.aircraft}: {len(heads)} frames at most {farthest:.0f} m beside FlightGear's way, {oldest:.1f} s"
+              f" from its place there; {len(places)} places in 20 s", flush=True)
+        self.assertLess(farthest, 50)
+        self.assertLess(oldest, 3)
         bad = self.asked("api/status")["bad_packets"]
         self.assertFalse([reason for reason in bad if "late" not in reason and "jump" not in reason], bad)
 

@@ -157,10 +157,24 @@ TEST_CASE("The keystone grid keeps the error it states", "[synthesis]") {
       CHECK(beat.estimated_error < 4e-3);
     }
   }
-  Array raised = twelve();
-  raised.receivers_m[0].z = 1e-3;
-  CHECK_THROWS_AS(keystone_beat(waveform, 0, raised, {}), core::InputError);
   CHECK_THROWS_AS(keystone_beat(triangle({}), 0, {}, {}), core::InputError);
+}
+
+TEST_CASE("Elements above and before each other keep the keystone grid's error", "[synthesis]") {
+  const Waveform waveform = chirps(64, 3);
+  // Two heights, and a receiver set back: four rows. Far apart, so that the near field counts.
+  Array spread = twelve();
+  spread.transmitters_m[1].z = 0.04;
+  spread.receivers_m[3].x = -0.03;
+  spread.receivers_m[3].z = 0.01;
+  for (const double least_m : {5.0, 60.0}) {
+    const std::vector<ScatterPath> paths = paths_between(60, least_m, 30.0);
+    const DoubleCube exact = reference_beat(waveform, 0, spread, paths);
+    const KeystoneBeat beat = keystone_beat(waveform, 0, spread, paths);
+    CAPTURE(least_m, beat.estimated_error);
+    CHECK(relative_error(beat.cube, exact) < beat.estimated_error);
+    CHECK(beat.estimated_error < (least_m < 10.0 ? 3e-2 : 4e-3));
+  }
 }
 
 TEST_CASE("Beats have the same bits for any number of threads", "[synthesis]") {
