@@ -38,14 +38,14 @@ std::vector<Place> places(const std::vector<NamedPlace>& named) {
 
 // Of a triangle's beats, with the array's directions.
 Resolution resolution_of(const core::HighwayRadar& radar) {
-  constexpr double kBiasedCells = 2.2, kMergedBins = 1.2, kBeamwidth = 0.8859;
+  constexpr double kBiasedCells = 2.2, kMergedBins = 1.2, kHalfPowerWidth = 0.8859;
   const double wavelength_m = core::kSpeedOfLight_mps / radar.centre_frequency_Hz;
   Resolution resolution;
   resolution.range_m = kBiasedCells * core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz);
   resolution.range_rate_mps = kMergedBins * wavelength_m / (2.0 * radar.waveforms.fine_ramp_s);
   if (radar.array_elements > 1)
     resolution.azimuth_rad =
-        std::min(1.0, kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths));
+        std::min(1.0, kHalfPowerWidth / (radar.array_elements * radar.array_pitch_wavelengths));
   return resolution;
 }
 
