@@ -17,12 +17,14 @@ namespace {
 void add_sampling(CLI::App& command, RenderOptions& options) {
   CLI::Option* rays =
       command
-          .add_option("--rays-per-cell", options.rays_per_cell,
-                      "Rays per range cell and column, or azimuth slices per column (below 1: one, "
-                      "with fewer rays for bounces): more is sharper and slower (default: the "
-                      "scene's accuracy, else " +
-                          core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
-                          core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
+          .add_option(
+              "--rays-per-cell", options.rays_per_cell,
+              "Rays per range cell and column, or azimuth slices per column (fractions: the "
+              "next whole number, with fewer rays for bounces): more is sharper and slower "
+              "(default: the "
+              "scene's accuracy, else " +
+                  core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
+                  core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
           ->check(number_from(renderer::kFewestRaysPerCell, 100000.0));
   CLI::Option* accuracy = add_accuracy_option(
       command, options.accuracy_grey,

@@ -17,7 +17,7 @@ std::vector<double> cast_as_asked(std::vector<double> slices) {
 Effort full_effort() {
   Effort effort;
   effort.rays = {0.5, 1, 2, 4, 8, 16, 32, 64};
-  effort.slices = cast_as_asked({0.3, 0.5, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64});
+  effort.slices = cast_as_asked({0.3, 0.5, 1, 1.4, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64});
   effort.plain_rays = {1, 2, 6, 12, 24, 60};  // more do not help it
   effort.dithered_rays = {1, 2, 6, 12, 24, 60, 120, 240};
   effort.step = {3, 21, 400.0};

@@ -17,7 +17,7 @@ constexpr int kRepetitions = 3;
 // What a time budget is spent on, coarsest first.
 std::vector<double> ladder_of(renderer::CasterKind caster) {
   if (caster == renderer::CasterKind::profile)
-    return {0.3, 0.5, 0.7, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
+    return {0.3, 0.5, 0.7, 1, 1.2, 1.4, 1.7, 2, 2.5, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
   return {0.5, 0.7, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 32, 64};
 }
 

@@ -66,7 +66,7 @@ Sampling refined_sampling(CasterKind caster, double target_grey);
 inline constexpr double kDefaultSlicesPerColumn = 4.0;
 
 // `slices` azimuth slices per column through the profile caster; each crosses every range cell once.
-// Below 1 there is one, with as many fewer samples of bounces.
+// Of a fraction there is the next whole number of them, with as many fewer samples of bounces.
 Sampling profile_sampling_for(double slices);
 
 // One of the two: what `--rays-per-cell` sets, rays or slices, and what it is unless set.

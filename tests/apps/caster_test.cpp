@@ -144,7 +144,8 @@ TEST_CASE("run.json, pictures and the summary tell how the scene was cast", "[ca
   }
 }
 
-TEST_CASE("Below one slice per column there is one, with fewer rays for bounces", "[caster]") {
+TEST_CASE("Of a fraction of slices there is the next whole number, with fewer rays for bounces",
+          "[caster]") {
   const TemporaryFolder folder;
   const auto run_of = [&](const std::string& samples) {
     render("obstacle-field", folder.path() / samples,
@@ -158,6 +159,11 @@ TEST_CASE("Below one slice per column there is one, with fewer rays for bounces"
   CHECK(half["frames"][0]["rays"] < one["frames"][0]["rays"]);
   CHECK(note(folder.path() / "0.5/bscope/00500.png", "fanbeam:caster") ==
         "profile, 1 slice per column, 0.5 of its bounces");
+  const nlohmann::json more = run_of("1.5"), two = run_of("2");
+  CHECK(more["sampling"]["bounce_share"] == 0.75);
+  CHECK(more["frames"][0]["slices"] == two["frames"][0]["slices"]);
+  CHECK(more["frames"][0]["rays"] < two["frames"][0]["rays"]);
+  CHECK(more["frames"][0]["rays"] > one["frames"][0]["rays"]);
 }
 
 TEST_CASE("--resume takes slices up again, but no frame of the other caster", "[caster]") {

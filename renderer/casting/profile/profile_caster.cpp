@@ -102,16 +102,13 @@ void ProfileCaster::cast_level(const sensors::AntennaFrame& antenna, bool with_c
   const auto groups = groups_of_rays(asked, for_rays);
   const auto columns = slices_of_groups(asked, for_rays, per_sub);
   FanSums rays;  // of whole groups: more than what is left to them
-  // Few groups keep few threads busy: both at once.
-  core::parallel_for(2, [&](std::size_t part) {
-    if (part == 1) {
-      sweep(antenna, slices, per_sub, sight,
-            [&](const SliceFrame& frame) { gather_level(frame, columns, sums); });
-    } else if (!groups.empty()) {
-      lay_out_fan(world_, sampling_, with_cscope, rays);
-      rays_->cast_groups(antenna, with_cscope, ray_level(pass.level), groups, rays);
-    }
-  });
+  // One after the other: a thread that waits for one of two loops takes no part in the other.
+  if (!groups.empty()) {
+    lay_out_fan(world_, sampling_, with_cscope, rays);
+    rays_->cast_groups(antenna, with_cscope, ray_level(pass.level), groups, rays);
+  }
+  sweep(antenna, slices, per_sub, sight,
+        [&](const SliceFrame& frame) { gather_level(frame, columns, sums); });
   sums.slices = columns.size() * static_cast<std::size_t>(per_sub);
   if (!groups.empty()) take_sub_columns(rays, for_rays, groups, sums);
 }
