@@ -3,26 +3,58 @@
 #include <algorithm>
 
 namespace fanbeam::live {
+namespace {
+
+constexpr std::size_t kFrames = 100;
+constexpr double kMostPeriods = 2.0;
+constexpr double kFewest = 4.0;  // frames to look at, however slow the rate
+
+double effort_of(double samples) { return samples + 0.5; }
+
+}  // namespace
+
+void Pace::keep(const Taken& frame) {
+  taken_.push_back(frame);
+  if (taken_.size() > kFrames) taken_.pop_front();
+}
+
+bool Pace::too_slow() const {
+  const auto over = [&](double limit_s) {
+    return std::count_if(taken_.begin(), taken_.end(),
+                         [&](const Taken& taken) { return taken.frame_s > limit_s; });
+  };
+  return over(kShare * period_s_) > 1 || over(kMostPeriods * period_s_) > 0;
+}
+
+double Pace::usual_s(double now_s) const {
+  const double look_s = std::max(kLook_s, kFewest * period_s_);
+  if (now_s - taken_.front().at_s <= 0.9 * look_s) return 0.0;
+  double slowest_s = 0.0, next_s = 0.0;
+  for (const Taken& taken : taken_) {
+    if (taken.at_s < now_s - look_s) continue;
+    next_s = std::max(next_s, std::min(slowest_s, taken.frame_s));
+    slowest_s = std::max(slowest_s, taken.frame_s);
+  }
+  return next_s;
+}
 
 double Pace::after(double now_s, double frame_s) {
-  const double most_s = kShare * period_s_;
-  taken_.push_back({now_s, frame_s});
-  while (taken_.front().at_s < now_s - kLook_s) taken_.pop_front();
-  if (frame_s > most_s && step_ > 0) {
+  keep({now_s, frame_s});
+  if (too_slow()) {
+    if (step_ == 0) return samples();
     refused_step_ = step_;
     refused_until_s_ = now_s + kPatience_s;
     go_to(step_ - 1);
     return samples();
   }
-  if (now_s - taken_.front().at_s <= 0.9 * kLook_s) return samples();
-  const double slowest_s =
-      std::max_element(taken_.begin(), taken_.end(), [](const Taken& a, const Taken& b) {
-        return a.frame_s < b.frame_s;
-      })->frame_s;
+  const double usual_s = this->usual_s(now_s);
+  if (!(usual_s > 0.0)) return samples();
   const std::size_t end =
       now_s < refused_until_s_ ? std::min(refused_step_, ladder_.size()) : ladder_.size();
   std::size_t step = step_;
-  while (step + 1 < end && slowest_s * ladder_[step + 1] / ladder_[step_] <= most_s) ++step;
+  while (step + 1 < end &&
+         usual_s * effort_of(ladder_[step + 1]) / effort_of(ladder_[step_]) <= kShare * period_s_)
+    ++step;
   if (step != step_) go_to(step);
   return samples();
 }

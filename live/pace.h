@@ -1,9 +1,11 @@
 // How finely a live frame may be sampled: the controller that keeps a rate.
 //
-// A ladder of samplings, coarsest first. One frame over its share of the period and the next is made
-// a step coarser; when the slowest of the last two seconds would still fit finer ones (time taken
-// to grow as the samples do), the next is made as fine as fits. A step that was left because it was too
-// slow is not tried again for ten seconds, so that the picture does not flicker between two.
+// A ladder of samplings, coarsest first. At most one of the last hundred frames may take more than its
+// share of the period: at the second, or at one that takes two periods, the next is made a step
+// coarser. When all but one of the last two seconds would still fit finer ones, the next is made as
+// fine as fits; time is taken to grow as the samples and a half, for what does not depend on them
+// (measured: docs/performance-notes.md). A step that was left because it was too slow is not tried
+// again for ten seconds, so that the picture does not flicker between two.
 // Pure: time comes in as an argument.
 #pragma once
 
@@ -32,6 +34,10 @@ class Pace {
     double at_s = 0.0, frame_s = 0.0;
   };
 
+  void keep(const Taken& frame);
+  bool too_slow() const;
+  // What the slowest frame but one of the last two seconds took; 0 while there are none.
+  double usual_s(double now_s) const;
   void go_to(std::size_t step) {
     step_ = step;
     taken_.clear();
@@ -42,7 +48,7 @@ class Pace {
   std::size_t step_ = 0;
   std::size_t refused_step_ = 0;  // until then
   double refused_until_s_ = 0.0;
-  std::deque<Taken> taken_;  // with this step
+  std::deque<Taken> taken_;  // the last hundred with this step
 };
 
 }  // namespace fanbeam::live
