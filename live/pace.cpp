@@ -7,6 +7,7 @@ namespace {
 
 constexpr std::size_t kFrames = 100;
 constexpr double kMostPeriods = 2.0;
+constexpr double kRoom = 0.9;    // of its share, that a finer step may be expected to take
 constexpr double kFewest = 4.0;  // frames to look at, however slow the rate
 
 double effort_of(double samples) { return samples + 0.5; }
@@ -52,8 +53,8 @@ double Pace::after(double now_s, double frame_s) {
   const std::size_t end =
       now_s < refused_until_s_ ? std::min(refused_step_, ladder_.size()) : ladder_.size();
   std::size_t step = step_;
-  while (step + 1 < end &&
-         usual_s * effort_of(ladder_[step + 1]) / effort_of(ladder_[step_]) <= kShare * period_s_)
+  while (step + 1 < end && usual_s * effort_of(ladder_[step + 1]) / effort_of(ladder_[step_]) <=
+                               kRoom * kShare * period_s_)
     ++step;
   if (step != step_) go_to(step);
   return samples();
