@@ -12,9 +12,9 @@
 namespace fanbeam::renderer {
 
 // An echo with its power per solid angle of the first ray, at azimuth gain 1 around `azimuth_rad`,
-// the mean of the first and the last direction; of it `left` comes through the air. The rates are derivatives by the first ray's
-// elevation, on planes through the facets that were hit: what a ray stands for in elevation lies
-// along them.
+// the mean of the first and the last direction; of it `left` comes through the air. The rates are
+// derivatives by the first ray's elevation, on planes through the facets that were hit: what a ray
+// stands for in elevation lies along them.
 struct BounceEcho {
   std::size_t ray = 0;  // in the list that was traced
   double range_m = 0.0, range_m_per_rad = 0.0;
@@ -37,7 +37,8 @@ class BounceWeights {
   // Less reflection than this brings nothing that shows.
   double faintest_mirror() const { return faintest_mirror_; }
 
-  // Adds what way `k` brings back, of the first ray of that number in the list: an image that shows to `images`, and a pair that would to `returns`.
+  // Adds what way `k` brings back, as an echo of the first ray of number `ray`: an image that shows
+  // to `images`, and a pair that would to `returns`.
   void weigh(const BounceView& view, const MirroredRays& ways, int k, std::size_t ray,
              std::vector<BounceEcho>& images, BounceReturns& returns) const;
 
