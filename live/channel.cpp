@@ -19,7 +19,8 @@ void sleep_until(Clock::time_point when, const core::StopToken& stop) {
 }
 
 std::vector<double> ladder_of(renderer::CasterKind caster) {
-  if (caster == renderer::CasterKind::profile) return {0.3, 0.5, 0.7, 1, 1.2, 1.4, 1.7, 2, 2.5, 3, 4, 6, 8, 12, 16};
+  if (caster == renderer::CasterKind::profile)
+    return {0.3, 0.5, 0.7, 1, 1.2, 1.4, 1.7, 2, 2.5, 3, 4, 6, 8, 12, 16};
   return {0.5, 0.7, 1, 1.5, 2, 3, 4, 6, 8, 12, 16};
 }
 
