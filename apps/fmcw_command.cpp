@@ -66,11 +66,7 @@ session::FmcwRadar radar_of(const FmcwOptions& options, const scenes::SceneDescr
     session::FmcwSettings alone;
     core::ProblemList problems;
     session::read_radar_file(file, alone, problems);
-    try {
-      session::fmcw_radar(alone, scene.sensor);
-    } catch (const core::InputError& error) {
-      throw session::in_radar_file(error, file);
-    }
+    session::radar_in_file(file, [&] { return session::fmcw_radar(alone, scene.sensor); });
     throw;
   }
 }

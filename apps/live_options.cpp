@@ -88,11 +88,9 @@ CLI::App& add_live_command(CLI::App& program, LiveOptions& options, CommonOption
       ->check(number_from(0.1, 1000.0));
   command
       .add_option("--rays-per-cell", options.rays_per_cell,
-                  "Rays per range cell and column, or azimuth slices per column, of a fraction the "
-                  "next whole "
-                  "number with fewer rays for bounces (default: the most that keeps the rate; in "
-                  "lockstep the "
-                  "scene's)")
+                  "Rays per range cell and column, or azimuth slices per column (fractions: the "
+                  "next whole number, with fewer rays for bounces; default: the most that keeps "
+                  "the rate; in lockstep the scene's)")
       ->check(number_from(renderer::kFewestRaysPerCell, 100000.0));
   add_effects_option(command, options.effects, renderer::Touches::pictures);
   command.add_option("--seconds", options.seconds, "End after so long (default: when stopped)")

@@ -21,8 +21,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
               "--rays-per-cell", options.rays_per_cell,
               "Rays per range cell and column, or azimuth slices per column (fractions: the "
               "next whole number, with fewer rays for bounces): more is sharper and slower "
-              "(default: the "
-              "scene's accuracy, else " +
+              "(default: the scene's accuracy, else " +
                   core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
                   core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
           ->check(number_from(renderer::kFewestRaysPerCell, 100000.0));

@@ -33,7 +33,7 @@ inline void series_cosine_sine(double x, double& cosine, double& sine) noexcept 
 // Angle of the point (x, y) for x >= 0, -pi/2 to pi/2; 0 at the origin. Absolute error 2e-10, below
 // 1e-15 within 0.45 rad of an axis.
 inline double series_arctangent(double y, double x) noexcept {
-  constexpr double kHalfTurn = 3.14159265358979323846 / 2;
+  constexpr double kQuarterTurn = 3.14159265358979323846 / 2;
   const double height = std::abs(y);
   const bool steep = height > x;
   const double tangent = (steep ? x : height) / std::max(steep ? height : x, 1e-300);
@@ -50,7 +50,7 @@ inline double series_arctangent(double y, double x) noexcept {
   series = 1.0 / 5 - z * series;
   series = 1.0 / 3 - z * series;
   const double small = 2.0 * t * (1.0 - z * series);
-  return std::copysign(steep ? kHalfTurn - small : small, y);
+  return std::copysign(steep ? kQuarterTurn - small : small, y);
 }
 
 // exp(-x) for x from 0 up; held from 700 on, where it is 1e-304. Relative error 3e-10, exact at 0.

@@ -18,12 +18,6 @@ void sleep_until(Clock::time_point when, const core::StopToken& stop) {
     std::this_thread::sleep_until(std::min(when, Clock::now() + kNap));
 }
 
-std::vector<double> ladder_of(renderer::CasterKind caster) {
-  if (caster == renderer::CasterKind::profile)
-    return {0.3, 0.5, 0.7, 1, 1.2, 1.4, 1.7, 2, 2.5, 3, 4, 6, 8, 12, 16};
-  return {0.5, 0.7, 1, 1.5, 2, 3, 4, 6, 8, 12, 16};
-}
-
 class Channel {
  public:
   Channel(session::Session& session, const PoseSource& source, const ChannelSettings& settings,
@@ -31,7 +25,7 @@ class Channel {
       : source_(source),
         settings_(settings),
         period_s_(1.0 / settings.rate_Hz),
-        pace_(ladder_of(session.scene()->caster.chosen), period_s_),
+        pace_(renderer::sampling_ladder(session.scene()->caster.chosen), period_s_),
         maker_(session, hub, settings),
         hub_(hub) {
     maker_.sample(settings.samples > 0.0 ? settings.samples : pace_.samples());

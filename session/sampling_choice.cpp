@@ -14,13 +14,6 @@ namespace {
 constexpr std::size_t kFramesTimed = 3;
 constexpr int kRepetitions = 3;
 
-// What a time budget is spent on, coarsest first.
-std::vector<double> ladder_of(renderer::CasterKind caster) {
-  if (caster == renderer::CasterKind::profile)
-    return {0.3, 0.5, 0.7, 1, 1.2, 1.4, 1.7, 2, 2.5, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64};
-  return {0.5, 0.7, 1, 1.5, 2, 3, 4, 6, 8, 12, 16, 32, 64};
-}
-
 class Trial {
  public:
   Trial(const scenes::Scene& scene, std::uint64_t seed, const renderer::Products& products,
@@ -65,7 +58,7 @@ SamplingChoice fitted(const Trial& trial, renderer::CasterKind caster, double bu
                       double share_grey) {
   SamplingChoice choice;
   choice.budget_ms = budget_ms;
-  for (const double samples : ladder_of(caster)) {
+  for (const double samples : renderer::sampling_ladder(caster)) {
     const renderer::Sampling sampling = renderer::sampling_for(caster, samples);
     const double slowest_ms = trial.slowest_ms(sampling);
     const bool fits = slowest_ms <= budget_ms;

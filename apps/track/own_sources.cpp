@@ -26,16 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As `make` gives it; where that fails, told as the file's fault.
-template <class Make>
-session::FmcwRadar radar_in(const fs::path& file, const Make& make) {
-  try {
-    return make();
-  } catch (const core::InputError& error) {
-    throw session::in_radar_file(error, file);
-  }
-}
-
 const std::set<std::string> kDetections = {"detections"};
 
 session::DetectedFrame detected(const session::FmcwFrame& frame, double time_s) {
@@ -63,7 +53,7 @@ class SceneSource : public OwnSource {
     scene_ = session::Session(description, {}, problems).scene();
     const sensors::Sensor& sensor = scene_->description.sensor;
     const auto radar = [&] { return session::fmcw_radar(settings_, sensor); };
-    radar_ = radar_file.empty() ? radar() : radar_in(radar_file, radar);
+    radar_ = radar_file.empty() ? radar() : session::radar_in_file(radar_file, radar);
     if (!radar_.maps)
       core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar_.waveform_name,
                               "a chirp sequence: the other kinds have no detections");
@@ -156,7 +146,8 @@ class SampleSource : public OwnSource {
                const fs::path& radar_file, session::FmcwSettings settings)
       : errors_(errors_of(options)),
         settings_(std::move(settings)),
-        radar_(radar_in(radar_file, [this] { return session::fmcw_radar(settings_); })),
+        radar_(
+            session::radar_in_file(radar_file, [this] { return session::fmcw_radar(settings_); })),
         files_(files, radar_, settings_.layout) {
     name = core::safe_word(fs::absolute(options.file).lexically_normal().stem().string());
     kind = "samples";
@@ -256,7 +247,8 @@ std::unique_ptr<OwnSource> own_source(const TrackOptions& options) {
   }
   std::optional<session::FmcwRadar> radar;
   if (radar_file)
-    radar = radar_in(*radar_file, [&] { return session::fmcw_radar(settings_in(*radar_file)); });
+    radar = session::radar_in_file(*radar_file,
+                                   [&] { return session::fmcw_radar(settings_in(*radar_file)); });
   return std::make_unique<DetectionSource>(options, std::move(radar));
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace fanbeam::renderer {
 
@@ -68,6 +69,9 @@ inline constexpr double kDefaultSlicesPerColumn = 4.0;
 // `slices` azimuth slices per column through the profile caster; each crosses every range cell once.
 // Of a fraction there is the next whole number of them, with as many fewer samples of bounces.
 Sampling profile_sampling_for(double slices);
+
+// Worth trying for whoever has a time to keep, coarsest first.
+std::vector<double> sampling_ladder(CasterKind caster);
 
 // One of the two: what `--rays-per-cell` sets, rays or slices, and what it is unless set.
 Sampling sampling_for(CasterKind caster, double samples);

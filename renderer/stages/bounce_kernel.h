@@ -35,6 +35,11 @@ using BounceFloats = BounceArray<float>;
 struct BouncePoints {
   BounceDoubles x, y, z;
   glm::dvec3 at(int i) const { return {x[i], y[i], z[i]}; }
+  void put(int i, const glm::dvec3& point) {
+    x[i] = point.x;
+    y[i] = point.y;
+    z[i] = point.z;
+  }
 };
 
 // Rays of the caster, before and after the cast as in RayPacket.
@@ -102,7 +107,7 @@ struct MirroredRays {
 struct BounceView {
   sensors::AntennaFrame antenna;
   bool cone = false;
-  double base_m = 0.0;        // height of the caster's origin
+  glm::dvec3 caster_m{0.0};   // the caster's origin in the scene
   double far_m = 0.0;         // of first rays
   double farthest_m = 0.0;    // range that an echo may have
   double beam_tangent = 0.0;  // of the angle between directions that one beam sees

@@ -116,7 +116,7 @@ std::uint64_t BounceTracer::trace_packets(const sensors::AntennaFrame& antenna,
   constexpr double kMargin_m = 1.0;  // of the mirror's place
   block->view = {antenna,
                  world_.sensor.scan.surface == sensors::ScanSurface::cone,
-                 -world_.surfaces().in_caster_m(glm::dvec3(0.0)).z,
+                 world_.surfaces().in_scene_m(glm::dvec3(0.0)),
                  gate.maximum_m(),
                  gate.maximum_m() + kSpreadCells * gate.cell_m + kMargin_m,
                  beam_tangent_};
@@ -152,7 +152,7 @@ void BounceTracer::trace_block(const AntennaRay* rays, int count, std::size_t fi
   packets.intersect(block.mirrored.rays);
   measure_hits(block.view, block.mirrored.rays, block.mirrored.hits);
   measure_ways(block.view, block.mirrored);
-  weigh_ways(weights_, block.view, block.mirrored, first, echoes, returns);
+  weights_.weigh(block.view, block.mirrored, first, echoes, returns);
   for (int i = returns.rays.count; i < whole_packets(returns.rays.count); ++i)
     returns.rays.aim(i, glm::dvec3(0.0), glm::dvec3(1.0), 0.0);  // not cast
   packets.find_occluded(returns.rays);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/dispatch.h"
 #include "core/series.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/bounce_limits.h"
@@ -33,8 +32,16 @@ BounceWeights::BounceWeights(const World& world, bool noise)
       faintest_W_per_rad2_(faintest_echoes_W_per_rad2(world.sensor, noise)),
       faintest_mirror_(renderer::faintest_mirror(world.sensor, nrcs_, faintest_W_per_rad2_)) {}
 
-void BounceWeights::weigh(const BounceView& view, const MirroredRays& ways, int k, std::size_t ray,
+void BounceWeights::weigh(const BounceView& view, const MirroredRays& ways, std::size_t first,
                           std::vector<BounceEcho>& images, BounceReturns& returns) const {
+  for (int k = 0; k < ways.rays.count; ++k)
+    if (ways.rays.geometry[k] != terrain::kNoHit && ways.hits.sin_grazing[k] > 0.0)
+      weigh_one(view, ways, k, first + static_cast<std::size_t>(ways.first[k]), images, returns);
+}
+
+void BounceWeights::weigh_one(const BounceView& view, const MirroredRays& ways, int k,
+                              std::size_t ray, std::vector<BounceEcho>& images,
+                              BounceReturns& returns) const {
   const glm::dvec3& antenna_m = view.antenna.position_m;
   const glm::dvec3 mirror_m = ways.mirrors.point_m.at(k), point_m = ways.hits.point_m.at(k);
   const BistaticNrcs& nrcs = nrcs_[world_.surfaces().material(
@@ -120,18 +127,8 @@ BounceEcho BounceWeights::pair_of(const MirroredRays& ways, int k, const Bistati
 
 // As in ray_caster.h.
 double BounceWeights::jacobian(const MirroredRays& ways, int k) const {
-  return (world_.sensor.scan.surface == sensors::ScanSurface::cone) ? ways.angles.cos_azimuth[k]
-                                                                    : 1.0;
-}
-
-FANBEAM_HOT(void, weigh_ways,
-            (const BounceWeights& weights, const BounceView& view, const MirroredRays& ways,
-             std::size_t first, std::vector<BounceEcho>& images, BounceReturns& returns),
-            (weights, view, ways, first, images, returns)) {
-  for (int k = 0; k < ways.rays.count; ++k)
-    if (ways.rays.geometry[k] != terrain::kNoHit && ways.hits.sin_grazing[k] > 0.0)
-      weights.weigh(view, ways, k, first + static_cast<std::size_t>(ways.first[k]), images,
-                    returns);
+  return world_.sensor.scan.surface == sensors::ScanSurface::cone ? ways.angles.cos_azimuth[k]
+                                                                  : 1.0;
 }
 
 }  // namespace fanbeam::renderer

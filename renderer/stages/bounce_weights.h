@@ -37,12 +37,14 @@ class BounceWeights {
   // Less reflection than this brings nothing that shows.
   double faintest_mirror() const { return faintest_mirror_; }
 
-  // Adds what way `k` brings back, as an echo of the first ray of number `ray`: an image that shows
-  // to `images`, and a pair that would to `returns`.
-  void weigh(const BounceView& view, const MirroredRays& ways, int k, std::size_t ray,
+  // Adds what all ways that end on a surface bring back, as echoes of first rays that are numbered
+  // from `first` on: images that show to `images`, and pairs that would to `returns`.
+  void weigh(const BounceView& view, const MirroredRays& ways, std::size_t first,
              std::vector<BounceEcho>& images, BounceReturns& returns) const;
 
  private:
+  void weigh_one(const BounceView& view, const MirroredRays& ways, int k, std::size_t ray,
+                 std::vector<BounceEcho>& images, BounceReturns& returns) const;
   double jacobian(const MirroredRays& ways, int k) const;
   BounceEcho image_of(const MirroredRays& ways, int k, const BistaticNrcs& nrcs) const;
   // Without asking whether B sees O.
@@ -58,9 +60,5 @@ class BounceWeights {
   std::vector<double> faintest_W_per_rad2_;  // echo by range cell: less need not be followed
   double faintest_mirror_ = 0.0;
 };
-
-// Weighs all ways that end on a surface, of first rays that are numbered from `first` on.
-void weigh_ways(const BounceWeights& weights, const BounceView& view, const MirroredRays& ways,
-                std::size_t first, std::vector<BounceEcho>& images, BounceReturns& returns);
 
 }  // namespace fanbeam::renderer

@@ -52,11 +52,20 @@ std::string radar_toml(const FmcwSettings& settings, const std::string& waveform
 // keys instead of options.
 core::InputError in_radar_file(const core::InputError& error, const std::filesystem::path& file);
 
+// What `make` gives of a file's radar; where that fails, told as the file's fault.
+template <class Make>
+auto radar_in_file(const std::filesystem::path& file, const Make& make) {
+  try {
+    return make();
+  } catch (const core::InputError& error) {
+    throw in_radar_file(error, file);
+  }
+}
+
 // What signal::window_of reads, for messages.
 inline constexpr const char* kWindowWords =
     "rectangular, hann, hamming, blackman, blackman-harris, taylor:DB (10 to 120; taylor:DB:N, N "
-    "from 1 to 50), "
-    "chebyshev:DB (20 to 200) or kaiser:BETA (0 to 100)";
+    "from 1 to 50), chebyshev:DB (20 to 200) or kaiser:BETA (0 to 100)";
 
 // "ca", "os", "go", "so".
 std::string cfar_word(signal::CfarKind kind);

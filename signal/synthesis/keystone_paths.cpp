@@ -40,18 +40,18 @@ class NearField {
     }
   }
 
-  double mean_m2(const glm::dvec3& u) const {
-    const Products w = weights(u);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 6; ++i) sum += w[i] * mean_[i];
-    return sum;
-  }
-  double deviation_m2(const glm::dvec3& u) const {
-    const Products w = weights(u);
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 6; ++i)
-      for (std::size_t j = 0; j < 6; ++j) sum += w[i] * covariance_[i][j] * w[j];
-    return std::sqrt(std::max(0.0, sum));
+  struct Added {
+    double mean_m2 = 0.0, deviation_m2 = 0.0;
+  };
+  Added along(const glm::dvec3& u) const {
+    const Products w = {1.0 - u.x * u.x,  1.0 - u.y * u.y,  1.0 - u.z * u.z,
+                        -2.0 * u.x * u.y, -2.0 * u.x * u.z, -2.0 * u.y * u.z};
+    double mean_m2 = 0.0, variance_m4 = 0.0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      mean_m2 += w[i] * mean_[i];
+      for (std::size_t j = 0; j < 6; ++j) variance_m4 += w[i] * covariance_[i][j] * w[j];
+    }
+    return {mean_m2, std::sqrt(std::max(0.0, variance_m4))};
   }
 
  private:
@@ -67,11 +67,6 @@ class NearField {
     }
     return sum;
   }
-  static Products weights(const glm::dvec3& u) {
-    return {1.0 - u.x * u.x,  1.0 - u.y * u.y,  1.0 - u.z * u.z,
-            -2.0 * u.x * u.y, -2.0 * u.x * u.z, -2.0 * u.y * u.z};
-  }
-
   Products mean_{};
   std::array<Products, 6> covariance_{};
 };
@@ -87,12 +82,13 @@ KeystonePath keystone_path(const Frame& frame, const ElementRow& row, double ref
   const double scale = 1.0 - sweep_Hz / middle_Hz;
   const double rate = 2.0 * path.radial_speed_mps / c_mps;
   const double bulge_per_m2 = middle_Hz / c_mps / (2.0 * range_m);
+  const NearField::Added added = near.along(u);
 
   KeystonePath seen;
   seen.rate = rate * scale;
   seen.sine_s_per_m = u.y * scale / c_mps;
   seen.delay_turns_per_sample = sweep_Hz / frame.sample_rate_Hz;
-  const double turns = (middle_Hz - 0.5 * sweep_Hz) * delay_s + bulge_per_m2 * near.mean_m2(u);
+  const double turns = (middle_Hz - 0.5 * sweep_Hz) * delay_s + bulge_per_m2 * added.mean_m2;
   seen.value = path.amplitude_sqrtW * unit_phasor(turns);
 
   const double half_s = 0.5 * frame.interval_s * frame.shape.chirps;
@@ -100,7 +96,7 @@ KeystonePath keystone_path(const Frame& frame, const ElementRow& row, double ref
   const double bend = 0.5 * segment.slope_Hz_per_s * moved * moved / std::sqrt(5.0);
   const double ramp_Hz = std::abs(segment.slope_Hz_per_s) * segment.duration_s;
   const double drift = std::abs(sweep_Hz) * 0.5 * ramp_Hz / middle_Hz * std::abs(moved) / 3.0;
-  const double bulge = bulge_per_m2 * near.deviation_m2(u);
+  const double bulge = bulge_per_m2 * added.deviation_m2;
   seen.error_rad = 2.0 * core::kPi * std::sqrt(bulge * bulge + bend * bend + drift * drift);
   return seen;
 }
