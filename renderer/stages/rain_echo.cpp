@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "atmosphere/attenuated_length.h"
+#include "core/dispatch.h"
 #include "core/parallel.h"
 #include "renderer/casting/deposit.h"
 #include "renderer/casting/fan_layout.h"
@@ -55,6 +56,31 @@ std::vector<double> elevation_borders(const sensors::Sensor& sensor, double heig
       borders.push_back(begin_rad + (end_rad - begin_rad) * part / parts);
   }
   return borders;
+}
+
+// Along one direction, as if the air were free.
+struct Profile {
+  std::vector<double> power_W;  // of every range cell
+  // Sums of power times R^3 of all cells before each one, and of all.
+  std::vector<double> before_W_m3;
+
+  void sum(const sensors::RangeGate& gate) {
+    before_W_m3.resize(power_W.size() + 1);
+    double sum_W_m3 = 0.0;
+    for (std::size_t k = 0; k < power_W.size(); ++k) {
+      before_W_m3[k] = sum_W_m3;
+      const double range_m = sensors::range_middle_m(gate, static_cast<int>(k));
+      sum_W_m3 += power_W[k] * range_m * range_m * range_m;
+    }
+    before_W_m3.back() = sum_W_m3;
+  }
+};
+
+FANBEAM_HOT(void, add_mixed,
+            (const double* lower_W, double lower, const double* upper_W, double upper, int count,
+             double* sums_W),
+            (lower_W, lower, upper_W, upper, count, sums_W)) {
+  for (int k = 0; k < count; ++k) sums_W[k] += lower * lower_W[k] + upper * upper_W[k];
 }
 
 class Echo {
@@ -120,7 +146,7 @@ class Echo {
 
   // Echo power per unit of two-way elevation gain and radian of azimuth in every range cell, as if
   // the air were free.
-  void profile(double elevation_rad, double azimuth_rad, std::vector<double>& power_W) const {
+  void profile(double elevation_rad, double azimuth_rad, Profile& profile) const {
     const glm::dvec3 along =
         sensors::direction(antenna_, azimuth_rad, elevation_rad, sensor_.scan.surface);
     // J of ray_caster.h.
@@ -129,6 +155,7 @@ class Echo {
     const double constant = sensor_.radar_constant_W_m2() * jacobian;
     const int cells = sensor_.range.cells;
     const double cell_m = sensor_.range.cell_m;
+    std::vector<double>& power_W = profile.power_W;
     power_W.assign(static_cast<std::size_t>(cells), 0.0);
     double near_dB = loss_dB(along, 0);
     for (int first = 0; first < cells; first += kCellsPerLoss) {
@@ -149,13 +176,21 @@ class Echo {
       }
       near_dB = far_dB;
     }
+    profile.sum(sensor_.range);
   }
 
-  void profiles(double azimuth_rad, std::vector<std::vector<double>>& nodes_W) const {
-    nodes_W.resize(static_cast<std::size_t>(nodes_));
+  void profiles(double azimuth_rad, std::vector<Profile>& nodes) const {
+    nodes.resize(static_cast<std::size_t>(nodes_));
     for (int node = 0; node < nodes_; ++node)
       profile(borders_.front() + node * node_step_rad_, azimuth_rad,
-              nodes_W[static_cast<std::size_t>(node)]);
+              nodes[static_cast<std::size_t>(node)]);
+  }
+
+  // How many cells have their middle at most that far away.
+  int cells_within(double range_m) const {
+    const sensors::RangeGate& gate = sensor_.range;
+    return static_cast<int>(std::clamp(std::floor((range_m - gate.minimum_m) / gate.cell_m + 0.5),
+                                       0.0, gate.cells * 1.0));
   }
 
   double free_m(double azimuth_rad, double elevation_rad) const {
@@ -188,8 +223,8 @@ class Echo {
   }
 
   void add_block(int block);
-  void add_interval(std::size_t i, const std::vector<std::vector<double>>& nodes_W,
-                    double free_low_m, double free_high_m, std::vector<double>& range_W,
+  void add_interval(std::size_t i, const std::vector<Profile>& nodes, double free_low_m,
+                    double free_high_m, std::vector<double>& range_W,
                     std::vector<double>& row_W_m3) const;
 
   const World& world_;
@@ -202,12 +237,12 @@ class Echo {
   int nodes_ = 0;
   double node_step_rad_ = 0.0;
   bool same_in_all_azimuths_;
-  std::vector<std::vector<double>> common_;
+  std::vector<Profile> common_;
 };
 
 // Adds one interval: free up to the nearer of the two distances, half way between them by half.
-void Echo::add_interval(std::size_t i, const std::vector<std::vector<double>>& nodes_W,
-                        double free_low_m, double free_high_m, std::vector<double>& range_W,
+void Echo::add_interval(std::size_t i, const std::vector<Profile>& nodes, double free_low_m,
+                        double free_high_m, std::vector<double>& range_W,
                         std::vector<double>& row_W_m3) const {
   const double position =
       std::clamp(((borders_[i] + borders_[i + 1]) / 2.0 - borders_.front()) / node_step_rad_, 0.0,
@@ -218,15 +253,19 @@ void Echo::add_interval(std::size_t i, const std::vector<std::vector<double>>& n
   const double nearer_m = std::min(free_low_m, free_high_m);
   const double farther_m = std::max(free_low_m, free_high_m);
   if (farther_m <= sensor_.range.minimum_m) return;
-  double sum_W_m3 = 0.0;
-  for (int cell = 0; cell < sensor_.range.cells; ++cell) {
+  const Profile& below = nodes[node];
+  const Profile& above = nodes[node + 1];
+  const int whole = cells_within(nearer_m);
+  add_mixed(below.power_W.data(), lower, above.power_W.data(), upper, whole, range_W.data());
+  double sum_W_m3 = lower * below.before_W_m3[static_cast<std::size_t>(whole)] +
+                    upper * above.before_W_m3[static_cast<std::size_t>(whole)];
+  for (int cell = whole; cell < sensor_.range.cells; ++cell) {
     const double range_m = sensors::range_middle_m(sensor_.range, cell);
-    double share = 1.0;
     if (range_m >= farther_m) break;
-    if (range_m > nearer_m)
-      share = farther_m == kUnlimited_m ? 0.5 : (farther_m - range_m) / (farther_m - nearer_m);
+    const double share =
+        farther_m == kUnlimited_m ? 0.5 : (farther_m - range_m) / (farther_m - nearer_m);
     const auto k = static_cast<std::size_t>(cell);
-    const double added_W = share * (lower * nodes_W[node][k] + upper * nodes_W[node + 1][k]);
+    const double added_W = share * (lower * below.power_W[k] + upper * above.power_W[k]);
     range_W[k] += added_W;
     sum_W_m3 += added_W * range_m * range_m * range_m;
   }
@@ -244,14 +283,14 @@ void Echo::add_block(int block) {
   const double azimuth_rad = sums_.first_azimuth_rad + (first + last) / 2.0 * sums_.step_rad;
   // Kept by the thread from block to block.
   thread_local std::vector<double> range_W, row_W_m3, free;
-  thread_local std::vector<std::vector<double>> own;
+  thread_local std::vector<Profile> own;
   range_W.assign(static_cast<std::size_t>(sums_.cells), 0.0);
   row_W_m3.assign(static_cast<std::size_t>(sums_.rows), 0.0);
   if (!same_in_all_azimuths_) profiles(azimuth_rad, own);
-  const std::vector<std::vector<double>>& nodes_W = same_in_all_azimuths_ ? common_ : own;
+  const std::vector<Profile>& nodes = same_in_all_azimuths_ ? common_ : own;
   free_distances_m(azimuth_rad, free);
   for (std::size_t i = 0; i < gain_rad_.size(); ++i)
-    add_interval(i, nodes_W, free[i], free[i + 1], range_W, row_W_m3);
+    add_interval(i, nodes, free[i], free[i + 1], range_W, row_W_m3);
   const auto add = [](const std::vector<double>& from, double* to) {
     for (std::size_t k = 0; k < from.size(); ++k) to[k] += from[k];
   };
