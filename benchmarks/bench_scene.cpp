@@ -7,22 +7,13 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "benchmarks/process_memory.h"
 #include "session/session.h"
 
 namespace fanbeam::benchmarks {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A line of /proc/self/status, "VmHWM" or "VmRSS"; 0 where there is none.
-double process_memory_bytes(const std::string& field) {
-  std::ifstream stream("/proc/self/status");
-  for (std::string word; stream >> word;) {
-    double kibibytes = 0.0;
-    if (word == field + ":" && stream >> kibibytes) return kibibytes * 1024.0;
-  }
-  return 0.0;
-}
 
 void forget_peak_memory() { std::ofstream("/proc/self/clear_refs") << 5; }
 
@@ -40,6 +31,13 @@ std::string data_folder() {
   const char* variable = std::getenv("FANBEAM_DATA");
   if (variable != nullptr && *variable != '\0') return variable;
   return (fs::path(FANBEAM_SOURCE_DIR) / ".." / "shared" / "data").lexically_normal().string();
+}
+
+std::set<std::string> shipped_scenes() {
+  std::set<std::string> names;
+  for (const auto& entry : fs::directory_iterator(fs::path(FANBEAM_SOURCE_DIR) / "scenes"))
+    if (fs::exists(entry.path() / "scene.toml")) names.insert(entry.path().filename().string());
+  return names;
 }
 
 std::shared_ptr<const scenes::Scene> build(const std::string& name,

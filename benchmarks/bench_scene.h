@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "renderer/plan/effects.h"
@@ -14,6 +15,9 @@ namespace fanbeam::benchmarks {
 inline constexpr const char* kDefaultScene = "braunschweig-26";
 inline constexpr const char* kCityScene = "innsbruck-26";
 inline constexpr const char* kObstacleScene = "obstacle-field";
+inline constexpr const char* kRainScene = "rain-94ghz";
+// Before the threshold, of the views.
+inline constexpr double kDistances_m[] = {2500.0, 1000.0};
 
 struct BenchScene {
   std::string name;
@@ -29,6 +33,9 @@ struct BenchScene {
 
 // FANBEAM_DATA, else ../shared/data beside the source tree.
 std::string data_folder();
+
+// Those of the source tree, by name.
+std::set<std::string> shipped_scenes();
 
 // Reads and builds a shipped scene of the source tree. Throws core::InputError.
 std::shared_ptr<const scenes::Scene> build(const std::string& name,

@@ -1,18 +1,20 @@
 #include "benchmarks/campaign_cost.h"
 
 #include <fmt/core.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
+#include "benchmarks/process_memory.h"
 #include "benchmarks/scratch_folder.h"
 #include "benchmarks/verdict.h"
 #include "core/files.h"
@@ -107,6 +109,8 @@ std::string city_json(int houses) {
   return city.dump();
 }
 
+constexpr std::chrono::milliseconds kLook{5};  // how often at what runs
+
 struct Ended {
   double seconds = 0.0, peak_bytes = 0.0;
 };
@@ -128,13 +132,25 @@ Ended run(const std::vector<std::vector<std::string>>& commands) {
     children.push_back(child);
   }
   Ended ended;
-  for (const pid_t child : children) {
-    int status = 0;
-    rusage used{};
-    if (wait4(child, &status, 0, &used) != child || status != 0)
-      throw std::runtime_error("ended with " + std::to_string(status));
-    ended.peak_bytes = std::max(ended.peak_bytes, 1024.0 * static_cast<double>(used.ru_maxrss));
+  std::vector<double> peaks_bytes(children.size(), 0.0);
+  for (std::size_t running = children.size(); running > 0;) {
+    std::this_thread::sleep_for(kLook);
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      if (children[i] == 0) continue;
+      // Asked while it runs: what the system tells of one that has ended includes the memory of the
+      // process that it was forked from, this one. For the same reason the last answer counts.
+      if (const double peak = process_memory_bytes("VmHWM", children[i]); peak > 0.0)
+        peaks_bytes[i] = peak;
+      int status = 0;
+      const pid_t found = waitpid(children[i], &status, WNOHANG);
+      if (found == 0) continue;
+      if (found != children[i] || status != 0)
+        throw std::runtime_error("ended with " + std::to_string(status));
+      children[i] = 0;
+      --running;
+    }
   }
+  ended.peak_bytes = *std::ranges::max_element(peaks_bytes);
   ended.seconds = measure::milliseconds_since(begin) / 1000.0;
   return ended;
 }

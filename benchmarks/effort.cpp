@@ -27,6 +27,7 @@ Effort full_effort() {
   effort.scaling_turns = 5;
   effort.sequence_frames = 48;
   effort.estimate_frames = 3;
+  effort.bound_frames = 8;
   effort.scaling_cells = {224, 707, 1225, 2236};  // 0.1, 1, 3 and 10 million triangles
   return effort;
 }
@@ -43,7 +44,7 @@ Effort quick_effort() {
   effort.naive = {1, 1, 0.0};
   effort.turns = effort.scaling_turns = 2;
   effort.sequence_frames = 4;
-  effort.estimate_frames = 1;
+  effort.estimate_frames = effort.bound_frames = 1;
   effort.scaling_cells = {100, 224};
   return effort;
 }

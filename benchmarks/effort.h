@@ -21,6 +21,7 @@ struct Effort : measure::Effort {
   int scaling_turns = 0;
   int sequence_frames = 0;
   int estimate_frames = 0;         // of each shipped scene
+  int bound_frames = 0;            // the same
   std::vector<int> scaling_cells;  // of the ground along each side of the square
 };
 

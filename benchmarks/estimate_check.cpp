@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <set>
 
 #include "benchmarks/bench_scene.h"
 #include "benchmarks/frame_clock.h"
@@ -13,8 +11,6 @@
 
 namespace fanbeam::benchmarks {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct Way {
   std::string name;
@@ -72,13 +68,6 @@ void check_frame(const BenchScene& bench, int frame, const Effort& effort,
     found.true_grey = std::sqrt(std::max(apart_grey * apart_grey - own_grey * own_grey, 0.0));
     cases.push_back(found);
   }
-}
-
-std::set<std::string> shipped_scenes() {
-  std::set<std::string> names;
-  for (const auto& entry : fs::directory_iterator(fs::path(FANBEAM_SOURCE_DIR) / "scenes"))
-    if (fs::exists(entry.path() / "scene.toml")) names.insert(entry.path().filename().string());
-  return names;
 }
 
 }  // namespace

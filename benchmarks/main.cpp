@@ -21,7 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kDistances_m[] = {2500.0, 1000.0};
 constexpr std::uint64_t kLargestNotes_bytes = 1 << 20;
 
 constexpr const char* kUsage =
@@ -86,7 +85,10 @@ SceneFigures measure(const BenchScene& scene, bool city, const Effort& effort, i
   SceneFigures figures;
   figures.scene = &scene;
   const View farthest = view_at(scene, kDistances_m[0]);
-  for (const auto wish : {renderer::CasterWish::rays, renderer::CasterWish::profile})
+  std::vector<SequenceWish> wishes = {{renderer::CasterWish::rays},
+                                      {renderer::CasterWish::profile}};
+  if (city) wishes.push_back({renderer::CasterWish::automatic, "v3"});
+  for (const SequenceWish& wish : wishes)
     if (auto sequence = measure_sequence(farthest, wish, effort.sequence_frames, threads))
       figures.sequences.push_back(*sequence);
   for (const double distance_m : kDistances_m) {
@@ -110,8 +112,10 @@ Report measure(const std::vector<BenchScene>& scenes, const Effort& effort, int 
     report.scenes.push_back(measure(scene, &scene == &scenes.back(), effort, threads));
   if (const auto obstacles = load(kObstacleScene))
     report.agreement.push_back(measure_agreement(view_at(*obstacles, kDistances_m[1]), effort));
+  report.rain = measure_defaults(kRainScene, effort, threads);
   report.campaigns = measure_campaigns(effort);
   report.other_cores = machine.other_cores();  // what follows is not timed
+  report.bounds = check_bounds(effort);
   if (estimates) report.estimates = check_estimates(effort);
   return report;
 }

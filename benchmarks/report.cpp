@@ -105,6 +105,12 @@ std::string plots_markdown(const Report& report) {
   return out;
 }
 
+std::string sequence_line(const std::string& scene, const SequenceFigures& sequence) {
+  return fmt::format("| {} | {} | {} | {} | {:.1f} ms | {:.1f} frames/s |\n", scene,
+                     sequence.options, sequence.chosen, sequence.frames, sequence.frame_ms,
+                     sequence.frames_per_s_written);
+}
+
 std::string scenes_markdown(const Report& report) {
   std::string out =
       "## Scenes\n\n"
@@ -120,13 +126,13 @@ std::string scenes_markdown(const Report& report) {
                        world.targets.size(), scene.scene->build_s, scene.peak_memory_bytes / 1e9);
   }
   out +=
-      "\n| sequence | --caster | cast by | frames | frame | on disk |\n"
+      "\n| sequence | options | cast by | frames | frame | on disk |\n"
       "| --- | --- | --- | --- | --- | --- |\n";
   for (const SceneFigures& figures : report.scenes)
     for (const SequenceFigures& sequence : figures.sequences)
-      out += fmt::format("| {} | {} | {} | {} | {:.1f} ms | {:.1f} frames/s |\n",
-                         figures.scene->name, sequence.wish, sequence.chosen, sequence.frames,
-                         sequence.frame_ms, sequence.frames_per_s_written);
+      out += sequence_line(figures.scene->name, sequence);
+  if (report.rain && report.rain->sequence)
+    out += sequence_line(report.rain->scene, *report.rain->sequence);
   return out + "\n";
 }
 
@@ -201,7 +207,7 @@ std::string markdown(const Report& report) {
   for (const SceneFigures& scene : report.scenes)
     for (const ViewFigures& figures : scene.views) out += view_markdown(figures, report.threads);
   if (report.campaigns) out += campaigns_markdown(*report.campaigns);
-  out += estimates_markdown(report.estimates);
+  out += bounds_markdown(report.bounds) + estimates_markdown(report.estimates);
   out += report.notes;
   while (out.ends_with("\n\n")) out.pop_back();
   return out;

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "benchmarks/bound_check.h"
 #include "benchmarks/campaign_cost.h"
+#include "benchmarks/default_settings.h"
 #include "benchmarks/estimate_check.h"
 #include "benchmarks/measure.h"
 #include "benchmarks/plan_cost.h"
@@ -28,6 +30,8 @@ struct Report {
   double other_cores = 0.0;  // MachineLoad over the whole run
   std::vector<SceneFigures> scenes;
   std::vector<AgreementFigures> agreement;  // in scenes without figures of their own
+  std::optional<DefaultFigures> rain;
+  std::vector<BoundCase> bounds;
   std::vector<EstimateCase> estimates;
   std::optional<CampaignFigures> campaigns;
   std::vector<std::string> skipped;  // scenes without their data

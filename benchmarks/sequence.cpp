@@ -14,18 +14,19 @@ namespace fanbeam::benchmarks {
 
 namespace fs = std::filesystem;
 
-std::optional<SequenceFigures> measure_sequence(const View& view, renderer::CasterWish wish,
+std::optional<SequenceFigures> measure_sequence(const View& view, const SequenceWish& wish,
                                                 int frames, int threads) {
   const std::string& name = view.scene->name;
   const fs::path program = program_beside();
   const ScratchFolder scratch;
   const int first = std::max(0, view.frame - frames / 2);
+  std::string options = fmt::format("--caster {}", renderer::name_of(wish.caster));
+  if (!wish.isa.empty()) options += " --isa " + wish.isa;
   const std::string command =
-      fmt::format("'{}' render '{}' --quiet --caster {} --frames {}:{} --threads {} -o '{}'",
+      fmt::format("'{}' render '{}' --quiet {} --frames {}:{} --threads {} -o '{}'",
                   program.string(), (fs::path(FANBEAM_SOURCE_DIR) / "scenes" / name).string(),
-                  renderer::name_of(wish), first, first + frames, threads, scratch.path().string());
-  fmt::print(stderr, "{}: a sequence of {} frames to disk, --caster {}\n", name, frames,
-             renderer::name_of(wish));
+                  options, first, first + frames, threads, scratch.path().string());
+  fmt::print(stderr, "{}: a sequence of {} frames to disk, {}\n", name, frames, options);
   if (!fs::exists(program) || std::system(command.c_str()) != 0) {
     fmt::print(stderr, "[skipped] sequence: no success with {}\n", command);
     return std::nullopt;
@@ -35,8 +36,10 @@ std::optional<SequenceFigures> measure_sequence(const View& view, renderer::Cast
     return nlohmann::json::parse(stream);
   };
   const nlohmann::json summary = record("timing.json").at("summary");
-  return SequenceFigures{std::string(renderer::name_of(wish)),
-                         record("run.json").at("caster").at("chosen").get<std::string>(), frames,
+  return SequenceFigures{options,
+                         wish.isa,
+                         record("run.json").at("caster").at("chosen").get<std::string>(),
+                         frames,
                          summary.at("frame_ms_median").get<double>(),
                          summary.at("frames_per_s_written").get<double>()};
 }

@@ -31,10 +31,13 @@ std::string rates(const Report& report) {
 std::string sequences(const Report& report) {
   std::string out =
       "| every effect, default sampling, with files | frame | on disk |\n| --- | --- | --- |\n";
+  const auto add = [&](const std::string& scene, const SequenceFigures& sequence) {
+    out += fmt::format("| {}, {} | {:.1f} ms | {:.1f} frames/s |\n", scene, sequence.options,
+                       sequence.frame_ms, sequence.frames_per_s_written);
+  };
   for (const SceneFigures& scene : report.scenes)
-    for (const SequenceFigures& sequence : scene.sequences)
-      out += fmt::format("| {}, --caster {} | {:.1f} ms | {:.1f} frames/s |\n", scene.scene->name,
-                         sequence.wish, sequence.frame_ms, sequence.frames_per_s_written);
+    for (const SequenceFigures& sequence : scene.sequences) add(scene.scene->name, sequence);
+  if (report.rain && report.rain->sequence) add(report.rain->scene, *report.rain->sequence);
   return out;
 }
 

@@ -47,6 +47,10 @@ struct View {
   double elevation_gain = 0.0;  // two-way
 };
 
+bool in_gate(const sensors::RangeGate& gate, double range_m) {
+  return range_m >= gate.minimum_m && range_m < gate.maximum_m();
+}
+
 // Counts a target that has no direction.
 std::optional<View> view_of(const sensors::Sensor& sensor, const PointTarget& target,
                             const sensors::AntennaFrame& antenna, double time_s,
@@ -62,8 +66,7 @@ std::optional<View> view_of(const sensors::Sensor& sensor, const PointTarget& ta
   }
   view.angles = *angles;
   view.range_m = glm::length(path_m);
-  if (view.range_m < sensor.range.minimum_m || view.range_m >= sensor.range.maximum_m())
-    return std::nullopt;
+  if (!in_gate(sensor.range, view.range_m)) return std::nullopt;
   const double reach_rad = sensor.scan.field_of_view_rad / 2 + sensors::reach_rad(beams.azimuth);
   if (std::abs(angles->azimuth_rad) > reach_rad) return std::nullopt;
   view.elevation_gain = sensors::two_way_gain_with_side_lobes(
@@ -134,6 +137,10 @@ TargetEchoes unobstructed_echoes(const World& world, const sensors::AntennaFrame
 
 bool in_view(const sensors::Sensor& sensor, const PointTarget& target,
              const sensors::AntennaFrame& antenna, double time_s) {
+  // A plan asks for thousands of targets in every frame, most of them out of range: no angles for
+  // those.
+  if (!in_gate(sensor.range, glm::distance(target.position_at(time_s), antenna.position_m)))
+    return false;
   std::uint64_t unprojected = 0;
   return view_of(sensor, target, antenna, time_s, unprojected).has_value();
 }
