@@ -37,14 +37,6 @@ core::Polarisation polarisation_of(const MaterialsView& options) {
                                       : core::Polarisation::horizontal;
 }
 
-materials::SurfaceState state_of(const MaterialsView& options) {
-  const auto& names = materials::kSurfaceStateNames;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (options.state == names[i]) return static_cast<materials::SurfaceState>(i);
-  core::throw_input_error(core::ErrorClass::ref, "--state", "\"" + options.state + "\"",
-                          "dry, wet, dry-snow or wet-snow");
-}
-
 materials::MaterialLibrary read_library(const MaterialsView& options) {
   core::ProblemList problems;
   auto library = materials::MaterialLibrary::from_file(library_file(options), problems);
@@ -67,7 +59,7 @@ struct Row {
 std::vector<Row> rows_of(const materials::MaterialLibrary& library, const MaterialsView& options) {
   const double frequency_Hz = options.frequency_GHz * 1e9;
   const core::Polarisation polarisation = polarisation_of(options);
-  const materials::SurfaceState state = state_of(options);
+  const materials::SurfaceState state = materials::surface_state_of(options.state, "--state");
   std::vector<Row> rows;
   for (std::size_t i = 0; i < library.size(); ++i) {
     const Material& shown = library[library.in_state(i, state)];

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace fanbeam::core {
 
@@ -28,8 +29,8 @@ inline constexpr std::uint32_t kStreamPhaseNoise = 8;
 inline constexpr std::uint32_t kStreamCfarCalibration = 9;
 inline constexpr std::uint32_t kStreamCampaign = 11;        // values of runs
 inline constexpr std::uint32_t kStreamCampaignFlight = 12;  // how their flights wander
-inline constexpr std::uint32_t kStreamHighway = 20;    // measurements of road scenarios
-inline constexpr std::uint32_t kStreamFrameEcho = 10;  // places and phases of scatterers
+inline constexpr std::uint32_t kStreamHighway = 20;         // measurements of road scenarios
+inline constexpr std::uint32_t kStreamFrameEcho = 10;       // places and phases of scatterers
 
 // The key that Philox gets of seed, stream and the upper half of the frame; the counter gets cell,
 // draw and the lower half. For one seed, no two pairs of a stream and an upper half share a key: the
@@ -54,5 +55,12 @@ constexpr double uniform_from(std::uint32_t word) {
 
 // Two independent standard normal numbers (Box-Muller).
 std::array<double, 2> normal_pair(const RandomKey& key, std::uint64_t cell, std::uint32_t draw);
+
+// Of each of the cells from `first` on the sum of `count` exponentials of mean 1, of draws 0, 1, ...,
+// four to a draw; 1 to kMostExponentials, whose product of uniform numbers of at least 2^-33 stays
+// above the smallest double, so that one logarithm does for all. Relative error 1e-15.
+inline constexpr int kMostExponentials = 28;
+void sums_of_exponentials(const RandomKey& key, std::uint64_t first, int count,
+                          std::span<double> sums);
 
 }  // namespace fanbeam::core

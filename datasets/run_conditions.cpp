@@ -96,12 +96,9 @@ void set_conditions(session::Session& session, const Campaign& campaign, const D
   };
   tried([&] { session.set(weather_of(draw, own.weather)); });
   tried([&] {
-    materials::SurfaceState state = own.description.surface_state;
-    if (const auto word = draw.word("surface"))
-      for (std::size_t i = 0; i < materials::kSurfaceStateNames.size(); ++i)
-        if (*word == materials::kSurfaceStateNames[i])
-          state = static_cast<materials::SurfaceState>(i);
-    session.set(state);
+    const auto word = draw.word("surface");
+    session.set(word ? materials::surface_state_of(*word, "surface")
+                     : own.description.surface_state);
   });
   tried([&] {
     session::SensorSettings settings;

@@ -27,14 +27,6 @@ core::Polarisation polarisation_of(const std::string& word) {
   core::throw_input_error(core::ErrorClass::ref, "polarisation", "\"" + word + "\"", "HH or VV");
 }
 
-materials::SurfaceState state_of(const std::string& word) {
-  const auto& names = materials::kSurfaceStateNames;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (word == names[i]) return static_cast<materials::SurfaceState>(i);
-  core::throw_input_error(core::ErrorClass::ref, "state", "\"" + word + "\"",
-                          "dry, wet, dry-snow or wet-snow");
-}
-
 MaterialLibrary library_in(const std::filesystem::path& file) {
   core::ProblemList problems;
   MaterialLibrary library = MaterialLibrary::from_file(file, problems);
@@ -52,15 +44,15 @@ py::list materials_of(const std::filesystem::path& file) {
 }
 
 // Linear, of every grazing angle.
-py::array_t<double> nrcs(const std::filesystem::path& file, const std::string& name,
-                         const py::array_t<double, py::array::c_style | py::array::forcecast>&
-                             grazing_rad,
-                         double frequency_Hz, const std::string& polarisation,
-                         const std::string& state, bool extrapolate, py::list& warnings) {
+py::array_t<double> nrcs(
+    const std::filesystem::path& file, const std::string& name,
+    const py::array_t<double, py::array::c_style | py::array::forcecast>& grazing_rad,
+    double frequency_Hz, const std::string& polarisation, const std::string& state,
+    bool extrapolate, py::list& warnings) {
   const MaterialLibrary library = library_in(file);
   core::ProblemList problems;
   const core::Polarisation seen = polarisation_of(polarisation);
-  const materials::SurfaceState surface = state_of(state);
+  const materials::SurfaceState surface = materials::surface_state_of(state, "state");
   const auto found = library.find(name, {}, "material", problems);
   problems.throw_if_errors();
   const std::size_t shown = library.in_state(*found, surface);

@@ -67,8 +67,9 @@ session::TargetState target_of(const py::handle& target) {
                     target.attr("height_m").cast<double>()};
   const auto attitude = target.attr("attitude_deg").cast<std::optional<std::array<double, 3>>>();
   if (attitude)
-    state.q_NB = core::quaternion_from({core::radians((*attitude)[0]), core::radians((*attitude)[1]),
-                                        core::radians((*attitude)[2])});
+    state.q_NB =
+        core::quaternion_from({core::radians((*attitude)[0]), core::radians((*attitude)[1]),
+                               core::radians((*attitude)[2])});
   const auto rcs_m2 = target.attr("rcs_m2").cast<std::optional<double>>();
   if (rcs_m2) {
     core::require_range("target.rcs_m2", *rcs_m2, {0.0, 1.0e9}, "m2");
@@ -80,8 +81,7 @@ session::TargetState target_of(const py::handle& target) {
 py::list set_targets(const Scene& scene, const py::sequence& targets) {
   std::vector<session::TargetState> states;
   for (const py::handle target : targets) states.push_back(target_of(target));
-  return problems_list(
-      scene.session().set(std::span<const session::TargetState>(states)).all());
+  return problems_list(scene.session().set(std::span<const session::TargetState>(states)).all());
 }
 
 py::list set_weather(const Scene& scene, const py::dict& changes) {
@@ -90,12 +90,7 @@ py::list set_weather(const Scene& scene, const py::dict& changes) {
 }
 
 py::list set_surface(const Scene& scene, const std::string& word) {
-  const auto& names = materials::kSurfaceStateNames;
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (word == names[i])
-      return problems_list(scene.session().set(static_cast<materials::SurfaceState>(i)).all());
-  core::throw_input_error(core::ErrorClass::ref, "surface", "\"" + word + "\"",
-                          "dry, wet, dry-snow or wet-snow");
+  return problems_list(scene.session().set(materials::surface_state_of(word, "surface")).all());
 }
 
 // All of them; what is None is the scene's own.
@@ -185,8 +180,8 @@ py::array_t<double> trajectory(const Scene& scene) {
   py::array_t<double> rows({static_cast<std::size_t>(frames), std::tuple_size_v<PoseNumbers>});
   auto to = rows.mutable_unchecked<2>();
   for (int frame = 0; frame < frames; ++frame) {
-    const PoseNumbers numbers = numbers_of(now->trajectory->at(now->trajectory->frame_time_s(
-        frame, now->description.sensor.scan.frame_rate_Hz)));
+    const PoseNumbers numbers = numbers_of(now->trajectory->at(
+        now->trajectory->frame_time_s(frame, now->description.sensor.scan.frame_rate_Hz)));
     for (std::size_t i = 0; i < numbers.size(); ++i)
       to(frame, static_cast<py::ssize_t>(i)) = numbers[i];
   }
@@ -234,8 +229,7 @@ py::dict facts(const Scene& scene) {
   result["noise_W"] = sensor.noise_power_W();
   result["caster"] = renderer::name_of(now->caster.chosen);
   result["caster_reason"] = now->caster.reason;
-  result["surface"] =
-      materials::kSurfaceStateNames[static_cast<std::size_t>(now->description.surface_state)];
+  result["surface"] = name_of(now->description.surface_state);
   result["materials"] = geometry.material_names;
   result["objects"] = objects;
   return result;
@@ -249,7 +243,8 @@ void add_scene(py::module_& module) {
            py::arg("sensor"), py::arg("effects"), py::arg("caster"), py::arg("sample"),
            py::arg("seed"), py::arg("threads"), py::arg("warnings"))
       .def("set_weather", &set_weather, py::arg("changes"))
-      .def("weather", [](const Scene& scene) { return weather_dict(scene.session().scene()->weather); })
+      .def("weather",
+           [](const Scene& scene) { return weather_dict(scene.session().scene()->weather); })
       .def("set_surface", &set_surface, py::arg("state"))
       .def("set_sensor", &set_sensor, py::arg("tilt_deg"), py::arg("stabilised"), py::arg("low_dB"),
            py::arg("high_dB"), py::arg("cscope_mode"), py::arg("noise_figure_dB"))

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 namespace fanbeam::materials {
@@ -17,5 +18,12 @@ enum class SurfaceState {
 // As files name them, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 4> kSurfaceStateNames = {"dry", "wet", "dry-snow",
                                                                        "wet-snow"};
+
+inline std::string_view name_of(SurfaceState state) {
+  return kSurfaceStateNames[static_cast<std::size_t>(state)];
+}
+
+// `field`: what the word was given for. Throws core::InputError, E-REF, for a word that names none.
+SurfaceState surface_state_of(std::string_view word, std::string_view field);
 
 }  // namespace fanbeam::materials

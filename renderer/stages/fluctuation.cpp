@@ -15,8 +15,6 @@ namespace {
 using core::Swerling;
 using core::uniform_from;
 
-// 28 factors of at least 2^-33 stay above the smallest double: one logarithm for all.
-constexpr int kMostExponentials = 28;
 constexpr std::uint32_t kWholeFrame = 0xFFFFFFFFU;  // in place of a column
 
 core::RandomKey key_of(const Fluctuation& fluctuation, std::uint32_t stream) {
@@ -27,16 +25,6 @@ std::array<std::uint32_t, 4> target_words(const Fluctuation& fluctuation, std::u
                                           std::uint32_t column, std::uint32_t look) {
   return core::random_words(key_of(fluctuation, core::kStreamTarget),
                             target + (std::uint64_t{column} << 32U), look);
-}
-
-double sum_of_exponentials(const core::RandomKey& key, std::uint64_t cell, int count) {
-  double product = 1.0;
-  for (int block = 0; 4 * block < count; ++block) {
-    const auto words = core::random_words(key, cell, static_cast<std::uint32_t>(block));
-    const int used = std::min(4, count - 4 * block);
-    for (int i = 0; i < used; ++i) product *= uniform_from(words[static_cast<std::size_t>(i)]);
-  }
-  return -std::log(product);
 }
 
 // Attempt k takes the draws 2k and 2k + 1; fewer than 1 in 100 need a second.
@@ -80,12 +68,29 @@ double mean_factor(const TargetShare& share, Swerling target_case, const Fluctua
   return sum / fluctuation.looks;
 }
 
+// Of cells side by side.
+void speckle_factors(const Fluctuation& fluctuation, std::uint32_t stream, std::uint64_t first,
+                     std::span<double> factors) {
+  const core::RandomKey key = key_of(fluctuation, stream);
+  const int looks = fluctuation.looks;
+  if (looks <= core::kMostExponentials) {
+    core::sums_of_exponentials(key, first, looks, factors);
+  } else {
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      factors[i] = gamma_by_rejection(key, first + i, looks);
+  }
+  for (double& factor : factors) factor /= looks;
+}
+
 void realise_row(std::size_t begin, std::span<double> row, const std::vector<TargetShare>& shares,
                  std::span<const Swerling> cases, const Fluctuation& fluctuation,
                  std::uint32_t stream, double noise) {
   auto share = std::lower_bound(
       shares.begin(), shares.end(), begin,
       [](const TargetShare& candidate, std::size_t cell) { return candidate.cell < cell; });
+  thread_local std::vector<double> factors;
+  factors.resize(row.size());
+  speckle_factors(fluctuation, stream, begin, factors);
   for (std::size_t i = 0; i < row.size(); ++i) {
     const double diffuse = row[i] + noise;
     const auto first = share;
@@ -93,7 +98,7 @@ void realise_row(std::size_t begin, std::span<double> row, const std::vector<Tar
     if (first != share)
       row[i] = realised_cell({first, share}, cases, fluctuation, stream, diffuse);
     else if (diffuse > 0.0)
-      row[i] = diffuse * speckle_factor(fluctuation, stream, begin + i);
+      row[i] = diffuse * factors[i];
   }
 }
 
@@ -143,11 +148,9 @@ void realise(std::vector<TargetShare> shares, std::span<const Swerling> cases,
 }
 
 double speckle_factor(const Fluctuation& fluctuation, std::uint32_t stream, std::uint64_t cell) {
-  const core::RandomKey key = key_of(fluctuation, stream);
-  const int looks = fluctuation.looks;
-  return (looks <= kMostExponentials ? sum_of_exponentials(key, cell, looks)
-                                     : gamma_by_rejection(key, cell, looks)) /
-         looks;
+  double factor = 0.0;
+  speckle_factors(fluctuation, stream, cell, {&factor, 1});
+  return factor;
 }
 
 double target_factor(Swerling target_case, const Fluctuation& fluctuation, std::uint32_t target,

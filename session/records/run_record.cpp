@@ -144,8 +144,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["plan_per_frame"] = record.plan_per_frame;
   if (!record.range_unit.empty()) json["range_unit"] = record.range_unit;
   json["plan"] = Json::parse(decisions_json(scene.plan));
-  json["surface_state"] =
-      materials::kSurfaceStateNames[static_cast<std::size_t>(scene.description.surface_state)];
+  json["surface_state"] = name_of(scene.description.surface_state);
   json["materials"] = Json::array();
   json["extrapolations"] = Json::array();
   for (const scenes::SurfaceRecord& surface : scene.surfaces) {

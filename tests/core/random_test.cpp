@@ -5,7 +5,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <set>
+#include <vector>
+
+#include "core/machine.h"
 
 using namespace fanbeam::core;
 using Block = std::array<std::uint32_t, 4>;
@@ -78,4 +82,32 @@ TEST_CASE("Normal numbers have mean 0, variance 1, no correlation and normal tai
   CHECK(squares / (2.0 * kPairs) == Approx(1.0).epsilon(0.0).margin(0.0057));
   CHECK(products / kPairs == Approx(0.0).epsilon(0.0).margin(0.0057));
   CHECK(beyond_two / (2.0 * kPairs) == Approx(0.0455003).epsilon(0.0).margin(0.00084));
+}
+
+TEST_CASE("Sums of exponentials of cells side by side are those of their own draws, at every level",
+          "[random]") {
+  const RandomKey key{2026, kStreamSpeckle, (std::uint64_t{3} << 32U) + 5};
+  const std::uint64_t first = (std::uint64_t{1} << 32U) - 7;  // cells on both sides of 2^32
+  std::vector<double> before;
+  for (const InstructionLevel level :
+       {InstructionLevel::v2, InstructionLevel::v3, InstructionLevel::v4}) {
+    if (level > machine_level()) continue;
+    limit_instructions(level, "level");
+    std::vector<double> all;
+    for (const int count : {1, 2, 3, 4, 5, 11, kMostExponentials}) {
+      std::vector<double> sums(37);
+      sums_of_exponentials(key, first, count, sums);
+      for (std::size_t i = 0; i < sums.size(); ++i) {
+        double expected = 0.0;
+        for (int k = 0; k < count; ++k)
+          expected -= std::log(uniform_from(random_words(
+              key, first + i, static_cast<std::uint32_t>(k / 4))[static_cast<std::size_t>(k % 4)]));
+        CHECK(sums[i] == Approx(expected).epsilon(1e-13));
+      }
+      all.insert(all.end(), sums.begin(), sums.end());
+    }
+    if (before.empty()) before = all;
+    CHECK(all == before);
+  }
+  limit_instructions(std::nullopt, "");
 }
