@@ -51,11 +51,11 @@ void XPlaneLink::take(std::span<const std::uint8_t> datagram, const Sender& from
 
 void XPlaneLink::take_beacon(std::span<const std::uint8_t> datagram, const Sender& from,
                              Clock::time_point arrived) {
-  constexpr std::chrono::seconds kPatience(5);
+  constexpr std::chrono::seconds kSilence(5);
   const auto beacon = feeds::decode_xplane_beacon(datagram);
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!by_beacon_ || !beacon || !beacon->is_simulator || beacon->port == 0) return;
-  if (simulator_ && !silent(heard_, arrived, kPatience)) return;
+  if (simulator_ && !silent(heard_, arrived, kSilence)) return;
   if (simulator_ && simulator_->address == from.address && simulator_->port == beacon->port) return;
   simulator_ = Endpoint{from.address, beacon->port, true};
   asked_.reset();

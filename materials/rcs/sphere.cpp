@@ -8,13 +8,14 @@
 namespace fanbeam::materials {
 namespace {
 
+using Complex = std::complex<double>;
+
 constexpr double kSphereOpticsFrom = 50.0;
 // What a term this far down adds cannot be seen, and its successors would overflow.
 constexpr double kLargestSphereHankel = 1e100;
 
 // sigma / (pi a^2) by the series.
 double relative_rcs(double ka) {
-  using Complex = std::complex<double>;
   Complex before(std::cos(ka), -std::sin(ka));  // n = -1
   Complex hankel(std::sin(ka), std::cos(ka));   // n = 0
   Complex sum = 0.0;

@@ -24,8 +24,8 @@
 // Inputs: powers 0 or more; looks 1 to 1000. Zero power stays zero.
 // Neglected: texture (correlated or spiky clutter, K law), range correlation of speckle by a
 // window, noise correlation between looks. Accuracy: the laws are exact up to the 32 bits of u,
-// tested by chi-square and moments. Cost of a HiVision picture on one core: 2.6 ms up to 4 looks
-// (a Philox block and a logarithm a cell), 11 ms for 28, 8 ms beyond.
+// tested by chi-square and moments. Cost of a HiVision picture of 86 000 cells on one core: 0.5 ms up
+// to 4 looks (a Philox block and a logarithm a cell, side by side), 3 ms for 28, 8 ms beyond.
 #pragma once
 
 #include <cstdint>
