@@ -41,9 +41,6 @@ constexpr std::array<std::uint32_t, 2> philox_key(const RandomKey& key) {
           static_cast<std::uint32_t>(key.seed >> 32U) ^ (key.stream * 0x9E3779B9U)};
 }
 
-std::array<std::uint32_t, 4> philox_block(std::array<std::uint32_t, 4> counter,
-                                          std::array<std::uint32_t, 2> key);
-
 // Four words for (cell, draw).
 std::array<std::uint32_t, 4> random_words(const RandomKey& key, std::uint64_t cell,
                                           std::uint32_t draw);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/dispatch.h"
+#include "core/philox_private.h"
 
 namespace fanbeam::core {
 namespace {
@@ -15,24 +16,6 @@ constexpr int kNumbers = 4 * kBlocks;  // of one group
 struct Words {
   std::uint32_t of[4][kBlocks];
 };
-
-// Ten rounds of Philox 4x32 (Salmon et al., SC'11), as random_words.
-inline void mix(std::uint32_t key0, std::uint32_t key1, Words& words) {
-  for (int round = 0; round < 10; ++round) {
-    // A loop that is unrolled does not become vector code.
-#pragma GCC unroll 1
-    for (int i = 0; i < kBlocks; ++i) {
-      const std::uint64_t a = std::uint64_t{0xD2511F53U} * words.of[0][i];
-      const std::uint64_t b = std::uint64_t{0xCD9E8D57U} * words.of[2][i];
-      words.of[0][i] = static_cast<std::uint32_t>(b >> 32U) ^ words.of[1][i] ^ key0;
-      words.of[2][i] = static_cast<std::uint32_t>(a >> 32U) ^ words.of[3][i] ^ key1;
-      words.of[1][i] = static_cast<std::uint32_t>(b);
-      words.of[3][i] = static_cast<std::uint32_t>(a);
-    }
-    key0 += 0x9E3779B9U;
-    key1 += 0xBB67AE85U;
-  }
-}
 
 // ln(x) for a normal number above 0.
 inline float natural_logarithm(float x) {
@@ -88,18 +71,20 @@ FANBEAM_HOT(void, fill_groups,
             (const RandomKey& key, std::uint32_t draw, std::uint64_t group, std::size_t count,
              float* numbers),
             (key, draw, group, count, numbers)) {
-  const auto [key0, key1] = philox_key(key);
+  const auto key_words = philox_key(key);
+  const auto frame = static_cast<std::uint32_t>(key.frame);
   for (std::size_t g = 0; g < count; ++g, ++group, numbers += kNumbers) {
     Words words;
-    // The 16 cells of a group never carry into the high word.
-    const std::uint64_t cell = group * kBlocks;
+    // A loop that is unrolled does not become vector code.
+#pragma GCC unroll 1
     for (int i = 0; i < kBlocks; ++i) {
-      words.of[0][i] = static_cast<std::uint32_t>(cell) + static_cast<std::uint32_t>(i);
-      words.of[1][i] = static_cast<std::uint32_t>(cell >> 32U);
-      words.of[2][i] = draw;
-      words.of[3][i] = static_cast<std::uint32_t>(key.frame);
+      const auto block =
+          philox_words(key_words, frame, group * kBlocks + static_cast<std::uint64_t>(i), draw);
+      words.of[0][i] = block[0];
+      words.of[1][i] = block[1];
+      words.of[2][i] = block[2];
+      words.of[3][i] = block[3];
     }
-    mix(key0, key1, words);
     for (int pair = 0; pair < 2; ++pair)
       for (int i = 0; i < kBlocks; ++i) {
         const float r = radius(words.of[2 * pair][i]);

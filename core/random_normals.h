@@ -7,8 +7,7 @@
 // (G. E. P. Box, M. E. Muller, Ann. Math. Stat. 29, 1958), with both numbers of a pair used:
 // numbers 0 to 15 are the cosines of the first pairs, 16 to 31 their sines, 32 to 63 the second
 // pairs likewise.
-// The rounds of Philox are written out over the 16 blocks, side by side in vector code: Random123
-// has them for one block, and random_words is held against them in the tests.
+// The 16 blocks lie side by side in vector code.
 // Logarithm, sine and cosine are polynomials in float (S. L. Moshier, Cephes: logf, sinf, cosf).
 // Accuracy: within 2e-6 of the formula in double where r is above 0.05, 3e-4 below, where u is
 // rounded to the next 2^-24. Tails reach 6.6 standard deviations. Always finite.

@@ -10,9 +10,20 @@
 #include <vector>
 
 #include "core/machine.h"
+#include "core/philox_private.h"
 
 using namespace fanbeam::core;
 using Block = std::array<std::uint32_t, 4>;
+
+namespace {
+
+Block philox_block(const Block& counter, const std::array<std::uint32_t, 2>& key) {
+  const auto words =
+      philox_words(key, counter[3], counter[0] + (std::uint64_t{counter[1]} << 32U), counter[2]);
+  return {words[0], words[1], words[2], words[3]};
+}
+
+}  // namespace
 
 TEST_CASE("M06 Philox 4x32-10 gives the published known answers", "[M06]") {
   // kat_vectors of Random123 (Salmon et al., SC'11): zeros, ones, digits of pi.
