@@ -23,8 +23,8 @@ struct SequenceFigures {
   double frames_per_s_written = 0.0;  // from the first pose to the last file
 };
 
-// `frames` frames around the view with `fanbeam render` at default sampling, into a temporary folder. Nothing, and a line on stderr, when the program does not lie beside this one or
-// fails.
+// `frames` frames around the view with `fanbeam render` at default sampling, into a temporary
+// folder. Nothing, and a line on stderr, when the program does not lie beside this one or fails.
 std::optional<SequenceFigures> measure_sequence(const View& view, const SequenceWish& wish,
                                                 int frames, int threads);
 
