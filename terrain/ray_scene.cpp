@@ -60,10 +60,11 @@ std::string embree_set(std::optional<core::InstructionLevel> limit) {
   }
 }
 
-RTCIntersectContext coherent_context() {
+RTCIntersectContext context_for(Packing packing) {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
-  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  context.flags = packing == Packing::alike ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                            : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
   return context;
 }
 
@@ -213,24 +214,24 @@ std::array<glm::dvec3, 3> RayScene::triangle(std::uint32_t geometry,
   return corners;
 }
 
-void RayScene::intersect(const int* active, RayPacket<8>& packet) const noexcept {
-  RTCIntersectContext context = coherent_context();
+void RayScene::intersect(const int* active, RayPacket<8>& packet, Packing packing) const noexcept {
+  RTCIntersectContext context = context_for(packing);
   rtcIntersect8(active, library_->scene, &context, reinterpret_cast<RTCRayHit8*>(&packet));
 }
 
-void RayScene::intersect(const int* active, RayPacket<16>& packet) const noexcept {
-  RTCIntersectContext context = coherent_context();
+void RayScene::intersect(const int* active, RayPacket<16>& packet, Packing packing) const noexcept {
+  RTCIntersectContext context = context_for(packing);
   rtcIntersect16(active, library_->scene, &context, reinterpret_cast<RTCRayHit16*>(&packet));
 }
 
 // A ray packet begins as the library's packet of rays without hits.
 void RayScene::find_occluded(const int* active, RayPacket<8>& packet) const noexcept {
-  RTCIntersectContext context = coherent_context();
+  RTCIntersectContext context = context_for(Packing::apart);
   rtcOccluded8(active, library_->scene, &context, reinterpret_cast<RTCRay8*>(&packet));
 }
 
 void RayScene::find_occluded(const int* active, RayPacket<16>& packet) const noexcept {
-  RTCIntersectContext context = coherent_context();
+  RTCIntersectContext context = context_for(Packing::apart);
   rtcOccluded16(active, library_->scene, &context, reinterpret_cast<RTCRay16*>(&packet));
 }
 

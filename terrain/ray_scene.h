@@ -63,6 +63,11 @@ struct alignas(N * 4) RayPacket {
   }
 };
 
+// What the rays of a packet have in common, which tells the library a way through its tree: begin and
+// go nearly alike, or each its own way. What is hit does not depend on it, but for a ray that meets
+// two facets at one distance.
+enum class Packing { alike, apart };
+
 // A mesh in local metres together with the material id of each of its triangles.
 struct PlacedMesh {
   TriangleMesh mesh;
@@ -92,11 +97,13 @@ class RayScene {
   // `in_caster_m`. Rays must be finite with near >= 0 and |coordinate| < 1e18: the packaged library
   // ends the process otherwise. The casters build rays from checked poses; rays from elsewhere go
   // through `check_ray`.
-  void intersect(const int* active, RayPacket<8>& packet) const noexcept;
-  void intersect(const int* active, RayPacket<16>& packet) const noexcept;
+  void intersect(const int* active, RayPacket<8>& packet,
+                 Packing packing = Packing::alike) const noexcept;
+  void intersect(const int* active, RayPacket<16>& packet,
+                 Packing packing = Packing::alike) const noexcept;
 
-  // The same question without where: `distance` becomes negative for active lanes that meet
-  // something nearer than it, and stays for others.
+  // The same question without where, of rays that lie apart: `distance` becomes negative for active
+  // lanes that meet something nearer than it, and stays for others.
   void find_occluded(const int* active, RayPacket<8>& packet) const noexcept;
   void find_occluded(const int* active, RayPacket<16>& packet) const noexcept;
 

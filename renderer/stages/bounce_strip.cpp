@@ -95,7 +95,8 @@ class Strip {
   }
   // All rays that were not cast yet.
   void cast() {
-    cast_ += frame_.tracer.trace(frame_.antenna, scratch_.rays, traced_, scratch_.echoes);
+    cast_ += frame_.tracer.trace(frame_.antenna, scratch_.rays, traced_, sampling_.mirrored,
+                                 scratch_.echoes);
     traced_ = scratch_.rays.size();
   }
   int place_of(int block) const { return strip_ * sampling_.azimuths + block; }

@@ -24,6 +24,7 @@ struct BounceSampling {
   // Of what a cell shows: where neighbours differ by more, an interval gets a ray for each of it.
   double smallest_change = 0.0;
   double longest_reach_m = 0.0;  // of what one ray stands for, to either side of it
+  terrain::Packing mirrored = terrain::Packing::alike;  // rays behind mirrors
   // Of a reference: see Sampling.
   int jittered_passes = 0;
   std::uint64_t seed = 0;

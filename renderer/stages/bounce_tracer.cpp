@@ -50,10 +50,10 @@ class Packets {
     for (int i = 0; i < N; ++i) packet_.aim(i, glm::dvec3(0.0), glm::dvec3(0.0), 0.0);
   }
 
-  void intersect(CastRays& rays) {
+  void intersect(CastRays& rays, terrain::Packing packing) {
     for (int first = 0; first < rays.count; first += N) {
       fill(rays, first);
-      surfaces_.intersect(active_, packet_);
+      surfaces_.intersect(active_, packet_, packing);
       std::copy_n(packet_.distance, N, rays.distance.of + first);
       std::copy_n(packet_.normal_x, N, rays.normal_x.of + first);
       std::copy_n(packet_.normal_y, N, rays.normal_y.of + first);
@@ -102,14 +102,17 @@ BounceTracer::BounceTracer(const World& world, bool noise)
 
 std::uint64_t BounceTracer::trace(const sensors::AntennaFrame& antenna,
                                   const std::vector<AntennaRay>& rays, std::size_t first,
+                                  terrain::Packing mirrored,
                                   std::vector<BounceEcho>& echoes) const {
-  return world_.surfaces().native_packet() == 16 ? trace_packets<16>(antenna, rays, first, echoes)
-                                                 : trace_packets<8>(antenna, rays, first, echoes);
+  return world_.surfaces().native_packet() == 16
+             ? trace_packets<16>(antenna, rays, first, mirrored, echoes)
+             : trace_packets<8>(antenna, rays, first, mirrored, echoes);
 }
 
 template <int N>
 std::uint64_t BounceTracer::trace_packets(const sensors::AntennaFrame& antenna,
                                           const std::vector<AntennaRay>& rays, std::size_t first,
+                                          terrain::Packing mirrored,
                                           std::vector<BounceEcho>& echoes) const {
   thread_local const std::unique_ptr<Block> block = std::make_unique<Block>();
   const sensors::RangeGate& gate = world_.sensor.range;
@@ -123,7 +126,7 @@ std::uint64_t BounceTracer::trace_packets(const sensors::AntennaFrame& antenna,
   std::uint64_t cast = 0;
   while (first < rays.size()) {
     const auto count = static_cast<int>(std::min<std::size_t>(kBounceRays, rays.size() - first));
-    trace_block<N>(rays.data() + first, count, first, *block, echoes);
+    trace_block<N>(rays.data() + first, count, first, mirrored, *block, echoes);
     cast +=
         static_cast<std::uint64_t>(count + block->mirrored.rays.count + block->returns.rays.count);
     first += static_cast<std::size_t>(count);
@@ -132,7 +135,8 @@ std::uint64_t BounceTracer::trace_packets(const sensors::AntennaFrame& antenna,
 }
 
 template <int N>
-void BounceTracer::trace_block(const AntennaRay* rays, int count, std::size_t first, Block& block,
+void BounceTracer::trace_block(const AntennaRay* rays, int count, std::size_t first,
+                               terrain::Packing mirrored, Block& block,
                                std::vector<BounceEcho>& echoes) const {
   Packets<N> packets(world_.surfaces());
   for (int i = 0; i < count; ++i) {
@@ -140,7 +144,7 @@ void BounceTracer::trace_block(const AntennaRay* rays, int count, std::size_t fi
     block.first.angles.elevation_rad[i] = rays[i].elevation_rad;
   }
   aim_first_rays(block.view, count, block.first);
-  packets.intersect(block.first.rays);
+  packets.intersect(block.first.rays, terrain::Packing::alike);
   measure_hits(block.view, block.first.rays, block.first.hits);
   measure_polarisation(block.view, block.first);
   find_mirrors(block);
@@ -149,7 +153,7 @@ void BounceTracer::trace_block(const AntennaRay* rays, int count, std::size_t fi
   returns.pairs.clear();
   if (block.mirrored.rays.count == 0) return;
   aim_mirrored_rays(block.view, block.mirrored);
-  packets.intersect(block.mirrored.rays);
+  packets.intersect(block.mirrored.rays, mirrored);
   measure_hits(block.view, block.mirrored.rays, block.mirrored.hits);
   measure_ways(block.view, block.mirrored);
   weights_.weigh(block.view, block.mirrored, first, echoes, returns);

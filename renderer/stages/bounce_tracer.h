@@ -40,20 +40,22 @@ class BounceTracer {
   bool any() const { return mirrors_.any(); }
 
   // Adds to `echoes` what the rays from `first` on bring back: up to two echoes of each, that of
-  // O A B O at the shorter range. Neighbours in the list are best neighbours in angle too. Returns
-  // the number of rays cast. Thread-safe.
+  // O A B O at the shorter range. Neighbours in the list are best neighbours in angle too;
+  // `mirrored`: whether they are close enough to be neighbours still behind a mirror. Returns the
+  // number of rays cast. Thread-safe.
   std::uint64_t trace(const sensors::AntennaFrame& antenna, const std::vector<AntennaRay>& rays,
-                      std::size_t first, std::vector<BounceEcho>& echoes) const;
+                      std::size_t first, terrain::Packing mirrored,
+                      std::vector<BounceEcho>& echoes) const;
 
  private:
   struct Block;
   template <int N>
   std::uint64_t trace_packets(const sensors::AntennaFrame& antenna,
                               const std::vector<AntennaRay>& rays, std::size_t first,
-                              std::vector<BounceEcho>& echoes) const;
+                              terrain::Packing mirrored, std::vector<BounceEcho>& echoes) const;
   template <int N>
-  void trace_block(const AntennaRay* rays, int count, std::size_t first, Block& block,
-                   std::vector<BounceEcho>& echoes) const;
+  void trace_block(const AntennaRay* rays, int count, std::size_t first, terrain::Packing mirrored,
+                   Block& block, std::vector<BounceEcho>& echoes) const;
   void find_mirrors(Block& block) const;
 
   const World& world_;

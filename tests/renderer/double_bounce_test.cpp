@@ -132,7 +132,8 @@ TEST_CASE("One ray by way of the ground has the range and the power of the close
   const sensors::AntennaFrame antenna = antenna_at(kHeight_m);
   for (const double z_m : {0.5, 3.0, 7.0, 14.5}) {
     std::vector<BounceEcho> echoes;
-    tracer.trace(antenna, {{0.0, -std::atan((kHeight_m + z_m) / kDistance_m)}}, 0, echoes);
+    tracer.trace(antenna, {{0.0, -std::atan((kHeight_m + z_m) / kDistance_m)}}, 0,
+                 terrain::Packing::alike, echoes);
     REQUIRE(echoes.size() == 2);
     if (echoes[0].range_m > echoes[1].range_m) std::swap(echoes[0], echoes[1]);
     const BounceEcho &pair = echoes[0], &image = echoes[1];
