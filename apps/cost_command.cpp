@@ -43,10 +43,6 @@ renderer::CasterKind effects_caster(const CostOptions& options, const scenes::Sc
   return wish == renderer::CasterWish::rays ? renderer::CasterKind::rays : scene.caster.chosen;
 }
 
-renderer::Sampling default_sampling(renderer::CasterKind caster) {
-  return renderer::sampling_for(caster, renderer::default_samples(caster));
-}
-
 double time_once_ms(const measure::FrameClock& work) {
   return core::time_in_turns({[&work] { work.render(); }}, 1).front().ms;
 }
@@ -57,11 +53,11 @@ measure::Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
   const renderer::Effects effects = measure::without_draws(renderer::effects_of(scene.plan, 0));
   measure::Pace pace;
   pace.build_s = scene.build_s;
-  pace.frame_ms =
-      time_once_ms({scene.world, pose, default_sampling(renderer::CasterKind::rays), effects});
+  pace.frame_ms = time_once_ms(
+      {scene.world, pose, renderer::default_sampling(renderer::CasterKind::rays), effects});
   if (slices)
-    pace.slices_ms =
-        time_once_ms({scene.world, pose, default_sampling(renderer::CasterKind::profile), effects});
+    pace.slices_ms = time_once_ms(
+        {scene.world, pose, renderer::default_sampling(renderer::CasterKind::profile), effects});
   pace.naive_ms = time_once_ms({scene.world,
                                 pose,
                                 renderer::NaiveKind::dithered,
@@ -212,7 +208,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
                                  effort_of(options),
                                  measure_pace(*scene, frames.front(), slices),
                                  slices,
-                                 default_sampling(effects_caster(options, *scene)),
+                                 renderer::default_sampling(effects_caster(options, *scene)),
                                  frames};
   write(run(bench, options, common, threads.threads()), folder);
   if (common.quiet) return kExitDone;

@@ -9,6 +9,7 @@
 #include "benchmarks/frame_clock.h"
 #include "benchmarks/verdict.h"
 #include "measure/effect_cost.h"
+#include "measure/effect_prices.h"
 #include "renderer/plan/plan.h"
 #include "sensors/display/grey_scale.h"
 
@@ -19,17 +20,10 @@ constexpr Target kApart_dB{10.0, 10.0};
 
 double change_of_power(double level_dB) { return std::pow(10.0, level_dB / 10.0) - 1.0; }
 
-double largest_change(const std::vector<double>& a, const std::vector<double>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
-  return largest;
-}
-
 // With the random numbers of one seed: what differs is the effect.
 renderer::Frame frame_of(const scenes::Scene& scene, int frame) {
   const renderer::CasterKind caster = scene.caster.chosen;
-  return FrameClock(scene.world, scene.frame_pose(frame),
-                    renderer::sampling_for(caster, renderer::default_samples(caster)),
+  return FrameClock(scene.world, scene.frame_pose(frame), renderer::default_sampling(caster),
                     renderer::effects_of(scene.plan, 1))
       .render();
 }
@@ -42,8 +36,8 @@ double influence_grey(const scenes::Scene& scene, core::EffectId effect, int fra
   for (int i = 0; i < frames; ++i) {
     const int frame = (2 * i + 1) * scene.frame_count() / (2 * frames);
     const renderer::Frame a = frame_of(scene, frame), b = frame_of(*without, frame);
-    largest = std::max({largest, largest_change(a.bscope_grey, b.bscope_grey),
-                        largest_change(a.cscope_grey, b.cscope_grey)});
+    largest = std::max({largest, measure::change_of(a.bscope_grey, b.bscope_grey).largest_grey,
+                        measure::change_of(a.cscope_grey, b.cscope_grey).largest_grey});
   }
   return largest;
 }
@@ -51,8 +45,8 @@ double influence_grey(const scenes::Scene& scene, core::EffectId effect, int fra
 }  // namespace
 
 double BoundCase::apart_dB() const {
-  return 10.0 *
-         std::log10(change_of_power(bound_dB) / change_of_power(std::max(influence_dB, share_dB)));
+  const double least_dB = std::max(influence_grey, share_grey) * dB_per_grey;
+  return 10.0 * std::log10(change_of_power(bound_dB) / change_of_power(least_dB));
 }
 
 std::vector<BoundCase> check_bounds(const Effort& effort) {
@@ -65,13 +59,9 @@ std::vector<BoundCase> check_bounds(const Effort& effort) {
     const int frames = std::min(effort.bound_frames, scene.frame_count());
     for (const core::EffectDecision& decision : scene.plan.decisions) {
       if (!decision.on) continue;
-      BoundCase found{name, std::string(name_of(decision.effect)), decision.bound_grey,
-                      decision.bound_dB};
-      found.influence_grey = influence_grey(scene, decision.effect, frames);
-      found.influence_dB = found.influence_grey * dB_per_grey;
-      found.share_grey = renderer::effects_share_grey(scene.accuracy_grey);
-      found.share_dB = found.share_grey * dB_per_grey;
-      cases.push_back(found);
+      cases.push_back({name, std::string(name_of(decision.effect)), decision.bound_grey,
+                       decision.bound_dB, influence_grey(scene, decision.effect, frames),
+                       renderer::effects_share_grey(scene.accuracy_grey), dB_per_grey});
     }
   }
   return cases;

@@ -13,9 +13,10 @@ struct BoundCase {
   std::string scene, effect;
   double bound_grey = 0.0, bound_dB = 0.0;
   // The largest change of any pixel of both pictures in the frames that were looked at.
-  double influence_grey = 0.0, influence_dB = 0.0;
+  double influence_grey = 0.0;
   // Of the accuracy: what an effect could be left out for, were it the only one.
-  double share_grey = 0.0, share_dB = 0.0;
+  double share_grey = 0.0;
+  double dB_per_grey = 0.0;  // of the scene's display
 
   bool shows() const { return influence_grey > share_grey; }
   // Bound over influence, or over the share where that is more, as changes of power.

@@ -16,7 +16,7 @@ std::optional<DefaultFigures> measure_defaults(const std::string& scene, const E
                                           effort.sequence_frames, threads);
     fmt::print(stderr, "{} at {:.0f} m: default sampling\n", scene, view.distance_m);
     const renderer::CasterKind caster = bench->scene->caster.chosen;
-    const auto sampling = renderer::sampling_for(caster, renderer::default_samples(caster));
+    const auto sampling = renderer::default_sampling(caster);
     const GreyReference reference(view.sensor(), clock_of(view, effort.reference(1)).power());
     figures.views.push_back({view.distance_m, clock_of(view, sampling).error(reference)});
   }

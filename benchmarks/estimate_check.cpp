@@ -25,7 +25,7 @@ std::vector<Way> ways_of(const scenes::Scene& scene) {
   std::vector<Way> ways;
   for (const renderer::CasterKind caster : casters) {
     const std::string name = caster == renderer::CasterKind::rays ? "rays" : "slices";
-    renderer::Sampling sampling = renderer::sampling_for(caster, renderer::default_samples(caster));
+    renderer::Sampling sampling = renderer::default_sampling(caster);
     sampling.estimate_error = true;
     ways.push_back({name + ", default", sampling});
     ways.push_back({name + ", --accuracy 0.5", renderer::refined_sampling(caster, kShare_grey)});

@@ -18,7 +18,7 @@ constexpr double kFewNaiveRays = 12;  // more take a good part of a second: one 
 constexpr int kSubColumns[] = {1, 2, 4, 8, 16};
 
 // What an operating point is chosen from, coarsest first: rays in steps of a quarter of an octave,
-// slices one by one, and few of them with fewer bounces.
+// slices one by one, and few of them as live sampling has them.
 std::vector<double> candidates(CasterKind caster) {
   constexpr int kCoarsest = -12;
   constexpr int kFinest = 32;
@@ -29,8 +29,10 @@ std::vector<double> candidates(CasterKind caster) {
       result.push_back(std::round(std::exp2(step / 4.0) * 1000.0) / 1000.0);
     return result;
   }
-  result = {renderer::kFewestRaysPerCell, 0.5, 0.7, 1.0, 1.2, 1.4, 1.7, 2.0, 2.5};
-  for (int slices = 3; slices <= kMostSlices; ++slices)
+  constexpr int kFew = 3;
+  for (const double slices : renderer::sampling_ladder(caster))
+    if (slices < kFew) result.push_back(slices);
+  for (int slices = kFew; slices <= kMostSlices; ++slices)
     if (slices_per_column(renderer::profile_sampling_for(slices)) == slices)
       result.push_back(slices);
   return result;

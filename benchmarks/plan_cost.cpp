@@ -109,8 +109,7 @@ void measure_absence(const View& view, const Effort& effort, PlanFigures& figure
 
 void measure_conditions(const View& view, const Effort& effort, PlanFigures& figures) {
   const scenes::Scene& scene = *view.scene->scene;
-  const renderer::Sampling sampling =
-      renderer::sampling_for(scene.caster.chosen, renderer::default_samples(scene.caster.chosen));
+  const renderer::Sampling sampling = renderer::default_sampling(scene.caster.chosen);
   std::vector<double> conditions_ms, plain_ms, layers_ms;
   for (int turn = 0; turn < std::max(effort.turns, 2); ++turn) {
     scenes::Conditions other{.weather = scene.weather};

@@ -10,13 +10,14 @@
 
 namespace fanbeam::core {
 
-// As random_words; `key` is that of philox_key, `frame` the lower half.
-inline r123::Philox4x32::ctr_type philox_words(const std::array<std::uint32_t, 2>& key,
-                                               std::uint32_t frame, std::uint64_t cell,
+// As random_words. Cell, draw and the lower half of the frame make the counter.
+inline r123::Philox4x32::ctr_type philox_words(const RandomKey& key, std::uint64_t cell,
                                                std::uint32_t draw) {
+  const auto [key0, key1] = philox_key(key);
   return r123::Philox4x32{}(
-      {{static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(cell >> 32U), draw, frame}},
-      {{key[0], key[1]}});
+      {{static_cast<std::uint32_t>(cell), static_cast<std::uint32_t>(cell >> 32U), draw,
+        static_cast<std::uint32_t>(key.frame)}},
+      {{key0, key1}});
 }
 
 }  // namespace fanbeam::core

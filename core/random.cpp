@@ -11,9 +11,7 @@ namespace fanbeam::core {
 
 std::array<std::uint32_t, 4> random_words(const RandomKey& key, std::uint64_t cell,
                                           std::uint32_t draw) {
-  // Cell, draw and the lower half of the frame make the counter.
-  const auto words =
-      philox_words(philox_key(key), static_cast<std::uint32_t>(key.frame), cell, draw);
+  const auto words = philox_words(key, cell, draw);
   return {words[0], words[1], words[2], words[3]};
 }
 
@@ -28,10 +26,10 @@ namespace {
 
 // Multiplies by the first `Used` uniform numbers of one draw.
 template <int Used>
-inline void multiply(const std::array<std::uint32_t, 2>& key, std::uint32_t frame,
-                     std::uint32_t draw, std::uint64_t first, std::size_t cells, double* products) {
+inline void multiply(const RandomKey& key, std::uint32_t draw, std::uint64_t first,
+                     std::size_t cells, double* products) {
   for (std::size_t i = 0; i < cells; ++i) {
-    const auto words = philox_words(key, frame, first + i, draw);
+    const auto words = philox_words(key, first + i, draw);
     double product = products[i] * uniform_from(words[0]);
     if constexpr (Used > 1) product *= uniform_from(words[1]);
     if constexpr (Used > 2) product *= uniform_from(words[2]);
@@ -41,15 +39,14 @@ inline void multiply(const std::array<std::uint32_t, 2>& key, std::uint32_t fram
 }
 
 FANBEAM_HOT(void, add_exponentials,
-            (const std::array<std::uint32_t, 2>& key, std::uint32_t frame, std::uint64_t first,
-             int count, std::size_t cells, double* sums),
-            (key, frame, first, count, cells, sums)) {
+            (const RandomKey& key, std::uint64_t first, int count, std::size_t cells, double* sums),
+            (key, first, count, cells, sums)) {
   for (std::size_t i = 0; i < cells; ++i) sums[i] = 1.0;
   std::uint32_t draw = 0;
-  for (; count >= 4; count -= 4) multiply<4>(key, frame, draw++, first, cells, sums);
-  if (count == 3) multiply<3>(key, frame, draw, first, cells, sums);
-  if (count == 2) multiply<2>(key, frame, draw, first, cells, sums);
-  if (count == 1) multiply<1>(key, frame, draw, first, cells, sums);
+  for (; count >= 4; count -= 4) multiply<4>(key, draw++, first, cells, sums);
+  if (count == 3) multiply<3>(key, draw, first, cells, sums);
+  if (count == 2) multiply<2>(key, draw, first, cells, sums);
+  if (count == 1) multiply<1>(key, draw, first, cells, sums);
   for (std::size_t i = 0; i < cells; ++i) sums[i] = -series_log(sums[i]);
 }
 
@@ -57,8 +54,7 @@ FANBEAM_HOT(void, add_exponentials,
 
 void sums_of_exponentials(const RandomKey& key, std::uint64_t first, int count,
                           std::span<double> sums) {
-  add_exponentials(philox_key(key), static_cast<std::uint32_t>(key.frame), first, count,
-                   sums.size(), sums.data());
+  add_exponentials(key, first, count, sums.size(), sums.data());
 }
 
 }  // namespace fanbeam::core

@@ -71,15 +71,12 @@ FANBEAM_HOT(void, fill_groups,
             (const RandomKey& key, std::uint32_t draw, std::uint64_t group, std::size_t count,
              float* numbers),
             (key, draw, group, count, numbers)) {
-  const auto key_words = philox_key(key);
-  const auto frame = static_cast<std::uint32_t>(key.frame);
   for (std::size_t g = 0; g < count; ++g, ++group, numbers += kNumbers) {
     Words words;
     // A loop that is unrolled does not become vector code.
 #pragma GCC unroll 1
     for (int i = 0; i < kBlocks; ++i) {
-      const auto block =
-          philox_words(key_words, frame, group * kBlocks + static_cast<std::uint64_t>(i), draw);
+      const auto block = philox_words(key, group * kBlocks + static_cast<std::uint64_t>(i), draw);
       words.of[0][i] = block[0];
       words.of[1][i] = block[1];
       words.of[2][i] = block[2];

@@ -21,17 +21,6 @@ std::string_view what_of(core::EffectId id) {
   return {};
 }
 
-Change change_of(const std::vector<double>& a, const std::vector<double>& b) {
-  Change change;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double grey = std::abs(a[i] - b[i]);
-    change.largest_grey = std::max(change.largest_grey, grey);
-    change.rms_grey += grey * grey / static_cast<double>(a.size());
-  }
-  change.rms_grey = std::sqrt(change.rms_grey);
-  return change;
-}
-
 EffectPrice price_in_frame(const CostBench& bench, const scenes::Scene& other, int frame,
                            const EffectPrice& effect) {
   const renderer::FramePose pose = bench.scene.frame_pose(frame);
@@ -60,6 +49,17 @@ double pair_s(const CostBench& bench) {
 }
 
 }  // namespace
+
+Change change_of(const std::vector<double>& a, const std::vector<double>& b) {
+  Change change;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const double grey = std::abs(a[i] - b[i]);
+    change.largest_grey = std::max(change.largest_grey, grey);
+    change.rms_grey += grey * grey / static_cast<double>(a.size());
+  }
+  change.rms_grey = std::sqrt(change.rms_grey);
+  return change;
+}
 
 double effects_s(const CostBench& bench) {
   // As a rule half of the effects can occur in a scene.

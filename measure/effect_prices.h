@@ -13,6 +13,9 @@
 
 namespace fanbeam::measure {
 
+// Of two pictures of one size in grey.
+Change change_of(const std::vector<double>& a, const std::vector<double>& b);
+
 // A row per effect and frame; one row, of the first frame, for an effect that cannot occur.
 std::vector<EffectPrice> measure_effects(const CostBench& bench);
 

@@ -171,9 +171,8 @@ void add_blank_pictures(const scenes::Scene& scene, scenes::Findings& findings) 
   renderer::Effects effects = renderer::effects_of(scene.plan, 0);
   effects.speckle = effects.swerling = false;
   const auto kind = scene.caster.chosen;
-  const renderer::FrameRenderer frames(
-      scene.world, renderer::sampling_for(kind, renderer::default_samples(kind)),
-      {.bscope = true, .cscope = true}, effects);
+  const renderer::FrameRenderer frames(scene.world, renderer::default_sampling(kind),
+                                       {.bscope = true, .cscope = true}, effects);
   const int middle = scene.frame_count() / 2;
   const renderer::FramePose pose = scene.frame_pose(middle);
   const renderer::Frame frame = frames.render(pose);

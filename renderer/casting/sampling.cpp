@@ -61,6 +61,10 @@ double default_samples(CasterKind caster) {
   return caster == CasterKind::profile ? kDefaultSlicesPerColumn : kDefaultRaysPerCell;
 }
 
+Sampling default_sampling(CasterKind caster) {
+  return sampling_for(caster, default_samples(caster));
+}
+
 Sampling finer_in_elevation(const Sampling& sampling, int times) {
   Sampling finer = sampling;
   finer.rays_per_cell *= times;

@@ -76,5 +76,6 @@ std::vector<double> sampling_ladder(CasterKind caster);
 // One of the two: what `--rays-per-cell` sets, rays or slices, and what it is unless set.
 Sampling sampling_for(CasterKind caster, double samples);
 double default_samples(CasterKind caster);
+Sampling default_sampling(CasterKind caster);
 
 }  // namespace fanbeam::renderer

@@ -68,20 +68,6 @@ double mean_factor(const TargetShare& share, Swerling target_case, const Fluctua
   return sum / fluctuation.looks;
 }
 
-// Of cells side by side.
-void speckle_factors(const Fluctuation& fluctuation, std::uint32_t stream, std::uint64_t first,
-                     std::span<double> factors) {
-  const core::RandomKey key = key_of(fluctuation, stream);
-  const int looks = fluctuation.looks;
-  if (looks <= core::kMostExponentials) {
-    core::sums_of_exponentials(key, first, looks, factors);
-  } else {
-    for (std::size_t i = 0; i < factors.size(); ++i)
-      factors[i] = gamma_by_rejection(key, first + i, looks);
-  }
-  for (double& factor : factors) factor /= looks;
-}
-
 void realise_row(std::size_t begin, std::span<double> row, const std::vector<TargetShare>& shares,
                  std::span<const Swerling> cases, const Fluctuation& fluctuation,
                  std::uint32_t stream, double noise) {
@@ -147,10 +133,17 @@ void realise(std::vector<TargetShare> shares, std::span<const Swerling> cases,
   });
 }
 
-double speckle_factor(const Fluctuation& fluctuation, std::uint32_t stream, std::uint64_t cell) {
-  double factor = 0.0;
-  speckle_factors(fluctuation, stream, cell, {&factor, 1});
-  return factor;
+void speckle_factors(const Fluctuation& fluctuation, std::uint32_t stream, std::uint64_t first,
+                     std::span<double> factors) {
+  const core::RandomKey key = key_of(fluctuation, stream);
+  const int looks = fluctuation.looks;
+  if (looks <= core::kMostExponentials) {
+    core::sums_of_exponentials(key, first, looks, factors);
+  } else {
+    for (std::size_t i = 0; i < factors.size(); ++i)
+      factors[i] = gamma_by_rejection(key, first + i, looks);
+  }
+  for (double& factor : factors) factor /= looks;
 }
 
 double target_factor(Swerling target_case, const Fluctuation& fluctuation, std::uint32_t target,

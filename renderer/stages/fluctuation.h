@@ -69,9 +69,11 @@ void realise(std::vector<TargetShare> shares, std::span<const core::Swerling> ca
              const Fluctuation& fluctuation, std::uint32_t stream, double noise, int columns,
              std::vector<double>& picture);
 
-// A gamma variable of order `looks` and mean 1: the mean of that many exponentials. Up to 28 looks
-// it is drawn as their sum, beyond by Marsaglia and Tsang (ACM Trans. Math. Software 26, 2000).
-double speckle_factor(const Fluctuation& fluctuation, std::uint32_t stream, std::uint64_t cell);
+// Of the cells from `first` on gamma variables of order `looks` and mean 1: means of that many
+// exponentials. Up to 28 looks they are drawn as their sum, beyond by Marsaglia and Tsang (ACM Trans.
+// Math. Software 26, 2000).
+void speckle_factors(const Fluctuation& fluctuation, std::uint32_t stream, std::uint64_t first,
+                     std::span<double> factors);
 
 // f_t of the header in one look of one column.
 double target_factor(core::Swerling target_case, const Fluctuation& fluctuation,

@@ -21,8 +21,7 @@ Fluctuation looks(int count, std::uint32_t frame = 0) { return {true, true, coun
 
 std::vector<double> speckle(const Fluctuation& fluctuation, std::size_t count) {
   std::vector<double> values(count);
-  for (std::size_t cell = 0; cell < count; ++cell)
-    values[cell] = renderer::speckle_factor(fluctuation, core::kStreamSpeckle, cell);
+  renderer::speckle_factors(fluctuation, core::kStreamSpeckle, 0, values);
   return values;
 }
 

@@ -1,7 +1,9 @@
 // R14: rays that leave a surface neither meet it again nor miss what stands 5 cm above it.
 #include "terrain/secondary_origin.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
@@ -104,4 +106,35 @@ TEST_CASE("The offset grows with coordinates and distance and stays below the 5 
   CHECK(terrain::secondary_offset_m({0.0, 0.0, 0.0}, 0.0) == 0.0);
   CHECK(terrain::secondary_offset_m({1000.0, -20.0, 3.0}, 1000.0) == Approx(1.9e-3).epsilon(0.01));
   CHECK(terrain::secondary_offset_m({-10000.0, 10000.0, 50.0}, 4000.0) < 0.015);
+}
+
+TEST_CASE("What rays hit does not depend on how the library is told they lie", "[secondary]") {
+  const terrain::RayScene scene(plane(0.0), {}, {occluder(0.0)});
+  constexpr int kLanes = 8;
+  alignas(32) int active[kLanes];
+  std::fill(active, active + kLanes, -1);
+  int hits = 0;
+  for (std::uint64_t n = 0; n < 4000; ++n) {
+    terrain::RayPacket<kLanes> alike;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const auto word =
+          core::random_words({15, 0, 0}, kLanes * n + static_cast<std::uint64_t>(lane), 0);
+      const auto u = [&](int k) { return core::uniform_from(word[static_cast<std::size_t>(k)]); };
+      const glm::dvec3 start_m((u(0) - 0.5) * kHalf_m, (u(1) - 0.5) * kHalf_m, 400.0);
+      const double turn_rad = 2.0 * core::kPi * u(2);
+      alike.aim(lane, scene.in_caster_m(start_m),
+                {std::cos(turn_rad), std::sin(turn_rad), 0.3 - 1.3 * u(3)}, 2000.0);
+    }
+    terrain::RayPacket<kLanes> apart = alike;
+    scene.intersect(active, alike, terrain::Packing::alike);
+    scene.intersect(active, apart, terrain::Packing::apart);
+    for (int lane = 0; lane < kLanes; ++lane) {
+      REQUIRE(alike.geometry[lane] == apart.geometry[lane]);
+      REQUIRE(alike.distance[lane] == apart.distance[lane]);
+      if (alike.geometry[lane] == terrain::kNoHit) continue;
+      ++hits;
+      REQUIRE(alike.primitive[lane] == apart.primitive[lane]);
+    }
+  }
+  CHECK(hits > 10'000);
 }
