@@ -105,6 +105,7 @@ class Run {
   }
 
   void process() {
+    output_.begin(products_);
     Progress progress(scene_.description.name, static_cast<int>(frames_.size()), common_.quiet);
     for (const int index : frames_) {
       core::throw_if_stopped();
@@ -126,6 +127,7 @@ class Run {
                                 session::fmcw_run_json(scene_, options_, radar_, records_));
     core::write_file_atomically(output_.path() / "timing.json",
                                 session::fmcw_timing_json(threads_, scene_.build_s, records_));
+    output_.end();
   }
 
   void print_summary() const {

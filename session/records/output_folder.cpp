@@ -26,6 +26,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostNamed = 8;
 constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 30U;
+// The note of a run that has not ended. Hidden: what run.json says of the run before stays true.
+constexpr const char* kUnfinished = ".unfinished.json";
 
 bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
@@ -65,24 +67,20 @@ bool may_be_replaced(const fs::path& relative) {
                   }));
 }
 
-// What a record lists, as far as it can be read: it may be anybody's file.
-std::set<std::string> listed_by(const fs::path& record) {
-  std::set<std::string> files;
+// As far as the file can be read: it may be anybody's.
+nlohmann::json json_in(const fs::path& file) {
   std::error_code none;
-  if (!fs::is_regular_file(record, none)) return files;
-  const std::string text = core::read_file(record, kLargestRecord_bytes);
+  if (!fs::is_regular_file(file, none)) return {};
+  const std::string text = core::read_file(file, kLargestRecord_bytes);
   constexpr core::JsonLimits kLimits{64, 100'000'000};
-  if (core::json_excess(text, kLimits)) return files;
-  const auto json = nlohmann::json::parse(text, nullptr, false);
-  const auto add = [&](const nlohmann::json& owner) {
-    if (!owner.is_object() || !owner.contains("files") || !owner["files"].is_array()) return;
-    for (const nlohmann::json& file : owner["files"])
-      if (file.is_string()) files.insert(file.get<std::string>());
-  };
-  add(json);
-  if (json.is_object() && json.contains("frames") && json["frames"].is_array())
-    for (const nlohmann::json& frame : json["frames"]) add(frame);
-  return files;
+  if (core::json_excess(text, kLimits)) return {};
+  return nlohmann::json::parse(text, nullptr, false);
+}
+
+void add_words(const nlohmann::json& owner, const char* key, std::set<std::string>& words) {
+  if (!owner.is_object() || !owner.contains(key) || !owner[key].is_array()) return;
+  for (const nlohmann::json& word : owner[key])
+    if (word.is_string()) words.insert(word.get<std::string>());
 }
 
 // Every file below the folder that is not hidden, until `visit` answers false.
@@ -114,19 +112,48 @@ std::set<std::string> frame_files(const std::set<std::string>& products, int ind
   return files;
 }
 
+bool OutputFolder::Listed::contains(const fs::path& relative) const {
+  return files.contains(relative.generic_string()) ||
+         (std::distance(relative.begin(), relative.end()) == 2 &&
+          products.contains(relative.begin()->string()));
+}
+
+OutputFolder::Listed OutputFolder::listed_in(const fs::path& folder) {
+  Listed listed;
+  const nlohmann::json record = json_in(folder / "run.json");
+  add_words(record, "files", listed.files);
+  if (record.is_object() && record.contains("frames") && record["frames"].is_array())
+    for (const nlohmann::json& frame : record["frames"]) add_words(frame, "files", listed.files);
+  add_words(json_in(folder / kUnfinished), "products", listed.products);
+  return listed;
+}
+
+void OutputFolder::begin(const std::set<std::string>& products) const {
+  std::set<std::string> all = products;
+  all.insert(listed_.products.begin(), listed_.products.end());
+  const nlohmann::json note = {{"products", all}};
+  core::write_file_atomically(folder_ / kUnfinished, note.dump() + "\n");
+}
+
+void OutputFolder::end() const {
+  std::error_code ignored;
+  fs::remove(folder_ / kUnfinished, ignored);
+}
+
 OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwrite)
     : folder_(std::move(folder)),
       fingerprint_(std::move(fingerprint)),
       overwrite_(overwrite),
-      listed_(listed_by(folder_ / "run.json")) {
+      listed_(listed_in(folder_)) {
   if (overwrite_) return;
   std::vector<std::string> others;
-  const bool has_record = !listed_.empty();
+  const bool has_record = !listed_.files.empty() || !listed_.products.empty();
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
     const bool record =
         (name == "run.json" && has_record) || name == "timing.json" || is_of_run(name);
-    if (!record && !listed_.contains(name) && !is_of_this_input(relative)) others.push_back(name);
+    if (!record && !listed_.contains(relative) && !is_of_this_input(relative))
+      others.push_back(name);
     return others.size() <= kMostNamed;
   });
   if (others.empty()) return;
@@ -172,8 +199,8 @@ void OutputFolder::keep_only(const std::set<std::string>& files) const {
   std::vector<fs::path> old;
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
-    const bool replaced =
-        (listed_.contains(name) && may_be_replaced(relative)) || (overwrite_ && frame_of(relative));
+    const bool replaced = (listed_.contains(relative) && may_be_replaced(relative)) ||
+                          (overwrite_ && frame_of(relative));
     if (replaced && !files.contains(name)) old.push_back(relative);
     return true;
   });

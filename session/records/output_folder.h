@@ -3,7 +3,9 @@
 //
 // A folder holds pictures of one input. Files of the same input, whatever frames they are of, stay
 // and are listed again; files that run.json lists of another input are replaced by the new run's;
-// any other file is somebody's, and a run refuses to mix with it unless told to.
+// any other file is somebody's, and a run refuses to mix with it unless told to. A run whose files
+// do not say what input they are of leaves a note between `begin` and `end`: killed, it leaves
+// nothing that the next run takes for somebody's.
 #pragma once
 
 #include <filesystem>
@@ -25,6 +27,11 @@ class OutputFolder {
 
   const std::filesystem::path& path() const { return folder_; }
 
+  // Until `end` all files below the folders of `products` are those of a run that has not ended.
+  void begin(const std::set<std::string>& products) const;
+  // After run.json is written.
+  void end() const;
+
   // Products of this input that are there, by frame; those of `written` without a look at them.
   std::map<int, std::set<std::string>> frames(
       const std::map<int, std::set<std::string>>& written) const;
@@ -39,7 +46,13 @@ class OutputFolder {
   std::filesystem::path folder_;
   std::string fingerprint_;
   bool overwrite_;
-  std::set<std::string> listed_;  // by the run.json that was there
+  struct Listed {
+    std::set<std::string> files;
+    std::set<std::string> products;  // of runs that did not end
+    bool contains(const std::filesystem::path& relative) const;
+  };
+  static Listed listed_in(const std::filesystem::path& folder);
+  Listed listed_;  // by the run.json that was there
 };
 
 // Files of one frame, relative to the folder: {"power", 7} is "power/00007.exr".

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/image.h"
+#include "tests/apps/child.h"
 #include "tests/apps/program.h"
 
 using namespace fanbeam;
@@ -152,4 +153,28 @@ TEST_CASE("fmcw replaces what its record lists and refuses other files", "[fmcw]
   CHECK(fmcw("--frames 1 --products detections").exit_code == 2);
   CHECK(fmcw("--frames 1 --products detections --overwrite").exit_code == 0);
   CHECK(bytes_of(out / "notes.txt") == "mine");
+}
+
+TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing else is",
+          "[fmcw][stop]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const auto fmcw = [&](const std::string& words) {
+    return run_fanbeam("fmcw street-76ghz -q -o " + quoted(out) + " " + words);
+  };
+  REQUIRE(fmcw("--frames 0 --products detections").exit_code == 0);
+  const std::string record = bytes_of(out / "run.json");
+  Child child({"fmcw", "street-76ghz", "-q", "-o", out.string(), "--frames", "1:40", "--products",
+               "detections,beat"});
+  while (child.running() && !fs::exists(out / "detections/00002.json")) wait_ms(5.0);
+  REQUIRE(child.running());
+  child.send(SIGKILL);
+  child.wait();
+  CHECK(bytes_of(out / "run.json") == record);
+  std::ofstream(out / "notes.txt") << "mine";
+  CHECK(fmcw("--frames 3 --products detections").exit_code == 2);
+  fs::remove(out / "notes.txt");
+  REQUIRE(fmcw("--frames 3 --products detections").exit_code == 0);
+  CHECK(files_in(out) == std::vector<std::string>{"detections/00003.csv", "detections/00003.json",
+                                                  "radar.toml", "run.json", "timing.json"});
 }
