@@ -126,7 +126,9 @@ signal::CfarSettings cfar_of(const ProcessingSettings& options,
   cfar.design_probability = options.false_alarm_probability;
   cfar.along_columns = {options.cfar_guard.range, options.cfar_training.range, false};
   cfar.along_rows = {options.cfar_guard.doppler, options.cfar_training.doppler, true};
-  cfar.design_probability = signal::calibrated_cfar(cfar, cells, looks).design_probability;
+  const signal::CfarCalibration calibration = signal::calibrated_cfar(cfar, cells, looks);
+  cfar.design_probability = calibration.design_probability;
+  cfar.mean_estimate = calibration.mean_estimate;
   return cfar;
 }
 

@@ -78,7 +78,8 @@ class RowDetector {
         continue;
       const double background_W = cfar_background(reference, cells_);
       if (power_W > factor * background_W)
-        found.push_back({row, column, power_W, background_W, power_W / (factor * background_W)});
+        found.push_back({row, column, power_W, background_W / settings_.mean_estimate,
+                         power_W / (factor * background_W)});
     }
   }
 
@@ -151,6 +152,8 @@ void check_map(const PowerMap& map, const CfarSettings& settings) {
 std::vector<CfarOffset> cfar_offsets(const CfarSettings& settings) {
   check_reach(settings.along_rows);
   check_reach(settings.along_columns);
+  if (!(settings.mean_estimate > 0.0) || !std::isfinite(settings.mean_estimate))
+    refuse("cfar.mean_estimate", settings.mean_estimate, "finite, above 0");
   if (!(settings.rank_fraction > 0.0 && settings.rank_fraction <= 1.0))
     refuse("cfar.rank_fraction", settings.rank_fraction, "above 0, at most 1");
   const int rows = settings.along_rows.guard + settings.along_rows.reference;

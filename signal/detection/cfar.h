@@ -14,7 +14,7 @@
 // `design_probability` is that of independent reference cells. Windows and padding correlate cells;
 // with signal/detection/cfar_calibration.h it becomes the one that gives the wanted rate.
 //
-// Inputs: finite powers, 0 or more (E-NONFINITE, E-RANGE otherwise). Any scale; equal cells and
+// Inputs: `mean_estimate` above 0; finite powers, 0 or more (E-NONFINITE, E-RANGE otherwise). Any scale; equal cells and
 // zeros give no detection as long as the factor is above 1. Neglected: steps of the background
 // inside the window (use `greatest_of`) and targets inside it (use `ordered_statistic`). Cost: N
 // operations per cell (N for the ordered statistic too, by selection); rows run on the loop of
@@ -41,13 +41,16 @@ struct CfarSettings {
   CfarReach along_columns = {};                                        // range
   CfarReach along_rows = {.guard = 0, .reference = 0, .wraps = true};  // Doppler or angle
   double rank_fraction = 0.75;  // ordered statistic, in (0, 1]
+  // What the estimate is on average over the mean noise: the 75 % quantile of one look lies 1.4 dB
+  // above it. Told by the calibration too.
+  double mean_estimate = 1.0;
 };
 
 struct CfarCell {
   int row = 0;
   int column = 0;
   double power_W = 0.0;
-  double background_W = 0.0;  // the estimate, of which the factor is not part
+  double background_W = 0.0;  // the mean that the estimate tells of, without the factor
   // Power over threshold, above 1; infinite over an empty background.
   double margin = 0.0;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "core/random.h"
@@ -189,6 +190,16 @@ double useful_tilt(int looks, double references, double probability) {
   return std::min(0.45, density / probability * t / looks / references);
 }
 
+// Of noise alone, over its mean: backgrounds as they are.
+double drawn_mean_estimate(const CfarSettings& settings, const std::vector<CfarOffset>& offsets,
+                           const Matrix& correlation, int looks) {
+  constexpr std::size_t kDrawn = 500;
+  const BackgroundDraw drawer(settings, offsets, correlation, looks, 0.0);
+  std::vector<double> estimates(kDrawn);
+  core::parallel_for(kDrawn, [&](std::size_t i) { estimates[i] = drawer.draw(i).estimate; });
+  return std::accumulate(estimates.begin(), estimates.end(), 0.0) / (kDrawn * looks);
+}
+
 CfarCalibration drawn_calibration(const CfarSettings& settings,
                                   const std::vector<CfarOffset>& offsets, const Matrix& correlation,
                                   int looks) {
@@ -252,6 +263,8 @@ CfarCalibration calibrated_cfar(const CfarSettings& settings, const CellCorrelat
     found.factor = exact_averaging_factor(matrix, settings.design_probability);
   else
     found = drawn_calibration(settings, offsets, matrix, looks);
+  if (reference.kind != CfarKind::cell_averaging)
+    found.mean_estimate = drawn_mean_estimate(settings, offsets, matrix, looks);
   found.design_probability = cfar_false_alarm_probability(reference, found.factor);
   return found;
 }

@@ -46,6 +46,8 @@ struct CfarCalibration {
   double design_probability = 0.0;  // for CfarSettings
   double factor = 0.0;              // far from edges
   double relative_error = 0.0;      // of the rate, one standard deviation; 0 where exact
+  // For CfarSettings: 1 for cell averaging, else from 500 backgrounds, to half a percent.
+  double mean_estimate = 1.0;
 };
 
 // `settings.design_probability` is the rate that is wanted.

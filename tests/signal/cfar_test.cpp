@@ -204,6 +204,34 @@ TEST_CASE("calibration changes nothing where cells are independent", "[cfar][cal
   }
 }
 
+// H. A. David, H. N. Nagaraja, "Order Statistics", 2003, 2.5: E = sum over i < k of 1 / (N - i), and of
+// the larger of two exponential means of one cell 3/2, of the smaller 1/2.
+TEST_CASE("calibration tells what a detector's estimate of noise is on average",
+          "[cfar][calibration]") {
+  double ranked = 0.0;
+  for (int i = 0; i < 12; ++i) ranked += 1.0 / (16 - i);
+  const auto mean_of = [](CfarSettings settings, int looks) {
+    return calibrated_cfar(settings, {}, looks).mean_estimate;
+  };
+  CHECK(mean_of({.kind = CfarKind::ordered_statistic}, 1) == Approx(ranked).epsilon(0.03));
+  const CfarReach one{.guard = 0, .reference = 1};
+  CHECK(mean_of({.kind = CfarKind::greatest_of, .along_columns = one}, 1) ==
+        Approx(1.5).epsilon(0.1));
+  CHECK(mean_of({.kind = CfarKind::smallest_of, .along_columns = one}, 1) ==
+        Approx(0.5).epsilon(0.1));
+  CHECK(mean_of({.kind = CfarKind::cell_averaging}, 1) == 1.0);
+  CHECK(mean_of({.kind = CfarKind::cell_averaging}, 12) == 1.0);
+  // A cell's background is that mean, whatever the detector: what stands over it is one ratio.
+  PowerMap map(1, 40);
+  map.values_W.assign(40, 2.0);
+  map.values_W[20] = 2000.0;
+  const CfarSettings told{.kind = CfarKind::ordered_statistic, .mean_estimate = ranked};
+  const auto found = cfar_detections(map, told);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].background_W == Approx(2.0 / ranked));
+  CHECK(found[0].margin == Approx(cfar_detections(map, {.kind = told.kind})[0].margin));
+}
+
 TEST_CASE("a sum over channels is calibrated to a few percent, even for rare alarms",
           "[cfar][calibration]") {
   const auto taylor = window_weights({.kind = WindowKind::taylor}, 256);
