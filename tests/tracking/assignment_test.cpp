@@ -135,6 +135,44 @@ TEST_CASE("A track that is not seen becomes less likely to exist, as Bayes has i
   const auto seen = joint_probabilities(CostMatrix(1, 1, 2.0), {0.8}, settings);
   const double there = 0.8 * (0.1 + 0.9 * 2.0 / 1e-3);
   CHECK(seen.existence[0] == Approx(there / (there + 0.2)).epsilon(1e-12));
-  CHECK_THROWS_AS(joint_probabilities(CostMatrix(1, 17, 1.0), {0.8}, settings), core::InputError);
+  CHECK_NOTHROW(joint_probabilities(CostMatrix(2, 16, 1.0), {0.8, 0.8}, settings));
+  CHECK_THROWS_AS(joint_probabilities(CostMatrix(2, 17, 1.0), {0.8, 0.8}, settings),
+                  core::InputError);
   CHECK_THROWS_AS(joint_probabilities(CostMatrix(1, 1, -1.0), {0.8}, settings), core::InputError);
+}
+
+// A column of 40 cars, each near its neighbours' measurements too: 41 measurements in one group. Where the
+// middle of the column shares them with a likelihood that does not count, its halves are what they are alone.
+TEST_CASE("Joint probabilities take any number of tracks that share measurements with neighbours",
+          "[association]") {
+  const JointSettings settings{0.9, 0.99, 1e-2};
+  constexpr int kTracks = 40;
+  const auto likelihood = [](int track, int column) {
+    return track == column ? 0.8 : 0.3 + 0.01 * ((7 * track + 3 * column) % 11);
+  };
+  CostMatrix all(kTracks, kTracks + 1, 0.0);
+  for (int t = 0; t < kTracks; ++t)
+    for (int j = std::max(t - 1, 0); j <= t + 1; ++j) all.at(t, j) = likelihood(t, j);
+  const int half = kTracks / 2;
+  all.at(half - 1, half) = all.at(half, half - 1) = 1e-18;
+  const std::vector<double> existence(kTracks, 0.9);
+  const JointProbabilities found = joint_probabilities(all, existence, settings);
+  for (const int first : {0, half}) {
+    CostMatrix part(half, half + 1, 0.0);
+    for (int t = 0; t < half; ++t)
+      for (int j = 0; j <= half; ++j)
+        if (all.at(first + t, first + j) > 1e-9) part.at(t, j) = all.at(first + t, first + j);
+    const JointProbabilities alone =
+        joint_probabilities(part, std::vector<double>(half, 0.9), settings);
+    for (int t = 0; t < half; ++t) {
+      const auto at = static_cast<std::size_t>(first + t);
+      CHECK(found.missed[at] == Approx(alone.missed[static_cast<std::size_t>(t)]).epsilon(1e-9));
+      double sum = found.missed[at];
+      for (int j = 0; j <= kTracks; ++j) sum += found.belongs.at(first + t, j);
+      CHECK(sum == Approx(1.0).epsilon(1e-12));
+      for (int j = 0; j <= half; ++j)
+        CHECK(found.belongs.at(first + t, first + j) ==
+              Approx(alone.belongs.at(t, j)).margin(1e-12).epsilon(1e-9));
+    }
+  }
 }

@@ -45,6 +45,38 @@ TEST_CASE("K06 innovations and errors of matched runs are as large as the filter
   CHECK(mean_interval(2, kRuns).contains(errors));
 }
 
+// A filter in its steady state, with noise w of acceleration expected and none there: in continuous time
+// its error has the damping 1/sqrt 2, and noise of the measurement alone leaves 3/4 of the variance told in
+// position, 1/4 in speed, and a normalised error squared of 1 for the pair instead of 2, whatever w is.
+// So a car that keeps its speed across the line of sight brings it, of four states, from 4 down to 3.
+TEST_CASE(
+    "A target without the noise expected has half the normalised error, however little that is",
+    "[kalman]") {
+  for (const double acceleration_mps2 : {0.01, 0.001}) {
+    MotionModel model = line(acceleration_mps2);
+    constexpr double kSigma_m = 0.05;
+    Gaussian state = line_state(1.0, 1.0);
+    double xx = 1.0, xv = 0.0, vv = 1.0;  // of the error that is there
+    for (int step = 0; step < 40000; ++step) {
+      predict(model, kStep_s, state);
+      const Update told = update(
+          state, observe(state, 1, Measured::range, seen(state.mean[0], 0.0, kSigma_m, 0.0)));
+      const double k = told.gain[0], l = told.gain[kMostStates];
+      const double ahead = xx + 2.0 * kStep_s * xv + kStep_s * kStep_s * vv;
+      const double across = xv + kStep_s * vv;
+      const double noise_m2 = kSigma_m * kSigma_m;
+      xv = (1.0 - k) * (across - l * ahead) + k * l * noise_m2;
+      vv = vv - 2.0 * l * across + l * l * (ahead + noise_m2);
+      xx = (1.0 - k) * (1.0 - k) * ahead + k * k * noise_m2;
+    }
+    const double a = state.variance(0, 0), b = state.variance(0, 1), c = state.variance(1, 1);
+    INFO(acceleration_mps2 << " m/s2");
+    CHECK((c * xx - 2.0 * b * xv + a * vv) / (a * c - b * b) == Approx(1.0).epsilon(0.03));
+    CHECK(xx / a == Approx(0.75).epsilon(0.03));
+    CHECK(vv / c == Approx(0.25).epsilon(0.03));
+  }
+}
+
 TEST_CASE("The planar filter is consistent with range, rate and azimuth", "[kalman][statistics]") {
   constexpr int kRuns = 100, kSteps = 60;
   MotionModel model;

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 #include "core/errors.h"
 
 namespace fanbeam::tracking {
 namespace {
 
-constexpr std::size_t kMostMeasurements = 16;
+constexpr std::size_t kMostOpen = 16;
 
 struct Group {
   std::vector<int> tracks, measurements;
@@ -65,39 +66,106 @@ std::vector<Group> groups_of(const CostMatrix& likelihood) {
   return groups;
 }
 
+// A set of measurements that tracks so far have used, of those alone that tracks to come may want:
+// before each track, and behind the last.
+class Frontiers {
+ public:
+  // weight[t][j + 1] is above 0 where track t may have measurement j.
+  Frontiers(const std::vector<std::vector<double>>& weight, std::size_t measurements)
+      : open_(weight.size() + 1), carries_(weight.size()) {
+    for (std::size_t j = 0; j < measurements; ++j) {
+      std::size_t first = weight.size(), last = 0;
+      for (std::size_t t = 0; t < weight.size(); ++t) {
+        if (!(weight[t][j + 1] > 0.0)) continue;
+        first = std::min(first, t);
+        last = t;
+      }
+      for (std::size_t t = first + 1; t <= last && first < weight.size(); ++t)
+        open_[t].push_back(j);
+    }
+    for (std::size_t t = 0; t < weight.size(); ++t)
+      for (const std::size_t j : open_[t]) carries_[t].push_back(bit(t + 1, j));
+  }
+
+  std::size_t widest() const {
+    std::size_t most = 0;
+    for (const std::vector<std::size_t>& open : open_) most = std::max(most, open.size());
+    return most;
+  }
+  std::size_t sets(std::size_t track) const { return std::size_t{1} << open_[track].size(); }
+  // The bit of a measurement before a track; 0 where nobody asks for it any more, or yet.
+  std::size_t bit(std::size_t track, std::size_t measurement) const {
+    const std::vector<std::size_t>& open = open_[track];
+    const auto found = std::find(open.begin(), open.end(), measurement);
+    return found == open.end() ? 0 : std::size_t{1} << (found - open.begin());
+  }
+  // A set before the track as it is seen behind it.
+  std::size_t carried(std::size_t track, std::size_t set) const {
+    std::size_t result = 0;
+    for (std::size_t i = 0; set >> i != 0; ++i)
+      if ((set >> i & 1U) != 0) result |= carries_[track][i];
+    return result;
+  }
+
+ private:
+  std::vector<std::vector<std::size_t>> open_;     // measurements, in the order of their bits
+  std::vector<std::vector<std::size_t>> carries_;  // their bits behind the track, or 0
+};
+
+// What a track may do with a set of used measurements before it: every measurement that it may have,
+// or none, with its weight and the set behind it.
+struct Choice {
+  std::size_t share = 0;  // 0: none; else measurement + 1
+  std::size_t taken = 0;  // its bit before the track, and behind
+  std::size_t leaves = 0;
+  double weight = 0.0;
+};
+
+std::vector<Choice> choices_of(const Frontiers& frontiers, std::size_t track,
+                               const std::vector<double>& weight) {
+  std::vector<Choice> choices;
+  for (std::size_t share = 0; share < weight.size(); ++share)
+    if (share == 0)
+      choices.push_back({0, 0, 0, weight[0]});
+    else if (weight[share] > 0.0)
+      choices.push_back({share, frontiers.bit(track, share - 1),
+                         frontiers.bit(track + 1, share - 1), weight[share]});
+  return choices;
+}
+
 // Probabilities of one group. weight(t, 0) is that of a miss, weight(t, j + 1) of measurement j.
 void solve(const Group& group, const std::vector<std::vector<double>>& weight,
-           JointProbabilities& result) {
+           const Frontiers& frontiers, JointProbabilities& result) {
   const std::size_t tracks = group.tracks.size(), count = group.measurements.size();
-  const std::size_t sets = std::size_t{1} << count;
-  // before[t][set]: sum over events of the tracks before t that use exactly `set`.
-  std::vector<std::vector<double>> before(tracks + 1, std::vector<double>(sets, 0.0));
-  // after[set]: sum over events of the tracks behind that find `set` used.
-  std::vector<double> after(sets, 1.0), next(sets);
-  before[0][0] = 1.0;
-  for (std::size_t t = 0; t < tracks; ++t)
-    for (std::size_t set = 0; set < sets; ++set) {
+  std::vector<std::vector<Choice>> choices;
+  // before[t][set]: sum over events of the tracks before t that use exactly `set` of what is open.
+  std::vector<std::vector<double>> before = {{1.0}};
+  for (std::size_t t = 0; t < tracks; ++t) {
+    choices.push_back(choices_of(frontiers, t, weight[t]));
+    before.emplace_back(frontiers.sets(t + 1), 0.0);
+    for (std::size_t set = 0; set < frontiers.sets(t); ++set) {
       if (before[t][set] == 0.0) continue;
-      before[t + 1][set] += before[t][set] * weight[t][0];
-      for (std::size_t j = 0; j < count; ++j)
-        if ((set >> j & 1U) == 0)
-          before[t + 1][set | std::size_t{1} << j] += before[t][set] * weight[t][j + 1];
+      const std::size_t carried = frontiers.carried(t, set);
+      for (const Choice& choice : choices[t])
+        if ((set & choice.taken) == 0)
+          before[t + 1][carried | choice.leaves] += before[t][set] * choice.weight;
     }
+  }
+  // after[set]: sum over events of the tracks behind that find `set` used.
+  std::vector<double> after = {1.0};
   for (std::size_t t = tracks; t-- > 0;) {
-    std::vector<double> share(count + 1, 0.0);
-    double total = 0.0;
-    for (std::size_t set = 0; set < sets; ++set) {
-      next[set] = weight[t][0] * after[set];
-      share[0] += before[t][set] * next[set];
-      for (std::size_t j = 0; j < count; ++j) {
-        if ((set >> j & 1U) != 0) continue;
-        const double value = weight[t][j + 1] * after[set | std::size_t{1} << j];
+    std::vector<double> share(count + 1, 0.0), next(frontiers.sets(t), 0.0);
+    for (std::size_t set = 0; set < next.size(); ++set) {
+      const std::size_t carried = frontiers.carried(t, set);
+      for (const Choice& choice : choices[t]) {
+        if ((set & choice.taken) != 0) continue;
+        const double value = choice.weight * after[carried | choice.leaves];
         next[set] += value;
-        share[j + 1] += before[t][set] * value;
+        share[choice.share] += before[t][set] * value;
       }
     }
-    std::swap(after, next);
-    for (const double value : share) total += value;
+    after = std::move(next);
+    const double total = std::accumulate(share.begin(), share.end(), 0.0);
     const int track = group.tracks[t];
     if (!(total > 0.0)) {
       result.missed[static_cast<std::size_t>(track)] = 1.0;
@@ -119,10 +187,6 @@ JointProbabilities joint_probabilities(const CostMatrix& likelihood,
                             std::vector<double>(existence.size(), 1.0), existence};
   const double seen = settings.detection_probability * settings.gate_probability;
   for (const Group& group : groups_of(likelihood)) {
-    if (group.measurements.size() > kMostMeasurements)
-      core::throw_input_error(core::ErrorClass::limit, "joint.measurements",
-                              static_cast<double>(group.measurements.size()),
-                              "at most 16 in tracks that share them: the best assignment takes more");
     std::vector<std::vector<double>> weight;
     for (const int track : group.tracks) {
       const double there = existence[static_cast<std::size_t>(track)];
@@ -136,7 +200,12 @@ JointProbabilities joint_probabilities(const CostMatrix& likelihood,
         for (double& value : row) value /= largest;
       weight.push_back(std::move(row));
     }
-    solve(group, weight, result);
+    const Frontiers frontiers(weight, group.measurements.size());
+    if (frontiers.widest() > kMostOpen)
+      core::throw_input_error(
+          core::ErrorClass::limit, "joint.measurements", static_cast<double>(frontiers.widest()),
+          "at most 16 that tracks share at once: the best assignment takes more");
+    solve(group, weight, frontiers, result);
   }
   for (std::size_t t = 0; t < existence.size(); ++t) {
     const double none = 1.0 - seen * existence[t];

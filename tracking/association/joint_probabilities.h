@@ -7,15 +7,16 @@
 //   1 - Pd Pg r             where it has none,
 // g the likelihood of the innovation, lambda the density of false measurements (in the units of g),
 // r the probability that the target exists, Pd that it is detected, Pg that it falls into the gate.
-// Sums over all events, exact: tracks are taken one after the other, with the set of measurements
-// used so far as state, forwards and backwards. Existence afterwards:
+// Sums over all events, exact: tracks are taken one after the other, forwards and backwards, with
+// the used ones of those measurements as state that an earlier and a later track may want. Existence afterwards:
 //   r' = sum_j beta_j + beta_0 (1 - Pd Pg) r / (1 - Pd Pg r) .
 // With r = 1 this is JPDA, otherwise JIPDA.
 // Source: T. E. Fortmann, Y. Bar-Shalom, M. Scheffe, IEEE J. Oceanic Eng. OE-8, 1983; D. Musicki,
 // R. Evans, "Joint integrated probabilistic data association: JIPDA", IEEE Trans. AES-40, 2004.
 // Inputs: likelihoods finite, 0 or more (0 outside the gate); probabilities in [0, 1]; lambda above
 // 0. E-RANGE, E-NONFINITE otherwise. Cost: tracks 2^m m in each group of tracks that share
-// measurements, m their number; more than 16 are E-LIMIT.
+// measurements, m the most that are wanted by tracks on both sides of one; more than 16 are E-LIMIT.
+// Of a column of cars, each sharing measurements with its neighbours, m is 1 or 2.
 #pragma once
 
 #include <vector>
