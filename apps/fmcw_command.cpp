@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <glm/geometric.hpp>
 #include <optional>
 #include <set>
 
@@ -221,7 +222,8 @@ class Run {
     session::FmcwFrameRecord record = session::fmcw_record(scene_, index, paths, frame);
     record.files = session::write_fmcw_products(
         output_.path(), products_, radar_, frame,
-        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB});
+        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB,
+         glm::length(scene_.trajectory->at(record.time_s).v_N_mps)});
     if (spectrogram_) spectrogram_->add(record.time_s, frame, ranges_of(paths));
     if (products_.contains(kInterference))
       write_interference(index, paths, frame, budget, record.files);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes the measured parts of docs/tracking.md (between the marks "study" of that page) and its plots in docs/images/
-# from real runs of `fanbeam track`. Two minutes on two cores. Build first: ./dev build.
+# from real runs of `fanbeam track`. Three minutes on two cores. Build first: ./dev build.
 # The scenarios are those of a file in the format of scenes/highway_reader.h, S1 to S4: its path is the argument.
 set -euo pipefail
 
@@ -19,6 +19,8 @@ scenarios=${1:-../shared/reference/highway-scenarios.json}
 "$fanbeam" track "$scenarios" --scenario S2 --waveform triangle --plots -q -o "$work/triangle"
 "$fanbeam" track "$scenarios" --scenario S3 --range-only --plots -q -o "$work/range-only"
 "$fanbeam" track "$scenarios" --scenario S2 --samples --plots -q -o "$work/samples"
+"$fanbeam" track street-76ghz --frames 0:40 --plots -q -o "$work/street"
+"$fanbeam" track highway-76ghz --frames 0:60 --plots -q -o "$work/motorway"
 
 copy() { install -m 644 -- "$work/$1.png" "docs/images/tracking-$2.png"; }
 copy two-stage/S1/errors s1-errors
@@ -29,6 +31,8 @@ copy two-stage/S4/ranges s4-ranges
 copy triangle/S2/ranges s2-triangle-ranges
 copy range-only/S3/errors s3-range-only-errors
 copy samples/S2/ranges s2-samples-ranges
+copy street/plan street-plan
+copy motorway/plan motorway-plan
 for plot in buffer noise-figure reflections-range reflections-speed missed ghosts crossing; do copy "study/$plot" "$plot"; done
 
 # Plots of the study stand beside its tables.

@@ -111,7 +111,8 @@ class DetectionSource : public OwnSource {
                               "none", "at least one frame");
     name = core::safe_word(fs::absolute(options.file).lexically_normal().stem().string());
     kind = "detections";
-    radar_speed_mps = options.radar_speed_mps.value_or(0.0);
+    radar_speed_mps =
+        options.radar_speed_mps.value_or(frames_.front().radar_speed_mps.value_or(0.0));
     std::vector<double> steps_s;
     for (std::size_t i = 1; i < frames_.size(); ++i)
       if (frames_[i].time_s > frames_[i - 1].time_s)

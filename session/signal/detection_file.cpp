@@ -145,7 +145,7 @@ class Table {
     }
     if (frames_.empty() || values[kTime] > frames_.back().time_s) {
       if (frames_.size() == kMostFrames) return too_many("frames", kMostFrames);
-      frames_.push_back({values[kTime], {}, {}});
+      frames_.push_back({values[kTime], {}, {}, {}});
     }
     if (frames_.back().detections.size() == kMostDetections)
       return too_many("detections in a frame", kMostDetections);
@@ -170,6 +170,7 @@ class Table {
 DetectedFrame frame_in(const JsonNode& node) {
   DetectedFrame frame;
   frame.time_s = node.required("time_s").number(kTimes_s).value_or(0.0);
+  frame.radar_speed_mps = node.member("radar_speed_mps").number(kSpeeds_mps);
   const JsonNode list = node.required("detections");
   const std::size_t count = list.size(kMostDetections);
   for (std::size_t i = 0; i < count; ++i) {

@@ -5,7 +5,8 @@
 // (a whole number, -1 or empty for none). Other columns are passed over. Rows in the order of time; those
 // of one time are a frame.
 // JSON: {"time_s", "detections": [...]} of one frame, or {"frames": [those]}; a detection has range_m,
-// radial_speed_mps and azimuth_rad, and may have power_W, snr_dB and cluster.
+// radial_speed_mps and azimuth_rad, and may have power_W, snr_dB and cluster; a frame may have
+// radar_speed_mps.
 // A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
 // order of their names.
 //
@@ -15,6 +16,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "core/errors.h"
@@ -25,7 +27,8 @@ namespace fanbeam::session {
 struct DetectedFrame {
   double time_s = 0.0;
   std::vector<signal::RadarDetection> detections;
-  std::vector<int> clusters;  // of each, or signal::kNoCluster
+  std::vector<int> clusters;                // of each, or signal::kNoCluster
+  std::optional<double> radar_speed_mps{};  // over ground, where the file tells it
 };
 
 // Of a folder; none where it holds none.

@@ -159,8 +159,10 @@ void Writer::detections() const {
                     {"cluster", frame_.found->clusters[i]}});
   }
   core::write_file_atomically(file("detections", ".csv"), table);
-  const nlohmann::ordered_json json = {
-      {"frame", stamp_.frame}, {"time_s", stamp_.time_s}, {"detections", list}};
+  const nlohmann::ordered_json json = {{"frame", stamp_.frame},
+                                       {"time_s", stamp_.time_s},
+                                       {"radar_speed_mps", stamp_.radar_speed_mps},
+                                       {"detections", list}};
   core::write_file_atomically(file("detections", ".json"), json.dump(1) + "\n");
 }
 

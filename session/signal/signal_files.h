@@ -15,6 +15,7 @@ struct FmcwStamp {
   double time_s = 0.0;
   std::string scene;
   double dynamic_range_dB = 60.0;  // of the pictures' colours, from the noise up
+  double radar_speed_mps = 0.0;    // over ground
 };
 
 // Files DIR/<product>/00000.*, of every product that is wanted and that the waveform has. Throws

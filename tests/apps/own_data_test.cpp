@@ -250,6 +250,30 @@ TEST_CASE("A scene's own radar file is used, below what the command line says", 
   CHECK(other["array"]["multiplex"] == "time-division");
 }
 
+// Without their own speed in them the posts of the guard rails would be told to move, all of them.
+TEST_CASE("Detections that fmcw left tell the radar's speed, and the posts of a motorway stand",
+          "[fmcw][track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path signals = folder.path() / "signals", tracks = folder.path() / "tracks";
+  REQUIRE(tests::run_fanbeam("fmcw highway-76ghz -q --frames 0:12 --products detections -o " +
+                             tests::quoted(signals))
+              .exit_code == 0);
+  const auto track = [&](const std::string& words) {
+    const auto run = tests::run_fanbeam("track " + tests::quoted(signals) + " -q -o " +
+                                        tests::quoted(tracks) + " " + words);
+    INFO(run.output);
+    REQUIRE(run.exit_code == 0);
+    return tests::json_of(tracks / "run.json");
+  };
+  const nlohmann::json told = track("");
+  CHECK(told["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).margin(0.01));
+  REQUIRE(told["confirmed_tracks"] > 40);
+  CHECK(told["moving_tracks"].get<int>() >= 6);
+  CHECK(told["moving_tracks"].get<int>() <= 12);
+  const nlohmann::json standing = track("--radar-speed 0");
+  CHECK(standing["moving_tracks"].get<int>() > standing["confirmed_tracks"].get<int>() / 2);
+}
+
 TEST_CASE("A car's radar in a scene raises the floor, and mending recovers detections", "[fmcw]") {
   const tests::TemporaryFolder folder;
   fs::copy(FANBEAM_SOURCE_DIR "/scenes/street-76ghz", folder.path() / "street",
