@@ -74,6 +74,13 @@ std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptio
   return result;
 }
 
+std::vector<int> spread_frames(const scenes::Scene& scene, int most) {
+  const int count = std::min(most, scene.frame_count());
+  std::vector<int> frames;
+  for (int i = 0; i < count; ++i) frames.push_back((2 * i + 1) * scene.frame_count() / (2 * count));
+  return frames;
+}
+
 View view_at(const BenchScene& scene, double distance_m) {
   View view;
   view.scene = &scene;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 #include "renderer/plan/effects.h"
 #include "scenes/scene.h"
@@ -43,6 +44,9 @@ std::shared_ptr<const scenes::Scene> build(const std::string& name,
 
 // The same with its memory; nothing, and a line on stderr, when its data are not there.
 std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptions& options = {});
+
+// Numbers of at most `most` frames, evenly spread over the approach.
+std::vector<int> spread_frames(const scenes::Scene& scene, int most);
 
 // One frame of the approach.
 struct View {

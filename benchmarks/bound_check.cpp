@@ -28,13 +28,12 @@ renderer::Frame frame_of(const scenes::Scene& scene, int frame) {
       .render();
 }
 
-double influence_grey(const scenes::Scene& scene, core::EffectId effect, int frames) {
+double influence_grey(const scenes::Scene& scene, core::EffectId effect, int most_frames) {
   core::ProblemList known;
   const auto without =
       scenes::under_conditions(scene, {.wishes = measure::all_but(scene.plan, effect)}, known);
   double largest = 0.0;
-  for (int i = 0; i < frames; ++i) {
-    const int frame = (2 * i + 1) * scene.frame_count() / (2 * frames);
+  for (const int frame : spread_frames(scene, most_frames)) {
     const renderer::Frame a = frame_of(scene, frame), b = frame_of(*without, frame);
     largest = std::max({largest, measure::change_of(a.bscope_grey, b.bscope_grey).largest_grey,
                         measure::change_of(a.cscope_grey, b.cscope_grey).largest_grey});
@@ -56,11 +55,11 @@ std::vector<BoundCase> check_bounds(const Effort& effort) {
     if (!bench) continue;
     const scenes::Scene& scene = *bench->scene;
     const double dB_per_grey = sensors::GreyScale(scene.world.sensor).dB_per_grey();
-    const int frames = std::min(effort.bound_frames, scene.frame_count());
     for (const core::EffectDecision& decision : scene.plan.decisions) {
       if (!decision.on) continue;
       cases.push_back({name, std::string(name_of(decision.effect)), decision.bound_grey,
-                       decision.bound_dB, influence_grey(scene, decision.effect, frames),
+                       decision.bound_dB,
+                       influence_grey(scene, decision.effect, effort.bound_frames),
                        renderer::effects_share_grey(scene.accuracy_grey), dB_per_grey});
     }
   }

@@ -77,9 +77,7 @@ std::vector<EstimateCase> check_estimates(const Effort& effort) {
   for (const std::string& name : shipped_scenes()) {
     const auto bench = load(name);
     if (!bench) continue;
-    const int frames = std::min(effort.estimate_frames, bench->scene->frame_count());
-    for (int i = 0; i < frames; ++i) {
-      const int frame = (2 * i + 1) * bench->scene->frame_count() / (2 * frames);
+    for (const int frame : spread_frames(*bench->scene, effort.estimate_frames)) {
       fmt::print(stderr, "{}: estimates of frame {}\n", name, frame);
       check_frame(*bench, frame, effort, cases);
     }
