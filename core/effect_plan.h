@@ -30,14 +30,15 @@ enum class EffectId : std::uint8_t {
   receiver_noise,
   phase_noise,
   quantiser,
+  interference,
 };
 
-inline constexpr std::array<std::string_view, 16> kEffectNames = {
-    "gas",           "fog",       "rain",          "snow",           "rain-echo",
-    "double-bounce", "multipath", "surface-state", "side-lobes",     "range-response",
-    "thermal-noise", "speckle",   "swerling",      "receiver-noise", "phase-noise",
-    "quantiser"};
-static_assert(kEffectNames.size() == static_cast<std::size_t>(EffectId::quantiser) + 1);
+inline constexpr std::array<std::string_view, 17> kEffectNames = {
+    "gas",           "fog",         "rain",          "snow",           "rain-echo",
+    "double-bounce", "multipath",   "surface-state", "side-lobes",     "range-response",
+    "thermal-noise", "speckle",     "swerling",      "receiver-noise", "phase-noise",
+    "quantiser",     "interference"};
+static_assert(kEffectNames.size() == static_cast<std::size_t>(EffectId::interference) + 1);
 
 constexpr std::string_view name_of(EffectId effect) {
   return kEffectNames[static_cast<std::size_t>(effect)];

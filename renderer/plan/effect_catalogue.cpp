@@ -123,6 +123,9 @@ const std::vector<Effect>& sample_effects() {
       {core::EffectId::quantiser, "rounding of the samples", "Widrow and Kollar 2008",
        has_quantiser, quantiser_bound_dB, quantiser_cause,
        "no number of bits was given (--adc-bits)"},
+      {core::EffectId::interference, "chirps of other radars in the receiver", "Brooker 2007",
+       has_interference, interference_bound_dB, interference_cause,
+       "no [[interferer]] of the scene is heard in this frame"},
   };
   return kCatalogue;
 }

@@ -26,6 +26,9 @@ double step_sqrtW(const SignalFacts& signal) {
       1 - signal.adc_bits);
 }
 
+// Of real samples the other half of the spectrum adds its own.
+double images_of(const SignalFacts& signal) { return signal.complex_baseband ? 1.0 : 2.0; }
+
 bool may_clip(const SignalFacts& signal) {
   return signal.full_scale_sqrtW > 0.0 && largest_part_sqrtW(signal) > signal.full_scale_sqrtW;
 }
@@ -50,12 +53,16 @@ bool has_phase_noise(const SceneFacts& facts) {
 
 bool has_quantiser(const SceneFacts& facts) { return facts.signal && facts.signal->adc_bits > 0; }
 
+bool has_interference(const SceneFacts& facts) {
+  return facts.signal && facts.signal->interference_W > 0.0;
+}
+
 double phase_noise_bound_dB(const SceneFacts& facts) {
   const SignalFacts& signal = *facts.signal;
   if (!noise_hides(facts)) return signal.window_dB;
   const double variance = signal.phase_noise_rad * signal.phase_noise_rad;
-  const double images = signal.complex_baseband ? 1.0 : 2.0;
-  const double pedestal_W = signal.beams * signal.echo_W * images * signal.phase_noise_peak *
+  const double pedestal_W = signal.beams * signal.echo_W * images_of(signal) *
+                            signal.phase_noise_peak *
                             (variance > 0.0 ? -std::expm1(-variance) / variance : 1.0);
   const double raised_dB = core::kDecibelsPerNeper * std::log1p(pedestal_W / signal.noise_sample_W);
   return std::min(signal.window_dB, std::max(raised_dB, core::kDecibelsPerNeper * variance));
@@ -67,6 +74,14 @@ double quantiser_bound_dB(const SceneFacts& facts) {
   const double steps = step_sqrtW(signal) / noise_part_sqrtW(signal);
   if (!(steps <= 1.0) || may_clip(signal)) return signal.window_dB;
   return std::min(signal.window_dB, core::kDecibelsPerNeper * std::log1p(steps * steps / 12.0));
+}
+
+double interference_bound_dB(const SceneFacts& facts) {
+  const SignalFacts& signal = *facts.signal;
+  if (!noise_hides(facts)) return signal.window_dB;
+  const double energy_W = signal.beams * images_of(signal) * signal.interference_W;
+  return std::min(signal.window_dB,
+                  core::kDecibelsPerNeper * std::log1p(energy_W / signal.noise_sample_W));
 }
 
 std::string receiver_noise_cause(const SceneFacts& facts, double bound_dB) {
@@ -95,6 +110,17 @@ std::string quantiser_cause(const SceneFacts& facts, double bound_dB) {
   if (may_clip(signal)) return whole_text("clipping at the quantiser's full scale", facts);
   if (bound_dB >= signal.window_dB) return whole_text(steps, facts);
   return steps + " can lift the noise by up to " + figure_text(bound_dB) + " dB";
+}
+
+std::string interference_cause(const SceneFacts& facts, double bound_dB) {
+  const SignalFacts& signal = *facts.signal;
+  const std::string what = "other radars' chirps";
+  if (bound_dB >= signal.window_dB) return whole_text(what, facts);
+  return what + ", " +
+         figure_text(10.0 * std::log10(signal.interference_W / signal.noise_sample_W)) +
+         " dB over the noise of a sample in all samples of a channel together, can change a cell "
+         "by up to " +
+         figure_text(bound_dB) + " dB";
 }
 
 }  // namespace fanbeam::renderer

@@ -4,7 +4,7 @@
 // Bounds are of the mean power of a cell over the draws of noise and of the echoes' phases (from one
 // draw to the next a cell of noise strays by 5.6 dB RMS anyway), against the mean N that thermal
 // noise leaves there. A transform with weights w turns white noise of N1 a sample into
-// N = N1 sum |w|^2 / |sum w|^2; what the two effects below add goes through the same factor, so that
+// N = N1 sum |w|^2 / |sum w|^2; what the others below add goes through the same factor, so that
 // windows and lengths cancel. With P the sum of the echoes' powers and C the channels that a beam
 // sums (it keeps a common pedestal and lowers noise by C; 1 where no product has beams):
 //
@@ -24,6 +24,11 @@
 //                   the largest draw there is, 6.77 s; or a given full scale, and where the largest
 //                   part may be beyond that, clipping changes anything: the whole window.
 //
+//   interference    a cell is a weighted sum of samples, so that by Cauchy and Schwarz it holds at most
+//                   sum |w|^2 times the energy E = sum |x|^2 of other radars' chirps in one channel's
+//                   samples, tone, burst or ghost alike: 10 log10(1 + C E / N1), twice E for real
+//                   samples.
+//
 // Where the user switches the noise off nothing hides either: the whole window. The same where
 // samples are a product themselves.
 // Sources: B. Widrow, I. Kollar, "Quantization Noise", 2008, chapter 5 (Gaussian input); M. C.
@@ -40,12 +45,15 @@ namespace fanbeam::renderer {
 
 bool has_phase_noise(const SceneFacts& facts);
 bool has_quantiser(const SceneFacts& facts);
+bool has_interference(const SceneFacts& facts);
 
 double phase_noise_bound_dB(const SceneFacts& facts);
 double quantiser_bound_dB(const SceneFacts& facts);
+double interference_bound_dB(const SceneFacts& facts);
 
 std::string receiver_noise_cause(const SceneFacts& facts, double bound_dB);
 std::string phase_noise_cause(const SceneFacts& facts, double bound_dB);
 std::string quantiser_cause(const SceneFacts& facts, double bound_dB);
+std::string interference_cause(const SceneFacts& facts, double bound_dB);
 
 }  // namespace fanbeam::renderer

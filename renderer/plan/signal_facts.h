@@ -12,6 +12,9 @@ struct SignalFacts {
   // The samples as they reach the receiver.
   double echo_W = 0.0;                // sum of the echoes' powers at one receiver's port
   double largest_sample_sqrtW = 0.0;  // largest magnitude of any part of any sample
+  // What other radars' chirps put into a frame's samples: the sum of the complex samples' powers, of
+  // the channel that hears most.
+  double interference_W = 0.0;
   // The receiver.
   double noise_sample_W = 0.0;   // thermal noise of a complex sample, both parts
   bool complex_baseband = true;  // else real samples

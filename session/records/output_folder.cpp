@@ -28,6 +28,9 @@ constexpr std::size_t kMostNamed = 8;
 constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 30U;
 // The note of a run that has not ended. Hidden: what run.json says of the run before stays true.
 constexpr const char* kUnfinished = ".unfinished.json";
+// With which the names of a frame's files begin, and what they are called where all frames have one.
+constexpr int kDigits = 5;
+constexpr const char* kOfAllFrames = "all";
 
 bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
@@ -113,9 +116,13 @@ std::set<std::string> frame_files(const std::set<std::string>& products, int ind
 }
 
 bool OutputFolder::Listed::contains(const fs::path& relative) const {
-  return files.contains(relative.generic_string()) ||
-         (std::distance(relative.begin(), relative.end()) == 2 &&
-          products.contains(relative.begin()->string()));
+  if (files.contains(relative.generic_string())) return true;
+  const std::string name = relative.filename().string();
+  return std::distance(relative.begin(), relative.end()) == 2 &&
+         products.contains(relative.begin()->string()) &&
+         (relative.stem() == kOfAllFrames ||
+          (name.size() > kDigits && std::all_of(name.begin(), name.begin() + kDigits,
+                                                [](char c) { return c >= '0' && c <= '9'; })));
 }
 
 OutputFolder::Listed OutputFolder::listed_in(const fs::path& folder) {

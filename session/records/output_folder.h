@@ -27,7 +27,7 @@ class OutputFolder {
 
   const std::filesystem::path& path() const { return folder_; }
 
-  // Until `end` all files below the folders of `products` are those of a run that has not ended.
+  // Until `end` frames' files in the folders of `products` are those of a run that has not ended.
   void begin(const std::set<std::string>& products) const;
   // After run.json is written.
   void end() const;

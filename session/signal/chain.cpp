@@ -71,6 +71,17 @@ void apply_channel_errors(const ArraySettings& array, signal::FloatCube& beat) {
   }
 }
 
+// What other radars' chirps add to samples of `shape`, channel errors included; empty without any.
+signal::FloatCube interference_in(const FmcwRadar& radar, int stage, const FmcwSettings& options,
+                                  const std::vector<signal::Interferer>& interferers,
+                                  const signal::CubeShape& shape, std::size_t& crossed) {
+  if (interferers.empty()) return {};
+  signal::FloatCube heard(shape);
+  crossed = signal::add_interference(radar.waveform, stage, radar.array, interferers, heard);
+  apply_channel_errors(options, heard);
+  return heard;
+}
+
 double sum_W(const std::vector<signal::ScatterPath>& paths) {
   double sum = 0.0;
   for (const signal::ScatterPath& path : paths) sum += std::norm(path.amplitude_sqrtW);
@@ -109,7 +120,11 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
         !options.real);
     receiver.longest_delay_s =
         delays.empty() ? 0.0 : *std::max_element(delays.begin(), delays.end());
-    const core::EffectPlan plan = receiver_plan(budget, shown, sensor, receiver, echo_W, beat);
+    std::size_t crossed = 0;
+    const signal::FloatCube interference =
+        interference_in(radar, stage, options, interferers, beat.shape, crossed);
+    const core::EffectPlan plan =
+        receiver_plan(budget, shown, sensor, receiver, echo_W, beat, interference);
     keep_larger(plan, frame.plan);
     // A stage more is another stretch of time: draws of its own.
     const core::RandomKey key{options.seed, 0,
@@ -130,9 +145,11 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
       frame.phase_noise_rad =
           std::max(frame.phase_noise_rad, phase_noise_rad(receiver, beat.shape.samples));
     }
-    frame.crossed +=
-        signal::add_interference(radar.waveform, stage, radar.array, interferers, beat);
     apply_channel_errors(options, beat);
+    if (plan.runs(core::EffectId::interference)) {
+      frame.crossed += crossed;
+      for (std::size_t i = 0; i < beat.values.size(); ++i) beat.values[i] += interference.values[i];
+    }
     frame.clipped += receive(radar.array, receiver, plan, key, beat);
     frame.beats.push_back(std::move(beat));
   }

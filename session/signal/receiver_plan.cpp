@@ -6,20 +6,42 @@
 #include "signal/receiver/receiver_noise.h"
 
 namespace fanbeam::session {
+namespace {
+
+double largest_W(const signal::FloatCube& samples) {
+  double largest = 0.0;
+  for (const std::complex<float>& sample : samples.values)
+    largest = std::max(largest, static_cast<double>(std::norm(sample)));
+  return largest;
+}
+
+// Of the channel that has most.
+double energy_W(const signal::FloatCube& samples) {
+  double most = 0.0;
+  for (int channel = 0; channel < samples.shape.channels; ++channel) {
+    double sum = 0.0;
+    for (std::size_t i = samples.index(channel, 0, 0); i < samples.index(channel + 1, 0, 0); ++i)
+      sum += static_cast<double>(std::norm(samples.values[i]));
+    most = std::max(most, sum);
+  }
+  return most;
+}
+
+}  // namespace
 
 core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
                                const sensors::Sensor& sensor, const FmcwReceiver& receiver,
-                               double echo_W, const signal::FloatCube& beat) {
+                               double echo_W, const signal::FloatCube& beat,
+                               const signal::FloatCube& interference) {
   renderer::SignalFacts signal;
   signal.window_dB = shown.window_dB;
   signal.over_display_floor = shown.over_display_floor;
   signal.samples_asked = shown.samples_asked;
   signal.beams = shown.beams;
   signal.echo_W = echo_W;
-  double largest_W = 0.0;
-  for (const std::complex<float>& sample : beat.values)
-    largest_W = std::max(largest_W, static_cast<double>(std::norm(sample)));
-  signal.largest_sample_sqrtW = std::sqrt(receiver.complex_baseband ? largest_W : 2.0 * largest_W);
+  signal.largest_sample_sqrtW = (std::sqrt(largest_W(beat)) + std::sqrt(largest_W(interference))) *
+                                (receiver.complex_baseband ? 1.0 : std::sqrt(2.0));
+  signal.interference_W = energy_W(interference);
   signal.noise_sample_W = signal::noise_sample_W(receiver.noise_figure, receiver.sample_rate_Hz);
   signal.complex_baseband = receiver.complex_baseband;
   if (!receiver.phase_noise.empty() && echo_W > 0.0) {

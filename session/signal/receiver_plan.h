@@ -21,10 +21,12 @@ struct SamplesShown {
   int beams = 1;
 };
 
-// `beat` as synthesised, complex, `echo_W` the sum of its echoes' powers.
+// `beat` as synthesised, complex, `echo_W` the sum of its echoes' powers; `interference`: what other
+// radars add to it, or empty.
 core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
                                const sensors::Sensor& sensor, const FmcwReceiver& receiver,
-                               double echo_W, const signal::FloatCube& beat);
+                               double echo_W, const signal::FloatCube& beat,
+                               const signal::FloatCube& interference = {});
 
 // Of two plans of the same effects, for every effect the decision of the larger bound: of several
 // stages or looks, each of which has samples of its own.

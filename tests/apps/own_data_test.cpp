@@ -314,6 +314,41 @@ TEST_CASE("A car's radar in a scene raises the floor, and mending recovers detec
   CHECK(run.output.find("interval_us") != std::string::npos);
 }
 
+TEST_CASE("A radar too faint to be seen is left out by the plan, and changes no byte", "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  fs::copy(FANBEAM_SOURCE_DIR "/scenes/street-76ghz", folder.path() / "street",
+           fs::copy_options::recursive);
+  const auto made = [&](const char* name, const std::string& words) {
+    const fs::path out = folder.path() / name;
+    const auto run =
+        tests::run_fanbeam("fmcw " + tests::quoted(folder.path() / "street") +
+                           " -q --frames 0 --chirps 32 --products detections,range-doppler " +
+                           words + " -o " + tests::quoted(out));
+    INFO(run.output);
+    REQUIRE(run.exit_code == 0);
+    return out;
+  };
+  const auto decision = [](const fs::path& out) {
+    const nlohmann::json frame = tests::json_of(out / "run.json")["frames"][0];
+    for (const nlohmann::json& row : frame["plan"])
+      if (row["effect"] == "interference") return row;
+    return nlohmann::json();
+  };
+  const fs::path none = made("none", "");
+  CHECK(decision(none)["reason"].get<std::string>().find("no [[interferer]]") == 0);
+  std::ofstream(folder.path() / "street/scene.toml", std::ios::app)
+      << "\n[[interferer]]\ntarget = \"oncoming car, plate\"\neirp_dBm = -60\nfalling = true\n"
+         "ramp_us = 23\ninterval_us = 31\nstart_us = 4\n";
+  const fs::path faint = made("faint", ""), forced = made("forced", "--effects +interference");
+  CHECK_FALSE(decision(faint)["on"].get<bool>());
+  CHECK(decision(faint)["bound_grey"].get<double>() > 0.0);
+  for (const char* file : {"detections/00000.csv", "range-doppler/00000.exr"})
+    CHECK(tests::bytes_of(faint / file) == tests::bytes_of(none / file));
+  CHECK(decision(forced)["on"].get<bool>());
+  CHECK(tests::bytes_of(forced / "range-doppler/00000.exr") !=
+        tests::bytes_of(none / "range-doppler/00000.exr"));
+}
+
 TEST_CASE("A pedestrian's legs swing about the body in the spectrogram", "[fmcw]") {
   const tests::TemporaryFolder folder;
   const fs::path out = folder.path() / "out";

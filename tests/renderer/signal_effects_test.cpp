@@ -58,12 +58,37 @@ TEST_CASE("Steps that noise hides add a twelfth of their square", "[effects]") {
   CHECK(renderer::quantiser_bound_dB(facts) == 60.0);
 }
 
+// A chirp of one radar may be a tone, a burst or noise in the cells: of unit weights over n samples a tone
+// of amplitude a gives (n a)^2 over noise n N1, which is its energy n a^2 over N1.
+TEST_CASE("Other radars lift no cell by more than the energy of their samples", "[effects]") {
+  renderer::SceneFacts facts = samples();
+  CHECK_FALSE(renderer::has_interference(facts));
+  constexpr double kAmplitude = 0.01;
+  constexpr int kSamples = 400;
+  facts.signal->interference_W = kSamples * kAmplitude * kAmplitude;
+  CHECK(renderer::has_interference(facts));
+  const double tone = std::pow(kSamples * kAmplitude, 2) / (kSamples * 2.0);
+  CHECK(renderer::interference_bound_dB(facts) == Approx(10.0 * std::log10(1.0 + tone)));
+  facts.signal->beams = 12;
+  CHECK(renderer::interference_bound_dB(facts) == Approx(10.0 * std::log10(1.0 + 12.0 * tone)));
+  facts.signal->complex_baseband = false;
+  CHECK(renderer::interference_bound_dB(facts) == Approx(10.0 * std::log10(1.0 + 24.0 * tone)));
+  facts.noise_shown = false;
+  CHECK(renderer::interference_bound_dB(facts) == 60.0);
+}
+
 TEST_CASE("The plan of samples decides by noise, budget and wishes", "[effects]") {
   renderer::SceneFacts facts = samples();
   core::EffectPlan plan = renderer::signal_plan({}, facts, 0.5, {});
   CHECK(plan.runs(core::EffectId::receiver_noise));
   CHECK(row(plan, core::EffectId::quantiser).reason == "no number of bits was given (--adc-bits)");
   CHECK(row(plan, core::EffectId::phase_noise).reason.find("no line width") == 0);
+  CHECK(row(plan, core::EffectId::interference).reason.find("no [[interferer]]") == 0);
+  facts.signal->interference_W = 0.02;  // 0.04 dB
+  CHECK_FALSE(renderer::signal_plan({}, facts, 0.5, {}).runs(core::EffectId::interference));
+  facts.signal->interference_W = 0.2;  // 0.4 dB
+  CHECK(renderer::signal_plan({}, facts, 0.5, {}).runs(core::EffectId::interference));
+  facts.signal->interference_W = 0.0;
   facts.signal->largest_sample_sqrtW = 128.0 - 6.77;
   facts.signal->adc_bits = 9;
   CHECK(renderer::signal_plan({}, facts, 0.5, {}).runs(core::EffectId::quantiser));  // 0.09 dB
