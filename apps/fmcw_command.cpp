@@ -106,7 +106,6 @@ class Run {
   }
 
   void process() {
-    output_.begin(products_);
     Progress progress(scene_.description.name, static_cast<int>(frames_.size()), common_.quiet);
     for (const int index : frames_) {
       core::throw_if_stopped();
@@ -167,6 +166,12 @@ class Run {
          radar_.noise_figure, radar_.maps ? waveform.sample_rate_Hz[0] : 0.0});
   }
 
+  // What a frame refuses comes before anything is there.
+  void begin_writing() {
+    if (!begun_) output_.begin(products_);
+    begun_ = true;
+  }
+
   void process(int index) {
     session::FmcwFrameRecord record;
     if (runs_chain()) record = chain(index);
@@ -177,10 +182,11 @@ class Run {
     records_.push_back(std::move(record));
   }
 
-  session::FmcwScanCounts scan(int index, std::set<std::string>& files) const {
+  session::FmcwScanCounts scan(int index, std::set<std::string>& files) {
     Clock::time_point begin = Clock::now();
     const session::SignalBscope bscope = session::fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
+    begin_writing();
     files.merge(session::write_bscope(output_.path(), scene_.description.sensor, index, bscope));
     return {bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
             bscope.plan,  ms};
@@ -220,6 +226,7 @@ class Run {
                    budget, paths.interferers);
     const double signal_ms = ms_since(begin);
     session::FmcwFrameRecord record = session::fmcw_record(scene_, index, paths, frame);
+    begin_writing();
     record.files = session::write_fmcw_products(
         output_.path(), products_, radar_, frame,
         {index, record.time_s, scene_.description.name, options_.dynamic_range_dB,
@@ -242,6 +249,7 @@ class Run {
   std::set<std::string> products_;
   session::OutputFolder output_;
   std::vector<session::FmcwFrameRecord> records_;
+  bool begun_ = false;
   std::optional<session::Spectrogram> spectrogram_;
 };
 

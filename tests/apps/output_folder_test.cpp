@@ -178,3 +178,13 @@ TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing el
   CHECK(files_in(out) == std::vector<std::string>{"detections/00003.csv", "detections/00003.json",
                                                   "radar.toml", "run.json", "timing.json"});
 }
+
+TEST_CASE("A frame that fmcw refuses leaves no folder", "[fmcw]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  // Of ramps far apart the street's cars fold.
+  CHECK(run_fanbeam("fmcw street-76ghz -q --frames 0 --interval 200 --refuse-folding -o " +
+                    quoted(out))
+            .exit_code == 3);
+  CHECK_FALSE(fs::exists(out));
+}
