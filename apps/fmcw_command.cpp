@@ -167,9 +167,8 @@ class Run {
   }
 
   // What a frame refuses comes before anything is there.
-  void begin_writing() {
-    if (!begun_) output_.begin(products_);
-    begun_ = true;
+  void begin_writing() const {
+    if (records_.empty()) output_.begin(products_);
   }
 
   void process(int index) {
@@ -182,7 +181,7 @@ class Run {
     records_.push_back(std::move(record));
   }
 
-  session::FmcwScanCounts scan(int index, std::set<std::string>& files) {
+  session::FmcwScanCounts scan(int index, std::set<std::string>& files) const {
     Clock::time_point begin = Clock::now();
     const session::SignalBscope bscope = session::fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
@@ -249,7 +248,6 @@ class Run {
   std::set<std::string> products_;
   session::OutputFolder output_;
   std::vector<session::FmcwFrameRecord> records_;
-  bool begun_ = false;
   std::optional<session::Spectrogram> spectrogram_;
 };
 

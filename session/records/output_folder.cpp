@@ -154,7 +154,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
       listed_(listed_in(folder_)) {
   if (overwrite_) return;
   std::vector<std::string> others;
-  const bool has_record = !listed_.files.empty() || !listed_.products.empty();
+  const bool has_record = !listed_.files.empty();
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
     const bool record =

@@ -14,11 +14,11 @@
 // `design_probability` is that of independent reference cells. Windows and padding correlate cells;
 // with signal/detection/cfar_calibration.h it becomes the one that gives the wanted rate.
 //
-// Inputs: `mean_estimate` above 0; finite powers, 0 or more (E-NONFINITE, E-RANGE otherwise). Any scale; equal cells and
-// zeros give no detection as long as the factor is above 1. Neglected: steps of the background
-// inside the window (use `greatest_of`) and targets inside it (use `ordered_statistic`). Cost: N
-// operations per cell (N for the ordered statistic too, by selection); rows run on the loop of
-// core/parallel.h.
+// Inputs: `mean_estimate` above 0; finite powers, 0 or more (E-NONFINITE, E-RANGE otherwise). Any
+// scale; equal cells and zeros give no detection as long as the factor is above 1. Neglected: steps
+// of the background inside the window (use `greatest_of`) and targets inside it (use
+// `ordered_statistic`). Cost: N operations per cell (N for the ordered statistic too, by selection);
+// rows run on the loop of core/parallel.h.
 #pragma once
 
 #include <vector>

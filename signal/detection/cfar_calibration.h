@@ -46,7 +46,9 @@ struct CfarCalibration {
   double design_probability = 0.0;  // for CfarSettings
   double factor = 0.0;              // far from edges
   double relative_error = 0.0;      // of the rate, one standard deviation; 0 where exact
-  // For CfarSettings: 1 for cell averaging, else from 500 backgrounds, to half a percent.
+  // For CfarSettings: 1 for cell averaging, else the mean of 500 backgrounds. Its standard error is a
+  // 22nd of the estimate's own: for the 75 % quantile of independent cells of one look
+  // 1.4 % with 16 cells, 0.6 % with 92 (closed form of order statistics).
   double mean_estimate = 1.0;
 };
 

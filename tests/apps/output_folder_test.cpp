@@ -174,6 +174,11 @@ TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing el
   std::ofstream(out / "notes.txt") << "mine";
   CHECK(fmcw("--frames 3 --products detections").exit_code == 2);
   fs::remove(out / "notes.txt");
+  // Nor is a record that lists nothing one of ours because a run was killed beside it.
+  std::ofstream(out / "run.json") << "{}";
+  CHECK(fmcw("--frames 3 --products detections").exit_code == 2);
+  CHECK(bytes_of(out / "run.json") == "{}");
+  std::ofstream(out / "run.json") << record;
   REQUIRE(fmcw("--frames 3 --products detections").exit_code == 0);
   CHECK(files_in(out) == std::vector<std::string>{"detections/00003.csv", "detections/00003.json",
                                                   "radar.toml", "run.json", "timing.json"});

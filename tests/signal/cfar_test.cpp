@@ -205,7 +205,8 @@ TEST_CASE("calibration changes nothing where cells are independent", "[cfar][cal
 }
 
 // H. A. David, H. N. Nagaraja, "Order Statistics", 2003, 2.5: E = sum over i < k of 1 / (N - i), and of
-// the larger of two exponential means of one cell 3/2, of the smaller 1/2.
+// the larger of two exponential means of one cell 3/2, of the smaller 1/2. Tolerances are two to three standard
+// errors of 500 draws: 1.4, 3.3 and 4.5 %.
 TEST_CASE("calibration tells what a detector's estimate of noise is on average",
           "[cfar][calibration]") {
   double ranked = 0.0;

@@ -80,8 +80,7 @@ class Frontiers {
         first = std::min(first, t);
         last = t;
       }
-      for (std::size_t t = first + 1; t <= last && first < weight.size(); ++t)
-        open_[t].push_back(j);
+      for (std::size_t t = first + 1; t <= last; ++t) open_[t].push_back(j);
     }
     for (std::size_t t = 0; t < weight.size(); ++t)
       for (const std::size_t j : open_[t]) carries_[t].push_back(bit(t + 1, j));
@@ -115,9 +114,9 @@ class Frontiers {
 // What a track may do with a set of used measurements before it: every measurement that it may have,
 // or none, with its weight and the set behind it.
 struct Choice {
-  std::size_t share = 0;  // 0: none; else measurement + 1
-  std::size_t taken = 0;  // its bit before the track, and behind
-  std::size_t leaves = 0;
+  std::size_t share = 0;   // 0: none; else measurement + 1
+  std::size_t taken = 0;   // its bit before the track
+  std::size_t leaves = 0;  // and behind
   double weight = 0.0;
 };
 
