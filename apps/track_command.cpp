@@ -100,7 +100,7 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
     outcome.tracks += fmt::format(
         "{},{},{:.6g},{}{}\n", track_cells(frame.time_s, track, scenario.radar_speed_mps),
         target < 0 ? std::string() : scenario.targets[static_cast<std::size_t>(target)].id,
-        track.existence,
+        track.existence.probability(),
         target < 0
             ? std::string()
             : fmt::format("{:.6g}", nees_of(track, frame.motion[static_cast<std::size_t>(target)])),

@@ -76,7 +76,7 @@ void add(const OwnFrame& frame, const tracking::Tracker& tracker, double radar_s
   for (const tracking::Track& track : tracker.tracks()) {
     outcome.tracks +=
         fmt::format("{},{:.6g}{}\n", track_cells(frame.time_s, track, radar_speed_mps),
-                    track.existence, covariance_cells(combined(track.state)));
+                    track.existence.probability(), covariance_cells(combined(track.state)));
     if (!track.confirmed) continue;
     Seen& seen = outcome.confirmed[track.id];
     ++seen.frames;

@@ -41,9 +41,11 @@ std::string covariance_cells(const tracking::Gaussian& state) {
   return cells;
 }
 
-std::string measurement_row(double time_s, const tracking::RadarMeasurement& measurement) {
-  return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", time_s, measurement.range_m,
-                     measurement.range_rate_mps, measurement.azimuth_rad);
+std::string measurement_row(double time_s, const tracking::RadarMeasurement& one) {
+  return fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g}\n",
+                     time_s, one.range_m, one.range_rate_mps, one.azimuth_rad, one.range_sigma_m,
+                     one.range_rate_sigma_mps, one.azimuth_sigma_rad, one.range_systematic_m,
+                     one.range_rate_systematic_mps, one.azimuth_systematic_rad);
 }
 
 }  // namespace fanbeam::apps

@@ -34,7 +34,8 @@ const Track* track_of(const Tracker& tracker, int id) {
 }  // namespace
 
 TEST_CASE(
-    "A track is confirmed by the second good measurement, coasts as long as it was seen, and ends",
+    "A track is confirmed by the second good measurement, coasts twice as long as it was seen, and "
+    "ends",
     "[tracker]") {
   for (const int seen : {3, 30}) {
     Tracker tracker(settings_for());
@@ -43,7 +44,7 @@ TEST_CASE(
       REQUIRE(tracker.tracks().size() == 1);
       CHECK(confirmed(tracker) == (i < 1 ? 0 : 1));
     }
-    const int ends = seen + std::min(seen, 20);  // at most a second
+    const int ends = seen + std::min(2 * seen, 20);  // at most a second
     for (int i = seen; i < ends; ++i) {
       tracker.update(0.05 * i, {});
       REQUIRE(confirmed(tracker) == 1);

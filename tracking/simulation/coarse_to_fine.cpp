@@ -11,6 +11,7 @@ namespace fanbeam::tracking {
 namespace {
 
 constexpr double kBeamwidth = 0.8859;
+constexpr double kMostMisfit = 4.0;  // of directions, over what they may be apart
 
 double beam_rad(const core::HighwayRadar& radar) {
   return kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths);
@@ -99,13 +100,25 @@ double direction_misfit(const RampPeaks& peaks, const PairOfPeaks& pair, double 
          (sigma_rad + peaks.up.spread_rad[pair.up] + peaks.down.spread_rad[pair.down]);
 }
 
+// The beats that may come from where a coarse target is seen; all for a radar that has no directions.
+std::vector<double> from_direction(const Peaks& peaks, const Seen& target,
+                                   const core::HighwayRadar& radar) {
+  if (radar.array_elements < 2) return peaks.Hz;
+  const double own_rad = target.bound.azimuth_sigma_rad + (target.merged ? beam_rad(radar) : 0.0);
+  std::vector<double> result;
+  for (std::size_t i = 0; i < peaks.Hz.size(); ++i)
+    if (std::abs(peaks.azimuth_rad[i] - target.azimuth_rad) <=
+        kMostMisfit * (own_rad + peaks.spread_rad[i]))
+      result.push_back(peaks.Hz[i]);
+  return result;
+}
+
 // A flat stretch has no cells of range: of targets that share its speed it tells a range between them. What
 // is left are the pairs of beats with one of their speeds that come from one direction, those that agree best
 // first; crossed pairs have another speed by 1 m/s for every 0.6 m.
 void add_pairs_of_speed(const signal::TriangleModel& fine, const RampPeaks& peaks,
                         const std::vector<Seen>& coarse, const core::HighwayRadar& radar,
                         const SimulationSettings& settings, FoundPairs& found) {
-  constexpr double kMostMisfit = 4.0;
   struct Candidate {
     double misfit;
     signal::RangeSpeed place;
@@ -159,7 +172,11 @@ std::vector<RadarMeasurement> coarse_to_fine(
     options.coarse_speed_sigma_mps =
         std::max(sigma.radial_speed_mps, settings.coarse_speed_sigma_mps);
     const std::optional<signal::RangeSpeed> refined =
-        signal::refine_two_stage({place}, {fine, peaks.up.Hz, peaks.down.Hz}, options).front();
+        signal::refine_two_stage({place},
+                                 {fine, from_direction(peaks.up, coarse[i], radar),
+                                  from_direction(peaks.down, coarse[i], radar)},
+                                 options)
+            .front();
     if (settings.scheme == Scheme::coded && (!refined || coarse[i].merged)) {
       by_speed_alone.push_back(coarse[i]);
       continue;

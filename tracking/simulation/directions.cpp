@@ -1,9 +1,11 @@
 #include "tracking/simulation/directions.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "signal/angle/angle_peak.h"
 #include "signal/angle/plane_wave.h"
+#include "signal/detection/two_tones.h"
 
 namespace fanbeam::tracking {
 namespace {
@@ -12,14 +14,36 @@ using signal::Snapshot;
 
 constexpr int kTurns = 10;
 constexpr double kLeastShare = 0.1;
+// Beamwidths from which on taking turns gets to the end in ten.
+constexpr double kApart = 1.5;
 
 }  // namespace
 
+// Waves of one peak: an array of even pitch sees them as two tones. Its y counts to the left, azimuths to the right.
+std::vector<double> of_one_peak(const Snapshot& snapshot, double pitch_wavelengths,
+                                double alone_rad, double noise_W) {
+  const double bins = -static_cast<double>(snapshot.size()) * pitch_wavelengths;
+  const auto two = signal::two_tones({snapshot}, bins * std::sin(alone_rad), 0.0, noise_W);
+  if (!two) return {alone_rad};
+  const auto& [left, right] = *two;
+  const double first = left.bin / bins, second = right.bin / bins;
+  const auto [weaker, stronger] = std::minmax(left.power, right.power);
+  if (std::abs(first) > 1.0 || std::abs(second) > 1.0 || weaker < kLeastShare * stronger)
+    return {alone_rad};
+  if (right.power > left.power) return {std::asin(second), std::asin(first)};
+  return {std::asin(first), std::asin(second)};
+}
+
 std::vector<double> directions_rad(const Snapshot& snapshot,
                                    const std::vector<glm::dvec3>& elements_m, double wavelength_m,
-                                   double beam_sine) {
+                                   double beam_sine, double noise_W) {
   signal::AnglePeak first = signal::azimuth_peak(snapshot, elements_m, wavelength_m);
   const double alone_rad = first.azimuth_rad;
+  const auto as_one_peak = [&] {
+    if (elements_m.size() < 2) return std::vector<double>{alone_rad};
+    const double pitch_m = elements_m[1].y - elements_m[0].y;
+    return of_one_peak(snapshot, pitch_m / wavelength_m, alone_rad, noise_W);
+  };
   signal::AnglePeak second;
   Snapshot other(snapshot.size());  // the second wave
   for (int turn = 0; turn < kTurns; ++turn) {
@@ -28,12 +52,12 @@ std::vector<double> directions_rad(const Snapshot& snapshot,
                               .values;
     const Snapshot rest = signal::without(snapshot, wave);
     second = signal::azimuth_peak(rest, elements_m, wavelength_m);
-    if (second.power < kLeastShare * first.power) return {alone_rad};
+    if (second.power < kLeastShare * first.power) return as_one_peak();
     other = signal::wave_from(rest, elements_m, wavelength_m, second.azimuth_rad).values;
     first = signal::azimuth_peak(signal::without(snapshot, other), elements_m, wavelength_m);
   }
-  if (std::abs(std::sin(first.azimuth_rad) - std::sin(second.azimuth_rad)) < 0.5 * beam_sine)
-    return {alone_rad};
+  if (std::abs(std::sin(first.azimuth_rad) - std::sin(second.azimuth_rad)) < kApart * beam_sine)
+    return as_one_peak();
   return {first.azimuth_rad, second.azimuth_rad};
 }
 

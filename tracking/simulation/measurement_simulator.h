@@ -7,7 +7,7 @@
 //   beats      of signal/pairing/triangle.h, normal errors sqrt(6/e) / (2 pi T); those of one ramp
 //              closer than 1.2 bins become one at their mean, weighted with power
 //   azimuth    normal error sqrt(6/(r N (N^2-1))) / (2 pi d/lambda cos azimuth), r = e / N
-//   coarse     (two stages) range and speed with errors of 0.3 m and 0.3 m/s; targets that share
+//   coarse     (two stages) range and speed with errors of 0.3 m and 0.3 m/s, refined by beats of the same direction; targets that share
 //              the cells of range and speed (1.2 wide each) and the beam (0.886 lambda / N d)
 //              become one, weighted with power; one that no pair of beats fits is dropped
 //   coarse     (coded) speed from a flat stretch (2 ms), range from the phase between its two

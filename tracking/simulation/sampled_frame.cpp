@@ -120,7 +120,8 @@ std::vector<SampledRadar::Coarse> SampledRadar::coarse_of(const signal::FloatCub
     for (int channel = 0; channel < cube.shape.channels; ++channel)
       snapshot.emplace_back(cube.at(channel, peak.cell.row, peak.cell.column));
     const std::vector<double> directions =
-        directions_rad(snapshot, elements_m, axes_.wavelength_m, beam_sine());
+        directions_rad(snapshot, elements_m, axes_.wavelength_m, beam_sine(),
+                       peak.cell.background_W / cube.shape.channels);
     const bool lone =
         directions.size() == 1 && is_lone_wave(snapshot, elements_m, axes_.wavelength_m,
                                                directions[0], kCoarseLeft, peak.cell.background_W);

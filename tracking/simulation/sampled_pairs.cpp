@@ -91,9 +91,11 @@ std::vector<SampledRadar::Found> SampledRadar::apart(const signal::TriangleModel
     const bool fine =
         !coarse.lone_wave && coarse.directions == 1 && rising.lone_wave && falling.lone_wave &&
         std::abs(std::sin(fine_rad) - std::sin(coarse.azimuth_rad)) < kOneCell * beam_sine();
+    // Two directions of one pair of beats: its range and speed are of both.
+    const bool shared = coarse.directions > 1 && !(rising.lone_wave && falling.lone_wave);
     return Found{best.up,    best.down,
                  best.place, fine ? fine_rad : coarse.azimuth_rad,
-                 false,      !fine && !coarse.lone_wave && coarse.directions == 1};
+                 shared,     !fine && !coarse.lone_wave && coarse.directions == 1};
   };
   if (up.size() == 1 && down.size() == 1) return {as_it_is()};
   const bool by_up = up.size() > 1;

@@ -60,6 +60,7 @@ TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed
   settings.most_coasted =
       static_cast<int>(std::min(std::ceil(coast_s / radar.frame_s - 1e-9), 1e9));
   settings.longest_gap_s = (settings.most_coasted + 1.5) * radar.frame_s;
+  settings.believed_s = std::max(coast_s, radar.frame_s);
   if (radar.array_elements < 2) {
     MotionModel along;
     along.axes = 1;

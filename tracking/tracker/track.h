@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "tracking/filters/imm.h"
+#include "tracking/tracker/existence.h"
 
 namespace fanbeam::tracking {
 
@@ -19,7 +20,7 @@ struct Track {
   std::optional<int> unresolved_with;  // id of the other one
   double unresolved_s = 0.0;           // so far
   std::optional<int> given_up_with;    // unresolved for too long, and not seen apart since
-  double existence = 0.5;              // since it was confirmed, with Association::joint
+  Existence existence;                 // since it was confirmed
   // That the target is still the one the track started with.
   double identity_probability = 1.0;
 };

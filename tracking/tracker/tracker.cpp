@@ -10,6 +10,8 @@
 namespace fanbeam::tracking {
 namespace {
 
+constexpr int kCoastedPerHit = 2;
+
 RadarMeasurement with_floors(RadarMeasurement one, const TrackerSettings& settings) {
   one.range_sigma_m = std::hypot(one.range_sigma_m, one.range_systematic_m, settings.range_floor_m);
   one.range_rate_sigma_mps = std::hypot(one.range_rate_sigma_mps, one.range_rate_systematic_mps,
@@ -35,6 +37,9 @@ void check(const TrackerSettings& settings) {
   if (!(seen > 0.0 && seen < 1.0) || !(settings.detection.clutter_density > 0.0))
     core::throw_input_error(core::ErrorClass::range, "tracker.detection_probability", seen,
                             "above 0 and below 1, with a clutter density above 0");
+  if (!(settings.believed_s > 0.0))
+    core::throw_input_error(core::ErrorClass::range, "tracker.believed_s", settings.believed_s,
+                            "above 0");
 }
 
 }  // namespace
@@ -67,6 +72,8 @@ void Tracker::update(double time_s, const std::vector<RadarMeasurement>& measure
     ++track.frames;
     ++track.coasted;
     track.unseen_s += step_s;
+    if (track.confirmed && !track.unresolved_with)
+      track.existence.pass(step_s, settings_.believed_s);
   }
   std::erase_if(tracks_, [&](const Track& track) {
     return track.unseen_s > settings_.longest_gap_s && !track.unresolved_with;
@@ -86,8 +93,10 @@ void Tracker::hit(Track& track, const RadarMeasurement& measurement) {
     return;
   }
   const JointSettings& model = settings_.detection;
-  track.log_ratio +=
+  const double log_ratio =
       told.log_likelihood + std::log(model.detection_probability / model.clutter_density);
+  track.log_ratio += log_ratio;
+  if (track.confirmed) track.existence.measured(log_ratio);
   ++track.hits;
   track.coasted = 0;
   track.unseen_s = 0.0;
@@ -101,12 +110,12 @@ void Tracker::end_and_confirm() {
       track.log_ratio += std::log1p(-settings_.detection.detection_probability);
     if (track.log_ratio < enough) continue;
     track.confirmed = true;
-    track.existence = 1.0 / (1.0 + std::exp(-track.log_ratio));
+    track.existence = {1.0 / (1.0 + std::exp(-track.log_ratio)), 0.0};
   }
   const auto ended = [&](const Track& track) {
     if (!track.confirmed) return track.frames >= settings_.confirm_window;
     const PolarPlace place = polar(track.state);
-    return (track.coasted > std::min(settings_.most_coasted, track.hits) &&
+    return (track.coasted > std::min(settings_.most_coasted, kCoastedPerHit * track.hits) &&
             !track.unresolved_with) ||
            place.range_m > settings_.most_range_m ||
            std::abs(place.azimuth_rad) > settings_.most_azimuth_rad;
@@ -114,9 +123,15 @@ void Tracker::end_and_confirm() {
   tracks_.erase(std::remove_if(tracks_.begin(), tracks_.end(), ended), tracks_.end());
 }
 
-bool Tracker::near_confirmed(const PolarPlace& place, const std::vector<PolarPlace>& tracks) const {
-  for (std::size_t i = 0; i < tracks.size(); ++i)
-    if (tracks_[i].confirmed && unresolved(tracks[i], place, settings_.resolution)) return true;
+bool Tracker::second_of_confirmed(const RadarMeasurement& one,
+                                  const std::vector<PolarPlace>& places) const {
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    const Track& track = tracks_[i];
+    if (!track.confirmed || !unresolved(places[i], polar(one), settings_.resolution)) continue;
+    if (!has_azimuth() || track.coasted > 0) return true;
+    const Update told = innovation(track.state, measured_, one);
+    if (!told.applied || told.normalised_innovation_squared <= gate_) return true;
+  }
   return false;
 }
 
@@ -125,7 +140,7 @@ void Tracker::start(const Frame& frame) {
   for (const Track& track : tracks_) places.push_back(polar(track.state));
   std::vector<RadarMeasurement> fresh;
   for (std::size_t j = 0; j < frame.measurements.size(); ++j)
-    if (!frame.used[j] && !near_confirmed(polar(frame.measurements[j]), places))
+    if (!frame.used[j] && !second_of_confirmed(frame.measurements[j], places))
       fresh.push_back(frame.measurements[j]);
   // In the order of range, so that numbers do not depend on the order of measurements.
   std::stable_sort(fresh.begin(), fresh.end(),

@@ -16,7 +16,7 @@
 //                 gets there (J. Ville, 1939; A. Wald, "Sequential Analysis", 1947), as long as
 //                 they are independent and as dense as lambda. Two measurements usually do, three
 //                 near by, where the angle tells little in so short a time
-//   coasting      up to `most_coasted` frames without a measurement, and no more than it had with one,
+//   coasting      up to `most_coasted` frames without a measurement, and no more than twice those with one,
 //                 then a track ends: ghosts live by chance, and rarely for long; so does one predicted
 //                 outside the field of view. Where frames themselves are missing it ends after
 //                 `longest_gap_s`, before the next frame is looked at
@@ -31,8 +31,10 @@
 //                 with each other before they have been apart, and the one without measurements
 //                 ends
 //   start         position and closing speed as measured, nothing known of the tangential speed;
-//                 not closer than the resolution to a confirmed track, where biased pairs of merged
-//                 beats lie
+//                 closer than the resolution to a confirmed track, where biased pairs of merged
+//                 beats lie, only with an azimuth, outside of that track's gate, and if it has a
+//                 measurement of its own in the same frame: then there are two
+//   existence     of a confirmed track, by what is measured of it and what is not (existence.h)
 // The measurement noise is that stated, plus what the source states to be wrong besides
 // (observation.h), plus floors, 0 by default, for what a point target leaves out: the echo of a car
 // wanders over metres of it. What the linearised model leaves out is in observation.h.
@@ -64,6 +66,7 @@ struct TrackerSettings {
   int confirm_window = 4;
   int most_coasted = 10;
   double longest_gap_s = 1e300;
+  double believed_s = 1.0;  // existence.h
   double start_tangential_sigma_mps = 20.0;
   Resolution resolution;
   double most_unresolved_s = 6.0;
@@ -98,7 +101,8 @@ class Tracker {
                     const Found& found) const;
   void end_and_confirm();
   void start(const Frame& frame);
-  bool near_confirmed(const PolarPlace& place, const std::vector<PolarPlace>& tracks) const;
+  bool second_of_confirmed(const RadarMeasurement& one,
+                           const std::vector<PolarPlace>& places) const;
   void hit(Track& track, const RadarMeasurement& measurement);
 
   TrackerSettings settings_;

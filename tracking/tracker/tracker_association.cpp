@@ -56,10 +56,14 @@ void Tracker::update_nearest(const std::vector<std::size_t>& which, Frame& frame
   });
   const Assignment best = assign(costs, std::vector<double>(which.size(), miss));
   for (std::size_t row = 0; row < which.size(); ++row) {
-    if (best.column_of[row] < 0) continue;
+    Track& track = tracks_[which[row]];
+    if (best.column_of[row] < 0) {
+      track.existence.missed(model.detection_probability * model.gate_probability);
+      continue;
+    }
     const auto column = static_cast<std::size_t>(best.column_of[row]);
     frame.used[column] = true;
-    hit(tracks_[which[row]], frame.measurements[column]);
+    hit(track, frame.measurements[column]);
   }
 }
 
@@ -69,12 +73,14 @@ void Tracker::update_joint(const std::vector<std::size_t>& which, Frame& frame) 
   inside_gates(which, frame, [&](int row, int column, double log_likelihood) {
     likelihood.at(row, column) = std::exp(log_likelihood);
   });
-  std::vector<double> existence;
-  for (const std::size_t i : which) existence.push_back(tracks_[i].existence);
-  const JointProbabilities joint = joint_probabilities(likelihood, existence, settings_.detection);
+  std::vector<double> seen;
+  for (const std::size_t i : which) seen.push_back(tracks_[i].existence.seen);
+  const JointSettings& model = settings_.detection;
+  const JointProbabilities joint = joint_probabilities(likelihood, seen, model);
   for (std::size_t row = 0; row < which.size(); ++row) {
     Track& track = tracks_[which[row]];
-    track.existence = joint.existence[row];
+    track.existence.associated(joint.existence[row], joint.missed[row],
+                               model.detection_probability * model.gate_probability);
     std::vector<WeightedImm> parts = {{joint.missed[row], track.state}};
     for (std::size_t j = 0; j < frame.measurements.size(); ++j) {
       const double weight = joint.belongs.at(static_cast<int>(row), static_cast<int>(j));
