@@ -27,12 +27,19 @@ std::vector<RainCell> those(const std::vector<RainCell>& cells, const May& may) 
   return result;
 }
 
-// Whether direct rays, and with `mirrored` mirrored ones as well, may pass the cell.
+// Whether anything is seen past the fan: by mirrored rays, or a target in the antenna's side lobes.
+bool sees_beside(const renderer::SceneFacts& facts) {
+  const sensors::BeamCut& azimuth = facts.sensor.antenna.azimuth;
+  return renderer::has_mirrored_echo(facts) ||
+         (facts.has_point_targets && sensors::reach_rad(azimuth) > azimuth.cut_rad);
+}
+
+// Whether rays of the fan, and with `beside` others as well, may pass the cell.
 bool may_pass(const RainCell& cell, const SightMap& map, const sensors::Sensor& sensor,
-              const sensors::AntennaFrame& antenna, bool mirrored) {
+              const sensors::AntennaFrame& antenna, bool beside) {
   const double away_m = glm::distance(cell.centre_m, glm::dvec2(antenna.position_m));
   if (away_m > sensor.range.maximum_m() + reach_m(cell)) return false;
-  return mirrored || map.fan_may_meet(antenna, sensor, cell.centre_m, reach_m(cell));
+  return beside || map.fan_may_meet(antenna, sensor, cell.centre_m, reach_m(cell));
 }
 
 // Between the lowest and the highest place that the beam reaches. Level at the aircraft is not level
@@ -73,7 +80,6 @@ void narrow_weather(const SightMap& map, const std::vector<renderer::FramePose>&
                     renderer::SceneFacts& facts) {
   const std::vector<RainCell> cells = facts.weather.rain_cells;
   const sensors::Sensor& sensor = facts.sensor;
-  const bool mirrored = renderer::has_mirrored_echo(facts);
   const auto seen_with = [&](bool beside) {
     return those(cells, [&](const RainCell& cell) {
       return std::any_of(poses.begin(), poses.end(), [&](const auto& pose) {
@@ -87,7 +93,7 @@ void narrow_weather(const SightMap& map, const std::vector<renderer::FramePose>&
         std::min(facts.largest_eta_m2_per_m3,
                  atmosphere::VolumeEcho(facts.weather, sensor.waveform.frequency_Hz)
                      .largest_eta_m2_per_m3());
-  if (mirrored) facts.weather.rain_cells = seen_with(true);
+  if (sees_beside(facts)) facts.weather.rain_cells = seen_with(true);
 }
 
 }  // namespace
@@ -108,17 +114,15 @@ renderer::FrameSight frame_sight(const renderer::SceneFacts& scene, const SightM
   sight.leaves_ground = map.ends_within_range(antenna, sensor);
   const std::vector<RainCell>& cells = scene.weather.rain_cells;
   atmosphere::Weather weather = scene.weather;
-  const auto passed = [&](bool mirrored) {
-    return those(cells, [&](const RainCell& cell) {
-      return may_pass(cell, map, sensor, antenna, mirrored);
-    });
+  const auto passed = [&](bool beside) {
+    return those(
+        cells, [&](const RainCell& cell) { return may_pass(cell, map, sensor, antenna, beside); });
   };
   weather.rain_cells = passed(false);
   sight.rain_cells = weather.rain_cells;
   if (scene.largest_eta_m2_per_m3 > 0.0)
     sight.largest_eta_m2_per_m3 = largest_eta_m2_per_m3(weather, sensor, antenna);
-  if (renderer::has_mirrored_echo(renderer::seen_facts(scene, sight)))
-    sight.rain_cells = passed(true);
+  if (sees_beside(renderer::seen_facts(scene, sight))) sight.rain_cells = passed(true);
   return sight;
 }
 

@@ -142,7 +142,7 @@ std::unique_ptr<Scene> settled(SceneSetting setting, std::vector<renderer::Point
   const bool wet = planned.plan.runs(core::EffectId::surface_state);
   std::vector<SurfaceRecord> surfaces =
       records_of(setting, wet ? setting.description.surface_state : materials::SurfaceState::dry);
-  if (planned.facts.has_walls || planned.facts.has_point_targets)
+  if (planned.facts.mirrored_rays_end || planned.facts.has_point_targets)
     report_mirrors(setting.description, setting.site->parts().library, surfaces, problems);
   record_model_materials(setting, surfaces);
   renderer::World world = make_world(setting, planned.plan, std::move(targets));

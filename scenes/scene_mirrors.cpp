@@ -106,7 +106,7 @@ void add_mirror_facts(const SiteFacts& site, const std::vector<bool>& mirroring,
     return std::any_of(materials.begin(), materials.end(),
                        [&](terrain::MaterialId id) { return mirroring[id]; });
   };
-  facts.has_walls = site.has_walls;
+  facts.mirrored_rays_end = site.anything_rises;
   facts.ground_reflects = any(site.of_ground);
   facts.reflects = facts.ground_reflects || any(site.of_bodies);
 }

@@ -1,24 +1,8 @@
 #include "scenes/site.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 
 namespace fanbeam::scenes {
-namespace {
-
-// A facet within 30 deg of the vertical: its normal is within 30 deg of the horizontal.
-bool has_wall(const terrain::TriangleMesh& mesh) {
-  return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const glm::uvec3& corner) {
-    const glm::dvec3& a = mesh.vertices_m[corner.x];
-    const glm::dvec3 normal =
-        glm::cross(mesh.vertices_m[corner.y] - a, mesh.vertices_m[corner.z] - a);
-    return 2.0 * std::abs(normal.z) < glm::length(normal);
-  });
-}
-
-}  // namespace
-
 SiteFacts::SiteFacts(const terrain::HeightField& ground,
                      const std::vector<terrain::SurfacePatch>& patches,
                      const std::vector<terrain::PlacedMesh>& meshes) {
@@ -26,6 +10,7 @@ SiteFacts::SiteFacts(const terrain::HeightField& ground,
       std::minmax_element(ground.height_m.begin(), ground.height_m.end());
   lowest_m = lowest_ground_m = *lowest;
   highest_m = highest_ground_m = *highest;
+  anything_rises = !meshes.empty() || *highest > *lowest;
   std::vector<bool> met(std::size_t{1} << 16, false);
   for (const terrain::MaterialId material : ground.cell_material) met[material] = true;
   for (std::size_t id = 0; id < met.size(); ++id)
@@ -33,7 +18,6 @@ SiteFacts::SiteFacts(const terrain::HeightField& ground,
   for (const terrain::SurfacePatch& patch : patches) of_ground.insert(patch.material);
   for (const terrain::PlacedMesh& placed : meshes) {
     of_bodies.insert(placed.material_of_name.begin(), placed.material_of_name.end());
-    has_walls = has_walls || has_wall(placed.mesh);
     for (const glm::dvec3& vertex_m : placed.mesh.vertices_m) {
       lowest_m = std::min(lowest_m, vertex_m.z);
       highest_m = std::max(highest_m, vertex_m.z);

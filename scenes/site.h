@@ -27,7 +27,7 @@ struct SiteFacts {
 
   double lowest_m = 0.0, highest_m = 0.0;
   double lowest_ground_m = 0.0, highest_ground_m = 0.0;
-  bool has_walls = false;  // facets within 30 deg of the vertical
+  bool anything_rises = false;  // bodies, or ground that is not level
   std::set<terrain::MaterialId> of_ground, of_bodies;
 };
 

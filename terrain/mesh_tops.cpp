@@ -15,6 +15,9 @@ MeshTops::MeshTops(const std::vector<const TriangleMesh*>& meshes) {
     }
   }
   if (low.x > high.x) return;
+  constexpr double kBeside_m = kSpacing_m / 2;
+  low -= kBeside_m;
+  high += kBeside_m;
   west_m_ = low.x;
   south_m_ = low.y;
   columns_ = static_cast<int>((high.x - low.x) / kSpacing_m) + 1;
@@ -26,15 +29,16 @@ MeshTops::MeshTops(const std::vector<const TriangleMesh*>& meshes) {
       const glm::dvec3& a = mesh->vertices_m[triangle.x];
       const glm::dvec3& b = mesh->vertices_m[triangle.y];
       const glm::dvec3& c = mesh->vertices_m[triangle.z];
-      const glm::dvec3 from = glm::min(a, glm::min(b, c));
-      const glm::dvec3 to = glm::max(a, glm::max(b, c));
+      const double top_m = std::max({a.z, b.z, c.z});
+      const glm::dvec3 from = glm::min(a, glm::min(b, c)) - kBeside_m;
+      const glm::dvec3 to = glm::max(a, glm::max(b, c)) + kBeside_m;
       for (int j = static_cast<int>((from.y - low.y) / kSpacing_m);
            j <= static_cast<int>((to.y - low.y) / kSpacing_m); ++j)
         for (int i = static_cast<int>((from.x - low.x) / kSpacing_m);
              i <= static_cast<int>((to.x - low.x) / kSpacing_m); ++i) {
           float& top = top_m_[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
                               static_cast<std::size_t>(i)];
-          top = std::max(top, static_cast<float>(to.z));
+          top = std::max(top, static_cast<float>(top_m));
         }
     }
   }

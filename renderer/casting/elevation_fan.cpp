@@ -14,6 +14,8 @@ namespace {
 // Ranges before the first and behind the last cell that still get rays, so that border cells are
 // full.
 constexpr int kMarginCells = 2;
+constexpr int kMostGaps =
+    64;  // between headings that are searched for what stands above the ground
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
 
 glm::dvec2 heading_at(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
@@ -64,9 +66,14 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
         add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, object_step_rad_, edges);
   }
   if (!world_.surfaces().has_meshes()) return;
-  double top_rad = highest_object_rad(frame, heading(middle_rad));
-  top_rad = std::max(top_rad, highest_object_rad(frame, heading(left_rad)));
-  top_rad = std::max(top_rad, highest_object_rad(frame, heading(right_rad)));
+  // Headings a square apart at the farthest range, so that nothing stands between two of them.
+  const double width_m = (right_rad - left_rad) * world_.sensor.range.maximum_m();
+  const int gaps = std::clamp(
+      static_cast<int>(std::ceil(width_m / world_.surfaces().tops_spacing_m())), 2, kMostGaps);
+  double top_rad = -core::kPi / 2;
+  for (int i = 0; i <= gaps; ++i)
+    top_rad = std::max(
+        top_rad, highest_object_rad(frame, heading(left_rad + (right_rad - left_rad) * i / gaps)));
   if (edges.empty()) {
     if (top_rad <= lowest_rad_) return;
     edges.push_back(lowest_rad_);

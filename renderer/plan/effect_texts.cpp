@@ -101,7 +101,8 @@ std::string rain_echo_cause(const SceneFacts& facts, double bound_dB) {
 }
 
 std::string double_bounce_cause(const SceneFacts& facts, double) {
-  return "a wall beside something that mirrors can be as bright as a corner reflector, up to " +
+  return "what mirrored rays meet, a wall or rising ground, can be as bright as a corner "
+         "reflector, up to " +
          window_text(facts);
 }
 

@@ -11,7 +11,7 @@ SceneFacts seen_facts(const SceneFacts& scene, const FrameSight& sight) {
   facts.lowest_m = sight.lowest_m;
   facts.highest_m = sight.highest_m;
   facts.reflects = scene.reflects && sight.mirrors;
-  facts.has_walls = scene.has_walls && sight.mirrored_rays_end;
+  facts.mirrored_rays_end = scene.mirrored_rays_end && sight.mirrored_rays_end;
   facts.ground_reflects = scene.ground_reflects && sight.ground_mirrors;
   facts.has_point_targets = scene.has_point_targets && sight.point_targets;
   if (!facts.has_point_targets) facts.rcs_sum_m2 = 0.0;

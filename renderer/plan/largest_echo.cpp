@@ -38,7 +38,7 @@ double mirrored_per_m(const sensors::RangeGate& gate) {
 
 }  // namespace
 
-bool corners_possible(const SceneFacts& facts) { return facts.has_walls && facts.reflects; }
+bool corners_possible(const SceneFacts& facts) { return facts.mirrored_rays_end && facts.reflects; }
 
 bool mirrored_targets_possible(const SceneFacts& facts) {
   return facts.has_point_targets && facts.ground_reflects;

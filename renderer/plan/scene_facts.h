@@ -15,7 +15,8 @@ struct SceneFacts {
   sensors::Sensor sensor;
   double lowest_m = 0.0;  // of ground and sensor
   double highest_m = 0.0;
-  bool has_walls = false;  // facets that stand within 30 deg of the vertical
+  // Mirrored rays may meet something: a body, or ground that is not level.
+  bool mirrored_rays_end = false;
   bool has_point_targets = false;
   bool reflects = false;         // a material in the scene reflects like a mirror
   bool ground_reflects = false;  // one of the ground does

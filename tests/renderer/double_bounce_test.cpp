@@ -329,7 +329,7 @@ TEST_CASE("A mirror too faint for any cut-off by its strength still shows an ech
   CHECK(added[kCornerCell] > 10.0 * sensors::GreyScale(world.sensor).bscope_floor_W(kCornerCell));
 }
 
-TEST_CASE("Double bounce runs where walls stand beside something that reflects", "[bounce][plan]") {
+TEST_CASE("Double bounce runs where mirrored rays may meet something", "[bounce][plan]") {
   renderer::SceneFacts facts;
   facts.sensor = tests::hivision();
   const auto runs = [&](const char* wishes) {
@@ -339,12 +339,12 @@ TEST_CASE("Double bounce runs where walls stand beside something that reflects",
         .runs(core::EffectId::double_bounce);
   };
   CHECK_FALSE(runs(nullptr));
-  facts.has_walls = true;
+  facts.mirrored_rays_end = true;
   CHECK_FALSE(runs(nullptr));
   CHECK_FALSE(runs("+double-bounce"));
   facts.reflects = true;
   CHECK(runs(nullptr));
   CHECK_FALSE(runs("-double-bounce"));
-  facts.has_walls = false;
+  facts.mirrored_rays_end = false;
   CHECK_FALSE(runs(nullptr));
 }
