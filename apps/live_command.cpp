@@ -41,8 +41,12 @@ std::unique_ptr<session::Session> opened(const LiveOptions& options, const Poses
   scenes::BuildOptions build;
   if (!options.effects.empty())
     build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::pictures);
+  // Without lockstep the rate decides, and a recording knows its samplings.
+  const bool measured =
+      options.lockstep && options.replay.empty() && !(options.rays_per_cell > 0.0);
   auto session = std::make_unique<session::Session>(
-      scene_of(options, from, problems), session::Setup{.build = build, .threads = options.threads},
+      scene_of(options, from, problems),
+      session::Setup{.build = build, .keeps_time_budget = measured, .threads = options.threads},
       problems);
   if (!quiet) print_problems(problems.all());
   return session;
@@ -107,7 +111,10 @@ class LiveRun {
     if (!options_.lockstep && recording_ == nullptr) quality.emplace(*session_, hub_);
     const auto each_frame = [&](live::Status& now) {
       if (quality) quality->tell(now);
-      if (weather) weather->follow();
+      if (weather) {
+        weather->follow();
+        now.weather_refusal = weather->refusal();
+      }
       if (listens) listener_.tell(now);
       if (listens && options_.lockstep) listener_.before_frame(network_);
       sinks.write(hub_.newest());
@@ -118,8 +125,7 @@ class LiveRun {
           (options_.frames > 0 && now.frames >= static_cast<std::uint64_t>(options_.frames));
       if (asked.reason() != 0 || enough || sinks.any_ended() || switches()) end.request();
     };
-    live::ChannelSettings settings{rate_Hz_, options_.rays_per_cell, begin,
-                                   journal_ ? &*journal_ : nullptr};
+    live::ChannelSettings settings{rate_Hz_, samples(), begin, journal_ ? &*journal_ : nullptr};
     settings.dress = listener_.dress();
     settings.keep_received = wiring_.to.want_received();
     if (options_.threads > 0) settings.threads = static_cast<unsigned>(options_.threads);
@@ -152,6 +158,14 @@ class LiveRun {
     }
     continued_.station = ig->station();
     return true;
+  }
+
+  // As told, or as measured: a recording has to tell it.
+  double samples() const {
+    if (options_.rays_per_cell > 0.0 || !options_.lockstep || recording_ != nullptr ||
+        !(scene_->description.time_budget_ms > 0.0))
+      return options_.rays_per_cell;
+    return session_->samples();
   }
 
   double rate_of() const {

@@ -84,14 +84,17 @@ CLI::App& add_live_command(CLI::App& program, LiveOptions& options, CommonOption
   add_scene_choice(command, options);
   add_poses(command, options);
   add_sinks(command, options);
+  CLI::Option* const replay = command.get_option("--replay");
   command.add_option("--rate", options.rate_Hz, "Frames a second (default: the sensor's)")
-      ->check(number_from(0.1, 1000.0));
+      ->check(number_from(0.1, 1000.0))
+      ->excludes(replay);
   command
       .add_option("--rays-per-cell", options.rays_per_cell,
                   "Rays per range cell and column, or azimuth slices per column (fractions: the "
                   "next whole number, with fewer rays for bounces; default: the most that keeps "
                   "the rate; in lockstep the scene's)")
-      ->check(number_from(renderer::kFewestRaysPerCell, 100000.0));
+      ->check(number_from(renderer::kFewestRaysPerCell, 100000.0))
+      ->excludes(replay);
   add_effects_option(command, options.effects, renderer::Touches::pictures);
   command.add_option("--seconds", options.seconds, "End after so long (default: when stopped)")
       ->check(number_from(0.1, 1e9));

@@ -68,6 +68,9 @@ PosesFrom poses_from(const std::string& source) {
   if (file) from.csv = text.substr(kCsv.size());
   if (from.circle || text == "ils" || file) {
     check_flight(source, from);
+    const bool datum = std::any_of(words.options.begin(), words.options.end(),
+                                   [](const auto& option) { return option.first == kDatum; });
+    if (datum && !file) refuse_source(source, "no datum= of a flight that is built in");
     return from;
   }
   const std::size_t colon = text.find(':');

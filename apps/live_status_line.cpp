@@ -20,13 +20,34 @@ std::string error_text(const live::Status& status) {
 
 }  // namespace
 
-StatusLine::StatusLine(bool quiet) : shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
+StatusLine::StatusLine(bool quiet) : quiet_(quiet), shown_(!quiet && isatty(STDERR_FILENO) == 1) {}
 
 StatusLine::~StatusLine() {
   if (shown_) std::fputs("\n", stderr);
 }
 
+void StatusLine::complain(const live::Status& status) {
+  std::uint64_t faults = status.refused;
+  for (const auto& [reason, count] : status.bad_packets) faults += count;
+  if (quiet_ || (faults == told_ && status.weather_refusal == told_weather_)) return;
+  const auto now = live::Clock::now();
+  if (now - complained_ < std::chrono::seconds(1)) return;
+  complained_ = now;
+  std::string text;
+  for (const auto& [reason, count] : status.bad_packets)
+    text += fmt::format("{}{} ({})", text.empty() ? "packets of no use: " : ", ", count, reason);
+  if (status.refused > 0)
+    text += fmt::format("{}{} poses refused ({})", text.empty() ? "" : "; ", status.refused,
+                        status.refusal);
+  if (!status.weather_refusal.empty())
+    text += (text.empty() ? "" : "; ") + ("weather refused: " + status.weather_refusal);
+  if (!text.empty()) fmt::print(stderr, "{}{}\n", shown_ ? "\r\033[K" : "", text);
+  told_ = faults;
+  told_weather_ = status.weather_refusal;
+}
+
 void StatusLine::show(const live::Status& status, int viewers) {
+  complain(status);
   const auto now = live::Clock::now();
   if (!shown_ || now - last_ < std::chrono::milliseconds(500)) return;
   last_ = now;

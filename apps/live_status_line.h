@@ -10,7 +10,8 @@
 
 namespace fanbeam::apps {
 
-// One line of a terminal on the standard error, made anew twice a second.
+// One line of a terminal on the standard error, made anew twice a second; beside it, terminal or not, a
+// line a second at most about packets of no use, poses and weather that are refused.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet);
@@ -21,8 +22,12 @@ class StatusLine {
   void show(const live::Status& status, int viewers);
 
  private:
-  bool shown_;
-  live::Clock::time_point last_{};
+  void complain(const live::Status& status);
+
+  bool quiet_, shown_;
+  live::Clock::time_point last_{}, complained_{};
+  std::uint64_t told_ = 0;    // what of it was told so far
+  std::string told_weather_;  // and of the weather
 };
 
 // Where the page is.

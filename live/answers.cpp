@@ -24,6 +24,7 @@ Json status_json(const Status& status) {
       {"late_by_processor", status.late_by_processor},
       {"refused", status.refused},
       {"refusal", status.refusal},
+      {"weather_refusal", status.weather_refusal},
       {"wanted_Hz", status.wanted_Hz},
       {"rate_Hz", status.rate_Hz},
       {"frame_ms", status.frame_ms},
@@ -59,10 +60,23 @@ std::string metrics_text(const Status& status) {
       static_cast<double>(status.refused));
   add("packets_total", "counter", "Datagrams of the source.", static_cast<double>(status.packets));
   add("bad_packets_total", "counter", "Datagrams of no use.", static_cast<double>(bad));
+  if (!status.bad_packets.empty())
+    text +=
+        "# HELP fanbeam_bad_packets_by_reason_total Datagrams of no use, by reason.\n"
+        "# TYPE fanbeam_bad_packets_by_reason_total counter\n";
+  for (const auto& [reason, count] : status.bad_packets)
+    text += "fanbeam_bad_packets_by_reason_total{reason=\"" + reason + "\"} " +
+            core::number_text(static_cast<double>(count)) + "\n";
   add("rate_hertz", "gauge", "Frames a second, over two seconds.", status.rate_Hz);
   add("frame_seconds", "gauge", "Time that the last frame took.", 1e-3 * status.frame_ms);
   add("slowest_frame_seconds", "gauge", "Slowest frame of two seconds.", 1e-3 * status.slowest_ms);
   add("pose_age_seconds", "gauge", "Age of the newest pose.", 1e-3 * status.pose_age_ms);
+  add("waiting", "gauge", "1 before the first pose.", status.waiting ? 1.0 : 0.0);
+  add("stale", "gauge", "1 where the newest pose is older than a second: the picture stands.",
+      status.stale ? 1.0 : 0.0);
+  if (status.height_offset_m)
+    add("height_offset_metres", "gauge", "The source's height above ground less the scene's.",
+        *status.height_offset_m);
   add("samples", "gauge", "Rays per range cell and column, or slices per column.", status.samples);
   if (status.errors) {
     add("bscope_error_grey_levels", "gauge", "RMS error of the B-scope with this sampling.",
@@ -104,7 +118,12 @@ Json weather_json(const atmosphere::Weather& weather) {
   Json result{{"rain_rate_mm_per_h", weather.rain_rate_mm_per_h},
               {"snow_rate_mm_per_h", weather.snow_rate_mm_per_h},
               {"visibility_m", nullptr}};
-  if (weather.visibility_m) result["visibility_m"] = *weather.visibility_m;
+  // Of fog that is told by its water, what has that water: a POST of this changes nothing.
+  if (weather.visibility_m)
+    result["visibility_m"] = *weather.visibility_m;
+  else if (weather.liquid_water_g_per_m3.value_or(0.0) > 0.0)
+    result["visibility_m"] =
+        atmosphere::visibility_m(weather.fog_water_model, *weather.liquid_water_g_per_m3);
   return result;
 }
 

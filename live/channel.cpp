@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "live/pace.h"
+#include "live/source_clock.h"
 
 namespace fanbeam::live {
 namespace {
@@ -63,7 +64,7 @@ class Channel {
     status.stale = seen->age_s > kStale_s;
     if (status.stale) {
       status.pose_age_ms = 1e3 * seen->age_s;
-      return;
+      return maker_.look_back();
     }
     const auto made = maker_.make(tick, *seen, stop);
     // What a plan of its own costs says nothing of the sampling.
@@ -97,6 +98,7 @@ void run_lockstep(session::Session& session, const Mailbox& mailbox,
     told(maker.status());
     hub.tell(maker.status());
   };
+  LockstepTime time(1.0 / settings.rate_Hz);
   for (std::uint64_t taken = 0; stop.reason() == 0;) {
     const std::vector<Mailbox::Letter> letters = mailbox.wait_after(taken, kNap);
     if (letters.empty()) tell();
@@ -107,7 +109,9 @@ void run_lockstep(session::Session& session, const Mailbox& mailbox,
       const double arrived_s = seconds_between(settings.begin, letter.arrived);
       if (settings.journal != nullptr) settings.journal->packet(arrived_s, letter.packet);
       const double now_s = maker.now_s();
-      maker.make({maker.next_number(), now_s, now_s}, {letter.pose, now_s - arrived_s}, stop);
+      core::Pose pose = letter.pose;
+      pose.time_s = time.next(letter.clock_s);
+      maker.make({maker.next_number(), now_s, now_s}, {pose, now_s - arrived_s}, stop);
       tell();
     }
   }

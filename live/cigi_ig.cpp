@@ -81,6 +81,7 @@ void CigiIg::take(std::span<const std::uint8_t> datagram, const std::string& hos
   cigi::MessageFault fault{};
   const auto message = cigi::decode_host_message(datagram, fault);
   std::optional<core::Pose> pose;
+  std::optional<double> clock_s;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++messages_;
@@ -94,15 +95,14 @@ void CigiIg::take(std::span<const std::uint8_t> datagram, const std::string& hos
     if (station_.control.database != refused_) refused_ = 0;
     nonfinite_ += message->nonfinite;
     for (const std::uint8_t id : message->passed_over) ++passed_over_[id];
-    const double time_s = station_.control.timestamp_valid
-                              ? 1e-5 * station_.control.timestamp_10us
-                              : seconds_between(station_.begin, arrived);
+    if (station_.control.timestamp_valid) clock_s = 1e-5 * station_.control.timestamp_10us;
+    const double time_s = clock_s.value_or(seconds_between(station_.begin, arrived));
     const auto scene = session_.scene();
     for (const cigi::HostPacket& packet : message->packets) take(packet, time_s, scene->frame);
     for (const std::string& why : conditions_.settle(*scene)) refuse(why);
     if (station_.control.mode == cigi::Mode::operate) pose = entities_.pose(view_, scene->frame);
   }
-  if (pose) mailbox_.put(*pose, {datagram.begin(), datagram.end()}, arrived);
+  if (pose) mailbox_.put(*pose, {datagram.begin(), datagram.end()}, arrived, clock_s);
 }
 
 // Reset: what the host says from then on counts, in standby too.

@@ -21,16 +21,16 @@ Feed::Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum
       protocol_(protocol),
       mailbox_(kept) {}
 
-core::Pose Feed::placed(const feeds::AircraftState& state) const {
+Feed::Heard Feed::heard(const feeds::AircraftState& state) const {
   core::Pose pose = feeds::pose_of(state);
   pose.position.height_m = terrain::ellipsoidal_height_m(pose.position, datum_);
-  return pose;
+  return {pose, protocol_.fine_clock ? std::optional(state.clock_s) : std::nullopt};
 }
 
-std::optional<core::Pose> Feed::pose_in(std::span<const std::uint8_t> datagram) const {
+std::optional<Feed::Heard> Feed::heard_in(std::span<const std::uint8_t> datagram) const {
   feeds::PacketFault fault{};
   const auto state = protocol_.decode(datagram, fault);
-  return state ? std::optional(placed(*state)) : std::nullopt;
+  return state ? std::optional(heard(*state)) : std::nullopt;
 }
 
 bool Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrived) {
@@ -41,8 +41,8 @@ bool Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrive
                        std::chrono::duration<double>(arrived.time_since_epoch()).count());
   count(fault);
   if (fault != feeds::PacketFault::none) return false;
-  const core::Pose pose = placed(*state);
-  mailbox_.put(pose, {datagram.begin(), datagram.end()}, arrived);
+  const auto [pose, clock_s] = heard(*state);
+  mailbox_.put(pose, {datagram.begin(), datagram.end()}, arrived, clock_s);
   compare_heights(pose, state->height_above_ground_m);
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_ = state;

@@ -43,8 +43,12 @@ class Feed {
   // Of a simulator that tells its weather apart from its packets.
   void tell_visibility(double visibility_m);
   void tell_rain(double norm);
-  // Its pose, above the ellipsoid; nothing for bytes that are no packet. Leaves the mailbox alone.
-  std::optional<core::Pose> pose_in(std::span<const std::uint8_t> datagram) const;
+  struct Heard {
+    core::Pose pose;                // above the ellipsoid
+    std::optional<double> clock_s;  // of its source, where that is fine enough
+  };
+  // Nothing for bytes that are no packet. Leaves the mailbox alone.
+  std::optional<Heard> heard_in(std::span<const std::uint8_t> datagram) const;
   const Mailbox& mailbox() const { return mailbox_; }
   // What the newest good packet says, weather and all; nothing before the first.
   std::optional<feeds::AircraftState> newest() const;
@@ -52,7 +56,7 @@ class Feed {
   void tell(Status& status) const;
 
  private:
-  core::Pose placed(const feeds::AircraftState& state) const;
+  Heard heard(const feeds::AircraftState& state) const;
   void count(feeds::PacketFault fault);
   void compare_heights(const core::Pose& pose, double told_m);
 

@@ -15,8 +15,7 @@ FrameMaker::FrameMaker(session::Session& session, Hub& hub, const ChannelSetting
   status_.scene = scene->description.name;
   status_.caster = renderer::name_of(scene->caster.chosen);
   status_.wanted_Hz = settings.rate_Hz;
-  const double own = scene->description.rays_per_cell;
-  status_.samples = own > 0.0 ? own : renderer::default_samples(scene->caster.chosen);
+  status_.samples = session.samples();
 }
 
 void FrameMaker::sample(double samples) {
@@ -44,6 +43,7 @@ std::shared_ptr<LiveFrame> FrameMaker::rendered(const session::Session::Moment& 
   frame->cscope = sensors::cscope_picture(scene->description.sensor, made.cscope_grey);
   frame->low_dB = scene->description.sensor.display.low_dB;
   frame->high_dB = scene->description.sensor.display.high_dB;
+  frame->cscope_top_rad = scene->description.sensor.display.cscope_top_rad;
   if (settings_.keep_received) frame->received_W = made.received_W();
   frame->outside_volume =
       std::find(made.events.begin(), made.events.end(), "outside_volume") != made.events.end();
@@ -88,17 +88,22 @@ double FrameMaker::processor_s() const {
 }
 
 void FrameMaker::tell(double frame_s, double processor_s) {
-  constexpr double kLook_s = 2.0;
   status_.frame_ms = 1e3 * frame_s;
   status_.processor_ms = 1e3 * processor_s;
   if (processor_s * settings_.rate_Hz > std::max(1U, settings_.threads))
     ++status_.late_by_processor;
   recent_.emplace_back(now_s(), status_.frame_ms);
-  while (recent_.front().first < recent_.back().first - kLook_s) recent_.pop_front();
+  look_back();
+}
+
+void FrameMaker::look_back() {
+  constexpr double kLook_s = 2.0;
+  const double now_s = this->now_s();
+  while (!recent_.empty() && recent_.front().first < now_s - kLook_s) recent_.pop_front();
   status_.slowest_ms = 0.0;
   for (const auto& [end_s, frame_ms] : recent_)
     status_.slowest_ms = std::max(status_.slowest_ms, frame_ms);
-  const double span_s = recent_.back().first - recent_.front().first;
+  const double span_s = recent_.empty() ? 0.0 : now_s - recent_.front().first;
   status_.rate_Hz = span_s > 0.0 ? static_cast<double>(recent_.size() - 1) / span_s : 0.0;
 }
 

@@ -45,6 +45,8 @@ class FrameMaker {
   std::optional<Made> make(const Tick& tick, const Sighting& seen, const core::StopToken& stop);
 
   Status& status() { return status_; }
+  // Of the last two seconds up to now: for whoever makes no frame.
+  void look_back();
   double now_s() const { return seconds_between(settings_.begin, Clock::now()); }
   std::uint64_t next_number() const { return status_.frames + 1; }
 

@@ -30,6 +30,7 @@ struct LiveFrame {
   session::Session::Moment under{};  // conditions
   core::Picture8 bscope, cscope;
   double low_dB = 0.0, high_dB = 0.0;  // of grey 0 and 255
+  double cscope_top_rad = 0.0;         // upper edge
   // Of the B-scope's cells, near row first; where a sink wants it.
   std::vector<double> received_W{};
   double samples = 0.0;  // as fanbeam render --rays-per-cell takes it
@@ -47,6 +48,7 @@ struct Status {
   std::uint64_t late_by_processor = 0;
   std::uint64_t refused = 0;                // poses that nothing can be rendered at
   std::string refusal;                      // the last one's words
+  std::string weather_refusal;              // of the simulator's weather, while it is refused
   std::string host_time;                    // that a CIGI host says it is there; empty: none told
   double wanted_Hz = 0.0, rate_Hz = 0.0;    // rate: of the last two seconds
   double frame_ms = 0.0, slowest_ms = 0.0;  // the last one, the slowest of two seconds

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -29,16 +30,17 @@ class Mailbox {
     core::Pose pose;
     std::vector<std::uint8_t> packet;  // that told it
     Clock::time_point arrived;
-    std::uint64_t number = 0;  // from 1 up
+    std::optional<double> clock_s;  // of its source, where that is fine enough
+    std::uint64_t number = 0;       // from 1 up
   };
 
   explicit Mailbox(std::size_t kept = kKept) : kept_(kept) {}
 
   void put(const core::Pose& pose, std::vector<std::uint8_t> packet = {},
-           Clock::time_point arrived = Clock::now()) {
+           Clock::time_point arrived = Clock::now(), const std::optional<double>& clock_s = {}) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      letters_.push_back({pose, std::move(packet), arrived, ++count_});
+      letters_.push_back({pose, std::move(packet), arrived, clock_s, ++count_});
       if (letters_.size() > kept_) letters_.pop_front();
     }
     came_.notify_all();

@@ -61,7 +61,12 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
       if (by_socket) return watch_by_socket(stream_.release_socket(), request, room_);
       return watch_by_stream(stream_.release_socket(), path, room_);
     }
-    answer(request, room_.desk.answer(asked));
+    // In the office: some answers are rendered, and frames and other visitors do not wait for them.
+    asio::post(room_.office, [self = shared_from_this(), request, asked] {
+      const auto given = std::make_shared<const Answer>(self->room_.desk.answer(asked));
+      asio::post(self->stream_.get_executor(),
+                 [self, request, given] { self->answer(request, *given); });
+    });
   }
 
   void answer(const HttpRequest& request, const Answer& answer) {
@@ -199,19 +204,21 @@ struct Network::Inside {
 
   Hub& hub;
   Room room;
-  asio::io_context context{1};
+  asio::io_context context{1}, datagrams{1};
   std::vector<std::unique_ptr<tcp::acceptor>> acceptors;
   std::vector<std::unique_ptr<Receiver>> receivers;
-  std::thread thread;
+  std::thread thread, listener;
 };
 
 Network::Network(const Desk& desk, Hub& hub) : inside_(std::make_unique<Inside>(desk, hub)) {}
 
 Network::~Network() {
   inside_->hub.on_frame({});
-  // Behind what was sent last.
-  asio::post(inside_->context, [inside = inside_.get()] { inside->context.stop(); });
-  if (inside_->thread.joinable()) inside_->thread.join();
+  for (auto* const context : {&inside_->datagrams, &inside_->context})
+    asio::post(*context, [context] { context->stop(); });  // behind what was sent last
+  for (auto* const thread : {&inside_->listener, &inside_->thread})
+    if (thread->joinable()) thread->join();
+  inside_->room.office.join();
 }
 
 std::uint16_t Network::serve(const Endpoint& endpoint) {
@@ -230,7 +237,7 @@ std::uint16_t Network::serve(const Endpoint& endpoint) {
 
 std::uint16_t Network::receive(const Endpoint& endpoint, Datagram datagram, Peers peers) {
   const udp::endpoint at(asio::ip::make_address(endpoint.address), endpoint.port);
-  udp::socket socket(inside_->context);
+  udp::socket socket(inside_->datagrams);
   error_code error;
   socket.open(at.protocol(), error);
   // Others on this machine may listen to the group too.
@@ -253,7 +260,7 @@ void Network::send(const Endpoint& to, std::vector<std::uint8_t> datagram) {
   if (socket.local_endpoint().address().is_v6() && address.is_v4())
     address = asio::ip::make_address_v6(asio::ip::v4_mapped, address.to_v4());
   const udp::endpoint there(address, to.port);
-  asio::post(inside_->context, [&socket, there, bytes = std::move(datagram)] {
+  asio::post(inside_->datagrams, [&socket, there, bytes = std::move(datagram)] {
     error_code ignored;
     socket.send_to(asio::buffer(bytes), there, asio::socket_base::message_flags(MSG_DONTWAIT),
                    ignored);
@@ -264,6 +271,8 @@ void Network::start() {
   inside_->hub.on_frame(
       [inside = inside_.get()] { asio::post(inside->context, [inside] { inside->offer(); }); });
   inside_->thread = std::thread([inside = inside_.get()] { inside->context.run(); });
+  if (!inside_->receivers.empty())
+    inside_->listener = std::thread([inside = inside_.get()] { inside->datagrams.run(); });
 }
 
 int Network::clients() const { return inside_->room.viewers; }

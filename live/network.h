@@ -1,4 +1,5 @@
-// What listens: the page with its WebSocket, and a simulator's datagrams. One thread of its own.
+// What listens: the page with its WebSocket, and a simulator's datagrams. A thread for each, and one that
+// answers, so that no request, whatever it takes to answer, keeps a frame or a datagram waiting.
 //
 // Bounded: 32 connections, 8 KiB of header, 64 KiB of body, 30 s for a request, 64 KiB of a message
 // from a browser (all are thrown away). A client that reads slowly misses frames: one is under way
@@ -58,7 +59,7 @@ class Network {
 
   // Both before start(). Throw InputError E-IO when the port is taken. Give the port.
   std::uint16_t serve(const Endpoint& endpoint);
-  // Called on the thread. An endpoint of multicast is a group that is joined.
+  // Called on its thread. An endpoint of multicast is a group that is joined.
   using Datagram = std::function<void(std::span<const std::uint8_t>, const Sender&)>;
   std::uint16_t receive(const Endpoint& endpoint, Datagram datagram, Peers peers = {});
 

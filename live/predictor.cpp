@@ -6,27 +6,47 @@
 namespace fanbeam::live {
 namespace {
 
-// Longer ago than this, two poses tell nothing of acceleration and turn.
-constexpr double kFarApart_s = 0.5;
+// Longer ago than this, two poses tell nothing of acceleration and turn; nearer than that, what is left of jitter
+// would be most of the time between them.
+constexpr double kFarApart_s = 0.5, kNear_s = 0.03;
+constexpr std::size_t kKept = 16;
 
 }  // namespace
 
-void Predictor::take(const core::Pose& pose, double arrived_s) {
-  const std::optional<Known>& last = waiting_ ? waiting_ : newest_;
-  if (last && !(arrived_s > last->time_s)) return;
-  const Known now{arrived_s, frame_.to_local_m(pose.position),
-                  frame_.north_east_down_at(pose.position) * pose.v_N_mps, pose};
-  if (!newest_ || follows(*newest_, now)) {
-    before_ = newest_;
-    newest_ = now;
-    waiting_.reset();
-  } else if (waiting_ && follows(*waiting_, now)) {
-    before_ = waiting_;
-    newest_ = now;
-    waiting_.reset();
-  } else {
-    waiting_ = now;
+// A clock of the way flown; of what does not fly, arrival.
+double Predictor::flown_s(const Known& now) {
+  constexpr double kSlow_mps = 10.0, kLongest_s = 1.0;
+  if (heard_) {
+    const double waited_s = now.arrived_s - heard_->arrived_s;
+    const glm::dvec3 v_mps = 0.5 * (now.v_mps + heard_->v_mps);
+    const double square = glm::dot(v_mps, v_mps);
+    const double step_s =
+        square > kSlow_mps * kSlow_mps ? glm::dot(now.at_m - heard_->at_m, v_mps) / square : -1.0;
+    const bool told = step_s >= 0.0 && step_s <= kLongest_s && follows(*heard_, now);
+    flown_s_ += told ? step_s : waited_s;
   }
+  return flown_s_;
+}
+
+void Predictor::take(const core::Pose& pose, double arrived_s,
+                     const std::optional<double>& clock_s) {
+  if (heard_ && !(arrived_s > heard_->arrived_s)) return;
+  Known now{arrived_s, arrived_s, frame_.to_local_m(pose.position),
+            frame_.north_east_down_at(pose.position) * pose.v_N_mps, pose};
+  now.time_s = clock_.time_of(clock_s ? *clock_s : flown_s(now), arrived_s);
+  heard_ = now;
+  const Known* const last = waiting_ ? &*waiting_ : flight_.empty() ? nullptr : &flight_.back();
+  if (last != nullptr && !(now.time_s > last->time_s)) return;
+  if (!flight_.empty() && !follows(flight_.back(), now)) {
+    if (!waiting_ || !follows(*waiting_, now)) {
+      waiting_ = now;
+      return;
+    }
+    flight_ = {*waiting_};
+  }
+  flight_.push_back(now);
+  if (flight_.size() > kKept) flight_.pop_front();
+  waiting_.reset();
 }
 
 // Generous: sources that tell no velocity, and manoeuvres, must pass; a kilometre in a packet not.
@@ -48,9 +68,9 @@ core::Pose Predictor::placed(const glm::dvec3& at_m, const glm::dvec3& v_mps,
   return pose;
 }
 
-core::Pose Predictor::between(double share) const {
-  const Known &a = *before_, &b = *newest_;
-  const double span_s = b.time_s - a.time_s, s = share, s2 = s * s, s3 = s2 * s;
+core::Pose Predictor::between(const Known& a, const Known& b, double time_s) const {
+  const double span_s = b.time_s - a.time_s, s = (time_s - a.time_s) / span_s;
+  const double s2 = s * s, s3 = s2 * s;
   const glm::dvec3 at_m = (2.0 * s3 - 3.0 * s2 + 1.0) * a.at_m + (3.0 * s2 - 2.0 * s3) * b.at_m +
                           span_s * ((s3 - 2.0 * s2 + s) * a.v_mps + (s3 - s2) * b.v_mps);
   return placed(at_m, glm::mix(a.v_mps, b.v_mps, s),
@@ -58,12 +78,16 @@ core::Pose Predictor::between(double share) const {
 }
 
 core::Pose Predictor::after(double ahead_s) const {
-  const Known& b = *newest_;
-  const double span_s = before_ ? b.time_s - before_->time_s : 1e300;
-  if (span_s > kFarApart_s) return placed(b.at_m + ahead_s * b.v_mps, b.v_mps, b.pose.q_NB);
-  const glm::dvec3 a_mps2 = (b.v_mps - before_->v_mps) / span_s;
+  const Known& b = flight_.back();
+  const auto before = std::find_if(flight_.rbegin(), flight_.rend(), [&](const Known& one) {
+    return one.time_s <= b.time_s - kNear_s;
+  });
+  if (before == flight_.rend() || b.time_s - before->time_s > kFarApart_s)
+    return placed(b.at_m + ahead_s * b.v_mps, b.v_mps, b.pose.q_NB);
+  const double span_s = b.time_s - before->time_s;
+  const glm::dvec3 a_mps2 = (b.v_mps - before->v_mps) / span_s;
   // The short arc goes on at its rate.
-  glm::dquat step = glm::conjugate(before_->pose.q_NB) * b.pose.q_NB;
+  glm::dquat step = glm::conjugate(before->pose.q_NB) * b.pose.q_NB;
   if (step.w < 0.0) step = -step;
   const glm::dquat turn = glm::angleAxis(glm::angle(step) * ahead_s / span_s, glm::axis(step));
   return placed(b.at_m + ahead_s * (b.v_mps + 0.5 * ahead_s * a_mps2), b.v_mps + ahead_s * a_mps2,
@@ -71,20 +95,20 @@ core::Pose Predictor::after(double ahead_s) const {
 }
 
 std::optional<core::Pose> Predictor::at(double time_s) const {
-  if (!newest_) return std::nullopt;
-  core::Pose pose;
-  if (time_s >= newest_->time_s)
-    pose = after(std::min(time_s - newest_->time_s, kCarriedOn_s));
-  else if (before_)
-    pose = between(std::max(0.0, (time_s - before_->time_s) / (newest_->time_s - before_->time_s)));
-  else
-    pose = newest_->pose;
+  if (flight_.empty()) return std::nullopt;
+  const auto later = std::find_if(flight_.begin(), flight_.end(),
+                                  [&](const Known& one) { return one.time_s > time_s; });
+  core::Pose pose = flight_.front().pose;
+  if (later == flight_.end())
+    pose = after(std::min(time_s - flight_.back().time_s, kCarriedOn_s));
+  else if (later != flight_.begin())
+    pose = between(*(later - 1), *later, time_s);
   pose.time_s = time_s;
   return pose;
 }
 
 std::optional<double> Predictor::newest_s() const {
-  return newest_ ? std::optional(newest_->time_s) : std::nullopt;
+  return flight_.empty() ? std::nullopt : std::optional(flight_.back().arrived_s);
 }
 
 }  // namespace fanbeam::live

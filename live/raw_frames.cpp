@@ -2,21 +2,29 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <climits>
 #include <cstring>
+#include <thread>
 
 #include "core/errors.h"
 
 namespace fanbeam::live {
 
-RawFrames::RawFrames(Scope scope, const std::string& file, bool every_frame) : scope_(scope) {
-  file_ = file == "-" ? ::dup(STDOUT_FILENO)
-                      : ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file_ < 0)
+RawFrames::RawFrames(Scope scope, const std::string& file, bool every_frame)
+    : scope_(scope), every_frame_(every_frame) {
+  struct stat facts {};
+  if (file != "-" && ::stat(file.c_str(), &facts) == 0 && S_ISFIFO(facts.st_mode))
+    pipe_ = file;
+  else
+    file_ = file == "-" ? ::dup(STDOUT_FILENO)
+                        : ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file_ < 0 && pipe_.empty())
     core::throw_input_error(core::ErrorClass::io, core::Place{file}, "--to", std::strerror(errno),
                             "a file or pipe that can be written");
   taker_.emplace(
@@ -26,7 +34,15 @@ RawFrames::RawFrames(Scope scope, const std::string& file, bool every_frame) : s
 
 RawFrames::~RawFrames() {
   taker_.reset();
-  ::close(file_);
+  if (file_ >= 0) ::close(file_);
+}
+
+// Opening a pipe that nobody reads would wait, whoever asks to stop.
+bool RawFrames::has_reader() {
+  if (file_ >= 0) return true;
+  file_ = ::open(pipe_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC);
+  if (file_ >= 0) ::fcntl(file_, F_SETFL, 0);
+  return file_ >= 0;
 }
 
 // Whole, also at the end of the flight, or until the reader is gone; a reader that stands still holds
@@ -34,6 +50,11 @@ RawFrames::~RawFrames() {
 bool RawFrames::put(const LiveFrame& frame, const FrameTaker& taker) {
   constexpr int kNap_ms = 100;
   const core::Picture8& picture = scope_ == Scope::bscope ? frame.bscope : frame.cscope;
+  while (!has_reader()) {
+    if (errno != ENXIO) return false;
+    if (!every_frame_ || taker.leaving()) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(kNap_ms));
+  }
   std::size_t done = 0;
   while (done < picture.pixels.size()) {
     pollfd ready{file_, POLLOUT, 0};

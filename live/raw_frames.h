@@ -14,7 +14,8 @@ class RawFrames {
  public:
   enum class Scope { bscope, cscope };
 
-  // `file` is created, or a named pipe (which waits for its reader); "-" is the standard output.
+  // `file` is created, or a named pipe, which gets frames from when it has a reader; "-" is the standard
+  // output.
   // Throws InputError E-IO.
   RawFrames(Scope scope, const std::string& file, bool every_frame);
   ~RawFrames();  // writes no more
@@ -27,8 +28,11 @@ class RawFrames {
 
  private:
   bool put(const LiveFrame& frame, const FrameTaker& taker);
+  bool has_reader();
 
   Scope scope_;
+  std::string pipe_{};  // that waits for its reader
+  bool every_frame_;
   int file_ = -1;
   std::optional<FrameTaker> taker_;
 };

@@ -29,6 +29,7 @@ class Replay {
         told_(told),
         stop_(stop),
         predictor_(session.scene()->frame),
+        lockstep_time_(1.0 / recording.flown_by.rate_Hz),
         maker_(session, hub, channel_settings(recording, settings)) {}
 
   void run() {
@@ -41,10 +42,11 @@ class Replay {
  private:
   void take(const RecordedPacket& packet) {
     if (feed_ == nullptr) return;
-    const auto pose = feed_->pose_in(packet.bytes);
-    if (!pose) return;
-    predictor_.take(*pose, packet.arrived_s);
-    newest_ = {*pose, packet.arrived_s};
+    auto heard = feed_->heard_in(packet.bytes);
+    if (!heard) return;
+    predictor_.take(heard->pose, packet.arrived_s, heard->clock_s);
+    heard->pose.time_s = lockstep_time_.next(heard->clock_s);
+    newest_ = {heard->pose, packet.arrived_s};
   }
 
   void take(const RecordedControl& control) { desk_.control(control.path, control.body); }
@@ -90,6 +92,7 @@ class Replay {
   const Told& told_;
   const core::StopToken& stop_;
   Predictor predictor_;
+  LockstepTime lockstep_time_;
   FrameMaker maker_;
   std::optional<std::pair<core::Pose, double>> newest_;  // and when it arrived
   std::optional<double> first_s_;

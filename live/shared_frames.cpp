@@ -138,10 +138,13 @@ void SharedFrames::write(const LiveFrame& frame) {
        {frame.pose.time_s, frame.pose.position.latitude_rad, frame.pose.position.longitude_rad,
         frame.pose.position.height_m, attitude.roll_rad, attitude.pitch_rad, attitude.heading_rad,
         1e-3 * frame.frame_ms, 1e-3 * frame.pose_age_ms, frame.samples,
-        frame.outside_volume ? 1.0 : 0.0}) {
+        frame.outside_volume ? 1.0 : 0.0, frame.cscope_top_rad, frame.low_dB, frame.high_dB}) {
     put(slot + at, value);
     at += sizeof value;
   }
+  put(memory_ + Layout::kCScopeTopAt, frame.cscope_top_rad);
+  put(memory_ + Layout::kLevelsAt, frame.low_dB);
+  put(memory_ + Layout::kLevelsAt + sizeof(double), frame.high_dB);
   std::uint8_t* const picture = slot + Layout::kPictures;
   std::copy(frame.cscope.pixels.begin(), frame.cscope.pixels.end(),
             std::copy(frame.bscope.pixels.begin(), frame.bscope.pixels.end(), picture));

@@ -5,7 +5,8 @@
 // readers in C and Python. A slot's sequence is odd while it is written and twice the frame's number
 // when it is whole: a reader copies the slot and takes the copy when the sequence was the same even
 // number before and after. With eight slots it has half a second at 16 Hz to do so. Readers cannot
-// hold up or harm the writer's frames, whatever they do.
+// hold up or harm the writer's frames, whatever they do. Axes and levels that a control moves stand in
+// each slot as they are of its frame, and in the header as of the newest.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +27,7 @@ struct SharedLayout {
   static constexpr std::size_t kVersionAt = 8, kHeaderBytesAt = 12, kSlotsAt = 16,
                                kSlotBytesAt = 20, kBScopeAt = 24, kCScopeAt = 32;
   static constexpr std::size_t kAxesAt = 40;  // eight f64, see shared_frames.cpp
+  static constexpr std::size_t kCScopeTopAt = 64, kLevelsAt = 80;  // of those
   static constexpr std::size_t kNewestAt = 104;
 };
 

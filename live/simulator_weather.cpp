@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/errors.h"
 #include "live/answers_private.h"
 
 namespace fanbeam::live {
@@ -43,7 +44,12 @@ void SimulatorWeather::follow(Clock::time_point now) {
   std::string body = weather_body(*state);
   if (body == set_) return;
   set_ = std::move(body);
-  desk_.control("/api/weather", set_);
+  refusal_.clear();
+  try {
+    desk_.control("/api/weather", set_);
+  } catch (const core::InputError& error) {
+    refusal_ = core::to_string(error.problems().front());
+  }
 }
 
 }  // namespace fanbeam::live

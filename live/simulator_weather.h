@@ -29,11 +29,13 @@ class SimulatorWeather {
  public:
   SimulatorWeather(const Desk& desk, const Feed& feed) : desk_(desk), feed_(feed) {}
   void follow(Clock::time_point now = Clock::now());
+  // Why the scene cannot have what the simulator says now (fog in too cold an air); it keeps what it had.
+  const std::string& refusal() const { return refusal_; }
 
  private:
   const Desk& desk_;
   const Feed& feed_;
-  std::string set_;
+  std::string set_, refusal_;
   std::optional<Clock::time_point> last_;
 };
 

@@ -57,6 +57,7 @@ using Watchers = std::set<std::weak_ptr<Watcher>, std::owner_less<std::weak_ptr<
 struct Room {
   const Desk& desk;
   const Hub& hub;
+  asio::thread_pool office{1};  // where requests are answered
   std::atomic<int> connections{0}, viewers{0};
   Watchers watching{};  // of the thread alone
 };

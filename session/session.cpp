@@ -165,6 +165,14 @@ void Session::open(scenes::SceneDescription description, const Setup& setup,
   inside_->asked.sampling = wish_of(description, setup.build);
   inside_->published =
       std::make_shared<const Published>(inside_->opened, inside_->asked.sampling, setup.seed);
+  const auto* const samples = std::get_if<Samples>(&inside_->asked.sampling);
+  if (!setup.keeps_time_budget || !(description.time_budget_ms > 0.0) || samples == nullptr) return;
+  if (inside_->opened->frame_count() > 0)
+    set(TimeBudget{description.time_budget_ms});
+  else
+    problems.warning("BUDGET", {}, "accuracy.time_budget_ms",
+                     core::number_text(description.time_budget_ms),
+                     "not kept: a scene without a trajectory has no poses to measure it at");
 }
 
 Session::~Session() = default;
@@ -183,6 +191,16 @@ renderer::Sampling Session::sampling(const Moment& under) const { return under->
 std::shared_ptr<const scenes::Scene> Session::scene() const { return now()->scene; }
 
 renderer::Sampling Session::sampling() const { return now()->sampling; }
+
+double Session::samples() const {
+  const renderer::Sampling sampling = this->sampling();
+  if (sampling.target_grey > 0.0) return 0.0;
+  const double columns = sampling.sub_columns;
+  const double own = sampling.caster == renderer::CasterKind::profile
+                         ? columns * sampling.slices_per_sub_column
+                         : columns * sampling.rays_per_cell;
+  return own * sampling.bounce_share;
+}
 
 std::uint64_t Session::seed() const { return inside_->seed; }
 

@@ -36,8 +36,11 @@ struct Setup {
   std::filesystem::path sensor{};                     // instead of the scene's; empty to keep it
   scenes::BuildOptions build{};                       // wishes about effects, caster, accuracy
   std::optional<bool> sample{};  // frames show one realisation; else as the scene says
-  std::uint64_t seed = 0;        // of everything random
-  int threads = 0;  // at most so many for a frame; 0: as many as the caller's tasks have
+  // The scene's time budget is measured when it is opened, where nothing else says how to sample: for
+  // a second or some. Else it is for whoever has a clock.
+  bool keeps_time_budget = false;
+  std::uint64_t seed = 0;  // of everything random
+  int threads = 0;         // at most so many for a frame; 0: as many as the caller's tasks have
 };
 
 class Session {
@@ -90,6 +93,8 @@ class Session {
   // change.
   std::shared_ptr<const scenes::Scene> scene() const;
   renderer::Sampling sampling() const;
+  // Of that, as Samples takes them; 0 where every frame is refined to an accuracy.
+  double samples() const;
   std::uint64_t seed() const;
 
  private:

@@ -58,12 +58,16 @@ std::string unknown_words(const CLI::App& program) {
                                       : no_such_command(command, word);
 }
 
-std::string value_missing(const CLI::App& command, const CLI::ParseError& error) {
+// Fewer values than the option takes, or more: given more than once.
+std::string wrong_count(const CLI::App& command, const CLI::ParseError& error) {
   const std::string what = error.what();
   const std::string name = what.substr(0, what.find(':'));
+  const CLI::Option* const given = command.get_option_no_throw(name);
+  const bool twice = given != nullptr && given->results().size() > 1;
   for (const OptionText& option : options_of(command))
     if (std::find(option.names.begin(), option.names.end(), name) != option.names.end())
-      return name + " needs " + option.value + ": " + option.sentence;
+      return twice ? name + " is given more than once: one " + option.value
+                   : name + " needs " + option.value + ": " + option.sentence;
   return what;
 }
 
@@ -87,8 +91,8 @@ std::string usage_error_text(const CLI::App& program, const CLI::ParseError& err
                                ? "\"fanbeam help\" lists the commands\n"
                                : "\"fanbeam help " + key_of(command) + "\" lists its options\n";
   if (!unknown.empty()) return unknown + more;
-  const bool lacks_value = error.get_name() == "ArgumentMismatch";
-  return path_of(command) + ": " + (lacks_value ? value_missing(command, error) : error.what()) +
+  const bool miscounted = error.get_name() == "ArgumentMismatch";
+  return path_of(command) + ": " + (miscounted ? wrong_count(command, error) : error.what()) +
          "\n" + more;
 }
 

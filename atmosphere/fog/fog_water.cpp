@@ -1,5 +1,6 @@
 #include "atmosphere/fog/fog_water.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "atmosphere/input_check.h"
@@ -51,6 +52,12 @@ double liquid_water_g_per_m3(FogWaterModel model, double visibility_m) {
   core::require_range("visibility_m", visibility_m, {10.0, 100000.0}, "m");
   const PowerLaw law = power_law(model);
   return std::pow(law.c_km / (visibility_m * 1e-3), law.n);
+}
+
+double visibility_m(FogWaterModel model, double liquid_water_g_per_m3) {
+  core::require_range("liquid_water_g_per_m3", liquid_water_g_per_m3, {1e-300, 1e3}, "g/m3");
+  const PowerLaw law = power_law(model);
+  return std::clamp(1e3 * law.c_km / std::pow(liquid_water_g_per_m3, 1.0 / law.n), 10.0, 100000.0);
 }
 
 }  // namespace fanbeam::atmosphere

@@ -38,4 +38,7 @@ std::string_view name_of(FogWaterModel model);
 // g/m3; visibility 10 to 100000 m. Throws InputError: E-RANGE, E-NONFINITE.
 double liquid_water_g_per_m3(FogWaterModel model, double visibility_m);
 
+// The other way round, above 0 g/m3; below 10 m or beyond 100000 m the nearer of the two.
+double visibility_m(FogWaterModel model, double liquid_water_g_per_m3);
+
 }  // namespace fanbeam::atmosphere

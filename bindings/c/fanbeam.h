@@ -97,7 +97,8 @@ typedef struct fanbeam_setup {
   const char* sensor_file;         /* NULL or "": the scene's */
   const char* effects;     /* "all", "none", "+rain,-gas"; NULL or "": as the scene calls for */
   const char* caster;      /* "rays", "profile", "auto"; NULL or "": the scene's */
-  double samples_per_cell; /* as fanbeam_set_samples; 0: as the scene says */
+  double samples_per_cell; /* as fanbeam_set_samples; 0: as the scene says (a time budget is
+                              measured when it is opened) */
   int32_t realisation;     /* FANBEAM_SAMPLE: one draw of speckle and noise; FANBEAM_EXPECTED: the
                               mean of all draws; FANBEAM_AS_SCENE */
   int32_t reserved;

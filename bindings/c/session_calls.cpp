@@ -77,6 +77,7 @@ session::Setup settings_of(const fanbeam_setup& setup, Arguments& arguments) {
     arguments.refuse(core::ErrorClass::range, "setup.realisation",
                      std::to_string(setup.realisation),
                      "FANBEAM_AS_SCENE, FANBEAM_EXPECTED or FANBEAM_SAMPLE");
+  settings.keeps_time_budget = !(setup.samples_per_cell > 0.0);
   settings.seed = setup.seed;
   if (setup.threads < 0 || setup.threads > 1024)
     arguments.refuse(core::ErrorClass::range, "setup.threads", std::to_string(setup.threads),

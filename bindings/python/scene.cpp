@@ -46,6 +46,7 @@ std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
     setup.build.caster = renderer::caster_wish(caster);
   }
   setup.sample = sample;
+  setup.keeps_time_budget = true;
   setup.seed = seed;
   core::require_range("threads", threads, {0, 1024});
   setup.threads = threads;
@@ -99,7 +100,10 @@ py::list set_sensor(const Scene& scene, std::optional<double> tilt_deg,
                     std::optional<double> high_dB, const std::optional<std::string>& cscope_mode,
                     std::optional<double> noise_figure_dB) {
   session::SensorSettings settings;
-  if (tilt_deg) settings.boresight_elevation_rad = core::radians(*tilt_deg);
+  if (tilt_deg) {
+    core::require_range("tilt_deg", *tilt_deg, {-90.0, 90.0}, "deg");
+    settings.boresight_elevation_rad = core::radians(*tilt_deg);
+  }
   settings.stabilised = stabilised;
   settings.low_dB = low_dB;
   settings.high_dB = high_dB;

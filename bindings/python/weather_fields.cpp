@@ -6,6 +6,8 @@
 #include <string>
 #include <variant>
 
+#include "core/errors.h"
+
 namespace fanbeam::bindings {
 namespace {
 
@@ -50,10 +52,17 @@ Weather changed_weather(Weather weather, const py::dict& changes) {
       throw py::type_error(name + ": expected a number, not " +
                            py::repr(value).cast<std::string>());
     }
-    if (name == "visibility_m" && weather.visibility_m) weather.liquid_water_g_per_m3.reset();
-    if (name == "liquid_water_g_per_m3" && weather.liquid_water_g_per_m3)
-      weather.visibility_m.reset();
   }
+  // One of the two replaces the other; both at once contradict each other, as in a scene's file.
+  const auto given = [&](const char* name) {
+    return changes.contains(name) && !changes[name].is_none();
+  };
+  const bool seen = given("visibility_m"), weighed = given("liquid_water_g_per_m3");
+  if (seen && weighed)
+    core::throw_input_error(core::ErrorClass::ref, "liquid_water_g_per_m3", "beside visibility_m",
+                            "one of the two: each tells how thick the fog is");
+  if (seen) weather.liquid_water_g_per_m3.reset();
+  if (weighed) weather.visibility_m.reset();
   return weather;
 }
 

@@ -1,6 +1,7 @@
 // fanbeam live as a user starts and stops it.
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -55,9 +56,10 @@ TEST_CASE("All that is wrong with live's addresses is told before a scene is ope
 
 TEST_CASE("Beyond this machine the page needs a token and a source its peers", "[live]") {
   const TemporaryFolder folder;
-  for (const char* from : {"native-fdm:0.0.0.0:0", "circle,peer=127.0.0.1", "ils,datum=moon",
-                           "fg-generic:0,peer=somebody", ",datum=egm96",
-                           "csv:", "circle,weather=simulator", "fg-generic:0,weather=mine"}) {
+  for (const char* from :
+       {"native-fdm:0.0.0.0:0", "circle,peer=127.0.0.1", "ils,datum=moon",
+        "fg-generic:0,peer=somebody", ",datum=egm96", "circle,datum=egm96", "ils,datum=ellipsoid",
+        "csv:", "circle,weather=simulator", "fg-generic:0,weather=mine"}) {
     INFO(from);
     const Result refused = run_fanbeam(std::string("live no-such-scene --from ") + from);
     CHECK(refused.exit_code == 2);
@@ -81,17 +83,20 @@ TEST_CASE("Lockstep writes the same raw pictures every time, and a recording the
   const auto bytes_of = [&](const std::string& options, const char* name) {
     const auto file = folder.path() / name;
     const Result result =
-        run_fanbeam("live flat-grass --http 0 --rays-per-cell 1 --to raw-bscope:" + file.string() +
-                    " " + options);
+        run_fanbeam("live flat-grass --http 0 --to raw-bscope:" + file.string() + " " + options);
     INFO(result.output);
     CHECK(result.exit_code == 0);
     return core::read_file(file, 1 << 20);
   };
   const std::string record = (folder.path() / "flight.jsonl").string();
-  const std::string first = bytes_of("--lockstep --frames 3 --record " + record, "first");
+  const std::string first =
+      bytes_of("--rays-per-cell 1 --lockstep --frames 3 --record " + record, "first");
   CHECK(first.size() == 3U * 164U * 524U);
-  CHECK(bytes_of("--lockstep --frames 3 --threads 1", "second") == first);
+  CHECK(bytes_of("--rays-per-cell 1 --lockstep --frames 3 --threads 1", "second") == first);
   CHECK(bytes_of("--lockstep --replay " + record, "again") == first);
+  // It knows its sampling and rate.
+  for (const char* option : {" --rays-per-cell 2", " --rate 8"})
+    CHECK(run_fanbeam("live flat-grass --http 0 --replay " + record + option).exit_code == 2);
   // Watts are made again too.
   CHECK(run_fanbeam("live flat-grass --http 0 --lockstep --replay " + record +
                     " --to cat240:127.0.0.1:8600,bits=16")
@@ -169,4 +174,24 @@ TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") 
   CHECK(taken.exit_code == 4);
   CHECK(taken.output.find("a port that is free") != std::string::npos);
   CHECK(fanbeam::core::read_file(film, 100) == "kept");
+}
+
+TEST_CASE("An option given twice is told as that", "[live]") {
+  const Result twice = run_fanbeam("live flat-grass --from ils --from circle");
+  CHECK(twice.exit_code == 2);
+  CHECK(twice.output.find("--from is given more than once") != std::string::npos);
+}
+
+// Opening it waited, and swallowed the signal.
+TEST_CASE("A pipe that nobody reads holds neither frames nor the end up", "[live]") {
+  const TemporaryFolder folder;
+  const std::string pipe = (folder.path() / "pipe").string();
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  Child child({"live", "flat-grass", "--http", "0", "-q", "--to", "raw-bscope:" + pipe});
+  child.wait_until_it_handles_signals();
+  wait_ms(2000.0);
+  child.send(SIGTERM);
+  const int status = child.wait();
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 0);
 }

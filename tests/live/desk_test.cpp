@@ -179,3 +179,19 @@ TEST_CASE("A cell that is none is refused with all that is wrong", "[desk]") {
   CHECK(beyond.status == 422);
   CHECK(json::parse(beyond.body)["problems"].size() == 2);
 }
+
+// A slider of the page, which posts all it was told, took the fog away.
+TEST_CASE("What is told of the weather, posted back, changes nothing", "[desk]") {
+  const Office office;
+  atmosphere::Weather weather = office.session->scene()->weather;
+  weather.visibility_m.reset();
+  for (const double water_g_per_m3 : {0.05, 2.0}) {
+    weather.liquid_water_g_per_m3 = water_g_per_m3;
+    office.session->set(weather);
+    const std::string told = office.desk.answer(get("/api/weather")).body;
+    CHECK(office.desk.answer(post("/api/weather", told)).status == 200);
+    CHECK(atmosphere::fog_liquid_water_g_per_m3(office.session->scene()->weather) ==
+          Approx(water_g_per_m3).epsilon(1e-9));
+    CHECK(office.desk.answer(get("/api/weather")).body == told);
+  }
+}

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <glm/geometric.hpp>
 #include <map>
 #include <sstream>
@@ -223,4 +224,83 @@ TEST_CASE("F13 one stray pose moves nothing; a reset is followed on its second p
   for (int i = 0; i < 100; ++i) paused.take(still, 0.0625 * i);
   paused.take(turning(0.0625), 6.25);
   CHECK(*paused.newest_s() == 6.25);
+}
+
+namespace {
+
+struct Worst {
+  double position_m = 0.0, attitude_deg = 0.0;
+};
+
+// Of frames at 16 Hz, the pose of a packet arriving `late_s` after it was so; the first second left out.
+Worst worst_of(const std::function<double(int)>& late_s, bool tells_clock) {
+  constexpr double kPeriod_s = 1.0 / 16.0, kClock_s = 1000.0;
+  Predictor predictor(kFrame);
+  Worst worst;
+  int next = 0;
+  for (int frame = 0; frame < 320; ++frame) {
+    const double begin_s = (frame + 0.9996) * kPeriod_s;  // just after packets are due
+    for (;; ++next) {
+      const double sent_s = next * kPeriod_s, arrives_s = sent_s + late_s(next);
+      if (arrives_s > begin_s) break;
+      predictor.take(turning(sent_s), arrives_s,
+                     tells_clock ? std::optional(kClock_s + sent_s) : std::nullopt);
+    }
+    if (frame < 16) continue;
+    const double at_s = begin_s + 0.5 * kPeriod_s;
+    worst.position_m = std::max(worst.position_m, apart_m(*predictor.at(at_s), turning(at_s)));
+    worst.attitude_deg =
+        std::max(worst.attitude_deg, core::degrees(turned_rad(*predictor.at(at_s), turning(at_s))));
+  }
+  return worst;
+}
+
+}  // namespace
+
+// Packets that count as of their arrival threw the aircraft 21 m away, and by 183 deg.
+TEST_CASE("Packets that are held back or bunched move the aircraft by no more than even ones",
+          "[predictor]") {
+  const auto bunched = [](int i) { return i % 8 == 3 ? 1.0 / 16.0 - 0.0005 : 0.0; };
+  const auto jitter = [](int i) { return 0.015 * std::abs(std::sin(12.9898 * i * i)); };
+  const auto stalls = [](int i) { return i % 40 >= 38 ? (40 - i % 40) / 16.0 : 0.0; };
+  for (const bool tells_clock : {true, false}) {
+    INFO("clock " << tells_clock);
+    CHECK(worst_of(bunched, tells_clock).position_m < 0.1);
+    CHECK(worst_of(bunched, tells_clock).attitude_deg < 0.05);
+    // The quickest of two seconds set the clock: what is left is how late they were.
+    CHECK(worst_of(jitter, tells_clock).position_m < 0.1 + 70.0 * 0.001);
+    CHECK(worst_of(jitter, tells_clock).attitude_deg < 0.05);
+    // Nothing for 0.19 s, then three at once.
+    CHECK(worst_of(stalls, tells_clock).position_m < 0.1);
+    CHECK(worst_of(stalls, tells_clock).attitude_deg < 0.05);
+  }
+}
+
+TEST_CASE("A source's clock counts from its quickest packets, and anew after a pause or a restart",
+          "[predictor]") {
+  live::SourceClock clock;
+  for (int i = 0; i < 100; ++i)
+    CHECK(clock.time_of(0.05 * i, 7.0 + 0.05 * i) == Approx(7.0 + 0.05 * i));
+  CHECK(clock.time_of(5.0, 12.2) == Approx(12.0));     // 0.2 s late
+  CHECK(clock.time_of(5.05, 12.45) == Approx(12.05));  // and 0.4 s: perhaps the network
+  CHECK(clock.time_of(5.1, 12.5) == Approx(12.5));     // no: a pause of 0.4 s
+  CHECK(clock.time_of(5.15, 15.5) == Approx(15.5));    // of 3 s
+  CHECK(clock.time_of(0.0, 15.55) == Approx(15.55));   // begun anew
+  CHECK(clock.time_of(0.05, 15.6) == Approx(15.6));
+  CHECK(clock.time_of(0.05, 15.7) == Approx(15.7));  // it stands
+  CHECK(clock.time_of(0.05, 15.8) == Approx(15.8));
+  // Two clocks that drift by 1e-3 stay together.
+  live::SourceClock slow;
+  for (int i = 0; i < 10000; ++i)
+    REQUIRE(slow.time_of(0.05 * 0.999 * i, 0.05 * i) == Approx(0.05 * i).margin(2.1e-3));
+}
+
+TEST_CASE("Time in lockstep is that of the packets", "[predictor]") {
+  live::LockstepTime told(0.0625), counted(0.0625);
+  CHECK(told.next(50.0) == 0.0);
+  CHECK(told.next(50.05) == Approx(0.05));
+  CHECK(told.next(50.05) == Approx(0.05));  // paused
+  CHECK(told.next(3.0) == Approx(0.1125));  // begun anew: a period
+  CHECK(told.next(3.1) == Approx(0.2125));
+  for (int i = 0; i < 5; ++i) CHECK(counted.next({}) == Approx(0.0625 * i));
 }

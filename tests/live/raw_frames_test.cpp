@@ -110,3 +110,22 @@ TEST_CASE("A file that cannot be written is told", "[raw_frames]") {
   CHECK_THROWS_AS(RawFrames(RawFrames::Scope::bscope, "/nonexistent/frames", false),
                   core::InputError);
 }
+
+TEST_CASE("A pipe gets frames from when it has a reader", "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto pipe = (folder.path() / "pipe").string();
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  RawFrames raw(RawFrames::Scope::bscope, pipe, false);
+  raw.write(frame_of(1, 4));
+  std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  CHECK_FALSE(raw.ended());
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  raw.write(frame_of(2, 4));
+  pollfd ready{reader, POLLIN, 0};
+  REQUIRE(::poll(&ready, 1, 5000) == 1);
+  char bytes[8] = {};
+  CHECK(::read(reader, bytes, sizeof bytes) == 4);
+  CHECK(bytes[0] == 2);
+  ::close(reader);
+}

@@ -114,6 +114,19 @@ TEST_CASE("Shared memory holds what its layout says, for its owner alone", "[sha
     CHECK(reader.at<double>(slot + 24) == 0.9);
     CHECK(reader.at<double>(slot + 40) == 300.0);
     CHECK(reader.at<double>(slot + 88) == 4.0);
+    // What a control moved: of the frame, and of the newest.
+    auto moved = frame_of(21);
+    moved.cscope_top_rad = -0.0175;
+    moved.low_dB = -40.0;
+    moved.high_dB = 1.0;
+    frames.write(moved);
+    const std::size_t next = 256 + 21 % 8 * reader.at<std::uint32_t>(20);
+    for (const std::size_t at : {next + 104, std::size_t{64}})
+      CHECK(reader.at<double>(at) == -0.0175);
+    for (const std::size_t at : {next + 112, std::size_t{80}}) {
+      CHECK(reader.at<double>(at) == -40.0);
+      CHECK(reader.at<double>(at + 8) == 1.0);
+    }
   }
   CHECK(access(("/dev/shm/" + name).c_str(), F_OK) != 0);
 }

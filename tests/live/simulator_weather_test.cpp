@@ -98,3 +98,28 @@ TEST_CASE("What the simulator changes is set, and what a person sets stands unti
   CHECK(rain() == 0.0);
   CHECK_FALSE(session->scene()->weather.visibility_m.has_value());
 }
+
+// It ended the channel.
+TEST_CASE("Weather that the scene cannot have is told, and the channel goes on with what it had",
+          "[simulator_weather]") {
+  tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  atmosphere::Weather cold = session->scene()->weather;
+  cold.temperature_C = -50.0;
+  cold.visibility_m.reset();
+  cold.liquid_water_g_per_m3.reset();
+  session->set(cold);
+  live::Hub hub;
+  const live::Desk desk(*session, hub);
+  live::Feed feed(session->scene(), core::VerticalDatum::scene, feeds::kProtocols[1]);
+  live::SimulatorWeather weather(desk, feed);
+  const auto begin = live::Clock::now();
+  send(feed, 1, "400,0,0");
+  weather.follow(begin);
+  CHECK(weather.refusal().find("temperature_C") != std::string::npos);
+  CHECK_FALSE(session->scene()->weather.visibility_m.has_value());
+  send(feed, 2, "9000,0.5,0");
+  weather.follow(begin + std::chrono::seconds(3));
+  CHECK(weather.refusal().empty());
+  CHECK(session->scene()->weather.rain_rate_mm_per_h > 0.0);
+}

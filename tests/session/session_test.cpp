@@ -265,6 +265,31 @@ TEST_CASE("A time budget chooses a sampling of the ladder, and frames by it repe
   CHECK_THROWS_AS(standing->set(session::TimeBudget{10.0}), core::InputError);
 }
 
+// It was ignored in silence.
+TEST_CASE("A scene's own time budget holds for who asks to have it kept", "[session]") {
+  const TemporaryFolder folder;
+  const std::string text = std::string(tests::kSmallScene) + "\n[accuracy]\ntime_budget_ms = 0.1\n";
+  core::ProblemList problems;
+  const auto session_of = [&](const std::string& scene, bool keeps) {
+    const session::Setup setup{.shipped = FANBEAM_SOURCE_DIR, .keeps_time_budget = keeps};
+    return std::make_unique<Session>(written(folder, scene), setup, problems);
+  };
+  const double usual = session_of(text, false)->samples();
+  CHECK(usual == 4.0);
+  const auto kept = session_of(text, true);
+  CHECK(kept->samples() < 1.0);  // none fits: the coarsest
+  kept->set(session::Accuracy{1.0});
+  CHECK(kept->samples() == 0.0);  // frame by frame
+  // Nothing to measure it at.
+  std::string parked = text;
+  parked.erase(parked.find("[trajectory.ils]"),
+               parked.find("[accuracy]") - parked.find("[trajectory.ils]"));
+  CHECK(session_of(parked, true)->samples() == usual);
+  CHECK(std::any_of(problems.all().begin(), problems.all().end(), [](const core::Problem& one) {
+    return one.field == "accuracy.time_budget_ms";
+  }));
+}
+
 TEST_CASE("The frame number moves speckle, and nothing else", "[session]") {
   const TemporaryFolder folder;
   const auto session = opened_text(folder, tests::kSmallScene, {.sample = true, .seed = 7});
