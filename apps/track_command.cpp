@@ -81,6 +81,7 @@ struct Outcome {
   std::vector<tracking::Track> tracks_at_end;
   std::vector<tracking::Crossing> crossings;
   int skipped_updates = 0;
+  int beyond = 0;  // instances of targets in view that the samples cannot show
   double measuring_s = 0.0, tracking_s = 0.0;
 };
 
@@ -108,6 +109,14 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
   }
 }
 
+int beyond(const tracking::SampledRadar& radar, const tracking::ScenarioFrame& frame) {
+  return static_cast<int>(
+      std::count_if(frame.truth.begin(), frame.truth.end(), [&](const core::HighwayTruth& one) {
+        return one.in_view && (one.range_m > radar.most_range_m() ||
+                               std::abs(one.range_rate_mps) > radar.most_speed_mps());
+      }));
+}
+
 // From frequencies, fewer are done in seconds: a bar would only flicker.
 constexpr int kManyFrames = 50'000;
 
@@ -128,6 +137,7 @@ Outcome run_one(const TrackOptions& options, const core::HighwayScenario& scenar
       },
       [&](const tracking::ScenarioFrame& frame) {
         outcome.score.add(scenario, frame);
+        if (sampled) outcome.beyond += beyond(*sampled, frame);
         outcome.history.add(scenario, frame, outcome.score);
         add_rows(scenario, frame, outcome);
         outcome.measuring_s += frame.measuring_s;
@@ -183,6 +193,7 @@ nlohmann::ordered_json json_of(const core::HighwayScenario& scenario, const Outc
   json["range_rate_rmse_mps"] = score.range_rate_mps.rms();
   json["nees_mean"] = score.nees.mean();
   json["skipped_updates"] = outcome.skipped_updates;
+  json["beyond_samples"] = outcome.beyond;
   json["crossings"] = nlohmann::ordered_json::array();
   for (const tracking::Crossing& one : outcome.crossings)
     json["crossings"].push_back({{"time_s", one.time_s},
@@ -199,6 +210,11 @@ void print(const core::HighwayScenario& scenario, const Outcome& outcome) {
       "range {:.4g} m rms, speed {:.4g} m/s rms\n",
       scenario.id, score.tracks.size(), scenario.targets.size(), score.gospa_m.mean(),
       score.mot.mota(), score.mot.switches(), score.range_m.rms(), score.range_rate_mps.rms());
+  if (outcome.beyond > 0)
+    fmt::print(
+        "     W-FOLDED: {} times a target in view is beyond what these samples show: farther than "
+        "their range cells, or above {:g} m/s\n",
+        outcome.beyond, tracking::SampledRadar::most_speed_mps());
   for (const tracking::Crossing& one : outcome.crossings)
     fmt::print("     tracks {} and {} parted at {:.2f} s, exchanged with probability {:.2g}\n",
                one.first, one.second, one.time_s, one.swap_probability);
@@ -261,8 +277,6 @@ int track(const TrackOptions& options, const CommonOptions& common) {
                                  {"run", options.run},
                                  {"association", options.association},
                                  {"from_samples", options.samples},
-                                 {"range_only", radar.array_elements < 2},
-                                 {"noise_figure", radar.noise_figure},
                                  {"acceleration_mps2", options.acceleration_mps2},
                                  {"coast_s", options.coast_s},
                                  {"detection_probability", options.detection_probability},
@@ -270,12 +284,14 @@ int track(const TrackOptions& options, const CommonOptions& common) {
                                  {"scenarios", nlohmann::ordered_json::array()}};
   nlohmann::ordered_json timing = nlohmann::ordered_json::array();
   for (const core::HighwayScenario* scenario : chosen) {
-    const Outcome outcome =
-        run_one(options, *scenario, radar_of(options, scenario->radar), common.quiet);
+    const core::HighwayRadar own = radar_of(options, scenario->radar);
+    const Outcome outcome = run_one(options, *scenario, own, common.quiet);
     write(options, *scenario, outcome, folder / scenario->id);
     if (!common.quiet) print(*scenario, outcome);
     json["scenarios"].push_back(json_of(*scenario, outcome));
     json["scenarios"].back()["waveform"] = scheme_of(options, *scenario);
+    json["scenarios"].back()["noise_figure"] = own.noise_figure;
+    json["scenarios"].back()["range_only"] = own.array_elements < 2;
     const double frames = outcome.score.gospa_m.count();
     timing.push_back({{"id", scenario->id},
                       {"measuring_ms_per_scan", 1e3 * outcome.measuring_s / frames},

@@ -60,7 +60,12 @@ void add_prisms(const std::vector<terrain::Prism>& prisms, terrain::Extrusion ex
 void add_box(const BoxDescription& box, const Ground& ground, const MaterialNames& names,
              core::ProblemList& problems, Bodies& bodies) {
   const auto centre_m = ground.local_m(box.at);
-  if (!centre_m) return;
+  // Also of a box that stands nowhere.
+  const auto name_materials = [&] {
+    for (const std::string& material : {box.wall_material, box.roof_material})
+      names.id(material, box.place, "box material");
+  };
+  if (!centre_m) return name_materials();
   const glm::dvec2 along =
       glm::dvec2(std::sin(box.heading_rad), std::cos(box.heading_rad)) * (box.length_m / 2);
   const glm::dvec2 side =
@@ -73,7 +78,7 @@ void add_box(const BoxDescription& box, const Ground& ground, const MaterialName
     problems.error(ErrorClass::range, box.place, "box",
                    "\"" + box.name + "\" reaches beyond the terrain",
                    "corners on the scene's terrain");
-    return;
+    return name_materials();
   }
   prism.bottom_m = span.lowest_m - kFoundation_m;
   prism.top_m = ground.on_ground_m(*centre_m, box.height_m).z;

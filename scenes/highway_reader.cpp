@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/constants.h"
 #include "core/decibel.h"
 #include "core/errors.h"
 #include "core/files.h"
@@ -60,7 +60,7 @@ void check_unique(const JsonNode& node, const std::string& id, std::set<std::str
 }
 
 // The format's members of an object.
-void check_keys(const JsonNode& node, std::initializer_list<const char*> known) {
+void check_keys(const JsonNode& node, const std::vector<const char*>& known) {
   for (const std::string& key : node.keys()) {
     if (std::find(known.begin(), known.end(), key) != known.end() || node.problems().is_full())
       continue;
@@ -101,6 +101,14 @@ core::HighwayRadar radar_of(const JsonNode& radar, const core::HighwayRadar* bas
     result.array_elements = *count;
   take("virtual_ula_spacing_wavelengths", 1e-6, 1e6, result.array_pitch_wavelengths);
   take("frame_period_s", 1e-9, 1e6, result.frame_s);
+  // Nothing can be made of others: noise figures refer to 290 K, and light is as fast as it is.
+  const auto fixed = [&](const char* key, double value) {
+    if (const auto told = radar.member(key).number({-kMost, kMost}); told && *told != value)
+      refuse(radar, key, ErrorClass::unsupported, core::number_text(*told),
+             core::number_text(value));
+  };
+  fixed("reference_temperature_k", 290.0);
+  fixed("propagation_speed_mps", core::kSpeedOfLight_mps);
   return result;
 }
 
@@ -120,9 +128,12 @@ void read_segment(const JsonNode& segment, core::HighwayTarget& result) {
 }
 
 core::HighwayTarget target_of(const JsonNode& target) {
-  check_keys(target,
-             {"id", "kind", "rcs_m2", "swerling", "clutter", "motion", "position_m", "velocity_mps",
-              "segments", "radius_m", "azimuth0_rad", "angular_rate_rad_s"});
+  const std::string motion = text(target, "motion");
+  std::vector<const char*> known = {"id", "kind", "rcs_m2", "swerling", "clutter", "motion"};
+  if (motion != "piecewise-acceleration")
+    known.insert(known.end(), {"radius_m", "azimuth0_rad", "angular_rate_rad_s"});
+  if (motion != "circular") known.insert(known.end(), {"position_m", "velocity_mps", "segments"});
+  check_keys(target, known);
   core::HighwayTarget result;
   result.id = text(target, "id");
   result.kind = text(target, "kind");
@@ -130,7 +141,6 @@ core::HighwayTarget target_of(const JsonNode& target) {
   result.fluctuation =
       static_cast<core::Swerling>(target.required("swerling").whole(0, 4).value_or(0));
   result.clutter = target.member("clutter").flag().value_or(false);
-  const std::string motion = text(target, "motion");
   if (motion == "circular") {
     result.motion = core::HighwayMotion::circular;
     result.radius_m = number(target, "radius_m", 1e-3, 1e9);
@@ -261,9 +271,15 @@ void read_two_stages(const JsonNode& node, core::HighwayWaveforms& result) {
 // that track does not make of it.
 void read_waveform(const JsonNode& node, NamedWaveform& named) {
   core::HighwayWaveforms& result = named.timing;
-  check_keys(node, {"type", "ramp_s", "sample_rate_hz", "ramps_per_buffer", "complex_baseband",
-                    "coarse", "fine", "flat_s", "flat_code", "flat_step_hz"});
   const std::string type = named.type = text(node, "type");
+  std::vector<const char*> known = {"type", "sample_rate_hz", "ramps_per_buffer",
+                                    "complex_baseband"};
+  if (type == "two-stage")
+    known.insert(known.end(), {"coarse", "fine"});
+  else
+    known.push_back("ramp_s");
+  if (type == "up-flat-down") known.insert(known.end(), {"flat_s", "flat_code", "flat_step_hz"});
+  check_keys(node, known);
   if (node.member("complex_baseband").flag() == false)
     refuse(node, "complex_baseband", ErrorClass::unsupported, "false", "complex samples");
   node.member("ramps_per_buffer").whole(1, 1'000'000);
@@ -291,7 +307,19 @@ void read_waveform(const JsonNode& node, NamedWaveform& named) {
   }
 }
 
-// All of the file; the first of each type counts for every scenario that names no other.
+// Of all its ramps, one after the other.
+double length_s(const NamedWaveform& one) {
+  const core::HighwayWaveforms& timing = one.timing;
+  if (one.type == "triangle") return 2.0 * timing.triangle_ramp_s;
+  if (one.type == "triangle-pair")
+    return 2.0 * (timing.two_slopes_ramp_s[0] + timing.two_slopes_ramp_s[1]);
+  if (one.type == "two-stage")
+    return timing.coarse_chirps * timing.coarse_chirp_s + 2.0 * timing.fine_ramp_s;
+  return one.type == "up-flat-down" ? 2.0 * timing.coded_ramp_s + timing.flat_s : 0.0;
+}
+
+// All of the file; of each type the first name in the order of letters (members of JSON have none of their own) counts for
+// every scenario that names no other.
 Waveforms waveforms_of(const JsonNode& table, core::HighwayRadar& radar) {
   Waveforms named;
   std::set<std::string> types;
@@ -300,6 +328,11 @@ Waveforms waveforms_of(const JsonNode& table, core::HighwayRadar& radar) {
     const JsonNode node = table.member(name);
     NamedWaveform& one = named[name];
     read_waveform(node, one);
+    if (length_s(one) > radar.frame_s)
+      table.problems().error(
+          ErrorClass::range, node.place(), node.pointer(),
+          core::number_text(length_s(one)) + " s of ramps",
+          "no more than the frame period of " + core::number_text(radar.frame_s) + " s");
     if (types.insert(one.type).second) take(one, radar.waveforms);
   }
   return named;

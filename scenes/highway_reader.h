@@ -9,8 +9,8 @@
 // keys of "radar", and "suppressed_detections", [{"id", "from_s", "to_s"}]: a target that is not measured then.
 // "waveforms" are named: {"type": "triangle", "ramp_s"}, {"type": "triangle-pair", "ramp_s": [a, b]}, {"type":
 // "two-stage", "coarse": {"chirps", "chirp_s", "sample_rate_hz"}, "fine": {"ramp_s", "sample_rate_hz"}}, {"type":
-// "up-flat-down", "ramp_s", "flat_s", "flat_step_hz", "flat_code"}. Of each type the first counts, or the first of
-// those that a scenario names in its own "waveforms"; what is missing is 2 ms ramps and so on (HighwayWaveforms).
+// "up-flat-down", "ramp_s", "flat_s", "flat_step_hz", "flat_code"}. Of each type the first name in the order of letters
+// counts, or the first of those that a scenario names in its own "waveforms"; what is missing is 2 ms ramps and so on (HighwayWaveforms).
 // Members that describe purpose, events and acceptance are not read; docs/highway.schema.json has
 // them all.
 // All problems are told together, each with its JSON pointer ("/scenarios/1/targets/0/rcs_m2"):

@@ -93,7 +93,7 @@ double read_range(ConfigTable table, RangeGate& gate, std::int64_t columns) {
 }
 
 void read_waveform(ConfigTable table, Waveform& waveform) {
-  waveform.frequency_Hz = 1e9 * table.required_number("frequency_GHz", above_zero(1000.0));
+  waveform.frequency_Hz = 1e9 * table.required_number("frequency_GHz", {0.1, 300.0});
   waveform.bandwidth_Hz = 1e6 * table.required_number("bandwidth_MHz", above_zero(1e5));
   waveform.transmit_power_W = table.required_number("transmit_power_W", above_zero(1e9));
   read_window(table, waveform);

@@ -237,6 +237,10 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",
                             std::string(signal::name(options.angle_method)),
                             "beamforming, or an array on a line at one pitch");
+  if (elements_m.size() < 2 && options.angle_method != signal::AngleMethod::beamforming)
+    core::throw_input_error(core::ErrorClass::unsupported, "angle method",
+                            std::string(signal::name(options.angle_method)),
+                            "an array: one channel has no directions");
   radar.maps = is_sequence(radar.waveform.kind);
   if (radar.maps) prepare_maps(options, front, radar);
   return radar;

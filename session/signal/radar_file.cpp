@@ -115,6 +115,9 @@ void read_samples(ConfigTable table, SampleLayout& layout) {
   }
   layout.scale_sqrtW = table.number("scale_sqrtW", {1e-30, 1e9}, layout.scale_sqrtW);
   layout.conjugate = table.boolean("conjugate", layout.conjugate);
+  layout.channel_gains_dB = table.numbers("channel_gain_dB", {-60.0, 60.0}, 1, 4096);
+  layout.channel_phases_rad = table.numbers("channel_phase_deg", {-360.0, 360.0}, 1, 4096);
+  for (double& phase : layout.channel_phases_rad) phase = core::radians(phase);
 }
 
 void read_window(ConfigTable& table, const char* key, signal::Window& window) {

@@ -6,12 +6,14 @@
 //   [array]       transmitters, receivers, 1 to 64, on a line pitch_wavelengths apart (default 0.5);
 //                 or at places within 10 m: transmitter_right_m and receiver_right_m, 1 to 64 numbers each,
 //                 with transmitter_forward_m, transmitter_up_m and so on, 0 where missing;
-//                 gain_errors_dB, +-60, and phase_errors_deg, +-360, one for every channel
+//                 gain_errors_dB, +-60, and phase_errors_deg, +-360, one for every channel: of samples that
+//                 are made; those recorded have theirs
 //   [receiver]    noise_figure_dB, 0 to 60; line_width_Hz, 0 to 1e6, or
 //                 phase_noise_offsets_kHz, rising, above 0 to 1e9, with phase_noise_dBc_per_Hz,
 //                 -300 to 60; adc_bits, 0 to 24; adc_full_scale_dBm, +-300
 //   [samples]     of recorded samples (sample_file.h): axes, "channel, chirp, sample" and the like;
-//                 scale_sqrtW, 1e-30 to 1e9, default 1; conjugate
+//                 scale_sqrtW, 1e-30 to 1e9, default 1; conjugate; channel_gain_dB, +-60, and
+//                 channel_phase_deg, +-360, one for every channel, known from calibration: taken off
 //   [processing]  range_window, doppler_window, angle_window: "taylor:35" and the like (window.h);
 //                 mitigation "none" | "zero" | "interpolate" of other radars' chirps (mitigation.h), with
 //                 mitigation_threshold_dB, above 0 to 60;
@@ -20,7 +22,8 @@
 //                 "capon" | "music"; cluster_place_m, cluster_speed_mps, above 0 to 1000;
 //                 cluster_neighbours, 1 to 100; unfold; most_range_m, above 0 to 1e6
 //
-// All keys are optional; what is missing keeps its default. Unknown keys are errors.
+// All keys are optional; what is missing keeps its default, a scene's sensor's where there is one (without a scene
+// frequency, bandwidth and noise figure have to be told). Unknown keys are errors.
 #pragma once
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "core/text.h"
@@ -71,6 +72,7 @@ SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRad
   real_ = !radar.waveform.complex_baseband;
   transmitters_ = static_cast<int>(radar.array.transmitters_m.size());
   receivers_ = static_cast<int>(radar.array.receivers_m.size());
+  correct();
   std::size_t frames = 0;
   for (std::filesystem::path& path : files) {
     File file{std::move(path), {}, 1};
@@ -89,6 +91,27 @@ SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRad
     files_.push_back(std::move(file));
   }
   frames_ = static_cast<int>(frames);
+}
+
+// By the scale, and by what calibration tells of each channel.
+void SampleFiles::correct() {
+  const auto channels = static_cast<std::size_t>(shape_.channels);
+  core::ProblemList problems;
+  const auto check = [&](const char* key, const std::vector<double>& values) {
+    if (!values.empty() && values.size() != channels)
+      problems.error(core::ErrorClass::range, {}, key, std::to_string(values.size()) + " numbers",
+                     fmt::format("one for each of {} channels", channels));
+  };
+  check("samples.channel_gain_dB", layout_.channel_gains_dB);
+  check("samples.channel_phase_deg", layout_.channel_phases_rad);
+  problems.throw_if_errors();
+  for (std::size_t c = 0; c < channels; ++c) {
+    const double gain_dB = layout_.channel_gains_dB.empty() ? 0.0 : layout_.channel_gains_dB[c];
+    const double phase_rad =
+        layout_.channel_phases_rad.empty() ? 0.0 : layout_.channel_phases_rad[c];
+    corrections_.push_back(static_cast<std::complex<float>>(
+        std::polar(layout_.scale_sqrtW * std::pow(10.0, -0.05 * gain_dB), -phase_rad)));
+  }
 }
 
 void SampleFiles::check(const File& file) const {
@@ -146,7 +169,6 @@ signal::FloatCube SampleFiles::frame(int index) const {
   const auto values = core::read_npy(file->path, file->header, outermost ? left * count : 0, count);
   const std::size_t first = outermost ? 0 : left * frames.stride;
   const bool turns = in_turn(layout_.axes, transmitters_);
-  const auto scale = static_cast<float>(layout_.scale_sqrtW);
   signal::FloatCube cube(shape_);
   for (int c = 0; c < shape_.channels; ++c) {
     const auto t = static_cast<std::size_t>(c / receivers_),
@@ -158,8 +180,8 @@ signal::FloatCube SampleFiles::frame(int index) const {
                               static_cast<std::size_t>(c) * channel.stride +
                               t * transmitter.stride + r * receiver.stride;
       for (int n = 0; n < shape_.samples; ++n) {
-        const std::complex<float> value =
-            scale * values[row + static_cast<std::size_t>(n) * sample.stride];
+        const std::complex<float> value = corrections_[static_cast<std::size_t>(c)] *
+                                          values[row + static_cast<std::size_t>(n) * sample.stride];
         cube.at(c, m, n) = layout_.conjugate ? std::conj(value) : value;
       }
     }

@@ -11,6 +11,7 @@
 // are told, never what is found. `conjugate` is for receivers whose beat falls with range.
 #pragma once
 
+#include <complex>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -45,9 +46,11 @@ class SampleFiles {
     std::size_t frames = 1;
   };
   void check(const File& file) const;
+  void correct();
 
   std::vector<File> files_;
   SampleLayout layout_;
+  std::vector<std::complex<float>> corrections_;  // of each channel
   signal::CubeShape shape_;
   int transmitters_ = 1, receivers_ = 1;
   bool real_ = false;

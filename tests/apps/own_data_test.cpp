@@ -111,6 +111,43 @@ TEST_CASE("Recorded cubes of another layout give the same tracks", "[track]") {
   INFO(run.output);
   REQUIRE(run.exit_code == 0);
   CHECK(tests::bytes_of(out / "recorded/tracks.csv") == tests::bytes_of(out / "own/tracks.csv"));
+  // Receivers that are out of true, as calibration knows them, are set right; and are not, without.
+  const std::vector<double> gains_dB = {0, 1, -1, 2, 0, 0, 1, -2, 0, 1, 0, 0};
+  const std::vector<double> phases_deg = {0, 30, -20, 50, 10, 0, -40, 20, 0, 90, -60, 15};
+  for (std::size_t i = 0; i < recorded.size(); ++i) {
+    const std::size_t row = i / samples,
+                      channel = row / kReceivers % kTransmitters * kReceivers + row % kReceivers;
+    recorded[i] *= static_cast<std::complex<float>>(std::polar(
+        std::pow(10.0, 0.05 * gains_dB[channel]), phases_deg[channel] * core::kPi / 180.0));
+  }
+  const fs::path untrue = folder.path() / "untrue.npy";
+  core::write_npy(untrue, {kFrames, kChirps * kTransmitters, kReceivers, samples}, recorded);
+  const fs::path known = folder.write(
+      "known.toml",
+      tests::bytes_of(radar) + fmt::format("channel_gain_dB = [{}]\nchannel_phase_deg = [{}]\n",
+                                           fmt::join(gains_dB, ", "), fmt::join(phases_deg, ", ")));
+  const auto azimuths = [&](const fs::path& folder_of) {
+    std::vector<double> result;
+    std::istringstream rows(tests::bytes_of(folder_of / "measurements.csv"));
+    std::string row, cell;
+    for (std::getline(rows, row); std::getline(rows, row);) {
+      std::istringstream cells(row);
+      for (int i = 0; i < 4; ++i) std::getline(cells, cell, ',');
+      result.push_back(std::stod(cell));
+    }
+    return result;
+  };
+  REQUIRE(track(untrue, out / "set-right", "--radar " + tests::quoted(known)).exit_code == 0);
+  REQUIRE(track(untrue, out / "as-it-is", "--radar " + tests::quoted(radar)).exit_code == 0);
+  const std::vector<double> own = azimuths(out / "own"), right = azimuths(out / "set-right");
+  REQUIRE(right.size() == own.size());
+  for (std::size_t i = 0; i < own.size(); ++i) CHECK(right[i] == Approx(own[i]).margin(1e-3));
+  CHECK(azimuths(out / "as-it-is") != own);
+  const fs::path few =
+      folder.write("few.toml", tests::bytes_of(radar) + "channel_gain_dB = [1, 2]\n");
+  const auto wrong = track(untrue, out / "refused", "--radar " + tests::quoted(few));
+  CHECK(wrong.exit_code == 3);
+  CHECK(wrong.output.find("one for each of 12 channels") != std::string::npos);
   // Another shape is told with what was expected.
   const fs::path short_axes =
       folder.write("short.toml", tests::bytes_of(made / "radar.toml") +

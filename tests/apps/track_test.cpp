@@ -102,8 +102,8 @@ TEST_CASE("track prints the probability of a swap after a crossing, and where ea
   CHECK(result.output.find("exchanged with probability") != std::string::npos);
   CHECK(result.output.find("its identity is right with probability") != std::string::npos);
   const auto record = nlohmann::json::parse(tests::results(out).at("run.json"));
-  CHECK(record["range_only"] == true);
-  CHECK(record["noise_figure"].get<double>() == Approx(10.0));
+  CHECK(record["scenarios"][0]["range_only"] == true);
+  CHECK(record["scenarios"][0]["noise_figure"].get<double>() == Approx(10.0));
   const auto& scenario = record["scenarios"][0];
   REQUIRE(scenario["crossings"].size() == 1);
   const double swap = scenario["crossings"][0]["swap_probability"];
@@ -127,6 +127,16 @@ TEST_CASE("track measures from samples, and refuses what does not go with it", "
   CHECK(record["from_samples"] == true);
   CHECK(record["scenarios"][0]["confirmed_tracks"] == 2);
   CHECK(record["scenarios"][0]["range_rmse_m"] < 0.01);
+  CHECK(record["scenarios"][0]["beyond_samples"] == 0);
+  // A car beyond what 1 GHz shows in these samples was lost in silence.
+  folder.write("wide.json",
+               std::string(shorter).replace(
+                   shorter.find("\"duration_s\""), 12,
+                   "\"radar_overrides\": {\"sweep_bandwidth_hz\": 4e9}, \"duration_s\""));
+  const auto wide = tests::run_fanbeam("track " + tests::quoted(folder.path() / "wide.json") +
+                                       " --samples -o " + tests::quoted(folder.path() / "wide"));
+  INFO(wide.output);
+  CHECK(wide.output.find("W-FOLDED") != std::string::npos);
   CHECK(tests::run_fanbeam(words + " --waveform two-slopes").exit_code == 2);
   CHECK(tests::run_fanbeam(words + " --range-only").exit_code == 2);
 }

@@ -362,3 +362,30 @@ TEST_CASE("Errors that show only when the scene is built come together too", "[b
     places.push_back(std::to_string(problem.place.line) + " " + problem.code);
   CHECK(places == std::vector<std::string>{"6 E-REF", "25 E-REF", "17 E-RANGE", "23 E-REF"});
 }
+
+// They came one after the other, in as many runs.
+TEST_CASE("A box and a target off the terrain hide neither a material nor a flight that is wrong",
+          "[bad_scene]") {
+  const TemporaryFolder folder;
+  std::string text = tests::kSmallScene;
+  text.erase(text.find("[trajectory.ils]"));
+  text +=
+      "[[box]]\nat = { latitude_deg = 52.0009, longitude_deg = 10.131 }\nlength_m = 1.0\n"
+      "width_m = 1.0\nheight_m = 1.0\nwall = \"metall\"\n"
+      "[[target]]\nat = { latitude_deg = 52.0, longitude_deg = 10.131 }\nrcs = \"person\"\n"
+      "[trajectory.fixed]\nat = { latitude_deg = 52.0, longitude_deg = 10.0 }\n"
+      "above_ground_m = -5.0\n";
+  const tests::Outcome outcome = tests::build_text(folder, text);
+  const auto told = [&](const std::string& field, const std::string& value) {
+    return std::count_if(outcome.problems.begin(), outcome.problems.end(),
+                         [&](const core::Problem& one) {
+                           return one.field.find(field) != std::string::npos &&
+                                  one.value.find(value) != std::string::npos;
+                         });
+  };
+  for (const core::Problem& one : outcome.problems) UNSCOPED_INFO(core::to_string(one));
+  CHECK(told("box[1].at", "east") == 1);
+  CHECK(told("target[0].at", "east") == 1);
+  CHECK(told("material", "metall") == 1);
+  CHECK(told("trajectory", "inside the ground") == 1);
+}

@@ -251,3 +251,34 @@ TEST_CASE("Members that the format does not have are told, with those like them"
       CHECK(text.find("noise_figure_db") != std::string::npos);
   }
 }
+
+TEST_CASE("What another kind of waveform or motion has is refused, not passed over", "[highway]") {
+  const auto with_waveforms = [](const std::string& text) {
+    return replaced(file_with(kStraight), "\"scenarios\"",
+                    "\"waveforms\": {" + text + "}, \"scenarios\"");
+  };
+  check_refused(with_waveforms(R"("w": {"type": "triangle", "ramp_s": 0.002, "flat_s": 0.002})"),
+                core::ErrorClass::ref, "/waveforms/w/flat_s");
+  check_refused(
+      with_waveforms(R"("w": {"type": "two-stage", "ramp_s": 0.002, "coarse": {}, "fine": {}})"),
+      core::ErrorClass::ref, "/waveforms/w/ramp_s");
+  check_refused(with_waveforms(R"("w": {"type": "triangle", "ramp_s": 0.1})"),
+                core::ErrorClass::range, "/waveforms/w");
+  const std::string circle =
+      R"("motion": "circular", "radius_m": 50, "azimuth0_rad": 0, "angular_rate_rad_s": 0.1)";
+  check_refused(file_with(circle + R"(, "velocity_mps": [1, 2])"), core::ErrorClass::ref,
+                "/scenarios/0/targets/0/velocity_mps");
+  check_refused(file_with(kStraight + R"(, "radius_m": 50)"), core::ErrorClass::ref,
+                "/scenarios/0/targets/0/radius_m");
+  for (const char* fixed : {"\"reference_temperature_k\": 5000", "\"propagation_speed_mps\": 3e8"})
+    CHECK(refusal(replaced(file_with(kStraight), "\"max_range_m\"",
+                           std::string(fixed) + ", \"max_range_m\""))
+              .has(core::ErrorClass::unsupported));
+  // Members of JSON have no order: of two triangles the first by name counts.
+  const auto radar =
+      scenes::parse_highway(with_waveforms(R"("z": {"type": "triangle", "ramp_s": 0.001},
+                                           "a": {"type": "triangle", "ramp_s": 0.004})"),
+                            "test.json")
+          .radar;
+  CHECK(radar.waveforms.triangle_ramp_s == 0.004);
+}

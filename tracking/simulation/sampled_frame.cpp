@@ -103,6 +103,12 @@ SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
            .along_columns = {3, 6, false}};
 }
 
+double SampledRadar::most_range_m() const {
+  return axes_.range_step_m * transform_.kept_range_cells;
+}
+
+double SampledRadar::most_speed_mps() { return kMostSpeed_mps; }
+
 // Of the array's beam, between half powers.
 double SampledRadar::beam_sine() const {
   return 0.8859 / (radar_.array_elements * radar_.array_pitch_wavelengths);

@@ -48,6 +48,9 @@ class SampledRadar {
 
   std::vector<RadarMeasurement> measure(const core::HighwayScenario& scenario, std::uint64_t seed,
                                         std::uint32_t run, int frame) const;
+  // Beyond either a target is not measured: cells of range and the folds of speed end there.
+  double most_range_m() const;
+  static double most_speed_mps();
 
  private:
   // A local maximum of the coarse map.
