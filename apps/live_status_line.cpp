@@ -54,12 +54,13 @@ void StatusLine::show(const live::Status& status, int viewers) {
   if (status.waiting)
     fmt::print(stderr, "\r\033[Kwaiting for a pose from {}", status.source);
   else
-    fmt::print(
-        stderr,
-        "\r\033[K{:.1f} Hz  frame {:.0f} ms  sampling {:g}{}  pose age {:.0f} ms{}  late {}  "
-        "{} watching{}",
-        status.rate_Hz, status.frame_ms, status.samples, error_text(status), status.pose_age_ms,
-        status.stale ? " (stale)" : "", status.late, viewers, offset_text(status));
+    fmt::print(stderr,
+               "\r\033[K{:.1f} Hz  frame {:.0f} ms  sampling {}{}  pose age {:.0f} ms{}  late {}  "
+               "{} watching{}",
+               status.rate_Hz, status.frame_ms,
+               status.samples > 0.0 ? fmt::format("{:g}", status.samples) : "by accuracy",
+               error_text(status), status.pose_age_ms, status.stale ? " (stale)" : "", status.late,
+               viewers, offset_text(status));
 }
 
 void print_address(const std::string& scene, const std::string& address, std::uint16_t port,

@@ -10,7 +10,7 @@
 // here. Where a source tells no fine clock (native-fdm's has steps of a second) what it flew is one, above
 // 10 m/s: the way between two poses over the speed that they tell. On the recorded flight
 // (tests/live/predictor_test.cpp) one constant apart the error is 0.05 m and 0.001 deg RMS, and with
-// every eighth packet held back until 2 ms before the next, or all of them by 15 ms RMS, within 0.3 m.
+// every eighth packet held back until half a millisecond before the next, or each by up to 15 ms, within 0.2 m.
 //
 // Jumps. A pose that the one before cannot have led to (reset, replay, a stray packet) waits; the
 // next one decides. If it follows from the waiting one, both are the new flight; if it follows from
