@@ -14,8 +14,8 @@ namespace {
 using terrain::HeightField;
 
 constexpr double kTile_m = 128.0;
-// Floats of the ray caster and rounding (ray_scene.h: 25 mm).
-constexpr double kMargin_m = 1.0;
+// Floats of the ray caster and rounding (ray_scene.h: 25 mm); a car's antenna is half a metre up.
+constexpr double kMargin_m = 1.0, kRayError_m = 0.05;
 // An echo is spread over half the way to its neighbours at most, from a little beyond the gate too.
 constexpr double kMarginCells = 8.0;
 // What the fan may be wider than field of view and beam: sub-columns come in whole groups.
@@ -286,7 +286,7 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
   bool ground_meets_ground = false;
   if (ground_in_fan) {
     const double down_rad =
-        std::asin(std::clamp((at_m.z - highest_mirror_m - kMargin_m) / far_m, -1.0, 1.0));
+        std::asin(std::clamp((at_m.z - highest_mirror_m - kRayError_m) / far_m, -1.0, 1.0));
     ground_meets_ground = !(down_rad - 2.0 * std::atan(steepest_mirror) > std::atan(steepest));
   }
   seen.mirrored_rays_end = meets_bodies || ground_meets_ground;

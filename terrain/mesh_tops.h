@@ -19,7 +19,7 @@ class MeshTops {
 
   // Upper bound of the height over the square that holds the point, rounded to a float;
   // kNothing_m where there is no mesh. A triangle counts for every square of its bounding box, and of what
-  // lies within half a square of it: whoever looks at points a square apart misses nothing.
+  // lies within an eighth of a square of it: points a quarter apart miss nothing.
   double top_m(double x_m, double y_m) const noexcept {
     const double u = (x_m - west_m_) / kSpacing_m;
     const double v = (y_m - south_m_) / kSpacing_m;

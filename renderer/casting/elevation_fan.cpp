@@ -66,10 +66,11 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
         add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, object_step_rad_, edges);
   }
   if (!world_.surfaces().has_meshes()) return;
-  // Headings a square apart at the farthest range, so that nothing stands between two of them.
+  // Headings a quarter of a square apart at the farthest range, so that nothing stands between two of them.
   const double width_m = (right_rad - left_rad) * world_.sensor.range.maximum_m();
-  const int gaps = std::clamp(
-      static_cast<int>(std::ceil(width_m / world_.surfaces().tops_spacing_m())), 2, kMostGaps);
+  const int gaps =
+      std::clamp(static_cast<int>(std::ceil(width_m / (world_.surfaces().tops_spacing_m() / 4))), 2,
+                 kMostGaps);
   double top_rad = -core::kPi / 2;
   for (int i = 0; i <= gaps; ++i)
     top_rad = std::max(
@@ -136,14 +137,14 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
   double top_slope = -1e30;
   // Half a square beyond the last cell: steps do not end on it.
   const double farthest_m = world_.sensor.range.maximum_m() + square_m / 2;
-  for (double distance_m = 0.0; distance_m <= farthest_m; distance_m += square_m / 2) {
+  for (double distance_m = 0.0; distance_m <= farthest_m; distance_m += square_m / 4) {
     const double x_m = heading.x * distance_m;
     const double y_m = heading.y * distance_m;
     const double z_m = surfaces.mesh_top_m(sensor.x + x_m, sensor.y + y_m) - sensor.z;
     if (z_m < -1e29) continue;
     // The top may stand anywhere in the square: take its near side when above the sensor, its far
     // side when below.
-    const double shift_m = z_m > 0.0 ? -1.5 * square_m : 1.5 * square_m;
+    const double shift_m = z_m > 0.0 ? -1.125 * square_m : 1.125 * square_m;
     const double at_m = std::max(distance_m + shift_m, 1.0);
     const glm::dvec3 relative_m(heading.x * at_m, heading.y * at_m, z_m);
     top_slope = std::max(top_slope, slope_of(frame, relative_m, world_.sensor.scan.surface));

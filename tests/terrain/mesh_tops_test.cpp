@@ -18,13 +18,13 @@ TEST_CASE("Tops bound every mesh over its squares, and are nothing beside them",
   CHECK(tops.top_m(205.0, 12.0) == 40.0);
   CHECK(tops.top_m(150.0, 1.0) == MeshTops::kNothing_m);  // between them
   CHECK(tops.top_m(205.0, 99.0) == MeshTops::kNothing_m);
-  // A lone corner is found from any of the points a square apart that look for it.
-  for (const double away_m : {1.0, 15.9}) {
+  // A lone corner is found from any of the points a quarter of a square apart that look for it.
+  for (const double away_m : {1.0, 3.9}) {
     CHECK(tops.top_m(-away_m, 1.0) == 6.0);
     CHECK(tops.top_m(210.0 + away_m, 20.0 + away_m) == 40.0);
     CHECK(tops.top_m(200.0 - away_m, 10.0 - away_m) == 40.0);
   }
-  CHECK(tops.top_m(-17.0, 1.0) == MeshTops::kNothing_m);
+  CHECK(tops.top_m(-5.0, 1.0) == MeshTops::kNothing_m);
   CHECK(tops.top_m(1.0, 1000.0) == MeshTops::kNothing_m);
   CHECK(MeshTops().top_m(0.0, 0.0) == MeshTops::kNothing_m);
 }
