@@ -66,7 +66,7 @@ AgreementFigures measure_agreement(const View& view, const Effort& effort,
   const auto converged = renderer::profile_sampling_for(effort.converged_slices);
   const FramePower slices = clock_of(view, converged).power();
   return {view.scene->name, view.distance_m,
-          fmt::format("{:.0f} slices per column", slices_per_column(converged)),
+          fmt::format("{} slices per column", slices_per_column(converged)),
           agreement_of(view.sensor(), slices, *reference),
           explain_off_cells(view, effort, slices, *reference)};
 }

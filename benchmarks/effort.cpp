@@ -7,7 +7,7 @@ namespace {
 
 std::vector<double> cast_as_asked(std::vector<double> slices) {
   std::erase_if(slices, [](double count) {
-    return slices_per_column(renderer::profile_sampling_for(count)) != count;
+    return samples_in(renderer::profile_sampling_for(count)) != count;
   });
   return slices;
 }
@@ -47,10 +47,6 @@ Effort quick_effort() {
   effort.estimate_frames = effort.bound_frames = 1;
   effort.scaling_cells = {100, 224};
   return effort;
-}
-
-double slices_per_column(const renderer::Sampling& sampling) {
-  return sampling.bounce_share * sampling.sub_columns * sampling.slices_per_sub_column;
 }
 
 }  // namespace fanbeam::benchmarks

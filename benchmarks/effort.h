@@ -31,7 +31,4 @@ Effort full_effort();
 // A minute on two cores that exercises every part. Its figures mean nothing.
 Effort quick_effort();
 
-// Slices that a frame of this sampling really has in each column.
-double slices_per_column(const renderer::Sampling& sampling);
-
 }  // namespace fanbeam::benchmarks

@@ -33,8 +33,7 @@ std::vector<double> candidates(CasterKind caster) {
   for (const double slices : renderer::sampling_ladder(caster))
     if (slices < kFew) result.push_back(slices);
   for (int slices = kFew; slices <= kMostSlices; ++slices)
-    if (slices_per_column(renderer::profile_sampling_for(slices)) == slices)
-      result.push_back(slices);
+    if (samples_in(renderer::profile_sampling_for(slices)) == slices) result.push_back(slices);
   return result;
 }
 

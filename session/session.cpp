@@ -193,13 +193,8 @@ std::shared_ptr<const scenes::Scene> Session::scene() const { return now()->scen
 renderer::Sampling Session::sampling() const { return now()->sampling; }
 
 double Session::samples() const {
-  const renderer::Sampling sampling = this->sampling();
-  if (sampling.target_grey > 0.0) return 0.0;
-  const double columns = sampling.sub_columns;
-  const double own = sampling.caster == renderer::CasterKind::profile
-                         ? columns * sampling.slices_per_sub_column
-                         : columns * sampling.rays_per_cell;
-  return own * sampling.bounce_share;
+  const renderer::Sampling own = sampling();
+  return own.target_grey > 0.0 ? 0.0 : samples_in(own);
 }
 
 std::uint64_t Session::seed() const { return inside_->seed; }

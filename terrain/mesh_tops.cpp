@@ -15,7 +15,6 @@ MeshTops::MeshTops(const std::vector<const TriangleMesh*>& meshes) {
     }
   }
   if (low.x > high.x) return;
-  constexpr double kBeside_m = kSpacing_m / 8;
   low -= kBeside_m;
   high += kBeside_m;
   west_m_ = low.x;

@@ -12,14 +12,15 @@ namespace fanbeam::terrain {
 class MeshTops {
  public:
   static constexpr double kSpacing_m = 32.0;
+  // A triangle counts this far beside its bounding box too, so that who looks at points twice as far apart misses none.
+  static constexpr double kBeside_m = kSpacing_m / 8;
   static constexpr double kNothing_m = static_cast<double>(-1e30F);
 
   MeshTops() = default;
   explicit MeshTops(const std::vector<const TriangleMesh*>& meshes);
 
   // Upper bound of the height over the square that holds the point, rounded to a float;
-  // kNothing_m where there is no mesh. A triangle counts for every square of its bounding box, and of what
-  // lies within an eighth of a square of it: points a quarter apart miss nothing.
+  // kNothing_m where there is no mesh.
   double top_m(double x_m, double y_m) const noexcept {
     const double u = (x_m - west_m_) / kSpacing_m;
     const double v = (y_m - south_m_) / kSpacing_m;

@@ -14,8 +14,8 @@ inline constexpr const char* kTrackColumns =
 inline constexpr const char* kCovarianceColumns = "xx,xy,xvx,xvy,yy,yvx,yvy,vxvx,vxvy,vyvy";
 // Standard deviations of noise, and of what else the source knows to be wrong (merged beats).
 inline constexpr const char* kMeasurementColumns =
-    "time_s,range_m,range_rate_mps,azimuth_rad,range_sigma_m,range_rate_sigma_mps,azimuth_sigma_"
-    "rad,"
+    "time_s,range_m,range_rate_mps,azimuth_rad,"
+    "range_sigma_m,range_rate_sigma_mps,azimuth_sigma_rad,"
     "range_systematic_m,range_rate_systematic_mps,azimuth_systematic_rad\n";
 
 // Of kTrackColumns. `radar_speed_mps` forward: moving is meant over ground.

@@ -12,16 +12,17 @@ struct PoseField {
   core::NumberRange range;
   const char* unit;
 };
-constexpr std::array<PoseField, 10> kPoseFields = {{{"pose.time_s", {}, "s"},
-                                                    {"pose.latitude_deg", {-90.0, 90.0}, "deg"},
-                                                    {"pose.longitude_deg", {-540.0, 540.0}, "deg"},
-                                                    {"pose.height_m", {-20000.0, 1.0e6}, "m"},
-                                                    {"pose.roll_deg", {}, "deg"},
-                                                    {"pose.pitch_deg", {}, "deg"},
-                                                    {"pose.heading_deg", {}, "deg"},
-                                                    {"pose.north_mps", {}, "m/s"},
-                                                    {"pose.east_mps", {}, "m/s"},
-                                                    {"pose.down_mps", {}, "m/s"}}};
+constexpr std::array<PoseField, 10> kPoseFields = {
+    {{"pose.time_s", {}, "s"},
+     {"pose.latitude_deg", {-90.0, 90.0}, "deg"},
+     {"pose.longitude_deg", {-540.0, 540.0}, "deg"},
+     {"pose.height_m", {-20000.0, 1.0e6}, "m"},
+     {"pose.roll_deg", {}, "deg"},
+     {"pose.pitch_deg", {}, "deg"},
+     {"pose.heading_deg", {}, "deg"},
+     {"pose.north_mps", {}, "m/s"},
+     {"pose.east_mps", {}, "m/s"},
+     {"pose.down_mps", {}, "m/s"}}};
 
 void check(const PoseNumbers& numbers) {
   core::ProblemList problems;

@@ -14,8 +14,8 @@ namespace {
 // Ranges before the first and behind the last cell that still get rays, so that border cells are
 // full.
 constexpr int kMarginCells = 2;
-constexpr int kMostGaps =
-    64;  // between headings that are searched for what stands above the ground
+// Between headings that are searched for what stands above the ground.
+constexpr int kMostGaps = 64;
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
 
 glm::dvec2 heading_at(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
@@ -66,11 +66,10 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
         add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, object_step_rad_, edges);
   }
   if (!world_.surfaces().has_meshes()) return;
-  // Headings a quarter of a square apart at the farthest range, so that nothing stands between two of them.
+  // Headings near enough at the farthest range that nothing stands between two of them.
   const double width_m = (right_rad - left_rad) * world_.sensor.range.maximum_m();
-  const int gaps =
-      std::clamp(static_cast<int>(std::ceil(width_m / (world_.surfaces().tops_spacing_m() / 4))), 2,
-                 kMostGaps);
+  const int gaps = std::clamp(static_cast<int>(std::ceil(width_m / terrain::RayScene::kTopsStep_m)),
+                              2, kMostGaps);
   double top_rad = -core::kPi / 2;
   for (int i = 0; i <= gaps; ++i)
     top_rad = std::max(
@@ -132,20 +131,19 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
 double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
                                         const glm::dvec2& heading) const {
   const terrain::RayScene& surfaces = world_.surfaces();
-  const double square_m = surfaces.tops_spacing_m();
   const glm::dvec3& sensor = frame.position_m;
   double top_slope = -1e30;
-  // Half a square beyond the last cell: steps do not end on it.
-  const double farthest_m = world_.sensor.range.maximum_m() + square_m / 2;
-  for (double distance_m = 0.0; distance_m <= farthest_m; distance_m += square_m / 4) {
+  constexpr double kStep_m = terrain::RayScene::kTopsStep_m;
+  constexpr double kReach_m = terrain::RayScene::kTopsReach_m;
+  // A step beyond the last cell: steps do not end on it.
+  const double farthest_m = world_.sensor.range.maximum_m() + kStep_m;
+  for (double distance_m = 0.0; distance_m <= farthest_m; distance_m += kStep_m) {
     const double x_m = heading.x * distance_m;
     const double y_m = heading.y * distance_m;
     const double z_m = surfaces.mesh_top_m(sensor.x + x_m, sensor.y + y_m) - sensor.z;
     if (z_m < -1e29) continue;
-    // The top may stand anywhere in the square: take its near side when above the sensor, its far
-    // side when below.
-    const double shift_m = z_m > 0.0 ? -1.125 * square_m : 1.125 * square_m;
-    const double at_m = std::max(distance_m + shift_m, 1.0);
+    // The top may stand anywhere about: nearest when above the sensor, farthest when below.
+    const double at_m = std::max(distance_m + (z_m > 0.0 ? -kReach_m : kReach_m), 1.0);
     const glm::dvec3 relative_m(heading.x * at_m, heading.y * at_m, z_m);
     top_slope = std::max(top_slope, slope_of(frame, relative_m, world_.sensor.scan.surface));
   }

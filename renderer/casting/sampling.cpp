@@ -57,6 +57,20 @@ Sampling sampling_for(CasterKind caster, double samples) {
   return caster == CasterKind::profile ? profile_sampling_for(samples) : sampling_for(samples);
 }
 
+int slices_per_column(const Sampling& sampling) {
+  return sampling.sub_columns * sampling.slices_per_sub_column;
+}
+
+double rays_per_cell_and_column(const Sampling& sampling) {
+  return sampling.sub_columns * sampling.rays_per_cell * std::max(1, sampling.jittered_passes);
+}
+
+double samples_in(const Sampling& sampling) {
+  return sampling.caster == CasterKind::profile
+             ? slices_per_column(sampling) * sampling.bounce_share
+             : rays_per_cell_and_column(sampling);
+}
+
 double default_samples(CasterKind caster) {
   return caster == CasterKind::profile ? kDefaultSlicesPerColumn : kDefaultRaysPerCell;
 }

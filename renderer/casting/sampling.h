@@ -76,6 +76,11 @@ std::vector<double> sampling_ladder(CasterKind caster);
 // One of the two: what `--rays-per-cell` sets, rays or slices, and what it is unless set.
 Sampling sampling_for(CasterKind caster, double samples);
 double default_samples(CasterKind caster);
+// What a sampling casts of either, all passes together.
+int slices_per_column(const Sampling& sampling);
+double rays_per_cell_and_column(const Sampling& sampling);
+// What sampling_for makes it of: those, of slices with the fraction that bounces tell.
+double samples_in(const Sampling& sampling);
 Sampling default_sampling(CasterKind caster);
 
 }  // namespace fanbeam::renderer

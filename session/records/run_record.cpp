@@ -20,14 +20,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-int slices_per_column(const renderer::Sampling& sampling) {
-  return sampling.sub_columns * sampling.slices_per_sub_column;
-}
-
-double rays_per_cell_and_column(const renderer::Sampling& sampling) {
-  return sampling.sub_columns * sampling.rays_per_cell * std::max(1, sampling.jittered_passes);
-}
-
 Json caster_json(const renderer::CasterChoice& caster, const renderer::Sampling& sampling) {
   Json json = {{"chosen", renderer::name_of(caster.chosen)},
                {"wish", renderer::name_of(caster.wish)},

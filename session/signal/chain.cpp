@@ -8,6 +8,7 @@
 
 #include "core/constants.h"
 #include "core/effect_plan.h"
+#include "session/signal/channel_factors.h"
 #include "signal/receiver/receiver_noise.h"
 #include "signal/synthesis/beat_synthesis.h"
 #include "signal/synthesis/frame.h"
@@ -59,13 +60,12 @@ std::vector<double> delays_s(const std::vector<signal::ScatterPath>& paths) {
 
 // Every channel's own gain and phase.
 void apply_channel_errors(const ArraySettings& array, signal::FloatCube& beat) {
+  const auto factors =
+      channel_factors(array.gain_errors_dB, array.phase_errors_rad, beat.shape.channels);
   for (int channel = 0; channel < beat.shape.channels; ++channel) {
-    const auto i = static_cast<std::size_t>(channel);
-    const double gain =
-        array.gain_errors_dB.empty() ? 1.0 : std::pow(10.0, 0.05 * array.gain_errors_dB[i]);
-    const double phase_rad = array.phase_errors_rad.empty() ? 0.0 : array.phase_errors_rad[i];
-    if (gain == 1.0 && phase_rad == 0.0) continue;
-    const auto factor = static_cast<std::complex<float>>(std::polar(gain, phase_rad));
+    const auto factor =
+        static_cast<std::complex<float>>(factors[static_cast<std::size_t>(channel)]);
+    if (factor == 1.0F) continue;
     for (std::size_t k = beat.index(channel, 0, 0); k < beat.index(channel + 1, 0, 0); ++k)
       beat.values[k] *= factor;
   }

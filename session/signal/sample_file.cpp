@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 #include "core/text.h"
+#include "session/signal/channel_factors.h"
 
 namespace fanbeam::session {
 namespace {
@@ -105,13 +105,9 @@ void SampleFiles::correct() {
   check("samples.channel_gain_dB", layout_.channel_gains_dB);
   check("samples.channel_phase_deg", layout_.channel_phases_rad);
   problems.throw_if_errors();
-  for (std::size_t c = 0; c < channels; ++c) {
-    const double gain_dB = layout_.channel_gains_dB.empty() ? 0.0 : layout_.channel_gains_dB[c];
-    const double phase_rad =
-        layout_.channel_phases_rad.empty() ? 0.0 : layout_.channel_phases_rad[c];
-    corrections_.push_back(static_cast<std::complex<float>>(
-        std::polar(layout_.scale_sqrtW * std::pow(10.0, -0.05 * gain_dB), -phase_rad)));
-  }
+  for (const std::complex<double>& known :
+       channel_factors(layout_.channel_gains_dB, layout_.channel_phases_rad, shape_.channels))
+    corrections_.push_back(static_cast<std::complex<float>>(layout_.scale_sqrtW / known));
 }
 
 void SampleFiles::check(const File& file) const {

@@ -17,8 +17,6 @@ constexpr double kLeastShare = 0.1;
 // Beamwidths from which on taking turns gets to the end in ten.
 constexpr double kApart = 1.5;
 
-}  // namespace
-
 // Waves of one peak: an array of even pitch sees them as two tones. Its y counts to the left, azimuths to the right.
 std::vector<double> of_one_peak(const Snapshot& snapshot, double pitch_wavelengths,
                                 double alone_rad, double noise_W) {
@@ -33,6 +31,8 @@ std::vector<double> of_one_peak(const Snapshot& snapshot, double pitch_wavelengt
   if (right.power > left.power) return {std::asin(second), std::asin(first)};
   return {std::asin(first), std::asin(second)};
 }
+
+}  // namespace
 
 std::vector<double> directions_rad(const Snapshot& snapshot,
                                    const std::vector<glm::dvec3>& elements_m, double wavelength_m,

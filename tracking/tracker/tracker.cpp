@@ -10,6 +10,7 @@
 namespace fanbeam::tracking {
 namespace {
 
+// A car seen for a third of a second outlives a gap of 0.6 s, a ghost seen three times six frames.
 constexpr int kCoastedPerHit = 2;
 
 RadarMeasurement with_floors(RadarMeasurement one, const TrackerSettings& settings) {
