@@ -36,6 +36,11 @@ double VolumeEcho::eta_m2_per_m3(const glm::dvec3& position_m) const noexcept {
   return eta;
 }
 
+bool VolumeEcho::cells_between(const glm::dvec2& from_m, const glm::dvec2& to_m) const noexcept {
+  return std::any_of(cells_.begin(), cells_.end(),
+                     [&](const Cell& cell) { return cell.prism.stands_between(from_m, to_m); });
+}
+
 double VolumeEcho::largest_eta_m2_per_m3() const noexcept {
   return largest_eta_m2_per_m3(-HUGE_VAL, HUGE_VAL);
 }

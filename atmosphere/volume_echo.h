@@ -11,6 +11,7 @@
 // Cost: 1 ms to build; 5 ns per place and 2 ns per rain cell, 30 ns more in the melting layer.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -27,8 +28,8 @@ class VolumeEcho {
   // Local metres: x east, y north, z above the scene's origin; finite.
   double eta_m2_per_m3(const glm::dvec3& position_m) const noexcept;
 
-  // Places of one height differ: there are rain cells.
-  bool varies_sideways() const noexcept { return !cells_.empty(); }
+  // Height alone may not tell what is on a path of that plan: a rain cell stands there.
+  bool cells_between(const glm::dvec2& from_m, const glm::dvec2& to_m) const noexcept;
 
   // The part that depends on height only: without the rain cells.
   double layered_eta_m2_per_m3(double height_m) const noexcept;

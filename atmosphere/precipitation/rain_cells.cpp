@@ -24,6 +24,11 @@ RainCells::RainCells(const Weather& weather, double frequency_Hz) {
           {prism_of(cell), rain_dB_per_km(weather, cell.rain_rate_mm_per_h, frequency_Hz)});
 }
 
+bool RainCells::stand_between(const glm::dvec2& from_m, const glm::dvec2& to_m) const noexcept {
+  return std::any_of(cells_.begin(), cells_.end(),
+                     [&](const Cell& cell) { return cell.prism.stands_between(from_m, to_m); });
+}
+
 double RainCells::one_way_dB(const glm::dvec3& from_m, const glm::dvec3& to_m) const noexcept {
   double sum = 0.0;
   for (const Cell& cell : cells_) sum += cell.dB_per_km * cell.prism.chord_m(from_m, to_m);

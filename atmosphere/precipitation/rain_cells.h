@@ -9,6 +9,7 @@
 // Accuracy: independent of how a path is cut to 1e-12. Cost: 10 ns per cell and path.
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -30,6 +31,9 @@ class RainCells {
 
   // No cell takes anything from any path: callers need not ask.
   bool empty() const noexcept { return cells_.empty(); }
+
+  // Whether any path of that plan can lose something.
+  bool stand_between(const glm::dvec2& from_m, const glm::dvec2& to_m) const noexcept;
 
   // Along the straight path between two points in local metres (z above the origin); finite.
   double one_way_dB(const glm::dvec3& from_m, const glm::dvec3& to_m) const noexcept;

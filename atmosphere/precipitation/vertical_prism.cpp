@@ -5,10 +5,9 @@
 #include <glm/geometric.hpp>
 
 namespace fanbeam::atmosphere {
-namespace {
 
 // The part of a path, from 0 to 1, that is still inside.
-struct Interval {
+struct VerticalPrism::Interval {
   double from = 0.0, to = 1.0;
 
   // Keeps what lies between two walls for a coordinate that goes from `start` to `start + change`.
@@ -42,6 +41,8 @@ struct Interval {
     to = std::min(to, (middle + half) / square);
   }
 };
+
+namespace {
 
 glm::dvec2 to_the_right(const glm::dvec2& along) noexcept { return {along.y, -along.x}; }
 
@@ -82,16 +83,27 @@ double VerticalPrism::chord_m(const glm::dvec3& from_m, const glm::dvec3& to_m) 
   Interval inside;
   inside.clip(from_m.z, change.z, base_m_, top_m_);
   if (!(inside.to > inside.from)) return 0.0;
-  const glm::dvec2 start = glm::dvec2(from_m) - centre_m_;
-  const glm::dvec2 level(change);
+  clip_to_footprint(glm::dvec2(from_m), glm::dvec2(change), inside);
+  return std::max(0.0, inside.to - inside.from) * glm::length(change);
+}
+
+bool VerticalPrism::stands_between(const glm::dvec2& from_m,
+                                   const glm::dvec2& to_m) const noexcept {
+  Interval inside;
+  clip_to_footprint(from_m, to_m - from_m, inside);
+  return inside.to > inside.from;
+}
+
+void VerticalPrism::clip_to_footprint(const glm::dvec2& from_m, const glm::dvec2& change_m,
+                                      Interval& inside) const noexcept {
+  const glm::dvec2 start = from_m - centre_m_;
   if (radius_m_ > 0.0) {
-    inside.clip_circle(start, level, radius_m_);
+    inside.clip_circle(start, change_m, radius_m_);
   } else {
     const glm::dvec2 right = to_the_right(along_);
-    inside.clip(glm::dot(start, along_), glm::dot(level, along_), -half_m_.x, half_m_.x);
-    inside.clip(glm::dot(start, right), glm::dot(level, right), -half_m_.y, half_m_.y);
+    inside.clip(glm::dot(start, along_), glm::dot(change_m, along_), -half_m_.x, half_m_.x);
+    inside.clip(glm::dot(start, right), glm::dot(change_m, right), -half_m_.y, half_m_.y);
   }
-  return std::max(0.0, inside.to - inside.from) * glm::length(change);
 }
 
 double VerticalPrism::longest_chord_m() const noexcept {

@@ -27,6 +27,9 @@ class VerticalPrism {
   // Metres of the straight path between two points that lie inside; finite points.
   double chord_m(const glm::dvec3& from_m, const glm::dvec3& to_m) const noexcept;
 
+  // Whether a path of that plan, at some height, has a chord.
+  bool stands_between(const glm::dvec2& from_m, const glm::dvec2& to_m) const noexcept;
+
   // The longest straight path inside.
   double longest_chord_m() const noexcept;
 
@@ -34,7 +37,10 @@ class VerticalPrism {
   double top_m() const noexcept { return top_m_; }
 
  private:
+  struct Interval;
   VerticalPrism() = default;
+  void clip_to_footprint(const glm::dvec2& from_m, const glm::dvec2& change_m,
+                         Interval& inside) const noexcept;
 
   glm::dvec2 centre_m_{0.0};
   glm::dvec2 along_{0.0, 1.0};  // unit vector of a rectangle's length

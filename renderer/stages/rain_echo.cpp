@@ -93,8 +93,7 @@ class Echo {
         subs_(sub_columns_per_column),
         sums_(sums),
         borders_(elevation_borders(sensor_, height_above_ground_m())),
-        same_in_all_azimuths_(azimuths_are_upright(antenna, sensor_.scan.surface) &&
-                              !world.volume_echo->varies_sideways()) {
+        upright_(azimuths_are_upright(antenna, sensor_.scan.surface)) {
     const sensors::BeamCut& cut = sensor_.antenna.elevation;
     const double boresight_rad = sensor_.antenna.boresight_elevation_rad;
     for (std::size_t i = 0; i + 1 < borders_.size(); ++i) {
@@ -110,7 +109,7 @@ class Echo {
     const double step_rad = one_layer_in_beam() ? kSmoothStep_rad : kLayeredStep_rad;
     nodes_ = 1 + static_cast<int>(std::ceil(span_rad / step_rad));
     node_step_rad_ = span_rad / (nodes_ - 1);
-    if (same_in_all_azimuths_) profiles(0.0, common_);
+    if (upright_) profiles(0.0, false, beside_cells_);
   }
 
   void run() {
@@ -135,18 +134,25 @@ class Echo {
                : world_.surfaces().height_above_ground_m(antenna_.position_m);
   }
 
+  bool cells_in(double azimuth_rad) const {
+    const glm::dvec2 from_m(antenna_.position_m);
+    const glm::dvec2 along(sensors::direction(antenna_, azimuth_rad, 0.0, sensor_.scan.surface));
+    return world_.volume_echo->cells_between(from_m, from_m + along * sensor_.range.maximum_m());
+  }
+
   // One way, from the antenna to the near edge of a cell.
-  double loss_dB(const glm::dvec3& along, int cell) const {
+  double loss_dB(const glm::dvec3& along, bool rain_cells, int cell) const {
     const double range_m = sensors::range_edge_m(sensor_.range, cell);
     const glm::dvec3 place_m = antenna_.position_m + along * range_m;
-    const double cells_dB =
-        world_.rain_cells ? world_.rain_cells->one_way_dB(antenna_.position_m, place_m) : 0.0;
+    const double cells_dB = rain_cells && world_.rain_cells
+                                ? world_.rain_cells->one_way_dB(antenna_.position_m, place_m)
+                                : 0.0;
     return cells_dB + world_.attenuation.one_way_dB(antenna_.position_m.z, place_m.z, range_m);
   }
 
   // Echo power per unit of two-way elevation gain and radian of azimuth in every range cell, as if
-  // the air were free.
-  void profile(double elevation_rad, double azimuth_rad, Profile& profile) const {
+  // the air were free; without `rain_cells` as it is where none stands.
+  void profile(double elevation_rad, double azimuth_rad, bool rain_cells, Profile& profile) const {
     const glm::dvec3 along =
         sensors::direction(antenna_, azimuth_rad, elevation_rad, sensor_.scan.surface);
     // J of ray_caster.h.
@@ -157,10 +163,10 @@ class Echo {
     const double cell_m = sensor_.range.cell_m;
     std::vector<double>& power_W = profile.power_W;
     power_W.assign(static_cast<std::size_t>(cells), 0.0);
-    double near_dB = loss_dB(along, 0);
+    double near_dB = loss_dB(along, rain_cells, 0);
     for (int first = 0; first < cells; first += kCellsPerLoss) {
       const int last = std::min(first + kCellsPerLoss, cells);
-      const double far_dB = loss_dB(along, last);
+      const double far_dB = loss_dB(along, rain_cells, last);
       const double extinction_per_m =
           std::max(far_dB - near_dB, 0.0) / ((last - first) * cell_m) * kNeperPer_dB;
       const double per_cell = std::exp(-2.0 * extinction_per_m * cell_m);
@@ -168,8 +174,9 @@ class Echo {
                         std::exp(-2.0 * kNeperPer_dB * near_dB);
       for (int cell = first; cell < last; ++cell, length_m *= per_cell) {
         const double from_m = sensors::range_edge_m(sensor_.range, cell);
-        const double eta = world_.volume_echo->eta_m2_per_m3(antenna_.position_m +
-                                                             along * (from_m + cell_m / 2.0));
+        const glm::dvec3 middle_m = antenna_.position_m + along * (from_m + cell_m / 2.0);
+        const double eta = rain_cells ? world_.volume_echo->eta_m2_per_m3(middle_m)
+                                      : world_.volume_echo->layered_eta_m2_per_m3(middle_m.z);
         if (from_m > 0.0)
           power_W[static_cast<std::size_t>(cell)] =
               constant * eta * length_m / (from_m * (from_m + cell_m));
@@ -179,10 +186,10 @@ class Echo {
     profile.sum(sensor_.range);
   }
 
-  void profiles(double azimuth_rad, std::vector<Profile>& nodes) const {
+  void profiles(double azimuth_rad, bool rain_cells, std::vector<Profile>& nodes) const {
     nodes.resize(static_cast<std::size_t>(nodes_));
     for (int node = 0; node < nodes_; ++node)
-      profile(borders_.front() + node * node_step_rad_, azimuth_rad,
+      profile(borders_.front() + node * node_step_rad_, azimuth_rad, rain_cells,
               nodes[static_cast<std::size_t>(node)]);
   }
 
@@ -236,8 +243,8 @@ class Echo {
   std::vector<double> gain_rad_;  // per interval
   int nodes_ = 0;
   double node_step_rad_ = 0.0;
-  bool same_in_all_azimuths_;
-  std::vector<Profile> common_;
+  bool upright_;
+  std::vector<Profile> beside_cells_;  // of every azimuth without one, of an upright fan
 };
 
 // Adds one interval: free up to the nearer of the two distances, half way between them by half.
@@ -286,8 +293,9 @@ void Echo::add_block(int block) {
   thread_local std::vector<Profile> own;
   range_W.assign(static_cast<std::size_t>(sums_.cells), 0.0);
   row_W_m3.assign(static_cast<std::size_t>(sums_.rows), 0.0);
-  if (!same_in_all_azimuths_) profiles(azimuth_rad, own);
-  const std::vector<Profile>& nodes = same_in_all_azimuths_ ? common_ : own;
+  const bool common = upright_ && !cells_in(azimuth_rad);
+  if (!common) profiles(azimuth_rad, true, own);
+  const std::vector<Profile>& nodes = common ? beside_cells_ : own;
   free_distances_m(azimuth_rad, free);
   for (std::size_t i = 0; i < gain_rad_.size(); ++i)
     add_interval(i, nodes, free[i], free[i + 1], range_W, row_W_m3);

@@ -197,6 +197,11 @@ TEST_CASE("Cells add to the layers, and their bounds hold", "[rain_cells]") {
     const double length_m = glm::length(b - a);
     REQUIRE(cells.one_way_dB(a, b) <= cells.largest_one_way_dB(length_m) * (1.0 + 1e-12));
     REQUIRE(cells.two_way_power_factor(a, b) <= 1.0);
+    // Both cells hold the height of 300 m: there a path loses something where its plan meets one.
+    const glm::dvec2 from(a), to(b);
+    const bool meets = cells.one_way_dB({from, 300.0}, {to, 300.0}) > 0.0;
+    REQUIRE(cells.stand_between(from, to) == meets);
+    REQUIRE(echo.cells_between(from, to) == meets);
     const double eta = echo.eta_m2_per_m3(a);
     REQUIRE(eta >= echo.layered_eta_m2_per_m3(a.z));
     REQUIRE(eta <= echo.largest_eta_m2_per_m3(a.z, a.z));

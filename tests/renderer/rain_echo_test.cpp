@@ -171,6 +171,39 @@ TEST_CASE("A building hides the rain behind it", "[rain_echo]") {
   }
 }
 
+TEST_CASE("A shower echoes and takes away in the azimuths that pass through it alone",
+          "[rain_echo]") {
+  const sensors::Sensor sensor = tests::hivision();
+  atmosphere::Weather weather = rain(2.0);
+  weather.simulate_rain = true;
+  const renderer::World beside = rainy_world(sensor, true, weather);
+  atmosphere::RainCell shower;  // 200 m wide at 10 deg to the right
+  shower.centre_m = {1500.0 * std::sin(core::radians(10.0)),
+                     1500.0 * std::cos(core::radians(10.0))};
+  shower.radius_m = 100.0;
+  shower.rain_rate_mm_per_h = 30.0;
+  weather.rain_cells = {shower};
+  renderer::World wet = rainy_world(sensor, true, weather);
+  wet.rain_cells = atmosphere::RainCells(weather, kFrequency_Hz);
+  const renderer::Frame without = render(beside), with = render(wet);
+  const auto ratio = [&](double azimuth_rad, double range_m) {
+    const auto at =
+        static_cast<std::size_t>(sensors::range_row(sensor.range, range_m) * sensor.scan.columns +
+                                 sensors::azimuth_column(sensor.scan, azimuth_rad));
+    return with.bscope_W[at] / without.bscope_W[at];
+  };
+  const double eta_ratio = wet.volume_echo->eta_m2_per_m3({shower.centre_m, 20.0}) /
+                           wet.volume_echo->eta_m2_per_m3({0.0, 0.0, 20.0});
+  const double left = wet.rain_cells->two_way_power_factor({0.0, 0.0, kHeight_m},
+                                                           {2.0 * shower.centre_m, kHeight_m});
+  // The beam is 0.8 deg wide, the shower 7.6 deg.
+  CHECK(ratio(core::radians(10.0), 1410.0) == Approx(eta_ratio).epsilon(0.1));
+  CHECK(ratio(core::radians(10.0), 2500.0) == Approx(left).epsilon(0.02));
+  for (const double range_m : {1410.0, 2500.0})
+    for (const double azimuth_deg : {-12.0, -10.0, 0.0, 3.0})
+      CHECK(ratio(core::radians(azimuth_deg), range_m) == Approx(1.0).epsilon(1e-9));
+}
+
 TEST_CASE("No rain and rain echo off give the same bytes", "[rain_echo]") {
   const sensors::Sensor sensor = tests::hivision(4);
   const renderer::World dry = rainy_world(sensor, true, rain(0.0));

@@ -55,6 +55,10 @@ void SlicePower::finish(const Slice& slice, const VisiblePieces& pieces, PiecePo
 }
 
 void SlicePower::lose_in_rain_cells(const Slice& slice, PiecePowers& powers) const {
+  const glm::dvec2 from_m(antenna_.position_m);
+  if (!world_.rain_cells->stand_between(from_m,
+                                        from_m + slice.along * world_.sensor.range.maximum_m()))
+    return;
   for (int i = 0; i < powers.count; ++i) {
     const double factor = world_.rain_cells->two_way_power_factor(
         antenna_.position_m,
