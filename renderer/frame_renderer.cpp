@@ -66,12 +66,16 @@ class FrameRenderer::Stages {
   bool shows_elevation() const {
     return world_.sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
   }
-  // With an estimate, double bounces are in `sums` already.
-  // `direct`, unless null, receives the sums without double bounces.
+  struct Images {
+    std::vector<double> bscope_W, cscope_W_m3;
+  };
+  Images images_of(const FanSums& sums, bool with_cscope) const;
+  void add_rain(const sensors::AntennaFrame& antenna, FanSums& sums) const;
+  // `direct`, unless null, receives what the picture would be without double bounces.
   std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
-                                    FanSums& sums, SightLines& sight, FanSums* direct) const;
+                                    FanSums& sums, SightLines& sight, Images* direct) const;
   void add_layers(const sensors::AntennaFrame& antenna, const std::vector<core::Echo>& echoes,
-                  const FanSums* direct, Frame& frame) const;
+                  const Images* direct, Frame& frame) const;
   void receive(const std::vector<core::Echo>& echoes, std::uint64_t frame_index,
                Frame& frame) const;
   void display(double height_above_ground_m, Frame& frame) const;
@@ -128,22 +132,16 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
   thread_local FanSums sums;
   const TargetEchoes targets = unobstructed_echoes(world_, antenna, pose.time_s);
   SightLines sight = sight_lines(world_, targets.echoes, pose.time_s);
-  thread_local FanSums direct;
+  Images direct;
   const bool tell_apart = wants_layers() && double_bounce_;
   frame.error = cast(antenna, elevation_resolved, sums, sight, tell_apart ? &direct : nullptr);
-  if (effects_.rain_echo && world_.volume_echo) {
-    add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
-    if (tell_apart) add_rain_echo(world_, antenna, sampling_.sub_columns, direct);
-  }
   frame.rays = sums.rays;
   frame.slices = sums.slices;
   frame.blanked = sums.blanked;
   frame.unprojected = targets.unprojected;
-  const int sub_columns = sampling_.sub_columns;
-  frame.bscope_W = through_antenna(sums.range_W_per_rad, sums.cells, sums, sensor, sub_columns);
-  if (elevation_resolved)
-    frame.cscope_W_m3 =
-        through_antenna(sums.elevation_W_m3_per_rad, sums.rows, sums, sensor, sub_columns);
+  Images images = images_of(sums, elevation_resolved);
+  frame.bscope_W = std::move(images.bscope_W);
+  frame.cscope_W_m3 = std::move(images.cscope_W_m3);
   // Phases mean something in a realisation only: ground_multipath.h.
   const Multipath multipath = !effects_.multipath ? Multipath::none
                               : effects_.speckle  ? Multipath::coherent
@@ -157,46 +155,65 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
   return frame;
 }
 
+FrameRenderer::Stages::Images FrameRenderer::Stages::images_of(const FanSums& sums,
+                                                               bool with_cscope) const {
+  const auto image = [&](const std::vector<double>& bins, int count) {
+    return through_antenna(bins, count, sums, world_.sensor, sampling_.sub_columns);
+  };
+  Images images;
+  images.bscope_W = image(sums.range_W_per_rad, sums.cells);
+  if (with_cscope) images.cscope_W_m3 = image(sums.elevation_W_m3_per_rad, sums.rows);
+  return images;
+}
+
+void FrameRenderer::Stages::add_rain(const sensors::AntennaFrame& antenna, FanSums& sums) const {
+  if (effects_.rain_echo && world_.volume_echo)
+    add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
+}
+
 std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaFrame& antenna,
                                                          bool with_cscope, FanSums& sums,
-                                                         SightLines& sight, FanSums* direct) const {
+                                                         SightLines& sight, Images* direct) const {
   if (!(sampling_.target_grey > 0.0) && !sampling_.estimate_error) {
     caster_->cast(antenna, with_cscope, CastPass{}, sums, sight);
-    if (direct != nullptr) *direct = sums;
+    add_rain(antenna, sums);
+    if (direct != nullptr) *direct = images_of(sums, products_.cscope_layers);
     if (double_bounce_) double_bounce_->add(antenna, sums);
     return std::nullopt;
   }
   std::optional<ErrorEstimate> error =
       Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_)
           .cast(antenna, with_cscope, sums, sight);
-  if (direct == nullptr) return error;
-  // The refined sums hold bounces already: the same once more tells how much they are.
-  *direct = sums;
-  double_bounce_->add(antenna, *direct);
-  const auto taken_off = [](const std::vector<double>& with, std::vector<double>& twice) {
-    for (std::size_t i = 0; i < with.size(); ++i)
-      twice[i] = std::max(2.0 * with[i] - twice[i], 0.0);
-  };
-  taken_off(sums.range_W_per_rad, direct->range_W_per_rad);
-  taken_off(sums.elevation_W_m3_per_rad, direct->elevation_W_m3_per_rad);
+  if (direct != nullptr) {
+    // The refined sums hold bounces already: the same once more tells how much they are.
+    FanSums without = sums;
+    double_bounce_->add(antenna, without);
+    const auto take_off = [](const std::vector<double>& with, std::vector<double>& twice) {
+      for (std::size_t i = 0; i < with.size(); ++i)
+        twice[i] = std::max(2.0 * with[i] - twice[i], 0.0);
+    };
+    take_off(sums.range_W_per_rad, without.range_W_per_rad);
+    take_off(sums.elevation_W_m3_per_rad, without.elevation_W_m3_per_rad);
+    add_rain(antenna, without);
+    *direct = images_of(without, products_.cscope_layers);
+  }
+  add_rain(antenna, sums);
   return error;
 }
 
 // Before targets and the receiver join the powers of `frame`.
 void FrameRenderer::Stages::add_layers(const sensors::AntennaFrame& antenna,
-                                       const std::vector<core::Echo>& echoes, const FanSums* direct,
+                                       const std::vector<core::Echo>& echoes, const Images* direct,
                                        Frame& frame) const {
   frame.layers = frame_layers(world_, antenna, echoes, products_.cscope_layers);
-  if (direct == nullptr) return;
-  const int sub_columns = sampling_.sub_columns;
-  frame.layers->bscope.double_bounce = added_share(
-      through_antenna(direct->range_W_per_rad, direct->cells, *direct, world_.sensor, sub_columns),
-      frame.bscope_W);
+  const auto added = [&](const std::vector<double> Images::*image,
+                         const std::vector<double>& total) {
+    return direct != nullptr ? added_share(direct->*image, total)
+                             : std::vector<float>(total.size());
+  };
+  frame.layers->bscope.double_bounce = added(&Images::bscope_W, frame.bscope_W);
   if (products_.cscope_layers)
-    frame.layers->cscope.double_bounce =
-        added_share(through_antenna(direct->elevation_W_m3_per_rad, direct->rows, *direct,
-                                    world_.sensor, sub_columns),
-                    frame.cscope_W_m3);
+    frame.layers->cscope.double_bounce = added(&Images::cscope_W_m3, frame.cscope_W_m3);
 }
 
 // The last stage before display: targets join the diffuse power, expected or as one realisation.

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "core/parallel.h"
 #include "renderer/casting/elevation_fan.h"
 #include "renderer/casting/ray_line.h"
 #include "renderer/plan/largest_echo.h"
+#include "renderer/stages/layer_cells.h"
 #include "renderer/surfaces/nrcs_table.h"
 #include "sensors/cells.h"
 
@@ -16,88 +18,10 @@ namespace {
 
 // What neighbours on one surface step over is theirs up to here, and where their facets agree that it
 // is one slope: behind a crest the next visible ground is farther than they say.
-constexpr int kLargestGap_cells = 4;
+constexpr int kLargestGap_cells = 8;
 constexpr double kMostOfSlope = 1.5;
 constexpr int kFanColumns = 2;    // that share a fan
 constexpr int kBlockColumns = 8;  // of one task
-
-// One ray that met something.
-struct Seen {
-  float range_m = 0.0F, elevation_rad = 0.0F, sin_grazing = 0.0F, nrcs = 0.0F;
-  float range_slope = 0.0F;  // ray_chain.h
-  float power_W = 0.0F;      // at full azimuth gain
-  std::uint32_t surface = terrain::kNoHit;
-  terrain::MaterialId material = kNoMaterial;
-  terrain::ObjectId object = terrain::kTerrainObject;
-};
-
-// Between two rays that met one surface; of the nearer one what has no middle. Ranges of a plane are
-// linear in their inverse.
-Seen between(const Seen& a, const Seen& b, float share) {
-  const auto mix = [share](float x, float y) { return x + share * (y - x); };
-  Seen seen = share < 0.5F ? a : b;
-  seen.range_m = 1.0F / mix(1.0F / a.range_m, 1.0F / b.range_m);
-  seen.elevation_rad = mix(a.elevation_rad, b.elevation_rad);
-  seen.sin_grazing = mix(a.sin_grazing, b.sin_grazing);
-  seen.nrcs = mix(a.nrcs, b.nrcs);
-  seen.power_W = mix(a.power_W, b.power_W);
-  return seen;
-}
-
-// The sums of a column's cells, over one of the two axes.
-class ColumnCells {
- public:
-  void clear(int cells) { cells_.assign(static_cast<std::size_t>(cells), Cell{}); }
-
-  void add(int index, int azimuth, const Seen& seen) {
-    Cell& cell = cells_[static_cast<std::size_t>(index)];
-    // What sends nothing counts where nothing else is seen.
-    const double weight = static_cast<double>(seen.power_W) + 1e-60;
-    cell.weight += weight;
-    cell.range_m += weight * static_cast<double>(seen.range_m);
-    cell.sin_grazing += weight * static_cast<double>(seen.sin_grazing);
-    cell.nrcs += weight * static_cast<double>(seen.nrcs);
-    if (cell.last_azimuth != azimuth) {
-      cell.last_azimuth = azimuth;
-      ++cell.azimuths;
-    }
-    if (!cell.any || seen.power_W > cell.strongest.power_W) cell.strongest = seen;
-    cell.any = true;
-  }
-
-  void add_target(int index, const Seen& target) {
-    Cell& cell = cells_[static_cast<std::size_t>(index)];
-    if (!cell.any || target.power_W > cell.strongest.power_W) cell.strongest = target;
-    cell.any = true;
-  }
-
-  void write(int column, int columns, LayerSet& set) const {
-    for (std::size_t i = 0; i < cells_.size(); ++i) {
-      const Cell& cell = cells_[i];
-      if (!cell.any) continue;
-      const std::size_t to =
-          i * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
-      set.visibility[to] = static_cast<float>(cell.azimuths) / kLayerAzimuths;
-      set.material[to] = cell.strongest.material;
-      set.object[to] = cell.strongest.object;
-      set.elevation_rad[to] = cell.strongest.elevation_rad;
-      if (cell.azimuths == 0) continue;
-      set.range_m[to] = static_cast<float>(cell.range_m / cell.weight);
-      set.grazing_rad[to] =
-          static_cast<float>(std::asin(std::min(cell.sin_grazing / cell.weight, 1.0)));
-      set.nrcs[to] = static_cast<float>(cell.nrcs / cell.weight);
-    }
-  }
-
- private:
-  struct Cell {
-    double weight = 0.0, range_m = 0.0, sin_grazing = 0.0, nrcs = 0.0;
-    int azimuths = 0, last_azimuth = -1;
-    bool any = false;
-    Seen strongest;
-  };
-  std::vector<Cell> cells_;
-};
 
 // Echoes of targets by column.
 std::vector<std::vector<core::Echo>> by_column(const std::vector<core::Echo>& echoes,
@@ -110,15 +34,24 @@ std::vector<std::vector<core::Echo>> by_column(const std::vector<core::Echo>& ec
   return columns;
 }
 
-LayerSet empty_set(int rows, int columns) {
+// `own`: the layer that this scope alone has.
+LayerSet empty_set(int rows, int columns, std::vector<float> LayerSet::*own) {
   const auto cells = static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns);
   LayerSet set;
-  for (std::vector<float>* layer : {&set.visibility, &set.range_m, &set.grazing_rad, &set.nrcs,
-                                    &set.elevation_rad, &set.double_bounce})
+  for (std::vector<float>* layer : {&set.visibility, &set.grazing_rad, &set.nrcs, &(set.*own)})
     layer->assign(cells, 0.0F);
   set.material.assign(cells, kNoMaterial);
   set.object.assign(cells, terrain::kTerrainObject);
   return set;
+}
+
+// Without the double bounce.
+FrameLayers unseen(const sensors::Sensor& sensor, bool with_cscope) {
+  FrameLayers layers{empty_set(sensor.range.cells, sensor.scan.columns, &LayerSet::elevation_rad),
+                     {}};
+  if (with_cscope)
+    layers.cscope = empty_set(sensor.display.cscope_rows, sensor.scan.columns, &LayerSet::range_m);
+  return layers;
 }
 
 class LayerCaster {
@@ -156,100 +89,172 @@ class LayerCaster {
  private:
   static Sampling layer_sampling() {
     Sampling sampling;
-    sampling.rays_per_cell = 0.5;
+    sampling.rays_per_cell = 0.25;
+    sampling.largest_step_rad *= 2.0;
+    sampling.largest_step_rows = 2.0;
     return sampling;
   }
 
-  using Line = std::vector<Seen>;
+  using Line = std::vector<LayerHit>;
   static constexpr int kLines = kFanColumns * kLayerAzimuths;
   static constexpr int kNoLines = -1;
-  // Of the columns that share a fan, from the left.
-  static std::array<Line, kLines>& lines() {
-    thread_local std::array<Line, kLines> of_thread;
+  // Of the columns that share a fan, from the left: rays of all azimuths side by side.
+  struct Lines {
+    std::array<SubColumn, kLines> azimuths;
+    int count = 0, first = 0;  // azimuths; the number of the first one
+    std::array<Line, kLines> hits, middles;
+    std::vector<std::size_t> gaps;  // rows after which a ray is wanted
+
+    std::size_t rows() const { return hits[0].size(); }
+    std::span<const SubColumn> columns() const {
+      return {azimuths.data(), static_cast<std::size_t>(count)};
+    }
+  };
+  static Lines& lines() {
+    thread_local Lines of_thread;
     return of_thread;
   }
 
   // From the lines that begin with `first`.
   void fill_column(int column, int first, const std::vector<core::Echo>& targets,
                    FrameLayers& layers) const {
-    thread_local ColumnCells ranges, rows;
+    thread_local LayerCells ranges, rows;
     const sensors::Sensor& sensor = world_.sensor;
     ranges.clear(sensor.range.cells);
     rows.clear(with_cscope_ ? sensor.display.cscope_rows : 0);
     for (int k = 0; k < kLayerAzimuths && first != kNoLines; ++k)
-      deposit(lines()[static_cast<std::size_t>(first + k)], k, ranges, rows);
+      deposit(lines().hits[static_cast<std::size_t>(first + k)], k, ranges, rows);
     for (const core::Echo& echo : targets) add(echo, ranges, rows);
-    ranges.write(column, sensor.scan.columns, layers.bscope);
-    if (with_cscope_) rows.write(column, sensor.scan.columns, layers.cscope);
+    ranges.write(column, sensor.scan.columns, kLayerAzimuths, layers.bscope);
+    if (with_cscope_) rows.write(column, sensor.scan.columns, kLayerAzimuths, layers.cscope);
   }
 
   // Rays of all azimuths of some columns, from the lowest up.
   void look(int column, int columns, const std::vector<double>& edges, RayLine& rays) const {
     const sensors::Scan& scan = world_.sensor.scan;
     const double step_rad = scan.column_width_rad() / kLayerAzimuths;
-    const int total = std::max(static_cast<int>(edges.size()) - 1, 0);
-    std::array<SubColumn, kLines> azimuths;
+    Lines& all = lines();
     std::array<double, kLines> share;
-    const int first = column * kLayerAzimuths, count = columns * kLayerAzimuths;
-    for (int i = 0; i < count; ++i) {
+    all.first = column * kLayerAzimuths;
+    all.count = columns * kLayerAzimuths;
+    const std::size_t total = edges.empty() ? 0 : edges.size() - 1;
+    for (int i = 0; i < all.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const double azimuth_rad = sensors::column_middle_rad(scan, column + i / kLayerAzimuths) +
                                  (i % kLayerAzimuths + 0.5 - 0.5 * kLayerAzimuths) * step_rad;
-      azimuths[at] = {azimuth_rad, std::cos(azimuth_rad), std::sin(azimuth_rad), step_rad};
-      share[at] = elevation_place(first + i, 0.5);
-      lines()[at].resize(static_cast<std::size_t>(total));
+      all.azimuths[at] = {azimuth_rad, std::cos(azimuth_rad), std::sin(azimuth_rad), step_rad};
+      share[at] = elevation_place(all.first + i, 0.5);
+      all.hits[at].resize(total);
     }
+    send(all, all.hits, rays, 0, [&](std::size_t row, std::size_t i) {
+      return edges[row] + share[i] * (edges[row + 1] - edges[row]);
+    });
+    if (total == 0) return;
+    look_between(all, rays);
+    for (int i = 0; i < all.count; ++i)
+      share_out(edges.front(), edges.back(), all.hits[static_cast<std::size_t>(i)]);
+  }
+
+  // As many rays as `to` has rows, each at the elevation that `place` says.
+  template <class Place>
+  void send(const Lines& all, std::array<Line, kLines>& to, RayLine& rays, std::size_t dithered,
+            const Place& place) const {
     const auto aim = [&](int ray, int i) {
       const auto row = static_cast<std::size_t>(ray);
-      return RayPlace{
-          edges[row] + share[static_cast<std::size_t>(i)] * (edges[row + 1] - edges[row]),
-          dither(static_cast<std::uint32_t>(ray), first + i, 0)};
+      return RayPlace{place(row, static_cast<std::size_t>(i)),
+                      dither(static_cast<std::uint32_t>(dithered + row), all.first + i, 0)};
     };
-    std::array<Line, kLines>& seen_by = lines();
     const auto keep = [&](int ray, int i, const RayBatch& batch, const RayChain& chain, int lane) {
-      const auto row = static_cast<std::size_t>(ray);
-      seen_by[static_cast<std::size_t>(i)][row] =
-          seen(batch, chain, lane, edges[row + 1] - edges[row]);
+      see(batch, chain, lane, to[static_cast<std::size_t>(i)][static_cast<std::size_t>(ray)]);
     };
-    rays.cast({azimuths.data(), static_cast<std::size_t>(count)}, total, aim, keep);
+    rays.cast(all.columns(), static_cast<int>(to[0].size()), aim, keep);
   }
 
-  Seen seen(const RayBatch& batch, const RayChain& chain, int lane, double height_rad) const {
-    Seen result;
+  // Where neighbours of some azimuth do not tell what lies between them a ray of each goes there.
+  void look_between(Lines& all, RayLine& rays) const {
+    const auto count = static_cast<std::size_t>(all.count);
+    all.gaps.clear();
+    for (std::size_t row = 0; row + 1 < all.rows(); ++row)
+      for (std::size_t i = 0; i < count; ++i)
+        if (untold(all.hits[i][row], all.hits[i][row + 1])) {
+          all.gaps.push_back(row);
+          break;
+        }
+    for (std::size_t i = 0; i < count; ++i) all.middles[i].resize(all.gaps.size());
+    send(all, all.middles, rays, all.rows(), [&](std::size_t gap, std::size_t i) {
+      const LayerHit* const below = &all.hits[i][all.gaps[gap]];
+      return 0.5 * (static_cast<double>(below[0].elevation_rad) +
+                    static_cast<double>(below[1].elevation_rad));
+    });
+    for (std::size_t i = 0; i < count; ++i) insert(all.middles[i], all.gaps, all.hits[i]);
+  }
+
+  static void insert(const Line& middles, const std::vector<std::size_t>& gaps, Line& hits) {
+    std::size_t from = hits.size(), to = from + middles.size();
+    hits.resize(to);
+    for (std::size_t gap = gaps.size(); gap-- > 0;) {
+      while (from > gaps[gap] + 1) hits[--to] = hits[--from];
+      hits[--to] = middles[gap];
+    }
+  }
+
+  // Each ray stands for what is nearer to it than to its neighbours.
+  static void share_out(double lowest_rad, double highest_rad, Line& hits) {
+    auto border_rad = static_cast<float>(lowest_rad);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      const float next_rad = i + 1 < hits.size()
+                                 ? 0.5F * (hits[i].elevation_rad + hits[i + 1].elevation_rad)
+                                 : static_cast<float>(highest_rad);
+      hits[i].height_rad = next_rad - border_rad;
+      border_rad = next_rad;
+    }
+  }
+
+  // Whether what lies between two neighbours may be neither's.
+  bool untold(const LayerHit& a, const LayerHit& b) const {
+    if (!a.hit() || !b.hit()) return a.hit() != b.hit();
+    const bool cells = std::abs(a.cell - b.cell) >= 2;
+    if (!cells && !(with_cscope_ && std::abs(a.row - b.row) >= 2)) return false;
+    if (a.surface != b.surface) return true;
+    if (!is_ground(a) && (a.material != b.material || a.object != b.object)) return true;
+    return cells && !one_slope(a, b);
+  }
+
+  void see(const RayBatch& batch, const RayChain& chain, int lane, LayerHit& hit) const {
     const auto i = static_cast<std::size_t>(lane);
-    if (batch.geometry[lane] == terrain::kNoHit) return result;
-    result.surface = chain.surface[i];
-    result.range_m = chain.range_m[i];
-    result.range_slope = chain.range_slope[i];
-    result.elevation_rad = static_cast<float>(batch.elevation_rad[lane]);
-    result.power_W = static_cast<float>(static_cast<double>(chain.density_W_per_rad2[i]) *
-                                        height_rad * beam_rad_ / kLayerAzimuths);
-    const double dx = static_cast<double>(batch.direction_x[lane]);
-    const double dy = static_cast<double>(batch.direction_y[lane]);
-    const double dz = static_cast<double>(batch.direction_z[lane]);
-    const double nx = static_cast<double>(batch.normal_x[lane]);
-    const double ny = static_cast<double>(batch.normal_y[lane]);
-    const double nz = static_cast<double>(batch.normal_z[lane]);
-    const double sine =
-        std::clamp(-(nx * dx + ny * dy + nz * dz) /
-                       std::sqrt((nx * nx + ny * ny + nz * nz) * (dx * dx + dy * dy + dz * dz)),
-                   0.0, 1.0);
-    const double range_m = static_cast<double>(result.range_m);
-    const double x_m = antenna_.position_m.x + range_m * dx;
-    const double y_m = antenna_.position_m.y + range_m * dy;
+    hit.elevation_rad = static_cast<float>(batch.elevation_rad[lane]);
+    hit.surface = terrain::kNoHit;
+    if (batch.geometry[lane] == terrain::kNoHit) return;
+    hit.surface = chain.surface[i];
+    hit.range_m = chain.range_m[i];
+    hit.range_slope = chain.range_slope[i];
+    hit.power_W_per_rad = static_cast<float>(static_cast<double>(chain.density_W_per_rad2[i]) *
+                                             beam_rad_ / kLayerAzimuths);
+    const float dx = batch.direction_x[lane], dy = batch.direction_y[lane],
+                dz = batch.direction_z[lane];
+    const float nx = batch.normal_x[lane], ny = batch.normal_y[lane], nz = batch.normal_z[lane];
+    hit.sin_grazing = std::clamp(
+        -(nx * dx + ny * dy + nz * dz) / std::sqrt(nx * nx + ny * ny + nz * nz), 0.0F, 1.0F);
+    const auto range_m = static_cast<double>(hit.range_m);
+    const double x_m = antenna_.position_m.x + range_m * static_cast<double>(dx);
+    const double y_m = antenna_.position_m.y + range_m * static_cast<double>(dy);
+    hit.x_m = static_cast<float>(x_m);
+    hit.y_m = static_cast<float>(y_m);
     const terrain::RayScene& surfaces = world_.surfaces();
-    result.material = surfaces.material(batch.geometry[lane], batch.primitive[lane], x_m, y_m);
-    result.object = surfaces.object(batch.geometry[lane], batch.primitive[lane], x_m, y_m);
-    result.sin_grazing = static_cast<float>(sine);
-    result.nrcs =
-        static_cast<float>(world_.nrcs.tables()[result.material].sigma0_over_sine(sine) * sine);
-    return result;
+    hit.material = surfaces.material(batch.geometry[lane], batch.primitive[lane], x_m, y_m);
+    hit.object = surfaces.object(batch.geometry[lane], batch.primitive[lane], x_m, y_m);
+    const auto sine = static_cast<double>(hit.sin_grazing);
+    hit.nrcs = static_cast<float>(world_.nrcs.tables()[hit.material].sigma0_over_sine(sine) * sine);
+    hit.cell = sensors::range_row(world_.sensor.range, range_m);
+    hit.row = row_of(hit);
   }
 
-  void add(const core::Echo& echo, ColumnCells& ranges, ColumnCells& rows) const {
-    Seen target;
+  void add(const core::Echo& echo, LayerCells& ranges, LayerCells& rows) const {
+    LayerHit target;
     target.elevation_rad = static_cast<float>(echo.elevation_rad);
-    target.power_W = static_cast<float>(echo.power_W);
+    target.height_rad = 1.0F;
+    target.power_W_per_rad = static_cast<float>(echo.power_W);
+    target.material = kNoMaterial;
     target.object =
         static_cast<terrain::ObjectId>(world_.geometry->object_names.size()) + echo.object_id;
     const int cell = sensors::range_row(world_.sensor.range, echo.range_m);
@@ -259,69 +264,91 @@ class LayerCaster {
     if (row != sensors::kOutside) rows.add_target(row, target);
   }
 
-  // Range cells that two neighbours on one surface stepped over.
-  void fill_ranges(const Seen& a, int from, const Seen& b, int to, int azimuth,
-                   ColumnCells& ranges) const {
-    const int gap = std::abs(to - from);
-    if (a.surface != b.surface || gap < 2 || gap > kLargestGap_cells) return;
-    const double step_rad =
-        static_cast<double>(b.elevation_rad) - static_cast<double>(a.elevation_rad);
-    const auto told_m = [step_rad](const Seen& seen) {
-      return std::abs(static_cast<double>(seen.range_m) * static_cast<double>(seen.range_slope) *
-                      step_rad);
-    };
-    const double apart_m =
-        std::abs(static_cast<double>(b.range_m) - static_cast<double>(a.range_m));
-    if (apart_m > kMostOfSlope * std::max(told_m(a), told_m(b)) + world_.sensor.range.cell_m)
-      return;
-    for (int step = 1; step < gap; ++step)
-      ranges.add(from + (to > from ? step : -step), azimuth,
-                 between(a, b, static_cast<float>(step) / static_cast<float>(gap)));
+  bool is_ground(const LayerHit& hit) const {
+    const terrain::RayScene& surfaces = world_.surfaces();
+    return surfaces.terrain() != nullptr &&
+           (hit.surface | 1U) == surface_of(terrain::kTerrainGeometry, 1U);
+  }
+
+  // The ground has the cover and the paint of its own place.
+  LayerHit on_one_surface(const LayerHit& a, const LayerHit& b, float share) const {
+    LayerHit hit = between(a, b, share);
+    if (!is_ground(hit)) return hit;
+    const terrain::SurfaceMap& map = *world_.surfaces().surface_map();
+    const auto x_m = static_cast<double>(hit.x_m), y_m = static_cast<double>(hit.y_m);
+    hit.object = map.object_at(x_m, y_m);
+    hit.material = map.material_at(x_m, y_m);
+    if (hit.material == a.material && hit.material == b.material) return hit;
+    const auto sine = static_cast<double>(hit.sin_grazing);
+    const auto nrcs =
+        static_cast<float>(world_.nrcs.tables()[hit.material].sigma0_over_sine(sine) * sine);
+    if (hit.nrcs > 0.0F) hit.power_W_per_rad *= nrcs / hit.nrcs;
+    hit.nrcs = nrcs;
+    return hit;
+  }
+
+  bool in_gate(const LayerHit& hit) const {
+    const auto range_m = static_cast<double>(hit.range_m);
+    return range_m >= world_.sensor.range.minimum_m && range_m < world_.sensor.range.maximum_m();
   }
 
   // Counts on above and below the window.
-  int row_of(const Seen& seen) const {
+  int row_of(const LayerHit& hit) const {
     const sensors::Display& display = world_.sensor.display;
     return static_cast<int>(
-        std::floor((display.cscope_top_rad - static_cast<double>(seen.elevation_rad)) / row_rad_));
+        std::floor((display.cscope_top_rad - static_cast<double>(hit.elevation_rad)) / row_rad_));
+  }
+
+  // Whether two neighbours on one surface own the range cells that they step over.
+  bool one_slope(const LayerHit& a, const LayerHit& b) const {
+    if (a.surface != b.surface || a.cell == sensors::kOutside || b.cell == sensors::kOutside ||
+        std::abs(b.cell - a.cell) > kLargestGap_cells)
+      return false;
+    const float step_rad = b.elevation_rad - a.elevation_rad;
+    const float told_m = std::max(std::abs(a.range_m * a.range_slope * step_rad),
+                                  std::abs(b.range_m * b.range_slope * step_rad));
+    return static_cast<double>(std::abs(b.range_m - a.range_m)) <=
+           kMostOfSlope * static_cast<double>(told_m) + world_.sensor.range.cell_m;
+  }
+
+  void fill_ranges(const LayerHit& a, const LayerHit& b, int azimuth, LayerCells& ranges) const {
+    const int gap = std::abs(b.cell - a.cell);
+    if (gap < 2 || !one_slope(a, b)) return;
+    for (int step = 1; step < gap; ++step)
+      ranges.add(a.cell + (b.cell > a.cell ? step : -step), azimuth,
+                 on_one_surface(a, b, static_cast<float>(step) / static_cast<float>(gap)));
   }
 
   // Rows between two neighbours: what they both meet, or each its half.
-  void fill_rows(const Seen& a, int from, const Seen& b, int to, int azimuth,
-                 ColumnCells& rows) const {
+  void fill_rows(const LayerHit& a, const LayerHit& b, int azimuth, LayerCells& rows) const {
     const int last = world_.sensor.display.cscope_rows - 1;
-    for (int row = std::max(std::min(from, to) + 1, 0);
-         row <= std::min(std::max(from, to) - 1, last); ++row) {
-      const float share = static_cast<float>(row - from) / static_cast<float>(to - from);
-      rows.add(row, azimuth,
-               a.surface == b.surface ? between(a, b, share) : (share < 0.5F ? a : b));
+    for (int row = std::max(std::min(a.row, b.row) + 1, 0);
+         row <= std::min(std::max(a.row, b.row) - 1, last); ++row) {
+      const float share = static_cast<float>(row - a.row) / static_cast<float>(b.row - a.row);
+      const LayerHit hit =
+          a.surface == b.surface ? on_one_surface(a, b, share) : (share < 0.5F ? a : b);
+      if (in_gate(hit)) rows.add(row, azimuth, hit);
     }
   }
 
-  void deposit(const std::vector<Seen>& line, int azimuth, ColumnCells& ranges,
-               ColumnCells& rows) const {
-    const sensors::Sensor& sensor = world_.sensor;
-    int last_cell = sensors::kOutside, last_row = 0;
-    const Seen* last = nullptr;
-    for (const Seen& now : line) {
-      if (now.surface == terrain::kNoHit) {
+  void deposit(const Line& line, int azimuth, LayerCells& ranges, LayerCells& rows) const {
+    const int row_count = world_.sensor.display.cscope_rows;
+    const LayerHit* last = nullptr;
+    for (const LayerHit& now : line) {
+      if (!now.hit()) {
         last = nullptr;
         continue;
       }
+      const bool shown = now.cell != sensors::kOutside;
       if (with_cscope_) {
-        const int row = row_of(now);
-        if (row >= 0 && row < sensor.display.cscope_rows) rows.add(row, azimuth, now);
-        if (last != nullptr) fill_rows(*last, last_row, now, row, azimuth, rows);
-        last_row = row;
+        if (shown && now.row >= 0 && now.row < row_count) rows.add(now.row, azimuth, now);
+        if (last != nullptr) fill_rows(*last, now, azimuth, rows);
       }
-      const int cell = sensors::range_row(sensor.range, static_cast<double>(now.range_m));
-      if (cell != sensors::kOutside) {
-        ranges.add(cell, azimuth, now);
-        if (last != nullptr && last_cell != sensors::kOutside)
-          fill_ranges(*last, last_cell, now, cell, azimuth, ranges);
+      if (shown) {
+        ranges.add(now.cell, azimuth, now);
+        if (last != nullptr) fill_ranges(*last, now, azimuth, ranges);
       }
       last = &now;
-      last_cell = cell;
     }
   }
 
@@ -337,15 +364,16 @@ class LayerCaster {
 }  // namespace
 
 FrameLayers empty_layers(const sensors::Sensor& sensor, bool with_cscope) {
-  FrameLayers layers{empty_set(sensor.range.cells, sensor.scan.columns), {}};
-  if (with_cscope) layers.cscope = empty_set(sensor.display.cscope_rows, sensor.scan.columns);
+  FrameLayers layers = unseen(sensor, with_cscope);
+  for (LayerSet* set : {&layers.bscope, &layers.cscope})
+    set->double_bounce.assign(set->visibility.size(), 0.0F);
   return layers;
 }
 
 FrameLayers frame_layers(const World& world, const sensors::AntennaFrame& antenna,
                          const std::vector<core::Echo>& targets, bool with_cscope) {
   const sensors::Sensor& sensor = world.sensor;
-  FrameLayers layers = empty_layers(sensor, with_cscope);
+  FrameLayers layers = unseen(sensor, with_cscope);
   const std::vector<std::vector<core::Echo>> of_column = by_column(targets, sensor.scan);
   const LayerCaster caster(world, antenna, with_cscope);
   // Neighbours by one thread: their cells lie side by side.
@@ -355,6 +383,8 @@ FrameLayers frame_layers(const World& world, const sensors::AntennaFrame& antenn
     const int last = std::min(first + kBlockColumns, sensor.scan.columns);
     caster.cast(first, last, of_column, layers);
   });
+  find_angles(layers.bscope.grazing_rad);
+  find_angles(layers.cscope.grazing_rad);
   return layers;
 }
 

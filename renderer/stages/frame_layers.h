@@ -7,10 +7,10 @@
 // Layers, by cell, each 0 where nothing is seen:
 //   visibility     of the azimuths cast in the column, the share that sees something in the cell: 1
 //                  lit, 0 in shadow or in the air
-//   range_m        mean (C-scope)
+//   range_m        mean (C-scope alone)
 //   grazing_rad    of the local grazing angle on the facets, by the mean of its sine
 //   nrcs           mean sigma0, linear
-//   elevation_rad  of the strongest single echo (B-scope)
+//   elevation_rad  of the strongest single echo (B-scope alone)
 //   material, object  of the strongest single echo; a point target counts as one, with object
 //                  number Geometry::object_names.size() plus its index and material kNoMaterial
 //   double_bounce  of the picture's power from surfaces and rain, beam and all, the share that came
@@ -19,9 +19,11 @@
 // them.
 //
 // From rays of its own, whichever caster draws the picture, so that the two give the same truth:
-// kLayerAzimuths azimuths a column, dithered along range as in ray_caster.h, half a ray a range cell
-// of visible ground in each and one a C-scope row of what stands above it. What neighbours on one
-// slope step over, up to three range cells or all rows, is put between them. Accuracy: a thing
+// kLayerAzimuths azimuths a column, dithered along range as in ray_caster.h, a quarter of a ray a
+// range cell of visible ground in each and one in two C-scope rows of what stands above it, and one
+// more wherever two neighbours do not tell what lies between them: another surface, material, object
+// or slope. What neighbours on one slope step over, up to seven range cells or all rows, is put
+// between them. Echoes beyond the range gate are in neither picture, nor here. Accuracy: a thing
 // narrower than half a column, or lower than a ray's step, may be missed; a cell at its foot may be
 // left dark. Neglected: rain cells, and all that ray_caster.h neglects.
 // Deterministic, and the same for any number of threads. Cost: docs/performance-notes.md.
@@ -40,7 +42,7 @@ namespace fanbeam::renderer {
 inline constexpr int kLayerAzimuths = 2;
 inline constexpr terrain::MaterialId kNoMaterial = 0xFFFF;
 
-// Row-major [row][column], as the powers of the picture.
+// Row-major [row][column], as the powers of the picture; empty where the scope has no such layer.
 struct LayerSet {
   std::vector<float> visibility, range_m, grazing_rad, nrcs, elevation_rad, double_bounce;
   std::vector<terrain::MaterialId> material;  // kNoMaterial where nothing is seen

@@ -136,6 +136,69 @@ TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_laye
   CHECK(wall > 30);
 }
 
+TEST_CASE("Roads two cells wide across the view are told in every column", "[frame_layers]") {
+  constexpr terrain::ObjectId kRoad = 5;
+  constexpr double kWide_m = 14.0;
+  std::vector<terrain::SurfacePatch> roads;
+  for (int road = 0; road < 12; ++road) {
+    roads.push_back(
+        terrain::rectangle_patch({0.0, 1000.0 + 170.0 * road}, {1.0, 0.0}, 3000.0, kWide_m, 1));
+    roads.back().object = kRoad;
+  }
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const renderer::World world =
+      tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
+                   {kMeadow, kBright}, {}, roads);
+  const renderer::LayerSet truth =
+      rendered(world, renderer::profile_sampling_for(2.0)).layers->bscope;
+  int cells = 0;
+  for (int road = 0; road < 12; ++road)
+    for (int column = 0; column < kColumns; ++column)
+      for (int row = 0; row < sensor.range.cells; ++row) {
+        // Straight ahead; a degree beside they lie 0.15 m farther in a thousand.
+        const auto north_m = [&](int edge) {
+          const double range_m = sensors::range_edge_m(sensor.range, edge);
+          return std::sqrt(range_m * range_m - kHeight_m * kHeight_m);
+        };
+        const double middle_m = 1000.0 + 170.0 * road, slack_m = 0.7;
+        if (north_m(row) < middle_m - kWide_m / 2.0 + slack_m ||
+            north_m(row + 1) > middle_m + kWide_m / 2.0 - slack_m)
+          continue;
+        INFO("road " << road << ", column " << column);
+        REQUIRE(truth.material[at(row, column)] == 1);
+        REQUIRE(truth.object[at(row, column)] == kRoad);
+        REQUIRE(truth.nrcs[at(row, column)] > 3e-2F);
+        ++cells;
+      }
+  CHECK(cells >= 12 * kColumns / 2);
+}
+
+TEST_CASE("What lies beyond the range gate is in neither scope", "[frame_layers]") {
+  sensors::Sensor sensor = tests::hivision(kColumns);
+  sensor.range.minimum_m = 600.0;
+  sensor.range.cells = 200;
+  const renderer::Frame frame = rendered(plain_with_shed(sensor), renderer::sampling_for(4.0));
+  int lit = 0;
+  for (int row = 0; row < sensor.display.cscope_rows; ++row) {
+    const double high_rad =
+        sensor.display.cscope_top_rad - sensors::cscope_edge_rad(sensor.display, row);
+    const double low_rad =
+        sensor.display.cscope_top_rad - sensors::cscope_edge_rad(sensor.display, row + 1);
+    INFO("row " << core::degrees(low_rad) << " to " << core::degrees(high_rad));
+    const bool near = high_rad < -std::asin(kHeight_m / sensor.range.minimum_m);
+    const bool far = low_rad > -std::asin(kHeight_m / sensor.range.maximum_m());
+    const float seen = frame.layers->cscope.visibility[at(row)];
+    if (near || far) REQUIRE(seen == 0.0F);
+    const double one_rad = high_rad - low_rad;
+    if (high_rad < -std::asin(kHeight_m / sensor.range.maximum_m()) - one_rad &&
+        low_rad > -std::asin(kHeight_m / sensor.range.minimum_m) + one_rad) {
+      ++lit;
+      REQUIRE(seen == 1.0F);
+    }
+  }
+  CHECK(lit > 100);
+}
+
 TEST_CASE("Rays and slices, and any number of threads, give one truth", "[frame_layers][threads]") {
   const renderer::World world = plain_with_shed(tests::hivision(kColumns));
   const renderer::Frame by_rays = rendered(world, renderer::sampling_for(4.0));
