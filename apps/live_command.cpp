@@ -83,7 +83,7 @@ class LiveRun {
         line_(quiet) {
     live::Status status;
     status.scene = scene_->description.name;
-    status.source = options.from;
+    status.source = told_sources();
     status.frames = continued.frames;
     hub_.tell(status);
     if (recording_ != nullptr && recording_->flown_by.scene != scene_->description.name)
@@ -95,7 +95,7 @@ class LiveRun {
   void fly() {
     const core::StopToken asked = core::StopScope::current();
     const std::uint16_t port = serve();
-    const bool listens = wiring_.from.listens() && recording_ == nullptr;
+    const bool listens = wiring_.first().listens() && recording_ == nullptr;
     if (listens) listener_.listen(network_);
     Sinks& sinks = continued_.sinks;
     sinks.begin(scene_->description, rate_Hz_);
@@ -106,7 +106,8 @@ class LiveRun {
     core::StopSource end;
     const auto begin = live::Clock::now();
     std::optional<live::SimulatorWeather> weather;
-    if (wiring_.from.weather && recording_ == nullptr) weather.emplace(desk_, listener_.feed());
+    if (const live::Feed* const told = listener_.weather(); told != nullptr && listens)
+      weather.emplace(desk_, *told);
     std::optional<live::Quality> quality;
     if (!options_.lockstep && recording_ == nullptr) quality.emplace(*session_, hub_);
     const auto each_frame = [&](live::Status& now) {
@@ -136,6 +137,12 @@ class LiveRun {
   }
 
  private:
+  std::string told_sources() const {
+    std::string all;
+    for (const PosesFrom& from : wiring_.from) all += (all.empty() ? "" : ", ") + from.source;
+    return all;
+  }
+
   std::uint16_t serve() {
     live::Endpoint page = wiring_.page;
     if (continued_.page_port != 0) page.port = continued_.page_port;
@@ -190,15 +197,17 @@ class LiveRun {
   }
 
   live::Flight flight() const {
-    return wiring_.from.circle ? live::circle(*scene_) : live::approach(*scene_);
+    return wiring_.first().circle ? live::circle(*scene_) : live::approach(*scene_);
   }
 
   void render(const live::ChannelSettings& settings, const live::Told& told,
               const core::StopToken& stop) {
-    const bool listens = wiring_.from.listens();
+    const bool listens = wiring_.first().listens();
     const live::Flight flown = listens ? live::Flight() : flight();
     if (recording_ != nullptr)
-      live::run_replay(*session_, *recording_, listens ? &listener_.feed() : nullptr, &flown, desk_,
+      live::run_replay(*session_, *recording_,
+                       listens ? listener_.feeds() : std::vector<const live::Feed*>{}, &flown,
+                       desk_,
                        {options_.speed, options_.lockstep, settings.begin, settings.keep_received},
                        hub_, told, stop);
     else if (options_.lockstep && listens)
@@ -243,7 +252,7 @@ int fly(const LiveOptions& given, const CommonOptions& common) {
     const auto open = [&](const std::string& scene) {
       LiveOptions other = options;
       other.scene = scene;
-      return opened(other, wiring.from, common.quiet);
+      return opened(other, wiring.first(), common.quiet);
     };
     std::unique_ptr<session::Session> session = open(options.scene);
     Continued continued{{options.scene, session->scene()->description, open},

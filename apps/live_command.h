@@ -10,7 +10,7 @@
 namespace fanbeam::apps {
 
 struct LiveOptions : SceneChoice {
-  std::string from = "circle";  // live_wiring.h
+  std::vector<std::string> from = {"circle"};  // live_wiring.h
   std::vector<std::string> to;
   std::string http = "8416";  // [ADDRESS:]PORT
   std::string token_file;

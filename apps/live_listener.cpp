@@ -5,37 +5,49 @@
 
 namespace fanbeam::apps {
 
-LiveListener::LiveListener(const PosesFrom& from, session::Session& session, double rate_Hz,
-                           std::size_t kept, const live::CigiStation& station)
-    : from_(from),
-      feed_(session.scene(), from.datum,
-            from.protocol != nullptr ? *from.protocol : feeds::kProtocols[0], kept) {
-  if (from.cigi) ig_.emplace(session, from.datum, kept, station);
-  if (from.subscribes())
-    xplane_.emplace(from.beacon ? std::nullopt : std::optional(from.listens_at), rate_Hz, feed_);
+LiveListener::Source::Source(const PosesFrom& told, const session::Session& session,
+                             std::shared_ptr<live::Mailbox> mailbox, std::size_t number)
+    : from(told),
+      feed(session.scene(), told.datum, told.protocol ? *told.protocol : feeds::kProtocols[0],
+           std::move(mailbox), number) {}
+
+LiveListener::LiveListener(const std::vector<PosesFrom>& from, session::Session& session,
+                           double rate_Hz, std::size_t kept, const live::CigiStation& station)
+    : mailbox_(std::make_shared<live::Mailbox>(kept)) {
+  for (const PosesFrom& one : from) {
+    sources_.emplace_back(one, session, mailbox_, sources_.size());
+    if (one.cigi) ig_.emplace(session, one.datum, kept, station);
+    if (one.subscribes())
+      xplane_.emplace(one.beacon ? std::nullopt : std::optional(one.listens_at), rate_Hz,
+                      sources_.back().feed);
+  }
 }
 
 void LiveListener::listen(live::Network& network) {
-  if (xplane_) return listen_to_xplane(network);
-  network.receive(
-      from_.listens_at,
-      [this](std::span<const std::uint8_t> datagram, const live::Sender& from) {
-        hear(datagram, from);
-      },
-      from_.peers);
+  for (Source& source : sources_)
+    if (!source.from.subscribes())
+      network.receive(
+          source.from.listens_at,
+          [this, &source](std::span<const std::uint8_t> datagram, const live::Sender& from) {
+            hear(source, datagram, from);
+          },
+          source.from.peers);
+  // Last: requests go out from the port that was opened last.
+  for (const Source& source : sources_)
+    if (source.from.subscribes()) listen_to_xplane(source.from, network);
 }
 
 // It answers to the port that asks, any that is free.
-void LiveListener::listen_to_xplane(live::Network& network) {
-  const live::Endpoint& there = from_.listens_at;
+void LiveListener::listen_to_xplane(const PosesFrom& from, live::Network& network) {
+  const live::Endpoint& there = from.listens_at;
   const bool six = there.address.find(':') != std::string::npos;
   live::Endpoint here;
-  if (from_.beacon)
+  if (from.beacon)
     network.receive({std::string(feeds::kBeaconAddress), feeds::kBeaconPort, true},
                     [this](std::span<const std::uint8_t> datagram, const live::Sender& from) {
                       xplane_->take_beacon(datagram, from);
                     });
-  if (from_.beacon || there.beyond_loopback)
+  if (from.beacon || there.beyond_loopback)
     here.address = six ? "::" : "0.0.0.0";
   else if (six)
     here.address = "::1";
@@ -44,20 +56,35 @@ void LiveListener::listen_to_xplane(live::Network& network) {
   });
 }
 
-void LiveListener::hear(std::span<const std::uint8_t> datagram, const live::Sender& from) {
+void LiveListener::hear(Source& source, std::span<const std::uint8_t> datagram,
+                        const live::Sender& from) {
   if (!from.is_peer)
-    ig_ ? ig_->turn_away() : feed_.turn_away();
+    ig_ ? ig_->turn_away() : source.feed.turn_away();
   else if (ig_)
     ig_->take(datagram, from.address + ":" + std::to_string(from.port));
   else
-    feed_.take(datagram);
+    source.feed.take(datagram);
 }
 
 void LiveListener::tell(live::Status& status) const {
-  if (ig_)
-    ig_->tell(status);
-  else
-    feed_.tell(status);
+  if (ig_) return ig_->tell(status);
+  status.packets = 0;
+  status.bad_packets.clear();
+  status.height_offset_m.reset();
+  for (const Source& source : sources_) source.feed.tell(status);
+  if (const auto leading = mailbox_->leading()) status.source = sources_[*leading].from.source;
+}
+
+std::vector<const live::Feed*> LiveListener::feeds() const {
+  std::vector<const live::Feed*> feeds;
+  for (const Source& source : sources_) feeds.push_back(&source.feed);
+  return feeds;
+}
+
+const live::Feed* LiveListener::weather() const {
+  for (const Source& source : sources_)
+    if (source.from.weather) return &source.feed;
+  return nullptr;
 }
 
 std::function<void(live::LiveFrame&)> LiveListener::dress() const {
@@ -72,8 +99,8 @@ void LiveListener::before_frame(live::Network& network) {
   if (!ig_) return;
   std::vector<std::uint8_t> message = ig_->begin_frame();
   const std::string host = ig_->host();
-  if (from_.host)
-    network.send(*from_.host, std::move(message));
+  if (const auto& stated = sources_.front().from.host)
+    network.send(*stated, std::move(message));
   else if (!host.empty())
     network.send(live::parse_endpoint(host, "--from"), std::move(message));
 }

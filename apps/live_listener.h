@@ -2,8 +2,11 @@
 // asked for them.
 #pragma once
 
+#include <deque>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include "apps/live_sources.h"
 #include "live/cigi_ig.h"
@@ -17,8 +20,8 @@ namespace fanbeam::apps {
 class LiveListener {
  public:
   // `kept`: live/mailbox.h. `from` and `session` must outlive it, and it the networks that it is given.
-  LiveListener(const PosesFrom& from, session::Session& session, double rate_Hz, std::size_t kept,
-               const live::CigiStation& station);
+  LiveListener(const std::vector<PosesFrom>& from, session::Session& session, double rate_Hz,
+               std::size_t kept, const live::CigiStation& station);
 
   // Before the network starts; not in a replay.
   void listen(live::Network& network);
@@ -29,17 +32,27 @@ class LiveListener {
   void tell(live::Status& status) const;
   // Of a CIGI host: what it wants to see of a frame. Empty for others.
   std::function<void(live::LiveFrame&)> dress() const;
-  const live::Mailbox& mailbox() const { return ig_ ? ig_->mailbox() : feed_.mailbox(); }
-  live::Feed& feed() { return feed_; }
+  const live::Mailbox& mailbox() const { return ig_ ? ig_->mailbox() : *mailbox_; }
+  // In the order of --from.
+  std::vector<const live::Feed*> feeds() const;
+  // The one whose weather counts; null where none does.
+  const live::Feed* weather() const;
   // Null where it listens to no CIGI host.
   live::CigiIg* cigi() { return ig_ ? &*ig_ : nullptr; }
 
  private:
-  void hear(std::span<const std::uint8_t> datagram, const live::Sender& from);
-  void listen_to_xplane(live::Network& network);
+  struct Source {
+    Source(const PosesFrom& told, const session::Session& session,
+           std::shared_ptr<live::Mailbox> mailbox, std::size_t number);
 
-  const PosesFrom& from_;
-  live::Feed feed_;
+    const PosesFrom& from;
+    live::Feed feed;
+  };
+  void hear(Source& source, std::span<const std::uint8_t> datagram, const live::Sender& from);
+  void listen_to_xplane(const PosesFrom& from, live::Network& network);
+
+  std::shared_ptr<live::Mailbox> mailbox_;
+  std::deque<Source> sources_;
   std::optional<live::CigiIg> ig_;
   std::optional<live::XPlaneLink> xplane_;
 };

@@ -26,8 +26,11 @@ void add_poses(CLI::App& command, LiveOptions& options) {
               "Behind it ,datum=egm96 (the default) or ,datum=ellipsoid tells what heights count "
               "from (a scene whose own datum is unknown takes them as they are), and ,peer=ADDRESS "
               "whose packets count, which an ADDRESS beyond this machine's own needs; "
-              ",weather=simulator (of one that tells it) takes fog, rain and snow from there")
+              ",weather=simulator (of one that tells it) takes fog, rain and snow from there. "
+              "Several simulators that send: the one named first leads, the next counts while "
+              "those before it are silent")
           ->type_name("SOURCE")
+          ->allow_extra_args(false)
           ->capture_default_str();
   CLI::Option* lockstep =
       command.add_flag("--lockstep", options.lockstep,
@@ -60,7 +63,8 @@ void add_sinks(CLI::App& command, LiveOptions& options) {
                   "raw-cscope:FILE (8-bit grey, for ffmpeg; - is the standard output) or "
                   "cat240:ADDRESS:PORT (ASTERIX 240 radar video, unicast or multicast; "
                   "docs/live-cat240.md has what may stand behind it)")
-      ->type_name("SINK");
+      ->type_name("SINK")
+      ->allow_extra_args(false);
   command
       .add_option(
           "--http", options.http,

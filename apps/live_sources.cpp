@@ -56,10 +56,9 @@ void check_simulator(const std::string& source, const PosesFrom& from) {
     refuse_source(source, "beyond loopback also ,peer=ADDRESS, whose packets count");
 }
 
-}  // namespace
-
-PosesFrom poses_from(const std::string& source) {
+PosesFrom one_from(const std::string& source) {
   PosesFrom from;
+  from.source = source;
   const Worded words = worded(source, kSourceKeys);
   for (const auto& [key, value] : words.options) take_option(key, value, source, from);
   const std::string& text = words.head;
@@ -85,6 +84,39 @@ PosesFrom poses_from(const std::string& source) {
   from.beacon = from.subscribes() && place == kBeacon;
   if (!from.beacon) from.listens_at = live::parse_endpoint(place, "--from");
   check_simulator(source, from);
+  return from;
+}
+
+// Of several.
+void check_beside(const PosesFrom& from, int asked, int weathers) {
+  if (!from.listens() || from.cigi)
+    refuse_source(from.source,
+                  "no other source beside it: simulators that send alone may be several");
+  if (from.subscribes() && asked > 1) refuse_source(from.source, "one X-Plane");
+  if (from.weather && weathers > 1) refuse_source(from.source, "the weather of one simulator");
+}
+
+}  // namespace
+
+std::vector<PosesFrom> poses_from(const std::vector<std::string>& sources) {
+  std::vector<PosesFrom> from;
+  core::ProblemList problems;
+  const auto collect = [&](const auto& parse) {
+    try {
+      parse();
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+    }
+  };
+  for (const std::string& source : sources) collect([&] { from.push_back(one_from(source)); });
+  const auto asked = std::count_if(from.begin(), from.end(),
+                                   [](const PosesFrom& one) { return one.subscribes(); });
+  const auto weathers =
+      std::count_if(from.begin(), from.end(), [](const PosesFrom& one) { return one.weather; });
+  if (from.size() > 1)
+    for (const PosesFrom& one : from)
+      collect([&] { check_beside(one, static_cast<int>(asked), static_cast<int>(weathers)); });
+  problems.throw_if_errors();
   return from;
 }
 

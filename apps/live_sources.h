@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/geodetic.h"
 #include "feeds/protocol.h"
@@ -13,6 +14,7 @@ namespace fanbeam::apps {
 // circle, ils, csv:FILE, or the protocol and address of a simulator; then ",datum=DATUM",
 // ",peer=ADDRESS", ",weather=WHOSE" and ",host=ADDRESS:PORT" (of CIGI: where answers go), in any order.
 struct PosesFrom {
+  std::string source;  // as told
   bool circle = false;
   std::string csv;
   const feeds::Protocol* protocol = nullptr;
@@ -28,7 +30,8 @@ struct PosesFrom {
   bool subscribes() const { return protocol != nullptr && protocol->subscribed; }
 };
 
-// Throws InputError.
-PosesFrom poses_from(const std::string& source);
+// Several that listen to simulators, the first of which leads (live/mailbox.h), or one of another kind.
+// Throws InputError with all that is wrong.
+std::vector<PosesFrom> poses_from(const std::vector<std::string>& sources);
 
 }  // namespace fanbeam::apps

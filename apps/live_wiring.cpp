@@ -1,5 +1,6 @@
 #include "apps/live_wiring.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace fanbeam::apps {
@@ -14,15 +15,20 @@ live::Access access_of(const LiveOptions& options) {
   return token == nullptr ? live::Access() : live::Access(token, core::Place{kToken});
 }
 
-// Set by the clock, it would come to other frames each time.
-void check_weather(const LiveOptions& options, const Wiring& wiring) {
-  if (wiring.from.weather && options.lockstep)
+// Weather set by the clock would come to other frames each time.
+void check_lockstep(const LiveOptions& options, const Wiring& wiring) {
+  if (options.lockstep && wiring.from.size() > 1)
+    core::throw_input_error(core::ErrorClass::unsupported, "--lockstep", "with several sources",
+                            "one: each of its poses makes a picture");
+  const bool weather = std::any_of(wiring.from.begin(), wiring.from.end(),
+                                   [](const PosesFrom& from) { return from.weather; });
+  if (weather && options.lockstep)
     core::throw_input_error(core::ErrorClass::unsupported, "--lockstep", "with weather=simulator",
                             "weather=scene: in lockstep the bytes depend on poses alone");
 }
 
 void check_record(const LiveOptions& options, const Wiring& wiring) {
-  if (wiring.from.cigi && !options.record.empty())
+  if (wiring.first().cigi && !options.record.empty())
     core::throw_input_error(core::ErrorClass::unsupported, "--record", "\"" + options.record + "\"",
                             "another source: a CIGI host is not recorded");
 }
@@ -50,8 +56,8 @@ Wiring wiring_of(const LiveOptions& options) {
   collect([&] { wiring.access = access_of(options); });
   for (const std::string& sink : options.to) collect([&] { add_sink(sink, wiring.to); });
   collect([&] { check_page(options.http, wiring); });
-  collect([&] { check_record(options, wiring); });
-  if (options.replay.empty()) collect([&] { check_weather(options, wiring); });
+  if (!wiring.from.empty()) collect([&] { check_record(options, wiring); });
+  if (options.replay.empty()) collect([&] { check_lockstep(options, wiring); });
   problems.throw_if_errors();
   return wiring;
 }

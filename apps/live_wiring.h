@@ -8,7 +8,9 @@
 namespace fanbeam::apps {
 
 struct Wiring {
-  PosesFrom from;
+  std::vector<PosesFrom> from;
+
+  const PosesFrom& first() const { return from.front(); }
   FramesTo to;
   live::Endpoint page;
   live::Access access;  // to the page

@@ -1,6 +1,8 @@
 #include "live/feed.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,11 +17,12 @@ constexpr std::size_t kCompared = 80;  // packets: five seconds of 16 Hz
 }  // namespace
 
 Feed::Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
-           const feeds::Protocol& protocol, std::size_t kept)
+           const feeds::Protocol& protocol, std::shared_ptr<Mailbox> mailbox, std::size_t source)
     : scene_(std::move(scene)),
       datum_(datum_of(scene_->description, datum)),
       protocol_(protocol),
-      mailbox_(kept) {}
+      mailbox_(std::move(mailbox)),
+      source_(source) {}
 
 Feed::Heard Feed::heard(const feeds::AircraftState& state) const {
   core::Pose pose = feeds::pose_of(state);
@@ -42,7 +45,7 @@ bool Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrive
   count(fault);
   if (fault != feeds::PacketFault::none) return false;
   const auto [pose, clock_s] = heard(*state);
-  mailbox_.put(pose, {datagram.begin(), datagram.end()}, arrived, clock_s);
+  mailbox_->put(pose, {datagram.begin(), datagram.end()}, arrived, clock_s, source_);
   compare_heights(pose, state->height_above_ground_m);
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_ = state;
@@ -85,14 +88,21 @@ std::optional<feeds::AircraftState> Feed::newest() const {
 
 void Feed::tell(Status& status) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  status.packets = packets_;
-  status.bad_packets.clear();
-  for (std::size_t i = 1; i < bad_.size(); ++i)
-    if (bad_[i] > 0)
-      status.bad_packets.emplace_back(feeds::name_of(static_cast<feeds::PacketFault>(i)), bad_[i]);
-  status.height_offset_m.reset();
-  if (offsets_m_.size() == kCompared)
-    status.height_offset_m = core::median({offsets_m_.begin(), offsets_m_.end()});
+  status.packets += packets_;
+  for (std::size_t i = 1; i < bad_.size(); ++i) {
+    if (bad_[i] == 0) continue;
+    const std::string reason = feeds::name_of(static_cast<feeds::PacketFault>(i));
+    const auto known = std::find_if(status.bad_packets.begin(), status.bad_packets.end(),
+                                    [&](const auto& bad) { return bad.first == reason; });
+    if (known == status.bad_packets.end())
+      status.bad_packets.emplace_back(reason, bad_[i]);
+    else
+      known->second += bad_[i];
+  }
+  if (offsets_m_.size() < kCompared) return;
+  const double offset_m = core::median({offsets_m_.begin(), offsets_m_.end()});
+  if (!status.height_offset_m || std::abs(offset_m) > std::abs(*status.height_offset_m))
+    status.height_offset_m = offset_m;
 }
 
 }  // namespace fanbeam::live

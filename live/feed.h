@@ -32,9 +32,10 @@ inline core::VerticalDatum datum_of(const scenes::SceneDescription& scene,
 
 class Feed {
  public:
-  // `kept`: live/mailbox.h.
+  // Poses go into `mailbox`, as those of the source of that number.
   Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
-       const feeds::Protocol& protocol = feeds::kProtocols[0], std::size_t kept = Mailbox::kKept);
+       const feeds::Protocol& protocol = feeds::kProtocols[0],
+       std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>(), std::size_t source = 0);
 
   // Any bytes, from one thread; whether they are a packet of use.
   bool take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
@@ -49,10 +50,10 @@ class Feed {
   };
   // Nothing for bytes that are no packet. Leaves the mailbox alone.
   std::optional<Heard> heard_in(std::span<const std::uint8_t> datagram) const;
-  const Mailbox& mailbox() const { return mailbox_; }
+  const Mailbox& mailbox() const { return *mailbox_; }
   // What the newest good packet says, weather and all; nothing before the first.
   std::optional<feeds::AircraftState> newest() const;
-  // Packets, bad ones by reason, the offset of heights.
+  // Adds packets and bad ones by reason; the offset of heights, where it is the largest.
   void tell(Status& status) const;
 
  private:
@@ -64,7 +65,8 @@ class Feed {
   core::VerticalDatum datum_;
   const feeds::Protocol& protocol_;  // one of feeds::kProtocols
   ClockGate gate_;
-  Mailbox mailbox_;
+  std::shared_ptr<Mailbox> mailbox_;
+  std::size_t source_;
   mutable std::mutex mutex_;
   std::optional<feeds::AircraftState> newest_;
   std::optional<double> visibility_m_, rain_norm_;  // told apart

@@ -28,16 +28,19 @@ std::string hex(std::span<const std::uint8_t> bytes) {
 
 Journal::Journal(const std::filesystem::path& file, const FlownBy& flown_by)
     : file_(file), stream_(file, std::ios::binary | std::ios::trunc) {
-  write(json{{"fanbeam_live", 1},
-             {"scene", flown_by.scene},
-             {"from", flown_by.from},
-             {"rate_Hz", flown_by.rate_Hz},
-             {"lockstep", flown_by.lockstep}}
-            .dump());
+  write(
+      json{{"fanbeam_live", 1},
+           {"scene", flown_by.scene},
+           {"from", flown_by.from.size() == 1 ? json(flown_by.from.front()) : json(flown_by.from)},
+           {"rate_Hz", flown_by.rate_Hz},
+           {"lockstep", flown_by.lockstep}}
+          .dump());
 }
 
-void Journal::packet(double arrived_s, std::span<const std::uint8_t> bytes) {
-  write(json{{"packet", hex(bytes)}, {"s", arrived_s}}.dump());
+void Journal::packet(double arrived_s, std::span<const std::uint8_t> bytes, std::size_t source) {
+  json line{{"packet", hex(bytes)}, {"s", arrived_s}};
+  if (source > 0) line["from"] = source;
+  write(line.dump());
 }
 
 void Journal::frame(const Tick& tick, double samples) {

@@ -3,7 +3,8 @@
 //
 // JSON, a line each: first what was flown, then {"packet": HEX, "s": ARRIVAL}, {"frame": NUMBER,
 // "now_s", "at_s", "samples"} and {"control": PATH, "body": TEXT}, in their order. Times are seconds
-// since the channel began; samples of 0 are the scene's own. live/recording.h reads it. Thread-safe.
+// since the channel began; samples of 0 are the scene's own. Of several sources "from" is a list, and
+// "from" of a packet its place there, from 0 up (0 is left out). live/recording.h reads it. Thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +13,14 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace fanbeam::live {
 
 // What else the same pictures need: the options that were given beside these have to be the same.
 struct FlownBy {
-  std::string scene, from;
+  std::string scene;
+  std::vector<std::string> from;
   double rate_Hz = 16.0;
   bool lockstep = false;
 };
@@ -34,7 +37,7 @@ class Journal {
   // to the line before.
   Journal(const std::filesystem::path& file, const FlownBy& flown_by);
 
-  void packet(double arrived_s, std::span<const std::uint8_t> bytes);
+  void packet(double arrived_s, std::span<const std::uint8_t> bytes, std::size_t source = 0);
   void frame(const Tick& tick, double samples);
   void control(const std::string& path, const std::string& body);
 

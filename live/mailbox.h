@@ -1,6 +1,7 @@
-// The newest poses of a source: a few, so that whoever looks once a frame sees how they move; what
-// arrives pushes out the oldest, nothing queues. Who wants each of them (lockstep) has a larger one.
-// Thread-safe.
+// The newest poses of where the aircraft is told from: a few, so that whoever looks once a frame sees how
+// they move; what arrives pushes out the oldest, nothing queues. Who wants each of them (lockstep) has a
+// larger one. Of several sources the one named first leads: another one's poses count while those before
+// it have been silent for half a second. Thread-safe.
 #pragma once
 
 #include <chrono>
@@ -25,25 +26,37 @@ inline double seconds_between(Clock::time_point from, Clock::time_point to) {
 class Mailbox {
  public:
   static constexpr std::size_t kKept = 4, kKeptInLockstep = 256;
+  static constexpr double kSilent_s = 0.5;
 
   struct Letter {
     core::Pose pose;
     std::vector<std::uint8_t> packet;  // that told it
     Clock::time_point arrived;
     std::optional<double> clock_s;  // of its source, where that is fine enough
+    std::size_t source = 0;         // its place among several
     std::uint64_t number = 0;       // from 1 up
   };
 
   explicit Mailbox(std::size_t kept = kKept) : kept_(kept) {}
 
   void put(const core::Pose& pose, std::vector<std::uint8_t> packet = {},
-           Clock::time_point arrived = Clock::now(), const std::optional<double>& clock_s = {}) {
+           Clock::time_point arrived = Clock::now(), const std::optional<double>& clock_s = {},
+           std::size_t source = 0) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      letters_.push_back({pose, std::move(packet), arrived, clock_s, ++count_});
+      if (heard_.size() <= source) heard_.resize(source + 1);
+      heard_[source] = arrived;
+      for (std::size_t before = 0; before < source; ++before)
+        if (heard_[before] && seconds_between(*heard_[before], arrived) < kSilent_s) return;
+      letters_.push_back({pose, std::move(packet), arrived, clock_s, source, ++count_});
       if (letters_.size() > kept_) letters_.pop_front();
     }
     came_.notify_all();
+  }
+  // Of the newest letter; nothing before the first.
+  std::optional<std::size_t> leading() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return letters_.empty() ? std::nullopt : std::optional(letters_.back().source);
   }
   // Those kept that came after the letter of that number, oldest first.
   std::vector<Letter> after(std::uint64_t number) const {
@@ -67,6 +80,7 @@ class Mailbox {
   mutable std::mutex mutex_;
   mutable std::condition_variable came_;
   std::deque<Letter> letters_;
+  std::vector<std::optional<Clock::time_point>> heard_;  // by source, last
   std::uint64_t count_ = 0;
 };
 

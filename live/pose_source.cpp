@@ -19,7 +19,7 @@ PoseSource source_of(const Mailbox& mailbox, const terrain::LocalFrame& frame,
              double now_s, double at_s) mutable -> std::optional<Sighting> {
     for (const Mailbox::Letter& letter : mailbox.after(taken)) {
       const double arrived_s = seconds_between(begin, letter.arrived);
-      if (journal != nullptr) journal->packet(arrived_s, letter.packet);
+      if (journal != nullptr) journal->packet(arrived_s, letter.packet, letter.source);
       predictor.take(letter.pose, arrived_s, letter.clock_s);
       taken = letter.number;
     }

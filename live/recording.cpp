@@ -13,7 +13,7 @@ namespace fanbeam::live {
 namespace {
 
 constexpr std::uint64_t kMost_bytes = 2ULL << 30U;
-constexpr std::size_t kMostProblems = 20, kMostPacket_bytes = 2000;
+constexpr std::size_t kMostProblems = 20, kMostPacket_bytes = 2000, kMostSources = 16;
 constexpr core::JsonLimits kLineLimits{4, 16};
 constexpr core::NumberRange kSeconds{0.0, 1e9};
 
@@ -60,7 +60,9 @@ class Lines {
                       "1, as in what fanbeam live --record writes");
     FlownBy& flown_by = recording_.flown_by;
     flown_by.scene = line.required("scene").text().value_or("");
-    flown_by.from = line.required("from").text().value_or("");
+    const core::JsonNode from = line.required("from");
+    flown_by.from = from.is_array() ? from.texts(kMostSources)
+                                    : std::vector<std::string>{from.text().value_or("")};
     flown_by.rate_Hz = line.required("rate_Hz").number({0.1, 1000.0}).value_or(16.0);
     flown_by.lockstep = line.required("lockstep").flag().value_or(false);
   }
@@ -70,8 +72,11 @@ class Lines {
     const auto bytes = bytes_of(text.text().value_or("?"));
     if (!bytes) text.error(core::ErrorClass::parse, "bytes in hexadecimal, at most 2000");
     const double arrived_s = line.required("s").number({-1e9, 1e9}).value_or(0.0);
-    recording_.events.emplace_back(
-        RecordedPacket{arrived_s, bytes.value_or(std::vector<std::uint8_t>{})});
+    const core::JsonNode from = line.member("from");
+    const int last = static_cast<int>(recording_.flown_by.from.size()) - 1;
+    const int source = from.present() ? from.whole(0, std::max(last, 0)).value_or(0) : 0;
+    recording_.events.emplace_back(RecordedPacket{
+        arrived_s, bytes.value_or(std::vector<std::uint8_t>{}), static_cast<std::size_t>(source)});
   }
 
   void frame(const core::JsonNode& line) {

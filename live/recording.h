@@ -14,6 +14,7 @@ namespace fanbeam::live {
 struct RecordedPacket {
   double arrived_s = 0.0;
   std::vector<std::uint8_t> bytes;
+  std::size_t source = 0;  // its place in FlownBy::from
 };
 
 struct RecordedFrame {

@@ -17,11 +17,11 @@ ChannelSettings channel_settings(const Recording& recording, const ReplaySetting
 
 class Replay {
  public:
-  Replay(session::Session& session, const Recording& recording, const Feed* feed,
-         const Flight* flight, const Desk& desk, const ReplaySettings& settings, Hub& hub,
-         const Told& told, const core::StopToken& stop)
+  Replay(session::Session& session, const Recording& recording,
+         const std::vector<const Feed*>& feeds, const Flight* flight, const Desk& desk,
+         const ReplaySettings& settings, Hub& hub, const Told& told, const core::StopToken& stop)
       : recording_(recording),
-        feed_(feed),
+        feeds_(feeds),
         flight_(flight),
         desk_(desk),
         settings_(settings),
@@ -41,8 +41,8 @@ class Replay {
 
  private:
   void take(const RecordedPacket& packet) {
-    if (feed_ == nullptr) return;
-    auto heard = feed_->heard_in(packet.bytes);
+    if (packet.source >= feeds_.size()) return;
+    auto heard = feeds_[packet.source]->heard_in(packet.bytes);
     if (!heard) return;
     predictor_.take(heard->pose, packet.arrived_s, heard->clock_s);
     heard->pose.time_s = lockstep_time_.next(heard->clock_s);
@@ -74,7 +74,7 @@ class Replay {
   }
 
   std::optional<Sighting> sighting(const Tick& tick) const {
-    if (feed_ == nullptr) return Sighting{(*flight_)(std::max(0.0, tick.at_s)), 0.0};
+    if (feeds_.empty()) return Sighting{(*flight_)(std::max(0.0, tick.at_s)), 0.0};
     if (recording_.flown_by.lockstep)
       return newest_ ? std::optional(Sighting{newest_->first, tick.now_s - newest_->second})
                      : std::nullopt;
@@ -84,7 +84,7 @@ class Replay {
   }
 
   const Recording& recording_;
-  const Feed* feed_;
+  const std::vector<const Feed*>& feeds_;
   const Flight* flight_;
   const Desk& desk_;
   ReplaySettings settings_;
@@ -100,10 +100,11 @@ class Replay {
 
 }  // namespace
 
-void run_replay(session::Session& session, const Recording& recording, const Feed* feed,
-                const Flight* flight, const Desk& desk, const ReplaySettings& settings, Hub& hub,
-                const Told& told, const core::StopToken& stop) {
-  Replay(session, recording, feed, flight, desk, settings, hub, told, stop).run();
+void run_replay(session::Session& session, const Recording& recording,
+                const std::vector<const Feed*>& feeds, const Flight* flight, const Desk& desk,
+                const ReplaySettings& settings, Hub& hub, const Told& told,
+                const core::StopToken& stop) {
+  Replay(session, recording, feeds, flight, desk, settings, hub, told, stop).run();
 }
 
 }  // namespace fanbeam::live

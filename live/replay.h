@@ -2,6 +2,8 @@
 // bytes, as long as scene, options and program are the same.
 #pragma once
 
+#include <vector>
+
 #include "live/channel.h"
 #include "live/desk.h"
 #include "live/feed.h"
@@ -17,11 +19,12 @@ struct ReplaySettings {
   bool keep_received = false;  // LiveFrame::received_W
 };
 
-// `feed` decodes the packets of a recording that has some (its mailbox is not used), `flight` is that
-// of one without; the other may be null. Controls go through `desk`; one that it refuses (of another scene)
+// `feeds` decode the packets of a recording that has some, each those of its source (their mailbox is not
+// used); `flight` is that of one without, else null. Controls go through `desk`; one that it refuses (of another scene)
 // is thrown as InputError. Ends with the recording.
-void run_replay(session::Session& session, const Recording& recording, const Feed* feed,
-                const Flight* flight, const Desk& desk, const ReplaySettings& settings, Hub& hub,
-                const Told& told, const core::StopToken& stop);
+void run_replay(session::Session& session, const Recording& recording,
+                const std::vector<const Feed*>& feeds, const Flight* flight, const Desk& desk,
+                const ReplaySettings& settings, Hub& hub, const Told& told,
+                const core::StopToken& stop);
 
 }  // namespace fanbeam::live

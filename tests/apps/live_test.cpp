@@ -177,9 +177,36 @@ TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") 
 }
 
 TEST_CASE("An option given twice is told as that", "[live]") {
-  const Result twice = run_fanbeam("live flat-grass --from ils --from circle");
+  const Result twice = run_fanbeam("live flat-grass --http 0 --http 1");
   CHECK(twice.exit_code == 2);
-  CHECK(twice.output.find("--from is given more than once") != std::string::npos);
+  CHECK(twice.output.find("--http is given more than once") != std::string::npos);
+}
+
+TEST_CASE("Several simulators may send; what cannot stand beside another source is told",
+          "[live]") {
+  const auto refused = [](const std::string& options) {
+    const Result result = run_fanbeam("live flat-grass --http 0 --seconds 1 " + options);
+    INFO(options);
+    CHECK(result.exit_code == 2);
+    return result.output;
+  };
+  const std::string both = refused("--from ils --from circle");
+  CHECK(both.find("\"ils\": expected no other source beside it") != std::string::npos);
+  CHECK(both.find("\"circle\": expected no other source beside it") != std::string::npos);
+  CHECK(refused("--from native-fdm:0 --from cigi:0").find("no other source") != std::string::npos);
+  CHECK(refused("--from native-fdm:0 --from fg-generic:0 --lockstep").find("several sources") !=
+        std::string::npos);
+  CHECK(refused("--from fg-generic:0,weather=simulator --from fg-generic:0,weather=simulator")
+            .find("weather of one simulator") != std::string::npos);
+  CHECK(
+      refused("--from xplane:127.0.0.1:49000 --from xplane:127.0.0.1:49001").find("one X-Plane") !=
+      std::string::npos);
+  // The scene may stand behind an option that can be given several times.
+  const Result fine = run_fanbeam(
+      "live --http 0 --seconds 1 --from native-fdm:0 --from fg-generic:0 --from xplane:127.0.0.1:9 "
+      "flat-grass");
+  INFO(fine.output);
+  CHECK(fine.exit_code == 0);
 }
 
 // Opening it waited, and swallowed the signal.

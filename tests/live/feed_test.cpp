@@ -49,6 +49,58 @@ TEST_CASE("A datum that is applied once too often shows in the heights above gro
   CHECK(*status.height_offset_m == Approx(-65.4).margin(3.0));
 }
 
+TEST_CASE("Of several sources the one named first leads, another while it is silent", "[feed]") {
+  live::Mailbox mailbox;
+  const auto begin = live::Clock::now();
+  const auto put = [&](double at_s, std::size_t source) {
+    const std::uint64_t before = mailbox.after(0).empty() ? 0 : mailbox.after(0).back().number;
+    mailbox.put({}, {},
+                begin + std::chrono::duration_cast<live::Clock::duration>(
+                            std::chrono::duration<double>(at_s)),
+                {}, source);
+    return !mailbox.after(before).empty();
+  };
+  CHECK_FALSE(mailbox.leading());
+  CHECK(put(0.0, 1));
+  CHECK(put(0.1, 0));
+  CHECK_FALSE(put(0.2, 1));
+  CHECK_FALSE(put(0.59, 2));
+  CHECK(mailbox.leading() == 0U);
+  CHECK(put(0.61, 1));
+  CHECK(mailbox.leading() == 1U);
+  CHECK_FALSE(put(1.1, 2));
+  CHECK(put(1.12, 2));
+  CHECK(put(1.2, 0));
+  CHECK_FALSE(put(1.3, 2));
+  CHECK(mailbox.leading() == 0U);
+}
+
+TEST_CASE("Packets of several sources are told together, and the largest offset of heights",
+          "[feed]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const auto mailbox = std::make_shared<live::Mailbox>();
+  live::Feed one(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[0], mailbox, 0);
+  live::Feed other(session->scene(), core::VerticalDatum::ellipsoid, feeds::kProtocols[0], mailbox,
+                   1);
+  const auto good = tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0));
+  for (int i = 0; i < 100; ++i) {
+    one.take(good);
+    other.take(good);
+  }
+  one.take(std::vector<std::uint8_t>(3));
+  other.take(std::vector<std::uint8_t>(3));
+  live::Status each, both;
+  one.tell(each);
+  one.tell(both);
+  other.tell(both);
+  CHECK(both.packets == 202);
+  REQUIRE(both.bad_packets.size() == 1);
+  CHECK(both.bad_packets[0].second == 2);
+  REQUIRE(both.height_offset_m);
+  CHECK(std::abs(*both.height_offset_m) >= std::abs(*each.height_offset_m));
+}
+
 TEST_CASE("F11 of a million datagrams every good one is taken and every other counted", "[feed]") {
   const tests::TemporaryFolder folder;
   const auto session = tests::live_session(folder);

@@ -48,11 +48,13 @@ Frames replayed(const std::filesystem::path& file, double own_samples = 1.0) {
   const live::Recording recording = live::read_recording(file);
   const live::Feed feed(session->scene(), core::VerticalDatum::egm96);
   const live::Flight flight = live::circle(*session->scene());
-  const bool flown = recording.flown_by.from == "circle";
+  const bool flown = recording.flown_by.from == std::vector<std::string>{"circle"};
   Frames frames;
   core::StopSource stop;
-  live::run_replay(*session, recording, flown ? nullptr : &feed, flown ? &flight : nullptr, desk,
-                   {.lockstep = true}, hub, keeping(frames, hub, stop, 1'000'000), stop.token());
+  live::run_replay(*session, recording,
+                   flown ? std::vector<const live::Feed*>{} : std::vector{&feed},
+                   flown ? &flight : nullptr, desk, {.lockstep = true}, hub,
+                   keeping(frames, hub, stop, 1'000'000), stop.token());
   return frames;
 }
 
@@ -63,6 +65,13 @@ std::vector<core::Problem> problems_of(const std::filesystem::path& file) {
     return error.problems();
   }
   return {};
+}
+
+// At 52.01 N 10 E, 200 m, standing.
+std::vector<std::uint8_t> generic_line(double clock_s) {
+  const std::string line =
+      "fanbeam,1," + std::to_string(clock_s) + ",52.01,10,656.168,600,0,0,90,0,0,0,5000";
+  return {line.begin(), line.end()};
 }
 
 constexpr const char* kHead =
@@ -76,7 +85,7 @@ TEST_CASE("A recorded flight with packets and controls gives the same bytes agai
   const auto session = tests::live_session(folder);
   const auto scene = session->scene();
   live::Hub hub;
-  live::Journal journal(file, {scene->description.name, "native-fdm:5501", 40.0, false});
+  live::Journal journal(file, {scene->description.name, {"native-fdm:5501"}, 40.0, false});
   const live::Desk desk(*session, hub, &journal);
   live::Feed feed(scene, core::VerticalDatum::egm96);
   Frames frames;
@@ -107,6 +116,68 @@ TEST_CASE("A recorded flight with packets and controls gives the same bytes agai
   check_equal(replayed(file), frames);
 }
 
+TEST_CASE("Of two sources a recording keeps what counted, and gives the same bytes again",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "two.jsonl";
+  const auto session = tests::live_session(folder);
+  const auto scene = session->scene();
+  live::Hub hub;
+  live::Journal journal(file, {"s", {"native-fdm:1", "fg-generic:2"}, 40.0, false});
+  const auto mailbox = std::make_shared<live::Mailbox>();
+  live::Feed first(scene, core::VerticalDatum::egm96, feeds::kProtocols[0], mailbox, 0);
+  live::Feed second(scene, core::VerticalDatum::egm96, feeds::kProtocols[1], mailbox, 1);
+  Frames frames;
+  core::StopSource stop;
+  std::atomic<bool> done{false};
+  // The first falls silent; the second flies elsewhere all the time.
+  std::thread simulators([&] {
+    for (int i = 0; !done; ++i) {
+      if (i < 10) first.take(tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0)));
+      second.take(generic_line(0.02 * i));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  const auto begin = live::Clock::now();
+  live::run_channel(*session, live::source_of(*mailbox, scene->frame, begin, &journal),
+                    {40.0, 0.0, begin, &journal}, hub, keeping(frames, hub, stop, 60),
+                    stop.token());
+  done = true;
+  simulators.join();
+  REQUIRE(frames.size() == 60);
+  const auto latitude_deg = [](const auto& frame) {
+    return core::degrees(frame->pose.position.latitude_rad);
+  };
+  CHECK(latitude_deg(frames.front()) == Approx(52.0).margin(1e-3));
+  CHECK(latitude_deg(frames.back()) == Approx(52.01).margin(1e-3));
+  CHECK(mailbox->leading() == 1U);
+  const live::Recording recording = live::read_recording(file);
+  CHECK(recording.flown_by.from == std::vector<std::string>{"native-fdm:1", "fg-generic:2"});
+  live::Hub again;
+  const live::Desk desk(*session, again);
+  Frames repeated;
+  core::StopSource end;
+  live::run_replay(*session, recording, {&first, &second}, nullptr, desk, {.lockstep = true}, again,
+                   keeping(repeated, again, end, 1'000'000), end.token());
+  check_equal(repeated, frames);
+}
+
+TEST_CASE("A packet of a source that a recording does not name is refused", "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write(
+      "wrong.jsonl",
+      R"({"fanbeam_live":1,"scene":"s","from":["native-fdm:1","fg-generic:2"],"rate_Hz":16,"lockstep":false})"
+      "\n"
+      R"({"packet":"00","s":0.1,"from":1})"
+      "\n"
+      R"({"packet":"00","s":0.2,"from":2})"
+      "\n");
+  const auto problems = problems_of(file);
+  REQUIRE(problems.size() == 1);
+  CHECK(core::to_string(problems[0]).find(":3") != std::string::npos);
+  CHECK(core::to_string(problems[0]).find("/from") != std::string::npos);
+}
+
 TEST_CASE("Lockstep gives a frame for every pose, whenever it comes, with the same bytes",
           "[recording]") {
   const tests::TemporaryFolder folder;
@@ -115,9 +186,9 @@ TEST_CASE("Lockstep gives a frame for every pose, whenever it comes, with the sa
     const auto session = tests::live_session(folder);
     const auto file = folder.path() / "lockstep.jsonl";
     live::Hub hub;
-    live::Journal journal(file, {"s", "native-fdm:1", 16.0, true});
+    live::Journal journal(file, {"s", {"native-fdm:1"}, 16.0, true});
     live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[0],
-                    live::Mailbox::kKeptInLockstep);
+                    std::make_shared<live::Mailbox>(live::Mailbox::kKeptInLockstep));
     std::thread simulator([&] {
       for (int i = 0; i < 12; ++i) {
         feed.take(tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0 + 1e-4 * i)));
@@ -146,7 +217,7 @@ TEST_CASE("A flight in lockstep is at each tick, and the same when it is flown a
   const auto session = tests::live_session(folder);
   const auto file = folder.path() / "circle.jsonl";
   live::Hub hub;
-  live::Journal journal(file, {"s", "circle", 16.0, true});
+  live::Journal journal(file, {"s", {"circle"}, 16.0, true});
   Frames frames;
   core::StopSource stop;
   session->set(session::Samples{0.5});  // whatever the session has stays, and is no one's number
