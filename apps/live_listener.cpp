@@ -38,16 +38,16 @@ void LiveListener::listen(live::Network& network) {
 }
 
 // It answers to the port that asks, any that is free.
-void LiveListener::listen_to_xplane(const PosesFrom& from, live::Network& network) {
-  const live::Endpoint& there = from.listens_at;
+void LiveListener::listen_to_xplane(const PosesFrom& told, live::Network& network) {
+  const live::Endpoint& there = told.listens_at;
   const bool six = there.address.find(':') != std::string::npos;
   live::Endpoint here;
-  if (from.beacon)
+  if (told.beacon)
     network.receive({std::string(feeds::kBeaconAddress), feeds::kBeaconPort, true},
                     [this](std::span<const std::uint8_t> datagram, const live::Sender& from) {
                       xplane_->take_beacon(datagram, from);
                     });
-  if (from.beacon || there.beyond_loopback)
+  if (told.beacon || there.beyond_loopback)
     here.address = six ? "::" : "0.0.0.0";
   else if (six)
     here.address = "::1";
@@ -70,9 +70,11 @@ void LiveListener::tell(live::Status& status) const {
   if (ig_) return ig_->tell(status);
   status.packets = 0;
   status.bad_packets.clear();
-  status.height_offset_m.reset();
   for (const Source& source : sources_) source.feed.tell(status);
-  if (const auto leading = mailbox_->leading()) status.source = sources_[*leading].from.source;
+  const auto leading = mailbox_->leading();
+  if (!leading) return;
+  status.source = sources_[*leading].from.source;
+  status.height_offset_m = sources_[*leading].feed.height_offset_m();
 }
 
 std::vector<const live::Feed*> LiveListener::feeds() const {

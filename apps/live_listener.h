@@ -49,7 +49,7 @@ class LiveListener {
     live::Feed feed;
   };
   void hear(Source& source, std::span<const std::uint8_t> datagram, const live::Sender& from);
-  void listen_to_xplane(const PosesFrom& from, live::Network& network);
+  void listen_to_xplane(const PosesFrom& told, live::Network& network);
 
   std::shared_ptr<live::Mailbox> mailbox_;
   std::deque<Source> sources_;

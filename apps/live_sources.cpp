@@ -5,6 +5,7 @@
 
 #include "apps/live_words.h"
 #include "core/errors.h"
+#include "live/journal.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -113,6 +114,9 @@ std::vector<PosesFrom> poses_from(const std::vector<std::string>& sources) {
                                    [](const PosesFrom& one) { return one.subscribes(); });
   const auto weathers =
       std::count_if(from.begin(), from.end(), [](const PosesFrom& one) { return one.weather; });
+  if (sources.size() > live::FlownBy::kMostSources)
+    problems.error(core::ErrorClass::limit, {}, "--from", std::to_string(sources.size()),
+                   "at most " + std::to_string(live::FlownBy::kMostSources) + " sources");
   if (from.size() > 1)
     for (const PosesFrom& one : from)
       collect([&] { check_beside(one, static_cast<int>(asked), static_cast<int>(weathers)); });

@@ -15,11 +15,14 @@ live::Access access_of(const LiveOptions& options) {
   return token == nullptr ? live::Access() : live::Access(token, core::Place{kToken});
 }
 
-// Weather set by the clock would come to other frames each time.
-void check_lockstep(const LiveOptions& options, const Wiring& wiring) {
+void check_one_source(const LiveOptions& options, const Wiring& wiring) {
   if (options.lockstep && wiring.from.size() > 1)
     core::throw_input_error(core::ErrorClass::unsupported, "--lockstep", "with several sources",
                             "one: each of its poses makes a picture");
+}
+
+// Set by the clock, it would come to other frames each time.
+void check_weather(const LiveOptions& options, const Wiring& wiring) {
   const bool weather = std::any_of(wiring.from.begin(), wiring.from.end(),
                                    [](const PosesFrom& from) { return from.weather; });
   if (weather && options.lockstep)
@@ -57,7 +60,8 @@ Wiring wiring_of(const LiveOptions& options) {
   for (const std::string& sink : options.to) collect([&] { add_sink(sink, wiring.to); });
   collect([&] { check_page(options.http, wiring); });
   if (!wiring.from.empty()) collect([&] { check_record(options, wiring); });
-  if (options.replay.empty()) collect([&] { check_lockstep(options, wiring); });
+  collect([&] { check_one_source(options, wiring); });
+  if (options.replay.empty()) collect([&] { check_weather(options, wiring); });
   problems.throw_if_errors();
   return wiring;
 }

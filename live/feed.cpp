@@ -1,7 +1,6 @@
 #include "live/feed.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
@@ -99,10 +98,12 @@ void Feed::tell(Status& status) const {
     else
       known->second += bad_[i];
   }
-  if (offsets_m_.size() < kCompared) return;
-  const double offset_m = core::median({offsets_m_.begin(), offsets_m_.end()});
-  if (!status.height_offset_m || std::abs(offset_m) > std::abs(*status.height_offset_m))
-    status.height_offset_m = offset_m;
+}
+
+std::optional<double> Feed::height_offset_m() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (offsets_m_.size() < kCompared) return std::nullopt;
+  return core::median({offsets_m_.begin(), offsets_m_.end()});
 }
 
 }  // namespace fanbeam::live

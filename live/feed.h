@@ -53,8 +53,10 @@ class Feed {
   const Mailbox& mailbox() const { return *mailbox_; }
   // What the newest good packet says, weather and all; nothing before the first.
   std::optional<feeds::AircraftState> newest() const;
-  // Adds packets and bad ones by reason; the offset of heights, where it is the largest.
+  // Adds packets, and bad ones by reason.
   void tell(Status& status) const;
+  // The median of the last five seconds; nothing before them.
+  std::optional<double> height_offset_m() const;
 
  private:
   Heard heard(const feeds::AircraftState& state) const;

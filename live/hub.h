@@ -57,8 +57,8 @@ struct Status {
   std::optional<PictureErrors> errors;  // of this sampling, once they are known (quality.h)
   bool waiting = true;                  // no pose yet
   bool stale = false;  // the newest pose is older than a second: the picture stands
-  // Of a source that listens: packets, those of no use by reason, and the median of its height above
-  // ground less ours over the last five seconds (live/feed.h).
+  // Of all sources that listen: packets, and those of no use by reason. Of the one whose poses count:
+  // the median of its height above ground less ours over the last five seconds (live/feed.h).
   std::uint64_t packets = 0;
   std::vector<std::pair<std::string, std::uint64_t>> bad_packets;
   // Parts of good packets that mean nothing here, by name (live/cigi_ig.h).

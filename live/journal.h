@@ -19,6 +19,8 @@ namespace fanbeam::live {
 
 // What else the same pictures need: the options that were given beside these have to be the same.
 struct FlownBy {
+  static constexpr std::size_t kMostSources = 8;
+
   std::string scene;
   std::vector<std::string> from;
   double rate_Hz = 16.0;

@@ -13,7 +13,7 @@ namespace fanbeam::live {
 namespace {
 
 constexpr std::uint64_t kMost_bytes = 2ULL << 30U;
-constexpr std::size_t kMostProblems = 20, kMostPacket_bytes = 2000, kMostSources = 16;
+constexpr std::size_t kMostProblems = 20, kMostPacket_bytes = 2000;
 constexpr core::JsonLimits kLineLimits{4, 16};
 constexpr core::NumberRange kSeconds{0.0, 1e9};
 
@@ -61,7 +61,7 @@ class Lines {
     FlownBy& flown_by = recording_.flown_by;
     flown_by.scene = line.required("scene").text().value_or("");
     const core::JsonNode from = line.required("from");
-    flown_by.from = from.is_array() ? from.texts(kMostSources)
+    flown_by.from = from.is_array() ? from.texts(FlownBy::kMostSources)
                                     : std::vector<std::string>{from.text().value_or("")};
     flown_by.rate_Hz = line.required("rate_Hz").number({0.1, 1000.0}).value_or(16.0);
     flown_by.lockstep = line.required("lockstep").flag().value_or(false);

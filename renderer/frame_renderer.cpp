@@ -70,7 +70,11 @@ class FrameRenderer::Stages {
     std::vector<double> bscope_W, cscope_W_m3;
   };
   Images images_of(const FanSums& sums, bool with_cscope) const;
+  bool rains() const { return effects_.rain_echo && world_.volume_echo; }
+  // Last: sums are added in one order, with an estimate and without.
   void add_rain(const sensors::AntennaFrame& antenna, FanSums& sums) const;
+  // Of the layers' scopes.
+  Images images_in_rain(const sensors::AntennaFrame& antenna, const FanSums& dry) const;
   // `direct`, unless null, receives what the picture would be without double bounces.
   std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                                     FanSums& sums, SightLines& sight, Images* direct) const;
@@ -167,8 +171,15 @@ FrameRenderer::Stages::Images FrameRenderer::Stages::images_of(const FanSums& su
 }
 
 void FrameRenderer::Stages::add_rain(const sensors::AntennaFrame& antenna, FanSums& sums) const {
-  if (effects_.rain_echo && world_.volume_echo)
-    add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
+  if (rains()) add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
+}
+
+FrameRenderer::Stages::Images FrameRenderer::Stages::images_in_rain(
+    const sensors::AntennaFrame& antenna, const FanSums& dry) const {
+  if (!rains()) return images_of(dry, products_.cscope_layers);
+  FanSums sums = dry;
+  add_rain(antenna, sums);
+  return images_of(sums, products_.cscope_layers);
 }
 
 std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaFrame& antenna,
@@ -176,9 +187,9 @@ std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaF
                                                          SightLines& sight, Images* direct) const {
   if (!(sampling_.target_grey > 0.0) && !sampling_.estimate_error) {
     caster_->cast(antenna, with_cscope, CastPass{}, sums, sight);
-    add_rain(antenna, sums);
-    if (direct != nullptr) *direct = images_of(sums, products_.cscope_layers);
+    if (direct != nullptr) *direct = images_in_rain(antenna, sums);
     if (double_bounce_) double_bounce_->add(antenna, sums);
+    add_rain(antenna, sums);
     return std::nullopt;
   }
   std::optional<ErrorEstimate> error =
@@ -194,8 +205,7 @@ std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaF
     };
     take_off(sums.range_W_per_rad, without.range_W_per_rad);
     take_off(sums.elevation_W_m3_per_rad, without.elevation_W_m3_per_rad);
-    add_rain(antenna, without);
-    *direct = images_of(without, products_.cscope_layers);
+    *direct = images_in_rain(antenna, without);
   }
   add_rain(antenna, sums);
   return error;

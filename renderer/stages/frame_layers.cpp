@@ -214,7 +214,7 @@ class LayerCaster {
   bool untold(const LayerHit& a, const LayerHit& b) const {
     if (!a.hit() || !b.hit()) return a.hit() != b.hit();
     const bool cells = std::abs(a.cell - b.cell) >= 2;
-    if (!cells && !(with_cscope_ && std::abs(a.row - b.row) >= 2)) return false;
+    if (!cells && std::abs(a.row - b.row) < 2) return false;
     if (a.surface != b.surface) return true;
     if (!is_ground(a) && (a.material != b.material || a.object != b.object)) return true;
     return cells && !one_slope(a, b);
@@ -245,7 +245,7 @@ class LayerCaster {
     hit.object = surfaces.object(batch.geometry[lane], batch.primitive[lane], x_m, y_m);
     const auto sine = static_cast<double>(hit.sin_grazing);
     hit.nrcs = static_cast<float>(world_.nrcs.tables()[hit.material].sigma0_over_sine(sine) * sine);
-    hit.cell = sensors::range_row(world_.sensor.range, range_m);
+    hit.cell = cell_of(range_m);
     hit.row = row_of(hit);
   }
 
@@ -292,6 +292,16 @@ class LayerCaster {
     return range_m >= world_.sensor.range.minimum_m && range_m < world_.sensor.range.maximum_m();
   }
 
+  // Counts on before and behind the gate.
+  int cell_of(double range_m) const {
+    const sensors::RangeGate& gate = world_.sensor.range;
+    const int cell = sensors::range_row(gate, range_m);
+    if (cell != sensors::kOutside) return cell;
+    const auto beside = static_cast<int>(std::floor((range_m - gate.minimum_m) / gate.cell_m));
+    return range_m < gate.minimum_m ? std::min(beside, -1) : std::max(beside, gate.cells);
+  }
+  bool in_gate(int cell) const { return cell >= 0 && cell < world_.sensor.range.cells; }
+
   // Counts on above and below the window.
   int row_of(const LayerHit& hit) const {
     const sensors::Display& display = world_.sensor.display;
@@ -301,9 +311,7 @@ class LayerCaster {
 
   // Whether two neighbours on one surface own the range cells that they step over.
   bool one_slope(const LayerHit& a, const LayerHit& b) const {
-    if (a.surface != b.surface || a.cell == sensors::kOutside || b.cell == sensors::kOutside ||
-        std::abs(b.cell - a.cell) > kLargestGap_cells)
-      return false;
+    if (a.surface != b.surface || std::abs(b.cell - a.cell) > kLargestGap_cells) return false;
     const float step_rad = b.elevation_rad - a.elevation_rad;
     const float told_m = std::max(std::abs(a.range_m * a.range_slope * step_rad),
                                   std::abs(b.range_m * b.range_slope * step_rad));
@@ -314,9 +322,12 @@ class LayerCaster {
   void fill_ranges(const LayerHit& a, const LayerHit& b, int azimuth, LayerCells& ranges) const {
     const int gap = std::abs(b.cell - a.cell);
     if (gap < 2 || !one_slope(a, b)) return;
-    for (int step = 1; step < gap; ++step)
-      ranges.add(a.cell + (b.cell > a.cell ? step : -step), azimuth,
-                 on_one_surface(a, b, static_cast<float>(step) / static_cast<float>(gap)));
+    for (int cell = std::min(a.cell, b.cell) + 1; cell < std::max(a.cell, b.cell); ++cell) {
+      if (!in_gate(cell)) continue;
+      const auto middle_m = static_cast<float>(sensors::range_middle_m(world_.sensor.range, cell));
+      const float share = b.range_m * (middle_m - a.range_m) / (middle_m * (b.range_m - a.range_m));
+      ranges.add(cell, azimuth, on_one_surface(a, b, share));
+    }
   }
 
   // Rows between two neighbours: what they both meet, or each its half.
@@ -339,15 +350,13 @@ class LayerCaster {
         last = nullptr;
         continue;
       }
-      const bool shown = now.cell != sensors::kOutside;
+      const bool shown = in_gate(now.cell);
       if (with_cscope_) {
         if (shown && now.row >= 0 && now.row < row_count) rows.add(now.row, azimuth, now);
         if (last != nullptr) fill_rows(*last, now, azimuth, rows);
       }
-      if (shown) {
-        ranges.add(now.cell, azimuth, now);
-        if (last != nullptr) fill_ranges(*last, now, azimuth, ranges);
-      }
+      if (shown) ranges.add(now.cell, azimuth, now);
+      if (last != nullptr) fill_ranges(*last, now, azimuth, ranges);
       last = &now;
     }
   }

@@ -21,9 +21,9 @@
 // From rays of its own, whichever caster draws the picture, so that the two give the same truth:
 // kLayerAzimuths azimuths a column, dithered along range as in ray_caster.h, a quarter of a ray a
 // range cell of visible ground in each and one in two C-scope rows of what stands above it, and one
-// more wherever two neighbours do not tell what lies between them: another surface, material, object
-// or slope. What neighbours on one slope step over, up to seven range cells or all rows, is put
-// between them. Echoes beyond the range gate are in neither picture, nor here. Accuracy: a thing
+// more wherever two neighbours a few cells or rows apart do not tell what lies between them: another
+// surface, slope or part of a model. What neighbours on one slope step over, up to seven range cells
+// or all rows, is put between them, ground with the cover and paint of its own place. Echoes beyond the range gate are in neither picture, nor here. Accuracy: a thing
 // narrower than half a column, or lower than a ray's step, may be missed; a cell at its foot may be
 // left dark. Neglected: rain cells, and all that ray_caster.h neglects.
 // Deterministic, and the same for any number of threads. Cost: docs/performance-notes.md.

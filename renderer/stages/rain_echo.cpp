@@ -109,11 +109,12 @@ class Echo {
     const double step_rad = one_layer_in_beam() ? kSmoothStep_rad : kLayeredStep_rad;
     nodes_ = 1 + static_cast<int>(std::ceil(span_rad / step_rad));
     node_step_rad_ = span_rad / (nodes_ - 1);
-    if (upright_) profiles(0.0, false, beside_cells_);
   }
 
   void run() {
     const int blocks = (sums_.sub_columns + subs_ - 1) / subs_;
+    for (int block = 0; block < blocks && beside_cells_.empty(); ++block)
+      if (upright_ && !cells_in(azimuth_rad(block))) profiles(0.0, false, beside_cells_);
     core::parallel_for(static_cast<std::size_t>(blocks),
                        [&](std::size_t block) { add_block(static_cast<int>(block)); });
   }
@@ -229,6 +230,12 @@ class Echo {
     }
   }
 
+  // Of the block's middle.
+  double azimuth_rad(int block) const {
+    const int first = block * subs_;
+    const int last = std::min(first + subs_, sums_.sub_columns);
+    return sums_.first_azimuth_rad + (first + last) / 2.0 * sums_.step_rad;
+  }
   void add_block(int block);
   void add_interval(std::size_t i, const std::vector<Profile>& nodes, double free_low_m,
                     double free_high_m, std::vector<double>& range_W,
@@ -287,16 +294,16 @@ void Echo::add_interval(std::size_t i, const std::vector<Profile>& nodes, double
 void Echo::add_block(int block) {
   const int first = block * subs_;
   const int last = std::min(first + subs_, sums_.sub_columns);
-  const double azimuth_rad = sums_.first_azimuth_rad + (first + last) / 2.0 * sums_.step_rad;
+  const double middle_rad = azimuth_rad(block);
   // Kept by the thread from block to block.
   thread_local std::vector<double> range_W, row_W_m3, free;
   thread_local std::vector<Profile> own;
   range_W.assign(static_cast<std::size_t>(sums_.cells), 0.0);
   row_W_m3.assign(static_cast<std::size_t>(sums_.rows), 0.0);
-  const bool common = upright_ && !cells_in(azimuth_rad);
-  if (!common) profiles(azimuth_rad, true, own);
+  const bool common = upright_ && !cells_in(middle_rad);
+  if (!common) profiles(middle_rad, true, own);
   const std::vector<Profile>& nodes = common ? beside_cells_ : own;
-  free_distances_m(azimuth_rad, free);
+  free_distances_m(middle_rad, free);
   for (std::size_t i = 0; i < gain_rad_.size(); ++i)
     add_interval(i, nodes, free[i], free[i + 1], range_W, row_W_m3);
   const auto add = [](const std::vector<double>& from, double* to) {

@@ -41,9 +41,10 @@ TEST_CASE("A datum that is applied once too often shows in the heights above gro
   right.tell(status);
   CHECK(status.packets > 1800);
   CHECK(right.mailbox().after(0).back().number == status.packets);
+  status.height_offset_m = right.height_offset_m();
   REQUIRE(status.height_offset_m.has_value());
   CHECK_FALSE(live::is_lasting_offset(status));
-  wrong.tell(status);
+  status.height_offset_m = wrong.height_offset_m();
   CHECK(live::is_lasting_offset(status));
   // The geoid of EGM96 is 65.4 m above the ellipsoid there.
   CHECK(*status.height_offset_m == Approx(-65.4).margin(3.0));
@@ -75,30 +76,26 @@ TEST_CASE("Of several sources the one named first leads, another while it is sil
   CHECK(mailbox.leading() == 0U);
 }
 
-TEST_CASE("Packets of several sources are told together, and the largest offset of heights",
-          "[feed]") {
+TEST_CASE("Packets of several sources are told together", "[feed]") {
   const tests::TemporaryFolder folder;
   const auto session = tests::live_session(folder);
   const auto mailbox = std::make_shared<live::Mailbox>();
   live::Feed one(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[0], mailbox, 0);
-  live::Feed other(session->scene(), core::VerticalDatum::ellipsoid, feeds::kProtocols[0], mailbox,
-                   1);
+  live::Feed other(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[0], mailbox, 1);
   const auto good = tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0));
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 10; ++i) {
     one.take(good);
     other.take(good);
   }
   one.take(std::vector<std::uint8_t>(3));
   other.take(std::vector<std::uint8_t>(3));
-  live::Status each, both;
-  one.tell(each);
-  one.tell(both);
-  other.tell(both);
-  CHECK(both.packets == 202);
-  REQUIRE(both.bad_packets.size() == 1);
-  CHECK(both.bad_packets[0].second == 2);
-  REQUIRE(both.height_offset_m);
-  CHECK(std::abs(*both.height_offset_m) >= std::abs(*each.height_offset_m));
+  live::Status status;
+  one.tell(status);
+  other.tell(status);
+  CHECK(status.packets == 22);
+  REQUIRE(status.bad_packets.size() == 1);
+  CHECK(status.bad_packets[0].second == 2);
+  CHECK(mailbox->after(0).back().number == 10);
 }
 
 TEST_CASE("F11 of a million datagrams every good one is taken and every other counted", "[feed]") {

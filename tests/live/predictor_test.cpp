@@ -2,6 +2,7 @@
 #include "live/predictor.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -12,6 +13,7 @@
 
 #include "core/units.h"
 #include "feeds/native_fdm.h"
+#include "live/pose_source.h"
 #include "tests/shared_data.h"
 
 using namespace fanbeam;
@@ -107,6 +109,37 @@ core::Pose truth_at(const std::vector<core::Pose>& table, double time_s) {
 }
 
 }  // namespace
+
+// Clocks of two simulators may look alike.
+TEST_CASE("Where another source takes over, and back, the aircraft flies by that one's clock",
+          "[predictor]") {
+  constexpr double kSpeed_mps = 80.0, kLag_s[] = {0.01, 0.2}, kClock_s[] = {0.0, 0.1};
+  live::Mailbox mailbox;
+  const auto begin = live::Clock::now();
+  const live::PoseSource where = live::source_of(mailbox, kFrame, begin);
+  const auto put = [&](std::size_t source, double now_s) {
+    const double flown_s = now_s - kLag_s[source];
+    core::Pose pose;
+    pose.position = kFrame.to_geodetic({0.0, kSpeed_mps * flown_s, 500.0});
+    pose.v_N_mps = {kSpeed_mps, 0.0, 0.0};
+    mailbox.put(pose, {},
+                begin + std::chrono::duration_cast<live::Clock::duration>(
+                            std::chrono::duration<double>(now_s)),
+                flown_s + kClock_s[source], source);
+  };
+  for (int step = 1; step < 160; ++step) {
+    const double now_s = 0.05 * step;
+    const bool first = now_s < 3.0 || now_s > 5.0;
+    if (first) put(0, now_s);
+    put(1, now_s + 1e-3);
+    const auto seen = where(now_s + 2e-3, now_s);
+    REQUIRE(seen);
+    if (now_s >= 3.0 && now_s < 3.6) continue;  // silent for half a second, then the other leads
+    const double expected_m = kSpeed_mps * (now_s - kLag_s[first ? 0 : 1]);
+    INFO(now_s);
+    CHECK(kFrame.to_local_m(seen->pose.position).y == Approx(expected_m).margin(0.3));
+  }
+}
 
 TEST_CASE("Between and after two poses a steady turn goes on", "[predictor]") {
   Predictor predictor(kFrame);

@@ -64,7 +64,7 @@ TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
     const std::size_t i = at(row);
     INFO("cell " << near_m << " to " << far_m);
     // The beam ends at -19.4 deg, 301 m away.
-    if (near_m < 320.0 || far_m > sensor.range.maximum_m() - step_m) continue;
+    if (near_m < 320.0) continue;
     if (far_m < wall_near_m - step_m || near_m > shadow_ends_m() + step_m) {
       ++ground;
       REQUIRE(truth.visibility[i] == 1.0F);
@@ -227,6 +227,11 @@ TEST_CASE("Asking for layers changes no picture, and not asking makes none", "[f
   const renderer::Frame bscope_alone =
       rendered(world, renderer::profile_sampling_for(4.0), {}, {.layers = true});
   CHECK(bscope_alone.layers->cscope.visibility.empty());
+  const renderer::LayerSet &a = bscope_alone.layers->bscope, &b = with.layers->bscope;
+  CHECK(a.visibility == b.visibility);
+  CHECK(a.grazing_rad == b.grazing_rad);
+  CHECK(a.material == b.material);
+  CHECK(a.elevation_rad == b.elevation_rad);
 }
 
 TEST_CASE("A point target brighter than the ground gives its number", "[frame_layers]") {
@@ -261,6 +266,34 @@ TEST_CASE("Where a wall stands on a mirror most of the power bounces twice", "[f
     CHECK(truth.double_bounce[at(corner - 20)] == 0.0F);
     CHECK(*std::max_element(truth.double_bounce.begin(), truth.double_bounce.end()) <= 1.0F);
   }
+}
+
+TEST_CASE("In rain with bounces a frame has the same bytes with layers and with an estimate",
+          "[frame_layers]") {
+  renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
+                    materials::SpecularSurface{{1.0, 1e9}, 0.0}};
+  atmosphere::Weather weather;
+  weather.rain_rate_mm_per_h = 10.0;
+  weather.rain_top_m = 12000.0;
+  world.volume_echo.emplace(weather, 35e9);
+  const renderer::Effects effects{.rain_echo = true, .double_bounce = true};
+  const renderer::Sampling sampling = renderer::profile_sampling_for(4.0);
+  renderer::Sampling estimated = sampling;
+  estimated.estimate_error = true;
+  const renderer::Frame plain = rendered(world, sampling, effects, {});
+  const renderer::Frame dry = rendered(world, sampling, {.double_bounce = true}, {});
+  CHECK(plain.bscope_W != dry.bscope_W);
+  for (const renderer::Frame& other :
+       {rendered(world, sampling, effects), rendered(world, estimated, effects),
+        rendered(world, estimated, effects, {})}) {
+    CHECK(other.bscope_W == plain.bscope_W);
+    CHECK(other.cscope_W_m3 == plain.cscope_W_m3);
+  }
+  const renderer::LayerSet truth = rendered(world, sampling, effects).layers->bscope;
+  const int corner = sensors::range_row(world.sensor.range, std::hypot(kFront_m, kHeight_m));
+  CHECK(truth.double_bounce[at(corner)] > 0.3F);
+  CHECK(truth.double_bounce[at(corner - 20)] == 0.0F);
 }
 
 TEST_CASE("A C-scope that draws no elevations has no truth by elevation", "[frame_layers]") {
