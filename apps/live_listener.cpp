@@ -12,10 +12,10 @@ LiveListener::Source::Source(const PosesFrom& told, const session::Session& sess
            std::move(mailbox), number) {}
 
 LiveListener::LiveListener(const std::vector<PosesFrom>& from, session::Session& session,
-                           double rate_Hz, std::size_t kept, const live::CigiStation& station)
-    : mailbox_(std::make_shared<live::Mailbox>(kept)) {
+                           double rate_Hz, std::size_t kept, const live::CigiStation& station) {
+  const auto mailbox = std::make_shared<live::Mailbox>(kept);
   for (const PosesFrom& one : from) {
-    sources_.emplace_back(one, session, mailbox_, sources_.size());
+    sources_.emplace_back(one, session, mailbox, sources_.size());
     if (one.cigi) ig_.emplace(session, one.datum, kept, station);
     if (one.subscribes())
       xplane_.emplace(one.beacon ? std::nullopt : std::optional(one.listens_at), rate_Hz,
@@ -71,7 +71,7 @@ void LiveListener::tell(live::Status& status) const {
   status.packets = 0;
   status.bad_packets.clear();
   for (const Source& source : sources_) source.feed.tell(status);
-  const auto leading = mailbox_->leading();
+  const auto leading = mailbox().leading();
   if (!leading) return;
   status.source = sources_[*leading].from.source;
   status.height_offset_m = sources_[*leading].feed.height_offset_m();

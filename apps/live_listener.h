@@ -32,7 +32,9 @@ class LiveListener {
   void tell(live::Status& status) const;
   // Of a CIGI host: what it wants to see of a frame. Empty for others.
   std::function<void(live::LiveFrame&)> dress() const;
-  const live::Mailbox& mailbox() const { return ig_ ? ig_->mailbox() : *mailbox_; }
+  const live::Mailbox& mailbox() const {
+    return ig_ ? ig_->mailbox() : sources_.front().feed.mailbox();
+  }
   // In the order of --from.
   std::vector<const live::Feed*> feeds() const;
   // The one whose weather counts; null where none does.
@@ -51,7 +53,6 @@ class LiveListener {
   void hear(Source& source, std::span<const std::uint8_t> datagram, const live::Sender& from);
   void listen_to_xplane(const PosesFrom& told, live::Network& network);
 
-  std::shared_ptr<live::Mailbox> mailbox_;
   std::deque<Source> sources_;
   std::optional<live::CigiIg> ig_;
   std::optional<live::XPlaneLink> xplane_;

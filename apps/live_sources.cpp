@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "apps/live_words.h"
 #include "core/errors.h"
@@ -57,7 +58,9 @@ void check_simulator(const std::string& source, const PosesFrom& from) {
     refuse_source(source, "beyond loopback also ,peer=ADDRESS, whose packets count");
 }
 
-PosesFrom one_from(const std::string& source) {
+}  // namespace
+
+PosesFrom poses_from(const std::string& source) {
   PosesFrom from;
   from.source = source;
   const Worded words = worded(source, kSourceKeys);
@@ -88,40 +91,23 @@ PosesFrom one_from(const std::string& source) {
   return from;
 }
 
-// Of several.
-void check_beside(const PosesFrom& from, int asked, int weathers) {
-  if (!from.listens() || from.cigi)
-    refuse_source(from.source,
-                  "no other source beside it: simulators that send alone may be several");
-  if (from.subscribes() && asked > 1) refuse_source(from.source, "one X-Plane");
-  if (from.weather && weathers > 1) refuse_source(from.source, "the weather of one simulator");
-}
-
-}  // namespace
-
-std::vector<PosesFrom> poses_from(const std::vector<std::string>& sources) {
-  std::vector<PosesFrom> from;
+void check_together(const std::vector<PosesFrom>& sources) {
   core::ProblemList problems;
-  const auto collect = [&](const auto& parse) {
-    try {
-      parse();
-    } catch (const core::InputError& error) {
-      problems.append(error.problems());
-    }
+  const auto refuse = [&](const std::string& source, const char* expected) {
+    problems.error(core::ErrorClass::ref, {}, "--from", "\"" + source + "\"", expected);
   };
-  for (const std::string& source : sources) collect([&] { from.push_back(one_from(source)); });
-  const auto asked = std::count_if(from.begin(), from.end(),
-                                   [](const PosesFrom& one) { return one.subscribes(); });
-  const auto weathers =
-      std::count_if(from.begin(), from.end(), [](const PosesFrom& one) { return one.weather; });
   if (sources.size() > live::FlownBy::kMostSources)
     problems.error(core::ErrorClass::limit, {}, "--from", std::to_string(sources.size()),
                    "at most " + std::to_string(live::FlownBy::kMostSources) + " sources");
-  if (from.size() > 1)
-    for (const PosesFrom& one : from)
-      collect([&] { check_beside(one, static_cast<int>(asked), static_cast<int>(weathers)); });
+  bool asked = false, weather = false;
+  for (const PosesFrom& from : sources) {
+    if (sources.size() > 1 && (!from.listens() || from.cigi))
+      refuse(from.source, "no other source beside it: simulators that send alone may be several");
+    if (from.subscribes() && std::exchange(asked, true)) refuse(from.source, "one X-Plane");
+    if (from.weather && std::exchange(weather, true))
+      refuse(from.source, "the weather of one simulator");
+  }
   problems.throw_if_errors();
-  return from;
 }
 
 }  // namespace fanbeam::apps

@@ -30,8 +30,10 @@ struct PosesFrom {
   bool subscribes() const { return protocol != nullptr && protocol->subscribed; }
 };
 
-// Several that listen to simulators, the first of which leads (live/mailbox.h), or one of another kind.
+// Throws InputError.
+PosesFrom poses_from(const std::string& source);
+// Several listen to simulators, the first of which leads (live/mailbox.h); one may be of any kind.
 // Throws InputError with all that is wrong.
-std::vector<PosesFrom> poses_from(const std::vector<std::string>& sources);
+void check_together(const std::vector<PosesFrom>& sources);
 
 }  // namespace fanbeam::apps

@@ -55,7 +55,9 @@ Wiring wiring_of(const LiveOptions& options) {
     }
   };
   collect([&] { wiring.page = live::parse_endpoint(options.http, "--http"); });
-  collect([&] { wiring.from = poses_from(options.from); });
+  for (const std::string& source : options.from)
+    collect([&] { wiring.from.push_back(poses_from(source)); });
+  collect([&] { check_together(wiring.from); });
   collect([&] { wiring.access = access_of(options); });
   for (const std::string& sink : options.to) collect([&] { add_sink(sink, wiring.to); });
   collect([&] { check_page(options.http, wiring); });

@@ -20,9 +20,7 @@ PoseSource source_of(const Mailbox& mailbox, const terrain::LocalFrame& frame,
     for (const Mailbox::Letter& letter : mailbox.after(taken)) {
       const double arrived_s = seconds_between(begin, letter.arrived);
       if (journal != nullptr) journal->packet(arrived_s, letter.packet, letter.source);
-      // Another simulator has another clock, and flies what it flies.
-      if (letter.source != std::exchange(source, letter.source)) predictor = Predictor(frame);
-      predictor.take(letter.pose, arrived_s, letter.clock_s);
+      predictor.take(letter.pose, arrived_s, letter.clock_s, letter.source);
       taken = letter.number;
     }
     const auto pose = predictor.at(at_s);

@@ -28,8 +28,12 @@ double Predictor::flown_s(const Known& now) {
   return flown_s_;
 }
 
-void Predictor::take(const core::Pose& pose, double arrived_s,
-                     const std::optional<double>& clock_s) {
+void Predictor::take(const core::Pose& pose, double arrived_s, const std::optional<double>& clock_s,
+                     std::size_t source) {
+  if (source != source_) {
+    *this = Predictor(frame_);
+    source_ = source;
+  }
   if (heard_ && !(arrived_s > heard_->arrived_s)) return;
   Known now{arrived_s, arrived_s, frame_.to_local_m(pose.position),
             frame_.north_east_down_at(pose.position) * pose.v_N_mps, pose};

@@ -37,7 +37,9 @@ class Predictor {
 
   // At increasing times of arrival; one that is not later by its source's clock than the last is
   // dropped. Finite poses. `clock_s` of a source that tells one packet's time from the next one's.
-  void take(const core::Pose& pose, double arrived_s, const std::optional<double>& clock_s = {});
+  // From another `source` than before it begins anew: that has another clock, and flies what it flies.
+  void take(const core::Pose& pose, double arrived_s, const std::optional<double>& clock_s = {},
+            std::size_t source = 0);
   // Nothing before the first pose. Times before those known are those of the oldest.
   std::optional<core::Pose> at(double time_s) const;
   // When the newest pose that counts arrived; nothing before the first.
@@ -57,6 +59,7 @@ class Predictor {
   core::Pose after(double ahead_s) const;
 
   terrain::LocalFrame frame_;
+  std::size_t source_ = 0;
   SourceClock clock_;
   std::optional<Known> heard_;  // last, whether it counted or not
   double flown_s_ = 0.0;        // the clock of what is flown

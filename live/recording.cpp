@@ -72,9 +72,8 @@ class Lines {
     const auto bytes = bytes_of(text.text().value_or("?"));
     if (!bytes) text.error(core::ErrorClass::parse, "bytes in hexadecimal, at most 2000");
     const double arrived_s = line.required("s").number({-1e9, 1e9}).value_or(0.0);
-    const core::JsonNode from = line.member("from");
     const int last = static_cast<int>(recording_.flown_by.from.size()) - 1;
-    const int source = from.present() ? from.whole(0, std::max(last, 0)).value_or(0) : 0;
+    const int source = line.member("from").whole(0, std::max(last, 0)).value_or(0);
     recording_.events.emplace_back(RecordedPacket{
         arrived_s, bytes.value_or(std::vector<std::uint8_t>{}), static_cast<std::size_t>(source)});
   }

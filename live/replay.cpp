@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <thread>
-#include <utility>
 
 #include "live/frame_maker.h"
 #include "live/predictor.h"
@@ -29,8 +28,7 @@ class Replay {
         hub_(hub),
         told_(told),
         stop_(stop),
-        frame_(session.scene()->frame),
-        predictor_(frame_),
+        predictor_(session.scene()->frame),
         lockstep_time_(1.0 / recording.flown_by.rate_Hz),
         maker_(session, hub, channel_settings(recording, settings)) {}
 
@@ -46,11 +44,9 @@ class Replay {
     if (packet.source >= feeds_.size()) return;
     auto heard = feeds_[packet.source]->heard_in(packet.bytes);
     if (!heard) return;
-    // As live/pose_source.cpp has it.
-    if (packet.source != std::exchange(source_, packet.source)) predictor_ = Predictor(frame_);
     if (recording_.flown_by.from.size() > 1)
       maker_.status().source = recording_.flown_by.from[packet.source];
-    predictor_.take(heard->pose, packet.arrived_s, heard->clock_s);
+    predictor_.take(heard->pose, packet.arrived_s, heard->clock_s, packet.source);
     heard->pose.time_s = lockstep_time_.next(heard->clock_s);
     newest_ = {heard->pose, packet.arrived_s};
   }
@@ -97,9 +93,7 @@ class Replay {
   Hub& hub_;
   const Told& told_;
   const core::StopToken& stop_;
-  terrain::LocalFrame frame_;
   Predictor predictor_;
-  std::size_t source_ = 0;  // of the packet before
   LockstepTime lockstep_time_;
   FrameMaker maker_;
   std::optional<std::pair<core::Pose, double>> newest_;  // and when it arrived

@@ -254,7 +254,6 @@ class LayerCaster {
     target.elevation_rad = static_cast<float>(echo.elevation_rad);
     target.height_rad = 1.0F;
     target.power_W_per_rad = static_cast<float>(echo.power_W);
-    target.material = kNoMaterial;
     target.object =
         static_cast<terrain::ObjectId>(world_.geometry->object_names.size()) + echo.object_id;
     const int cell = sensors::range_row(world_.sensor.range, echo.range_m);

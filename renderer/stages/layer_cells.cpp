@@ -5,27 +5,14 @@
 
 #include "core/dispatch.h"
 #include "core/parallel.h"
-#include "renderer/stages/frame_layers.h"
+#include "core/series.h"
 
 namespace fanbeam::renderer {
 namespace {
 
-// Arcsines of 0 to 1, 0 of 0. Abramowitz & Stegun, Handbook of Mathematical Functions, 1964, 4.4.46:
-// 2e-8 rad.
 FANBEAM_HOT(void, arcsines, (float* values, int count), (values, count)) {
-  for (int i = 0; i < count; ++i) {
-    const auto x = static_cast<double>(values[i]);
-    double series = -0.0012624911;
-    series = 0.0066700901 + x * series;
-    series = -0.0170881256 + x * series;
-    series = 0.0308918810 + x * series;
-    series = -0.0501743046 + x * series;
-    series = 0.0889789874 + x * series;
-    series = -0.2145988016 + x * series;
-    series = 1.5707963050 + x * series;
-    const double angle_rad = 1.5707963267948966 - std::sqrt(1.0 - x) * series;
-    values[i] = x > 0.0 ? static_cast<float>(angle_rad) : 0.0F;
-  }
+  for (int i = 0; i < count; ++i)
+    values[i] = static_cast<float>(core::series_arcsine(static_cast<double>(values[i])));
 }
 
 }  // namespace

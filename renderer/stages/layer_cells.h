@@ -6,12 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "terrain/height_field.h"
+#include "renderer/stages/frame_layers.h"
 #include "terrain/ray_scene.h"
 
 namespace fanbeam::renderer {
-
-struct LayerSet;
 
 // One ray, which stands for a strip of elevation.
 struct LayerHit {
@@ -21,9 +19,9 @@ struct LayerHit {
   float x_m = 0.0F, y_m = 0.0F;             // of the scene
   float range_slope = 0.0F;                 // ray_chain.h
   std::uint32_t surface = terrain::kNoHit;  // and nothing else but the strip means anything
-  std::int32_t cell = 0, row = 0;  // of the picture's range and elevation; row counts on outside
+  std::int32_t cell = 0, row = 0;  // of the picture's range and elevation; both count on outside
   terrain::ObjectId object = terrain::kTerrainObject;
-  terrain::MaterialId material = 0xFFFF;
+  terrain::MaterialId material = kNoMaterial;
 
   bool hit() const { return surface != terrain::kNoHit; }
   float power_W() const { return power_W_per_rad * height_rad; }

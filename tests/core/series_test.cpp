@@ -40,6 +40,14 @@ TEST_CASE("Arc tangent by series is within 2e-10 in the right half-plane, exact 
   }
 }
 
+TEST_CASE("Arcsine by series is within 3e-8 from 0 to 1, and 0 of 0", "[core][series]") {
+  CHECK(series_arcsine(0.0) == 0.0);
+  for (int i = 1; i <= kPlaces; ++i) {
+    const double sine = static_cast<double>(i) / kPlaces;
+    REQUIRE(std::abs(series_arcsine(sine) - std::asin(sine)) < 3e-8);
+  }
+}
+
 TEST_CASE("Decay by series is within 3e-10 relative over all magnitudes, exactly 1 at 0",
           "[core][series]") {
   CHECK(series_decay(0.0) == 1.0);
