@@ -15,8 +15,8 @@ PoseSource source_of(Flight flight) {
 
 PoseSource source_of(const Mailbox& mailbox, const terrain::LocalFrame& frame,
                      Clock::time_point begin, Journal* journal) {
-  return [&mailbox, frame, begin, journal, predictor = Predictor(frame), taken = std::uint64_t{0},
-          source = std::size_t{0}](double now_s, double at_s) mutable -> std::optional<Sighting> {
+  return [&mailbox, begin, journal, predictor = Predictor(frame), taken = std::uint64_t{0}](
+             double now_s, double at_s) mutable -> std::optional<Sighting> {
     for (const Mailbox::Letter& letter : mailbox.after(taken)) {
       const double arrived_s = seconds_between(begin, letter.arrived);
       if (journal != nullptr) journal->packet(arrived_s, letter.packet, letter.source);
