@@ -131,7 +131,8 @@ class RayScene {
   // What was hit belongs to: ground and what is painted on it, or a part of a mesh.
   ObjectId object(std::uint32_t geometry, std::uint32_t primitive, double x_m,
                   double y_m) const noexcept {
-    if (has_terrain_ && geometry == kTerrainGeometry) return surface_map_->object_at(x_m, y_m);
+    if (has_terrain_ && geometry == kTerrainGeometry)
+      return surface_map_->cover_at(x_m, y_m).object;
     return mesh_object_[geometry].empty() ? kTerrainObject : mesh_object_[geometry][primitive];
   }
 

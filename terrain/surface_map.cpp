@@ -99,13 +99,4 @@ MaterialId SurfaceMap::patched_material(std::size_t cell, double x_m, double y_m
   return patch != nullptr ? patch->material : static_cast<MaterialId>(cells_[cell] & ~kPatched);
 }
 
-ObjectId SurfaceMap::object_at(double x_m, double y_m) const noexcept {
-  const std::size_t cell =
-      static_cast<std::size_t>(row_of(y_m)) * static_cast<std::size_t>(columns_) +
-      static_cast<std::size_t>(column_of(x_m));
-  const SurfacePatch* const patch =
-      (cells_[cell] & kPatched) == 0 ? nullptr : patch_at(cell, x_m, y_m);
-  return patch != nullptr ? patch->object : kTerrainObject;
-}
-
 }  // namespace fanbeam::terrain

@@ -44,8 +44,20 @@ class SurfaceMap {
     return (cells_[cell] & kPatched) == 0 ? cells_[cell] : patched_material(cell, x_m, y_m);
   }
 
-  // Of the patch on top, else the terrain. Point is clamped to the grid.
-  ObjectId object_at(double x_m, double y_m) const noexcept;
+  // Of the patch on top, else of the terrain. Point is clamped to the grid.
+  struct Cover {
+    MaterialId material;
+    ObjectId object;
+  };
+  Cover cover_at(double x_m, double y_m) const noexcept {
+    const std::size_t cell =
+        static_cast<std::size_t>(row_of(y_m)) * static_cast<std::size_t>(columns_) +
+        static_cast<std::size_t>(column_of(x_m));
+    if ((cells_[cell] & kPatched) == 0) return {cells_[cell], kTerrainObject};
+    const SurfacePatch* const patch = patch_at(cell, x_m, y_m);
+    if (patch != nullptr) return {patch->material, patch->object};
+    return {static_cast<MaterialId>(cells_[cell] & ~kPatched), kTerrainObject};
+  }
 
   const std::vector<SurfacePatch>& patches() const { return patches_; }
 

@@ -1,10 +1,9 @@
-// Rays of a few sub-columns, each told with what it met: for stages that want the rays themselves
-// and not their sums over cells. Neighbours in azimuth make packets that stay together: four
-// sub-columns at a time take 0.75 of the time (docs/performance-notes.md).
+// Rays, each told with what it met: for stages that want the rays themselves and not their sums over
+// cells. Neighbours asked for one after the other make packets that stay together: four sub-columns
+// row by row take 0.75 of the time (docs/performance-notes.md).
 #pragma once
 
 #include <algorithm>
-#include <span>
 
 #include "renderer/casting/echo_density.h"
 #include "renderer/casting/fan_layout.h"
@@ -16,8 +15,9 @@
 
 namespace fanbeam::renderer {
 
-// Where a ray goes within its sub-column.
+// Where a ray goes.
 struct RayPlace {
+  const SubColumn& column;
   double elevation_rad = 0.0;
   double across = 0.5;  // share of the sub-column's width, from its left
 };
@@ -34,23 +34,18 @@ class RayLine {
         sender_(world.surfaces(), world.sensor.range, antenna.position_m, nullptr),
         density_(world, path_loss, antenna.position_m) {}
 
-  // Of `columns` there are 1, 2 or 4, and `rows` rays of each. Calls `place(row, column)` for every
-  // ray, which says where it goes, and then `keep(row, column, batch, chain, lane)` with what it
-  // met, row by row.
+  // Calls `place(ray)` for each of `count` rays, which says where it goes, and then
+  // `keep(ray, batch, chain, lane)` with what it met, in order.
   template <class Place, class Keep>
-  void cast(std::span<const SubColumn> columns, int rows, const Place& place, const Keep& keep) {
-    const int abreast = static_cast<int>(columns.size());
-    const auto column_of = [&](int lane) -> const SubColumn& {
-      return columns[static_cast<std::size_t>(lane % abreast)];
-    };
-    for (int lane = 0; lane < kBatchRays; ++lane) batch_.set_column(lane, column_of(lane));
-    for (int first = 0; first < rows * abreast; first += kBatchRays) {
-      const int filled = std::min(kBatchRays, rows * abreast - first);
+  void cast(int count, const Place& place, const Keep& keep) {
+    for (int first = 0; first < count; first += kBatchRays) {
+      const int filled = std::min(kBatchRays, count - first);
       for (int lane = 0; lane < filled; ++lane) {
-        const RayPlace at = place((first + lane) / abreast, lane % abreast);
+        const RayPlace at = place(first + lane);
+        batch_.set_column(lane, at.column);
         batch_.elevation_rad[lane] = at.elevation_rad;
         batch_.gain[lane] = elevation_gain_(at.elevation_rad - boresight_rad_);
-        batch_.offset_rad[lane] = column_of(lane).offset_rad(at.across);
+        batch_.offset_rad[lane] = at.column.offset_rad(at.across);
       }
       batch_.close(filled);
       aim_.point(batch_);
@@ -58,8 +53,7 @@ class RayLine {
       chain_.clear();
       chain_.append(kBatchRays);
       density_.shade(batch_, 0, chain_);
-      for (int lane = 0; lane < filled; ++lane)
-        keep((first + lane) / abreast, lane % abreast, batch_, chain_, lane);
+      for (int lane = 0; lane < filled; ++lane) keep(first + lane, batch_, chain_, lane);
     }
   }
 

@@ -86,13 +86,13 @@ class SurfaceCaster {
     if (edges.size() < 2) return found;
     const int total = (static_cast<int>(edges.size()) - 1) * settings_.passes;
     Draw draws[kBatchRays];
-    const auto aim = [&](int ray, int) {
+    const auto aim = [&](int ray) {
       return place(edges, column, number, ray, draws[ray % kBatchRays]);
     };
-    const auto look = [&](int ray, int, const RayBatch& batch, const RayChain& chain, int lane) {
+    const auto look = [&](int ray, const RayBatch& batch, const RayChain& chain, int lane) {
       keep(batch, chain, lane, draws[ray % kBatchRays], found);
     };
-    RayLine(world_, antenna_, elevation_gain_, path_loss_).cast({&column, 1}, total, aim, look);
+    RayLine(world_, antenna_, elevation_gain_, path_loss_).cast(total, aim, look);
     found.rays = static_cast<std::uint64_t>(total);
     return found;
   }
@@ -112,7 +112,8 @@ class SurfaceCaster {
     const double height_rad = edges[row + 1] - edges[row];
     draw = {height_rad * column.step_rad / settings_.passes,
             2.0 * core::kPi * core::uniform_from(words[2])};
-    return {edges[row] + core::uniform_from(words[1]) * height_rad, core::uniform_from(words[0])};
+    return {column, edges[row] + core::uniform_from(words[1]) * height_rad,
+            core::uniform_from(words[0])};
   }
 
   void keep(const RayBatch& batch, const RayChain& chain, int lane, const Draw& draw,

@@ -11,21 +11,24 @@
 //   grazing_rad    of the local grazing angle on the facets, by the mean of its sine
 //   nrcs           mean sigma0, linear
 //   elevation_rad  of the strongest single echo (B-scope alone)
-//   material, object  of the strongest single echo; a point target counts as one, with object
-//                  number Geometry::object_names.size() plus its index and material kNoMaterial
+//   material, object  of the strongest single echo; of a point target where it sends more than all
+//                  surfaces of the cell, with object number Geometry::object_names.size() plus its
+//                  index and material kNoMaterial
 //   double_bounce  of the picture's power from surfaces and rain, beam and all, the share that came
 //                  by two or three reflections
 // Means are weighted with the power that surfaces send on the direct way; point targets are not in
 // them.
 //
 // From rays of its own, whichever caster draws the picture, so that the two give the same truth:
-// kLayerAzimuths azimuths a column, dithered along range as in ray_caster.h, a quarter of a ray a
-// range cell of visible ground in each and one in two C-scope rows of what stands above it, and one
-// more wherever two neighbours a few cells or rows apart do not tell what lies between them: another
-// surface, slope or part of a model. What neighbours on one slope step over, up to seven range cells
-// or all rows, is put between them, ground with the cover and paint of its own place. Echoes beyond the range gate are in neither picture, nor here. Accuracy: a thing
-// narrower than half a column, or lower than a ray's step, may be missed; a cell at its foot may be
-// left dark. Neglected: rain cells, and all that ray_caster.h neglects.
+// kLayerAzimuths azimuths a column, dithered along range as in ray_caster.h, one ray for eight range
+// cells of visible ground in each and one in two C-scope rows of what stands above it; then, twice,
+// one more wherever two neighbours a few cells or rows apart do not tell what lies between them:
+// another surface, slope or part of a model. What neighbours on one slope step over, up to eleven
+// range cells or all rows, is put between them, ground with the cover and paint of its own place.
+// Echoes beyond the range gate are in neither picture, nor here. Accuracy: a thing narrower than half
+// a column, or lower than a ray's step, may be missed; a cell at its foot may be left dark
+// (docs/performance-notes.md tells how many are). Neglected: rain cells, and all that ray_caster.h
+// neglects.
 // Deterministic, and the same for any number of threads. Cost: docs/performance-notes.md.
 #pragma once
 

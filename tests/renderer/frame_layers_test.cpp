@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "renderer/plan/largest_echo.h"
 #include "sensors/cells.h"
 #include "tests/renderer/test_worlds.h"
 
@@ -249,6 +250,53 @@ TEST_CASE("A point target brighter than the ground gives its number", "[frame_la
     CHECK(frame.layers->bscope.material[at(row, column)] == renderer::kNoMaterial);
     CHECK(frame.layers->bscope.object[at(row, column - 1)] == terrain::kTerrainObject);
   }
+}
+
+TEST_CASE("A point target counts from the power of its cell's ground on", "[frame_layers]") {
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  for (const double range_m : {700.0, 1200.0, 2100.0, 3300.0})
+    for (const double over_ground : {0.8, 1.25}) {
+      renderer::World world = plain_with_shed(sensor);
+      world.geometry =
+          tests::geometry(tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }));
+      // In the middle of a cell, whose ground sends as this does.
+      const int row = sensors::range_row(sensor.range, range_m);
+      const double middle_m = sensors::range_middle_m(sensor.range, row);
+      const double sine = kHeight_m / middle_m, cosine = std::sqrt(1.0 - sine * sine);
+      const double ground_m2 = kMeadow.sigma0(sine) * renderer::azimuth_width_rad(sensor) *
+                               middle_m * sensor.range.cell_m / cosine;
+      const double azimuth_rad = sensors::column_middle_rad(sensor.scan, 3);
+      world.targets.push_back({.name = "post",
+                               .rcs = materials::ConstantRcs{over_ground * ground_m2},
+                               .path = {{0.0,
+                                         {middle_m * cosine * std::sin(azimuth_rad),
+                                          middle_m * cosine * std::cos(azimuth_rad), 1.0}}}});
+      const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
+      INFO(middle_m << " m, " << over_ground << " of the ground");
+      const bool target = frame.layers->bscope.material[at(row)] == renderer::kNoMaterial;
+      CHECK(target == (over_ground > 1.0));
+    }
+}
+
+TEST_CASE("Low walls that hide next to nothing are told in every column", "[frame_layers]") {
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  std::vector<tests::Body> walls;
+  for (double front_m = 1300.0; front_m < 3000.0; front_m += 140.0) {
+    walls.push_back(tests::box({-200.0, front_m, -2.0}, {200.0, front_m + 4.0, 2.0}, 1));
+    walls.back().mesh.object_of_part = {kShed};
+  }
+  const renderer::World world =
+      tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
+                   {kMeadow, kBright}, walls);
+  const renderer::LayerSet truth = rendered(world, renderer::sampling_for(4.0)).layers->bscope;
+  for (double front_m = 1300.0; front_m < 3000.0; front_m += 140.0)
+    for (int column = 0; column < kColumns; ++column) {
+      INFO("wall at " << front_m << " m, column " << column);
+      const int row = sensors::range_row(sensor.range, std::hypot(front_m, kHeight_m));
+      const bool told =
+          truth.object[at(row, column)] == kShed || truth.object[at(row + 1, column)] == kShed;
+      CHECK(told);
+    }
 }
 
 TEST_CASE("Where a wall stands on a mirror most of the power bounces twice", "[frame_layers]") {
