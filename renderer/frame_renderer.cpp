@@ -54,9 +54,9 @@ class FrameRenderer::Stages {
                             : nullptr),
         threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {
     if (products.cscope_layers && !shows_elevation())
-      core::throw_input_error(core::ErrorClass::unsupported, "C-scope layers",
-                              "of a C-scope that draws no elevations",
-                              "cscope_mode = \"true_elevation\"");
+      core::throw_input_error(
+          core::ErrorClass::unsupported, "C-scope layers, which labels and cscope_masks need too",
+          "of a C-scope that draws no elevations", "cscope_mode = \"true_elevation\"");
   }
 
   Frame render(const FramePose& pose) const;
@@ -192,21 +192,11 @@ std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaF
     add_rain(antenna, sums);
     return std::nullopt;
   }
-  std::optional<ErrorEstimate> error =
+  FanSums dry;
+  const ErrorEstimate error =
       Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_)
-          .cast(antenna, with_cscope, sums, sight);
-  if (direct != nullptr) {
-    // The refined sums hold bounces already: the same once more tells how much they are.
-    FanSums without = sums;
-    double_bounce_->add(antenna, without);
-    const auto take_off = [](const std::vector<double>& with, std::vector<double>& twice) {
-      for (std::size_t i = 0; i < with.size(); ++i)
-        twice[i] = std::max(2.0 * with[i] - twice[i], 0.0);
-    };
-    take_off(sums.range_W_per_rad, without.range_W_per_rad);
-    take_off(sums.elevation_W_m3_per_rad, without.elevation_W_m3_per_rad);
-    *direct = images_in_rain(antenna, without);
-  }
+          .cast(antenna, with_cscope, sums, sight, direct != nullptr ? &dry : nullptr);
+  if (direct != nullptr) *direct = images_in_rain(antenna, dry);
   add_rain(antenna, sums);
   return error;
 }

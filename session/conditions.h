@@ -46,13 +46,14 @@ struct Accuracy {
 };
 // The finest of a ladder (session/sampling_choice.h) with which both pictures of a frame take at most
 // so long on this machine, timed when it is set and kept until the next one. The slowest of `poses`
-// counts; without any, of three frames spread over the scene's trajectory. Too short a time gives
-// the coarsest.
+// counts; without any, of three frames spread over the scene's trajectory. Where an accuracy is in
+// force, the scene's or one that was asked for, no time is spent on more than that. Too short a time
+// gives the coarsest, and a warning.
 struct TimeBudget {
   double ms = 0.0;  // 0.1 to 1e7
   std::vector<core::Pose> poses{};
 };
-// The last one says every setting of its own: references, estimates, what a time budget chose.
+// The last one says every setting of its own: references, estimates.
 using SamplingWish = std::variant<Samples, Accuracy, TimeBudget, renderer::Sampling>;
 
 }  // namespace fanbeam::session

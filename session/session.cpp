@@ -1,5 +1,6 @@
 #include "session/session.h"
 
+#include <cmath>
 #include <mutex>
 #include <numeric>
 #include <optional>
@@ -12,7 +13,6 @@
 #include "scenes/frame_plan.h"
 #include "scenes/scene_caster.h"
 #include "scenes/scene_reader.h"
-#include "session/sampling_choice.h"
 #include "session/targets.h"
 
 namespace fanbeam::session {
@@ -82,6 +82,9 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
   sensors::Display& display = sensor.display;
   sensor.scan.stabilised = settings.stabilised.value_or(sensor.scan.stabilised);
   display.cscope_mode = settings.cscope_mode.value_or(display.cscope_mode);
+  if ((settings.low_dB || settings.high_dB) && display.mapping == sensors::Display::Mapping::seed)
+    problems.error(core::ErrorClass::unsupported, {}, "low_dB, high_dB", "with mapping \"seed\"",
+                   "mapping \"stc\" or \"log\"; \"seed\" has a window of its own");
   display.low_dB = settings.low_dB.value_or(display.low_dB);
   display.high_dB = settings.high_dB.value_or(display.high_dB);
   if (!(display.low_dB >= -400.0 && display.high_dB <= 400.0 && display.low_dB < display.high_dB))
@@ -165,10 +168,11 @@ void Session::open(scenes::SceneDescription description, const Setup& setup,
   inside_->asked.sampling = wish_of(description, setup.build);
   inside_->published =
       std::make_shared<const Published>(inside_->opened, inside_->asked.sampling, setup.seed);
-  const auto* const samples = std::get_if<Samples>(&inside_->asked.sampling);
-  if (!setup.keeps_time_budget || !(description.time_budget_ms > 0.0) || samples == nullptr) return;
+  if (!setup.keeps_time_budget || !(description.time_budget_ms > 0.0) ||
+      setup.build.accuracy_grey > 0.0)
+    return;
   if (inside_->opened->frame_count() > 0)
-    set(TimeBudget{description.time_budget_ms});
+    problems.append(set(TimeBudget{description.time_budget_ms}).all());
   else
     problems.warning("BUDGET", {}, "accuracy.time_budget_ms",
                      core::number_text(description.time_budget_ms),
@@ -237,7 +241,7 @@ core::ProblemList Session::set(std::span<const TargetState> targets) {
 }
 
 // What a time budget comes to under the conditions of now.
-renderer::Sampling Session::timed(const TimeBudget& budget) const {
+SamplingChoice Session::timed(const TimeBudget& budget) const {
   const core::StopToken stop = core::StopScope::current();
   const Work work(stop, inside_->threads);
   const std::shared_ptr<const scenes::Scene> scene = now()->scene;
@@ -255,9 +259,10 @@ renderer::Sampling Session::timed(const TimeBudget& budget) const {
     poses = poses_to_time(*scene, frames);
   }
   const bool heights = scene->options.heights_shown;
-  return choose_sampling({.time_budget_ms = budget.ms}, *scene, inside_->seed, {true, heights},
-                         poses)
-      .sampling;
+  const double wished_grey = scene->options.accuracy_grey;
+  const double accuracy_grey = wished_grey > 0.0 ? wished_grey : scene->description.accuracy_grey;
+  return choose_sampling({.accuracy_grey = accuracy_grey, .time_budget_ms = budget.ms}, *scene,
+                         inside_->seed, {true, heights}, poses);
 }
 
 core::ProblemList Session::set(const SamplingWish& wish) {
@@ -265,7 +270,14 @@ core::ProblemList Session::set(const SamplingWish& wish) {
     core::ProblemList problems;
     check(wish, problems);
     problems.throw_if_errors();
-    return set(SamplingWish(timed(*budget)));
+    const SamplingChoice choice = timed(*budget);
+    // As samples: what is set later may change the caster.
+    problems = set(Samples{choice.samples});
+    if (!choice.fits)
+      problems.warning("BUDGET", {}, "time budget", core::number_text(budget->ms) + " ms",
+                       "the coarsest sampling there is, which takes " +
+                           core::number_text(std::round(choice.slowest_ms * 10.0) / 10.0) + " ms");
+    return problems;
   }
   const auto* accuracy = std::get_if<Accuracy>(&wish);
   const auto ask = [&](Asked& asked) {

@@ -27,6 +27,7 @@
 #include "renderer/frame_renderer.h"
 #include "scenes/scene.h"
 #include "session/conditions.h"
+#include "session/sampling_choice.h"
 
 namespace fanbeam::session {
 
@@ -102,7 +103,7 @@ class Session {
   void open(scenes::SceneDescription description, const Setup& setup, core::ProblemList& problems);
   // `as_before`: the scene stays as it is.
   core::ProblemList change(const std::function<void(Asked&)>& ask, bool as_before = false);
-  renderer::Sampling timed(const TimeBudget& budget) const;
+  SamplingChoice timed(const TimeBudget& budget) const;
 
   struct Inside;
   std::unique_ptr<Inside> inside_;

@@ -147,7 +147,7 @@ class TooCoarse {
 }  // namespace
 
 ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
-                               FanSums& sums, SightLines& sight) const {
+                               FanSums& sums, SightLines& sight, FanSums* direct) const {
   caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
   ColumnError difference(world_.sensor, effects_.thermal_noise);
   if (effects_.rain_echo && world_.volume_echo) {
@@ -159,6 +159,7 @@ ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_c
   ErrorEstimate error = target_grey > 0.0
                             ? refine(antenna, with_cscope, difference, target_grey, sums)
                             : estimate(antenna, with_cscope, difference, sums);
+  if (direct != nullptr) *direct = sums;
   if (bounces_ != nullptr)
     error = together(error, add_bounces(antenna, difference, target_grey, sums));
   return error;

@@ -57,9 +57,10 @@ class Refinement {
       : world_(world), sampling_(sampling), caster_(caster), bounces_(bounces), effects_(effects) {}
 
   // Casts and adds the bounces: until the estimate is at most the sampling's target_grey, or, where
-  // that is 0, what the sampling gives by itself with the estimate of its error.
+  // that is 0, what the sampling gives by itself with the estimate of its error. `direct`, unless
+  // null, receives what there is without bounces.
   ErrorEstimate cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums,
-                     SightLines& sight) const;
+                     SightLines& sight, FanSums* direct = nullptr) const;
 
  private:
   // Each is given sums of level 0. `target_grey` 0: what level 0 gives.

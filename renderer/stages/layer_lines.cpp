@@ -14,8 +14,9 @@ namespace {
 // is one slope: behind a crest the next visible ground is farther than they say.
 constexpr int kLargestGap_cells = 12;
 constexpr double kMostOfSlope = 1.5;
-constexpr int kFanColumns = 2;  // that share a fan
-constexpr int kRounds = 2;      // of rays between neighbours
+// Azimuths that share a fan. Of a tilted antenna, or a cone, each has a horizon of its own.
+constexpr int kFanLines = 4, kTiltedFanLines = 1;
+constexpr int kRounds = 2;  // of rays between neighbours
 
 Sampling layer_sampling() {
   Sampling sampling;
@@ -56,27 +57,26 @@ void LayerLines::cast(int first, int last, std::array<LayerLine, kBlockLines>& l
   RayLine rays(world_, antenna_, elevation_gain_, path_loss_);
   block.first_line = first * kLayerAzimuths;
   const int count = (last - first) * kLayerAzimuths;
-  for (int column = first; column < last; column += kFanColumns)
-    look(column, std::min(kFanColumns, last - column), (column - first) * kLayerAzimuths, rays,
-         block, lines);
+  const bool upright = azimuths_are_upright(antenna_, world_.sensor.scan.surface);
+  const int abreast = upright ? kFanLines : kTiltedFanLines;
+  for (int line = 0; line < count; line += abreast)
+    look(line, std::min(abreast, count - line), rays, block, lines);
   for (int round = 0; round < kRounds; ++round) look_between(count, rays, block, lines);
   for (int i = 0; i < count; ++i) share_out(lines[static_cast<std::size_t>(i)]);
 }
 
 // A ray in each step of the fan, row by row.
-void LayerLines::look(int column, int columns, int line, RayLine& rays, Block& block,
+void LayerLines::look(int line, int count, RayLine& rays, Block& block,
                       std::array<LayerLine, kBlockLines>& lines) const {
   const sensors::Scan& scan = world_.sensor.scan;
-  fan_.place(antenna_, sensors::column_edge_rad(scan, column),
-             sensors::column_edge_rad(scan, column + columns), block.edges);
+  const double step_rad = scan.column_width_rad() / kLayerAzimuths;
+  const double left_rad = sensors::column_edge_rad(scan, 0) + (block.first_line + line) * step_rad;
+  fan_.place(antenna_, left_rad, left_rad + count * step_rad, block.edges);
   const std::vector<double>& edges = block.edges;
   const std::size_t rows = edges.size() < 2 ? 0 : edges.size() - 1;
-  const double step_rad = scan.column_width_rad() / kLayerAzimuths;
-  const int count = columns * kLayerAzimuths;
   std::array<double, kBlockLines> share;
   for (int i = 0; i < count; ++i) {
-    const double azimuth_rad = sensors::column_middle_rad(scan, column + i / kLayerAzimuths) +
-                               (i % kLayerAzimuths + 0.5 - 0.5 * kLayerAzimuths) * step_rad;
+    const double azimuth_rad = left_rad + (i + 0.5) * step_rad;
     block.azimuths[static_cast<std::size_t>(line + i)] = {azimuth_rad, std::cos(azimuth_rad),
                                                           std::sin(azimuth_rad), step_rad};
     share[static_cast<std::size_t>(i)] = elevation_place(block.first_line + line + i, 0.5);

@@ -46,7 +46,7 @@ class LayerLines {
     std::vector<double> edges;
     std::vector<Wish> wishes;
   };
-  void look(int column, int columns, int line, RayLine& rays, Block& block,
+  void look(int line, int count, RayLine& rays, Block& block,
             std::array<LayerLine, kBlockLines>& lines) const;
   void look_between(int count, RayLine& rays, Block& block,
                     std::array<LayerLine, kBlockLines>& lines) const;

@@ -71,7 +71,7 @@ TEST_CASE("Truth by elevation is refused for a C-scope that draws none", "[layer
                                            " --products cscope_layers -o " + quoted(kOut / "none"));
   INFO(result.output);
   CHECK(result.exit_code == 3);
-  CHECK(result.output.find("E-UNSUPPORTED C-scope layers") != std::string::npos);
+  CHECK(result.output.find("E-UNSUPPORTED C-scope layers, which labels") != std::string::npos);
   CHECK(result.output.find("cscope_mode = \"true_elevation\"") != std::string::npos);
 }
 

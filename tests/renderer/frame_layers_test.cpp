@@ -316,6 +316,55 @@ TEST_CASE("Where a wall stands on a mirror most of the power bounces twice", "[f
   }
 }
 
+// What the wall hides gets echoes by the ground alone: whatever the sampling, all of it is bounces.
+TEST_CASE("Where bounces are all there is their share is one at any sampling", "[frame_layers]") {
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  renderer::World world = plain_with_shed(sensor);
+  world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
+                    materials::SpecularSurface{{1.0, 1e9}, 0.0}};
+  const renderer::Effects bounces{.double_bounce = true};
+  using renderer::CasterKind;
+  for (const renderer::Sampling& sampling :
+       {renderer::profile_sampling_for(4.0), renderer::sampling_for(4.0),
+        renderer::refined_sampling(CasterKind::profile, 0.25),
+        renderer::refined_sampling(CasterKind::rays, 0.25)}) {
+    const renderer::Frame frame = rendered(world, sampling, bounces);
+    const renderer::LayerSet& truth = frame.layers->bscope;
+    const int first = sensors::range_row(sensor.range, std::hypot(kBack_m, kHeight_m)) + 2;
+    const int last = sensors::range_row(sensor.range, shadow_ends_m()) - 2;
+    INFO("accuracy " << sampling.target_grey << ", slices " << frame.slices);
+    int lit = 0;
+    for (int row = first; row < last; ++row) {
+      if (!(frame.bscope_W[at(row)] > 0.0)) continue;
+      ++lit;
+      CHECK(truth.double_bounce[at(row)] == Approx(1.0F).epsilon(1e-6));
+    }
+    CHECK(lit > 5);
+  }
+}
+
+// Of a rolled antenna every column has a horizon of its own.
+TEST_CASE("All of a plain is lit for a rolled antenna", "[frame_layers]") {
+  sensors::Sensor sensor = tests::hivision(160);
+  sensor.scan.stabilised = false;
+  const renderer::World world = tests::world(
+      sensor, tests::ground(5000.0, 50.0, [](double, double) { return 0.0; }), {kMeadow, kBright});
+  renderer::FramePose pose = tests::level_pose(60.0);
+  pose.q_NB = pose.q_NB * glm::angleAxis(core::radians(30.0), glm::dvec3(1.0, 0.0, 0.0));
+  const renderer::Frame frame =
+      renderer::FrameRenderer(world, renderer::sampling_for(4.0), {.layers = true}, {})
+          .render(pose);
+  int lit = 0, dark = 0;
+  // Nearer, some columns look below their elevation pattern.
+  for (std::size_t i = 160U * 60U; i < frame.bscope_W.size(); ++i) {
+    if (!(frame.bscope_W[i] > 0.0)) continue;
+    ++(frame.layers->bscope.visibility[i] == 1.0F ? lit : dark);
+  }
+  INFO(dark << " of " << lit + dark);
+  CHECK(lit > 40000);
+  CHECK(dark == 0);
+}
+
 TEST_CASE("In rain with bounces a frame has the same bytes with layers and with an estimate",
           "[frame_layers]") {
   renderer::World world = plain_with_shed(tests::hivision(kColumns));

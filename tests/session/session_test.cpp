@@ -290,6 +290,55 @@ TEST_CASE("A scene's own time budget holds for who asks to have it kept", "[sess
   }));
 }
 
+// The first was ignored where the second stood beside it.
+TEST_CASE("A time budget and grey levels of a scene hold together", "[session]") {
+  const TemporaryFolder folder;
+  const auto session_of = [&](double grey_levels, double budget_ms, core::ProblemList& problems) {
+    const std::string text = std::string(tests::kSmallScene) +
+                             "\n[accuracy]\ngrey_levels = " + std::to_string(grey_levels) +
+                             "\ntime_budget_ms = " + std::to_string(budget_ms) + "\n";
+    const session::Setup setup{.shipped = FANBEAM_SOURCE_DIR, .keeps_time_budget = true};
+    return std::make_unique<Session>(written(folder, text), setup, problems);
+  };
+  const auto warned = [](const core::ProblemList& problems) {
+    return std::any_of(problems.all().begin(), problems.all().end(), [](const core::Problem& one) {
+      return one.code == "W-BUDGET" && one.expected.find("coarsest") != std::string::npos;
+    });
+  };
+  core::ProblemList kept, missed;
+  const auto coarse = session_of(50.0, 1e6, kept), fine = session_of(1.0, 1e6, kept);
+  CHECK(coarse->samples() < 1.0);  // no finer than that many grey levels ask for
+  CHECK(fine->samples() > coarse->samples());
+  CHECK(fine->samples() < 64.0);
+  CHECK_FALSE(warned(kept));
+  CHECK(session_of(1.0, 0.1, missed)->samples() == coarse->samples());
+  CHECK(warned(missed));
+  CHECK(warned(coarse->set(session::TimeBudget{0.1})));
+  CHECK_FALSE(warned(coarse->set(session::TimeBudget{1e6})));
+}
+
+TEST_CASE("What a time budget chose goes along when the caster changes", "[session]") {
+  const TemporaryFolder folder;
+  std::filesystem::copy_file(FANBEAM_SOURCE_DIR "/scenes/braunschweig-26/truck.gltf",
+                             folder.path() / "truck.gltf");
+  const auto session = opened_text(
+      folder,
+      tests::replaced(tests::kSmallScene, "[weather]",
+                      "[[model]]\nfile = \"truck.gltf\"\nat = { runway = \"36\", "
+                      "behind_threshold_m = 300.0 }\ndefault_material = \"metal\"\n[weather]"));
+  session->set(session::TimeBudget{0.1});
+  const double samples = session->samples();
+  for (const bool stabilised : {true, false, true}) {
+    session->set(session::SensorSettings{.stabilised = stabilised});
+    const renderer::CasterKind caster = session->scene()->caster.chosen;
+    CHECK(caster == (stabilised ? renderer::CasterKind::profile : renderer::CasterKind::rays));
+    CHECK(session->sampling().caster == caster);
+    if (stabilised) CHECK(session->samples() == samples);
+    const renderer::Frame frame = rendered(*session);
+    CHECK((frame.slices > 0) == stabilised);
+  }
+}
+
 TEST_CASE("The frame number moves speckle, and nothing else", "[session]") {
   const TemporaryFolder folder;
   const auto session = opened_text(folder, tests::kSmallScene, {.sample = true, .seed = 7});

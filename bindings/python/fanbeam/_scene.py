@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import operator
 import os
+import threading
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
@@ -205,6 +206,7 @@ class _Settings:
     sensor: dict[str, Any] = field(default_factory=dict)
     surface: str | None = None
     targets: tuple[Target, ...] = ()
+    accuracy: float | None = None  # the last one: it stays for effects
     sampling: tuple[str, float] | None = None
 
 
@@ -222,6 +224,7 @@ class Scene:
 
     def __init__(self, settings: _Settings):
         self._told = settings
+        self._setting = threading.Lock()  # what changes a part reads the rest before
         warnings: list[Any] = []
         self._core = _core.Scene(warnings=warnings, **settings.opened)
         warn(warnings)
@@ -277,6 +280,8 @@ class Scene:
             self._change_sensor(told.sensor)
         if told.targets:
             self.set_targets(told.targets)
+        if told.accuracy is not None:
+            self.set_accuracy(told.accuracy)
         if told.sampling is not None:
             self._set_sampling(*told.sampling)
 
@@ -313,10 +318,12 @@ class Scene:
         self._change_weather(told)
 
     def _change_weather(self, told: Mapping[str, Any]) -> None:
-        warn(self._core.set_weather(dict(told)))
-        # Each takes the other's place: the last one counts.
-        weather = {name: value for name, value in self._told.weather.items() if name not in told}
-        self._told.weather = weather | dict(told)
+        with self._setting:
+            warnings = self._core.set_weather(dict(told))
+            # Each takes the other's place: the last one counts.
+            weather = {name: value for name, value in self._told.weather.items() if name not in told}
+            self._told.weather = weather | dict(told)
+        warn(warnings)
 
     @property
     def weather(self) -> dict[str, float | bool | None]:
@@ -325,8 +332,10 @@ class Scene:
 
     def set_surface(self, state: str) -> None:
         """What the weather left on the ground and on buildings: "dry", "wet", "dry-snow", "wet-snow"."""
-        warn(self._core.set_surface(state))
-        self._told.surface = state
+        with self._setting:
+            warnings = self._core.set_surface(state)
+            self._told.surface = state
+        warn(warnings)
 
     @property
     def surface(self) -> str:
@@ -352,15 +361,19 @@ class Scene:
 
     def _change_sensor(self, told: Mapping[str, Any]) -> None:
         names = ("tilt_deg", "stabilised", "low_dB", "high_dB", "cscope_mode", "noise_figure_dB")
-        settings = self._told.sensor | dict(told)
-        warn(self._core.set_sensor(*(settings.get(name) for name in names)))
-        self._told.sensor = settings
+        with self._setting:
+            settings = self._told.sensor | dict(told)
+            warnings = self._core.set_sensor(*(settings.get(name) for name in names))
+            self._told.sensor = settings
+        warn(warnings)
 
     def set_targets(self, targets: Iterable[Target]) -> None:
         """Puts these; all others go back to where the scene has them, and new ones vanish."""
         targets = tuple(targets)
-        warn(self._core.set_targets(targets))
-        self._told.targets = targets
+        with self._setting:
+            warnings = self._core.set_targets(targets)
+            self._told.targets = targets
+        warn(warnings)
 
     # Sampling: the last call counts.
 
@@ -381,8 +394,12 @@ class Scene:
         self._set_sampling("reference", 0.0)
 
     def _set_sampling(self, kind: str, value: float) -> None:
-        warn(self._core.set_sampling(kind, value))
-        self._told.sampling = (kind, value)
+        with self._setting:
+            warnings = self._core.set_sampling(kind, value)
+            self._told.sampling = (kind, value)
+            if kind == "accuracy":
+                self._told.accuracy = value
+        warn(warnings)
 
     # Frames
 
