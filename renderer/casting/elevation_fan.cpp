@@ -34,6 +34,23 @@ double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m
   return glm::dot(relative_m, frame.up) / along;
 }
 
+// Where an azimuth meets what lies `lower_m` below, `range_m` away: of a direction e forward and up in
+// the azimuth's own plane, F cos e + U sin e + constant is its vertical part. Straight below, nearer.
+double elevation_down(const sensors::AntennaFrame& frame, double azimuth_rad, double lower_m,
+                      double range_m, sensors::ScanSurface surface) {
+  const double ca = std::cos(azimuth_rad), across = std::sin(azimuth_rad) * frame.right.z;
+  const bool cone = surface == sensors::ScanSurface::cone;
+  const double along = ca * frame.forward.z + (cone ? 0.0 : across);
+  const double up = cone ? ca * frame.up.z : frame.up.z;
+  const double down = -lower_m / std::max(range_m, 1e-9) - (cone ? across : 0.0);
+  const double half_rad =
+      std::acos(std::clamp(down / std::max(std::hypot(along, up), 1e-9), -1.0, 1.0));
+  const double middle_rad = std::atan2(up, along);
+  const double one = std::remainder(middle_rad - half_rad, 2.0 * core::kPi);
+  const double other = std::remainder(middle_rad + half_rad, 2.0 * core::kPi);
+  return std::abs(one) <= std::abs(other) ? one : other;  // the one in front
+}
+
 }  // namespace
 
 ElevationFan::ElevationFan(const World& world, const Sampling& sampling, Nearest nearest)
@@ -89,13 +106,16 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   const glm::dvec3& sensor = frame.position_m;
   const sensors::ScanSurface surface = world_.sensor.scan.surface;
   const bool level = azimuths_are_upright(frame, surface);
-  const bool cone = surface == sensors::ScanSurface::cone;
-  glm::dvec2 heading = heading_at(frame, azimuth_rad, level || cone ? 0.0 : lowest_rad_, surface);
+  glm::dvec2 heading = heading_at(frame, azimuth_rad, 0.0, surface);
   const double below_m = std::abs(world_.surfaces().height_above_ground_m(sensor));
-  double drop_m = below_m;
-  int step = 0, settling = cone ? 3 : 0;
+  double drop_m = below_m, lower_m = below_m;  // the second one negative for ground above
+  int step = 0;
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
-    const double range_m = gate.minimum_m + gate.cell_m * k;
+    const double range_m = std::max(gate.minimum_m + gate.cell_m * k, 0.0);
+    // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
+    if (!level)
+      heading = heading_at(frame, azimuth_rad,
+                           elevation_down(frame, azimuth_rad, lower_m, range_m, surface), surface);
     // The ground distance of a slant range needs the height there: the one of the step before is
     // close enough. Nearer than the ground below there is the nadir.
     const double distance_m = std::sqrt(std::max(range_m * range_m - drop_m * drop_m, 1e-6));
@@ -104,17 +124,10 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     const std::optional<double> height_m = ground.height_at(x_m, y_m);
     // Beside the ground its border shows the way to it.
     const double up_m = height_m ? *height_m : ground.nearest_height(x_m, y_m);
-    drop_m = std::min(std::abs(sensor.z - up_m), std::max(range_m, below_m));
+    lower_m = sensor.z - up_m;
+    drop_m = std::min(std::abs(lower_m), std::max(range_m, below_m));
     const glm::dvec3 relative_m(x_m - sensor.x, y_m - sensor.y, up_m - sensor.z);
     const double elevation_rad = std::atan(slope_of(frame, relative_m, surface));
-    if (settling > 0) {  // a cone's first heading needs its elevation, and the other way round
-      --settling;
-      heading = heading_at(frame, azimuth_rad, elevation_rad, surface);
-      k -= stride;
-      continue;
-    }
-    // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
-    if (!level) heading = heading_at(frame, azimuth_rad, elevation_rad, surface);
     if (!height_m) continue;
     // Rays per step need not be whole: steps take turns.
     ++step;

@@ -1,0 +1,80 @@
+// Elevations of a fan over level ground, whose every visible range is known.
+#include "renderer/casting/elevation_fan.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/units.h"
+#include "sensors/antenna/beam_pattern.h"
+#include "tests/renderer/test_worlds.h"
+
+using namespace fanbeam;
+
+namespace {
+
+// Of one azimuth, from `height_m` above a plane, `pitch_rad` nose up.
+std::vector<double> edges_of(const sensors::Sensor& sensor, double height_m, double pitch_rad,
+                             double azimuth_rad) {
+  const renderer::World world =
+      tests::world(sensor, tests::ground(9000.0, 100.0, [](double, double) { return 0.0; }),
+                   {materials::PhongNrcs(0.1, 0.1, 1.0)});
+  renderer::FramePose pose = tests::level_pose(height_m);
+  pose.q_NB = pose.q_NB * glm::angleAxis(pitch_rad, glm::dvec3(0.0, 1.0, 0.0));
+  std::vector<double> edges;
+  const renderer::ElevationFan fan(world, renderer::sampling_for(4.0));
+  fan.place(renderer::antenna_of(sensor, pose), azimuth_rad, azimuth_rad, edges);
+  return edges;
+}
+
+}  // namespace
+
+TEST_CASE("Fans begin at the ground below and reach the end of the gate", "[elevation_fan]") {
+  struct Case {
+    sensors::ScanSurface surface;
+    double minimum_m, cell_m, height_m, pitch_deg;
+  };
+  using sensors::ScanSurface;
+  const Case cases[] = {{ScanSurface::plane, 200.0, 6.67, 150.0, 0.0},
+                        {ScanSurface::plane, 200.0, 6.67, 300.0, -3.0},
+                        // Two cells before the first one are behind the antenna.
+                        {ScanSurface::plane, 0.0, 25.0, 12.0, 0.0},
+                        {ScanSurface::plane, 0.0, 10.0, 0.5, 0.0},
+                        // Straight below is behind a lowered nose.
+                        {ScanSurface::cone, 200.0, 6.67, 250.0, -5.0},
+                        {ScanSurface::cone, 200.0, 6.67, 300.0, -0.5},
+                        {ScanSurface::cone, 200.0, 6.67, 300.0, 4.0},
+                        {ScanSurface::cone, 0.0, 25.0, 12.0, -5.0}};
+  for (const Case& of : cases) {
+    sensors::Sensor sensor = tests::hivision(8);
+    sensor.scan.surface = of.surface;
+    sensor.scan.stabilised = false;
+    sensor.range.minimum_m = of.minimum_m;
+    sensor.range.cell_m = of.cell_m;
+    sensor.range.cells = static_cast<int>(3500.0 / of.cell_m);
+    const double pitch_rad = core::radians(of.pitch_deg);
+    // A line of the ground in a cone, a curve in a plane.
+    const double azimuth_rad = of.surface == ScanSurface::cone ? 0.2 : 0.0;
+    const std::vector<double> edges = edges_of(sensor, of.height_m, pitch_rad, azimuth_rad);
+    INFO(of.height_m << " m, pitch " << of.pitch_deg << ", from " << of.minimum_m << " m on");
+    REQUIRE(edges.size() > 2);
+    CHECK(std::is_sorted(edges.begin(), edges.end()));
+    const double lowest_rad =
+        sensor.antenna.boresight_elevation_rad - sensors::reach_rad(sensor.antenna.elevation);
+    const auto elevation_rad = [&](double range_m) {
+      return -std::asin(std::min(of.height_m / (range_m * std::cos(azimuth_rad)), 1.0)) - pitch_rad;
+    };
+    const double nearest_m = std::max(of.minimum_m, of.height_m);
+    CHECK(edges.front() <= std::max(elevation_rad(nearest_m), lowest_rad) + 1e-9);
+    CHECK(edges.back() >= elevation_rad(sensor.range.maximum_m()));
+    // One ray a cell, whichever cell.
+    for (double range_m = std::max(1.2 * nearest_m, 400.0); range_m < sensor.range.maximum_m();
+         range_m += 300.0) {
+      if (elevation_rad(range_m) < lowest_rad) continue;
+      const auto inside = [&](double elevation) {
+        return std::lower_bound(edges.begin(), edges.end(), elevation) - edges.begin();
+      };
+      CHECK(inside(elevation_rad(range_m + 4.0 * of.cell_m)) - inside(elevation_rad(range_m)) >= 3);
+    }
+  }
+}
