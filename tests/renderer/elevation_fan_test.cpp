@@ -78,3 +78,40 @@ TEST_CASE("Fans begin at the ground below and reach the end of the gate", "[elev
     }
   }
 }
+
+// Of a rolled antenna a column leans: what it meets above the horizon stands beside its foot.
+TEST_CASE("Fans of tilted antennas reach to the tops that their azimuths meet", "[elevation_fan]") {
+  for (const sensors::ScanSurface surface :
+       {sensors::ScanSurface::plane, sensors::ScanSurface::cone}) {
+    sensors::Sensor sensor = tests::hivision(164);
+    sensor.scan.surface = surface;
+    sensor.scan.stabilised = false;
+    const renderer::World world =
+        tests::world(sensor, tests::ground(4000.0, 100.0, [](double, double) { return 0.0; }),
+                     {materials::PhongNrcs(0.1, 0.1, 1.0)},
+                     {tests::box({-20.0, 480.0, -2.0}, {40.0, 520.0, 75.0}, 0)});
+    const renderer::ElevationFan fan(world, renderer::sampling_for(4.0));
+    int above = 0;
+    for (const double roll_deg : {-28.0, -6.0, 0.0, 6.0, 28.0}) {
+      renderer::FramePose pose = tests::level_pose(60.0);
+      pose.q_NB = glm::angleAxis(core::radians(7.0), glm::dvec3(0.0, 1.0, 0.0)) *
+                  glm::angleAxis(core::radians(roll_deg), glm::dvec3(1.0, 0.0, 0.0));
+      const sensors::AntennaFrame antenna = renderer::antenna_of(sensor, pose);
+      for (double azimuth_rad = -0.3; azimuth_rad < 0.3; azimuth_rad += 0.01) {
+        double highest_rad = -1.0;
+        for (double elevation_rad = -0.3; elevation_rad < 0.2; elevation_rad += 0.001) {
+          const glm::dvec3 along = sensors::direction(antenna, azimuth_rad, elevation_rad, surface);
+          const auto hit = world.surfaces().intersect(antenna.position_m, along, 3000.0);
+          if (hit && along.z > 0.0) highest_rad = elevation_rad;
+        }
+        if (highest_rad < -0.5) continue;
+        ++above;
+        std::vector<double> edges;
+        fan.place(antenna, azimuth_rad, azimuth_rad, edges);
+        INFO("roll " << roll_deg << ", azimuth " << azimuth_rad);
+        CHECK(edges.back() >= highest_rad);
+      }
+    }
+    CHECK(above > 40);
+  }
+}
