@@ -119,6 +119,17 @@ void check_bandwidth(ConfigTable table, const Waveform& waveform, const RangeGat
                       " m are kept, finer than c / 2B = " + number_text(bin_m) + " m");
 }
 
+// Casters sample a column in a few places, which are close together for a beam that is wider.
+void check_columns(ConfigTable table, const Scan& scan, const BeamCut& beam) {
+  const double column_rad = scan.column_width_rad();
+  if (column_rad > beam.half_power_width_rad)
+    table.warning("COLUMNS", "columns", std::to_string(scan.columns),
+                  "kept: of " + number_text(core::degrees(column_rad)) +
+                      " deg, wider than the beam of " +
+                      number_text(core::degrees(beam.half_power_width_rad)) +
+                      " deg, whose pictures err by more than their estimates say");
+}
+
 void read_receiver(ConfigTable table, const Scan& scan, Receiver& receiver) {
   receiver.noise_figure = core::power_from_dB(table.number("noise_figure_dB", {0.0, 60.0}, 0.0));
   receiver.loss = core::power_from_dB(table.number("loss_dB", {0.0, 60.0}, 0.0));
@@ -206,6 +217,7 @@ Sensor read(ConfigTable root, const core::ProblemList& problems) {
   check_gain(root.table("antenna"), sensor.antenna);
   check_sweep(root.table("scan"), root.table("waveform"), sensor);
   check_bandwidth(root.table("waveform"), sensor.waveform, sensor.range);
+  check_columns(root.table("scan"), sensor.scan, sensor.antenna.azimuth);
   return sensor;
 }
 

@@ -115,6 +115,10 @@ class Echo {
     const int blocks = (sums_.sub_columns + subs_ - 1) / subs_;
     for (int block = 0; block < blocks && beside_cells_.empty(); ++block)
       if (upright_ && !cells_in(azimuth_rad(block))) profiles(0.0, false, beside_cells_);
+    free_m_.resize(static_cast<std::size_t>(blocks) + 1);
+    core::parallel_for(free_m_.size(), [&](std::size_t border) {
+      free_distances_m(fan_azimuth_rad(first_of(static_cast<int>(border))), free_m_[border]);
+    });
     core::parallel_for(static_cast<std::size_t>(blocks),
                        [&](std::size_t block) { add_block(static_cast<int>(block)); });
   }
@@ -230,11 +234,20 @@ class Echo {
     }
   }
 
+  // Sub-columns from the fan's left.
+  double fan_azimuth_rad(double place) const {
+    return sums_.first_azimuth_rad + place * sums_.step_rad;
+  }
+  int first_of(int block) const { return std::min(block * subs_, sums_.sub_columns); }
   // Of the block's middle.
   double azimuth_rad(int block) const {
-    const int first = block * subs_;
-    const int last = std::min(first + subs_, sums_.sub_columns);
-    return sums_.first_azimuth_rad + (first + last) / 2.0 * sums_.step_rad;
+    return fan_azimuth_rad((first_of(block) + first_of(block + 1)) / 2.0);
+  }
+  // Whether air that is free so far at both sides of a block is so within; else a silhouette is.
+  bool alike(double left_m, double right_m) const {
+    if (std::isinf(left_m) || std::isinf(right_m)) return left_m == right_m;
+    return std::abs(left_m - right_m) <=
+           4.0 * sensor_.range.cell_m + 0.05 * std::min(left_m, right_m);
   }
   void add_block(int block);
   void add_interval(std::size_t i, const std::vector<Profile>& nodes, double free_low_m,
@@ -251,7 +264,8 @@ class Echo {
   int nodes_ = 0;
   double node_step_rad_ = 0.0;
   bool upright_;
-  std::vector<Profile> beside_cells_;  // of every azimuth without one, of an upright fan
+  std::vector<std::vector<double>> free_m_;  // [border between blocks][border of elevations]
+  std::vector<Profile> beside_cells_;        // of every azimuth without one, of an upright fan
 };
 
 // Adds one interval: free up to the nearer of the two distances, half way between them by half.
@@ -291,27 +305,43 @@ void Echo::add_interval(std::size_t i, const std::vector<Profile>& nodes, double
           sums_.rows);
 }
 
+// What both sides of a block agree on is of all its sub-columns, a silhouette is of each.
 void Echo::add_block(int block) {
-  const int first = block * subs_;
-  const int last = std::min(first + subs_, sums_.sub_columns);
+  const int first = first_of(block), last = first_of(block + 1);
   const double middle_rad = azimuth_rad(block);
+  const std::vector<double>& left_m = free_m_[static_cast<std::size_t>(block)];
+  const std::vector<double>& right_m = free_m_[static_cast<std::size_t>(block) + 1];
   // Kept by the thread from block to block.
-  thread_local std::vector<double> range_W, row_W_m3, free;
+  thread_local std::vector<double> range_W, row_W_m3, own_range_W, own_row_W_m3, free;
   thread_local std::vector<Profile> own;
+  thread_local std::vector<std::size_t> silhouette;  // borders of elevation
   range_W.assign(static_cast<std::size_t>(sums_.cells), 0.0);
   row_W_m3.assign(static_cast<std::size_t>(sums_.rows), 0.0);
   const bool common = upright_ && !cells_in(middle_rad);
   if (!common) profiles(middle_rad, true, own);
   const std::vector<Profile>& nodes = common ? beside_cells_ : own;
-  free_distances_m(middle_rad, free);
+  silhouette.clear();
+  free.resize(left_m.size());
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    free[i] = (left_m[i] + right_m[i]) / 2.0;
+    if (!alike(left_m[i], right_m[i])) silhouette.push_back(i);
+  }
+  const auto within = [&](std::size_t i) { return alike(left_m[i], right_m[i]); };
   for (std::size_t i = 0; i < gain_rad_.size(); ++i)
-    add_interval(i, nodes, free[i], free[i + 1], range_W, row_W_m3);
+    if (within(i) && within(i + 1)) add_interval(i, nodes, free[i], free[i + 1], range_W, row_W_m3);
   const auto add = [](const std::vector<double>& from, double* to) {
     for (std::size_t k = 0; k < from.size(); ++k) to[k] += from[k];
   };
   for (auto sub = static_cast<std::size_t>(first); sub < static_cast<std::size_t>(last); ++sub) {
-    add(range_W, &sums_.range_W_per_rad[sub * range_W.size()]);
-    if (!row_W_m3.empty()) add(row_W_m3, &sums_.elevation_W_m3_per_rad[sub * row_W_m3.size()]);
+    own_range_W = range_W;
+    own_row_W_m3 = row_W_m3;
+    const double sub_rad = fan_azimuth_rad(static_cast<double>(sub) + 0.5);
+    for (const std::size_t i : silhouette) free[i] = free_m(sub_rad, borders_[i]);
+    for (std::size_t i = 0; !silhouette.empty() && i < gain_rad_.size(); ++i)
+      if (!within(i) || !within(i + 1))
+        add_interval(i, nodes, free[i], free[i + 1], own_range_W, own_row_W_m3);
+    add(own_range_W, &sums_.range_W_per_rad[sub * range_W.size()]);
+    if (!row_W_m3.empty()) add(own_row_W_m3, &sums_.elevation_W_m3_per_rad[sub * row_W_m3.size()]);
   }
 }
 

@@ -171,6 +171,40 @@ TEST_CASE("A building hides the rain behind it", "[rain_echo]") {
   }
 }
 
+// What lies behind is free where the beam passes beside: the share of its two-way pattern there. One
+// azimuth a column left it a tenth of the pattern off, whatever the sampling.
+TEST_CASE("The side of a building cuts the rain behind it where it stands", "[rain_echo]") {
+  const sensors::Sensor sensor = tests::hivision(8);
+  const renderer::World open = rainy_world(sensor, false, rain(10.0));
+  const int cell = sensors::range_row(sensor.range, 2000.0);
+  const auto row_of = [&](const renderer::World& world, double samples) {
+    const renderer::Frame frame = renderer::FrameRenderer(world, renderer::sampling_for(samples),
+                                                          {true, false}, {.rain_echo = true})
+                                      .render(tests::level_pose(kHeight_m));
+    return std::vector<double>(frame.bscope_W.begin() + cell * 8,
+                               frame.bscope_W.begin() + cell * 8 + 8);
+  };
+  const double full_W = row_of(open, 4.0)[3];
+  for (const double side_m : {-3.1, -1.5, 0.2, 2.4}) {
+    renderer::World world = rainy_world(sensor, false, rain(10.0));
+    world.geometry = tests::geometry(
+        std::nullopt, {}, {tests::box({side_m, 1000.0, -500.0}, {600.0, 1010.0, 800.0}, 0).mesh});
+    const double side_rad = std::atan2(side_m, 1000.0);
+    for (const double samples : {4.0, 32.0}) {
+      const std::vector<double> row_W = row_of(world, samples);
+      for (int column = 0; column < 8; ++column) {
+        const sensors::BeamCut& beam = sensor.antenna.azimuth;
+        const double from_rad = side_rad - sensors::column_middle_rad(sensor.scan, column);
+        const double share =
+            sensors::two_way_integral(beam, -beam.cut_rad, from_rad) / sensors::two_way_width(beam);
+        INFO("side at " << side_m << " m, column " << column << ", " << samples << " rays");
+        CHECK(row_W[static_cast<std::size_t>(column)] / full_W ==
+              Approx(share).margin(samples > 10.0 ? 0.03 : 0.06));
+      }
+    }
+  }
+}
+
 TEST_CASE("A shower echoes and takes away in the azimuths that pass through it alone",
           "[rain_echo]") {
   const sensors::Sensor sensor = tests::hivision();

@@ -74,6 +74,11 @@ TEST_CASE("received power has no window of its own: both ends are asked for", "[
       tests::hivision_text("mapping = \"stc\"\nlow_dB = -55.0", "mapping = \"log\"\n# -55.0"));
   check_single(problems, "E-REF", "display.low_dB");
   std::string seed = tests::hivision_text("mapping = \"stc\"", "mapping = \"seed\"");
+  const auto unused = problems_of(seed);  // it has one of its own
+  REQUIRE(unused.size() == 2);
+  for (const core::Problem& one : unused) CHECK(one.code == "W-UNUSED");
+  seed = tests::replaced(seed, "low_dB = -55.0", "#");
+  seed = tests::replaced(seed, "high_dB = 5.0", "#");
   CHECK(problems_of(seed).empty());
   seed = tests::replaced(seed, "minimum_m = 200.0", "minimum_m = 0.0");
   check_single(problems_of(seed), "E-RANGE", "display.mapping");
@@ -142,6 +147,12 @@ TEST_CASE("errors that were there before do not hide those of a sensor file", "[
 TEST_CASE("range cells finer than the bandwidth resolves are a warning", "[sensor_file]") {
   check_single(problems_of(tests::hivision_text("bandwidth_MHz = 22.473", "bandwidth_MHz = 2.0")),
                "W-RESOLUTION", "waveform.bandwidth_MHz");
+}
+
+TEST_CASE("columns wider than the beam are a warning", "[sensor_file]") {
+  check_single(problems_of(tests::hivision_text("columns = 164", "columns = 41")), "W-COLUMNS",
+               "scan.columns");
+  CHECK(problems_of(tests::hivision_text("columns = 164", "columns = 82")).empty());
 }
 
 TEST_CASE("a stated dwell must fit its column and sets the noise", "[sensor_file]") {
