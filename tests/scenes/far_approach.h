@@ -15,7 +15,7 @@ inline void write_far_approach(const TemporaryFolder& folder, const std::string&
   const std::string sensor =
       core::read_file(std::string(FANBEAM_SOURCE_DIR) + "/sensors/hivision.toml", 1U << 20U);
   folder.write("few.toml", replaced(sensor, "field_of_view_deg = 41.0\ncolumns = 164",
-                                    "field_of_view_deg = 8.0\ncolumns = 8"));
+                                    "field_of_view_deg = 6.0\ncolumns = 8"));
   const std::string scene = R"([scene]
 name = "far"
 origin = { latitude_deg = 52.0, longitude_deg = 10.0, height_m = 50.0 }
