@@ -13,6 +13,7 @@
 #include "scenes/frame_plan.h"
 #include "scenes/scene_caster.h"
 #include "scenes/scene_reader.h"
+#include "session/sampling_choice.h"
 #include "session/targets.h"
 
 namespace fanbeam::session {
@@ -259,10 +260,10 @@ SamplingChoice Session::timed(const TimeBudget& budget) const {
     poses = poses_to_time(*scene, frames);
   }
   const bool heights = scene->options.heights_shown;
-  const double wished_grey = scene->options.accuracy_grey;
-  const double accuracy_grey = wished_grey > 0.0 ? wished_grey : scene->description.accuracy_grey;
-  return choose_sampling({.accuracy_grey = accuracy_grey, .time_budget_ms = budget.ms}, *scene,
-                         inside_->seed, {true, heights}, poses);
+  const SamplingRequest request = with_accuracy_of(
+      scene->description,
+      {.accuracy_grey = scene->options.accuracy_grey, .time_budget_ms = budget.ms});
+  return choose_sampling(request, *scene, inside_->seed, {true, heights}, poses);
 }
 
 core::ProblemList Session::set(const SamplingWish& wish) {

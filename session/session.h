@@ -27,9 +27,10 @@
 #include "renderer/frame_renderer.h"
 #include "scenes/scene.h"
 #include "session/conditions.h"
-#include "session/sampling_choice.h"
 
 namespace fanbeam::session {
+
+struct SamplingChoice;
 
 struct Setup {
   std::filesystem::path shipped{};                    // holds scenes/, sensors/ and materials/

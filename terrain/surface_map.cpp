@@ -86,17 +86,14 @@ bool SurfaceMap::inside(const SurfacePatch& patch, const Box& box, double x_m,
   return crosses_odd(patch.outline_m, x_m, y_m);
 }
 
-const SurfacePatch* SurfaceMap::patch_at(std::size_t cell, double x_m, double y_m) const noexcept {
+SurfaceMap::Cover SurfaceMap::patched_cover(std::size_t cell, double x_m,
+                                            double y_m) const noexcept {
   for (std::uint32_t k = patch_begin_[cell]; k < patch_begin_[cell + 1]; ++k) {
     const std::uint32_t p = patch_index_[k];
-    if (inside(patches_[p], boxes_[p], x_m, y_m)) return &patches_[p];
+    const SurfacePatch& patch = patches_[p];
+    if (inside(patch, boxes_[p], x_m, y_m)) return {patch.material, patch.object};
   }
-  return nullptr;
-}
-
-MaterialId SurfaceMap::patched_material(std::size_t cell, double x_m, double y_m) const noexcept {
-  const SurfacePatch* const patch = patch_at(cell, x_m, y_m);
-  return patch != nullptr ? patch->material : static_cast<MaterialId>(cells_[cell] & ~kPatched);
+  return {static_cast<MaterialId>(cells_[cell] & ~kPatched), kTerrainObject};
 }
 
 }  // namespace fanbeam::terrain

@@ -39,9 +39,8 @@ class SurfaceMap {
 
   // The same for a point that is known to lie in this cell.
   MaterialId material_in_cell(int column, int row, double x_m, double y_m) const noexcept {
-    const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                             static_cast<std::size_t>(column);
-    return (cells_[cell] & kPatched) == 0 ? cells_[cell] : patched_material(cell, x_m, y_m);
+    const std::size_t cell = cell_of(column, row);
+    return (cells_[cell] & kPatched) == 0 ? cells_[cell] : patched_cover(cell, x_m, y_m).material;
   }
 
   // Of the patch on top, else of the terrain. Point is clamped to the grid.
@@ -50,13 +49,9 @@ class SurfaceMap {
     ObjectId object;
   };
   Cover cover_at(double x_m, double y_m) const noexcept {
-    const std::size_t cell =
-        static_cast<std::size_t>(row_of(y_m)) * static_cast<std::size_t>(columns_) +
-        static_cast<std::size_t>(column_of(x_m));
+    const std::size_t cell = cell_of(column_of(x_m), row_of(y_m));
     if ((cells_[cell] & kPatched) == 0) return {cells_[cell], kTerrainObject};
-    const SurfacePatch* const patch = patch_at(cell, x_m, y_m);
-    if (patch != nullptr) return {patch->material, patch->object};
-    return {static_cast<MaterialId>(cells_[cell] & ~kPatched), kTerrainObject};
+    return patched_cover(cell, x_m, y_m);
   }
 
   const std::vector<SurfacePatch>& patches() const { return patches_; }
@@ -68,12 +63,15 @@ class SurfaceMap {
   int row_of(double y_m) const noexcept {
     return std::clamp(static_cast<int>((y_m - south_m_) * per_spacing_), 0, rows_ - 1);
   }
+  std::size_t cell_of(int column, int row) const noexcept {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
   struct Box {
     double west_m, south_m, east_m, north_m;
   };
   bool inside(const SurfacePatch& patch, const Box& box, double x_m, double y_m) const noexcept;
-  const SurfacePatch* patch_at(std::size_t cell, double x_m, double y_m) const noexcept;
-  MaterialId patched_material(std::size_t cell, double x_m, double y_m) const noexcept;
+  Cover patched_cover(std::size_t cell, double x_m, double y_m) const noexcept;
 
   double west_m_, south_m_, per_spacing_;
   int columns_, rows_;                            // cells

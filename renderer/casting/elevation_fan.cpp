@@ -14,8 +14,8 @@ namespace {
 // Ranges before the first and behind the last cell that still get rays, so that border cells are
 // full.
 constexpr int kMarginCells = 2;
-// Between headings that are searched for what stands above the ground.
-constexpr int kMostGaps = 64, kMostTiltedGaps = 512;
+// Between headings that are searched for what stands above the ground; wider ones lie farther apart.
+constexpr int kMostGaps = 512;
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
 
 glm::dvec2 heading_at(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
@@ -81,9 +81,7 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
   }
   if (!world_.surfaces().has_meshes()) return;
   const double horizon_rad = edges.empty() ? lowest_rad_ : edges.back();
-  double top_rad = -core::kPi / 2;
-  for (const glm::dvec2& heading : headings_above(frame, left_rad, right_rad, horizon_rad))
-    top_rad = std::max(top_rad, highest_object_rad(frame, heading));
+  const double top_rad = highest_object_rad(frame, left_rad, right_rad, horizon_rad);
   if (edges.empty()) {
     if (top_rad <= lowest_rad_) return;
     edges.push_back(lowest_rad_);
@@ -91,18 +89,17 @@ void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, do
   add_until(std::min(top_rad, highest_rad_), 1, object_step_rad_, edges);
 }
 
-// Near enough at the farthest range that nothing stands between two of them: where the azimuths look
-// from an elevation on. A tilted antenna's lean.
-std::vector<glm::dvec2> ElevationFan::headings_above(const sensors::AntennaFrame& frame,
-                                                     double left_rad, double right_rad,
-                                                     double low_rad) const {
+// Looks along headings near enough at the farthest range that nothing stands between two of them: from
+// one azimuth to the other, and as far beside as those of a tilted antenna lean above `low_rad`.
+double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame, double left_rad,
+                                        double right_rad, double low_rad) const {
   const sensors::ScanSurface surface = world_.sensor.scan.surface;
   const bool level = azimuths_are_upright(frame, surface);
-  const glm::dvec2 middle =
-      heading_at(frame, (left_rad + right_rad) / 2, level ? 0.0 : low_rad, surface);
-  double first_rad = left_rad, last_rad = right_rad;  // azimuths, of a level antenna
-  if (!level) {
-    first_rad = last_rad = 0.0;
+  const double middle_rad = (left_rad + right_rad) / 2;
+  const glm::dvec2 middle = heading_at(frame, middle_rad, level ? 0.0 : low_rad, surface);
+  // From the middle, clockwise.
+  double first_rad = left_rad - middle_rad, last_rad = right_rad - middle_rad;
+  if (!level)
     for (const double azimuth_rad : {left_rad, right_rad})
       for (const double elevation_rad : {low_rad, (low_rad + highest_rad_) / 2, highest_rad_}) {
         const double turned_rad =
@@ -110,19 +107,15 @@ std::vector<glm::dvec2> ElevationFan::headings_above(const sensors::AntennaFrame
         first_rad = std::min(first_rad, turned_rad);
         last_rad = std::max(last_rad, turned_rad);
       }
-  }
   const double width_m = (last_rad - first_rad) * world_.sensor.range.maximum_m();
   const int gaps = std::clamp(static_cast<int>(std::ceil(width_m / terrain::RayScene::kTopsStep_m)),
-                              2, level ? kMostGaps : kMostTiltedGaps);
-  std::vector<glm::dvec2> headings;
-  for (int i = 0; i <= gaps; ++i) {
-    const double at_rad = first_rad + (last_rad - first_rad) * i / gaps;
-    const double c = std::cos(at_rad), s = std::sin(at_rad);
-    headings.push_back(level
-                           ? heading_at(frame, at_rad, 0.0, surface)
-                           : glm::dvec2(middle.x * c + middle.y * s, middle.y * c - middle.x * s));
-  }
-  return headings;
+                              2, kMostGaps);
+  double top_rad = -core::kPi / 2;
+  for (int i = 0; i <= gaps; ++i)
+    top_rad = std::max(
+        top_rad,
+        highest_object_rad(frame, turned(middle, first_rad + (last_rad - first_rad) * i / gaps)));
+  return top_rad;
 }
 
 void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,

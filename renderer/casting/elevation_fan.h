@@ -8,7 +8,6 @@
 // the caster.
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <vector>
 
 #include "core/constants.h"
@@ -32,8 +31,8 @@ class ElevationFan {
  private:
   void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
                      std::vector<double>& edges) const;
-  std::vector<glm::dvec2> headings_above(const sensors::AntennaFrame& frame, double left_rad,
-                                         double right_rad, double low_rad) const;
+  double highest_object_rad(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
+                            double low_rad) const;
   double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec2& heading) const;
   void add_until(double elevation_rad, int parts, double largest_step_rad,
                  std::vector<double>& edges) const;

@@ -20,4 +20,10 @@ inline double turn_rad(const glm::dvec2& from, const glm::dvec2& to) {
   return std::atan2(from.y * to.x - from.x * to.y, glm::dot(from, to));
 }
 
+// Of a heading, what lies so far clockwise of it.
+inline glm::dvec2 turned(const glm::dvec2& from, double clockwise_rad) {
+  const double c = std::cos(clockwise_rad), s = std::sin(clockwise_rad);
+  return {from.x * c + from.y * s, from.y * c - from.x * s};
+}
+
 }  // namespace fanbeam::renderer

@@ -2,8 +2,6 @@
 // Private to frame_layers.cpp.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <vector>
 

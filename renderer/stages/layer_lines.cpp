@@ -29,12 +29,12 @@ Sampling layer_sampling() {
 // Each ray stands for what is nearer to it than to its neighbours; the lowest for nothing below it, the
 // highest for as much above as below. One alone is all that its cell and row have.
 void share_out(LayerLine& hits) {
-  if (hits.size() == 1) hits[0].height_rad = 1.0F;
-  for (std::size_t i = 0; hits.size() > 1 && i < hits.size(); ++i) {
-    const float below_rad = i > 0 ? hits[i].elevation_rad - hits[i - 1].elevation_rad : 0.0F;
+  float below_rad = hits.size() == 1 ? 2.0F : 0.0F;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
     const float above_rad =
         i + 1 < hits.size() ? hits[i + 1].elevation_rad - hits[i].elevation_rad : below_rad;
     hits[i].height_rad = 0.5F * (below_rad + above_rad);
+    below_rad = above_rad;
   }
 }
 

@@ -314,34 +314,45 @@ void Echo::add_block(int block) {
   // Kept by the thread from block to block.
   thread_local std::vector<double> range_W, row_W_m3, own_range_W, own_row_W_m3, free;
   thread_local std::vector<Profile> own;
-  thread_local std::vector<std::size_t> silhouette;  // borders of elevation
+  thread_local std::vector<std::size_t> borders, intervals;  // that a silhouette cuts
   range_W.assign(static_cast<std::size_t>(sums_.cells), 0.0);
   row_W_m3.assign(static_cast<std::size_t>(sums_.rows), 0.0);
   const bool common = upright_ && !cells_in(middle_rad);
   if (!common) profiles(middle_rad, true, own);
   const std::vector<Profile>& nodes = common ? beside_cells_ : own;
-  silhouette.clear();
+  borders.clear();
+  intervals.clear();
   free.resize(left_m.size());
   for (std::size_t i = 0; i < free.size(); ++i) {
     free[i] = (left_m[i] + right_m[i]) / 2.0;
-    if (!alike(left_m[i], right_m[i])) silhouette.push_back(i);
+    const bool cut = !alike(left_m[i], right_m[i]);
+    const bool cut_before = !borders.empty() && borders.back() + 1 == i;
+    if (cut) borders.push_back(i);
+    if (i == 0) continue;
+    if (cut || cut_before)
+      intervals.push_back(i - 1);
+    else
+      add_interval(i - 1, nodes, free[i - 1], free[i], range_W, row_W_m3);
   }
-  const auto within = [&](std::size_t i) { return alike(left_m[i], right_m[i]); };
-  for (std::size_t i = 0; i < gain_rad_.size(); ++i)
-    if (within(i) && within(i + 1)) add_interval(i, nodes, free[i], free[i + 1], range_W, row_W_m3);
   const auto add = [](const std::vector<double>& from, double* to) {
     for (std::size_t k = 0; k < from.size(); ++k) to[k] += from[k];
   };
   for (auto sub = static_cast<std::size_t>(first); sub < static_cast<std::size_t>(last); ++sub) {
-    own_range_W = range_W;
-    own_row_W_m3 = row_W_m3;
-    const double sub_rad = fan_azimuth_rad(static_cast<double>(sub) + 0.5);
-    for (const std::size_t i : silhouette) free[i] = free_m(sub_rad, borders_[i]);
-    for (std::size_t i = 0; !silhouette.empty() && i < gain_rad_.size(); ++i)
-      if (!within(i) || !within(i + 1))
+    if (!intervals.empty()) {
+      own_range_W.assign(range_W.size(), 0.0);
+      own_row_W_m3.assign(row_W_m3.size(), 0.0);
+      const double sub_rad = fan_azimuth_rad(static_cast<double>(sub) + 0.5);
+      for (const std::size_t i : borders) free[i] = free_m(sub_rad, borders_[i]);
+      for (const std::size_t i : intervals)
         add_interval(i, nodes, free[i], free[i + 1], own_range_W, own_row_W_m3);
-    add(own_range_W, &sums_.range_W_per_rad[sub * range_W.size()]);
-    if (!row_W_m3.empty()) add(own_row_W_m3, &sums_.elevation_W_m3_per_rad[sub * row_W_m3.size()]);
+    }
+    double* const range_sums = &sums_.range_W_per_rad[sub * range_W.size()];
+    add(range_W, range_sums);
+    if (!intervals.empty()) add(own_range_W, range_sums);
+    if (row_W_m3.empty()) continue;
+    double* const row_sums = &sums_.elevation_W_m3_per_rad[sub * row_W_m3.size()];
+    add(row_W_m3, row_sums);
+    if (!intervals.empty()) add(own_row_W_m3, row_sums);
   }
 }
 

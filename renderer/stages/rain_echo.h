@@ -7,15 +7,17 @@
 // the azimuth beam.
 //
 // One plane of azimuth per picture column is cut into elevation intervals, dense where range cells
-// of level ground border each other, at most a tenth of a degree elsewhere. Rays along each border, at
-// both sides of the column, say how far the air is free, and where they differ a ray in each of its
-// sub-columns; between two elevations the free share of an interval falls linearly with range. Inside a range cell eta is that of the middle and the loss decays exponentially; over
-// elevation both are interpolated between values 0.1 deg apart, or 2 deg where no top, base or melting
-// layer lies within the beam.
+// of level ground border each other, at most a tenth of a degree elsewhere. Rays along each border,
+// at both sides of the column, say how far the air is free, and where they differ a ray in each of
+// its sub-columns; between two elevations the free share of an interval falls linearly with range.
+// Inside a range cell eta is that of the middle and the loss decays exponentially; over elevation
+// both are interpolated between values 0.1 deg apart, or 2 deg where no top, base or melting layer
+// lies within the beam.
 //
 // Neglected: depolarisation, multiple scattering, echo that reaches the antenna by way of the ground.
-// Accuracy: 0.02 dB over level ground against the closed form; where a silhouette cuts the beam, half of
-// a sub-column of its place; what is narrower than a column and stands within one may be missed. Cost: docs/physics/rain-echo.md.
+// Accuracy: 0.02 dB over level ground against the closed form; where a silhouette cuts the beam, half
+// of a sub-column of its place; what is narrower than a column and stands within one may be missed.
+// Cost: docs/physics/rain-echo.md.
 #pragma once
 
 #include "renderer/casting/caster.h"

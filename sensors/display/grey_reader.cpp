@@ -23,10 +23,13 @@ void read_grey_mapping(core::ConfigTable& table, const RangeGate& range, Display
   if (complete && !(display.high_dB > display.low_dB))
     table.error(ErrorClass::range, "high_dB", number_text(display.high_dB),
                 "above low_dB = " + number_text(display.low_dB));
-  for (const char* key : {"low_dB", "high_dB"})
+  const auto unused = [&](const char* key, double level_dB) {
     if (display.mapping == Mapping::seed && table.has(key))
-      table.warning("UNUSED", key, number_text(key[0] == 'l' ? display.low_dB : display.high_dB),
+      table.warning("UNUSED", key, number_text(level_dB),
                     "ignored: mapping \"seed\" has a window of its own");
+  };
+  unused("low_dB", display.low_dB);
+  unused("high_dB", display.high_dB);
   if (table.has("mapping") && display.mapping == Mapping::seed && !(range.minimum_m > 0.0))
     table.error(ErrorClass::range, "mapping", "\"seed\"",
                 "range.minimum_m of the sensor above 0, which its strongest signal needs");

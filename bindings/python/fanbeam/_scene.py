@@ -224,7 +224,8 @@ class Scene:
 
     def __init__(self, settings: _Settings):
         self._told = settings
-        self._setting = threading.Lock()  # what changes a part reads the rest before
+        # What changes a part reads the rest before; a time budget is measured for seconds.
+        self._setting, self._sampling = threading.Lock(), threading.Lock()
         warnings: list[Any] = []
         self._core = _core.Scene(warnings=warnings, **settings.opened)
         warn(warnings)
@@ -394,7 +395,7 @@ class Scene:
         self._set_sampling("reference", 0.0)
 
     def _set_sampling(self, kind: str, value: float) -> None:
-        with self._setting:
+        with self._sampling:
             warnings = self._core.set_sampling(kind, value)
             self._told.sampling = (kind, value)
             if kind == "accuracy":
