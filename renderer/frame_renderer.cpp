@@ -4,11 +4,13 @@
 #include <cmath>
 
 #include "core/errors.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "renderer/accuracy/refinement.h"
 #include "renderer/casting/profile/profile_caster.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/stages/antenna_image.h"
+#include "renderer/stages/bounce_fan.h"
 #include "renderer/stages/double_bounce.h"
 #include "renderer/stages/fluctuation.h"
 #include "renderer/stages/point_targets.h"
@@ -52,6 +54,9 @@ class FrameRenderer::Stages {
         range_response_(effects.range_response && sensors::has_point_response(world.sensor)
                             ? std::make_unique<RangeResponse>(world.sensor)
                             : nullptr),
+        ground_truth_(products.layers || products.cscope_layers
+                          ? std::make_unique<GroundTruth>(world)
+                          : nullptr),
         threshold_W_(products.detections ? sensors::detection_threshold_W(world.sensor) : 0.0) {
     if (products.cscope_layers && !shows_elevation())
       core::throw_input_error(
@@ -62,7 +67,7 @@ class FrameRenderer::Stages {
   Frame render(const FramePose& pose) const;
 
  private:
-  bool wants_layers() const { return products_.layers || products_.cscope_layers; }
+  bool wants_layers() const { return ground_truth_ != nullptr; }
   bool shows_elevation() const {
     return world_.sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation;
   }
@@ -70,16 +75,15 @@ class FrameRenderer::Stages {
     std::vector<double> bscope_W, cscope_W_m3;
   };
   Images images_of(const FanSums& sums, bool with_cscope) const;
+  Images images_of(const BounceFan& bounces, bool with_cscope) const;
   bool rains() const { return effects_.rain_echo && world_.volume_echo; }
   // Last: sums are added in one order, with an estimate and without.
   void add_rain(const sensors::AntennaFrame& antenna, FanSums& sums) const;
-  // Of the layers' scopes.
-  Images images_in_rain(const sensors::AntennaFrame& antenna, const FanSums& dry) const;
-  // `direct`, unless null, receives what the picture would be without double bounces.
+  // `bounced`, unless null, receives what double bounces add.
   std::optional<ErrorEstimate> cast(const sensors::AntennaFrame& antenna, bool with_cscope,
-                                    FanSums& sums, SightLines& sight, Images* direct) const;
+                                    FanSums& sums, SightLines& sight, BounceFan* bounced) const;
   void add_layers(const sensors::AntennaFrame& antenna, const std::vector<core::Echo>& echoes,
-                  const Images* direct, Frame& frame) const;
+                  const BounceFan* bounced, Frame& frame) const;
   void receive(const std::vector<core::Echo>& echoes, std::uint64_t frame_index,
                Frame& frame) const;
   void display(double height_above_ground_m, Frame& frame) const;
@@ -91,7 +95,8 @@ class FrameRenderer::Stages {
   std::unique_ptr<Caster> caster_;
   std::unique_ptr<DoubleBounce> double_bounce_;  // when that effect is on
   std::unique_ptr<RangeResponse> range_response_;
-  double threshold_W_ = 0.0;  // of detections
+  std::unique_ptr<GroundTruth> ground_truth_;  // when its layers are wanted
+  double threshold_W_ = 0.0;                   // of detections
 };
 
 FrameRenderer::FrameRenderer(const World& world, const Sampling& sampling, const Products& products,
@@ -136,9 +141,9 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
   thread_local FanSums sums;
   const TargetEchoes targets = unobstructed_echoes(world_, antenna, pose.time_s);
   SightLines sight = sight_lines(world_, targets.echoes, pose.time_s);
-  Images direct;
-  const bool tell_apart = wants_layers() && double_bounce_;
-  frame.error = cast(antenna, elevation_resolved, sums, sight, tell_apart ? &direct : nullptr);
+  thread_local BounceFan bounces;
+  BounceFan* const bounced = wants_layers() && double_bounce_ ? &bounces : nullptr;
+  frame.error = cast(antenna, elevation_resolved, sums, sight, bounced);
   frame.rays = sums.rays;
   frame.slices = sums.slices;
   frame.blanked = sums.blanked;
@@ -152,7 +157,7 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
                                                   : Multipath::mean;
   const std::vector<core::Echo> echoes =
       seen_echoes(world_, antenna, targets.echoes, sight, multipath);
-  if (wants_layers()) add_layers(antenna, echoes, tell_apart ? &direct : nullptr, frame);
+  if (wants_layers()) add_layers(antenna, echoes, bounced, frame);
   receive(echoes, pose.frame_index, frame);
   if (sums.hits == 0 && echoes.empty()) frame.events.emplace_back("empty_view");
   display(height_above_ground_m, frame);
@@ -170,50 +175,56 @@ FrameRenderer::Stages::Images FrameRenderer::Stages::images_of(const FanSums& su
   return images;
 }
 
+FrameRenderer::Stages::Images FrameRenderer::Stages::images_of(const BounceFan& bounces,
+                                                               bool with_cscope) const {
+  const FanSums& sums = bounces.sums();
+  const auto image = [&](const std::vector<double>& bins, int count, const FilledBlocks& filled) {
+    return through_antenna(bins, count, sums, world_.sensor, sampling_.sub_columns, &filled);
+  };
+  Images images;
+  images.bscope_W = image(sums.range_W_per_rad, sums.cells, bounces.ranges());
+  if (with_cscope)
+    images.cscope_W_m3 = image(sums.elevation_W_m3_per_rad, sums.rows, bounces.rows());
+  return images;
+}
+
 void FrameRenderer::Stages::add_rain(const sensors::AntennaFrame& antenna, FanSums& sums) const {
   if (rains()) add_rain_echo(world_, antenna, sampling_.sub_columns, sums);
 }
 
-FrameRenderer::Stages::Images FrameRenderer::Stages::images_in_rain(
-    const sensors::AntennaFrame& antenna, const FanSums& dry) const {
-  if (!rains()) return images_of(dry, products_.cscope_layers);
-  FanSums sums = dry;
-  add_rain(antenna, sums);
-  return images_of(sums, products_.cscope_layers);
-}
-
 std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaFrame& antenna,
                                                          bool with_cscope, FanSums& sums,
-                                                         SightLines& sight, Images* direct) const {
+                                                         SightLines& sight,
+                                                         BounceFan* bounced) const {
   if (!(sampling_.target_grey > 0.0) && !sampling_.estimate_error) {
     caster_->cast(antenna, with_cscope, CastPass{}, sums, sight);
-    if (direct != nullptr) *direct = images_in_rain(antenna, sums);
-    if (double_bounce_) double_bounce_->add(antenna, sums);
+    if (double_bounce_) double_bounce_->add(antenna, 0, sums, bounced);
     add_rain(antenna, sums);
     return std::nullopt;
   }
-  FanSums dry;
   const ErrorEstimate error =
       Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_)
-          .cast(antenna, with_cscope, sums, sight, direct != nullptr ? &dry : nullptr);
-  if (direct != nullptr) *direct = images_in_rain(antenna, dry);
+          .cast(antenna, with_cscope, sums, sight, bounced);
   add_rain(antenna, sums);
   return error;
 }
 
 // Before targets and the receiver join the powers of `frame`.
 void FrameRenderer::Stages::add_layers(const sensors::AntennaFrame& antenna,
-                                       const std::vector<core::Echo>& echoes, const Images* direct,
-                                       Frame& frame) const {
-  frame.layers = frame_layers(world_, antenna, echoes, products_.cscope_layers);
-  const auto added = [&](const std::vector<double> Images::*image,
-                         const std::vector<double>& total) {
-    return direct != nullptr ? added_share(direct->*image, total)
-                             : std::vector<float>(total.size());
+                                       const std::vector<core::Echo>& echoes,
+                                       const BounceFan* bounced, Frame& frame) const {
+  frame.layers = ground_truth_->of(antenna, echoes, products_.cscope_layers);
+  const Images bounces =
+      bounced != nullptr ? images_of(*bounced, products_.cscope_layers) : Images{};
+  const auto share = [](const std::vector<double>& part, const std::vector<double>& total) {
+    return part.empty() ? std::vector<float>(total.size()) : share_of(part, total);
   };
-  frame.layers->bscope.double_bounce = added(&Images::bscope_W, frame.bscope_W);
-  if (products_.cscope_layers)
-    frame.layers->cscope.double_bounce = added(&Images::cscope_W_m3, frame.cscope_W_m3);
+  core::parallel_for(products_.cscope_layers ? 2 : 1, [&](std::size_t scope) {
+    if (scope == 0)
+      frame.layers->bscope.double_bounce = share(bounces.bscope_W, frame.bscope_W);
+    else
+      frame.layers->cscope.double_bounce = share(bounces.cscope_W_m3, frame.cscope_W_m3);
+  });
 }
 
 // The last stage before display: targets join the diffuse power, expected or as one realisation.

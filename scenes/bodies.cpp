@@ -53,7 +53,7 @@ void add_prisms(const std::vector<terrain::Prism>& prisms, terrain::Extrusion ex
   for (const terrain::ExtrudedPolygon& polygon : extrusion.polygons)
     bodies.raised += prisms[polygon.prism].on_ground ? 0 : 1;
   bodies.floating += terrain::add_solids(prisms, extrusion, ids[terrain::kWallSlot],
-                                         ids[terrain::kRoofSlot], bodies.solids);
+                                         ids[terrain::kRoofSlot], object, bodies.solids);
   bodies.meshes.push_back({std::move(extrusion.mesh), std::move(ids), std::move(object)});
 }
 

@@ -34,12 +34,7 @@ class SurfaceMap {
 
   // Point is clamped to the grid.
   MaterialId material_at(double x_m, double y_m) const noexcept {
-    return material_in_cell(column_of(x_m), row_of(y_m), x_m, y_m);
-  }
-
-  // The same for a point that is known to lie in this cell.
-  MaterialId material_in_cell(int column, int row, double x_m, double y_m) const noexcept {
-    const std::size_t cell = cell_of(column, row);
+    const std::size_t cell = cell_of(column_of(x_m), row_of(y_m));
     return (cells_[cell] & kPatched) == 0 ? cells_[cell] : patched_cover(cell, x_m, y_m).material;
   }
 
@@ -49,7 +44,12 @@ class SurfaceMap {
     ObjectId object;
   };
   Cover cover_at(double x_m, double y_m) const noexcept {
-    const std::size_t cell = cell_of(column_of(x_m), row_of(y_m));
+    return cover_in_cell(column_of(x_m), row_of(y_m), x_m, y_m);
+  }
+
+  // The same for a point that is known to lie in this cell.
+  Cover cover_in_cell(int column, int row, double x_m, double y_m) const noexcept {
+    const std::size_t cell = cell_of(column, row);
     if ((cells_[cell] & kPatched) == 0) return {cells_[cell], kTerrainObject};
     return patched_cover(cell, x_m, y_m);
   }

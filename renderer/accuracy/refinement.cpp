@@ -147,7 +147,7 @@ class TooCoarse {
 }  // namespace
 
 ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
-                               FanSums& sums, SightLines& sight, FanSums* direct) const {
+                               FanSums& sums, SightLines& sight, BounceFan* bounced) const {
   caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
   ColumnError difference(world_.sensor, effects_.thermal_noise);
   if (effects_.rain_echo && world_.volume_echo) {
@@ -159,9 +159,8 @@ ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_c
   ErrorEstimate error = target_grey > 0.0
                             ? refine(antenna, with_cscope, difference, target_grey, sums)
                             : estimate(antenna, with_cscope, difference, sums);
-  if (direct != nullptr) *direct = sums;
   if (bounces_ != nullptr)
-    error = together(error, add_bounces(antenna, difference, target_grey, sums));
+    error = together(error, add_bounces(antenna, difference, target_grey, sums, bounced));
   return error;
 }
 
@@ -231,11 +230,11 @@ ColumnError::Squares Refinement::of_sub_columns(const ColumnError& difference,
 
 ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
                                       const ColumnError& difference, double target_grey,
-                                      FanSums& sums) const {
+                                      FanSums& sums, BounceFan* bounced) const {
   if (!(target_grey > 0.0)) {
     // Added as a frame without an estimate does it, to the last bit.
     FanSums fresh = sums;
-    bounces_->add(antenna, sums);
+    bounces_->add(antenna, 0, sums, bounced);
     bounces_->add(antenna, 1, fresh);
     return estimate_of(difference.between(sums, fresh), kBounces.of_old, 1);
   }
@@ -243,7 +242,7 @@ ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
   bounces_->add(antenna, echoes);
   for (int level = 1;; ++level) {
     FanSums fresh = empty_like(sums);
-    bounces_->add(antenna, level, fresh);
+    bounces_->add(antenna, level, fresh, bounced);
     const ColumnError::Squares apart = difference.between(plus(sums, echoes), plus(sums, fresh));
     add_counts(echoes, fresh);
     echoes = std::move(fresh);

@@ -57,10 +57,10 @@ class Refinement {
       : world_(world), sampling_(sampling), caster_(caster), bounces_(bounces), effects_(effects) {}
 
   // Casts and adds the bounces: until the estimate is at most the sampling's target_grey, or, where
-  // that is 0, what the sampling gives by itself with the estimate of its error. `direct`, unless
-  // null, receives what there is without bounces.
+  // that is 0, what the sampling gives by itself with the estimate of its error. `bounced`, unless
+  // null, receives what bounces add.
   ErrorEstimate cast(const sensors::AntennaFrame& antenna, bool with_cscope, FanSums& sums,
-                     SightLines& sight, FanSums* direct = nullptr) const;
+                     SightLines& sight, BounceFan* bounced = nullptr) const;
 
  private:
   // Each is given sums of level 0. `target_grey` 0: what level 0 gives.
@@ -70,7 +70,7 @@ class Refinement {
                          const ColumnError& difference, const FanSums& sums) const;
   ColumnError::Squares of_sub_columns(const ColumnError& difference, const FanSums& sums) const;
   ErrorEstimate add_bounces(const sensors::AntennaFrame& antenna, const ColumnError& difference,
-                            double target_grey, FanSums& sums) const;
+                            double target_grey, FanSums& sums, BounceFan* bounced) const;
 
   const World& world_;
   const Sampling& sampling_;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/units.h"
 #include "renderer/casting/fan_layout.h"
 
 namespace fanbeam::renderer {
@@ -11,7 +10,6 @@ namespace {
 
 // What kLevelCosine of the casters allows.
 const double kLevelWithin_rad = std::acos(kLevelCosine);
-const double kWidestFan_rad = core::radians(150.0);
 
 // Why azimuths are no vertical half-planes of the scene; empty when they are.
 std::string why_not_level(const CasterFacts& facts) {
@@ -31,7 +29,7 @@ std::string others_text(std::size_t others) {
 
 // Empty when slices can show the scene.
 std::string why_no_slices(const CasterFacts& facts) {
-  if (facts.fan_rad > kWidestFan_rad)
+  if (facts.fan_rad > kWidestSlices_rad)
     return "slices span at most 150 deg of azimuth, beam included";
   const std::string tilt = why_not_level(facts);
   if (facts.others == 0 || tilt.empty()) return {};

@@ -20,10 +20,14 @@
 #include <string>
 #include <string_view>
 
+#include "core/constants.h"
 #include "core/errors.h"
 #include "renderer/casting/sampling.h"
 
 namespace fanbeam::renderer {
+
+// What slices span, beam included.
+inline constexpr double kWidestSlices_rad = 150.0 * core::kPi / 180.0;
 
 enum class CasterWish { rays, profile, automatic };
 

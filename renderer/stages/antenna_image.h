@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "renderer/casting/caster.h"
+#include "renderer/stages/azimuth_beam.h"
 #include "sensors/sensor.h"
 
 namespace fanbeam::renderer {
 
-// `sums` [sub-column][bin], per radian, to an image [bin][column].
+// `sums` [sub-column][bin], per radian, to an image [bin][column]. `filled`: as in azimuth_beam.h.
 std::vector<double> through_antenna(const std::vector<double>& sums, int bins, const FanSums& fan,
-                                    const sensors::Sensor& sensor, int sub_columns_per_column);
+                                    const sensors::Sensor& sensor, int sub_columns_per_column,
+                                    const FilledBlocks* filled = nullptr);
 
 }  // namespace fanbeam::renderer

@@ -16,6 +16,7 @@ namespace {
 using FourBins = double __attribute__((vector_size(32)));
 constexpr int kFours = 4;
 constexpr std::size_t kBlockBins = 4 * kFours;
+static_assert(kBlockBins == FilledBlocks::kBins);
 
 // The two-way pattern over the sub-columns that a column reaches, from left to right.
 struct BeamWeights {
@@ -82,15 +83,41 @@ void weigh_one(const double* from, std::size_t stride, std::size_t bins, const B
   }
 }
 
+// Whether any of sub-columns [first, last) holds something in a block.
+bool any_filled(const FilledBlocks& filled, std::size_t first, std::size_t last,
+                std::size_t block) {
+  for (std::size_t s = first; s < last; ++s)
+    if (filled.filled(static_cast<int>(s), static_cast<int>(block))) return true;
+  return false;
+}
+
 }  // namespace
+
+void FilledBlocks::empty(int sub_columns, int bins, std::vector<double>& sums) {
+  const auto stride = static_cast<std::size_t>(bins);
+  if (sub_columns != sub_columns_ || bins != bins_) {
+    sub_columns_ = sub_columns;
+    bins_ = bins;
+    blocks_ = (bins + kBins - 1) / kBins;
+    sums.assign(static_cast<std::size_t>(sub_columns) * stride, 0.0);
+  } else {
+    for (int s = 0; s < sub_columns; ++s)
+      for (int block = 0; block < blocks_; ++block)
+        if (filled(s, block))
+          std::fill_n(sums.data() + static_cast<std::size_t>(s) * stride + block * kBins,
+                      std::min(kBins, bins - block * kBins), 0.0);
+  }
+  marks_.assign(at(sub_columns, 0), 0);
+}
 
 std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins,
                                        const FanSums& fan, const sensors::Sensor& sensor,
-                                       int sub_columns_per_column) {
+                                       int sub_columns_per_column, const FilledBlocks* filled) {
   const BeamWeights beam = weights_of(fan, sensor, sub_columns_per_column);
   const std::size_t apart = beam.sub_columns_per_column, reach = beam.of_sub_column.size();
   const auto columns = static_cast<std::size_t>(sensor.scan.columns);
   const auto bin_count = static_cast<std::size_t>(bins);
+  const auto sub_columns = static_cast<std::size_t>(fan.sub_columns);
   const std::size_t block_bins = std::min(kBlockBins, bin_count);
   std::vector<double> image(columns * bin_count);
   // Block after block of bins for all columns: what columns share stays in the cache.
@@ -102,6 +129,8 @@ std::vector<double> apply_azimuth_beam(const std::vector<double>& sums, int bins
         image[(begin + bin) * columns + column] = sum[bin];
     };
     for (std::size_t column = 0; column < columns; column += 2) {
+      const std::size_t reached = std::min((column + 1) * apart + reach, sub_columns);
+      if (filled != nullptr && !any_filled(*filled, column * apart, reached, block)) continue;
       const double* const from = sums.data() + column * apart * bin_count + begin;
       double left[kBlockBins], right[kBlockBins];
       if (block_bins == kBlockBins && column + 1 < columns) {

@@ -8,6 +8,7 @@
 #include "core/random.h"
 #include "renderer/casting/deposit.h"
 #include "renderer/casting/sub_column.h"
+#include "renderer/stages/bounce_fan.h"
 
 namespace fanbeam::renderer {
 
@@ -211,6 +212,7 @@ class Strip {
       share.power_W_m3_per_rad = share.power_W_per_rad * echo.range_m * echo.range_m * echo.range_m;
     if (share.sub_column >= first_ && share.sub_column < end_) {
       share.deposit_in(sums_);
+      if (frame_.alone != nullptr) frame_.alone->add(share);
     } else if (share.sub_column >= 0 && share.sub_column < sums_.sub_columns) {
       foreign.push_back(share);
     }

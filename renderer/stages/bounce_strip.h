@@ -17,6 +17,8 @@
 
 namespace fanbeam::renderer {
 
+class BounceFan;
+
 // How finely bounces are sampled.
 struct BounceSampling {
   int azimuths = 1;            // blocks per strip
@@ -38,8 +40,9 @@ struct BounceFrame {
   const ElevationFan& fan;
   const BounceTracer& tracer;
   const sensors::AntennaFrame& antenna;
-  PassPlace place;  // of its rays beside those of other levels
-  int sub_columns;  // of a strip
+  PassPlace place;   // of its rays beside those of other levels
+  int sub_columns;   // of a strip
+  BounceFan* alone;  // unless null, gets what sums get
 };
 
 // What one echo gives to one sub-column, evenly between two ends of range and of elevation.

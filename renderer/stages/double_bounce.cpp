@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "renderer/stages/bounce_fan.h"
 #include "renderer/stages/bounce_limits.h"
 
 namespace fanbeam::renderer {
@@ -21,7 +22,10 @@ void add_fan(const BounceFrame& frame, FanSums& sums) {
     cast[i] = cast_bounce_strip(frame, static_cast<int>(i), sums, foreign[i]);
   });
   for (const std::vector<BounceShare>& shares : foreign)
-    for (const BounceShare& share : shares) share.deposit_in(sums);
+    for (const BounceShare& share : shares) {
+      share.deposit_in(sums);
+      if (frame.alone != nullptr) frame.alone->add(share);
+    }
   for (const std::uint64_t count : cast) sums.rays += count;
 }
 
@@ -65,12 +69,14 @@ DoubleBounce::DoubleBounce(const World& world, const Sampling& sampling, bool no
       shown_W_(shown_powers_W(world.sensor)),
       tracer_(world, noise) {}
 
-void DoubleBounce::add(const sensors::AntennaFrame& antenna, int level, FanSums& sums) const {
+void DoubleBounce::add(const sensors::AntennaFrame& antenna, int level, FanSums& sums,
+                       BounceFan* alone) const {
+  if (alone != nullptr) alone->lay_out(sums);
   if (!tracer_.any()) return;
   const BounceSampling sampling = bounce_sampling(world_.sensor, sampling_, level);
   const ElevationFan fan(world_, fan_sampling(sampling_, sampling), ElevationFan::Nearest::antenna);
   add_fan({world_.sensor, sampling, shown_W_, fan, tracer_, antenna, pass_place(level),
-           kPictureColumns * sampling_.sub_columns},
+           kPictureColumns * sampling_.sub_columns, alone},
           sums);
 }
 

@@ -31,8 +31,10 @@ class DoubleBounce {
   // Adds to what the caster left in `sums`; thread-safe. Changes nothing in a world that does not
   // reflect.
   void add(const sensors::AntennaFrame& antenna, FanSums& sums) const { add(antenna, 0, sums); }
-  // The same with twice as many samples for each level.
-  void add(const sensors::AntennaFrame& antenna, int level, FanSums& sums) const;
+  // The same with twice as many samples for each level. `alone`, unless null, receives
+  // the same echoes and nothing else.
+  void add(const sensors::AntennaFrame& antenna, int level, FanSums& sums,
+           BounceFan* alone = nullptr) const;
 
  private:
   const World& world_;

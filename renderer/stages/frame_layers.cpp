@@ -5,9 +5,15 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "renderer/casting/fan_layout.h"
+#include "renderer/casting/profile/slice_exclusion.h"
+#include "renderer/casting/profile/slice_layout.h"
+#include "renderer/casting/profile/slice_scene.h"
+#include "renderer/plan/caster_choice.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/layer_cells.h"
 #include "renderer/stages/layer_lines.h"
+#include "renderer/stages/layer_slices.h"
 #include "renderer/surfaces/nrcs_table.h"
 #include "sensors/cells.h"
 
@@ -38,14 +44,30 @@ LayerSet empty_set(int rows, int columns, std::vector<float> LayerSet::*own) {
 
 // Without the double bounce.
 FrameLayers unseen(const sensors::Sensor& sensor, bool with_cscope) {
-  FrameLayers layers{empty_set(sensor.range.cells, sensor.scan.columns, &LayerSet::elevation_rad),
-                     {}};
-  if (with_cscope)
-    layers.cscope = empty_set(sensor.display.cscope_rows, sensor.scan.columns, &LayerSet::range_m);
+  FrameLayers layers;
+  const int columns = sensor.scan.columns;
+  // Megabytes of fresh pages: a scope each.
+  core::parallel_for(with_cscope ? 2 : 1, [&](std::size_t scope) {
+    if (scope == 0)
+      layers.bscope = empty_set(sensor.range.cells, columns, &LayerSet::elevation_rad);
+    else
+      layers.cscope = empty_set(sensor.display.cscope_rows, columns, &LayerSet::range_m);
+  });
   return layers;
 }
 
-// What the lines of a column met, in the cells of both scopes.
+// The slices of a frame, one in the middle of each column.
+struct ColumnSlices {
+  const SliceFrame& frame;
+  const LayerGrid& grid;
+};
+
+// Which azimuths of a column the line of that number stands for.
+AzimuthMask azimuths_of_line(int line) {
+  return azimuths_in(static_cast<double>(line) / kLayerAzimuths, 1.0 / kLayerAzimuths);
+}
+
+// What is seen in each column, in the cells of both scopes.
 class LayerColumns {
  public:
   LayerColumns(const World& world, const sensors::AntennaFrame& antenna, bool with_cscope)
@@ -55,36 +77,38 @@ class LayerColumns {
         cell_m_(static_cast<float>(world.sensor.range.cell_m)),
         row_rad_(static_cast<float>(cscope_row_rad(world.sensor.display))) {}
 
-  // Columns [first, last), at most kBlockColumns.
-  void fill(int first, int last, const std::vector<std::vector<core::Echo>>& targets,
-            FrameLayers& layers) const {
+  // Columns [first, last), at most kBlockColumns: those marked in `by_rays` from rays, the others from
+  // `slices`.
+  void fill(int first, int last, const ColumnSlices* slices,
+            const std::vector<std::uint8_t>& by_rays,
+            const std::vector<std::vector<core::Echo>>& targets, FrameLayers& layers) const {
     thread_local std::array<LayerLine, kBlockLines> lines;
-    lines_.cast(first, last, lines);
-    for (int column = first; column < last; ++column)
-      fill_column(column, &lines[static_cast<std::size_t>((column - first) * kLayerAzimuths)],
-                  targets[static_cast<std::size_t>(column)], layers);
+    lines_.cast(first, last, by_rays, lines);
+    thread_local LayerCells ranges, rows;
+    const sensors::Sensor& sensor = world_.sensor;
+    for (int column = first; column < last; ++column) {
+      ranges.clear(sensor.range.cells);
+      rows.clear(with_cscope_ ? sensor.display.cscope_rows : 0);
+      const auto of_column = static_cast<std::size_t>(column);
+      if (by_rays[of_column] == 0)
+        LayerSlices(slices->frame, slices->grid).add(of_column, ranges, rows);
+      else
+        for (int k = 0; k < kLayerAzimuths; ++k)
+          deposit(lines[static_cast<std::size_t>((column - first) * kLayerAzimuths + k)],
+                  azimuths_of_line(k), ranges, rows);
+      for (const core::Echo& echo : targets[of_column]) add(echo, ranges, rows);
+      ranges.write(column, sensor.scan.columns, layers.bscope);
+      if (with_cscope_) rows.write(column, sensor.scan.columns, layers.cscope);
+    }
   }
 
  private:
-  void fill_column(int column, const LayerLine* lines, const std::vector<core::Echo>& targets,
-                   FrameLayers& layers) const {
-    thread_local LayerCells ranges, rows;
-    const sensors::Sensor& sensor = world_.sensor;
-    ranges.clear(sensor.range.cells);
-    rows.clear(with_cscope_ ? sensor.display.cscope_rows : 0);
-    for (int k = 0; k < kLayerAzimuths; ++k) deposit(lines[k], k, ranges, rows);
-    for (const core::Echo& echo : targets) add(echo, ranges, rows);
-    ranges.write(column, sensor.scan.columns, kLayerAzimuths, layers.bscope);
-    if (with_cscope_) rows.write(column, sensor.scan.columns, kLayerAzimuths, layers.cscope);
-  }
-
   void add(const core::Echo& echo, LayerCells& ranges, LayerCells& rows) const {
-    LayerHit target;
-    target.elevation_rad = static_cast<float>(echo.elevation_rad);
-    target.height_rad = 1.0F;
-    target.power_W_per_rad = static_cast<float>(echo.power_W);
-    target.object =
-        static_cast<terrain::ObjectId>(world_.geometry->object_names.size()) + echo.object_id;
+    const LayerEcho target{
+        .power_W = echo.power_W,
+        .elevation_rad = static_cast<float>(echo.elevation_rad),
+        .object =
+            static_cast<terrain::ObjectId>(world_.geometry->object_names.size()) + echo.object_id};
     const int cell = sensors::range_row(world_.sensor.range, echo.range_m);
     if (cell != sensors::kOutside) ranges.add_target(cell, target);
     const int row = with_cscope_ ? sensors::cscope_row(world_.sensor.display, echo.elevation_rad)
@@ -112,7 +136,8 @@ class LayerColumns {
   }
   bool in_gate(int cell) const { return cell >= 0 && cell < world_.sensor.range.cells; }
 
-  void fill_ranges(const LayerHit& a, const LayerHit& b, int azimuth, LayerCells& ranges) const {
+  void fill_ranges(const LayerHit& a, const LayerHit& b, AzimuthMask azimuth,
+                   LayerCells& ranges) const {
     const int gap = std::abs(b.cell - a.cell);
     if (gap < 2 || !lines_.one_slope(a, b)) return;
     const LayerGap between(a, b);
@@ -123,12 +148,13 @@ class LayerColumns {
       LayerHit hit = between.at_range(
           static_cast<float>(sensors::range_middle_m(world_.sensor.range, cell)), height_rad);
       if (ground) cover(a, b, hit);
-      ranges.add(cell, azimuth, hit);
+      ranges.add(cell, azimuth, hit.echo());
     }
   }
 
   // Rows between two neighbours: what they both meet, or each its half.
-  void fill_rows(const LayerHit& a, const LayerHit& b, int azimuth, LayerCells& rows) const {
+  void fill_rows(const LayerHit& a, const LayerHit& b, AzimuthMask azimuth,
+                 LayerCells& rows) const {
     const int first = std::max(std::min(a.row, b.row) + 1, 0);
     const int last = std::min(std::max(a.row, b.row), world_.sensor.display.cscope_rows) - 1;
     if (first > last) return;
@@ -140,11 +166,12 @@ class LayerColumns {
       LayerHit hit = one ? between.at(share, row_rad_) : (share < 0.5F ? a : b).within(row_rad_);
       if (!in_gate(hit)) continue;
       if (ground) cover(a, b, hit);
-      rows.add(row, azimuth, hit);
+      rows.add(row, azimuth, hit.echo());
     }
   }
 
-  void deposit(const LayerLine& line, int azimuth, LayerCells& ranges, LayerCells& rows) const {
+  void deposit(const LayerLine& line, AzimuthMask azimuth, LayerCells& ranges,
+               LayerCells& rows) const {
     const int row_count = world_.sensor.display.cscope_rows;
     const LayerHit* last = nullptr;
     for (const LayerHit& now : line) {
@@ -155,12 +182,12 @@ class LayerColumns {
       const bool shown = in_gate(now.cell);
       if (with_cscope_) {
         if (shown && now.row >= 0 && now.row < row_count)
-          rows.add(now.row, azimuth, now.within(row_rad_));
+          rows.add(now.row, azimuth, now.within(row_rad_).echo());
         if (last != nullptr) fill_rows(*last, now, azimuth, rows);
       }
       // What a cell of this slope takes of the elevations.
       const float cell_rad = cell_m_ / std::max(std::abs(now.range_m * now.range_slope), 1e-3F);
-      if (shown) ranges.add(now.cell, azimuth, now.within(cell_rad));
+      if (shown) ranges.add(now.cell, azimuth, now.within(cell_rad).echo());
       if (last != nullptr) fill_ranges(*last, now, azimuth, ranges);
       last = &now;
     }
@@ -181,30 +208,54 @@ FrameLayers empty_layers(const sensors::Sensor& sensor, bool with_cscope) {
   return layers;
 }
 
-FrameLayers frame_layers(const World& world, const sensors::AntennaFrame& antenna,
-                         const std::vector<core::Echo>& targets, bool with_cscope) {
+GroundTruth::GroundTruth(const World& world) : world_(world) {
   const sensors::Sensor& sensor = world.sensor;
+  if (world.surfaces().terrain() != nullptr &&
+      sensor.scan.field_of_view_rad + 2.0 * sensor.antenna.azimuth.cut_rad <= kWidestSlices_rad)
+    slices_ = std::make_unique<const SliceScene>(world);
+}
+
+GroundTruth::~GroundTruth() = default;
+
+FrameLayers GroundTruth::of(const sensors::AntennaFrame& antenna,
+                            const std::vector<core::Echo>& targets, bool with_cscope) const {
+  const sensors::Sensor& sensor = world_.sensor;
   FrameLayers layers = unseen(sensor, with_cscope);
   const std::vector<std::vector<core::Echo>> of_column = by_column(targets, sensor.scan);
-  const LayerColumns in_columns(world, antenna, with_cscope);
-  // Neighbours by one thread: their cells lie side by side.
-  const int blocks = (sensor.scan.columns + kBlockColumns - 1) / kBlockColumns;
-  core::parallel_for(static_cast<std::size_t>(blocks), [&](std::size_t block) {
-    const int first = static_cast<int>(block) * kBlockColumns;
-    const int last = std::min(first + kBlockColumns, sensor.scan.columns);
-    in_columns.fill(first, last, of_column, layers);
-  });
+  const LayerColumns in_columns(world_, antenna, with_cscope);
+  const auto fill = [&](const ColumnSlices* slices, const std::vector<std::uint8_t>& by_rays) {
+    // Neighbours by one thread: their cells lie side by side.
+    const int blocks = (sensor.scan.columns + kBlockColumns - 1) / kBlockColumns;
+    core::parallel_for(static_cast<std::size_t>(blocks), [&](std::size_t block) {
+      const int first = static_cast<int>(block) * kBlockColumns;
+      const int last = std::min(first + kBlockColumns, sensor.scan.columns);
+      in_columns.fill(first, last, slices, by_rays, of_column, layers);
+    });
+  };
+  if (slices_ && azimuths_are_upright(antenna, sensor.scan.surface)) {
+    FanSums fan;
+    fan.sub_columns = sensor.scan.columns;
+    fan.first_azimuth_rad = sensors::column_edge_rad(sensor.scan, 0);
+    fan.step_rad = sensor.scan.column_width_rad();
+    const std::vector<Slice> slices = level_slices(world_, 1, antenna, fan);
+    SightLines none;
+    slices_->in_frame(antenna, slices, 1, none, [&](const SliceFrame& frame) {
+      const LayerGrid grid(sensor);
+      const ColumnSlices columns{frame, grid};
+      fill(&columns, sub_columns_for_rays(world_, antenna, slices, 1, fan));
+    });
+  } else {
+    fill(nullptr, std::vector<std::uint8_t>(static_cast<std::size_t>(sensor.scan.columns), 1));
+  }
   find_angles(layers.bscope.grazing_rad);
   find_angles(layers.cscope.grazing_rad);
   return layers;
 }
 
-std::vector<float> added_share(const std::vector<double>& direct,
-                               const std::vector<double>& total) {
+std::vector<float> share_of(const std::vector<double>& part, const std::vector<double>& total) {
   std::vector<float> share(total.size(), 0.0F);
   for (std::size_t i = 0; i < total.size(); ++i)
-    if (total[i] > 0.0)
-      share[i] = static_cast<float>(std::clamp((total[i] - direct[i]) / total[i], 0.0, 1.0));
+    if (part[i] > 0.0) share[i] = static_cast<float>(std::min(part[i] / total[i], 1.0));
   return share;
 }
 

@@ -5,34 +5,41 @@
 // beam does not smear it as it smears the picture: the layers tell what a cell stands for.
 //
 // Layers, by cell, each 0 where nothing is seen:
-//   visibility     of the azimuths cast in the column, the share that sees something in the cell: 1
-//                  lit, 0 in shadow or in the air
+//   visibility     of the column's width, the share in which something in the cell is seen: 1 lit, 0
+//                  in shadow or in the air
 //   range_m        mean (C-scope alone)
 //   grazing_rad    of the local grazing angle on the facets, by the mean of its sine
 //   nrcs           mean sigma0, linear
-//   elevation_rad  of the strongest single echo (B-scope alone)
-//   material, object  of the strongest single echo; of a point target where it sends more than all
-//                  surfaces of the cell, with object number Geometry::object_names.size() plus its
-//                  index and material kNoMaterial
+//   material, object  of the surface (one material of one object) that sends more than half of the
+//                  cell's power; where none does, of one that is seen there. Of a point target where it
+//                  sends more than all surfaces of the cell, with object number
+//                  Geometry::object_names.size() plus its index and material kNoMaterial
+//   elevation_rad  of the strongest part of that surface, or of that target (B-scope alone)
 //   double_bounce  of the picture's power from surfaces and rain, beam and all, the share that came
 //                  by two or three reflections
 // Means are weighted with the power that surfaces send on the direct way; point targets are not in
 // them.
 //
-// From rays of its own, whichever caster draws the picture, so that the two give the same truth:
-// kLayerAzimuths azimuths a column, dithered along range as in ray_caster.h, one ray for eight range
-// cells of visible ground in each and one in two C-scope rows of what stands above it; then, twice,
-// one more wherever two neighbours a few cells or rows apart do not tell what lies between them:
-// another surface, slope or part of a model. What neighbours on one slope step over, up to eleven
-// range cells or all rows, is put between them, ground with the cover and paint of its own place.
-// Echoes beyond the range gate are in neither picture, nor here. Accuracy: a thing narrower than half
-// a column, or lower than a ray's step, may be missed; a cell at its foot may be left dark
-// (docs/performance-notes.md tells how many are). Neglected: rain cells, and all that ray_caster.h
-// neglects.
+// The same whichever caster draws the picture, from a pass of its own:
+//   where slices can show the view  one azimuth slice a column, clipped to buildings
+//                  (layer_slices.h): walls and what they hide with their true widths, ground as the
+//                  slice in the column's middle cuts it
+//   else           (models, prisms over open air, tilted antennas, cone scans, no ground) rays in
+//                  kLayerAzimuths azimuths a column (layer_lines.h), dithered along range as in
+//                  ray_caster.h: one for eight range cells of visible ground and one in two C-scope
+//                  rows of what stands above it; then, twice, one more wherever two neighbours a few
+//                  cells or rows apart do not tell what lies between them: another surface, slope or
+//                  part of a model. What neighbours on one slope step over, up to eleven range cells or
+//                  all rows, is put between them, ground with the cover and paint of its own place
+// Echoes beyond the range gate are in neither picture, nor here. Accuracy (docs/performance-notes.md has
+// figures): of slices, that of the ground's azimuth; of rays, a thing narrower than half a column, or
+// lower than a ray's step, may be missed, and a cell at its foot left dark. Neglected: rain cells, and all
+// that the casters neglect.
 // Deterministic, and the same for any number of threads. Cost: docs/performance-notes.md.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/echo.h"
@@ -60,11 +67,23 @@ struct FrameLayers {
 // Nothing is seen.
 FrameLayers empty_layers(const sensors::Sensor& sensor, bool with_cscope);
 
-// All but the double bounce. `targets`: the echoes that are seen (point_targets.h).
-FrameLayers frame_layers(const World& world, const sensors::AntennaFrame& antenna,
-                         const std::vector<core::Echo>& targets, bool with_cscope);
+class SliceScene;
 
-// What part of `total` is not in `direct`: 0 where there is no power.
-std::vector<float> added_share(const std::vector<double>& direct, const std::vector<double>& total);
+class GroundTruth {
+ public:
+  explicit GroundTruth(const World& world);  // which must outlive it
+  ~GroundTruth();
+
+  // All layers but the double bounce. `targets`: the echoes that are seen (point_targets.h).
+  FrameLayers of(const sensors::AntennaFrame& antenna, const std::vector<core::Echo>& targets,
+                 bool with_cscope) const;
+
+ private:
+  const World& world_;
+  std::unique_ptr<const SliceScene> slices_;  // where they can show the world
+};
+
+// What part of `total` is `part`: 0 where there is no power.
+std::vector<float> share_of(const std::vector<double>& part, const std::vector<double>& total);
 
 }  // namespace fanbeam::renderer

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "renderer/stages/frame_layers.h"
+#include "renderer/stages/layer_cells.h"
 #include "terrain/ray_scene.h"
 
 namespace fanbeam::renderer {
@@ -29,7 +29,15 @@ struct LayerHit {
     part.height_rad = std::min(height_rad, most_rad);
     return part;
   }
-  float power_W() const { return power_W_per_rad * height_rad; }
+  LayerEcho echo() const {
+    return {.power_W = static_cast<double>(power_W_per_rad * height_rad),
+            .range_m = static_cast<double>(range_m),
+            .sin_grazing = static_cast<double>(sin_grazing),
+            .nrcs = static_cast<double>(nrcs),
+            .elevation_rad = elevation_rad,
+            .object = object,
+            .material = material};
+  }
 };
 
 // What lies between two rays that met one surface; of the nearer one what has no middle. Ranges of a

@@ -52,15 +52,24 @@ LayerLines::LayerLines(const World& world, const sensors::AntennaFrame& antenna)
       beam_rad_(azimuth_width_rad(world.sensor)),
       row_rad_(cscope_row_rad(world.sensor.display)) {}
 
-void LayerLines::cast(int first, int last, std::array<LayerLine, kBlockLines>& lines) const {
+void LayerLines::cast(int first, int last, const std::vector<std::uint8_t>& marked,
+                      std::array<LayerLine, kBlockLines>& lines) const {
   thread_local Block block;
   RayLine rays(world_, antenna_, elevation_gain_, path_loss_);
   block.first_line = first * kLayerAzimuths;
   const int count = (last - first) * kLayerAzimuths;
   const bool upright = azimuths_are_upright(antenna_, world_.sensor.scan.surface);
   const int abreast = upright ? kFanLines : kTiltedFanLines;
-  for (int line = 0; line < count; line += abreast)
-    look(line, std::min(abreast, count - line), rays, block, lines);
+  const auto wanted = [&](int line) {
+    return marked[static_cast<std::size_t>(first + line / kLayerAzimuths)] != 0;
+  };
+  for (int line = 0; line < count; line += abreast) {
+    const int beside = std::min(abreast, count - line);
+    if (wanted(line) || wanted(line + beside - 1))
+      look(line, beside, rays, block, lines);
+    else
+      for (int i = line; i < line + beside; ++i) lines[static_cast<std::size_t>(i)].clear();
+  }
   for (int round = 0; round < kRounds; ++round) look_between(count, rays, block, lines);
   for (int i = 0; i < count; ++i) share_out(lines[static_cast<std::size_t>(i)]);
 }

@@ -25,8 +25,10 @@ class LayerLines {
  public:
   LayerLines(const World& world, const sensors::AntennaFrame& antenna);
 
-  // Columns [first, last): their azimuths one after the other, from the left.
-  void cast(int first, int last, std::array<LayerLine, kBlockLines>& lines) const;
+  // Columns [first, last): their azimuths one after the other, from the left. Those of columns that
+  // are not marked may stay empty.
+  void cast(int first, int last, const std::vector<std::uint8_t>& marked,
+            std::array<LayerLine, kBlockLines>& lines) const;
 
   // Whether two neighbours on one surface own the range cells that they step over.
   bool one_slope(const LayerHit& a, const LayerHit& b) const;

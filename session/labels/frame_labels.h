@@ -1,9 +1,9 @@
 // What is where in the pictures of a frame: runways, approach lights, obstacles, buildings; where each
-// lies by formula, how much of it is in sight, which cells it is the strongest echo of, and how it
+// lies by formula, how much of it is in sight, in which cells it sends most, and how it
 // stands out.
 //
 // Positions are of place.h: geometry, no echoes. Masks are of the frame's layers
-// (renderer/stages/frame_layers.h): a cell belongs to the object of its strongest echo.
+// (renderer/stages/frame_layers.h): a cell belongs to the object that sends it most.
 //   in sight   of a runway: share of a grid of kRunwayGrid points; of an object: of its triangles that
 //              face the antenna, weighted with the area that they show it and judged by their middles
 //              (object_shapes.h); of point targets: share of the points
@@ -62,7 +62,7 @@ struct ObjectLabel {
   PlaceLabel middle;               // of the box around it
   double height_m = 0.0;           // top above the ground below its middle
   double in_sight_share = 0.0, in_view_share = 0.0;
-  std::optional<double> signal_to_clutter_dB;  // where it is the strongest echo of a cell
+  std::optional<double> signal_to_clutter_dB;  // where it sends most of a cell
   MaskLabel bscope, cscope;
   std::vector<PlaceLabel> points;  // of lights
 };

@@ -105,14 +105,16 @@ Box_m box_around(const Ring_m& outline, const Prism& prism) {
 }  // namespace
 
 std::size_t add_solids(const std::vector<Prism>& prisms, const Extrusion& extrusion,
-                       MaterialId wall, MaterialId roof, Solids& solids) {
+                       MaterialId wall, MaterialId roof, const std::vector<ObjectId>& object,
+                       Solids& solids) {
   const std::vector<bool> solid = SupportSearch(prisms, extrusion.polygons).run();
   std::size_t floating = 0;
   for (std::size_t i = 0; i < solid.size(); ++i) {
     const ExtrudedPolygon& polygon = extrusion.polygons[i];
     const Prism& prism = prisms[polygon.prism];
     if (solid[i]) {
-      solids.prisms.push_back({polygon.rings_m, prism.top_m, wall, roof});
+      solids.prisms.push_back({polygon.rings_m, prism.top_m, wall, roof,
+                               object.empty() ? kTerrainObject : object.at(polygon.prism)});
     } else {
       solids.others.push_back(box_around(polygon.rings_m.front(), prism));
       ++floating;

@@ -20,10 +20,11 @@ inline constexpr double kSupported = 0.99;  // share of the footprint
 inline constexpr double kGap_m = 0.01;
 
 // Adds what `extrude` made of `prisms` to `solids`: solids in the order of its polygons, and the
-// boxes of floating polygons, whose number it returns. Raised prisms (not `on_ground`) look for
-// support among `prisms` only.
+// boxes of floating polygons, whose number it returns. `object` by prism, or empty: the terrain.
+// Raised prisms (not `on_ground`) look for support among `prisms` only.
 std::size_t add_solids(const std::vector<Prism>& prisms, const Extrusion& extrusion,
-                       MaterialId wall, MaterialId roof, Solids& solids);
+                       MaterialId wall, MaterialId roof, const std::vector<ObjectId>& object,
+                       Solids& solids);
 
 // Around all vertices; `mesh` must have some.
 Box_m box_around(const TriangleMesh& mesh);

@@ -21,6 +21,7 @@ struct Solid {
   double top_m = 0.0;
   MaterialId wall = 0;
   MaterialId roof = 0;
+  ObjectId object = kTerrainObject;
 };
 
 struct Box_m {

@@ -48,7 +48,7 @@ inline Body city(const std::function<bool(double, double)>& built, double share)
   terrain::Extrusion extrusion = terrain::extrude(prisms, "city", {}, problems);
   problems.throw_if_errors();
   terrain::Solids solids;
-  terrain::add_solids(prisms, extrusion, kWall, kRoof, solids);
+  terrain::add_solids(prisms, extrusion, kWall, kRoof, {}, solids);
   return {{std::move(extrusion.mesh), {kWall, kRoof}}, std::move(solids)};
 }
 

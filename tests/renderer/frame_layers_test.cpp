@@ -20,6 +20,11 @@ constexpr double kHeight_m = 100.0, kFront_m = 1000.0, kBack_m = 1020.0, kTop_m 
 constexpr terrain::ObjectId kShed = 3;
 const materials::PhongNrcs kMeadow(0.0325, 0.136, 1.99), kBright(1.0, 1.0, 1.0);
 
+// Something in every azimuth that slices cannot show: a box around nothing.
+void leave_to_rays(renderer::World& world) {
+  tests::solids_of(world).others.push_back({{-5e3, -5e3, -10.0}, {5e3, 5e3, 100.0}});
+}
+
 renderer::World plain_with_shed(const sensors::Sensor& sensor) {
   tests::Body shed = tests::box({-200.0, kFront_m, -2.0}, {200.0, kBack_m, kTop_m}, 1);
   shed.mesh.object_of_part = {kShed};
@@ -51,7 +56,8 @@ double shadow_ends_m() { return std::hypot(kBack_m * kHeight_m / (kHeight_m - kT
 
 TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
   const sensors::Sensor sensor = tests::hivision(kColumns);
-  const renderer::World world = plain_with_shed(sensor);
+  renderer::World world = plain_with_shed(sensor);
+  if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
   REQUIRE(frame.layers);
   const renderer::LayerSet& truth = frame.layers->bscope;
@@ -100,7 +106,8 @@ TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
 
 TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_layers]") {
   const sensors::Sensor sensor = tests::hivision(kColumns);
-  const renderer::World world = plain_with_shed(sensor);
+  renderer::World world = plain_with_shed(sensor);
+  if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::Frame frame = rendered(world, renderer::profile_sampling_for(2.0));
   const renderer::LayerSet& truth = frame.layers->cscope;
   const double top_rad = -std::atan((kHeight_m - kTop_m) / kBack_m);
@@ -147,9 +154,10 @@ TEST_CASE("Roads two cells wide across the view are told in every column", "[fra
     roads.back().object = kRoad;
   }
   const sensors::Sensor sensor = tests::hivision(kColumns);
-  const renderer::World world =
+  renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
                    {kMeadow, kBright}, {}, roads);
+  if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::LayerSet truth =
       rendered(world, renderer::profile_sampling_for(2.0)).layers->bscope;
   int cells = 0;
@@ -178,7 +186,9 @@ TEST_CASE("What lies beyond the range gate is in neither scope", "[frame_layers]
   sensors::Sensor sensor = tests::hivision(kColumns);
   sensor.range.minimum_m = 600.0;
   sensor.range.cells = 200;
-  const renderer::Frame frame = rendered(plain_with_shed(sensor), renderer::sampling_for(4.0));
+  renderer::World world = plain_with_shed(sensor);
+  if (GENERATE(false, true)) leave_to_rays(world);
+  const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
   int lit = 0;
   for (int row = 0; row < sensor.display.cscope_rows; ++row) {
     const double high_rad =
@@ -285,9 +295,10 @@ TEST_CASE("Low walls that hide next to nothing are told in every column", "[fram
     walls.push_back(tests::box({-200.0, front_m, -2.0}, {200.0, front_m + 4.0, 2.0}, 1));
     walls.back().mesh.object_of_part = {kShed};
   }
-  const renderer::World world =
+  renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
                    {kMeadow, kBright}, walls);
+  if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::LayerSet truth = rendered(world, renderer::sampling_for(4.0)).layers->bscope;
   for (double front_m = 1300.0; front_m < 3000.0; front_m += 140.0)
     for (int column = 0; column < kColumns; ++column) {

@@ -74,7 +74,7 @@ inline Body building(const terrain::Prism& prism, terrain::MaterialId wall,
   terrain::Extrusion extrusion = terrain::extrude({prism}, "building", {}, problems);
   problems.throw_if_errors();
   terrain::Solids solids;
-  terrain::add_solids({prism}, extrusion, wall, roof, solids);
+  terrain::add_solids({prism}, extrusion, wall, roof, {}, solids);
   return {{std::move(extrusion.mesh), {wall, roof}}, std::move(solids)};
 }
 
@@ -101,8 +101,11 @@ inline renderer::World world(const sensors::Sensor& sensor,
   std::vector<terrain::PlacedMesh> meshes;
   terrain::Solids solids;
   for (Body& body : bodies) {
+    for (terrain::Solid& solid : body.solids.prisms) {
+      if (!body.mesh.object_of_part.empty()) solid.object = body.mesh.object_of_part.front();
+      solids.prisms.push_back(std::move(solid));
+    }
     meshes.push_back(std::move(body.mesh));
-    for (terrain::Solid& solid : body.solids.prisms) solids.prisms.push_back(std::move(solid));
     for (const terrain::Box_m& other : body.solids.others) solids.others.push_back(other);
   }
   return {.geometry =

@@ -31,7 +31,7 @@ Sorted sorted(const std::vector<Prism>& prisms) {
   const Extrusion extrusion = extrude(prisms, "town", {}, problems);
   CHECK(problems.all().empty());
   Sorted result;
-  result.floating = add_solids(prisms, extrusion, kBrick, kTar, result.solids);
+  result.floating = add_solids(prisms, extrusion, kBrick, kTar, {}, result.solids);
   CHECK(result.solids.others.size() == result.floating);
   return result;
 }

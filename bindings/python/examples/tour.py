@@ -39,7 +39,7 @@ def show_pictures(scene, folder):
     for colour, k in enumerate(common):
         shown[material == k] = colour
     picture = axes[2].imshow(shown, extent=km, aspect="auto", cmap="tab10", vmin=-0.5, vmax=9.5)
-    axes[2].set(title="material of the strongest echo", xlabel="azimuth, deg", ylabel="range, km")
+    axes[2].set(title="material that sends most", xlabel="azimuth, deg", ylabel="range, km")
     bar = figure.colorbar(picture, ax=axes[2], ticks=range(len(common)))
     bar.ax.set_yticklabels([scene.materials[k] for k in common])
     bar.ax.set_ylim(-0.5, len(common) - 0.5)

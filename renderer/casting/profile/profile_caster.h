@@ -23,13 +23,9 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "renderer/casting/caster.h"
-#include "renderer/casting/frame_path_loss.h"
-#include "renderer/casting/profile/edge_index.h"
-#include "renderer/casting/profile/power_tables.h"
-#include "renderer/casting/profile/slice.h"
+#include "renderer/casting/profile/slice_scene.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/world.h"
@@ -52,15 +48,10 @@ class ProfileCaster : public Caster {
                   FanSums& sums, SightLines& sight) const;
   void cast_across(const sensors::AntennaFrame& antenna, int per_sub_column, FanSums& sums,
                    SightLines& sight) const;
-  template <class Gather>
-  void sweep(const sensors::AntennaFrame& antenna, const std::vector<Slice>& slices,
-             int per_sub_column, SightLines& sight, const Gather& gather) const;
 
   const World& world_;
   Sampling sampling_;
-  std::vector<PlanRing> rings_;
-  PowerTables tables_;
-  FramePathLoss path_loss_;
+  SliceScene scene_;
   std::unique_ptr<RayCaster> rays_;  // in worlds with things that slices cannot show
 };
 

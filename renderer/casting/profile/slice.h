@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <glm/vec2.hpp>
 
+#include "terrain/height_field.h"
+
 namespace fanbeam::renderer {
 
 // A vertical half-plane from the sensor's place, standing for the wedge of `width_rad` around it.
@@ -28,10 +30,11 @@ struct VisiblePieces {
   alignas(64) Column<double> cross_m2;
   alignas(64) Column<double> facet_m, facet_d2;
   alignas(64) Column<std::int32_t> material;
+  alignas(64) Column<terrain::ObjectId> object;
   // Walls: how much nearer and farther the facet lies at the wedge's borders; 0 elsewhere.
   alignas(64) Column<double> nearer_m, farther_m;
-  // Of the wedge that the piece stands for: 1 but for walls.
-  alignas(64) Column<double> share;
+  // Of the wedge, what the piece stands for and what lies left of that: 1 and 0 beside buildings.
+  alignas(64) Column<double> share, left;
 
   int count = 0;
   bool full() const { return count == kCapacity; }

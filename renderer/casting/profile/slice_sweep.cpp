@@ -195,6 +195,13 @@ void SliceSweep::walk_ground(WedgeStrip& strip, const ProfilePoint& near, const 
   }
 }
 
+// Which part of the wedge piece `i` stands for.
+void SliceSweep::set_part(int i, const HeadingRange& part) {
+  const double wedge_rad = wedge_.slice().width_rad, left_rad = wedge_.range().left_rad;
+  pieces_->share[i] = strips_.one() ? 1.0 : part.width_rad() / wedge_rad;
+  pieces_->left[i] = strips_.one() ? 0.0 : (part.left_rad - left_rad) / wedge_rad;
+}
+
 int SliceSweep::next_piece() {
   if (pieces_->full()) (*full_)(*pieces_);
   return pieces_->count++;
@@ -217,7 +224,7 @@ void SliceSweep::see_ground(WedgeStrip& strip, ProfilePoint near, const ProfileP
   // The facet's plane passes this far below the sensor.
   const double below_m = slope * far.distance_m - far.height_m;
   const double middle_m = (near.distance_m + far.distance_m) / 2;
-  const std::int32_t material = map_->material_in_cell(
+  const terrain::SurfaceMap::Cover cover = map_->cover_in_cell(
       cell.column, cell.row, sensor_m_.x + along.x * middle_m, sensor_m_.y + along.y * middle_m);
   const int i = next_piece();
   pieces_->near_distance_m[i] = near.distance_m;
@@ -228,8 +235,9 @@ void SliceSweep::see_ground(WedgeStrip& strip, ProfilePoint near, const ProfileP
   pieces_->facet_m[i] = below_m;
   pieces_->facet_d2[i] = 1.0 + gx * gx + gy * gy;
   pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
-  pieces_->share[i] = share_of(strip);
-  pieces_->material[i] = material;
+  pieces_->material[i] = cover.material;
+  pieces_->object[i] = cover.object;
+  set_part(i, strip.range);
 }
 
 void SliceSweep::close_roof(WedgeStrip& strip, double distance_m) {
@@ -246,8 +254,9 @@ void SliceSweep::close_roof(WedgeStrip& strip, double distance_m) {
   pieces_->facet_m[i] = -roof_m;
   pieces_->facet_d2[i] = 1.0;
   pieces_->nearer_m[i] = pieces_->farther_m[i] = 0.0;
-  pieces_->share[i] = share_of(strip);
   pieces_->material[i] = strip.roof_material;
+  pieces_->object[i] = strip.roof_object;
+  set_part(i, strip.range);
 }
 
 void SliceSweep::see_wall(WedgeStrip& strip, const SliceEvent& event, double low_m, double top_m) {
@@ -259,11 +268,11 @@ void SliceSweep::see_wall(WedgeStrip& strip, const SliceEvent& event, double low
   const WallPart part = wedge_.wall(edge, strip.range);
   const double from_m = std::max(low_m, horizon_tangent * part.distance_m);
   if (top_m > from_m)
-    add_wall(part, from_m, top_m, share_of(strip), world_.solids().prisms[edge.prism].wall);
+    add_wall(part, from_m, top_m, strip.range, world_.solids().prisms[edge.prism]);
 }
 
-void SliceSweep::add_wall(const WallPart& part, double from_m, double top_m, double share,
-                          std::int32_t material) {
+void SliceSweep::add_wall(const WallPart& part, double from_m, double top_m,
+                          const HeadingRange& range, const terrain::Solid& prism) {
   const double distance_m = part.distance_m;
   const double range_per_distance = distance_m / std::sqrt(distance_m * distance_m + top_m * top_m);
   const int parts = parts_of(distance_m * (top_m - from_m),
@@ -279,8 +288,9 @@ void SliceSweep::add_wall(const WallPart& part, double from_m, double top_m, dou
     pieces_->facet_m[i] = part.facet_m;
     pieces_->nearer_m[i] = part.nearer_m * range_per_distance;
     pieces_->farther_m[i] = part.farther_m * range_per_distance;
-    pieces_->share[i] = share;
-    pieces_->material[i] = material;
+    pieces_->material[i] = prism.wall;
+    pieces_->object[i] = prism.object;
+    set_part(i, range);
   }
 }
 

@@ -78,13 +78,11 @@ class SliceSweep {
                    std::size_t piece);
   void see_ground(WedgeStrip& strip, ProfilePoint near, const ProfilePoint& far, std::size_t piece);
   void see_wall(WedgeStrip& strip, const SliceEvent& event, double low_m, double top_m);
-  void add_wall(const WallPart& part, double from_m, double top_m, double share,
-                std::int32_t material);
+  void add_wall(const WallPart& part, double from_m, double top_m, const HeadingRange& range,
+                const terrain::Solid& prism);
+  void set_part(int i, const HeadingRange& part);
   void close_roof(WedgeStrip& strip, double distance_m);
   int next_piece();
-  double share_of(const WedgeStrip& strip) const {
-    return strips_.one() ? 1.0 : strip.range.width_rad() / wedge_.slice().width_rad;
-  }
 
   const World& world_;
   const terrain::HeightField* ground_;

@@ -106,6 +106,7 @@ void WedgeStrips::find_roof(WedgeStrip& strip, const std::vector<terrain::Solid>
     if (top_m <= strip.roof_m) continue;
     strip.roof_m = top_m;
     strip.roof_material = prisms[prism].roof;
+    strip.roof_object = prisms[prism].object;
   }
 }
 

@@ -28,7 +28,8 @@ struct WedgeStrip {
   ProfilePoint walked;               // its ground is dealt with as far as here
   double roof_m = kBelowEverything;  // highest roof here, relative to the sensor
   double roof_from_m = 0.0;          // the roof is seen as far as here
-  std::int32_t roof_material = 0;
+  terrain::MaterialId roof_material = 0;
+  terrain::ObjectId roof_object = terrain::kTerrainObject;
   std::uint32_t prisms = 0;  // number of WedgeStrips' PrismsAround
   bool roofed = false;
 };

@@ -1,0 +1,46 @@
+// Ground truth from azimuth slices (casting/profile): what the slice of a column sees, in the cells of
+// both scopes. Private to the layers.
+//
+// Each visible piece lies on one facet of one surface: its power, by the equation of slice_power.h, is
+// shared among the cells that it crosses by the elevations that they take of it, those of an oblique
+// wall by ranges. Ranges along a piece are linear in their inverse. NRCS and grazing angle are those in
+// the middle of what a cell has.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "renderer/casting/profile/slice_tracer.h"
+#include "renderer/stages/layer_cells.h"
+#include "sensors/sensor.h"
+
+namespace fanbeam::renderer {
+
+// What pieces are sorted into.
+struct LayerGrid {
+  explicit LayerGrid(const sensors::Sensor& sensor);
+
+  int cells, rows;
+  double minimum_m, cell_m, cells_per_m;
+  double nearest_per_m, farthest_per_m;  // inverse ranges of the gate's ends
+  double top_rad, rad_per_row;
+  double lowest_rad, highest_rad;    // the ends of the antenna's pattern
+  std::vector<double> border_per_m;  // inverse ranges between cells
+};
+
+class LayerSlices {
+ public:
+  LayerSlices(const SliceFrame& frame, const LayerGrid& grid);
+
+  // What slice `i` of the frame sees. No rows: ranges alone.
+  void add(std::size_t i, LayerCells& ranges, LayerCells& rows) const;
+
+ private:
+  void add(const Slice& slice, VisiblePieces& pieces, LayerCells& ranges, LayerCells& rows) const;
+
+  const SliceFrame& frame_;
+  const LayerGrid& grid_;
+  double constant_W_m2_;
+};
+
+}  // namespace fanbeam::renderer

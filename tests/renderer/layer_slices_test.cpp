@@ -1,0 +1,153 @@
+// Ground truth from slices beside that from rays, and how cells choose what they tell.
+#include "renderer/stages/layer_slices.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "renderer/frame_renderer.h"
+#include "renderer/stages/bounce_fan.h"
+#include "tests/renderer/city_world.h"
+#include "tests/renderer/test_worlds.h"
+
+namespace {
+
+using namespace fanbeam;
+
+renderer::LayerSet truth_of(const renderer::World& world, double height_m, bool of_cscope) {
+  const renderer::FrameLayers layers =
+      *renderer::FrameRenderer(world, renderer::sampling_for(1.0),
+                               {.layers = true, .cscope_layers = true}, {})
+           .render(tests::level_pose(height_m))
+           .layers;
+  return of_cscope ? layers.cscope : layers.bscope;
+}
+
+double share(int part, int whole) { return static_cast<double>(part) / whole; }
+
+}  // namespace
+
+// A box around nothing leaves every azimuth to rays: the same city, seen in two ways.
+TEST_CASE("Over a city slices and rays tell the same but for their sampling", "[layer_slices]") {
+  const sensors::Sensor sensor = tests::narrow(40);
+  const renderer::World by_slices = tests::city_world(sensor, tests::everywhere);
+  renderer::World by_rays = tests::city_world(sensor, tests::everywhere);
+  tests::solids_of(by_rays).others.push_back({{-5e3, -5e3, -10.0}, {5e3, 5e3, 100.0}});
+  for (const bool of_cscope : {false, true}) {
+    const renderer::LayerSet a = truth_of(by_slices, 120.0, of_cscope);
+    const renderer::LayerSet b = truth_of(by_rays, 120.0, of_cscope);
+    int lit = 0, lit_once = 0, other_material = 0, other_grazing = 0;
+    double slices_share = 0.0, rays_share = 0.0;
+    for (std::size_t i = 0; i < a.visibility.size(); ++i) {
+      slices_share += static_cast<double>(a.visibility[i]);
+      rays_share += static_cast<double>(b.visibility[i]);
+      if (!(a.visibility[i] > 0.0F) != !(b.visibility[i] > 0.0F)) ++lit_once;
+      if (!(a.visibility[i] > 0.0F && b.visibility[i] > 0.0F)) continue;
+      ++lit;
+      if (a.material[i] != b.material[i]) ++other_material;
+      if (std::abs(a.grazing_rad[i] - b.grazing_rad[i]) > 0.1F) ++other_grazing;
+    }
+    INFO("C-scope " << of_cscope << ", " << lit << " lit by both, " << lit_once << " by one, "
+                    << other_material << " of other material, " << other_grazing
+                    << " grazing angles");
+    CHECK(lit > 2000);
+    CHECK(share(lit_once, lit) < 0.06);
+    CHECK(share(other_material, lit) < 0.04);
+    CHECK(share(other_grazing, lit) < 0.08);
+    CHECK(slices_share == Approx(rays_share).epsilon(0.03));
+  }
+}
+
+// Elevations beyond the cut send nothing back, whatever stands there.
+TEST_CASE("Roofs below the antenna's pattern are not told", "[layer_slices]") {
+  const sensors::Sensor sensor = tests::hivision(8);
+  std::vector<tests::Body> boxes;
+  boxes.push_back(tests::box({-200.0, 205.0, -2.0}, {200.0, 225.0, 4.0}, 0));  // 24 deg down
+  boxes.push_back(tests::box({-200.0, 405.0, -2.0}, {200.0, 425.0, 4.0}, 0));  // 13 deg down
+  for (std::size_t k = 0; k < 2; ++k)
+    boxes[k].mesh.object_of_part = {static_cast<terrain::ObjectId>(k + 1)};
+  const renderer::World world =
+      tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
+                   {materials::PhongNrcs(0.0325, 0.136, 1.99)}, boxes);
+  const renderer::LayerSet truth = truth_of(world, 100.0, false);
+  int of_object[3] = {};
+  for (std::size_t i = 0; i < truth.visibility.size(); ++i)
+    if (truth.visibility[i] > 0.0F) ++of_object[truth.object[i]];
+  CHECK(of_object[1] == 0);
+  CHECK(of_object[2] > 8);
+}
+
+TEST_CASE("A cell tells what sends more than half of its power, in any order", "[layer_slices]") {
+  const auto part = [](double power_W, terrain::ObjectId object, float elevation_rad) {
+    return renderer::LayerEcho{.power_W = power_W,
+                               .range_m = 1000.0,
+                               .sin_grazing = 0.1,
+                               .nrcs = 0.01,
+                               .elevation_rad = elevation_rad,
+                               .object = object,
+                               .material = 1};
+  };
+  // Three parts of object 1 beside one of object 2 that is larger than each of them.
+  std::vector<renderer::LayerEcho> parts{part(0.2, 1, -0.1F), part(0.25, 1, -0.2F),
+                                         part(0.2, 1, -0.3F), part(0.35, 2, 0.1F)};
+  for (int turn = 0; turn < 4; ++turn) {
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());
+    renderer::LayerCells cells;
+    cells.clear(1);
+    for (const renderer::LayerEcho& echo : parts)
+      cells.add(0, renderer::azimuths_in(0.0, 0.5), echo);
+    renderer::LayerSet set{.visibility = {0.0F},
+                           .grazing_rad = {0.0F},
+                           .nrcs = {0.0F},
+                           .elevation_rad = {0.0F},
+                           .material = {0},
+                           .object = {0}};
+    cells.write(0, 1, set);
+    CHECK(set.object[0] == 1);
+    CHECK(set.elevation_rad[0] < 0.0F);
+    CHECK(set.visibility[0] == 0.5F);
+    CHECK(set.nrcs[0] == Approx(0.01F));
+  }
+}
+
+TEST_CASE("Parts of a column's width are counted once, and never as nothing", "[layer_slices]") {
+  CHECK(renderer::azimuths_in(0.0, 1.0) == ~renderer::AzimuthMask{0});
+  CHECK((renderer::azimuths_in(0.0, 0.3) | renderer::azimuths_in(0.3, 0.7)) ==
+        ~renderer::AzimuthMask{0});
+  CHECK((renderer::azimuths_in(0.0, 0.3) & renderer::azimuths_in(0.3, 0.7)) == 0U);
+  for (const double left : {0.0, 0.4999, 0.999, 1.0})
+    CHECK(renderer::azimuths_in(left, 1e-6) != 0U);
+}
+
+TEST_CASE("Blocks that are marked pass the azimuth beam to the same bytes", "[layer_slices]") {
+  const sensors::Sensor sensor = tests::hivision(41);
+  const renderer::World world = tests::city_world(sensor, tests::everywhere);
+  renderer::FanSums like;
+  renderer::lay_out_fan(world, renderer::sampling_for(4.0), true, like);
+  renderer::BounceFan fan;
+  for (int frame = 0; frame < 3; ++frame) {  // what one leaves behind must not show in the next
+    fan.lay_out(like);
+    for (int k = 0; k < 12; ++k) {
+      const auto draw = [&](std::uint32_t n, double most) {
+        return most * tests::uniform(8, static_cast<std::uint64_t>(100 * frame + k), n);
+      };
+      renderer::BounceShare share{static_cast<int>(draw(0, like.sub_columns)), {}, 1.0, {}, 2.0};
+      share.cells[0] = draw(1, like.cells + 20.0) - 10.0;
+      share.cells[1] = share.cells[0] + draw(2, 40.0);
+      share.rows[0] = draw(3, like.rows + 20.0) - 10.0;
+      share.rows[1] = share.rows[0] + draw(4, 40.0);
+      fan.add(share);
+    }
+    const auto check = [&](const std::vector<double>& sums, int bins,
+                           const renderer::FilledBlocks& filled) {
+      const int subs = renderer::sampling_for(4.0).sub_columns;
+      const std::vector<double> dense =
+          renderer::apply_azimuth_beam(sums, bins, fan.sums(), sensor, subs);
+      CHECK(renderer::apply_azimuth_beam(sums, bins, fan.sums(), sensor, subs, &filled) == dense);
+      CHECK(std::count_if(dense.begin(), dense.end(), [](double W) { return W > 0.0; }) > 100);
+      CHECK(std::count(dense.begin(), dense.end(), 0.0) > 100);
+    };
+    check(fan.sums().range_W_per_rad, like.cells, fan.ranges());
+    check(fan.sums().elevation_W_m3_per_rad, like.rows, fan.rows());
+  }
+}
