@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 
 #include "apps/cost/cost_csv.h"
@@ -17,6 +16,7 @@
 #include "core/parallel.h"
 #include "core/turns.h"
 #include "measure/bench.h"
+#include "measure/clock.h"
 #include "measure/cost_plots.h"
 #include "measure/effect_prices.h"
 #include "measure/frame_clock.h"
@@ -187,7 +187,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
                               : fs::path(options.output);
   fs::create_directories(folder);  // before minutes are spent
 
-  const auto begin = std::chrono::steady_clock::now();
+  const measure::Clock::time_point begin = measure::Clock::now();
   const bool slices = scene->caster.why_no_slices.empty();
   const auto rebuild = [&](const scenes::BuildOptions& other) {
     core::ProblemList known;
@@ -212,9 +212,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
                                  frames};
   write(run(bench, options, common, threads.threads()), folder);
   if (common.quiet) return kExitDone;
-  fmt::print("measured in {}{}\n{}\n",
-             duration_text(
-                 std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()),
+  fmt::print("measured in {}{}\n{}\n", duration_text(measure::milliseconds_since(begin) * 1e-3),
              options.quick ? " (a quick look: its figures are no measurement)" : "",
              fs::absolute(folder / "cost.md").lexically_normal().string());
   return kExitDone;

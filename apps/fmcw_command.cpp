@@ -264,6 +264,7 @@ int fmcw(FmcwOptions& options, const CommonOptions& common) {
   }
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
+  build.heights_shown = false;
   if (!options.effects.empty())
     build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::samples);
   const auto scene = session::Session(description, {.build = build}, problems).scene();

@@ -20,8 +20,7 @@ scenes::BuildOptions build_options(const RenderOptions& options,
                                    const session::ProductSet& products) {
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
-  const renderer::Products wanted = session::wanted_of(products);
-  build.heights_shown = wanted.cscope || wanted.obstacles;
+  build.heights_shown = session::show_heights(products);
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   if (options.reference) {
     build.caster = renderer::CasterWish::rays;

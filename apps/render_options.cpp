@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/caster_choice.h"
+#include "renderer/plan/plan.h"
 #include "session/figure/figure_facts.h"
 #include "session/products/preview.h"
 
@@ -36,7 +37,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                       "Milliseconds a frame may take from pose to pictures in memory (16 Hz: "
                       "62.5): the finest sampling that fits, and the error it reaches; with "
                       "--accuracy no finer than that needs (default: the scene's)")
-          ->check(number_from(0.1, 1e7))
+          ->check(number_from(renderer::kTimeBudgets_ms.low, renderer::kTimeBudgets_ms.high))
           ->excludes(rays);
   CLI::Option* estimate =
       command.add_flag("--estimate-error", options.estimate_error,

@@ -18,8 +18,6 @@ struct Way {
 };
 
 std::vector<Way> ways_of(const scenes::Scene& scene) {
-  // Half of an accuracy of 0.5 is sampling's, the other half is for effects left out.
-  constexpr double kShare_grey = 0.25;
   std::vector<renderer::CasterKind> casters = {renderer::CasterKind::rays};
   if (scene.caster.why_no_slices.empty()) casters.push_back(renderer::CasterKind::profile);
   std::vector<Way> ways;
@@ -28,7 +26,8 @@ std::vector<Way> ways_of(const scenes::Scene& scene) {
     renderer::Sampling sampling = renderer::default_sampling(caster);
     sampling.estimate_error = true;
     ways.push_back({name + ", default", sampling});
-    ways.push_back({name + ", --accuracy 0.5", renderer::refined_sampling(caster, kShare_grey)});
+    ways.push_back({name + ", --accuracy 0.5",
+                    renderer::refined_sampling(caster, renderer::sampling_share_grey(0.5))});
   }
   return ways;
 }

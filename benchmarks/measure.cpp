@@ -7,6 +7,7 @@
 
 #include "core/median.h"
 #include "core/parallel.h"
+#include "renderer/accuracy/sampling_ladder.h"
 
 namespace fanbeam::benchmarks {
 namespace {

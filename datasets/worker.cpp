@@ -16,6 +16,7 @@
 #include "datasets/sha256.h"
 #include "session/products/frame_output.h"
 #include "session/products/layers_product.h"
+#include "session/products/products.h"
 #include "session/records/output_folder.h"
 #include "session/records/record_json.h"
 #include "session/records/run_record.h"
@@ -107,6 +108,8 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
       setup.data_folders.insert(setup.data_folders.begin(), campaign_.folder());
     setup.sample = campaign_.sample;
     setup.seed = campaign_.seed;
+    setup.build.heights_shown =
+        session::show_heights({campaign_.products.begin(), campaign_.products.end()});
     if (!campaign_.sensor.empty())
       setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor");
     core::ProblemList problems;

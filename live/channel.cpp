@@ -6,6 +6,7 @@
 
 #include "live/pace.h"
 #include "live/source_clock.h"
+#include "renderer/accuracy/sampling_ladder.h"
 
 namespace fanbeam::live {
 namespace {

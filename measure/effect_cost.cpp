@@ -1,12 +1,12 @@
 #include "measure/effect_cost.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
 #include "core/effect_plan.h"
 #include "core/turns.h"
+#include "measure/clock.h"
 
 namespace fanbeam::measure {
 namespace {
@@ -17,23 +17,16 @@ using renderer::FrameRenderer;
 constexpr std::uint64_t kSeed = 0;
 const renderer::Products kPictures{true, true};
 
-// A switch of the renderer, whatever the world was built for; nullptr for what is built in.
-bool* switch_of(core::EffectId effect, Effects& effects, const renderer::World& world) {
-  if (effect == core::EffectId::thermal_noise) return &effects.thermal_noise;
-  if (effect == core::EffectId::speckle) return &effects.speckle;
-  if (effect == core::EffectId::swerling) return &effects.swerling;
-  if (effect == core::EffectId::double_bounce) return &effects.double_bounce;
-  if (effect == core::EffectId::multipath) return &effects.multipath;
-  if (effect == core::EffectId::range_response) return &effects.range_response;
-  if (effect == core::EffectId::rain_echo && world.volume_echo) return &effects.rain_echo;
-  return nullptr;
+// A switch of the renderer; nullptr for what the world must be built for.
+bool* switch_in(const renderer::World& world, core::EffectId effect, Effects& effects) {
+  if (effect == core::EffectId::rain_echo && !world.volume_echo) return nullptr;
+  return renderer::switch_of(effect, effects);
 }
 
 double render_ms(const FrameRenderer& renderer, const renderer::FramePose& pose) {
-  const auto begin = std::chrono::steady_clock::now();
-  const renderer::Frame frame = renderer.render(pose);
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-      .count();
+  const Clock::time_point begin = Clock::now();
+  renderer.render(pose);
+  return milliseconds_since(begin);
 }
 
 EffectCost difference(const FrameRenderer& with, const FrameRenderer& without,
@@ -69,7 +62,7 @@ EffectCost cost_of(const core::EffectDecision& decision, const scenes::Scene& sc
   const FrameRenderer as_planned(scene.world, run.sampling, kPictures, planned);
   Effects turned = planned;
   std::unique_ptr<scenes::Scene> rebuilt;
-  if (bool* flag = switch_of(decision.effect, turned, scene.world)) {
+  if (bool* flag = switch_in(scene.world, decision.effect, turned)) {
     *flag = !decision.on;
   } else {
     core::ProblemList known;

@@ -3,16 +3,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "core/turns.h"
+#include "measure/clock.h"
 #include "measure/frame_clock.h"
 
 namespace fanbeam::measure {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 FrameClock work_of(const CostBench& bench, const renderer::FramePose& pose,
                    const renderer::ElevationSpan& span, Way way, double fineness) {
@@ -100,7 +98,7 @@ std::vector<renderer::GreyReference> render_references(const CostBench& bench,
     const renderer::Sampling sampling = bench.effort.reference(1);
     ReferenceFigures reference{
         frame,
-        std::chrono::duration<double>(Clock::now() - begin).count(),
+        milliseconds_since(begin) * 1e-3,
         first.rays,
         sampling.sub_columns * sampling.jittered_passes * sampling.rays_per_cell,
         {}};

@@ -1,6 +1,8 @@
 // Of a setting, what can be had in milliseconds: plan, tables, world.
 #include <chrono>
 
+#include "core/number_range.h"
+#include "renderer/plan/plan.h"
 #include "renderer/stages/side_lobes.h"
 #include "scenes/frame_sight.h"
 #include "scenes/plan_facts.h"
@@ -105,10 +107,9 @@ void check(const Scene& scene, const Conditions& conditions, core::ProblemList& 
                    "those that the scene was opened with: open it with that sensor");
   if (conditions.weather)
     problems.append(atmosphere::problems_in(*conditions.weather, waveform.frequency_Hz).all());
-  if (conditions.accuracy_grey &&
-      !(*conditions.accuracy_grey >= 0.01 && *conditions.accuracy_grey <= 100.0))
-    problems.error(core::ErrorClass::range, {}, "accuracy_grey",
-                   core::number_text(*conditions.accuracy_grey), "0.01 to 100 grey levels");
+  if (conditions.accuracy_grey)
+    core::check_range(problems, "accuracy_grey", *conditions.accuracy_grey,
+                      renderer::kAccuracies_grey, "grey levels");
 }
 
 }  // namespace

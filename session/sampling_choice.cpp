@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/turns.h"
+#include "renderer/accuracy/sampling_ladder.h"
 #include "renderer/plan/effects.h"
 #include "renderer/plan/plan.h"
 #include "session/frame_choice.h"

@@ -9,6 +9,7 @@
 #include "core/number_range.h"
 #include "core/parallel.h"
 #include "renderer/plan/effects.h"
+#include "renderer/plan/largest_echo.h"
 #include "renderer/planned_frames.h"
 #include "scenes/frame_plan.h"
 #include "scenes/scene_caster.h"
@@ -36,6 +37,20 @@ SamplingWish wish_of(const scenes::SceneDescription& scene, const scenes::BuildO
   return Samples{scene.rays_per_cell};
 }
 
+// The plan's bounds count on rays that give to no cell farther away than this.
+void check_spread(const renderer::Sampling& sampling, core::ProblemList& problems) {
+  if (!sampling.deposit_intervals || !(sampling.rays_per_cell > 0.0)) return;
+  const double spread_cells = sampling.gap_cells / 2 * std::max(1.0, 1.0 / sampling.rays_per_cell);
+  if (spread_cells > renderer::kSpreadCells * (1.0 + 1e-9))
+    problems.error(core::ErrorClass::range, {}, "sampling.gap_cells",
+                   core::number_text(sampling.gap_cells) + " with rays_per_cell " +
+                       core::number_text(sampling.rays_per_cell),
+                   "at most " +
+                       core::number_text(2.0 * renderer::kSpreadCells *
+                                         std::min(1.0, sampling.rays_per_cell)) +
+                       ", so that a ray gives to cells up to two away");
+}
+
 void check(const renderer::Sampling& sampling, core::ProblemList& problems) {
   const auto within = [&](const char* field, double value, double low, double high) {
     core::check_range(problems, std::string("sampling.") + field, value, {low, high});
@@ -45,6 +60,7 @@ void check(const renderer::Sampling& sampling, core::ProblemList& problems) {
   within("rays_per_cell", sampling.rays_per_cell, 0.01, 10000.0);
   within("refinement_depth", sampling.refinement_depth, 0, 16);
   within("gap_cells", sampling.gap_cells, 0.1, 1e6);
+  check_spread(sampling, problems);
   within("largest_step_rad", sampling.largest_step_rad, 1e-6, 1.0);
   within("largest_step_rows", sampling.largest_step_rows, 0.01, 1e6);
   within("bounce_share", sampling.bounce_share, 0.01, 100.0);

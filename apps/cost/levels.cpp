@@ -2,10 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "core/turns.h"
+#include "measure/clock.h"
 #include "renderer/accuracy/swept_picture.h"
 #include "renderer/stages/range_response.h"
 #include "sensors/display/display.h"
@@ -15,14 +15,8 @@
 namespace fanbeam::apps {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kThinParts = 8;
 constexpr renderer::Products kBscopeAlone = {.bscope = true, .cscope = false};
-
-double ms_since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
 
 // Converged powers behind the sweep, noise in them.
 std::vector<double> reference_W(const measure::CostBench& bench, const sensors::Sensor& sensor) {
@@ -89,10 +83,10 @@ void measure_signals(const measure::CostBench& bench, const GreyDistance& distan
       session::SignalBscopeSettings settings;
       settings.looks = 1;
       settings.seed = times_ms.size();
-      const Clock::time_point begin = Clock::now();
+      const measure::Clock::time_point begin = measure::Clock::now();
       const std::vector<double> power_W =
           session::signal_bscope(bench.scene.world, pose, settings).power_W;
-      times_ms.push_back(ms_since(begin));
+      times_ms.push_back(measure::milliseconds_since(begin));
       sum_W.resize(power_W.size(), 0.0);
       for (std::size_t i = 0; i < power_W.size(); ++i) sum_W[i] += power_W[i];
     }

@@ -3,7 +3,7 @@
 // Both are held against the converged powers in thin range cells with the sweep's exact range
 // response (renderer/accuracy/swept_picture.h), the receiver's mean noise in all of them.
 //   picture   rays at several samplings, and the renderer's range response
-//   signal    beat signals (apps/fmcw/signal_bscope.h): the mean of so many looks, each with its
+//   signal    beat signals (session/signal/signal_bscope.h): the mean of so many looks, each with its
 //             speckle and its noise
 // Surfaces and point targets only: what the signal level lacks (double bounce, echo of rain,
 // multipath) is off in both. The aircraft stands: no Doppler.

@@ -133,10 +133,10 @@ py::list set_sampling(const Scene& scene, const std::string& kind, double value)
       core::require_range("samples_per_cell", value, {renderer::kFewestRaysPerCell, 10000.0});
     wish = session::Samples{value};
   } else if (kind == "accuracy") {
-    core::require_range("accuracy_grey", value, {0.0, 255.0, true}, "grey levels");
+    core::require_range("accuracy_grey", value, renderer::kAccuracies_grey, "grey levels");
     wish = session::Accuracy{value};
   } else if (kind == "time_budget") {
-    core::require_range("time_budget_ms", value, {0.1, 1e7}, "ms");
+    core::require_range("time_budget_ms", value, renderer::kTimeBudgets_ms, "ms");
     wish = session::TimeBudget{value, {}};
   } else {
     wish = renderer::reference_sampling(scene.session().seed());

@@ -24,7 +24,7 @@ class PhongNrcs {
   PhongNrcs() = default;
 
   // Throws InputError: E-NONFINITE for NaN or infinity, E-RANGE for a or b outside 0 to 1e6 or c
-  // outside 1 to 1000.
+  // outside 0 to 1000.
   PhongNrcs(double a, double b, double c);
 
   // Zero for back faces (not mirrored) and at psi = 0. For sin_grazing in [0, 1] never negative, at

@@ -70,9 +70,6 @@ inline constexpr double kDefaultSlicesPerColumn = 4.0;
 // Of a fraction there is the next whole number of them, with as many fewer samples of bounces.
 Sampling profile_sampling_for(double slices);
 
-// Worth trying for whoever has a time to keep, coarsest first.
-std::vector<double> sampling_ladder(CasterKind caster);
-
 // One of the two: what `--rays-per-cell` sets, rays or slices, and what it is unless set.
 Sampling sampling_for(CasterKind caster, double samples);
 double default_samples(CasterKind caster);

@@ -26,7 +26,7 @@
 
 namespace fanbeam::renderer {
 
-// What slices span, beam included.
+// What slices span at most; with the azimuth beam, where they draw a picture.
 inline constexpr double kWidestSlices_rad = 150.0 * core::kPi / 180.0;
 
 enum class CasterWish { rays, profile, automatic };

@@ -23,6 +23,9 @@ struct Effects {
   auto operator<=>(const Effects&) const = default;
 };
 
+// The stage of an effect; nullptr for one that is built into the world or into samples.
+bool* switch_of(core::EffectId effect, Effects& effects);
+
 Effects effects_of(const core::EffectPlan& plan, std::uint64_t seed);
 
 }  // namespace fanbeam::renderer

@@ -96,10 +96,13 @@ bool any_filled(const FilledBlocks& filled, std::size_t first, std::size_t last,
 void FilledBlocks::empty(int sub_columns, int bins, std::vector<double>& sums) {
   const auto stride = static_cast<std::size_t>(bins);
   if (sub_columns != sub_columns_ || bins != bins_) {
-    sub_columns_ = sub_columns;
-    bins_ = bins;
-    blocks_ = (bins + kBins - 1) / kBins;
+    // Whoever is thrown out of here finds another shape next time.
+    sub_columns_ = 0;
     sums.assign(static_cast<std::size_t>(sub_columns) * stride, 0.0);
+    blocks_ = (bins + kBins - 1) / kBins;
+    marks_.assign(at(sub_columns, 0), 0);
+    bins_ = bins;
+    sub_columns_ = sub_columns;
   } else {
     for (int s = 0; s < sub_columns; ++s)
       for (int block = 0; block < blocks_; ++block)

@@ -210,8 +210,7 @@ FrameLayers empty_layers(const sensors::Sensor& sensor, bool with_cscope) {
 
 GroundTruth::GroundTruth(const World& world) : world_(world) {
   const sensors::Sensor& sensor = world.sensor;
-  if (world.surfaces().terrain() != nullptr &&
-      sensor.scan.field_of_view_rad + 2.0 * sensor.antenna.azimuth.cut_rad <= kWidestSlices_rad)
+  if (world.surfaces().terrain() != nullptr && sensor.scan.field_of_view_rad <= kWidestSlices_rad)
     slices_ = std::make_unique<const SliceScene>(world);
 }
 

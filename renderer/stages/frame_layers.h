@@ -10,11 +10,12 @@
 //   range_m        mean (C-scope alone)
 //   grazing_rad    of the local grazing angle on the facets, by the mean of its sine
 //   nrcs           mean sigma0, linear
-//   material, object  of the surface (one material of one object) that sends more than half of the
-//                  cell's power; where none does, of one that is seen there. Of a point target where it
-//                  sends more than all surfaces of the cell, with object number
-//                  Geometry::object_names.size() plus its index and material kNoMaterial
-//   elevation_rad  of the strongest part of that surface, or of that target (B-scope alone)
+//   object         that sends more than half of the cell's power; where none does, one that is seen
+//                  there. A point target where it sends more than all surfaces of the cell, with number
+//                  Geometry::object_names.size() plus its index
+//   material       of that object, the one that sends more than half of its power, where one does;
+//                  kNoMaterial of a point target
+//   elevation_rad  of a strong part of that object, or of that target (B-scope alone)
 //   double_bounce  of the picture's power from surfaces and rain, beam and all, the share that came
 //                  by two or three reflections
 // Means are weighted with the power that surfaces send on the direct way; point targets are not in
@@ -24,7 +25,8 @@
 //   where slices can show the view  one azimuth slice a column, clipped to buildings
 //                  (layer_slices.h): walls and what they hide with their true widths, ground as the
 //                  slice in the column's middle cuts it
-//   else           (models, prisms over open air, tilted antennas, cone scans, no ground) rays in
+//   else           (columns with models or prisms over open air; tilted antennas, cone scans, fans
+//                  wider than 150 deg, no ground) rays in
 //                  kLayerAzimuths azimuths a column (layer_lines.h), dithered along range as in
 //                  ray_caster.h: one for eight range cells of visible ground and one in two C-scope
 //                  rows of what stands above it; then, twice, one more wherever two neighbours a few
@@ -32,7 +34,7 @@
 //                  part of a model. What neighbours on one slope step over, up to eleven range cells or
 //                  all rows, is put between them, ground with the cover and paint of its own place
 // Echoes beyond the range gate are in neither picture, nor here. Accuracy (docs/performance-notes.md has
-// figures): of slices, that of the ground's azimuth; of rays, a thing narrower than half a column, or
+// figures): of slices, that of the ground's azimuth, and 8 mrad at the ends of the antenna's pattern; of rays, a thing narrower than half a column, or
 // lower than a ray's step, may be missed, and a cell at its foot left dark. Neglected: rain cells, and all
 // that the casters neglect.
 // Deterministic, and the same for any number of threads. Cost: docs/performance-notes.md.

@@ -29,7 +29,7 @@ void LayerCells::write(int column, int columns, LayerSet& set) const {
   };
   auto to = static_cast<std::size_t>(column);
   for (const Cell& cell : cells_) {
-    if (cell.part_W >= 0.0) {
+    if (cell.part_W >= 0.0F) {
       set.visibility[to] = lit_share(cell.azimuths);
       set.material[to] = cell.material;
       set.object[to] = cell.object;

@@ -38,19 +38,20 @@ class LayerCells {
   void add(int index, AzimuthMask azimuths, const LayerEcho& echo) {
     Cell& cell = cells_[static_cast<std::size_t>(index)];
     // What sends nothing counts where nothing else is seen.
-    const double weight = echo.power_W + 1e-60;
+    const double weight = echo.power_W + kLeast_W;
     cell.weight += weight;
     cell.range_m += weight * echo.range_m;
     cell.sin_grazing += weight * echo.sin_grazing;
     cell.nrcs += weight * echo.nrcs;
     cell.azimuths |= azimuths;
-    elect(cell, weight, echo);
+    elect(cell, static_cast<float>(weight), echo);
   }
   // After all surfaces: counts where it sends more than they together, in no mean.
   void add_target(int index, const LayerEcho& target) {
     Cell& cell = cells_[static_cast<std::size_t>(index)];
-    if (!(target.power_W > std::max(cell.weight, cell.part_W))) return;
-    cell.part_W = target.power_W;
+    const auto power_W = static_cast<float>(target.power_W);
+    if (!(target.power_W > cell.weight && power_W > cell.part_W)) return;
+    cell.part_W = power_W;
     cell.elevation_rad = target.elevation_rad;
     cell.object = target.object;
     cell.material = target.material;
@@ -59,27 +60,45 @@ class LayerCells {
   void write(int column, int columns, LayerSet& set) const;
 
  private:
+  static constexpr double kLeast_W = 1e-36;  // floats hold it
+  static constexpr terrain::ObjectId kNobody = ~terrain::ObjectId{0};
+
   struct alignas(64) Cell {
     double weight = 0.0, range_m = 0.0, sin_grazing = 0.0, nrcs = 0.0;
-    double part_W = -1.0;  // the largest of those of one surface
-    double lead_W = 0.0;
+    float lead_W = 0.0F, material_lead_W = 0.0F;
+    float part_W = -1.0F;  // the largest of the object's since it took the lead
     float elevation_rad = 0.0F;
-    terrain::ObjectId object = terrain::kTerrainObject;
+    terrain::ObjectId object = kNobody;
     terrain::MaterialId material = kNoMaterial;
     AzimuthMask azimuths = 0;
   };
-  // The surface that sends more than half of the cell's power is left in the end (the majority vote of
-  // Boyer and Moore, with weights). Chosen rather than branched to: who leads is anyone's guess.
-  static void elect(Cell& cell, double weight, const LayerEcho& echo) {
-    const bool same = cell.object == echo.object && cell.material == echo.material;
-    const double lead_W = cell.lead_W + (same ? weight : -weight);
-    const bool beaten = lead_W < 0.0;
-    const bool larger = beaten || (same && echo.power_W > cell.part_W);
-    cell.lead_W = beaten ? -lead_W : lead_W;
-    cell.object = beaten ? echo.object : cell.object;
-    cell.material = beaten ? echo.material : cell.material;
-    cell.part_W = larger ? echo.power_W : cell.part_W;
+  // The object that sends more than half of the cell's power is left in the end, and of it the material
+  // that sends more than half (the majority vote of Boyer and Moore, with weights).
+  static void elect(Cell& cell, float weight, const LayerEcho& echo) {
+    if (cell.object != echo.object) {
+      cell.lead_W -= weight;
+      if (cell.lead_W < 0.0F) lead(cell, weight, echo);
+      return;
+    }
+    cell.lead_W += weight;
+    if (cell.material == echo.material) {
+      cell.material_lead_W += weight;
+    } else if ((cell.material_lead_W -= weight) < 0.0F) {
+      cell.material_lead_W = -cell.material_lead_W;
+      cell.material = echo.material;
+    }
+    const auto power_W = static_cast<float>(echo.power_W);
+    const bool larger = power_W > cell.part_W;
+    cell.part_W = larger ? power_W : cell.part_W;
     cell.elevation_rad = larger ? echo.elevation_rad : cell.elevation_rad;
+  }
+  static void lead(Cell& cell, float weight, const LayerEcho& echo) {
+    cell.lead_W = -cell.lead_W;
+    cell.material_lead_W = weight;
+    cell.part_W = static_cast<float>(echo.power_W);
+    cell.elevation_rad = echo.elevation_rad;
+    cell.object = echo.object;
+    cell.material = echo.material;
   }
 
   std::vector<Cell> cells_;

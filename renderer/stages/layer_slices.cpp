@@ -6,6 +6,7 @@
 #include "core/dispatch.h"
 #include "renderer/casting/profile/piece_loops.h"
 #include "renderer/plan/largest_echo.h"
+#include "renderer/stages/wide_pieces.h"
 #include "renderer/surfaces/nrcs_table.h"
 #include "sensors/antenna/beam_pattern.h"
 
@@ -16,7 +17,7 @@ constexpr double kLeast_m2 = 1e-12;  // nothing is at the sensor
 
 struct Buffers {
   SweepScratch scratch;
-  VisiblePieces pieces;
+  VisiblePieces pieces, parts;
   PiecePowers powers;
 };
 
@@ -145,10 +146,11 @@ struct PieceInCells {
             .material = static_cast<terrain::MaterialId>(pieces.material[i])};
   }
   // Walls, roofs and the rim of the ground beside the antenna's pattern are among the pieces.
-  [[gnu::always_inline]] void put(int cell, const LayerEcho& echo, LayerCells& cells) const {
+  [[gnu::always_inline]] void put(int cell, AzimuthMask at, const LayerEcho& echo,
+                                  LayerCells& cells) const {
     const auto elevation_rad = static_cast<double>(echo.elevation_rad);
     if (elevation_rad > grid.lowest_rad && elevation_rad < grid.highest_rad)
-      cells.add(cell, azimuths, echo);
+      cells.add(cell, at, echo);
   }
   // -1 before the gate, `cells` behind it.
   [[gnu::always_inline]] int cell_of(double range_m) const {
@@ -162,7 +164,7 @@ struct PieceInCells {
     const double far_m = std::max(a_m, b_m) + pieces.farther_m[i];
     const int first = cell_of(near_m), last = cell_of(far_m);
     if (first == last) {
-      if (first >= 0 && first < grid.cells) put(first, middle(), ranges);
+      if (first >= 0 && first < grid.cells) put(first, azimuths, middle(), ranges);
     } else if (pieces.farther_m[i] > pieces.nearer_m[i]) {
       spread(near_m, far_m, first, last, ranges);
     } else {
@@ -180,18 +182,23 @@ struct PieceInCells {
           cell == last ? 1.0 / far_m : grid.border_per_m[static_cast<std::size_t>(cell) + 1];
       const double per_m = (from_per_m + to_per_m) / 2;
       const double share = between_0_and_1((per_m - ends.low_per_m[i]) * ends.per_way_m[i]);
-      put(cell, part(share, per_m, whole_W * (from_per_m - to_per_m) * per_m * per_m), ranges);
+      put(cell, azimuths, part(share, per_m, whole_W * (from_per_m - to_per_m) * per_m * per_m),
+          ranges);
       from_per_m = to_per_m;
     }
   }
 
+  // An oblique wall: over its ranges alike, whatever the elevation, each at its own azimuths.
   [[gnu::always_inline]] void spread(double near_m, double far_m, int first, int last,
                                      LayerCells& ranges) const {
-    const double W_per_m = powers.before_W_per_rad[i] / (far_m - near_m);
+    const double per_m = 1.0 / (far_m - near_m), width = pieces.share[i];
     for (int cell = std::max(first, 0); cell <= std::min(last, grid.cells - 1); ++cell) {
       const double from_m = std::max(near_m, grid.minimum_m + grid.cell_m * cell);
       const double to_m = std::min(far_m, grid.minimum_m + grid.cell_m * (cell + 1));
-      put(cell, part(0.5, ends.middle_per_m[i], W_per_m * std::max(to_m - from_m, 0.0)), ranges);
+      const double share = std::max(to_m - from_m, 0.0) * per_m;
+      const double beside = pieces.right_nearer[i] != 0 ? far_m - to_m : from_m - near_m;
+      put(cell, azimuths_in(pieces.left[i] + width * beside * per_m, width * share),
+          part(0.5, ends.middle_per_m[i], powers.before_W_per_rad[i] * share), ranges);
     }
   }
 
@@ -202,7 +209,7 @@ struct PieceInCells {
     if (static_cast<int>(high_row) == static_cast<int>(low_row) && high_row >= 0.0) {
       const double per_m = ends.middle_per_m[i];
       if (per_m > grid.nearest_per_m || per_m <= grid.farthest_per_m) return;
-      put(static_cast<int>(high_row), middle(), rows);
+      put(static_cast<int>(high_row), azimuths, middle(), rows);
       return;
     }
     const int first = static_cast<int>(std::max(high_row, 0.0));
@@ -210,12 +217,13 @@ struct PieceInCells {
     const double per_row_W_m2 = whole_W * ends.per_rows[i] * powers.range_m[i] * powers.range_m[i];
     for (int row = first; row <= last; ++row) {
       const double high = std::max(high_row, row + 0.0), low = std::min(low_row, row + 1.0);
+      if (!(low > high)) continue;
       const double share = (low_row - (high + low) / 2) * ends.per_rows[i];
       const double per_m = ends.low_per_m[i] + share * ends.way_per_m[i];
       if (per_m > grid.nearest_per_m || per_m <= grid.farthest_per_m) continue;
       LayerEcho echo = part(share, per_m, per_row_W_m2 * (low - high) * per_m * per_m);
       echo.range_m = 1.0 / per_m;
-      put(row, echo, rows);
+      put(row, azimuths, echo, rows);
     }
   }
 };
@@ -228,6 +236,7 @@ FANBEAM_HOT(void, sort_in,
   find_ends(grid, tables.nrcs(), pieces, powers, ends);
   const bool with_rows = rows.size() > 0;
   for (int i = 0; i < pieces.count; ++i) {
+    if (!(pieces.cross_m2[i] > 0.0)) continue;  // its back
     const PieceInCells piece{
         grid, pieces, powers, ends, azimuths_in(pieces.left[i], pieces.share[i]), i};
     piece.add_ranges(ranges);
@@ -268,12 +277,19 @@ LayerSlices::LayerSlices(const SliceFrame& frame, const LayerGrid& grid)
 void LayerSlices::add(std::size_t i, LayerCells& ranges, LayerCells& rows) const {
   Buffers& buffers = buffers_of_thread();
   const Slice& slice = frame_.slices[i];
-  const auto empty = [&](VisiblePieces& pieces) { add(slice, pieces, ranges, rows); };
+  // What an exception left behind must not show in another column.
+  buffers.pieces.count = buffers.parts.count = 0;
+  const auto sort = [&](VisiblePieces& pieces) { add(slice, pieces, ranges, rows); };
+  const auto empty = [&](VisiblePieces& pieces) {
+    split_wide_pieces(pieces, buffers.parts, sort);
+    sort(pieces);
+  };
   SliceSweep(frame_.world, frame_.antenna.position_m, frame_.edges, frame_.dark_below,
              buffers.scratch)
       .run(slice, frame_.edges.candidates(i / frame_.tile), frame_.world.sensor.range.maximum_m(),
            buffers.pieces, empty, {});
   empty(buffers.pieces);
+  sort(buffers.parts);
 }
 
 void LayerSlices::add(const Slice& slice, VisiblePieces& pieces, LayerCells& ranges,

@@ -31,7 +31,7 @@ struct HeatMap {
 // finite take the lowest colour.
 std::string gnuplot_script(const HeatMap& map, const std::filesystem::path& output);
 
-// As write_plot (apps/gnuplot.h).
+// As write_plot (session/plots/gnuplot.h).
 void write_heat_map(const HeatMap& map, const std::filesystem::path& file);
 
 }  // namespace fanbeam::session

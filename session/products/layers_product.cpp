@@ -28,11 +28,13 @@ double whole_dB(float nrcs) {
 const std::vector<FileLayer>& file_layers() {
   static const std::vector<FileLayer> kLayers = {
       {"visibility_share",
-       "share of the column's width in which something in the cell is seen: 0 in shadow", true, true,
+       "share of the column's width in which something in the cell is seen: 0 in shadow", true,
+       true,
        [](const LayerSet& set, std::size_t i) { return static_cast<double>(set.visibility[i]); }},
       {"range_m", "mean slant range, weighted with the echo's power", false, true,
        [](const LayerSet& set, std::size_t i) { return static_cast<double>(set.range_m[i]); }},
-      {"elevation_deg", "elevation of what sends most, in the antenna's frame", true, false,
+      {"elevation_deg", "elevation of a strong part of the object told, in the antenna's frame",
+       true, false,
        [](const LayerSet& set, std::size_t i) {
          return core::degrees(static_cast<double>(set.elevation_rad[i]));
        }},
@@ -42,13 +44,17 @@ const std::vector<FileLayer>& file_layers() {
        }},
       {"nrcs_dB", "mean NRCS sigma0, weighted with the echo's power; -400 where nothing is seen",
        true, true, [](const LayerSet& set, std::size_t i) { return whole_dB(set.nrcs[i]); }},
-      {"material_id", "of what sends most; -1 of a point target and where nothing is seen", true,
-       true,
+      {"material_id",
+       "of what sends most of the object told; -1 of a point target and where nothing is seen",
+       true, true,
        [](const LayerSet& set, std::size_t i) {
          return set.material[i] == renderer::kNoMaterial ? -1.0
                                                          : static_cast<double>(set.material[i]);
        }},
-      {"object_id", "of what sends most; 0, the terrain, where nothing is seen too", true, true,
+      {"object_id",
+       "of what sends more than half of the power, if something does; 0, the terrain, where "
+       "nothing is seen too",
+       true, true,
        [](const LayerSet& set, std::size_t i) { return static_cast<double>(set.object[i]); }},
       {"double_bounce_share",
        "share of the power from surfaces and rain that came by two or three reflections", true,

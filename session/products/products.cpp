@@ -18,4 +18,9 @@ renderer::Products wanted_of(const ProductSet& products) {
           cscope_truth};
 }
 
+bool show_heights(const ProductSet& products) {
+  const renderer::Products wanted = wanted_of(products);
+  return wanted.cscope || wanted.obstacles || wanted.cscope_layers;
+}
+
 }  // namespace fanbeam::session

@@ -5,8 +5,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/units.h"
 #include "renderer/frame_renderer.h"
+#include "renderer/plan/largest_echo.h"
 #include "renderer/stages/bounce_fan.h"
+#include "sensors/cells.h"
 #include "tests/renderer/city_world.h"
 #include "tests/renderer/test_worlds.h"
 
@@ -75,6 +78,124 @@ TEST_CASE("Roofs below the antenna's pattern are not told", "[layer_slices]") {
     if (truth.visibility[i] > 0.0F) ++of_object[truth.object[i]];
   CHECK(of_object[1] == 0);
   CHECK(of_object[2] > 8);
+}
+
+// A piece from straight below to 500 m away: its middle is 22 deg down, its far end 11 deg.
+TEST_CASE("Level ground is told as it is whatever the distance of its posts", "[layer_slices]") {
+  const sensors::Sensor sensor = tests::hivision(8);
+  for (const double spacing_m : {20.0, 1000.0}) {
+    const renderer::World world =
+        tests::world(sensor, tests::ground(4000.0, spacing_m, [](double, double) { return 0.0; }),
+                     {materials::PhongNrcs(0.0325, 0.136, 1.99)});
+    const renderer::LayerSet truth = truth_of(world, 100.0, false);
+    int lit = 0;
+    for (int row = 0; row < sensor.range.cells; ++row) {
+      const std::size_t i = static_cast<std::size_t>(row) * 8 + 3;
+      const double near_m = sensors::range_edge_m(sensor.range, row),
+                   far_m = sensors::range_edge_m(sensor.range, row + 1);
+      INFO("posts every " << spacing_m << " m, cell " << near_m << " to " << far_m);
+      if (near_m < 303.0) {  // 19.4 deg down: the end of the pattern, to within a cell
+        if (far_m < 295.0) CHECK(truth.visibility[i] == 0.0F);
+        continue;
+      }
+      ++lit;
+      REQUIRE(truth.visibility[i] == 1.0F);
+      const double sine = -std::sin(static_cast<double>(truth.elevation_rad[i]));
+      CHECK(sine > 100.0 / far_m * 0.9999);
+      CHECK(sine < 100.0 / near_m * 1.0001);
+      const double grazing = std::sin(static_cast<double>(truth.grazing_rad[i]));
+      CHECK(grazing > 100.0 / far_m * 0.9999);
+      CHECK(grazing < 100.0 / near_m * 1.0001);
+    }
+    CHECK(lit > 400);
+  }
+}
+
+// The two-way pattern falls by 35 dB from one end of the roof to the other.
+TEST_CASE("Far ends of wide roofs weigh what they send", "[layer_slices]") {
+  const sensors::Sensor sensor = tests::hivision(8);
+  const materials::PhongNrcs tar(0.02, 0.0, 1.0);
+  constexpr double kAbove_m = 80.0;
+  for (const double over_roof : {0.7, 1.4}) {
+    tests::Body hall = tests::box({-200.0, 250.0, -2.0}, {200.0, 400.0, 20.0}, 0);
+    hall.mesh.object_of_part = {1};
+    renderer::World world = tests::world(
+        sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }), {tar}, {hall});
+    const int row = sensors::range_row(sensor.range, std::hypot(390.0, kAbove_m));
+    const double middle_m = sensors::range_middle_m(sensor.range, row);
+    const double sine = kAbove_m / middle_m, cosine = std::sqrt(1.0 - sine * sine);
+    const double roof_m2 = tar.sigma0(sine) * renderer::azimuth_width_rad(sensor) * middle_m *
+                           sensor.range.cell_m / cosine;
+    const double azimuth_rad = sensors::column_middle_rad(sensor.scan, 3);
+    world.targets.push_back({.name = "vent",
+                             .rcs = materials::ConstantRcs{over_roof * roof_m2},
+                             .path = {{0.0,
+                                       {middle_m * cosine * std::sin(azimuth_rad),
+                                        middle_m * cosine * std::cos(azimuth_rad), 20.5}}}});
+    const renderer::LayerSet truth = truth_of(world, 100.0, false);
+    const std::size_t i = static_cast<std::size_t>(row) * 8 + 3;
+    INFO(over_roof << " of the roof");
+    CHECK((truth.material[i] == renderer::kNoMaterial) == (over_roof > 1.0));
+  }
+}
+
+// A wall 2 deg off the line of sight crosses the column's width within 125 m of range.
+TEST_CASE("An oblique wall is seen at its own azimuths in each of its cells", "[layer_slices]") {
+  const sensors::Sensor sensor = tests::hivision(8);
+  for (const double side : {-1.0, 1.0}) {
+    const double turn_rad = side * core::radians(2.0);
+    const double azimuth_rad = sensors::column_middle_rad(sensor.scan, 3);
+    const glm::dvec2 middle_m(1000.0 * std::sin(azimuth_rad), 1000.0 * std::cos(azimuth_rad));
+    const glm::dvec2 along(std::sin(azimuth_rad + turn_rad), std::cos(azimuth_rad + turn_rad));
+    const glm::dvec2 across(along.y, -along.x);
+    // The wall is the long side that faces the antenna's left or right.
+    const glm::dvec2 a = middle_m - along * 200.0, b = middle_m + along * 200.0;
+    const glm::dvec2 thick = across * (side > 0.0 ? -30.0 : 30.0);
+    tests::Body wall = tests::building({side > 0.0 ? terrain::Ring_m{a, a + thick, b + thick, b}
+                                                   : terrain::Ring_m{a, b, b + thick, a + thick},
+                                        {},
+                                        -2.0,
+                                        60.0},
+                                       0, 0);
+    wall.mesh.object_of_part = {1};
+    const renderer::World world =
+        tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
+                     {materials::PhongNrcs(0.5, 0.0, 1.0)}, {wall});
+    const renderer::LayerSet truth = truth_of(world, 20.0, false);
+    int cells = 0;
+    for (int row = 0; row < sensor.range.cells; ++row) {
+      const std::size_t i = static_cast<std::size_t>(row) * 8 + 3;
+      const double range_m = sensors::range_middle_m(sensor.range, row);
+      // Behind its middle the slice's ground is dark: the wall alone is left.
+      if (range_m < 1015.0 || range_m > 1050.0 || truth.object[i] != 1) continue;
+      ++cells;
+      INFO("side " << side << ", " << range_m << " m");
+      CHECK(truth.visibility[i] > 0.0F);
+      CHECK(truth.visibility[i] < 0.2F);
+    }
+    CHECK(cells >= 3);
+  }
+}
+
+TEST_CASE("A building of many materials is one object", "[layer_slices]") {
+  const auto part = [](double power_W, terrain::ObjectId object, terrain::MaterialId material) {
+    return renderer::LayerEcho{.power_W = power_W, .object = object, .material = material};
+  };
+  std::vector<renderer::LayerEcho> parts{part(0.35, 4, 1), part(0.30, 4, 2), part(0.35, 0, 3)};
+  for (int turn = 0; turn < 3; ++turn) {
+    std::rotate(parts.begin(), parts.begin() + 1, parts.end());
+    renderer::LayerCells cells;
+    cells.clear(1);
+    for (const renderer::LayerEcho& echo : parts) cells.add(0, 1U, echo);
+    renderer::LayerSet set{.visibility = {0.0F},
+                           .grazing_rad = {0.0F},
+                           .nrcs = {0.0F},
+                           .material = {0},
+                           .object = {0}};
+    cells.write(0, 1, set);
+    CHECK(set.object[0] == 4);
+    CHECK(set.material[0] != 3);
+  }
 }
 
 TEST_CASE("A cell tells what sends more than half of its power, in any order", "[layer_slices]") {

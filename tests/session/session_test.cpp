@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/units.h"
+#include "session/products/products.h"
 #include "tests/scenes/scene_folder.h"
 
 namespace {
@@ -186,6 +187,10 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
   sampling.sub_columns = 0;
   sampling.rays_per_cell = std::nan("");
   CHECK(problems_of([&] { session->set(sampling); }) == 2);
+  // Cells so far away get nothing of a ray by the plan's bounds.
+  sampling = renderer::sampling_for(renderer::kFewestRaysPerCell);
+  sampling.gap_cells *= 1.01;
+  CHECK(problems_of([&] { session->set(sampling); }) == 1);
   const session::TargetState bright{.name = "mast",
                                     .position = {core::radians(52.0), 0.17, 50.0},
                                     .rcs = materials::ConstantRcs{std::nan("")}};
@@ -364,4 +369,9 @@ TEST_CASE("Where nobody asks for heights, a shadow C-scope costs a plan nothing"
   CHECK(bound_grey(true) == 255.0);  // a little loss may raise or hide a whole obstacle
   CHECK(bound_grey(false) > 0.0);
   CHECK(bound_grey(false) < 10.0);
+  // So with products of the B-scope alone.
+  CHECK_FALSE(session::show_heights({"bscope", "layers", "masks", "detections"}));
+  for (const char* product :
+       {"cscope", "figure", "preview", "obstacles", "cscope_layers", "labels"})
+    CHECK(session::show_heights({"bscope", product}));
 }

@@ -35,6 +35,7 @@ struct VisiblePieces {
   alignas(64) Column<double> nearer_m, farther_m;
   // Of the wedge, what the piece stands for and what lies left of that: 1 and 0 beside buildings.
   alignas(64) Column<double> share, left;
+  alignas(64) Column<std::int32_t> right_nearer;  // of an oblique wall's ends: 1 or 0
 
   int count = 0;
   bool full() const { return count == kCapacity; }

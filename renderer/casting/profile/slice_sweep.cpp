@@ -288,6 +288,7 @@ void SliceSweep::add_wall(const WallPart& part, double from_m, double top_m,
     pieces_->facet_m[i] = part.facet_m;
     pieces_->nearer_m[i] = part.nearer_m * range_per_distance;
     pieces_->farther_m[i] = part.farther_m * range_per_distance;
+    pieces_->right_nearer[i] = part.right_nearer ? 1 : 0;
     pieces_->material[i] = prism.wall;
     pieces_->object[i] = prism.object;
     set_part(i, range);

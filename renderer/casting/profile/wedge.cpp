@@ -65,6 +65,7 @@ WallPart Wedge::wall(const CutEdge& edge, const HeadingRange& part) const {
   const double right_m = crossing_m(edge, toward(part.right_rad)) - wall.distance_m;
   wall.nearer_m = std::min({left_m, right_m, 0.0});
   wall.farther_m = std::max({left_m, right_m, 0.0});
+  wall.right_nearer = right_m < left_m;
   wall.facet_m = facet_m(edge);
   return wall;
 }

@@ -24,7 +24,8 @@ struct HeadingRange {
 struct WallPart {
   double distance_m = 0.0;                 // horizontal, in its middle
   double nearer_m = 0.0, farther_m = 0.0;  // of its ends: at most 0, at least 0
-  double facet_m = 0.0;                    // from the sensor to the wall's plane
+  bool right_nearer = false;
+  double facet_m = 0.0;  // from the sensor to the wall's plane
 };
 
 class Wedge {

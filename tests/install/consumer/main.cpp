@@ -46,6 +46,17 @@ int main(int argc, char** argv) try {
   render(2);
   other.join();
 
+  // The truck drives on by 200 m, which moves its echo and nothing else.
+  truck.position = opened->frame.to_geodetic(opened->frame.to_local_m(first.position) +
+                                             glm::dvec3(0.0, 1200.0, -10.0));
+  session.set(std::span(&truck, 1));
+  const renderer::Frame later = session.render(first, 0, {});
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < later.bscope_W.size(); ++i)
+    moved += later.bscope_W[i] != frames[0].bscope_W[i] ? 1 : 0;
+  std::printf("%zu cells differ when the truck has moved\n", moved);
+  if (moved == 0 || moved > later.bscope_W.size() / 10) return 1;
+
   core::write_png("bscope.png",
                   sensors::bscope_picture(opened->description.sensor, frames[0].bscope_grey), {});
   for (const renderer::Frame& frame : frames) {
