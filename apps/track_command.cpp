@@ -162,6 +162,7 @@ nlohmann::ordered_json json_of_tracks(const core::HighwayScenario& scenario,
     nlohmann::ordered_json one = {{"track", track.id},
                                   {"range_m", place.range_m},
                                   {"range_rate_mps", place.range_rate_mps},
+                                  {"existence_probability", track.existence.probability()},
                                   {"identity_probability", track.identity_probability}};
     if (const int target = target_of(outcome.score, track.id); target >= 0) {
       const auto i = static_cast<std::size_t>(target);
@@ -222,13 +223,13 @@ void print(const core::HighwayScenario& scenario, const Outcome& outcome) {
     if (!track.confirmed) continue;
     const int target = target_of(score, track.id);
     const std::string truth =
-        target < 0
-            ? std::string("no target there")
-            : fmt::format("{} at {:.3f} m", scenario.targets[static_cast<std::size_t>(target)].id,
-                          outcome.last.truth[static_cast<std::size_t>(target)].range_m);
-    fmt::print(
-        "     track {} ends at {:.3f} m, {}; its identity is right with probability {:.6g}\n",
-        track.id, polar(track.state).range_m, truth, track.identity_probability);
+        target < 0 ? std::string("no target there")
+                   : fmt::format("{} at {:.3f} m, its identity right with probability {:.6g}",
+                                 scenario.targets[static_cast<std::size_t>(target)].id,
+                                 outcome.last.truth[static_cast<std::size_t>(target)].range_m,
+                                 track.identity_probability);
+    fmt::print("     track {} ends at {:.3f} m, exists with probability {:.6g}: {}\n", track.id,
+               polar(track.state).range_m, track.existence.probability(), truth);
   }
 }
 
@@ -270,7 +271,12 @@ int track(const TrackOptions& options, const CommonOptions& common) {
           : fs::path(options.output);
   check_output(folder);
   const core::HighwayRadar radar = radar_of(options, file.radar);
-  if (options.study) return track_study(chosen, radar, options.seed, folder, common);
+  if (options.study) {
+    std::vector<StudyScenario> studied;
+    for (const core::HighwayScenario* scenario : chosen)
+      studied.push_back({scenario, radar_of(options, scenario->radar)});
+    return track_study(studied, radar, options.seed, folder, common);
+  }
   nlohmann::ordered_json json = {{"version", session::version_text()},
                                  {"commit", session::commit_text()},
                                  {"seed", options.seed},
@@ -289,7 +295,8 @@ int track(const TrackOptions& options, const CommonOptions& common) {
     write(options, *scenario, outcome, folder / scenario->id);
     if (!common.quiet) print(*scenario, outcome);
     json["scenarios"].push_back(json_of(*scenario, outcome));
-    json["scenarios"].back()["waveform"] = scheme_of(options, *scenario);
+    json["scenarios"].back()["waveform"] =
+        options.samples ? "two-stage" : scheme_of(options, *scenario);
     json["scenarios"].back()["noise_figure"] = own.noise_figure;
     json["scenarios"].back()["range_only"] = own.array_elements < 2;
     const double frames = outcome.score.gospa_m.count();

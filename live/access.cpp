@@ -68,6 +68,10 @@ Access::Access(std::string token, const core::Place& from) : token_(std::move(to
 std::optional<Answer> Access::refuse(const Request& request) const {
   if (!request.origin.empty() && request.origin != "http://" + request.host)
     return refusal(403, "a page of another origin may not ask");
+  // Pictures and scripts of a page come without Origin; links lead here from anywhere.
+  const std::string& site = request.fetch_site;
+  if ((site == "cross-site" || site == "same-site") && request.fetch_mode != "navigate")
+    return refusal(403, "a page of another origin may not ask");
   if (!has_token()) {
     if (is_here(request.host)) return std::nullopt;
     return refusal(403, "this machine answers to its own name alone");

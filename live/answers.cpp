@@ -135,6 +135,8 @@ Json truth_json(const CellTruth& cell) {
   told["visibility"] = cell.visibility;
   told["double_bounce"] = cell.double_bounce;
   told["grazing_deg"] = core::degrees(cell.grazing_rad);
+  if (cell.elevation_rad) told["elevation_deg"] = core::degrees(*cell.elevation_rad);
+  if (cell.range_m) told["range_m"] = *cell.range_m;
   told["nrcs_dB"] = cell.nrcs > 0.0 ? Json(10.0 * std::log10(cell.nrcs)) : Json(nullptr);
   return told;
 }

@@ -48,7 +48,7 @@ class Channel {
       const auto next =
           static_cast<std::uint64_t>(std::max(0.0, std::floor(maker_.now_s() / period_s_)));
       if (next > tick) {
-        if (!status.waiting) ++status.late;
+        if (!status.waiting) status.late += next - tick;
         tick = next;
       }
     }

@@ -1,12 +1,14 @@
 // Keeps out packets that come twice, late, or from another time, by the simulator's own clock.
 //
-// A packet at most a second ahead of the last one is taken. One that is not ahead of it is late, or
+// A packet at most a second ahead of the last one is taken, or as far as goes with the time since that one
+// came: a simulator that draws less than once a second sends no more often. One that is not ahead of it is late, or
 // came twice; but a clock that stands while packets go on coming is a paused simulator, whose
 // aircraft stands too. Anything else is a jump: it waits, and counts when the next packet follows
 // from it. So no single packet, whatever its time, locks out those that follow (hard case F12), and a
 // restart is followed on its second packet. Pure.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "feeds/aircraft_state.h"
@@ -17,8 +19,9 @@ class ClockGate {
  public:
   // none, late or jump. Finite times; `arrived_s` rises.
   feeds::PacketFault take(double clock_s, double arrived_s) {
-    constexpr double kStep_s = 1.0, kPaused_s = 0.02;
-    const auto follows = [](double ahead_s) { return ahead_s > 0.0 && ahead_s <= kStep_s; };
+    constexpr double kStep_s = 1.0, kPaused_s = 0.02, kFaster = 1.5;
+    const double step_s = std::max(kStep_s, kFaster * (arrived_s - arrived_s_));
+    const auto follows = [&](double ahead_s) { return ahead_s > 0.0 && ahead_s <= step_s; };
     const double ahead_s = last_s_ ? clock_s - *last_s_ : kStep_s;
     const bool paused = ahead_s == 0.0 && arrived_s - arrived_s_ >= kPaused_s;
     if (!follows(ahead_s) && !paused && !(jumped_s_ && follows(clock_s - *jumped_s_))) {

@@ -43,7 +43,7 @@ struct LiveFrame {
 struct Status {
   std::string scene, source, caster;
   std::uint64_t frames = 0;
-  std::uint64_t late = 0;  // took longer than a period: ticks were left out
+  std::uint64_t late = 0;  // ticks left out, as frames took longer than a period
   // Took more processor time than a period has on all its threads: late on any machine, however quiet.
   std::uint64_t late_by_processor = 0;
   std::uint64_t refused = 0;                // poses that nothing can be rendered at

@@ -28,7 +28,9 @@ Request request_of(const HttpRequest& request) {
           text_of(request[http::field::content_type]),
           request.body(),
           text_of(request[http::field::authorization]),
-          text_of(request[http::field::cookie])};
+          text_of(request[http::field::cookie]),
+          text_of(request["Sec-Fetch-Site"]),
+          text_of(request["Sec-Fetch-Mode"])};
 }
 
 // A connection until it ends or becomes a viewer.
@@ -170,10 +172,20 @@ struct Network::Inside {
   void accept(tcp::acceptor& acceptor) {
     acceptor.async_accept([this, &acceptor](error_code error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
+      if (error) return accept_later(acceptor);
       // One too many is closed at once.
-      if (!error && room.connections < kMostConnections)
+      if (room.connections < kMostConnections)
         std::make_shared<Visitor>(std::move(socket), room)->read();
       accept(acceptor);
+    });
+  }
+
+  // No descriptors are left, say: to try at once would be a busy loop.
+  void accept_later(tcp::acceptor& acceptor) {
+    const auto pause =
+        std::make_shared<asio::steady_timer>(context, std::chrono::milliseconds(100));
+    pause->async_wait([this, &acceptor, pause](error_code error) {
+      if (!error) accept(acceptor);
     });
   }
 

@@ -10,6 +10,7 @@ struct Request {
   std::string host, origin, content_type;
   std::string body;
   std::string authorization{}, cookie{};
+  std::string fetch_site{}, fetch_mode{};  // Sec-Fetch-Site and -Mode, which browsers send
 };
 
 struct Answer {

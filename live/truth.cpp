@@ -69,6 +69,10 @@ std::optional<CellTruth> Truth::at(std::uint64_t frame, Scope scope, int column,
   cell.grazing_rad = static_cast<double>(set.grazing_rad[i]);
   cell.nrcs = static_cast<double>(set.nrcs[i]);
   cell.double_bounce = static_cast<double>(set.double_bounce[i]);
+  if (bscope)
+    cell.elevation_rad = static_cast<double>(set.elevation_rad[i]);
+  else
+    cell.range_m = static_cast<double>(set.range_m[i]);
   if (set.material[i] < materials.size()) cell.material = materials[set.material[i]];
   cell.seen = set.material[i] != renderer::kNoMaterial || set.object[i] != terrain::kTerrainObject;
   if (cell.seen) cell.object = object_name(world, set.object[i]);

@@ -23,6 +23,8 @@ struct CellTruth {
   std::string material, object;
   double visibility = 0.0, grazing_rad = 0.0, double_bounce = 0.0;
   double nrcs = 0.0;  // mean sigma0, linear
+  // Of the B-scope's cells and of the C-scope's: what the other picture's axis would say.
+  std::optional<double> elevation_rad, range_m;
 };
 
 class Truth {

@@ -186,6 +186,7 @@ int track_own_data(const TrackOptions& options, const CommonOptions& common) {
     session::write_plots(outcome.history.plan(source->name), folder / "plan");
   }
   if (common.quiet) return kExitDone;
+  print_problems(source->warnings);
   print(*source, outcome);
   fmt::print("record {}\n", fs::absolute(folder / "run.json").lexically_normal().string());
   return kExitDone;

@@ -47,6 +47,7 @@ class OwnSource {
   std::string name, kind;  // "street-76ghz", "scene"
   double radar_speed_mps = 0.0, frame_s = 0.05, most_range_m = 1e6;
   std::optional<tracking::Resolution> resolution{};  // where the radar is known
+  std::vector<core::Problem> warnings{};             // of the scene, and of folding, once
 };
 
 // What INPUT may be.

@@ -51,6 +51,7 @@ class SceneSource : public OwnSource {
     if (!radar_file.empty()) session::read_radar_file(radar_file, settings_, problems);
     problems.throw_if_errors();
     scene_ = session::Session(description, {}, problems).scene();
+    warnings = problems.all();
     const sensors::Sensor& sensor = scene_->description.sensor;
     const auto radar = [&] { return session::fmcw_radar(settings_, sensor); };
     radar_ = radar_file.empty() ? radar() : session::radar_in_file(radar_file, radar);
@@ -76,6 +77,10 @@ class SceneSource : public OwnSource {
     const session::FmcwFrame found = session::fmcw_frame(
         radar_, scene_->description.sensor, paths.paths, index, settings_, kDetections,
         {scene_->plan, scene_->accuracy_grey, scene_->options.wishes}, paths.interferers);
+    if (!folding_told_ && !found.warnings.empty()) {
+      warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+      folding_told_ = true;
+    }
     const session::DetectedFrame made = detected(found, time_of(index));
     OwnFrame frame{
         made.time_s, made.detections.size(), session::measurements_of(made, &radar_, errors_), {}};
@@ -97,6 +102,7 @@ class SceneSource : public OwnSource {
   std::shared_ptr<const scenes::Scene> scene_;
   session::FmcwRadar radar_;
   std::vector<int> indices_;
+  bool folding_told_ = false;
 };
 
 class DetectionSource : public OwnSource {

@@ -6,9 +6,9 @@
 
 namespace fanbeam::apps {
 
-int track_study(const std::vector<const core::HighwayScenario*>& scenarios,
-                const core::HighwayRadar& radar, std::uint64_t seed,
-                const std::filesystem::path& folder, const CommonOptions& common) {
+int track_study(const std::vector<StudyScenario>& scenarios, const core::HighwayRadar& radar,
+                std::uint64_t seed, const std::filesystem::path& folder,
+                const CommonOptions& common) {
   std::string page;
   const auto add = [&](const char* what, const StudyPart& part) {
     page += part.text + "\n";
@@ -22,7 +22,7 @@ int track_study(const std::vector<const core::HighwayScenario*>& scenarios,
   add("noise figure", study_noise_figure(radar, seed));
   add("noise and reflections", study_reflections(radar, seed));
   add("ghosts", study_ghosts(radar, seed));
-  add("waveforms and associations", study_tracks(scenarios, radar, seed));
+  add("waveforms and associations", study_tracks(scenarios, seed));
   add("crossings", study_crossing(seed));
   while (page.ends_with("\n\n")) page.pop_back();
   core::write_file_atomically(folder / "study.md", page);

@@ -11,6 +11,12 @@
 
 namespace fanbeam::apps {
 
+// With the file's radar, the scenario's own changes and the options' in it.
+struct StudyScenario {
+  const core::HighwayScenario* scenario;
+  core::HighwayRadar radar;
+};
+
 // A table of Markdown, and the plots that belong to it, by file name without ending.
 struct StudyPart {
   std::string text;
@@ -29,15 +35,14 @@ StudyPart study_reflections(const core::HighwayRadar& radar, std::uint64_t seed)
 // speeds within 60 m/s, one beam, a match within 1 m and 1 m/s, 200 frames.
 StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed);
 // Waveforms x associations in each scenario, 10 runs each; and from samples, one.
-StudyPart study_tracks(const std::vector<const core::HighwayScenario*>& scenarios,
-                       const core::HighwayRadar& radar, std::uint64_t seed);
+StudyPart study_tracks(const std::vector<StudyScenario>& scenarios, std::uint64_t seed);
 // Swaps of a pair 3 km/h apart over what is known of its speeds: the closed form, what the tracker
 // would say on average, and what happens.
 StudyPart study_crossing(std::uint64_t seed);
 
-// Writes study.md and its plots into `folder`.
-int track_study(const std::vector<const core::HighwayScenario*>& scenarios,
-                const core::HighwayRadar& radar, std::uint64_t seed,
-                const std::filesystem::path& folder, const CommonOptions& common);
+// Writes study.md and its plots into `folder`. `radar` is the file's, for what has no scenario.
+int track_study(const std::vector<StudyScenario>& scenarios, const core::HighwayRadar& radar,
+                std::uint64_t seed, const std::filesystem::path& folder,
+                const CommonOptions& common);
 
 }  // namespace fanbeam::apps

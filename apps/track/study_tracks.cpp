@@ -150,32 +150,33 @@ StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed) {
   return part;
 }
 
-StudyPart study_tracks(const std::vector<const core::HighwayScenario*>& scenarios,
-                       const core::HighwayRadar& radar, std::uint64_t seed) {
+StudyPart study_tracks(const std::vector<StudyScenario>& scenarios, std::uint64_t seed) {
   StudyPart part;
   part.text =
       "| scenario | waveform | association | GOSPA, m | MOTA | false tracks in a scan | switches | "
       "range, mm rms | tracker, ms a scan |\n|---|---|---|---|---|---|---|---|---|\n";
   std::string sampled_rows;
-  for (const core::HighwayScenario* scenario : scenarios) {
+  for (const StudyScenario& one : scenarios) {
+    const core::HighwayScenario& scenario = *one.scenario;
+    const core::HighwayRadar& radar = one.radar;
     for (const Named& waveform : kSchemes)
       for (const auto association :
            {tracking::Association::nearest, tracking::Association::joint}) {
         tracking::SimulationSettings settings;
         settings.scheme = waveform.scheme;
         part.text +=
-            row(scenario->id, waveform.name,
+            row(scenario.id, waveform.name,
                 association == tracking::Association::joint ? "joint" : "nearest",
-                tracked(*scenario, radar, association, kTrackRuns, false, [&](int run, int frame) {
-                  return simulated_frame(*scenario, radar, settings, seed,
+                tracked(scenario, radar, association, kTrackRuns, false, [&](int run, int frame) {
+                  return simulated_frame(scenario, radar, settings, seed,
                                          static_cast<std::uint32_t>(run), frame);
                 }));
       }
     const tracking::SampledRadar sampled(radar);
     sampled_rows += row(
-        scenario->id, "two stages, from samples", "nearest; time of all",
-        tracked(*scenario, radar, tracking::Association::nearest, 1, true, [&](int run, int frame) {
-          return sampled.measure(*scenario, seed, static_cast<std::uint32_t>(run), frame);
+        scenario.id, "two stages, from samples", "nearest; time of all",
+        tracked(scenario, radar, tracking::Association::nearest, 1, true, [&](int run, int frame) {
+          return sampled.measure(scenario, seed, static_cast<std::uint32_t>(run), frame);
         }));
   }
   part.text += sampled_rows;

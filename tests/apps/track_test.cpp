@@ -100,7 +100,7 @@ TEST_CASE("track prints the probability of a swap after a crossing, and where ea
   INFO(result.output);
   REQUIRE(result.exit_code == 0);
   CHECK(result.output.find("exchanged with probability") != std::string::npos);
-  CHECK(result.output.find("its identity is right with probability") != std::string::npos);
+  CHECK(result.output.find("exists with probability") != std::string::npos);
   const auto record = nlohmann::json::parse(tests::results(out).at("run.json"));
   CHECK(record["scenarios"][0]["range_only"] == true);
   CHECK(record["scenarios"][0]["noise_figure"].get<double>() == Approx(10.0));

@@ -38,6 +38,24 @@ TEST_CASE("Without a token this machine's own names alone may ask", "[access]") 
     CHECK(status_of(access, asking("/", host)) == 403);
 }
 
+// Pictures of a page come without Origin, links lead here from anywhere.
+TEST_CASE("A page of another site may link here, and show nothing of it", "[access]") {
+  const Access access;
+  Request request = asking("/api/cell", "127.0.0.1:8416");
+  for (const char* site : {"cross-site", "same-site"}) {
+    request.fetch_site = site;
+    request.fetch_mode = "no-cors";
+    CHECK(status_of(access, request) == 403);
+    request.fetch_mode = "navigate";
+    CHECK(status_of(access, request) == 200);
+  }
+  request.fetch_mode = "no-cors";
+  for (const char* site : {"same-origin", "none", ""}) {
+    request.fetch_site = site;
+    CHECK(status_of(access, request) == 200);
+  }
+}
+
 TEST_CASE("A page of another origin may not ask, token or not", "[access]") {
   for (const Access& access : {Access(), Access(kToken, {})}) {
     Request request = asking("/", "localhost:8416");

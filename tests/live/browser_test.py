@@ -181,8 +181,18 @@ class Page(unittest.TestCase):
         low.send_keys("-35", Keys.TAB)  # black where -55 dB was: darker
         self.wait(lambda: self.far_mean() < mean - 10, "darker picture")
         self.assertEqual(self.js("fetch('/api/sensor').then(answer => answer.json())")["low_dB"], -35)
+        # The tilt leaves the levels alone, and the other way round.
+        sensor = lambda: self.js("fetch('/api/sensor').then(answer => answer.json())")
+        tilt_deg = sensor()["tilt_deg"]
+        self.page.find_element("id", "tilt").send_keys(Keys.ARROW_RIGHT)
+        self.wait(lambda: sensor()["tilt_deg"] > tilt_deg, "another tilt")
+        self.assertEqual(sensor()["low_dB"], -35)
+        tilt_deg = sensor()["tilt_deg"]
         low.clear()
         low.send_keys("-55", Keys.TAB)
+        self.wait(lambda: sensor()["low_dB"] == -55, "levels as they were")
+        self.assertEqual(sensor()["tilt_deg"], tilt_deg)
+        self.page.find_element("id", "tilt").send_keys(Keys.ARROW_LEFT)
         self.wait(lambda: self.far_mean() > mean - 10, "picture as it was")
 
     def test_the_plan_view_shows_the_picture_and_outlines_the_runway(self):

@@ -250,3 +250,17 @@ TEST_CASE("F13 a step of the simulator's clock counts from its second packet, a 
     CHECK(take(50.2) == PacketFault::none);
   }
 }
+
+TEST_CASE("A simulator that draws less than once a second is followed packet by packet", "[feed]") {
+  for (const double step_s : {0.06, 0.9, 1.6, 5.0}) {
+    live::ClockGate gate;
+    int taken = 0;
+    for (int i = 0; i < 20; ++i)
+      taken += gate.take(100.0 + step_s * i, 7.0 + 0.98 * step_s * i) == feeds::PacketFault::none;
+    INFO(step_s << " s between packets");
+    CHECK(taken == 20);
+    // But a clock that runs away from the time that passes waits for its second packet.
+    CHECK(gate.take(100.0 + step_s * 20 + 900.0, 7.0 + 0.98 * step_s * 20) ==
+          feeds::PacketFault::jump);
+  }
+}

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <memory>
+#include <numeric>
 
 #include "renderer/casting/fan_layout.h"
 #include "renderer/casting/ray_caster.h"
@@ -48,8 +49,10 @@ inline Body city(const std::function<bool(double, double)>& built, double share)
   terrain::Extrusion extrusion = terrain::extrude(prisms, "city", {}, problems);
   problems.throw_if_errors();
   terrain::Solids solids;
-  terrain::add_solids(prisms, extrusion, kWall, kRoof, {}, solids);
-  return {{std::move(extrusion.mesh), {kWall, kRoof}}, std::move(solids)};
+  std::vector<terrain::ObjectId> objects(prisms.size());
+  std::iota(objects.begin(), objects.end(), 1U);
+  terrain::add_solids(prisms, extrusion, kWall, kRoof, objects, solids);
+  return {{std::move(extrusion.mesh), {kWall, kRoof}, std::move(objects)}, std::move(solids)};
 }
 
 inline renderer::World city_world(const sensors::Sensor& sensor,

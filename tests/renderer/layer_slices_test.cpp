@@ -39,7 +39,8 @@ TEST_CASE("Over a city slices and rays tell the same but for their sampling", "[
   for (const bool of_cscope : {false, true}) {
     const renderer::LayerSet a = truth_of(by_slices, 120.0, of_cscope);
     const renderer::LayerSet b = truth_of(by_rays, 120.0, of_cscope);
-    int lit = 0, lit_once = 0, other_material = 0, other_grazing = 0;
+    int lit = 0, lit_once = 0, other_material = 0, other_object = 0, other_grazing = 0,
+        other_nrcs = 0, other_range = 0;
     double slices_share = 0.0, rays_share = 0.0;
     for (std::size_t i = 0; i < a.visibility.size(); ++i) {
       slices_share += static_cast<double>(a.visibility[i]);
@@ -48,17 +49,52 @@ TEST_CASE("Over a city slices and rays tell the same but for their sampling", "[
       if (!(a.visibility[i] > 0.0F && b.visibility[i] > 0.0F)) continue;
       ++lit;
       if (a.material[i] != b.material[i]) ++other_material;
+      if (a.object[i] != b.object[i]) ++other_object;
       if (std::abs(a.grazing_rad[i] - b.grazing_rad[i]) > 0.1F) ++other_grazing;
+      if (std::abs(std::log10(a.nrcs[i] / b.nrcs[i])) > 0.1F) ++other_nrcs;  // 1 dB
+      if (of_cscope && std::abs(a.range_m[i] - b.range_m[i]) > 0.01F * b.range_m[i]) ++other_range;
     }
     INFO("C-scope " << of_cscope << ", " << lit << " lit by both, " << lit_once << " by one, "
-                    << other_material << " of other material, " << other_grazing
-                    << " grazing angles");
+                    << other_material << " materials, " << other_object << " objects, "
+                    << other_grazing << " grazing angles, " << other_nrcs << " NRCS, "
+                    << other_range << " ranges differ");
     CHECK(lit > 2000);
     CHECK(share(lit_once, lit) < 0.06);
     CHECK(share(other_material, lit) < 0.04);
+    CHECK(share(other_object, lit) < 0.06);
     CHECK(share(other_grazing, lit) < 0.08);
+    CHECK(share(other_nrcs, lit) < 0.1);
+    CHECK(share(other_range, lit) < 0.06);
     CHECK(slices_share == Approx(rays_share).epsilon(0.03));
   }
+}
+
+TEST_CASE("Columns beside what slices cannot show have the slices' truth", "[layer_slices]") {
+  constexpr std::size_t kColumns = 40;
+  const sensors::Sensor sensor = tests::narrow(static_cast<int>(kColumns));
+  const auto truth_beside = [&](const std::vector<terrain::Box_m>& others) {
+    renderer::World world = tests::city_world(sensor, tests::everywhere);
+    tests::solids_of(world).others = others;
+    return truth_of(world, 120.0, false);
+  };
+  const renderer::LayerSet slices = truth_beside({}),
+                           rays = truth_beside({{{-5e3, -5e3, -10.0}, {5e3, 5e3, 100.0}}}),
+                           both = truth_beside({{{20.0, 300.0, 0.0}, {40.0, 320.0, 30.0}}});
+  const auto alike = [&](const renderer::LayerSet& other, std::size_t column) {
+    for (std::size_t i = column; i < both.visibility.size(); i += kColumns)
+      if (both.visibility[i] != other.visibility[i] || both.nrcs[i] != other.nrcs[i] ||
+          both.material[i] != other.material[i] || both.object[i] != other.object[i])
+        return false;
+    return true;
+  };
+  std::size_t by_slices = 0, by_rays = 0;
+  for (std::size_t column = 0; column < kColumns; ++column) {
+    by_slices += alike(slices, column) ? 1 : 0;
+    by_rays += alike(rays, column) ? 1 : 0;
+  }
+  CHECK(by_slices + by_rays == kColumns);
+  CHECK(by_slices > kColumns / 2);
+  CHECK(by_rays > 2);
 }
 
 // Elevations beyond the cut send nothing back, whatever stands there.

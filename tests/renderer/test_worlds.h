@@ -102,7 +102,7 @@ inline renderer::World world(const sensors::Sensor& sensor,
   terrain::Solids solids;
   for (Body& body : bodies) {
     for (terrain::Solid& solid : body.solids.prisms) {
-      if (!body.mesh.object_of_part.empty()) solid.object = body.mesh.object_of_part.front();
+      if (body.mesh.object_of_part.size() == 1) solid.object = body.mesh.object_of_part.front();
       solids.prisms.push_back(std::move(solid));
     }
     meshes.push_back(std::move(body.mesh));

@@ -222,6 +222,28 @@ TEST_CASE("A pair unresolved for too long is given up, and set aside again at th
   for (const int id : ids) CHECK(track_of(tracker, id) != nullptr);
 }
 
+// Two cars that a lorry hides are no surer than one.
+TEST_CASE("An unresolved pair of which nothing is measured coasts and ends as any track",
+          "[tracker]") {
+  const TrackerSettings settings = settings_for();
+  Tracker tracker(settings);
+  int frame = 0;
+  double apart_m = 4.0;
+  for (; apart_m > 1.2; apart_m -= 0.04)
+    tracker.update(0.05 * frame++, {at(60.0, 0.0), at(60.0 + apart_m, -0.8, 0.001)});
+  REQUIRE(confirmed(tracker) == 2);
+  for (int i = 0; i < 10; ++i) tracker.update(0.05 * frame++, {at(60.0, 0.0)});
+  REQUIRE(confirmed(tracker) == 2);
+  const double before = tracker.tracks()[0].existence.probability();
+  for (int i = 0; i < settings.most_coasted; ++i) {
+    tracker.update(0.05 * frame++, {});
+    REQUIRE(confirmed(tracker) == 2);
+  }
+  CHECK(tracker.tracks()[0].existence.probability() < 0.9 * before);
+  for (int i = 0; i < 2; ++i) tracker.update(0.05 * frame++, {});
+  CHECK(confirmed(tracker) == 0);
+}
+
 TEST_CASE("A track whose partner is gone takes part again with all of its coasting before it",
           "[tracker]") {
   // Both are one from the third frame on; the right one drifts out of the field of view.
@@ -233,7 +255,8 @@ TEST_CASE("A track whose partner is gone takes part again with all of its coasti
     tracker.update(0.05 * frame, {at(60.0, 0.0, -0.04), at(60.0, 0.0, 0.05 + 0.002 * frame)});
   REQUIRE(confirmed(tracker) == 2);
   const int id = tracker.tracks()[0].id;
-  for (; frame < 100 && confirmed(tracker) == 2; ++frame) tracker.update(0.05 * frame, {});
+  for (; frame < 100 && confirmed(tracker) == 2; ++frame)
+    tracker.update(0.05 * frame, {at(60.0, 0.0, -0.04)});
   REQUIRE(confirmed(tracker) == 1);
   REQUIRE(frame > settings.most_coasted + 5);
   for (int last = frame + 3; frame < last; ++frame) tracker.update(0.05 * frame, {});

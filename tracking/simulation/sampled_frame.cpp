@@ -212,9 +212,12 @@ std::vector<signal::RangeSpeed> SampledRadar::folded(const Coarse& one) const {
   const auto chirps = signal::stage_segments(waveform_, kCoarse);
   const double middle_s = 0.5 * (chirps.front().middle_s() + chirps.back().middle_s());
   std::vector<signal::RangeSpeed> places;
-  for (const int fold : {0, -1, 1}) {
+  const double fold_mps = 0.5 * waveform_.wavelength_m() / repetition_s_;
+  const int most = static_cast<int>(std::ceil((kMostSpeed_mps + fold_mps) / fold_mps));
+  for (int k = 0; k <= 2 * most; ++k) {  // 0, -1, 1, -2, 2 ...
+    const int fold = k % 2 == 0 ? k / 2 : -(k + 1) / 2;
     const double more_Hz = fold / repetition_s_;
-    const double speed_mps = one.speed_mps + 0.5 * waveform_.wavelength_m() * more_Hz;
+    const double speed_mps = one.speed_mps + fold * fold_mps;
     if (std::abs(speed_mps) > kMostSpeed_mps) continue;
     const double range_m =
         one.range_m - core::kSpeedOfLight_mps / (2.0 * slope_Hz_per_s_) * more_Hz;

@@ -19,6 +19,7 @@ struct Track {
   double log_ratio = 0.0;
   std::optional<int> unresolved_with;  // id of the other one
   double unresolved_s = 0.0;           // so far
+  int unresolved_unseen = 0;           // frames since anything was measured of either
   std::optional<int> given_up_with;    // unresolved for too long, and not seen apart since
   Existence existence;                 // since it was confirmed
   // That the target is still the one the track started with.

@@ -116,8 +116,8 @@ void Tracker::end_and_confirm() {
   const auto ended = [&](const Track& track) {
     if (!track.confirmed) return track.frames >= settings_.confirm_window;
     const PolarPlace place = polar(track.state);
-    return (track.coasted > std::min(settings_.most_coasted, kCoastedPerHit * track.hits) &&
-            !track.unresolved_with) ||
+    const int coasted = track.unresolved_with ? track.unresolved_unseen : track.coasted;
+    return coasted > std::min(settings_.most_coasted, kCoastedPerHit * track.hits) ||
            place.range_m > settings_.most_range_m ||
            std::abs(place.azimuth_rad) > settings_.most_azimuth_rad;
   };

@@ -26,7 +26,9 @@
 //                 likelier of the two ways is taken and its probability
 //                 (tracking/association/crossing.h) goes into both tracks. Without azimuth the
 //                 prediction alone decides, and both have to be measured apart as well: what merged
-//                 beats leave of two ranges looks like two. After
+//                 beats leave of two ranges looks like two. Frames in which nothing is measured of
+//                 either are coasted as by any other track (with azimuth: without, merged beats may
+//                 leave nothing). After
 //                 `most_unresolved_s` they are given up: both take part again, are not set aside
 //                 with each other before they have been apart, and the one without measurements
 //                 ends
@@ -88,6 +90,8 @@ class Tracker {
   struct Frame;
 
   bool has_azimuth() const { return settings_.motion.axes() == 2; }
+  bool is_measured(const Track& track, const Frame& frame) const;
+  void coast_unresolved(double step_s, const Frame& frame);
   void find_unresolved(double step_s, const Frame& frame);
   std::optional<std::pair<std::size_t, std::size_t>> seen_apart(const Track& a, const Track& b,
                                                                 const Frame& frame) const;

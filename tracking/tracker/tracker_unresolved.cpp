@@ -18,12 +18,46 @@ void release(Track& track) {
 void set_aside(Track& track, const Track& with) {
   track.unresolved_with = with.id;
   track.unresolved_s = 0.0;
+  track.unresolved_unseen = 0;
 }
 
 }  // namespace
 
+bool Tracker::is_measured(const Track& track, const Frame& frame) const {
+  const QuickGate gate(track.state, measured_, gate_);
+  return std::any_of(frame.measurements.begin(), frame.measurements.end(),
+                     [&](const RadarMeasurement& one) {
+                       if (!gate.may_hold(one)) return false;
+                       const Update told = innovation(track.state, measured_, one);
+                       return told.applied && told.normalised_innovation_squared <= gate_;
+                     });
+}
+
+// Frames in which a pair shows nothing at all. Without azimuth merged beats may leave nothing.
+void Tracker::coast_unresolved(double step_s, const Frame& frame) {
+  if (!has_azimuth()) return;
+  std::vector<int> measured;  // ids
+  for (const Track& track : tracks_)
+    if (track.unresolved_with && is_measured(track, frame)) measured.push_back(track.id);
+  const auto is_in = [&](int id) {
+    return std::find(measured.begin(), measured.end(), id) != measured.end();
+  };
+  for (Track& track : tracks_) {
+    if (!track.unresolved_with) continue;
+    if (is_in(track.id) || is_in(*track.unresolved_with)) {
+      track.unresolved_unseen = 0;
+    } else {
+      ++track.unresolved_unseen;
+      track.existence.pass(step_s, settings_.believed_s);
+      track.existence.missed(settings_.detection.detection_probability *
+                             settings_.detection.gate_probability);
+    }
+  }
+}
+
 // Pairs stay together until `part` or time separates them.
 void Tracker::find_unresolved(double step_s, const Frame& frame) {
+  coast_unresolved(step_s, frame);
   std::vector<PolarPlace> places;
   for (Track& track : tracks_) {
     places.push_back(polar(track.state));
@@ -44,7 +78,8 @@ void Tracker::find_unresolved(double step_s, const Frame& frame) {
       }
       if (!a.confirmed || !b.confirmed || a.unresolved_with || b.unresolved_with ||
           a.given_up_with == b.id || b.given_up_with == a.id ||
-          (has_azimuth() && seen_apart(a, b, frame)))
+          (has_azimuth() &&
+           (seen_apart(a, b, frame) || !(is_measured(a, frame) || is_measured(b, frame)))))
         continue;
       set_aside(a, b);
       set_aside(b, a);
