@@ -34,8 +34,7 @@ class SurfaceMap {
 
   // Point is clamped to the grid.
   MaterialId material_at(double x_m, double y_m) const noexcept {
-    const std::size_t cell = cell_of(column_of(x_m), row_of(y_m));
-    return (cells_[cell] & kPatched) == 0 ? cells_[cell] : patched_cover(cell, x_m, y_m).material;
+    return cover_at(x_m, y_m).material;
   }
 
   // Of the patch on top, else of the terrain. Point is clamped to the grid.

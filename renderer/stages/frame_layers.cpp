@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "core/parallel.h"
 #include "renderer/casting/fan_layout.h"
@@ -56,42 +58,40 @@ FrameLayers unseen(const sensors::Sensor& sensor, bool with_cscope) {
   return layers;
 }
 
-// The slices of a frame, one in the middle of each column.
-struct ColumnSlices {
-  const SliceFrame& frame;
-  const LayerGrid& grid;
-};
-
 // Which azimuths of a column the line of that number stands for.
 AzimuthMask azimuths_of_line(int line) {
   return azimuths_in(static_cast<double>(line) / kLayerAzimuths, 1.0 / kLayerAzimuths);
 }
 
-// What is seen in each column, in the cells of both scopes.
+// What is seen in each column, in the cells of both scopes: of those marked in `by_rays` from rays, of
+// the others from `slices`, one in the middle of each column.
 class LayerColumns {
  public:
-  LayerColumns(const World& world, const sensors::AntennaFrame& antenna, bool with_cscope)
+  LayerColumns(const World& world, const sensors::AntennaFrame& antenna, bool with_cscope,
+               std::vector<std::uint8_t> by_rays, const LayerSlices* slices)
       : world_(world),
         with_cscope_(with_cscope),
-        lines_(world, antenna),
+        by_rays_(std::move(by_rays)),
+        slices_(slices),
         cell_m_(static_cast<float>(world.sensor.range.cell_m)),
-        row_rad_(static_cast<float>(cscope_row_rad(world.sensor.display))) {}
+        row_rad_(static_cast<float>(cscope_row_rad(world.sensor.display))) {
+    if (std::find(by_rays_.begin(), by_rays_.end(), 1) != by_rays_.end())
+      lines_.emplace(world, antenna);
+  }
 
-  // Columns [first, last), at most kBlockColumns: those marked in `by_rays` from rays, the others from
-  // `slices`.
-  void fill(int first, int last, const ColumnSlices* slices,
-            const std::vector<std::uint8_t>& by_rays,
-            const std::vector<std::vector<core::Echo>>& targets, FrameLayers& layers) const {
+  // Columns [first, last), at most kBlockColumns.
+  void fill(int first, int last, const std::vector<std::vector<core::Echo>>& targets,
+            FrameLayers& layers) const {
     thread_local std::array<LayerLine, kBlockLines> lines;
-    lines_.cast(first, last, by_rays, lines);
+    if (lines_) lines_->cast(first, last, by_rays_, lines);
     thread_local LayerCells ranges, rows;
     const sensors::Sensor& sensor = world_.sensor;
     for (int column = first; column < last; ++column) {
       ranges.clear(sensor.range.cells);
       rows.clear(with_cscope_ ? sensor.display.cscope_rows : 0);
       const auto of_column = static_cast<std::size_t>(column);
-      if (by_rays[of_column] == 0)
-        LayerSlices(slices->frame, slices->grid).add(of_column, ranges, rows);
+      if (by_rays_[of_column] == 0)
+        slices_->add(of_column, ranges, rows);
       else
         for (int k = 0; k < kLayerAzimuths; ++k)
           deposit(lines[static_cast<std::size_t>((column - first) * kLayerAzimuths + k)],
@@ -139,9 +139,9 @@ class LayerColumns {
   void fill_ranges(const LayerHit& a, const LayerHit& b, AzimuthMask azimuth,
                    LayerCells& ranges) const {
     const int gap = std::abs(b.cell - a.cell);
-    if (gap < 2 || !lines_.one_slope(a, b)) return;
+    if (gap < 2 || !lines_->one_slope(a, b)) return;
     const LayerGap between(a, b);
-    const bool ground = lines_.is_ground(a);
+    const bool ground = lines_->is_ground(a);
     const float height_rad = std::abs(b.elevation_rad - a.elevation_rad) / static_cast<float>(gap);
     for (int cell = std::min(a.cell, b.cell) + 1; cell < std::max(a.cell, b.cell); ++cell) {
       if (!in_gate(cell)) continue;
@@ -159,7 +159,7 @@ class LayerColumns {
     const int last = std::min(std::max(a.row, b.row), world_.sensor.display.cscope_rows) - 1;
     if (first > last) return;
     const LayerGap between(a, b);
-    const bool one = a.surface == b.surface, ground = one && lines_.is_ground(a);
+    const bool one = a.surface == b.surface, ground = one && lines_->is_ground(a);
     const float per_row = 1.0F / static_cast<float>(b.row - a.row);
     for (int row = first; row <= last; ++row) {
       const float share = static_cast<float>(row - a.row) * per_row;
@@ -195,7 +195,9 @@ class LayerColumns {
 
   const World& world_;
   bool with_cscope_;
-  LayerLines lines_;
+  std::vector<std::uint8_t> by_rays_;
+  const LayerSlices* slices_;
+  std::optional<LayerLines> lines_;  // where some column needs them
   float cell_m_, row_rad_;
 };
 
@@ -221,14 +223,14 @@ FrameLayers GroundTruth::of(const sensors::AntennaFrame& antenna,
   const sensors::Sensor& sensor = world_.sensor;
   FrameLayers layers = unseen(sensor, with_cscope);
   const std::vector<std::vector<core::Echo>> of_column = by_column(targets, sensor.scan);
-  const LayerColumns in_columns(world_, antenna, with_cscope);
-  const auto fill = [&](const ColumnSlices* slices, const std::vector<std::uint8_t>& by_rays) {
+  const auto fill = [&](std::vector<std::uint8_t> by_rays, const LayerSlices* slices) {
+    const LayerColumns in_columns(world_, antenna, with_cscope, std::move(by_rays), slices);
     // Neighbours by one thread: their cells lie side by side.
     const int blocks = (sensor.scan.columns + kBlockColumns - 1) / kBlockColumns;
     core::parallel_for(static_cast<std::size_t>(blocks), [&](std::size_t block) {
       const int first = static_cast<int>(block) * kBlockColumns;
       const int last = std::min(first + kBlockColumns, sensor.scan.columns);
-      in_columns.fill(first, last, slices, by_rays, of_column, layers);
+      in_columns.fill(first, last, of_column, layers);
     });
   };
   if (slices_ && azimuths_are_upright(antenna, sensor.scan.surface)) {
@@ -239,12 +241,11 @@ FrameLayers GroundTruth::of(const sensors::AntennaFrame& antenna,
     const std::vector<Slice> slices = level_slices(world_, 1, antenna, fan);
     SightLines none;
     slices_->in_frame(antenna, slices, 1, none, [&](const SliceFrame& frame) {
-      const LayerGrid grid(sensor);
-      const ColumnSlices columns{frame, grid};
-      fill(&columns, sub_columns_for_rays(world_, antenna, slices, 1, fan));
+      const LayerSlices of_columns(frame);
+      fill(sub_columns_for_rays(world_, antenna, slices, 1, fan), &of_columns);
     });
   } else {
-    fill(nullptr, std::vector<std::uint8_t>(static_cast<std::size_t>(sensor.scan.columns), 1));
+    fill(std::vector<std::uint8_t>(static_cast<std::size_t>(sensor.scan.columns), 1), nullptr);
   }
   find_angles(layers.bscope.grazing_rad);
   find_angles(layers.cscope.grazing_rad);

@@ -34,8 +34,8 @@ struct Ends {
   alignas(64) Column facet_m;         // from the sensor to the facet's plane
   alignas(64) Column nrcs, nrcs_way;  // sigma0 / sin(psi)
   alignas(64) Column per_rows;
-  alignas(64) Column middle_sine, middle_nrcs,
-      middle_rad;  // of the grazing angle; sigma0; elevation
+  // Of the middle: sine of the grazing angle, sigma0, elevation.
+  alignas(64) Column middle_sine, middle_nrcs, middle_rad;
 };
 
 inline double between_0_and_1(double value) {
@@ -236,7 +236,6 @@ FANBEAM_HOT(void, sort_in,
   find_ends(grid, tables.nrcs(), pieces, powers, ends);
   const bool with_rows = rows.size() > 0;
   for (int i = 0; i < pieces.count; ++i) {
-    if (!(pieces.cross_m2[i] > 0.0)) continue;  // its back
     const PieceInCells piece{
         grid, pieces, powers, ends, azimuths_in(pieces.left[i], pieces.share[i]), i};
     piece.add_ranges(ranges);
@@ -258,7 +257,6 @@ LayerGrid::LayerGrid(const sensors::Sensor& sensor)
       rad_per_row(cscope_row_rad(sensor.display)) {
   // Tables hold what is beyond the pattern at its ends.
   constexpr double kInside_rad = 1e-6;  // more than floats round
-
   const double reach_rad = sensors::reach_rad(sensor.antenna.elevation) - kInside_rad;
   lowest_rad = sensor.antenna.boresight_elevation_rad - reach_rad;
   highest_rad = sensor.antenna.boresight_elevation_rad + reach_rad;
@@ -268,9 +266,9 @@ LayerGrid::LayerGrid(const sensors::Sensor& sensor)
   }
 }
 
-LayerSlices::LayerSlices(const SliceFrame& frame, const LayerGrid& grid)
+LayerSlices::LayerSlices(const SliceFrame& frame)
     : frame_(frame),
-      grid_(grid),
+      grid_(frame.world.sensor),
       constant_W_m2_(frame.world.sensor.radar_constant_W_m2() *
                      azimuth_width_rad(frame.world.sensor)) {}
 

@@ -31,16 +31,17 @@ struct LayerGrid {
 
 class LayerSlices {
  public:
-  LayerSlices(const SliceFrame& frame, const LayerGrid& grid);
+  // `frame` must outlive it.
+  explicit LayerSlices(const SliceFrame& frame);
 
-  // What slice `i` of the frame sees. No rows: ranges alone.
+  // What slice `i` of the frame sees. No rows: ranges alone. Thread-safe.
   void add(std::size_t i, LayerCells& ranges, LayerCells& rows) const;
 
  private:
   void add(const Slice& slice, VisiblePieces& pieces, LayerCells& ranges, LayerCells& rows) const;
 
   const SliceFrame& frame_;
-  const LayerGrid& grid_;
+  LayerGrid grid_;
   double constant_W_m2_;
 };
 

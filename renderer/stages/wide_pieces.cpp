@@ -5,18 +5,10 @@
 namespace fanbeam::renderer {
 namespace {
 
-// Into how many parts a piece goes that is seen under a wide angle.
-int parts_needed(const VisiblePieces& pieces, int i) {
-  const auto range2_m2 = [](double distance_m, double height_m) {
-    return distance_m * distance_m + height_m * height_m;
-  };
-  const double nearest2_m2 = std::min(range2_m2(pieces.near_distance_m[i], pieces.near_height_m[i]),
-                                      range2_m2(pieces.far_distance_m[i], pieces.far_height_m[i]));
-  constexpr double kMost = 1000.0;
-  const double one_m2 = kMostSpan_rad * nearest2_m2;
-  return pieces.cross_m2[i] < one_m2
-             ? 1
-             : 1 + static_cast<int>(std::min(pieces.cross_m2[i] / (one_m2 + 1e-12), kMost));
+double nearest2_m2(const VisiblePieces& pieces, int i) {
+  const double near_m = pieces.near_distance_m[i], far_m = pieces.far_distance_m[i];
+  const double near_z_m = pieces.near_height_m[i], far_z_m = pieces.far_height_m[i];
+  return std::min(near_m * near_m + near_z_m * near_z_m, far_m * far_m + far_z_m * far_z_m);
 }
 
 // Piece `from` becomes `pieces[to]`, all of it or the part between two shares of its way.
@@ -46,7 +38,8 @@ void copy_part(const VisiblePieces& from, int i, double begin, double end, Visib
 void split_wide_pieces(VisiblePieces& pieces, VisiblePieces& parts, const SliceSweep::Full& full) {
   int kept = 0;
   for (int i = 0; i < pieces.count; ++i) {
-    const int count = parts_needed(pieces, i);
+    if (!(pieces.cross_m2[i] > 0.0)) continue;
+    const int count = parts_of(pieces.cross_m2[i], nearest2_m2(pieces, i), kMostSpan_rad);
     if (count == 1) {
       if (kept != i) copy_part(pieces, i, 0.0, 1.0, pieces, kept);
       ++kept;

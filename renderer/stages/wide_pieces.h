@@ -11,6 +11,7 @@ namespace fanbeam::renderer {
 inline constexpr double kMostSpan_rad = 0.008;
 
 // What spans more leaves `pieces` and goes to `parts`; `full` empties them whenever there is no room.
+// Backs of facets go nowhere.
 void split_wide_pieces(VisiblePieces& pieces, VisiblePieces& parts, const SliceSweep::Full& full);
 
 }  // namespace fanbeam::renderer

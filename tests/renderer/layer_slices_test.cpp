@@ -28,6 +28,21 @@ renderer::LayerSet truth_of(const renderer::World& world, double height_m, bool 
 
 double share(int part, int whole) { return static_cast<double>(part) / whole; }
 
+// What a cell says after these parts, in the left half of its column.
+renderer::LayerSet told_of(const std::vector<renderer::LayerEcho>& parts) {
+  renderer::LayerCells cells;
+  cells.clear(1);
+  for (const renderer::LayerEcho& echo : parts) cells.add(0, renderer::azimuths_in(0.0, 0.5), echo);
+  renderer::LayerSet set{.visibility = {0.0F},
+                         .grazing_rad = {0.0F},
+                         .nrcs = {0.0F},
+                         .elevation_rad = {0.0F},
+                         .material = {0},
+                         .object = {0}};
+  cells.write(0, 1, set);
+  return set;
+}
+
 }  // namespace
 
 // A box around nothing leaves every azimuth to rays: the same city, seen in two ways.
@@ -59,10 +74,11 @@ TEST_CASE("Over a city slices and rays tell the same but for their sampling", "[
                     << other_grazing << " grazing angles, " << other_nrcs << " NRCS, "
                     << other_range << " ranges differ");
     CHECK(lit > 2000);
+    // What rays miss, at most in one of the scopes when this was written: 3.4, 2.4, 1.8, 7.4, 7.2, 4.4 %.
     CHECK(share(lit_once, lit) < 0.06);
     CHECK(share(other_material, lit) < 0.04);
-    CHECK(share(other_object, lit) < 0.06);
-    CHECK(share(other_grazing, lit) < 0.08);
+    CHECK(share(other_object, lit) < 0.04);
+    CHECK(share(other_grazing, lit) < 0.1);
     CHECK(share(other_nrcs, lit) < 0.1);
     CHECK(share(other_range, lit) < 0.06);
     CHECK(slices_share == Approx(rays_share).epsilon(0.03));
@@ -147,7 +163,7 @@ TEST_CASE("Level ground is told as it is whatever the distance of its posts", "[
   }
 }
 
-// The two-way pattern falls by 35 dB from one end of the roof to the other.
+// The two-way pattern differs by 33 dB from one end of the roof to the other.
 TEST_CASE("Far ends of wide roofs weigh what they send", "[layer_slices]") {
   const sensors::Sensor sensor = tests::hivision(8);
   const materials::PhongNrcs tar(0.02, 0.0, 1.0);
@@ -220,15 +236,7 @@ TEST_CASE("A building of many materials is one object", "[layer_slices]") {
   std::vector<renderer::LayerEcho> parts{part(0.35, 4, 1), part(0.30, 4, 2), part(0.35, 0, 3)};
   for (int turn = 0; turn < 3; ++turn) {
     std::rotate(parts.begin(), parts.begin() + 1, parts.end());
-    renderer::LayerCells cells;
-    cells.clear(1);
-    for (const renderer::LayerEcho& echo : parts) cells.add(0, 1U, echo);
-    renderer::LayerSet set{.visibility = {0.0F},
-                           .grazing_rad = {0.0F},
-                           .nrcs = {0.0F},
-                           .material = {0},
-                           .object = {0}};
-    cells.write(0, 1, set);
+    const renderer::LayerSet set = told_of(parts);
     CHECK(set.object[0] == 4);
     CHECK(set.material[0] != 3);
   }
@@ -249,17 +257,7 @@ TEST_CASE("A cell tells what sends more than half of its power, in any order", "
                                          part(0.2, 1, -0.3F), part(0.35, 2, 0.1F)};
   for (int turn = 0; turn < 4; ++turn) {
     std::rotate(parts.begin(), parts.begin() + 1, parts.end());
-    renderer::LayerCells cells;
-    cells.clear(1);
-    for (const renderer::LayerEcho& echo : parts)
-      cells.add(0, renderer::azimuths_in(0.0, 0.5), echo);
-    renderer::LayerSet set{.visibility = {0.0F},
-                           .grazing_rad = {0.0F},
-                           .nrcs = {0.0F},
-                           .elevation_rad = {0.0F},
-                           .material = {0},
-                           .object = {0}};
-    cells.write(0, 1, set);
+    const renderer::LayerSet set = told_of(parts);
     CHECK(set.object[0] == 1);
     CHECK(set.elevation_rad[0] < 0.0F);
     CHECK(set.visibility[0] == 0.5F);

@@ -33,6 +33,23 @@ TEST_CASE("From samples, a lone car is measured at the bound, in every frame, wi
   CHECK(azimuth.rms() < 1.5);
 }
 
+// Chirps of 60 us tell speeds within 16.4 m/s apart: 65 m/s is two folds away.
+TEST_CASE("From samples, a speed is found in whatever fold it lies", "[sampled]") {
+  core::HighwayRadar slow = highway_radar();
+  slow.waveforms.coarse_chirp_s = 60e-6;
+  const SampledRadar radar(slow);
+  for (const double rate_mps : {-65.0, -20.0, 10.0, 60.0}) {
+    core::HighwayScenario scenario = one_stopped_car();
+    scenario.targets = {car("A", 120.0, 0.0, kRoadSpeed_mps + rate_mps)};
+    INFO(rate_mps << " m/s");
+    const auto truth = truth_at(scenario.targets[0], scenario.radar_speed_mps, slow, 0.0);
+    const auto seen = radar.measure(scenario, 3, 0, 0);
+    REQUIRE(seen.size() == 1);
+    CHECK(seen[0].range_rate_mps == Approx(rate_mps).epsilon(0.0).margin(0.3));
+    CHECK(seen[0].range_m == Approx(truth.range_m).epsilon(0.0).margin(0.3));
+  }
+}
+
 TEST_CASE("From samples, S2 is tracked as from frequencies, and twice with the same bits",
           "[sampled][statistics]") {
   const SampledRadar radar(highway_radar());

@@ -90,6 +90,7 @@ class Tracker {
   struct Frame;
 
   bool has_azimuth() const { return settings_.motion.axes() == 2; }
+  std::vector<double> log_likelihoods(const Track& track, const Frame& frame) const;
   bool is_measured(const Track& track, const Frame& frame) const;
   void coast_unresolved(double step_s, const Frame& frame);
   void find_unresolved(double step_s, const Frame& frame);

@@ -8,6 +8,8 @@
 namespace fanbeam::tracking {
 namespace {
 
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
 // Lets a track take part again, with all of its coasting before it.
 void release(Track& track) {
   track.unresolved_with.reset();
@@ -23,14 +25,23 @@ void set_aside(Track& track, const Track& with) {
 
 }  // namespace
 
-bool Tracker::is_measured(const Track& track, const Frame& frame) const {
+// Of each measurement, if it is the track's; kNone outside of its gate, and for one that is used.
+std::vector<double> Tracker::log_likelihoods(const Track& track, const Frame& frame) const {
+  const std::vector<RadarMeasurement>& seen = frame.measurements;
+  std::vector<double> result(seen.size(), kNone);
   const QuickGate gate(track.state, measured_, gate_);
-  return std::any_of(frame.measurements.begin(), frame.measurements.end(),
-                     [&](const RadarMeasurement& one) {
-                       if (!gate.may_hold(one)) return false;
-                       const Update told = innovation(track.state, measured_, one);
-                       return told.applied && told.normalised_innovation_squared <= gate_;
-                     });
+  for (std::size_t j = 0; j < seen.size(); ++j) {
+    if (frame.used[j] || !gate.may_hold(seen[j])) continue;
+    const Update told = innovation(track.state, measured_, seen[j]);
+    if (told.applied && told.normalised_innovation_squared <= gate_)
+      result[j] = told.log_likelihood;
+  }
+  return result;
+}
+
+bool Tracker::is_measured(const Track& track, const Frame& frame) const {
+  const std::vector<double> fits = log_likelihoods(track, frame);
+  return std::any_of(fits.begin(), fits.end(), [](double fit) { return fit > kNone; });
 }
 
 // Frames in which a pair shows nothing at all. Without azimuth merged beats may leave nothing.
@@ -104,20 +115,8 @@ void Tracker::part(Frame& frame) {
 std::optional<std::pair<std::size_t, std::size_t>> Tracker::seen_apart(const Track& a,
                                                                        const Track& b,
                                                                        const Frame& frame) const {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
   const std::vector<RadarMeasurement>& seen = frame.measurements;
-  const auto fits = [&](const Track& track) {
-    std::vector<double> result(seen.size(), kNone);
-    const QuickGate gate(track.state, measured_, gate_);
-    for (std::size_t j = 0; j < seen.size(); ++j) {
-      if (frame.used[j] || !gate.may_hold(seen[j])) continue;
-      const Update told = innovation(track.state, measured_, seen[j]);
-      if (told.applied && told.normalised_innovation_squared <= gate_)
-        result[j] = told.log_likelihood;
-    }
-    return result;
-  };
-  const std::vector<double> fits_a = fits(a), fits_b = fits(b);
+  const std::vector<double> fits_a = log_likelihoods(a, frame), fits_b = log_likelihoods(b, frame);
   double best = kNone;
   std::optional<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t i = 0; i < seen.size(); ++i)

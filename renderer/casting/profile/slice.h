@@ -45,10 +45,11 @@ struct VisiblePieces {
 // of its middle.
 inline constexpr double kMostElevation_rad = 0.002;
 
-// Into how many parts a piece goes, from its cross product and the square of its nearest range.
-inline int parts_of(double cross_m2, double nearest2_m2) {
+// Into how many parts a piece goes, from its cross product, at least 0, and the square of its nearest
+// range.
+inline int parts_of(double cross_m2, double nearest2_m2, double most_rad = kMostElevation_rad) {
   constexpr double kMostParts = 1000.0;
-  const double one_m2 = kMostElevation_rad * nearest2_m2;  // 0 for a cell that begins at the sensor
+  const double one_m2 = most_rad * nearest2_m2;  // 0 for a cell that begins at the sensor
   return 1 + static_cast<int>(cross_m2 < kMostParts * one_m2 ? cross_m2 / one_m2 : kMostParts);
 }
 
