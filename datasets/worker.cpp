@@ -108,8 +108,8 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
       setup.data_folders.insert(setup.data_folders.begin(), campaign_.folder());
     setup.sample = campaign_.sample;
     setup.seed = campaign_.seed;
-    setup.build.heights_shown =
-        session::show_heights({campaign_.products.begin(), campaign_.products.end()});
+    setup.build.heights_shown = session::show_heights(
+        session::wanted_of({campaign_.products.begin(), campaign_.products.end()}));
     if (!campaign_.sensor.empty())
       setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor");
     core::ProblemList problems;

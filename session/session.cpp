@@ -14,6 +14,7 @@
 #include "scenes/frame_plan.h"
 #include "scenes/scene_caster.h"
 #include "scenes/scene_reader.h"
+#include "session/products/products.h"
 #include "session/sampling_choice.h"
 #include "session/targets.h"
 
@@ -113,9 +114,9 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
 
 // A plan that counts on nobody asking for heights does not hold for whoever does.
 void check(const renderer::Products& wanted, const scenes::Scene& scene) {
-  if ((wanted.cscope || wanted.obstacles) && !scene.options.heights_shown)
-    core::throw_input_error(core::ErrorClass::ref, "products", "C-scope or obstacles",
-                            "neither, as the session was opened without them (heights_shown)");
+  if (show_heights(wanted) && !scene.options.heights_shown)
+    core::throw_input_error(core::ErrorClass::ref, "products", "C-scope, its layers or obstacles",
+                            "none of them, as the session was opened without them (heights_shown)");
 }
 
 // What a frame is made under.

@@ -20,8 +20,8 @@ FrameOutput frame_output(const scenes::Scene& scene, const OutputSettings& setti
   record.unprojected = frame.unprojected;
   record.events = frame.events;
   record.error = frame.error;
-  FrameOutput output{record.index, core::attitude_from(record.pose.q_NB).heading_rad,
-                     std::move(frame), {}};
+  FrameOutput output{
+      record.index, core::attitude_from(record.pose.q_NB).heading_rad, std::move(frame), {}};
   output.metadata = frame_metadata(scene, settings.sampling, record, settings.fingerprint);
   if (settings.products.contains("figure") || settings.products.contains("ppi_figure"))
     output.figure = figure_facts(scene, record.pose, record.index, settings.range_unit);

@@ -47,7 +47,10 @@ std::filesystem::path frame_path(const std::filesystem::path& folder, const std:
                                  int index) {
   const bool exr = product == "power" || product == "layers" || product == "cscope_layers";
   return folder / product /
-         fmt::format("{:05}.{}", index, exr ? "exr" : product == "labels" ? "json" : "png");
+         fmt::format("{:05}.{}", index,
+                     exr                   ? "exr"
+                     : product == "labels" ? "json"
+                                           : "png");
 }
 
 core::Picture8 side_by_side(const core::Picture8& left, const core::Picture8& right) {
@@ -183,8 +186,8 @@ void FrameWriter::write(const FrameOutput& output) const {
   if (products_.contains("labels"))
     core::write_file_atomically(frame_path(folder_, "labels", output.index), output.labels_text);
   if (products_.contains("masks"))
-    core::write_png(frame_path(folder_, "masks", output.index),
-                    bscope_mask(output.labels, sensor_), output.metadata);
+    core::write_png(frame_path(folder_, "masks", output.index), bscope_mask(output.labels, sensor_),
+                    output.metadata);
   if (products_.contains("cscope_masks"))
     core::write_png(frame_path(folder_, "cscope_masks", output.index),
                     cscope_mask(output.labels, sensor_), output.metadata);

@@ -18,8 +18,7 @@ renderer::Products wanted_of(const ProductSet& products) {
           cscope_truth};
 }
 
-bool show_heights(const ProductSet& products) {
-  const renderer::Products wanted = wanted_of(products);
+bool show_heights(const renderer::Products& wanted) {
   return wanted.cscope || wanted.obstacles || wanted.cscope_layers;
 }
 

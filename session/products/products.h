@@ -38,6 +38,6 @@ using ProductSet = std::set<std::string>;  // names
 // What a frame has to hold for them.
 renderer::Products wanted_of(const ProductSet& products);
 // Whether a plan must count on heights (BuildOptions::heights_shown).
-bool show_heights(const ProductSet& products);
+bool show_heights(const renderer::Products& wanted);
 
 }  // namespace fanbeam::session

@@ -370,8 +370,9 @@ TEST_CASE("Where nobody asks for heights, a shadow C-scope costs a plan nothing"
   CHECK(bound_grey(false) > 0.0);
   CHECK(bound_grey(false) < 10.0);
   // So with products of the B-scope alone.
-  CHECK_FALSE(session::show_heights({"bscope", "layers", "masks", "detections"}));
+  CHECK_FALSE(
+      session::show_heights(session::wanted_of({"bscope", "layers", "masks", "detections"})));
   for (const char* product :
        {"cscope", "figure", "preview", "obstacles", "cscope_layers", "labels"})
-    CHECK(session::show_heights({"bscope", product}));
+    CHECK(session::show_heights(session::wanted_of({"bscope", product})));
 }
