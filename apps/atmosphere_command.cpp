@@ -5,11 +5,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/atmosphere_table.h"
-#include "apps/frequency_choice.h"
 #include "apps/scene_choice.h"
+#include "atmosphere/loss_table.h"
 #include "core/constants.h"
 #include "core/files.h"
+#include "measure/frequency_choice.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/sensor_file.h"
 #include "session/plots/gnuplot.h"
@@ -56,12 +56,12 @@ std::string dB_text(double value_dB) {
   return std::isfinite(value_dB) ? fmt::format("{:.1f}", value_dB) : "-";
 }
 
-std::string csv_of(const std::vector<AtmosphereTable>& tables) {
+std::string csv_of(const std::vector<atmosphere::AtmosphereTable>& tables) {
   std::string text =
       "frequency_GHz,range_m,gas_dB,oxygen_dB,vapour_dB,fog_dB,rain_dB,snow_dB,one_way_dB,"
       "two_way_dB,eta_m2_per_m3,equivalent_sigma0_dB\n";
-  for (const AtmosphereTable& table : tables)
-    for (const AtmosphereRow& row : table.rows)
+  for (const atmosphere::AtmosphereTable& table : tables)
+    for (const atmosphere::AtmosphereRow& row : table.rows)
       text += fmt::format(
           "{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n",
           table.frequency_Hz / 1e9, row.range_m, row.gas_dB(), row.oxygen_dB, row.vapour_dB,
@@ -72,15 +72,15 @@ std::string csv_of(const std::vector<AtmosphereTable>& tables) {
   return text;
 }
 
-std::string json_of(const std::vector<AtmosphereTable>& tables,
-                    const std::vector<AtmosphereModel>& models) {
+std::string json_of(const std::vector<atmosphere::AtmosphereTable>& tables,
+                    const std::vector<atmosphere::AtmosphereModel>& models) {
   nlohmann::ordered_json json;
-  for (const AtmosphereModel& model : models)
+  for (const atmosphere::AtmosphereModel& model : models)
     json["models"].push_back(
         {{"cause", model.cause}, {"model", model.model}, {"source", model.source}});
-  for (const AtmosphereTable& table : tables) {
+  for (const atmosphere::AtmosphereTable& table : tables) {
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const AtmosphereRow& row : table.rows) {
+    for (const atmosphere::AtmosphereRow& row : table.rows) {
       nlohmann::ordered_json entry = {
           {"range_m", row.range_m},         {"gas_dB", row.gas_dB()},
           {"oxygen_dB", row.oxygen_dB},     {"vapour_dB", row.vapour_dB},
@@ -99,14 +99,14 @@ std::string json_of(const std::vector<AtmosphereTable>& tables,
   return json.dump(2) + "\n";
 }
 
-void print_table(const AtmosphereTable& table) {
+void print_table(const atmosphere::AtmosphereTable& table) {
   constexpr const char* kHeadings =
       "{:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>11} {:>10}\n";
   fmt::print("\n{} GHz\n", table.frequency_Hz / 1e9);
   fmt::print(kHeadings, "range", "oxygen", "vapour", "fog", "rain", "snow", "one way", "two-way",
              "eta", "as sigma0");
   fmt::print(kHeadings, "m", "dB", "dB", "dB", "dB", "dB", "dB", "dB", "m2/m3", "dB");
-  for (const AtmosphereRow& row : table.rows)
+  for (const atmosphere::AtmosphereRow& row : table.rows)
     fmt::print(
         "{:>8.0f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>8.3f} {:>9.3f} {:>9.3f} {:>11.3g} "
         "{:>10}\n",
@@ -116,17 +116,19 @@ void print_table(const AtmosphereTable& table) {
     fmt::print("  rain: k = {:.4f}, alpha = {:.4f}\n", table.rain->k, table.rain->alpha);
 }
 
-void print_notes(const AtmospherePath& path, const std::vector<AtmosphereModel>& models) {
+void print_notes(const atmosphere::AtmospherePath& path,
+                 const std::vector<atmosphere::AtmosphereModel>& models) {
   fmt::print(
       "Path from {} m to {} m above the origin; eta where it ends, and the sigma0 of ground "
       "that would\nreturn as much as a beam of {:.2f} deg (two-way) full of it.\n",
       path.from_height_m, path.to_height_m, path.beam_height_rad * 180.0 / core::kPi);
-  for (const AtmosphereModel& model : models)
+  for (const atmosphere::AtmosphereModel& model : models)
     fmt::print("  {:<10} {:<42} {}\n", model.cause, model.model, model.source);
 }
 
-void print_tables(const Question& question, const std::vector<AtmosphereTable>& tables) {
-  for (const AtmosphereTable& table : tables) {
+void print_tables(const Question& question,
+                  const std::vector<atmosphere::AtmosphereTable>& tables) {
+  for (const atmosphere::AtmosphereTable& table : tables) {
     print_table(table);
     for (const scenes::RainCellDescription& described : question.rain_cells) {
       const double rate_mm_per_h = described.cell.rain_rate_mm_per_h;
@@ -139,14 +141,14 @@ void print_tables(const Question& question, const std::vector<AtmosphereTable>& 
   }
 }
 
-session::Plot plot_of(const std::vector<AtmosphereTable>& tables) {
+session::Plot plot_of(const std::vector<atmosphere::AtmosphereTable>& tables) {
   session::Plot plot;
   plot.title = "Two-way loss over range";
   plot.x = {"range [km]", false, 0.0, {}};
   plot.y = {"loss [dB]", false, 0.0, {}};
-  for (const AtmosphereTable& table : tables) {
+  for (const atmosphere::AtmosphereTable& table : tables) {
     session::PlotSeries total{fmt::format("{} GHz", table.frequency_Hz / 1e9), {}, {}};
-    for (const AtmosphereRow& row : table.rows) {
+    for (const atmosphere::AtmosphereRow& row : table.rows) {
       total.x.push_back(1e-3 * row.range_m);
       total.y.push_back(row.two_way_dB());
     }
@@ -155,8 +157,8 @@ session::Plot plot_of(const std::vector<AtmosphereTable>& tables) {
   return plot;
 }
 
-void write_files(const fs::path& folder, const std::vector<AtmosphereTable>& tables,
-                 const std::vector<AtmosphereModel>& models) {
+void write_files(const fs::path& folder, const std::vector<atmosphere::AtmosphereTable>& tables,
+                 const std::vector<atmosphere::AtmosphereModel>& models) {
   fs::create_directories(folder);
   core::write_file_atomically(folder / "atmosphere.csv", csv_of(tables));
   core::write_file_atomically(folder / "atmosphere.json", json_of(tables, models));
@@ -184,20 +186,21 @@ void refuse_idle(const WeatherOptions& options, const atmosphere::Weather& weath
 void answer(const Question& question, const AtmosphereOptions& options,
             const CommonOptions& common) {
   if (!options.compare_GHz.empty()) {
-    compare_frequencies(question.weather, 1e9 * options.compare_GHz[0],
-                        1e9 * options.compare_GHz[1], options.output);
+    fmt::print("{}", measure::compare_frequencies(question.weather, 1e9 * options.compare_GHz[0],
+                                                  1e9 * options.compare_GHz[1], options.output));
     return;
   }
   refuse_idle(options.weather, question.weather);
-  const AtmospherePath path{options.height_m, options.to_height_m, options.range_m, options.step_m,
-                            sensors::two_way_width(question.sensor.antenna.elevation)};
+  const atmosphere::AtmospherePath path{options.height_m, options.to_height_m, options.range_m,
+                                        options.step_m,
+                                        sensors::two_way_width(question.sensor.antenna.elevation)};
   std::vector<double> frequencies_GHz = options.frequency_GHz;
   if (frequencies_GHz.empty())
     frequencies_GHz.push_back(question.sensor.waveform.frequency_Hz * 1e-9);
-  std::vector<AtmosphereTable> tables;
+  std::vector<atmosphere::AtmosphereTable> tables;
   for (const double frequency_GHz : frequencies_GHz)
-    tables.push_back(atmosphere_table(question.weather, 1e9 * frequency_GHz, path));
-  const std::vector<AtmosphereModel> models = atmosphere_models(question.weather);
+    tables.push_back(atmosphere::atmosphere_table(question.weather, 1e9 * frequency_GHz, path));
+  const std::vector<atmosphere::AtmosphereModel> models = atmosphere_models(question.weather);
   if (options.json) {
     fmt::print("{}", json_of(tables, models));
   } else if (options.csv) {

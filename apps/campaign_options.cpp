@@ -2,7 +2,7 @@
 
 #include "apps/campaign_command.h"
 #include "apps/command_line.h"
-#include "apps/number_range.h"
+#include "apps/number_check.h"
 #include "apps/value_words.h"
 
 namespace fanbeam::apps {
@@ -53,9 +53,10 @@ void add_run(CLI::App& campaign, CampaignOptions& options, CommonOptions& common
                            "Render the runs that are not there yet");
   add_output(run, options);
   add_runs(run, options);
-  run.add_option("--shard", options.shard,
-                 "Part K of N: every N-th of the runs. Others may work on the same folder meanwhile, "
-                 "on the same part too")
+  run.add_option(
+         "--shard", options.shard,
+         "Part K of N: every N-th of the runs. Others may work on the same folder meanwhile, "
+         "on the same part too")
       ->type_name("K/N");
   run.add_flag("--replace", options.replace, "Make runs again that are there: verify tells which");
   add_data(run, options);
@@ -65,8 +66,7 @@ void add_run(CLI::App& campaign, CampaignOptions& options, CommonOptions& common
 void add_slurm(CLI::App& campaign, CampaignOptions& options, CommonOptions& common) {
   CLI::App& slurm = add_task(campaign, options, common, Task::slurm, "slurm",
                              "Write a script that has Slurm do all of it");
-  slurm.add_option("-o,--output", options.output, "Script (default job.sh)")
-      ->type_name(kFileValue);
+  slurm.add_option("-o,--output", options.output, "Script (default job.sh)")->type_name(kFileValue);
   slurm
       .add_option("--folder", options.folder,
                   "Folder of the campaign, which all nodes share (default out/<campaign's name>)")
@@ -85,10 +85,12 @@ void add_slurm(CLI::App& campaign, CampaignOptions& options, CommonOptions& comm
 
 CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options, CommonOptions& common) {
   CLI::App& campaign = *program.add_subcommand(
-      "campaign", "Thousands of labelled approaches: drawn conditions, on one machine or a cluster");
+      "campaign",
+      "Thousands of labelled approaches: drawn conditions, on one machine or a cluster");
   campaign.require_subcommand(1);
-  CLI::App& plan = add_task(campaign, options, common, Task::plan, "plan",
-                            "What there is to do: runs, frames, disk, hours, what would be refused");
+  CLI::App& plan =
+      add_task(campaign, options, common, Task::plan, "plan",
+               "What there is to do: runs, frames, disk, hours, what would be refused");
   plan.add_flag("--pilot,!--no-pilot", options.pilot,
                 "Render three runs to measure time and disk (the default), or do not");
   add_data(plan, options);
@@ -98,8 +100,9 @@ CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options, Comm
       add_task(campaign, options, common, Task::status, "status", "How far it is; others may work");
   add_output(status, options);
   status.add_flag("--json", options.json, "For programs");
-  CLI::App& merge = add_task(campaign, options, common, Task::merge, "merge",
-                             "Write index.csv, manifest.json, coco.json and lard.csv of all runs there");
+  CLI::App& merge =
+      add_task(campaign, options, common, Task::merge, "merge",
+               "Write index.csv, manifest.json, coco.json and lard.csv of all runs there");
   add_output(merge, options);
   CLI::App& verify = add_task(campaign, options, common, Task::verify, "verify",
                               "Check every file against its hash, and tell what repairs the rest");

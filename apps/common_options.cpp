@@ -2,7 +2,7 @@
 
 #include "apps/command_line.h"
 #include "apps/common.h"
-#include "apps/number_range.h"
+#include "apps/number_check.h"
 #include "renderer/plan/plan.h"
 #include "session/version.h"
 

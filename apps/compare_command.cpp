@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <set>
 
-#include "apps/image_files.h"
 #include "core/files.h"
 #include "core/image_compare.h"
 #include "core/text.h"
+#include "measure/regress/image_files.h"
 #include "session/figure/difference_map.h"
 #include "session/version.h"
 
@@ -85,8 +85,8 @@ void refuse_map_among(const fs::path& image_or_folder, const fs::path& map) {
 
 bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions& options,
                      bool quiet) {
-  const std::set<fs::path> in_a = image_files_below(a);
-  const std::set<fs::path> in_b = image_files_below(b);
+  const std::set<fs::path> in_a = measure::image_files_below(a);
+  const std::set<fs::path> in_b = measure::image_files_below(b);
   bool same = true;
   std::size_t pairs = 0;
   for (const fs::path& name : in_a) {

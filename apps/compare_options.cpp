@@ -2,7 +2,7 @@
 
 #include "apps/command_line.h"
 #include "apps/compare_command.h"
-#include "apps/number_range.h"
+#include "apps/number_check.h"
 #include "apps/value_words.h"
 
 namespace fanbeam::apps {

@@ -3,26 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <optional>
 
-#include "apps/cost/cost_csv.h"
-#include "apps/cost/cost_markdown.h"
-#include "apps/cost/cost_progress.h"
-#include "apps/cost/levels.h"
-#include "apps/cost/levels_report.h"
+#include "apps/cost_progress.h"
 #include "apps/render_command.h"
 #include "core/files.h"
-#include "core/machine.h"
 #include "core/parallel.h"
-#include "core/turns.h"
-#include "measure/bench.h"
 #include "measure/clock.h"
-#include "measure/cost_plots.h"
-#include "measure/effect_prices.h"
-#include "measure/frame_clock.h"
-#include "measure/ladder.h"
-#include "measure/numerics.h"
-#include "sensors/display/grey_scale.h"
+#include "measure/cost/cost.h"
 #include "session/frame_choice.h"
 #include "session/session.h"
 
@@ -43,111 +30,18 @@ renderer::CasterKind effects_caster(const CostOptions& options, const scenes::Sc
   return wish == renderer::CasterWish::rays ? renderer::CasterKind::rays : scene.caster.chosen;
 }
 
-double time_once_ms(const measure::FrameClock& work) {
-  return core::time_in_turns({[&work] { work.render(); }}, 1).front().ms;
-}
-
-measure::Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
-  constexpr double kNaiveRays = 2.0;
-  const renderer::FramePose pose = scene.frame_pose(frame);
-  const renderer::Effects effects = measure::without_draws(renderer::effects_of(scene.plan, 0));
-  measure::Pace pace;
-  pace.build_s = scene.build_s;
-  pace.frame_ms = time_once_ms(
-      {scene.world, pose, renderer::default_sampling(renderer::CasterKind::rays), effects});
-  if (slices)
-    pace.slices_ms = time_once_ms(
-        {scene.world, pose, renderer::default_sampling(renderer::CasterKind::profile), effects});
-  pace.naive_ms = time_once_ms({scene.world,
-                                pose,
-                                renderer::NaiveKind::dithered,
-                                kNaiveRays,
-                                {scene.world.sensor.antenna.boresight_elevation_rad, 0.0},
-                                effects}) /
-                  kNaiveRays;
-  return pace;
-}
-
-// Plots last: whoever lacks gnuplot has the figures.
-void write(const measure::CostFigures& figures, const fs::path& folder) {
-  core::write_file_atomically(folder / "cost.md", cost_markdown(figures));
-  if (!figures.ladder.empty()) {
-    core::write_file_atomically(folder / "ladder.csv", ladder_csv(figures));
-    core::write_file_atomically(folder / "equal_error.csv", equal_error_csv(figures));
-  }
-  if (!figures.effects.empty())
-    core::write_file_atomically(folder / "effects.csv", effects_csv(figures));
-  if (!figures.numerics.variants.empty())
-    core::write_file_atomically(folder / "numerics.csv", numerics_csv(figures));
-  if (!figures.levels.empty())
-    core::write_file_atomically(folder / "levels.csv", levels_csv(figures));
-  if (!figures.ladder.empty()) {
-    session::write_plots(measure::cost_ladder_plot(figures, false), folder / "ladder");
-    session::write_plots(measure::cost_ladder_plot(figures, true), folder / "ladder-cscope");
-  }
-  if (!figures.effects.empty())
-    session::write_plots(measure::effects_plot(figures), folder / "effects");
-  if (!figures.levels.empty()) session::write_plots(levels_plot(figures), folder / "levels");
-}
-
-struct Parts {
-  bool ladder, effects, numerics, levels;
-};
-
-Parts parts_of(const CostOptions& options) {
+measure::CostParts parts_of(const CostOptions& options) {
   const auto asked = [&](const char* part) {
     return std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
   };
   return {asked("ladder"), asked("effects"), asked("numerics"), asked("levels")};
 }
 
-double expected_s(const measure::CostBench& bench, const Parts& parts) {
-  const auto frames = static_cast<double>(bench.frames.size());
-  double total_s = 0.0;
-  if (parts.ladder || parts.numerics)
-    total_s += frames * 2.0 * bench.pace.reference_s(bench.effort);
-  if (parts.ladder) total_s += frames * bench.pace.ladder_s(bench.effort);
-  if (parts.effects) total_s += measure::effects_s(bench);
-  if (parts.numerics) total_s += measure::numerics_s(bench);
-  if (parts.levels && why_no_levels(bench).empty()) total_s += levels_s(bench);
-  return total_s;
-}
-
-void measure(const measure::CostBench& bench, const Parts& parts, measure::CostFigures& figures) {
-  if (parts.ladder || parts.numerics) {
-    const auto references = measure::render_references(bench, figures.references);
-    if (parts.ladder) figures.ladder = measure::measure_ladder(bench, references);
-    if (parts.numerics) figures.numerics = measure::measure_numerics(bench, references);
-  }
-  if (parts.effects) figures.effects = measure::measure_effects(bench);
-  if (!parts.levels) return;
-  figures.why_no_levels = why_no_levels(bench);
-  if (figures.why_no_levels.empty()) figures.levels = measure_levels(bench);
-}
-
-measure::CostFigures head_of(const measure::CostBench& bench, const CostOptions& options,
-                             int threads) {
-  const scenes::Scene& scene = bench.scene;
-  measure::CostFigures figures;
-  figures.scene = scene.description.name;
-  figures.title = scene.description.title;
-  figures.machine = {core::processor_name(), core::name_of(core::instruction_level()), threads};
-  figures.caster = renderer::name_of(bench.sampling.caster);
-  if (!bench.slices) figures.why_no_slices = scene.caster.why_no_slices;
-  figures.triangles = scene.world.surfaces().triangle_count();
-  figures.dB_per_grey = sensors::GreyScale(scene.world.sensor).dB_per_grey();
-  figures.accuracy_grey = scene.accuracy_grey;
-  figures.quick = options.quick;
-  figures.repetitions = bench.effort.repetitions;
-  figures.frames = bench.frames;
-  return figures;
-}
-
 // Announces how long it will take, and measures.
 measure::CostFigures run(const measure::CostBench& quiet_bench, const CostOptions& options,
                          const CommonOptions& common, int threads) {
-  const Parts parts = parts_of(options);
-  const double total_s = expected_s(quiet_bench, parts);
+  const measure::CostParts parts = parts_of(options);
+  const double total_s = cost_s(quiet_bench, parts);
   const std::string& name = quiet_bench.scene.description.name;
   const std::size_t frames = quiet_bench.frames.size();
   if (!common.quiet)
@@ -158,9 +52,7 @@ measure::CostFigures run(const measure::CostBench& quiet_bench, const CostOption
   bench.progress = [&](const std::string& step, double expected_s) {
     progress.begin(step, expected_s);
   };
-  measure::CostFigures figures = head_of(bench, options, threads);
-  measure(bench, parts, figures);
-  return figures;
+  return measure_cost(bench, parts, threads);
 }
 
 measure::Effort effort_of(const CostOptions& options) {
@@ -206,11 +98,11 @@ int cost(const CostOptions& options, const CommonOptions& common) {
                                  with_sensor,
                                  build,
                                  effort_of(options),
-                                 measure_pace(*scene, frames.front(), slices),
+                                 measure::measure_pace(*scene, frames.front(), slices),
                                  slices,
                                  renderer::default_sampling(effects_caster(options, *scene)),
                                  frames};
-  write(run(bench, options, common, threads.threads()), folder);
+  write_cost(run(bench, options, common, threads.threads()), folder);
   if (common.quiet) return kExitDone;
   fmt::print("measured in {}{}\n{}\n", duration_text(measure::milliseconds_since(begin) * 1e-3),
              options.quick ? " (a quick look: its figures are no measurement)" : "",

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <glm/geometric.hpp>
 #include <optional>
 #include <set>
 
@@ -226,10 +225,10 @@ class Run {
     const double signal_ms = ms_since(begin);
     session::FmcwFrameRecord record = session::fmcw_record(scene_, index, paths, frame);
     begin_writing();
-    record.files = session::write_fmcw_products(
-        output_.path(), products_, radar_, frame,
-        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB,
-         glm::length(scene_.trajectory->at(record.time_s).v_N_mps)});
+    record.files =
+        session::write_fmcw_products(output_.path(), products_, radar_, frame,
+                                     {index, record.time_s, scene_.description.name,
+                                      options_.dynamic_range_dB, record.radar_speed_mps});
     if (spectrogram_) spectrogram_->add(record.time_s, frame, ranges_of(paths));
     if (products_.contains(kInterference))
       write_interference(index, paths, frame, budget, record.files);

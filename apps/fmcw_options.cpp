@@ -3,7 +3,7 @@
 
 #include "apps/command_line.h"
 #include "apps/fmcw_command.h"
-#include "apps/number_range.h"
+#include "apps/number_check.h"
 #include "apps/option_lists.h"
 #include "apps/value_words.h"
 #include "core/text.h"

@@ -3,8 +3,6 @@
 #include <csignal>
 #include <utility>
 
-#include "apps/live_databases.h"
-#include "apps/live_listener.h"
 #include "apps/live_status_line.h"
 #include "apps/live_wiring.h"
 #include "apps/progress.h"
@@ -14,13 +12,15 @@
 #include "live/quality.h"
 #include "live/replay.h"
 #include "live/simulator_weather.h"
+#include "live/wiring/databases.h"
+#include "live/wiring/listener.h"
 #include "renderer/plan/plan.h"
 
 namespace fanbeam::apps {
 namespace {
 
 // Planned for the air over all of its terrain: nobody knows where a simulator flies.
-scenes::SceneDescription scene_of(const LiveOptions& options, const PosesFrom& from,
+scenes::SceneDescription scene_of(const LiveOptions& options, const live::PosesFrom& from,
                                   core::ProblemList& problems) {
   scenes::SceneDescription description = read_chosen_scene(options, problems);
   description.flight_heights.stated = true;
@@ -35,7 +35,7 @@ scenes::SceneDescription scene_of(const LiveOptions& options, const PosesFrom& f
   return description;
 }
 
-std::unique_ptr<session::Session> opened(const LiveOptions& options, const PosesFrom& from,
+std::unique_ptr<session::Session> opened(const LiveOptions& options, const live::PosesFrom& from,
                                          bool quiet) {
   core::ProblemList problems;
   scenes::BuildOptions build;
@@ -54,8 +54,8 @@ std::unique_ptr<session::Session> opened(const LiveOptions& options, const Poses
 
 // What goes on while scenes are switched.
 struct Continued {
-  LiveDatabases databases;
-  Sinks sinks;
+  live::Databases databases;
+  live::Sinks sinks;
   live::Clock::time_point begin = live::Clock::now();
   std::uint64_t frames = 0;
   std::uint16_t page_port = 0;  // 0: none yet
@@ -97,7 +97,7 @@ class LiveRun {
     const std::uint16_t port = serve();
     const bool listens = wiring_.first().listens() && recording_ == nullptr;
     if (listens) listener_.listen(network_);
-    Sinks& sinks = continued_.sinks;
+    live::Sinks& sinks = continued_.sinks;
     sinks.begin(scene_->description, rate_Hz_);
     network_.start();
     if (!quiet_)
@@ -139,7 +139,7 @@ class LiveRun {
  private:
   std::string told_sources() const {
     std::string all;
-    for (const PosesFrom& from : wiring_.from) all += (all.empty() ? "" : ", ") + from.source;
+    for (const live::PosesFrom& from : wiring_.from) all += (all.empty() ? "" : ", ") + from.source;
     return all;
   }
 
@@ -230,7 +230,7 @@ class LiveRun {
   live::Hub hub_;
   std::optional<live::Journal> journal_;
   live::Desk desk_;
-  LiveListener listener_;
+  live::Listener listener_;
   live::Network network_;
   StatusLine line_;
 };

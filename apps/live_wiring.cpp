@@ -24,7 +24,7 @@ void check_one_source(const LiveOptions& options, const Wiring& wiring) {
 // Set by the clock, it would come to other frames each time.
 void check_weather(const LiveOptions& options, const Wiring& wiring) {
   const bool weather = std::any_of(wiring.from.begin(), wiring.from.end(),
-                                   [](const PosesFrom& from) { return from.weather; });
+                                   [](const live::PosesFrom& from) { return from.weather; });
   if (weather && options.lockstep)
     core::throw_input_error(core::ErrorClass::unsupported, "--lockstep", "with weather=simulator",
                             "weather=scene: in lockstep the bytes depend on poses alone");
@@ -56,10 +56,10 @@ Wiring wiring_of(const LiveOptions& options) {
   };
   collect([&] { wiring.page = live::parse_endpoint(options.http, "--http"); });
   for (const std::string& source : options.from)
-    collect([&] { wiring.from.push_back(poses_from(source)); });
-  collect([&] { check_together(wiring.from); });
+    collect([&] { wiring.from.push_back(live::poses_from(source)); });
+  collect([&] { live::check_together(wiring.from); });
   collect([&] { wiring.access = access_of(options); });
-  for (const std::string& sink : options.to) collect([&] { add_sink(sink, wiring.to); });
+  for (const std::string& sink : options.to) collect([&] { live::add_sink(sink, wiring.to); });
   collect([&] { check_page(options.http, wiring); });
   if (!wiring.from.empty()) collect([&] { check_record(options, wiring); });
   collect([&] { check_one_source(options, wiring); });

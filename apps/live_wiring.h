@@ -2,16 +2,16 @@
 #pragma once
 
 #include "apps/live_command.h"
-#include "apps/live_sinks.h"
-#include "apps/live_sources.h"
+#include "live/wiring/sinks.h"
+#include "live/wiring/sources.h"
 
 namespace fanbeam::apps {
 
 struct Wiring {
-  std::vector<PosesFrom> from;
+  std::vector<live::PosesFrom> from;
 
-  const PosesFrom& first() const { return from.front(); }
-  FramesTo to;
+  const live::PosesFrom& first() const { return from.front(); }
+  live::FramesTo to;
   live::Endpoint page;
   live::Access access;  // to the page
 };

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/common.h"
-#include "apps/measurement_csv.h"
 #include "apps/objects_table.h"
 #include "core/files.h"
 #include "core/units.h"
 #include "materials/library/library_text.h"
 #include "materials/library/material_library.h"
 #include "materials/library/model_reader.h"
+#include "materials/nrcs/measurement_csv.h"
 #include "session/plots/gnuplot.h"
 
 namespace fanbeam::apps {
@@ -181,7 +181,8 @@ std::vector<materials::NrcsSample> samples_of_model(const MaterialsView& options
 
 std::vector<materials::NrcsSample> samples_of_file(const std::string& file) {
   core::ProblemList problems;
-  auto samples = read_measurements(core::read_file(file, kLargestFile_bytes), file, problems);
+  auto samples =
+      materials::read_measurements(core::read_file(file, kLargestFile_bytes), file, problems);
   problems.throw_if_errors();
   return samples;
 }

@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command_line.h"
-#include "apps/number_range.h"
+#include "apps/number_check.h"
 #include "apps/option_lists.h"
 #include "apps/plan_command.h"
 #include "apps/value_words.h"

@@ -28,20 +28,12 @@ struct RegressionOptions {
   ApproveOptions approval;
 };
 
-// Does the one or the other.
+// Does the one or the other (measure/regress/run.h), and tells. Of run: 0 when all pictures are within
+// their tolerances; 1 when some are not, or are not approved yet; otherwise, after the reports were
+// written, what the cases that could not be rendered ask for (exit_code_of). Throws InputError for a
+// suite that is not valid, before anything is rendered, and E-RANGE for a reason that says nothing or
+// takes more than a line.
 int regression(const RegressionOptions& options, const CommonOptions& common);
 CLI::App& add_regress_command(CLI::App& program, RegressionOptions& options, CommonOptions& common);
-
-// Renders every case below OUTPUT/rendered, compares, and writes results.json, junit.xml and
-// report.html. 0 when all pictures are within their tolerances; 1 when some are not, or are not
-// approved yet; otherwise, after the reports were written, what the cases that could not be
-// rendered ask for (exit_code_of). Throws InputError for a suite that is not valid, before anything
-// is rendered, and E-PATH for an output folder that holds something else than earlier results.
-int regress(const RegressOptions& options, const CommonOptions& common);
-
-// Takes what the last run rendered as approved, case by case all or nothing, with the reason beside
-// it. Throws InputError: E-RANGE for a reason that says nothing, E-REF for a case that the suite
-// has not, that could not be rendered, and for results of another state of the suite.
-int approve(const ApproveOptions& options, const CommonOptions& common);
 
 }  // namespace fanbeam::apps

@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/command_line.h"
-#include "apps/number_range.h"
+#include "apps/number_check.h"
 #include "apps/track_command.h"
 #include "apps/value_words.h"
 
@@ -23,13 +23,16 @@ void add_own_data(CLI::App& command, TrackOptions& options) {
       ->type_name(kFolderValue);
   command
       .add_option("--radar-speed", options.radar_speed_mps,
-                  "m/s forward, which tells what moves (default: the scene's, else 0)")
+                  "m/s forward, which tells what moves (default: as the scene, the detections or "
+                  "the run.json "
+                  "of fanbeam fmcw tell, else 0)")
       ->check(number_from(-1000.0, 1000.0));
   command
-      .add_option("--frame-period", options.frame_period_s,
-                  "Seconds from frame to frame of samples")
-      ->check(number_from(1e-6, 3600.0))
-      ->capture_default_str();
+      .add_option(
+          "--frame-period", options.frame_period_s,
+          "Seconds from frame to frame of samples (default: as the run.json of fanbeam fmcw "
+          "beside them tells, else 0.05)")
+      ->check(number_from(1e-6, 3600.0));
   command
       .add_option(
           "--body-errors", options.errors,
@@ -102,15 +105,19 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
   samples->excludes("--waveform")->excludes("--detection-probability");
   samples->excludes("--false-measurements")->excludes("--range-only");
   command.add_flag("--plots", options.plots, "Draw range and errors over time too (needs gnuplot)");
-  command.add_flag("--study", options.study,
-                   "What accuracy costs: buffer, noise figure, waveform and association against "
-                   "error and time, as tables and plots (one minute; needs gnuplot)");
+  CLI::Option* study = command.add_flag(
+      "--study", options.study,
+      "What accuracy costs: buffer, noise figure, waveform and association against "
+      "error and time, as tables and plots (one minute; needs gnuplot)");
+  for (const char* studied : {"--waveform", "--association", "--samples", "--plots"})
+    study->excludes(studied);
   command.add_option("--seed", options.seed, "Seed of everything random")
       ->check(any_seed())
       ->capture_default_str();
   command.add_option("--run", options.run, "Another draw of the same seed")
       ->check(whole_number_from(0, 1000000))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->excludes(study);
   command.footer(
       "Writes tracks.csv (with the covariance of x, y, vx, vy and the normalised error squared "
       "against the truth) and measurements.csv for each scenario, run.json with the metrics and "

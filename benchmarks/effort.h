@@ -12,7 +12,6 @@ namespace fanbeam::benchmarks {
 
 // With what the report has beyond a ladder.
 struct Effort : measure::Effort {
-  bool quick = false;
   double converged_slices = 128.0;
 
   measure::Repetitions step, operating_point, naive;

@@ -219,6 +219,10 @@ std::vector<std::string> JsonNode::texts(std::size_t most) const {
   return texts;
 }
 
+std::string JsonNode::dumped() const {
+  return present() ? of(value_).dump(-1, ' ', false, json::error_handler_t::replace) : "null";
+}
+
 void JsonNode::error(ErrorClass error_class, const std::string& expected) const {
   problems_->error(error_class, place(), pointer_, present() ? shown(of(value_)) : "nothing",
                    expected);

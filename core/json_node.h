@@ -49,7 +49,7 @@ class JsonNode {
 
   // E-PARSE when this is no array, E-LIMIT above `most` elements: then it counts as empty.
   std::size_t size(std::size_t most) const;
-  std::size_t elements() const;  // 0 where this is no array; says nothing
+  std::size_t elements() const;               // 0 where this is no array; says nothing
   JsonNode element(std::size_t index) const;  // missing where there are not so many
 
   // E-PARSE for another type, E-RANGE outside.
@@ -59,6 +59,8 @@ class JsonNode {
   std::optional<std::string> text() const;
   std::vector<double> numbers(const NumberRange& range, std::size_t most) const;
   std::vector<std::string> texts(std::size_t most) const;
+  // The value as JSON on one line, members sorted by name; "null" where it is missing. Says nothing.
+  std::string dumped() const;
 
   // Reports the value as it stands in the file, or as missing.
   void error(ErrorClass error_class, const std::string& expected) const;

@@ -17,13 +17,14 @@ struct Effort {
   std::vector<double> slices;                     // per column
   std::vector<double> plain_rays, dithered_rays;  // of the naive renderers, as `rays`
   std::vector<int> looks;                         // at signal level
+  bool quick = false;  // figures show that everything runs, and little more
 
   const std::vector<double>& ladder(Way way) const;
   renderer::Sampling reference(std::uint64_t seed) const;
 };
 
 Effort full_effort();
-Effort quick_effort();  // figures show that everything runs, and little more
+Effort quick_effort();
 
 // Sampling of the two casters for a step of their ladder.
 renderer::Sampling sampling_of(Way way, double fineness);

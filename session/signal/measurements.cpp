@@ -13,11 +13,23 @@ namespace {
 using tracking::RadarMeasurement;
 
 constexpr double kLeastSnr = 1.0;
+constexpr double kNoAzimuth_rad = 1.0;
 
 signal::WindowFigures figures_of(const signal::Window& window, int length) {
   const std::vector<double> weights = signal::window_weights(window, length);
   if (weights.size() < 3) return {.half_power_width_bins = 1.0, .variance_ratio = 1.0};
   return signal::window_figures(weights);
+}
+
+// Sum of squares of the virtual elements' places to the right about their mean, m2: pitch^2 N (N^2 - 1) / 12
+// for N on a line.
+double spread_of(const signal::Array& array) {
+  const std::vector<glm::dvec3> elements_m = signal::virtual_elements_m(array);
+  double mean_m = 0.0, sum_m2 = 0.0;
+  for (const glm::dvec3& element : elements_m)
+    mean_m += element.y / static_cast<double>(elements_m.size());
+  for (const glm::dvec3& element : elements_m) sum_m2 += std::pow(element.y - mean_m, 2);
+  return sum_m2;
 }
 
 // Errors of one cell's width by the windows of a radar.
@@ -29,8 +41,7 @@ class Noise {
     range_ = std::sqrt(figures_of(transform.range_window, samples).variance_ratio);
     speed_ =
         std::sqrt(figures_of(transform.doppler_window, radar.axes.doppler_cells).variance_ratio);
-    const double n = radar.array.channels();
-    spread_ = n > 1.0 ? std::sqrt(6.0 / (n * (n * n - 1.0))) : 0.0;
+    spread_m_ = std::sqrt(spread_of(radar.array));
   }
 
   void put(double snr, RadarMeasurement& measurement) const {
@@ -39,16 +50,16 @@ class Noise {
     const signal::RangeDopplerAxes& axes = radar_.axes;
     measurement.range_sigma_m = bin * range_ * axes.range_step_m;
     measurement.range_rate_sigma_mps = bin * speed_ * (axes.speed_mps(1.0) - axes.speed_mps(0.0));
-    const double turns = radar_.pitch_m / radar_.waveform.wavelength_m();
-    // Towards the end of the line the bound grows without end.
+    // Towards the end of a line the bound grows without end; one element tells no azimuth.
     const double across = std::max(0.05, std::cos(measurement.azimuth_rad));
+    const double turns = spread_m_ / radar_.waveform.wavelength_m();
     measurement.azimuth_sigma_rad =
-        std::min(1.0, spread_ / std::sqrt(ratio) / (2.0 * core::kPi * turns * across));
+        std::min(kNoAzimuth_rad, 1.0 / (2.0 * core::kPi * turns * across * std::sqrt(2.0 * ratio)));
   }
 
  private:
   const FmcwRadar& radar_;
-  double range_ = 1.0, speed_ = 1.0, spread_ = 0.0;
+  double range_ = 1.0, speed_ = 1.0, spread_m_ = 0.0;
 };
 
 RadarMeasurement of_one(const signal::RadarDetection& detection, const BodyErrors& errors) {
@@ -143,9 +154,13 @@ tracking::Resolution resolution_of(const FmcwRadar& radar) {
   resolution.range_rate_mps =
       (axes.speed_mps(1.0) - axes.speed_mps(0.0)) *
       figures_of(transform.doppler_window, axes.doppler_cells).half_power_width_bins;
+  // The line of as many elements and the same spread: its length is pitch * N.
   constexpr double kBeamwidth = 0.8859;
-  resolution.azimuth_rad = std::min(
-      1.0, kBeamwidth * radar.waveform.wavelength_m() / (radar.pitch_m * radar.array.channels()));
+  const double n = radar.array.channels();
+  const double length_m =
+      n > 1.0 ? std::sqrt(12.0 * spread_of(radar.array) * n / (n * n - 1.0)) : 0.0;
+  resolution.azimuth_rad =
+      std::min(kNoAzimuth_rad, kBeamwidth * radar.waveform.wavelength_m() / length_m);
   return resolution;
 }
 

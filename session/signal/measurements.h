@@ -3,10 +3,12 @@
 // Detections of one cluster no longer than an object are one measurement: means weighted with the
 // power, and the weighted deviation of its parts as a systematic error. Longer clusters (a guard rail, a
 // wall) are taken apart again, and so is what has no cluster.
-// Noise, where the radar is known (r the detection's signal to noise in a cell, C channels, N elements
-// of a line, bins of the windows' variance ratio q):
+// Noise, where the radar is known (r the detection's signal to noise in a cell, C channels, bins of the
+// windows' variance ratio q, S the sum of squares of the virtual elements' places to the right about their
+// mean):
 //   bin       sqrt(6 q / (r C)) / (2 pi) of a range or a Doppler cell
-//   azimuth   sqrt(6 / (r N (N^2 - 1))) / (2 pi pitch / wavelength cos azimuth)
+//   azimuth   wavelength / (2 pi cos azimuth sqrt(2 r S)), at most 1 rad, as where there is one element;
+//             for N on a line, where S is pitch^2 N (N^2 - 1) / 12, the bound of angle_peak.h
 // (signal/detection/tone.h, angle_peak.h.) Beside it stands what the echo of a body wanders over it:
 // `errors`, as systematic errors.
 #pragma once
@@ -31,7 +33,8 @@ std::vector<tracking::RadarMeasurement> measurements_of(const DetectedFrame& fra
                                                         const FmcwRadar* radar,
                                                         const BodyErrors& errors);
 
-// What two targets have to be apart on one axis to be two detections: widths between half powers.
+// What two targets have to be apart on one axis to be two detections: widths between half powers, of
+// the line of as many elements and the same S in azimuth.
 tracking::Resolution resolution_of(const FmcwRadar& radar);
 
 }  // namespace fanbeam::session

@@ -1,6 +1,7 @@
 #include "session/signal/record.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "core/machine.h"
@@ -103,6 +104,7 @@ Json frame_json(const FmcwFrameRecord& frame) {
   for (const core::Problem& warning : frame.warnings) warnings.push_back(to_string(warning));
   Json json = {{"index", frame.index},
                {"time_s", frame.time_s},
+               {"radar_speed_mps", frame.radar_speed_mps},
                {"rays", frame.rays},
                {"paths", frame.paths},
                {"received_W", frame.received_W},
@@ -133,6 +135,7 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
   record.index = index;
   record.time_s =
       scene.trajectory->frame_time_s(index, scene.description.sensor.scan.frame_rate_Hz);
+  record.radar_speed_mps = glm::length(scene.trajectory->at(record.time_s).v_N_mps);
   record.rays = paths.rays;
   record.paths = paths.paths.size();
   for (const signal::ScatterPath& path : paths.paths)

@@ -33,7 +33,8 @@ struct FmcwScanCounts {  // of product bscope
 struct FmcwFrameRecord {
   int index = 0;
   double time_s = 0.0;
-  std::set<std::string> files;  // relative to the folder
+  double radar_speed_mps = 0.0;  // over ground
+  std::set<std::string> files;   // relative to the folder
   std::optional<FmcwScanCounts> scan;
   bool chain = false;  // what follows is known
   std::uint64_t rays = 0;

@@ -1,8 +1,8 @@
 // `fanbeam materials` as a user meets it: list, plot, fit.
 #include <filesystem>
 
-#include "apps/measurement_csv.h"
 #include "core/units.h"
+#include "materials/nrcs/measurement_csv.h"
 #include "session/plots/gnuplot.h"
 #include "tests/apps/program.h"
 
@@ -162,7 +162,7 @@ TEST_CASE("Every problem of a measurement file is told with its line", "[cli][ma
   fanbeam::core::ProblemList problems;
   const auto read = [&](const std::string& text) {
     problems = {};
-    return fanbeam::apps::read_measurements(text, "m.csv", problems);
+    return fanbeam::materials::read_measurements(text, "m.csv", problems);
   };
   const auto rows =
       read("grazing_deg,sigma0_dB\r\n2,-30\r\n1,-20\nx,-20\n5,nan\n95,-20\n6\n7,-1e9\n8,-12\n");

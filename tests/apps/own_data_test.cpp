@@ -67,6 +67,7 @@ TEST_CASE("A street is followed from its scene, its detections and its samples a
   REQUIRE(track(csv, out / "table", "--radar " + tests::quoted(made / "radar.toml")).exit_code ==
           0);
   CHECK(tests::json_of(out / "table/run.json")["confirmed_tracks"] == record["confirmed_tracks"]);
+  CHECK(tests::json_of(out / "table/run.json")["resolution"]["of"] == "the radar");
   // Samples alone.
   fs::remove_all(made / "detections");
   REQUIRE(track(made, out / "samples", "--frame-period 0.05").exit_code == 0);
@@ -81,7 +82,8 @@ TEST_CASE("Recorded cubes of another layout give the same tracks", "[track]") {
   REQUIRE(tests::run_fanbeam("fmcw street-76ghz -q --frames 0:4 --products beat --chirps 64 -o " +
                              tests::quoted(made))
               .exit_code == 0);
-  REQUIRE(track(made, out / "own").exit_code == 0);
+  // Its record tells times and speed, that of somebody's recorder does not.
+  REQUIRE(track(made, out / "own", "--frame-period 0.05 --radar-speed 0").exit_code == 0);
   // As a recorder keeps it: frame, chirps of the three transmitters in turn, receiver, sample; another
   // sign of the beat, another unit.
   constexpr std::size_t kFrames = 4, kChirps = 64, kReceivers = 4, kTransmitters = 3;
@@ -309,6 +311,35 @@ TEST_CASE("Detections that fmcw left tell the radar's speed, and the posts of a 
   CHECK(told["moving_tracks"].get<int>() <= 12);
   const nlohmann::json standing = track("--radar-speed 0");
   CHECK(standing["moving_tracks"].get<int>() > standing["confirmed_tracks"].get<int>() / 2);
+}
+
+// Every second frame of a radar that drives: 0.05 s a frame and a radar at rest would be taken else.
+TEST_CASE("Samples that fmcw left have the times and the speed that its record tells",
+          "[fmcw][track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path signals = folder.path() / "signals", out = folder.path() / "tracks";
+  REQUIRE(tests::run_fanbeam("fmcw highway-76ghz -q --frames 2:8:2 --products beat -o " +
+                             tests::quoted(signals))
+              .exit_code == 0);
+  const nlohmann::json frames = tests::json_of(signals / "run.json").at("frames");
+  const double first_s = frames[0]["time_s"], last_s = frames[2]["time_s"];
+  REQUIRE(last_s > first_s);
+  REQUIRE(track(signals, out).exit_code == 0);
+  const nlohmann::json record = tests::json_of(out / "run.json");
+  CHECK(record["frame_s"].get<double>() == Approx(0.5 * (last_s - first_s)).epsilon(1e-12));
+  CHECK(record["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).margin(0.01));
+  std::istringstream rows(tests::bytes_of(out / "measurements.csv"));
+  std::set<double> times_s;
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) times_s.insert(std::stod(row));
+  REQUIRE(times_s.size() == 3);
+  CHECK(*times_s.begin() == Approx(first_s).margin(1e-6));
+  CHECK(*times_s.rbegin() == Approx(last_s).margin(1e-6));
+  // An option goes before the record.
+  REQUIRE(track(signals, out, "--frame-period 0.2 --radar-speed 3").exit_code == 0);
+  CHECK(tests::json_of(out / "run.json")["frame_s"] == 0.2);
+  CHECK(tests::json_of(out / "run.json")["radar_speed_mps"] == 3.0);
 }
 
 TEST_CASE("A car's radar in a scene raises the floor, and mending recovers detections", "[fmcw]") {

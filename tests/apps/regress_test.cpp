@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "apps/regress/markup.h"
-#include "apps/regress/suite.h"
 #include "core/image.h"
 #include "core/machine.h"
+#include "measure/regress/markup.h"
+#include "measure/regress/suite.h"
 #include "tests/apps/markup_check.h"
 #include "tests/apps/program.h"
 
@@ -350,7 +350,7 @@ TEST_CASE("The level that a suite pins is what its cases run at, unless --isa as
 }
 
 TEST_CASE("Any text gets a file name of its own that leads nowhere else", "[regress]") {
-  using apps::file_name_of;
+  using measure::file_name_of;
   CHECK(file_name_of("flat-grass_2.5km") == "flat-grass_2.5km");
   CHECK(file_name_of("..") == "~2E.");
   CHECK(file_name_of(".") == "~2E");
@@ -362,7 +362,7 @@ TEST_CASE("Any text gets a file name of its own that leads nowhere else", "[regr
 }
 
 TEST_CASE("Markup holds any bytes as text", "[regress]") {
-  using apps::markup_text;
+  using measure::markup_text;
   const std::string unknown = "\xEF\xBF\xBD";
   CHECK(markup_text("<a href=\"x\">&'") == "&lt;a href=&quot;x&quot;&gt;&amp;&#39;");
   CHECK(markup_text("line\n\ttab") == "line\n\ttab");

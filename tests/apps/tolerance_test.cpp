@@ -1,5 +1,5 @@
 // Which differences a tolerance lets pass.
-#include "apps/regress/tolerance.h"
+#include "measure/regress/tolerance.h"
 
 #include <catch2/catch.hpp>
 #include <limits>
@@ -7,7 +7,7 @@
 #include <vector>
 
 using namespace fanbeam;
-using namespace fanbeam::apps;
+using namespace fanbeam::measure;
 using fanbeam::session::DifferenceUnit;
 
 namespace {

@@ -148,8 +148,15 @@ TEST_CASE("track --study writes its six tables and their plots, with the figures
   shorter.replace(shorter.find("\"duration_s\": 1.0"), 17, "\"duration_s\": 0.1");
   folder.write("two.json", shorter);
   const fs::path out = folder.path() / "out";
-  const auto result = tests::run_fanbeam("track " + tests::quoted(folder.path() / "two.json") +
-                                         " --study --quiet -o " + tests::quoted(out));
+  const std::string words =
+      "track " + tests::quoted(folder.path() / "two.json") + " --study --quiet ";
+  // What it varies itself is not asked for beside it.
+  for (const char* studied :
+       {"--waveform triangle", "--association joint", "--samples", "--plots", "--run 1"}) {
+    INFO(studied);
+    CHECK(tests::run_fanbeam(words + studied).exit_code == 2);
+  }
+  const auto result = tests::run_fanbeam(words + "-o " + tests::quoted(out));
   INFO(result.output);
   REQUIRE(result.exit_code == 0);
   const std::string page = tests::bytes_of(out / "study.md");

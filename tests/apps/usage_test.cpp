@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "apps/number_range.h"
+#include "apps/number_check.h"
 #include "tests/apps/commands.h"
 
 using namespace fanbeam::tests;

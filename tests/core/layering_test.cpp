@@ -36,7 +36,8 @@ const std::map<std::string, Names>& layers() {
        {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes", "session",
         "signal", "tracking"}},
       {"measure",
-       {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes", "session"}},
+       {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes", "session",
+        "session/signal", "signal", "tracking"}},
       {"datasets",
        {"core", "materials", "atmosphere", "terrain", "sensors", "renderer", "scenes", "session"}},
       {"live",
@@ -71,8 +72,7 @@ constexpr Confined kConfined[] = {
     {"GeographicLib/.*", "terrain"},     {"(gdal|ogr|cpl_|gdal/).*", "terrain"},
     {"(geos_c\\.h|geos/.*)", "terrain"}, {"proj(_.*)?\\.h", "terrain"},
     {"OpenImageIO/.*", "core"},          {"fftw3\\.h", "signal"},
-    {"openssl/.*", "datasets"},
-    {"archive(_entry)?\\.h", "datasets"},
+    {"openssl/.*", "datasets"},          {"archive(_entry)?\\.h", "datasets"},
     {"nanoflann\\.hpp", "signal"},       {"boost/(asio|beast).*", "live"},
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/tracking/highway_scenes.h"
+#include "tracking/simulation/measurement_simulator.h"
 #include "tracking/simulation/sampled_frame.h"
 
 using namespace fanbeam;
@@ -48,6 +49,34 @@ TEST_CASE("From samples, a speed is found in whatever fold it lies", "[sampled]"
     CHECK(seen[0].range_rate_mps == Approx(rate_mps).epsilon(0.0).margin(0.3));
     CHECK(seen[0].range_m == Approx(truth.range_m).epsilon(0.0).margin(0.3));
   }
+}
+
+// The bound told goes with the root of the power: of a steady car the same in every frame, of a Swerling 1
+// car with the draws that the level of frequencies has.
+TEST_CASE("From samples, a target fluctuates as it does from frequencies",
+          "[sampled][statistics]") {
+  const SampledRadar radar(highway_radar());
+  core::HighwayScenario steady = one_stopped_car();
+  core::HighwayScenario fluctuating = steady;
+  fluctuating.targets[0].fluctuation = core::Swerling::case1;
+  double least = 1.0, most = 1.0;
+  for (std::uint32_t run = 0; run < 6; ++run) {
+    const auto ratio = [&](const std::vector<RadarMeasurement>& without,
+                           const std::vector<RadarMeasurement>& with) {
+      REQUIRE(without.size() == 1);
+      REQUIRE(with.size() == 1);
+      return std::pow(without[0].range_sigma_m / with[0].range_sigma_m, 2);
+    };
+    const double sampled =
+        ratio(radar.measure(steady, 3, run, 0), radar.measure(fluctuating, 3, run, 0));
+    const double drawn = ratio(simulated_frame(steady, highway_radar(), {}, 3, run, 0),
+                               simulated_frame(fluctuating, highway_radar(), {}, 3, run, 0));
+    INFO("run " << run);
+    CHECK(sampled == Approx(drawn).epsilon(0.1));
+    least = std::min(least, sampled);
+    most = std::max(most, sampled);
+  }
+  CHECK(most > 2.0 * least);
 }
 
 TEST_CASE("From samples, S2 is tracked as from frequencies, and twice with the same bits",

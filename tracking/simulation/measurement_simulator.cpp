@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::size_t kFalseCells = 1U << 20U;  // beyond any target's number
 
-double fluctuation(core::Swerling model, const Draws& draws, std::size_t cell) {
-  const double a = -std::log(draws.uniform(cell, 9, 0)), b = -std::log(draws.uniform(cell, 9, 1));
-  if (model == core::Swerling::case1 || model == core::Swerling::case2) return a;
-  if (model == core::Swerling::case3 || model == core::Swerling::case4) return 0.5 * (a + b);
-  return 1.0;
-}
-
 std::vector<Seen> seen_targets(const core::HighwayScenario& scenario,
                                const core::HighwayRadar& radar, const SimulationSettings& settings,
                                const Draws& draws, int frame) {
@@ -29,7 +22,7 @@ std::vector<Seen> seen_targets(const core::HighwayScenario& scenario,
     const core::HighwayTarget& target = scenario.targets[i];
     const core::HighwayTruth truth =
         truth_at(target, scenario.radar_speed_mps, radar, frame * radar.frame_s);
-    const double section_m2 = target.cross_section_m2 * fluctuation(target.fluctuation, draws, i);
+    const double section_m2 = target.cross_section_m2 * draws.fluctuation(target.fluctuation, i);
     if (!truth.in_view || is_suppressed(target, truth.time_s) || !(section_m2 > 0.0) ||
         draws.uniform(i, 8) > settings.detection_probability)
       continue;
@@ -151,6 +144,13 @@ void check(const SimulationSettings& settings) {
 }
 
 }  // namespace
+
+double Draws::fluctuation(core::Swerling model, std::size_t target) const {
+  const double a = -std::log(uniform(target, 9, 0)), b = -std::log(uniform(target, 9, 1));
+  if (model == core::Swerling::case1 || model == core::Swerling::case2) return a;
+  if (model == core::Swerling::case3 || model == core::Swerling::case4) return 0.5 * (a + b);
+  return 1.0;
+}
 
 double ramp_of(Scheme scheme, const core::HighwayWaveforms& waveforms) {
   switch (scheme) {

@@ -15,6 +15,7 @@
 #include "signal/waveform/factories.h"
 #include "tracking/simulation/directions.h"
 #include "tracking/simulation/measurement_bound.h"
+#include "tracking/simulation/simulation_private.h"
 #include "tracking/simulation/triangle_beats.h"
 
 namespace fanbeam::tracking {
@@ -28,7 +29,8 @@ constexpr int kCoarse = 0, kFine = 1;  // stages
 
 std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
                                           const core::HighwayRadar& radar, double time_s,
-                                          const core::RandomKey& key, std::uint64_t run) {
+                                          const Draws& draws, const core::RandomKey& key,
+                                          std::uint64_t run) {
   signal::Link link;
   link.transmitted_W = radar.transmitted_W;
   link.transmit_gain = radar.transmit_gain;
@@ -40,8 +42,10 @@ std::vector<signal::ScatterPath> paths_of(const core::HighwayScenario& scenario,
     const core::HighwayTarget& target = scenario.targets[i];
     const core::HighwayTruth truth = truth_at(target, scenario.radar_speed_mps, radar, time_s);
     if (!truth.in_view || is_suppressed(target, time_s)) continue;
-    const double power_W = signal::received_power_W(link, truth.range_m, target.cross_section_m2) /
-                           radar.array_elements;
+    const double section_m2 = target.cross_section_m2 * draws.fluctuation(target.fluctuation, i);
+    if (!(section_m2 > 0.0)) continue;
+    const double power_W =
+        signal::received_power_W(link, truth.range_m, section_m2) / radar.array_elements;
     const double turn = core::uniform_from(core::random_words(key, (run << 32U) + i, 10)[0]);
     signal::ScatterPath path;
     path.range_m = truth.range_m;
@@ -94,8 +98,8 @@ SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
                                      repetition_s_, waveform_.wavelength_m(), samples,
                                      static_cast<int>(chirps.size()));
   const double cell_m = core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz);
-  transform_.range_window =
-      transform_.doppler_window = {.kind = signal::WindowKind::chebyshev, .level_dB = 60.0};
+  transform_.range_window = transform_.doppler_window = {
+      .kind = signal::WindowKind::chebyshev, .level_dB = 60.0, .symmetric = true};
   transform_.kept_range_cells =
       std::clamp(static_cast<int>(std::ceil(1.02 * radar.most_range_m / cell_m)), 2, samples);
   cfar_ = {.kind = signal::CfarKind::ordered_statistic,
@@ -147,7 +151,8 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
   // One stream of samples for each run: seed, run and frame in one key.
   core::RandomKey key{seed + (std::uint64_t{run} << 32U), core::kStreamHighway,
                       static_cast<std::uint32_t>(frame)};
-  const auto paths = paths_of(scenario, radar_, frame * radar_.frame_s, key, run);
+  const auto paths =
+      paths_of(scenario, radar_, frame * radar_.frame_s, Draws(seed, run, frame), key, run);
   const auto received = [&](int stage) {
     signal::FloatCube samples = signal::synthesise_beat(waveform_, stage, array_, paths);
     const double rate_Hz = waveform_.sample_rate_Hz[static_cast<std::size_t>(stage)];

@@ -14,7 +14,8 @@
 // where that is not split, with the one there is and an error that says so. Beats that no detection has
 // taken make a second target within a cell.
 // Array: a line of `radar.array_elements` receivers that share the gain, so that their coherent sum
-// has the ratio of the link budget. Phases of targets are random in every frame.
+// has the ratio of the link budget. Phases of targets are random in every frame, and their
+// cross-sections as in measurement_simulator.h, by the same draws.
 // Ranges belong to the turnaround of the triangle, which is the time of the frame.
 // The standard deviations told are the bounds of measurement_bound.h at the ratio measured, and for
 // a windowed beat those of its window.

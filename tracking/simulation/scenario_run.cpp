@@ -36,27 +36,26 @@ std::vector<Place> places(const std::vector<NamedPlace>& named) {
   return result;
 }
 
-// Of a triangle's beats, with the array's directions.
-Resolution resolution_of(const core::HighwayRadar& radar) {
+}  // namespace
+
+Resolution road_resolution(const core::HighwayRadar& radar, double ramp_s) {
   constexpr double kBiasedCells = 2.2, kMergedBins = 1.2, kHalfPowerWidth = 0.8859;
   const double wavelength_m = core::kSpeedOfLight_mps / radar.centre_frequency_Hz;
   Resolution resolution;
   resolution.range_m = kBiasedCells * core::kSpeedOfLight_mps / (2.0 * radar.bandwidth_Hz);
-  resolution.range_rate_mps = kMergedBins * wavelength_m / (2.0 * radar.waveforms.fine_ramp_s);
+  resolution.range_rate_mps = kMergedBins * wavelength_m / (2.0 * ramp_s);
   if (radar.array_elements > 1)
     resolution.azimuth_rad =
         std::min(1.0, kHalfPowerWidth / (radar.array_elements * radar.array_pitch_wavelengths));
   return resolution;
 }
 
-}  // namespace
-
 TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps,
                              double acceleration_mps2, double coast_s) {
   TrackerSettings settings;
   settings.most_range_m = radar.most_range_m;
   settings.most_azimuth_rad = radar.most_azimuth_rad;
-  settings.resolution = resolution_of(radar);
+  settings.resolution = road_resolution(radar, radar.waveforms.fine_ramp_s);
   settings.most_coasted =
       static_cast<int>(std::min(std::ceil(coast_s / radar.frame_s - 1e-9), 1e9));
   settings.longest_gap_s = (settings.most_coasted + 1.5) * radar.frame_s;

@@ -25,12 +25,16 @@ inline constexpr double kMatch_m = 3.0;
 // after a crossing. Tracks coast for `coast_s` without a measurement. A radar of one element tells no
 // azimuth: then range alone is tracked, at constant speed with the same acceleration, which loses what
 // passes close by. Field of view of the radar.
-// Two targets are within the radar's resolution nearer than 2.2 c / 2B in range, as far as merged beats are
-// biased, 1.2 bins of a ramp in speed, and the array's beam in azimuth.
+// Resolution of the two-stage waveform.
 inline constexpr double kSteady_mps2 = 0.5;
 inline constexpr double kCoast_s = 1.0;
 TrackerSettings road_tracker(const core::HighwayRadar& radar, double radar_speed_mps,
                              double acceleration_mps2 = kSteady_mps2, double coast_s = kCoast_s);
+
+// Two targets are within it nearer than 2.2 c / 2B in range, as far as merged beats are biased, 1.2 bins of
+// a ramp in speed, and the array's beam in azimuth. `ramp_s`: of the triangle whose beats are told
+// (ramp_of).
+Resolution road_resolution(const core::HighwayRadar& radar, double ramp_s);
 
 struct ScenarioFrame {
   double time_s = 0.0;

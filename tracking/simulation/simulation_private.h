@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/random.h"
+#include "core/swerling.h"
 #include "signal/pairing/triangle.h"
 #include "tracking/simulation/measurement_simulator.h"
 
@@ -20,6 +21,8 @@ class Draws {
   double uniform(std::size_t cell, std::uint32_t draw, std::size_t word = 0) const {
     return core::uniform_from(core::random_words(key_, at(cell), draw)[word]);
   }
+  // Of a target's cross-section in this frame, over its mean.
+  double fluctuation(core::Swerling model, std::size_t target) const;
 
  private:
   std::uint64_t at(std::size_t cell) const { return (std::uint64_t{run_} << 32U) + cell; }

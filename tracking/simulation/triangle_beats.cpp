@@ -173,8 +173,8 @@ SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::Tria
                             double sample_rate_Hz, double noise_W,
                             const std::vector<signal::RangeSpeed>& coarse) {
   const int count = samples.shape.samples;
-  const auto weights =
-      signal::window_weights({.kind = signal::WindowKind::chebyshev, .level_dB = 60.0}, count);
+  const auto weights = signal::window_weights(
+      {.kind = signal::WindowKind::chebyshev, .level_dB = 60.0, .symmetric = true}, count);
   signal::ToneRecords records[2];
   std::vector<double> bins[2];
   core::parallel_for(2, [&](std::size_t ramp) {

@@ -1,0 +1,133 @@
+#include "live/wiring/sinks.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include "core/errors.h"
+#include "live/wiring/words.h"
+
+namespace fanbeam::live {
+namespace {
+
+using feeds::cat240::CellBits;
+
+constexpr std::string_view kShared = "shm:", kRawBscope = "raw-bscope:", kRawCscope = "raw-cscope:",
+                           kVideo = "cat240:";
+constexpr std::string_view kBits = "bits", kAzimuth = "azimuth", kCompress = "compress",
+                           kSource = "source", kInterface = "interface", kHops = "hops";
+constexpr std::array kSinkKeys{kBits, kAzimuth, kCompress, kSource, kInterface, kHops};
+constexpr const char* kSinks =
+    "shm:NAME, raw-bscope:FILE, raw-cscope:FILE or cat240:ADDRESS:PORT and behind it ,bits=8 or "
+    "16, ,azimuth=nose or true, ,compress=none or zlib, ,source=SAC/SIC, ,interface=ADDRESS, "
+    ",hops=N";
+
+[[noreturn]] void refuse_sink(const std::string& value, const char* expected) {
+  core::throw_input_error(core::ErrorClass::ref, "--to", "\"" + value + "\"", expected);
+}
+
+// Of two words the second.
+bool is_second(const std::string& value, const char* first, const char* second,
+               const char* expected) {
+  if (value != first && value != second) refuse_sink(value, expected);
+  return value == second;
+}
+
+int whole(std::string_view text, int most, const std::string& value, const char* expected) {
+  int number = -1;
+  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (fault != std::errc() || end != text.data() + text.size() || number < 0 || number > most)
+    refuse_sink(value, expected);
+  return number;
+}
+
+void take_video_option(std::string_view key, const std::string& value, RadarVideoSettings& video) {
+  if (key == kBits) {
+    video.bits =
+        is_second(value, "8", "16", "bits=8 or bits=16") ? CellBits::sixteen : CellBits::eight;
+  } else if (key == kAzimuth) {
+    video.true_bearings = is_second(value, "nose", "true", "azimuth=nose or azimuth=true");
+  } else if (key == kCompress) {
+    video.zlib = is_second(value, "none", "zlib", "compress=none or compress=zlib");
+  } else if (key == kInterface) {
+    video.interface = parse_address(value, "--to");
+  } else if (key == kHops) {
+    video.hops = whole(value, 255, value, "hops=N, N from 0 to 255");
+  } else {
+    constexpr const char* kExpected = "source=SAC/SIC, each from 0 to 255";
+    const std::size_t slash = value.find('/');
+    if (slash == std::string::npos) refuse_sink(value, kExpected);
+    const std::string_view text = value;
+    video.source.area =
+        static_cast<std::uint8_t>(whole(text.substr(0, slash), 255, value, kExpected));
+    video.source.code =
+        static_cast<std::uint8_t>(whole(text.substr(slash + 1), 255, value, kExpected));
+  }
+}
+
+RadarVideoSettings video_to(const std::string& text) {
+  RadarVideoSettings video;
+  const Worded words = worded(text, kSinkKeys);
+  video.to = parse_endpoint(words.head.substr(kVideo.size()), "--to");
+  if (video.to.port == 0)
+    core::throw_input_error(core::ErrorClass::range, "--to", "\"" + text + "\"", "a port from 1");
+  for (const auto& [key, value] : words.options) take_video_option(key, value, video);
+  const bool six = video.to.address.find(':') != std::string::npos ||
+                   video.interface.find(':') != std::string::npos;
+  if (six && !video.interface.empty())
+    core::throw_input_error(core::ErrorClass::unsupported, "--to", "\"" + text + "\"",
+                            "interface= of IPv4 alone");
+  return video;
+}
+
+}  // namespace
+
+bool FramesTo::take_stdout() const {
+  return std::any_of(raw.begin(), raw.end(), [](const RawSink& sink) { return sink.file == "-"; });
+}
+
+bool FramesTo::want_received() const {
+  return std::any_of(video.begin(), video.end(),
+                     [](const auto& one) { return one.bits == CellBits::sixteen; });
+}
+
+void add_sink(const std::string& text, FramesTo& to) {
+  if (text.starts_with(kShared))
+    to.shared.push_back(text.substr(kShared.size()));
+  else if (text.starts_with(kRawBscope))
+    to.raw.push_back({RawFrames::Scope::bscope, text.substr(kRawBscope.size())});
+  else if (text.starts_with(kRawCscope))
+    to.raw.push_back({RawFrames::Scope::cscope, text.substr(kRawCscope.size())});
+  else if (text.starts_with(kVideo))
+    to.video.push_back(video_to(text));
+  else
+    refuse_sink(text, kSinks);
+}
+
+void Sinks::begin(const scenes::SceneDescription& scene, double rate_Hz) {
+  shared_.clear();
+  video_.clear();
+  for (const std::string& name : to_.shared)
+    shared_.push_back(std::make_unique<SharedFrames>(name, scene.sensor, rate_Hz));
+  for (const RadarVideoSettings& video : to_.video)
+    video_.push_back(
+        std::make_unique<RadarVideo>(video, scene.sensor, scene.name, rate_Hz, every_frame_));
+  // Last, as it empties files that are there.
+  if (raw_.empty())
+    for (const RawSink& sink : to_.raw)
+      raw_.push_back(std::make_unique<RawFrames>(sink.scope, sink.file, every_frame_));
+}
+
+void Sinks::write(const std::shared_ptr<const LiveFrame>& frame) {
+  if (!frame) return;
+  for (const auto& ring : shared_)
+    if (frame->number != ring->newest()) ring->write(*frame);
+  for (const auto& raw : raw_) raw->write(frame);
+  for (const auto& video : video_) video->write(frame);
+}
+
+bool Sinks::any_ended() const {
+  return std::any_of(raw_.begin(), raw_.end(), [](const auto& raw) { return raw->ended(); });
+}
+
+}  // namespace fanbeam::live

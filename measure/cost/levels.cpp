@@ -1,0 +1,130 @@
+#include "measure/cost/levels.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "core/turns.h"
+#include "measure/clock.h"
+#include "renderer/accuracy/swept_picture.h"
+#include "renderer/stages/range_response.h"
+#include "sensors/display/display.h"
+#include "session/signal/signal_bscope.h"
+#include "signal/scan/column_sweep.h"
+
+namespace fanbeam::measure {
+namespace {
+
+constexpr int kThinParts = 8;
+constexpr renderer::Products kBscopeAlone = {.bscope = true, .cscope = false};
+
+// Converged powers behind the sweep, noise in them.
+std::vector<double> reference_W(const CostBench& bench, const sensors::Sensor& sensor) {
+  const auto thin = bench.with_sensor(renderer::thin_cells(sensor, kThinParts));
+  renderer::Sampling sampling = bench.effort.reference(1);
+  sampling.rays_per_cell /= kThinParts;
+  const renderer::FrameRenderer frames(thin->world, sampling, kBscopeAlone, {});
+  return renderer::swept_power_W(
+      sensor, frames.render(thin->frame_pose(bench.frames.front())).bscope_W, kThinParts);
+}
+
+class GreyDistance {
+ public:
+  GreyDistance(const sensors::Sensor& sensor, std::vector<double> reference_W)
+      : sensor_(sensor), reference_(grey(std::move(reference_W), sensor.noise_power_W())) {}
+
+  // RMS over all cells of grey. `noise_W` is added to `power_W`: 0 where it has its own.
+  double rms(const std::vector<double>& power_W, double noise_W) const {
+    const std::vector<double> shown = grey(power_W, noise_W);
+    double squares = 0.0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      squares += (shown[i] - reference_[i]) * (shown[i] - reference_[i]);
+    return std::sqrt(squares / static_cast<double>(shown.size()));
+  }
+
+ private:
+  std::vector<double> grey(std::vector<double> power_W, double noise_W) const {
+    for (double& power : power_W) power += noise_W;
+    return sensors::bscope_grey(sensor_, power_W);
+  }
+
+  const sensors::Sensor& sensor_;
+  std::vector<double> reference_;
+};
+
+void measure_pictures(const CostBench& bench, const sensors::Sensor& sensor,
+                      const GreyDistance& distance, std::vector<LevelStep>& steps) {
+  const renderer::FramePose pose = bench.scene.frame_pose(bench.frames.front());
+  const renderer::RangeResponse response(sensor);
+  std::vector<renderer::FrameRenderer> renderers;
+  for (const double fineness : bench.effort.rays)
+    renderers.emplace_back(bench.scene.world, sampling_of(Way::rays, fineness), kBscopeAlone,
+                           renderer::Effects{});
+  const auto render = [&](const renderer::FrameRenderer& frames) {
+    std::vector<double> power_W = frames.render(pose).bscope_W;
+    response.apply(power_W);
+    return power_W;
+  };
+  std::vector<std::function<void()>> works;
+  for (const renderer::FrameRenderer& frames : renderers)
+    works.emplace_back([&render, &frames] { render(frames); });
+  const std::vector<core::MedianTime> times = core::time_in_turns(works, bench.effort.repetitions);
+  for (std::size_t i = 0; i < renderers.size(); ++i)
+    steps.push_back({bench.frames.front(), "picture", bench.effort.rays[i], times[i],
+                     distance.rms(render(renderers[i]), sensor.noise_power_W())});
+}
+
+void measure_signals(const CostBench& bench, const GreyDistance& distance,
+                     std::vector<LevelStep>& steps) {
+  const renderer::FramePose pose = bench.scene.frame_pose(bench.frames.front());
+  std::vector<double> sum_W, times_ms;
+  for (const int looks : bench.effort.looks) {
+    while (static_cast<int>(times_ms.size()) < looks) {
+      session::SignalBscopeSettings settings;
+      settings.looks = 1;
+      settings.seed = times_ms.size();
+      const Clock::time_point begin = Clock::now();
+      const std::vector<double> power_W =
+          session::signal_bscope(bench.scene.world, pose, settings).power_W;
+      times_ms.push_back(milliseconds_since(begin));
+      sum_W.resize(power_W.size(), 0.0);
+      for (std::size_t i = 0; i < power_W.size(); ++i) sum_W[i] += power_W[i];
+    }
+    std::vector<double> mean_W = sum_W;
+    for (double& power : mean_W) power /= looks;
+    core::MedianTime time = core::median_of(times_ms);
+    time.ms *= looks;
+    time.error_ms *= looks;
+    steps.push_back({bench.frames.front(), "signal", static_cast<double>(looks), time,
+                     distance.rms(mean_W, 0.0)});
+  }
+}
+
+}  // namespace
+
+std::string why_no_levels(const CostBench& bench) {
+  return signal::why_no_column_sweep(bench.scene.world.sensor);
+}
+
+double levels_s(const CostBench& bench) {
+  // Measured: a look takes as long as some 30 frames of rays at default sampling.
+  constexpr double kLookOverFrame = 30.0;
+  double rays_ms = 0.0;
+  for (const double fineness : bench.effort.rays)
+    rays_ms += bench.pace.step_ms(Way::rays, fineness);
+  return bench.pace.build_s + bench.pace.reference_s(bench.effort) +
+         (bench.effort.repetitions + 6.0) * rays_ms / 1000.0 +
+         bench.effort.looks.back() * kLookOverFrame * bench.pace.frame_ms / 1000.0;
+}
+
+std::vector<LevelStep> measure_levels(const CostBench& bench) {
+  bench.begin(fmt::format("frame {}, signal level", bench.frames.front()), levels_s(bench));
+  const sensors::Sensor sensor = session::with_sweep_window(bench.scene.world.sensor);
+  const GreyDistance distance(sensor, reference_W(bench, sensor));
+  std::vector<LevelStep> steps;
+  measure_pictures(bench, sensor, distance, steps);
+  measure_signals(bench, distance, steps);
+  return steps;
+}
+
+}  // namespace fanbeam::measure

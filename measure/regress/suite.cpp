@@ -1,0 +1,260 @@
+#include "measure/regress/suite.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+
+#include "core/files.h"
+#include "core/text.h"
+#include "renderer/casting/sampling.h"
+#include "renderer/plan/caster_choice.h"
+#include "renderer/plan/plan.h"
+#include "session/products/products.h"
+
+namespace fanbeam::measure {
+namespace {
+
+namespace fs = std::filesystem;
+using core::ConfigTable;
+using core::ErrorClass;
+
+// Three bytes for each and a suffix fit the 255 of a file name.
+constexpr std::size_t kLongestName = 80;
+constexpr core::NumberRange kLimit{0.0, 1e6};
+constexpr core::NumberRange kPercent{0.0, 100.0};
+
+// Products that are pictures; videos and tables are not compared.
+std::vector<std::string> picture_products() {
+  std::vector<std::string> names;
+  for (const session::Product& product : session::kProducts)
+    if (product.name != "preview" && product.name != "obstacles") names.emplace_back(product.name);
+  return names;
+}
+
+// Whether an optional key is there; unlike has() it makes the key a known one.
+bool given(ConfigTable& table, std::string_view key) {
+  if (table.has(key)) return true;
+  table.optional_text(key);
+  return false;
+}
+
+// A text of one line that tells something.
+std::string required_line(ConfigTable& table, std::string_view key, std::size_t longest) {
+  std::string text = table.required_text(key);
+  if (!table.has(key)) return text;
+  if (core::trimmed(text).empty())
+    table.error(ErrorClass::range, key, "\"\"", "a text that says something");
+  else if (text.size() > longest)
+    table.error(ErrorClass::limit, key, std::to_string(text.size()) + " bytes",
+                "at most " + std::to_string(longest) + " bytes");
+  return text;
+}
+
+Tolerance read_tolerance(ConfigTable table) {
+  Tolerance tolerance;
+  tolerance.mean = table.optional_number("mean", kLimit);
+  tolerance.rms = table.optional_number("rms", kLimit);
+  tolerance.largest = table.optional_number("largest", kLimit);
+  tolerance.percent = table.optional_number("percent", kPercent);
+  tolerance.changed_percent = table.optional_number("changed_percent", kPercent);
+  tolerance.lit_in_one_percent = table.optional_number("lit_in_one_percent", kPercent);
+  const auto given = [&](const char* limit) { return table.has(limit); };
+  if (std::ranges::none_of(std::array{"mean", "rms", "largest", "percent", "changed_percent"},
+                           given))
+    table.error(ErrorClass::ref, "", "no limit",
+                "at least one of rms, largest, percent, changed_percent and mean");
+  tolerance.reason = required_line(table, "reason", 1000);
+  return tolerance;
+}
+
+// [tolerance.bscope] and its like; a case's table replaces the suite's for that product.
+void read_tolerances(ConfigTable table, std::map<std::string, Tolerance>& tolerances) {
+  for (const std::string& product : picture_products())
+    if (const ConfigTable own = table.table(product); own.present())
+      tolerances[product] = read_tolerance(own);
+}
+
+std::optional<core::InstructionLevel> read_isa(ConfigTable& table,
+                                               std::optional<core::InstructionLevel> fallback) {
+  if (!given(table, "isa")) return fallback;
+  constexpr std::string_view kNames[] = {"v2", "v3", "v4"};
+  return core::instruction_level_named(
+      kNames[table.choice("isa", {kNames[0], kNames[1], kNames[2]}, 0)]);
+}
+
+std::string read_products(ConfigTable& table) {
+  if (!given(table, "products")) return CaseRender{}.products;
+  const std::vector<std::string> known = picture_products();
+  const std::vector<std::string> products = table.texts("products");
+  for (const std::string& product : products)
+    if (std::find(known.begin(), known.end(), product) == known.end())
+      table.error(ErrorClass::ref, "products", "\"" + product + "\"",
+                  fmt::format("pictures: {}", fmt::join(known, ", ")));
+  if (products.empty()) table.error(ErrorClass::range, "products", "none", "one at least");
+  return fmt::format("{}", fmt::join(products, ","));
+}
+
+class CaseReader {
+ public:
+  CaseReader(ConfigTable& table, fs::path folder, const FindScene& find_scene)
+      : table_(table), folder_(std::move(folder)), find_scene_(find_scene) {}
+
+  SuiteCase read(const SuiteCase& of_all) {
+    SuiteCase result = of_all;
+    result.name = required_line(table_, "name", kLongestName);
+    result.place = table_.place("name");
+    result.folder = file_name_of(result.name);
+    CaseRender& render = result.render;
+    render.scene = read_scene();
+    render.frames = table_.required_text("frames");
+    render.products = read_products(table_);
+    if (const auto sensor = table_.optional_text("sensor")) render.sensor = beside(*sensor);
+    if (const auto data = table_.optional_text("data")) render.data = beside(*data);
+    read_sampling(render);
+    read_realisation(render);
+    result.isa = read_isa(table_, of_all.isa);
+    ConfigTable own = table_.table("tolerance");
+    read_tolerances(own, result.tolerances);
+    const std::string rendered = "," + render.products + ",";
+    for (const std::string& product : own.keys())
+      if (result.tolerances.contains(product) &&
+          rendered.find("," + product + ",") == std::string::npos)
+        own.error(ErrorClass::ref, product, "a tolerance",
+                  "tolerances of products that the case renders: " + render.products);
+    return result;
+  }
+
+ private:
+  std::string beside(const std::string& path) const { return (folder_ / path).string(); }
+
+  std::string read_scene() {
+    const std::string name = table_.required_text("scene");
+    if (name.empty()) return name;
+    std::error_code refused;
+    const fs::path near = folder_ / name;
+    if (fs::is_regular_file(near, refused) || fs::exists(near / "scene.toml", refused))
+      return near.string();
+    try {
+      return find_scene_(name).string();
+    } catch (const core::InputError& error) {
+      table_.error(ErrorClass::ref, "scene", "\"" + name + "\"", error.problems().front().expected);
+      return name;
+    }
+  }
+
+  void read_sampling(CaseRender& render) {
+    if (given(table_, "caster")) {
+      constexpr auto kWishes = renderer::kCasterWishes;
+      static_assert(kWishes.size() == 3);
+      render.caster = kWishes[table_.choice("caster", {kWishes[0], kWishes[1], kWishes[2]}, 0)];
+    }
+    const auto samples =
+        table_.optional_number("rays_per_cell", {renderer::kFewestRaysPerCell, 100000.0});
+    const auto accuracy = table_.optional_number("accuracy_grey", renderer::kAccuracies_grey);
+    render.sampling.rays_per_cell = samples.value_or(0.0);
+    render.sampling.accuracy_grey = accuracy.value_or(0.0);
+    if (given(table_, "reference")) render.sampling.reference = table_.boolean("reference", false);
+    if (render.sampling.reference && (samples || accuracy))
+      table_.error(ErrorClass::ref, samples ? "rays_per_cell" : "accuracy_grey", "beside reference",
+                   "one of them: a reference has its own sampling");
+    if (render.sampling.reference && render.caster == name_of(renderer::CasterWish::profile))
+      table_.error(ErrorClass::ref, "caster", "\"profile\" beside reference",
+                   "\"rays\", of which references are made");
+  }
+
+  void read_realisation(CaseRender& render) {
+    render.seed = static_cast<std::uint64_t>(
+        table_.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 0));
+    if (given(table_, "realisation"))
+      render.realisation =
+          table_.choice("realisation", {"mean", "sample"}, 0) == 0 ? "mean" : "sample";
+    render.effects = table_.optional_text("effects").value_or("");
+    if (render.effects.empty()) return;
+    try {
+      renderer::parse_effect_wishes(render.effects);
+    } catch (const core::InputError& error) {
+      const core::Problem& problem = error.problems().front();
+      table_.error(ErrorClass::ref, "effects", problem.value, problem.expected);
+    }
+  }
+
+  ConfigTable& table_;
+  fs::path folder_;
+  const FindScene& find_scene_;
+};
+
+fs::path read_approved(ConfigTable& root, const fs::path& folder, core::ProblemList& problems) {
+  const std::string name = root.text("approved", "approved");
+  try {
+    const fs::path path = core::path_inside(folder, name, root.place("approved"), "approved");
+    if (path == fs::weakly_canonical(folder))
+      root.error(ErrorClass::path, "approved", "\"" + name + "\"",
+                 "a folder of its own, below the suite's");
+    return path;
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+    return {};
+  }
+}
+
+}  // namespace
+
+std::string file_name_of(const std::string& text) {
+  constexpr std::string_view kDigits = "0123456789ABCDEF";
+  std::string name;
+  for (const char c : text) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || (c == '.' && !name.empty());
+    if (plain) {
+      name += c;
+    } else {
+      const auto byte = static_cast<unsigned char>(c);
+      name += '~';
+      name += kDigits[byte >> 4U];
+      name += kDigits[byte & 15U];
+    }
+  }
+  return name.empty() ? "~" : name;
+}
+
+Suite read_suite(const fs::path& file, const FindScene& find_scene, core::ProblemList& problems) {
+  if (!fs::is_regular_file(file))
+    core::throw_input_error(ErrorClass::io, core::Place{file.string()}, "suite",
+                            fs::exists(file) ? "not a file" : "not found",
+                            "a TOML file (docs/regression.md)");
+  Suite suite;
+  suite.file = file;
+  ConfigTable root = ConfigTable::from_file(file, problems);
+  if (!root.present()) return suite;
+  const fs::path folder = fs::absolute(file).lexically_normal().parent_path();
+  suite.name = required_line(root, "name", kLongestName);
+  suite.approved = read_approved(root, folder, problems);
+  SuiteCase of_all;
+  of_all.isa = read_isa(root, std::nullopt);
+  if (const auto data = root.optional_text("data")) of_all.render.data = (folder / *data).string();
+  read_tolerances(root.table("tolerance"), of_all.tolerances);
+  std::set<std::string> names;
+  for (ConfigTable& table : root.tables("case")) {
+    suite.cases.push_back(CaseReader(table, folder, find_scene).read(of_all));
+    const std::string& name = suite.cases.back().name;
+    if (!name.empty() && !names.insert(name).second)
+      table.error(ErrorClass::ref, "name", "\"" + name + "\"",
+                  "a name that no other case of the suite has");
+  }
+  if (suite.cases.empty()) root.error(ErrorClass::ref, "case", "missing", "one [[case]] at least");
+  root.report_unknown_keys();
+  suite.resolved = root.resolved();
+  return suite;
+}
+
+Suite read_valid_suite(const fs::path& file, const FindScene& find_scene) {
+  core::ProblemList problems;
+  Suite suite = read_suite(file, find_scene, problems);
+  problems.throw_if_errors();
+  return suite;
+}
+
+}  // namespace fanbeam::measure

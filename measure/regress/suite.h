@@ -1,0 +1,62 @@
+// A suite of pictures to be held against approved ones: a TOML file (docs/regression.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/config_table.h"
+#include "core/errors.h"
+#include "core/machine.h"
+#include "measure/regress/tolerance.h"
+#include "session/sampling_choice.h"
+
+namespace fanbeam::measure {
+
+// How a case is rendered, in the words of `fanbeam render` (docs/regression.md).
+struct CaseRender {
+  std::string scene, sensor, data;
+  std::string frames;
+  std::string products = "bscope,cscope";
+  std::string effects, realisation, caster;  // empty: the scene's
+  session::SamplingRequest sampling;
+  std::uint64_t seed = 0;
+};
+
+struct SuiteCase {
+  std::string name;
+  core::Place place;
+  std::string folder;  // file_name_of(name)
+  CaseRender render;
+  std::optional<core::InstructionLevel> isa;
+  std::map<std::string, Tolerance> tolerances;  // by product; every value equal where missing
+};
+
+struct Suite {
+  std::string name;
+  std::filesystem::path file;
+  std::filesystem::path approved;  // folder with one folder per case
+  std::vector<SuiteCase> cases;
+  core::ResolvedConfig resolved;
+};
+
+// A name for a file or folder that stands for this text and for no other, of at most three times
+// its length: letters, digits, "-", "_" and inner dots stay, every other byte becomes "~3C". It
+// never names another folder, whatever the text, and needs no escape in a URL.
+std::string file_name_of(const std::string& text);
+
+// The folder or file of a scene by its name; throws InputError where there is none.
+using FindScene = std::function<std::filesystem::path(const std::string& name)>;
+
+// Paths in the file are relative to it. What is wrong is in `problems`, all together; throws
+// InputError E-IO only where there is no such file.
+Suite read_suite(const std::filesystem::path& file, const FindScene& find_scene,
+                 core::ProblemList& problems);
+// The same for whoever can do nothing with a suite that is not valid: throws all problems.
+Suite read_valid_suite(const std::filesystem::path& file, const FindScene& find_scene);
+
+}  // namespace fanbeam::measure

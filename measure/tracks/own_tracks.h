@@ -1,0 +1,46 @@
+// Tracks of measurements that are at hand (session/signal/sources), and their files.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "measure/tracks/own_history.h"
+#include "measure/tracks/track_settings.h"
+#include "session/signal/sources/measured_source.h"
+
+namespace fanbeam::measure {
+
+struct OwnTracks {
+  // A track that was confirmed: moving in most of its frames, or not.
+  struct Seen {
+    int frames = 0, moving = 0;
+  };
+  // A target of a scene, all scatterers of a name: seen, and with a confirmed track within 4 m and
+  // 2 m/s of it.
+  struct Followed {
+    int seen = 0, followed = 0;
+  };
+  std::string tracks, measurements;  // CSV
+  std::map<std::string, Followed> targets;
+  std::map<int, Seen> confirmed;  // by the track's number
+  std::size_t detections = 0, measured = 0;
+  int frames = 0;
+  double measuring_s = 0.0, tracking_s = 0.0;
+  OwnHistory history;
+
+  int moving() const;
+};
+
+// `progress` is told after each frame how many are done. The radar's turn is foreseen with its speed at
+// the first frame; what moves is told by its speed at each.
+OwnTracks track_source(session::MeasuredSource& source, const TrackSettings& settings,
+                       const std::function<void(int done)>& progress);
+
+// tracks.csv, measurements.csv, run.json, timing.json and with `plots` ranges and plan as SVG and PNG.
+void write_own_tracks(const OwnTracks& tracks, const session::MeasuredSource& source,
+                      const TrackSettings& settings, const session::BodyErrors& errors, bool plots,
+                      const std::filesystem::path& folder);
+
+}  // namespace fanbeam::measure

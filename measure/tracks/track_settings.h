@@ -1,0 +1,33 @@
+// How measurements become tracks, in the words of `fanbeam track`.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/highway.h"
+#include "tracking/simulation/measurement_simulator.h"
+#include "tracking/simulation/scenario_run.h"
+
+namespace fanbeam::measure {
+
+struct TrackSettings {
+  std::string association = "nearest";  // or "joint"
+  double acceleration_mps2 = tracking::kSteady_mps2;
+  double coast_s = tracking::kCoast_s;
+  std::uint64_t seed = 0;
+  // Of road scenarios alone.
+  std::string scheme;  // as --waveform; empty: two-stage, unless the scenario names others alone
+  double detection_probability = 1.0;
+  double false_per_frame = 0.0;
+  bool samples = false;  // measured from beat samples
+  int run = 0;           // another draw of the same seed
+};
+
+// Of road scenarios: how a radar measures them by one waveform, and the tracker that goes with it.
+tracking::SimulationSettings simulation_settings(const TrackSettings& settings,
+                                                 tracking::Scheme scheme);
+tracking::TrackerSettings tracker_settings(const TrackSettings& settings,
+                                           const tracking::SimulationSettings& simulation,
+                                           const core::HighwayRadar& radar, double radar_speed_mps);
+
+}  // namespace fanbeam::measure

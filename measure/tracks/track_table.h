@@ -1,0 +1,27 @@
+// Rows of tracks.csv and measurements.csv.
+#pragma once
+
+#include <string>
+
+#include "tracking/tracker/track.h"
+
+namespace fanbeam::measure {
+
+// x forward, y right, relative to the radar.
+inline constexpr const char* kTrackColumns =
+    "time_s,track,confirmed,x_m,y_m,vx_mps,vy_mps,range_m,range_rate_mps,azimuth_rad,moving,"
+    "identity_probability";
+inline constexpr const char* kCovarianceColumns = "xx,xy,xvx,xvy,yy,yvx,yvy,vxvx,vxvy,vyvy";
+// Standard deviations of noise, and of what else the source knows to be wrong (merged beats).
+inline constexpr const char* kMeasurementColumns =
+    "time_s,range_m,range_rate_mps,azimuth_rad,"
+    "range_sigma_m,range_rate_sigma_mps,azimuth_sigma_rad,"
+    "range_systematic_m,range_rate_systematic_mps,azimuth_systematic_rad\n";
+
+// Of kTrackColumns. `radar_speed_mps` forward: moving is meant over ground.
+std::string track_cells(double time_s, const tracking::Track& track, double radar_speed_mps);
+// Of kCovarianceColumns, a comma before each.
+std::string covariance_cells(const tracking::Gaussian& state);
+std::string measurement_row(double time_s, const tracking::RadarMeasurement& measurement);
+
+}  // namespace fanbeam::measure

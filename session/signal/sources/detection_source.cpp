@@ -1,0 +1,77 @@
+#include <algorithm>
+
+#include "core/text.h"
+#include "session/signal/detection_file.h"
+#include "session/signal/radar_file.h"
+#include "session/signal/sources/measured_source.h"
+
+namespace fanbeam::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The median from frame to frame; nothing where there is none.
+std::optional<double> median_step_s(const std::vector<DetectedFrame>& frames) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < frames.size(); ++i)
+    if (frames[i].time_s > frames[i - 1].time_s)
+      steps_s.push_back(frames[i].time_s - frames[i - 1].time_s);
+  if (steps_s.empty()) return std::nullopt;
+  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+  std::nth_element(steps_s.begin(), middle, steps_s.end());
+  return *middle;
+}
+
+class DetectionSource : public MeasuredSource {
+ public:
+  DetectionSource(const fs::path& path, const std::optional<fs::path>& radar_file,
+                  const SourceSettings& settings)
+      : asked_(settings) {
+    core::ProblemList problems;
+    if (radar_file) {
+      FmcwSettings radar_settings;
+      read_radar_file(*radar_file, radar_settings, problems);
+      problems.throw_if_errors();
+      radar_ = radar_in_file(*radar_file, [&] { return fmcw_radar(radar_settings); });
+      resolution = resolution_of(*radar_);
+    }
+    frames_ = read_detections(path, problems);
+    problems.throw_if_errors();
+    if (frames_.empty())
+      core::throw_input_error(core::ErrorClass::range, core::Place{path.string()}, "detections",
+                              "none", "at least one frame");
+    name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
+    kind = "detections";
+    frame_s = median_step_s(frames_).value_or(frame_s);
+    radar_speed_mps = speed_of(frames_.front());
+  }
+  int frames() const override { return static_cast<int>(frames_.size()); }
+
+  MeasuredFrame frame(int index) override {
+    const DetectedFrame& found = frames_[static_cast<std::size_t>(index)];
+    return {found.time_s,
+            speed_of(found),
+            found.detections.size(),
+            measurements_of(found, radar_ ? &*radar_ : nullptr, asked_.errors),
+            {}};
+  }
+
+ private:
+  double speed_of(const DetectedFrame& frame) const {
+    return asked_.radar_speed_mps.value_or(frame.radar_speed_mps.value_or(0.0));
+  }
+
+  SourceSettings asked_;
+  std::optional<FmcwRadar> radar_;
+  std::vector<DetectedFrame> frames_;
+};
+
+}  // namespace
+
+std::unique_ptr<MeasuredSource> detection_source(const fs::path& path,
+                                                 const std::optional<fs::path>& radar_file,
+                                                 const SourceSettings& settings) {
+  return std::make_unique<DetectionSource>(path, radar_file, settings);
+}
+
+}  // namespace fanbeam::session

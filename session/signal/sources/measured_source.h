@@ -1,0 +1,79 @@
+// What a tracker is fed with, frame after frame, where the input is no road scenario:
+//
+//   a scene       its frames at signal level, to detections; its point targets are the truth
+//   detections    (session/signal/detection_file.h)
+//   samples       (session/signal/sample_file.h), with the radar that they are of
+//
+// Times of samples: where they are the beats of `fanbeam fmcw`, as the run.json beside them says, and so
+// is the radar's speed; else a period apart.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "scenes/description.h"
+#include "session/signal/fmcw_settings.h"
+#include "session/signal/measurements.h"
+#include "tracking/tracker/track_geometry.h"
+
+namespace fanbeam::session {
+
+struct SeenTarget {
+  std::string name;
+  double range_m = 0.0, range_rate_mps = 0.0, azimuth_rad = 0.0;
+};
+
+struct MeasuredFrame {
+  double time_s = 0.0;
+  double radar_speed_mps = 0.0;  // over ground, forward
+  std::size_t detections = 0;
+  std::vector<tracking::RadarMeasurement> measurements;
+  std::vector<SeenTarget> targets;  // in view; of a scene
+};
+
+class MeasuredSource {
+ public:
+  virtual ~MeasuredSource() = default;
+  virtual int frames() const = 0;
+  virtual MeasuredFrame frame(int index) = 0;
+
+  std::string name, kind;        // "street-76ghz", "scene"
+  double radar_speed_mps = 0.0;  // at the first frame
+  double frame_s = 0.05, most_range_m = 1e6;
+  std::optional<tracking::Resolution> resolution{};  // where the radar is known
+  std::vector<core::Problem> warnings{};             // of the scene, and of folding, once
+};
+
+struct SourceSettings {
+  BodyErrors errors;
+  std::optional<double> radar_speed_mps{};  // instead of what the input says
+  std::optional<double> frame_period_s{};   // of samples, instead of what the input says
+  std::string frames{};                     // of a scene, A:B[:STEP]; empty: all
+  std::uint64_t seed = 0;                   // of a scene
+};
+
+inline constexpr double kFramePeriod_s = 0.05;  // of samples, where nothing tells it
+
+// The three throw InputError for whatever is wrong with the input. `radar_file`: empty for the scene's
+// own, or its sensor.
+std::unique_ptr<MeasuredSource> scene_source(const scenes::SceneDescription& description,
+                                             const std::filesystem::path& radar_file,
+                                             const SourceSettings& settings);
+// Without a radar measurements have the errors of a body alone, and no resolution.
+std::unique_ptr<MeasuredSource> detection_source(
+    const std::filesystem::path& path, const std::optional<std::filesystem::path>& radar_file,
+    const SourceSettings& settings);
+// `path`: as it was asked for, of which the source has its name.
+std::unique_ptr<MeasuredSource> sample_source(const std::filesystem::path& path,
+                                              const std::vector<std::filesystem::path>& files,
+                                              const std::filesystem::path& radar_file,
+                                              const SourceSettings& settings);
+
+// Samples in a folder, or in beat/ below it, by name; none where it has none.
+std::vector<std::filesystem::path> sample_files_in(const std::filesystem::path& folder);
+
+}  // namespace fanbeam::session
