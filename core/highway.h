@@ -72,6 +72,12 @@ struct HighwayWaveforms {
   double fine_ramp_s = 2e-3, fine_rate_Hz = 500e3;
   // A flat stretch that hops between two tones, between the ramps of a triangle.
   double coded_ramp_s = 2e-3, flat_s = 2e-3, hop_Hz = 700e3;
+
+  // How long each takes, all its ramps one after the other.
+  double triangle_s() const { return 2.0 * triangle_ramp_s; }
+  double two_slopes_s() const { return 2.0 * (two_slopes_ramp_s[0] + two_slopes_ramp_s[1]); }
+  double two_stage_s() const { return coarse_chirps * coarse_chirp_s + 2.0 * fine_ramp_s; }
+  double coded_s() const { return 2.0 * coded_ramp_s + flat_s; }
 };
 
 struct HighwayRadar {

@@ -33,7 +33,7 @@ copy range-only/S3/errors s3-range-only-errors
 copy samples/S2/ranges s2-samples-ranges
 copy street/plan street-plan
 copy motorway/plan motorway-plan
-for plot in buffer noise-figure reflections-range reflections-speed missed ghosts crossing; do copy "study/$plot" "$plot"; done
+for plot in buffer noise-figure reflections-range reflections-speed missed ghosts families-mota families-nees crossing; do copy "study/$plot" "$plot"; done
 
 # Plots of the study stand beside its tables.
 sed -E 's#^!\[([^]]*)\]\(([a-z-]+)\.png\)#![\1](images/tracking-\2.png)#' "$work/study/study.md" >"$work/study.inc"

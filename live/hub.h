@@ -1,5 +1,6 @@
 // Where frames and what is said of them meet: the channel puts them in, whoever shows them takes the
-// newest. Two seconds of them are kept for whoever asks about one that is shown. Thread-safe.
+// newest. Whoever asks about one that a page still shows gets what it was made of: of the last minute,
+// pictures are not kept. Thread-safe.
 #pragma once
 
 #include <cmath>
@@ -40,6 +41,13 @@ struct LiveFrame {
   std::optional<PictureErrors> errors{};  // of its sampling, as far as they were known
 };
 
+// What a frame was made of.
+struct FrameOrigin {
+  std::uint64_t number = 0;
+  core::Pose pose;
+  session::Session::Moment under{};
+};
+
 struct Status {
   std::string scene, source, caster;
   std::uint64_t frames = 0;
@@ -78,8 +86,8 @@ class Hub {
     std::function<void()> call;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      frames_.push_back(std::move(frame));
-      if (frames_.size() > kKept) frames_.pop_front();
+      remember({frame->number, frame->pose, frame->under});
+      newest_ = std::move(frame);
       call = on_frame_;
     }
     if (call) call();
@@ -87,14 +95,14 @@ class Hub {
   // Nothing before the first frame.
   std::shared_ptr<const LiveFrame> newest() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return frames_.empty() ? nullptr : frames_.back();
+    return newest_;
   }
   // Nothing where it is not kept.
-  std::shared_ptr<const LiveFrame> frame(std::uint64_t number) const {
+  std::optional<FrameOrigin> origin(std::uint64_t number) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const auto& frame : frames_)
-      if (frame->number == number) return frame;
-    return nullptr;
+    for (const FrameOrigin& one : origins_)
+      if (one.number == number) return one;
+    return std::nullopt;
   }
 
   void tell(const Status& status) {
@@ -113,10 +121,22 @@ class Hub {
   }
 
  private:
-  static constexpr std::size_t kKept = 32;
+  // A minute at 16 Hz. Conditions take megabytes: where targets move they are others in every frame.
+  static constexpr std::size_t kKept = 1024, kKeptConditions = 32;
+
+  void remember(FrameOrigin origin) {
+    if (!origins_.empty() && origins_.back().under != origin.under) ++changes_;
+    origins_.push_back(std::move(origin));
+    while (origins_.size() > kKept || changes_ >= kKeptConditions) {
+      if (origins_[0].under != origins_[1].under) --changes_;
+      origins_.pop_front();
+    }
+  }
 
   mutable std::mutex mutex_;
-  std::deque<std::shared_ptr<const LiveFrame>> frames_;
+  std::shared_ptr<const LiveFrame> newest_;
+  std::deque<FrameOrigin> origins_;
+  std::size_t changes_ = 0;  // of conditions from one of them to the next
   Status status_;
   std::function<void()> on_frame_;
 };

@@ -133,12 +133,14 @@ void SharedFrames::write(const LiveFrame& frame) {
   std::atomic_thread_fence(std::memory_order_release);
   put(slot + 8, frame.number);
   const core::Attitude attitude = core::attitude_from(frame.pose.q_NB);
+  const PictureErrors errors = frame.errors.value_or(PictureErrors{-1.0, -1.0});
   std::size_t at = 16;
   for (const double value :
        {frame.pose.time_s, frame.pose.position.latitude_rad, frame.pose.position.longitude_rad,
         frame.pose.position.height_m, attitude.roll_rad, attitude.pitch_rad, attitude.heading_rad,
         1e-3 * frame.frame_ms, 1e-3 * frame.pose_age_ms, frame.samples,
-        frame.outside_volume ? 1.0 : 0.0, frame.cscope_top_rad, frame.low_dB, frame.high_dB}) {
+        frame.outside_volume ? 1.0 : 0.0, frame.cscope_top_rad, frame.low_dB, frame.high_dB,
+        errors.bscope_grey, errors.cscope_grey}) {
     put(slot + at, value);
     at += sizeof value;
   }

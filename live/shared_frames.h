@@ -21,8 +21,8 @@ namespace fanbeam::live {
 // Offsets in bytes; numbers are u32 and u64 where said, else f64 in SI units and radians.
 struct SharedLayout {
   static constexpr char kMagic[8] = {'F', 'A', 'N', 'B', 'E', 'A', 'M', '\0'};
-  static constexpr std::uint32_t kVersion = 1;
-  static constexpr std::size_t kHeader_bytes = 256, kSlots = 8, kPictures = 128;
+  static constexpr std::uint32_t kVersion = 2;
+  static constexpr std::size_t kHeader_bytes = 256, kSlots = 8, kPictures = 192;
   // Of the header: u32 from kVersionAt to kRowsAt, then f64, then the u64 of the newest frame.
   static constexpr std::size_t kVersionAt = 8, kHeaderBytesAt = 12, kSlotsAt = 16,
                                kSlotBytesAt = 20, kBScopeAt = 24, kCScopeAt = 32;

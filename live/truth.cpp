@@ -32,7 +32,7 @@ std::shared_ptr<const Truth::Known> Truth::known(std::uint64_t frame) const {
   const auto found = std::find_if(kept_.begin(), kept_.end(),
                                   [&](const auto& one) { return one->frame == frame; });
   if (found != kept_.end()) return *found;
-  const std::shared_ptr<const LiveFrame> shown = hub_.frame(frame);
+  const std::optional<FrameOrigin> shown = hub_.origin(frame);
   if (!shown || !shown->under) return nullptr;
   auto known = std::make_shared<Known>();
   known->frame = frame;

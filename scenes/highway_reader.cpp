@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -196,6 +197,26 @@ std::optional<std::size_t> target_named(const JsonNode& node,
   return std::nullopt;
 }
 
+// A row that its target's motion contradicts: a sign or a unit that was mistaken.
+void check_truth(const JsonNode& rows, const std::vector<core::HighwayTruth>& told,
+                 const core::HighwayTarget& target, const core::HighwayScenario& scenario) {
+  constexpr double kMost_m = 0.1, kMost_mps = 0.1, kMost_rad = 2e-3;
+  if (told.size() != rows.elements()) return;  // a row is told as wrong already
+  for (std::size_t i = 0; i < told.size() && !rows.problems().is_full(); ++i) {
+    const core::HighwayTruth moved =
+        truth_at(target, scenario.radar_speed_mps, scenario.radar, told[i].time_s);
+    if (std::abs(moved.range_m - told[i].range_m) > kMost_m ||
+        std::abs(moved.range_rate_mps - told[i].range_rate_mps) > kMost_mps ||
+        std::abs(std::remainder(moved.azimuth_rad - told[i].azimuth_rad, 2.0 * core::kPi)) >
+            kMost_rad)
+      rows.element(i).error(ErrorClass::range,
+                            "what the target's motion makes, " + core::number_text(moved.range_m) +
+                                " m, " + core::number_text(moved.range_rate_mps) + " m/s and " +
+                                core::number_text(-moved.azimuth_rad) +
+                                " rad, within 0.1 m, 0.1 m/s and 2 mrad");
+  }
+}
+
 void read_truth(const JsonNode& tables, core::HighwayScenario& result) {
   std::set<std::size_t> told;
   const std::size_t count = tables.size(kMostEntries);
@@ -206,7 +227,8 @@ void read_truth(const JsonNode& tables, core::HighwayScenario& result) {
     if (!told.insert(*owner).second)
       refuse(table, "id", ErrorClass::ref, result.targets[*owner].id, "one table for each target");
     else
-      result.truth[*owner] = truth_of(table);
+      check_truth(table.member("rows"), result.truth[*owner] = truth_of(table),
+                  result.targets[*owner], result);
   }
 }
 
@@ -310,12 +332,10 @@ void read_waveform(const JsonNode& node, NamedWaveform& named) {
 // Of all its ramps, one after the other.
 double length_s(const NamedWaveform& one) {
   const core::HighwayWaveforms& timing = one.timing;
-  if (one.type == "triangle") return 2.0 * timing.triangle_ramp_s;
-  if (one.type == "triangle-pair")
-    return 2.0 * (timing.two_slopes_ramp_s[0] + timing.two_slopes_ramp_s[1]);
-  if (one.type == "two-stage")
-    return timing.coarse_chirps * timing.coarse_chirp_s + 2.0 * timing.fine_ramp_s;
-  return one.type == "up-flat-down" ? 2.0 * timing.coded_ramp_s + timing.flat_s : 0.0;
+  if (one.type == "triangle") return timing.triangle_s();
+  if (one.type == "triangle-pair") return timing.two_slopes_s();
+  if (one.type == "two-stage") return timing.two_stage_s();
+  return one.type == "up-flat-down" ? timing.coded_s() : 0.0;
 }
 
 // All of the file; of each type the first name in the order of letters (members of JSON have none of their own) counts for

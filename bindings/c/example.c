@@ -10,75 +10,53 @@
 #include <stdlib.h>
 #include <time.h>
 
-/* Prints what the last call had to say; 1 when it failed. */
-static int failed(const char* what, fanbeam_status status) {
+/* Prints what the last call had to say; an error ends the program. */
+static void check(const char* what, fanbeam_status status) {
   if (*fanbeam_last_warnings() != '\0') fprintf(stderr, "%s\n", fanbeam_last_warnings());
-  if (status >= 0) return 0;
+  if (status >= 0) return;
   fprintf(stderr, "%s: %s\n", what, fanbeam_last_error());
-  return 1;
-}
-
-/* A simulator would look once in each frame of its own. */
-static int wait_for(fanbeam_session* session, double height_m, uint8_t* bscope, size_t pixels) {
-  const struct timespec nap = {0, 1000000};
-  fanbeam_frame frame = {.size = sizeof frame};
-  while (frame.height_m != height_m) {
-    if (failed("latest", fanbeam_latest_frame(session, &frame, bscope, pixels, NULL, 0))) return 1;
-    nanosleep(&nap, NULL);
-  }
-  printf("frame %lu in %.1f ms\n", (unsigned long)frame.number, 1e3 * frame.render_s);
-  return 0;
-}
-
-static int fly(fanbeam_session* session, fanbeam_pose pose, uint8_t* bscope, size_t pixels) {
-  const fanbeam_weather rain = {
-      .size = sizeof rain, .given = FANBEAM_RAIN_RATE, .rain_rate_mm_per_h = 10.0};
-  fanbeam_output output = {.size = sizeof output, .bscope = bscope, .bscope_count = pixels};
-  int i;
-  if (failed("render", fanbeam_render(session, &pose, 0, &output))) return 1; /* at once */
-  if (failed("weather", fanbeam_set_weather(session, &rain))) return 1;
-  for (i = 0; i < 5; ++i) { /* without waiting: the newest wins */
-    pose.height_m += 1.0;
-    if (failed("submit", fanbeam_submit_pose(session, &pose))) return 1;
-  }
-  return wait_for(session, pose.height_m, bscope, pixels);
-}
-
-static int write_pgm(const char* name, const fanbeam_facts* facts, const uint8_t* bscope) {
-  FILE* const file = fopen(name, "wb");
-  if (file == NULL) return 1;
-  fprintf(file, "P5\n%u %u\n255\n", (unsigned)facts->columns, (unsigned)facts->bscope_rows);
-  fwrite(bscope, facts->columns, facts->bscope_rows, file);
-  return fclose(file) != 0;
-}
-
-static int run(fanbeam_session* session) {
-  fanbeam_facts facts = {.size = sizeof facts};
-  fanbeam_pose pose = {.size = sizeof pose};
-  uint8_t* bscope;
-  size_t pixels;
-  int bad;
-  if (failed("facts", fanbeam_get_facts(session, &facts))) return 1;
-  if (failed("first pose", fanbeam_flown_pose(session, 0, &pose))) return 1;
-  pixels = (size_t)facts.columns * facts.bscope_rows;
-  bscope = malloc(pixels);
-  bad = bscope == NULL || fly(session, pose, bscope, pixels) ||
-        write_pgm("bscope.pgm", &facts, bscope);
-  free(bscope);
-  return bad;
+  exit(3);
 }
 
 int main(int argc, char** argv) {
+  const struct timespec nap = {0, 1000000};
+  const fanbeam_weather rain = {
+      .size = sizeof rain, .given = FANBEAM_RAIN_RATE, .rain_rate_mm_per_h = 10.0};
   fanbeam_setup setup = {.size = sizeof setup};
+  fanbeam_facts facts = {.size = sizeof facts};
+  fanbeam_pose pose = {.size = sizeof pose};
+  fanbeam_frame frame = {.size = sizeof frame};
+  fanbeam_output output = {.size = sizeof output};
   fanbeam_session* session = NULL;
-  int bad;
+  FILE* file;
+  int i;
   if (argc != 3) {
     fprintf(stderr, "usage: example SHIPPED SCENE\n");
     return 2;
   }
   setup.shipped_folder = argv[1];
-  if (failed(argv[2], fanbeam_open(argv[2], &setup, &session))) return 3;
-  bad = run(session);
+  check(argv[2], fanbeam_open(argv[2], &setup, &session));
+  check("facts", fanbeam_get_facts(session, &facts));
+  check("first pose", fanbeam_flown_pose(session, 0, &pose));
+  output.bscope_count = (size_t)facts.columns * facts.bscope_rows;
+  output.bscope = malloc(output.bscope_count);
+  if (output.bscope == NULL) return 1;
+  check("render", fanbeam_render(session, &pose, 0, &output)); /* at once */
+  check("weather", fanbeam_set_weather(session, &rain));
+  for (i = 0; i < 5; ++i) { /* without waiting: the newest wins */
+    pose.height_m += 1.0;
+    check("submit", fanbeam_submit_pose(session, &pose));
+  }
+  while (frame.height_m != pose.height_m) { /* a simulator looks once in each frame of its own */
+    nanosleep(&nap, NULL);
+    check("latest", fanbeam_latest_frame(session, &frame, output.bscope, output.bscope_count, NULL,
+                                         0));
+  }
+  printf("frame %lu in %.1f ms\n", (unsigned long)frame.number, 1e3 * frame.render_s);
   fanbeam_close(session);
-  return bad;
+  if ((file = fopen("bscope.pgm", "wb")) == NULL) return 1;
+  fprintf(file, "P5\n%u %u\n255\n", (unsigned)facts.columns, (unsigned)facts.bscope_rows);
+  fwrite(output.bscope, facts.columns, facts.bscope_rows, file);
+  free(output.bscope);
+  return fclose(file) != 0;
 }

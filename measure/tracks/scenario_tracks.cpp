@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "core/errors.h"
 #include "core/files.h"
 #include "measure/tracks/track_table.h"
 #include "tracking/simulation/sampled_frame.h"
@@ -31,6 +32,16 @@ tracking::Scheme scheme_named(const std::string& name) {
   if (name == "sorted-triangle") return tracking::Scheme::sorted_triangle;
   if (name == "two-slopes") return tracking::Scheme::two_slopes;
   return name == "coded" ? tracking::Scheme::coded : tracking::Scheme::two_stage;
+}
+
+// The reader knows which waveforms a file has, not which one is used, nor every scenario's frame period.
+void check_length(const std::string& name, tracking::Scheme scheme,
+                  const core::HighwayRadar& radar) {
+  const double length_s = length_of(scheme, radar.waveforms);
+  if (length_s > radar.frame_s)
+    core::throw_input_error(
+        core::ErrorClass::range, "waveform " + name, core::number_text(length_s) + " s of ramps",
+        "no more than the frame period of " + core::number_text(radar.frame_s) + " s");
 }
 
 void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFrame& frame,
@@ -99,6 +110,7 @@ ScenarioTracks track_scenario(const core::HighwayScenario& scenario,
   tracks.scheme = scheme_of(settings, scenario);
   const tracking::SimulationSettings simulation =
       simulation_settings(settings, scheme_named(tracks.scheme));
+  check_length(tracks.scheme, simulation.scheme, radar);
   const auto run = static_cast<std::uint32_t>(settings.run);
   std::optional<tracking::SampledRadar> sampled;
   if (settings.samples) sampled.emplace(radar);

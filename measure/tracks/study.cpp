@@ -23,6 +23,7 @@ void track_study(const std::vector<StudyScenario>& scenarios, const core::Highwa
   add("noise and reflections", study_reflections(radar, settings.seed));
   add("ghosts", study_ghosts(radar, settings.seed));
   add("waveforms and associations", study_tracks(scenarios, settings));
+  add("families of traffic", study_families(radar, settings));
   add("crossings", study_crossing(settings.seed));
   while (page.ends_with("\n\n")) page.pop_back();
   core::write_file_atomically(folder / "study.md", page);

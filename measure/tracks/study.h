@@ -39,6 +39,8 @@ StudyPart study_reflections(const core::HighwayRadar& radar, std::uint64_t seed)
 StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed);
 // Waveforms x associations in each scenario, 10 runs each; and from samples, one.
 StudyPart study_tracks(const std::vector<StudyScenario>& scenarios, const TrackSettings& settings);
+// A hundred draws of each family of traffic (tracking/simulation/road_families.h).
+StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& settings);
 // Swaps of a pair 3 km/h apart over what is known of its speeds: the closed form, what the tracker
 // would say on average, and what happens.
 StudyPart study_crossing(std::uint64_t seed);

@@ -117,6 +117,21 @@ class Page(unittest.TestCase):
         decibel = float(found.group(4).replace("\u2212", "-"))
         self.assertAlmostEqual(decibel, -55 + grey / 255 * 60, delta=0.06)
 
+    def test_keys_read_the_scopes_cell_by_cell(self):
+        ActionChains(self.page).send_keys("f").perform()  # freeze
+        held = self.number()
+        for name, told, rows in (("bscope", "btold", 524), ("cscope", "ctold", 524)):
+            scope = self.page.find_element("id", name)
+            self.page.execute_script("arguments[0].focus()", scope)
+            scope.send_keys(Keys.ARROW_LEFT, Keys.ARROW_UP, Keys.SHIFT + Keys.ARROW_UP)
+            self.wait(lambda: self.js(f"Math.floor(state.cursor.{name}[1] * {rows})") == rows // 2 - 21, "row")
+            self.assertEqual(self.js(f"Math.floor(state.cursor.{name}[0] * 164)"), 81)
+            grey = self.js(f"state.frame.{name}[({rows} / 2 - 21) * 164 + 81]")
+            self.wait(lambda: f": grey {grey}," in self.page.find_element("id", told).text, f"grey {grey}")
+            self.assertEqual(self.number(), held)  # arrows go back in time elsewhere only
+            if name == "bscope":
+                self.keep("live-keys")
+
     def test_the_cursor_tells_what_stands_there_as_the_layers_have_it(self):
         self.page.find_element("id", "freeze").click()
         scope = self.page.find_element("id", "bscope")
@@ -156,6 +171,11 @@ class Page(unittest.TestCase):
         self.assertEqual(self.js("state.frame.bscope.reduce((a, b) => (a * 31 + b) | 0, 7)"),
                          self.js("shown[arguments[0]]", str(newest - 3)))
         self.assertRegex(self.page.find_element("id", "backtold").text, r"^0\.\d s$")
+        # Its truth too, however long it is held.
+        time.sleep(3.0)
+        cell = self.js("fetch(`/api/cell?scope=bscope&frame=${state.frame.head.number}&column=82&row=300`)"
+                       ".then(answer => answer.json())")
+        self.assertFalse(cell["gone"])
         body.send_keys(Keys.ARROW_RIGHT)
         self.assertEqual(self.number(), newest - 2)
         body.send_keys("n")

@@ -164,6 +164,37 @@ TEST_CASE("A cell's truth is what the layers of the frame that is shown have the
                         .body)["gone"] == true);
 }
 
+// The page steps back through a minute.
+TEST_CASE("Frames of a minute ago tell their truth, and memory of them has a bound", "[desk]") {
+  Office office;
+  const auto scene = office.session->scene();
+  const auto publish = [&](std::uint64_t number) {
+    auto frame = std::make_shared<live::LiveFrame>();
+    frame->number = number;
+    frame->pose = live::circle(*scene)(0.0);
+    frame->under = office.session->now();
+    office.hub.publish(frame);
+  };
+  for (std::uint64_t number = 1; number <= 1100; ++number) publish(number);
+  const auto gone = [&](std::uint64_t number) {
+    const live::Answer answer = office.desk.answer(
+        get("/api/cell?scope=bscope&frame=" + std::to_string(number) + "&column=80&row=300"));
+    return json::parse(answer.body)["gone"].get<bool>();
+  };
+  CHECK(gone(76));
+  CHECK_FALSE(gone(77));
+  CHECK_FALSE(gone(1100));
+  // A target that moves gives each frame conditions of its own.
+  for (std::uint64_t number = 1101; number <= 1140; ++number) {
+    office.session->set(session::SensorSettings{
+        .boresight_elevation_rad = -0.03 - 1e-4 * static_cast<double>(number - 1100)});
+    publish(number);
+  }
+  CHECK(gone(1099));  // 1100 was asked about, and is kept for that
+  CHECK(gone(1108));
+  CHECK_FALSE(gone(1109));
+}
+
 TEST_CASE("A cell that is none is refused with all that is wrong", "[desk]") {
   Office office;
   const live::Answer wrong = office.desk.answer(get("/api/cell?scope=x&frame=-1&column=1e3"));

@@ -72,7 +72,7 @@ class Reader {
     const std::uint64_t frame = number(104);
     const std::size_t slot = 256 + frame % at<std::uint32_t>(16) * at<std::uint32_t>(20);
     const std::uint64_t before = number(slot);
-    std::vector<std::uint8_t> pixels(memory_ + slot + 128, memory_ + slot + 128 + 2 * 164 * 524);
+    std::vector<std::uint8_t> pixels(memory_ + slot + 192, memory_ + slot + 192 + 2 * 164 * 524);
     std::atomic_thread_fence(std::memory_order_acquire);
     if (before % 2 != 0 || number(slot) != before) return std::nullopt;
     return std::pair(before / 2, std::move(pixels));
@@ -95,7 +95,7 @@ TEST_CASE("Shared memory holds what its layout says, for its owner alone", "[sha
     CHECK(reader.mode_ == 0600);
     CHECK(reader.at<std::array<char, 8>>(0) ==
           std::array<char, 8>{'F', 'A', 'N', 'B', 'E', 'A', 'M', '\0'});
-    CHECK(reader.at<std::uint32_t>(8) == 1);
+    CHECK(reader.at<std::uint32_t>(8) == 2);
     CHECK(reader.at<std::uint32_t>(24) == 164);
     CHECK(reader.at<std::uint32_t>(28) == 524);
     CHECK(reader.at<double>(40) == 200.0);
@@ -114,13 +114,18 @@ TEST_CASE("Shared memory holds what its layout says, for its owner alone", "[sha
     CHECK(reader.at<double>(slot + 24) == 0.9);
     CHECK(reader.at<double>(slot + 40) == 300.0);
     CHECK(reader.at<double>(slot + 88) == 4.0);
+    CHECK(reader.at<double>(slot + 128) == -1.0);  // not known yet
+    CHECK(reader.at<double>(slot + 136) == -1.0);
     // What a control moved: of the frame, and of the newest.
     auto moved = frame_of(21);
     moved.cscope_top_rad = -0.0175;
     moved.low_dB = -40.0;
     moved.high_dB = 1.0;
+    moved.errors = live::PictureErrors{1.5, 2.5};
     frames.write(moved);
     const std::size_t next = 256 + 21 % 8 * reader.at<std::uint32_t>(20);
+    CHECK(reader.at<double>(next + 128) == 1.5);
+    CHECK(reader.at<double>(next + 136) == 2.5);
     for (const std::size_t at : {next + 104, std::size_t{64}})
       CHECK(reader.at<double>(at) == -0.0175);
     for (const std::size_t at : {next + 112, std::size_t{80}}) {

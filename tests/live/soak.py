@@ -93,7 +93,7 @@ class MemoryReader(threading.Thread):
                 last = number
                 at = 256 + number % slots * slot_bytes
                 before, = struct.unpack_from("<Q", memory, at)
-                bytes(memory[at + 128 : at + slot_bytes])
+                bytes(memory[at + 192 : at + slot_bytes])
                 whole = before == struct.unpack_from("<Q", memory, at)[0] == 2 * number
                 self.whole, self.torn = self.whole + whole, self.torn + (not whole)
             time.sleep(1 / 64)

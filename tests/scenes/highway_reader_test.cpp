@@ -201,6 +201,14 @@ TEST_CASE("True and false are those words, not what stands in their place", "[hi
                   "/scenarios/0/truth/0/in_view/0");
 }
 
+TEST_CASE("Truth that the motion contradicts is refused with what the motion makes", "[highway]") {
+  for (const char* row : {"[0, 55.1, 2, 0.06]", "[0, 50.1, -2, 0.06]", "[0, 50.1, 2, -0.06]"}) {
+    INFO(row);
+    check_refused(file_with_truth(replaced(kTable, "[0, 50.1, 2, 0.06]", row)),
+                  core::ErrorClass::range, "/scenarios/0/truth/0/rows/0");
+  }
+}
+
 TEST_CASE("No scenario, target or truth table replaces another of its name", "[highway]") {
   check_refused(file_with_truth(kTable + ", " + kTable), core::ErrorClass::ref,
                 "/scenarios/0/truth/1/id");

@@ -167,6 +167,21 @@ double ramp_of(Scheme scheme, const core::HighwayWaveforms& waveforms) {
   throw core::InternalError("unknown scheme");
 }
 
+double length_of(Scheme scheme, const core::HighwayWaveforms& waveforms) {
+  switch (scheme) {
+    case Scheme::triangle:
+    case Scheme::sorted_triangle:
+      return waveforms.triangle_s();
+    case Scheme::two_slopes:
+      return waveforms.two_slopes_s();
+    case Scheme::two_stage:
+      return waveforms.two_stage_s();
+    case Scheme::coded:
+      return waveforms.coded_s();
+  }
+  throw core::InternalError("unknown scheme");
+}
+
 PairOfPeaks peaks_at(const signal::TriangleModel& model, const RampPeaks& peaks,
                      const signal::RangeSpeed& place) {
   const signal::BeatPair beats = signal::predict(model, place);

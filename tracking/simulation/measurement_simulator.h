@@ -44,6 +44,8 @@ enum class Scheme { triangle, sorted_triangle, two_slopes, two_stage, coded };
 
 // Of the (first) triangle.
 double ramp_of(Scheme scheme, const core::HighwayWaveforms& waveforms);
+// Of all ramps.
+double length_of(Scheme scheme, const core::HighwayWaveforms& waveforms);
 
 struct SimulationSettings {
   Scheme scheme = Scheme::two_stage;

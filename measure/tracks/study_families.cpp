@@ -1,0 +1,73 @@
+// Families of traffic drawn at random, from frequencies by two stages.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "measure/tracks/study.h"
+#include "tracking/filters/chi_square.h"
+#include "tracking/simulation/road_families.h"
+
+namespace fanbeam::measure {
+namespace {
+
+constexpr int kFamilyRuns = 100;
+
+// One figure of every run, from the smallest up, over the share of runs.
+session::PlotSeries sorted_series(const char* name, std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  session::PlotSeries series{name, {}, values, session::PlotSeries::Style::line};
+  for (std::size_t i = 0; i < values.size(); ++i)
+    series.x.push_back(100.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(values.size()));
+  return series;
+}
+
+}  // namespace
+
+StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& settings) {
+  const tracking::SimulationSettings simulation =
+      simulation_settings(settings, tracking::Scheme::two_stage);
+  // Place and velocity; on one axis for a radar without azimuth.
+  const int states = radar.array_elements > 1 ? 4 : 2;
+  const tracking::Interval band = tracking::mean_interval(states, kFamilyRuns);
+  StudyPart part;
+  part.text = fmt::format(
+      "| family, {} draws | MOTA | worst | runs without a switch | NEES ({:.2f} to {:.2f}) |\n"
+      "|---|---|---|---|---|\n",
+      kFamilyRuns, band.low, band.high);
+  session::Plot mota, nees;
+  mota.title = "Families of traffic: MOTA of each draw";
+  nees.title = fmt::format(
+      "Families of traffic: normalised error squared of each draw, {} where told errors are true",
+      states);
+  mota.x = nees.x = {"draws (%)", false, 0.0, 100.0};
+  mota.y = {"MOTA", false, {}, 1.0};
+  nees.y = {fmt::format("NEES of {} states", states), true, 1.0, 20.0};
+  for (const tracking::RoadFamily& family : tracking::road_families()) {
+    const tracking::FamilyScore score = tracking::score_family(
+        family, kFamilyRuns, radar,
+        [&](const core::HighwayScenario& scenario) {
+          return tracker_settings(settings, simulation, radar, scenario.radar_speed_mps);
+        },
+        [&](const core::HighwayScenario& scenario, std::uint32_t run, int frame) {
+          return simulated_frame(scenario, radar, simulation, settings.seed, run, frame);
+        });
+    part.text += fmt::format("| {} | {:.3f} | {:.3f} | {} | {:.2f} |\n", family.name, score.mota(),
+                             score.worst_mota(), score.without_switch(), score.nees.mean());
+    std::vector<double> motas, errors;
+    for (const tracking::FamilyRun& run : score.runs) {
+      motas.push_back(run.mota);
+      errors.push_back(run.nees);
+    }
+    mota.series.push_back(sorted_series(family.name, motas));
+    nees.series.push_back(sorted_series(family.name, errors));
+  }
+  nees.series.push_back({"",
+                         {0.0, 100.0},
+                         {static_cast<double>(states), static_cast<double>(states)},
+                         session::PlotSeries::Style::dashed_line,
+                         6});
+  part.plots = {{"families-mota", mota}, {"families-nees", nees}};
+  return part;
+}
+
+}  // namespace fanbeam::measure
