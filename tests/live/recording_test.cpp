@@ -179,7 +179,7 @@ TEST_CASE("A packet of a source that a recording does not name is refused", "[re
 }
 
 TEST_CASE("Lockstep gives a frame for every pose, whenever it comes, with the same bytes",
-          "[recording]") {
+          "[recording][threads]") {
   const tests::TemporaryFolder folder;
   Frames runs[2];
   for (int run = 0; run < 2; ++run) {
