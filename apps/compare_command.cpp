@@ -8,7 +8,7 @@
 #include "core/files.h"
 #include "core/image_compare.h"
 #include "core/text.h"
-#include "measure/regress/image_files.h"
+#include "measure/image_files.h"
 #include "session/figure/difference_map.h"
 #include "session/version.h"
 

@@ -41,7 +41,7 @@ measure::CostParts parts_of(const CostOptions& options) {
 measure::CostFigures run(const measure::CostBench& quiet_bench, const CostOptions& options,
                          const CommonOptions& common, int threads) {
   const measure::CostParts parts = parts_of(options);
-  const double total_s = cost_s(quiet_bench, parts);
+  const double total_s = expected_cost_s(quiet_bench, parts);
   const std::string& name = quiet_bench.scene.description.name;
   const std::size_t frames = quiet_bench.frames.size();
   if (!common.quiet)

@@ -31,8 +31,7 @@ struct RegressionOptions {
 // Does the one or the other (measure/regress/run.h), and tells. Of run: 0 when all pictures are within
 // their tolerances; 1 when some are not, or are not approved yet; otherwise, after the reports were
 // written, what the cases that could not be rendered ask for (exit_code_of). Throws InputError for a
-// suite that is not valid, before anything is rendered, and E-RANGE for a reason that says nothing or
-// takes more than a line.
+// suite that is not valid, before anything is rendered, and E-RANGE for a reason that says nothing.
 int regression(const RegressionOptions& options, const CommonOptions& common);
 CLI::App& add_regress_command(CLI::App& program, RegressionOptions& options, CommonOptions& common);
 

@@ -41,7 +41,8 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
           ->excludes(rays);
   CLI::Option* estimate =
       command.add_flag("--estimate-error", options.estimate_error,
-                       "Estimate every frame's sampling error, for run.json; takes twice the time");
+                       "Estimate every frame's sampling error, for run.json; takes twice the "
+                       "time with rays, three times with slices");
   estimate->excludes(accuracy)->excludes(budget);
   const auto& wishes = renderer::kCasterWishes;
   command

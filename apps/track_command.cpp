@@ -93,12 +93,16 @@ void print(const session::MeasuredSource& source, const measure::OwnTracks& trac
                one.seen);
 }
 
+measure::OwnTracks tracks_of(session::MeasuredSource& source, const TrackOptions& options,
+                             bool quiet) {
+  Progress progress(source.name, source.frames(), quiet);  // ends before anything is printed
+  return measure::track_source(source, options, [&](int done) { progress.step(done); });
+}
+
 int track_own_data(const TrackOptions& options, const CommonOptions& common) {
   const auto source = own_source(options);
   const fs::path folder = output_of(options, source->name);
-  Progress progress(source->name, source->frames(), common.quiet);
-  const measure::OwnTracks tracks =
-      measure::track_source(*source, options, [&](int done) { progress.step(done); });
+  const measure::OwnTracks tracks = tracks_of(*source, options, common.quiet);
   write_own_tracks(tracks, *source, options, body_errors(options), options.plots, folder);
   if (common.quiet) return kExitDone;
   print_problems(source->warnings);
@@ -171,6 +175,10 @@ int track(const TrackOptions& options, const CommonOptions& common) {
   const fs::path folder = output_of(options, fs::path(options.file).stem().string());
   if (options.study)
     return study(options, radar_of(options, file.radar), scenarios, folder, common.quiet);
+  core::ProblemList problems;
+  for (const core::HighwayScenario* scenario : scenarios)
+    check_waveform(*scenario, scenario->radar, options, problems);
+  problems.throw_if_errors();
   Json json = record_of(options), timing = Json::array();
   for (const core::HighwayScenario* scenario : scenarios) {
     const core::HighwayRadar radar = radar_of(options, scenario->radar);

@@ -87,10 +87,7 @@ std::unique_ptr<session::MeasuredSource> chosen_scene(const TrackOptions& option
   choice.data = options.data;
   core::ProblemList problems;
   const scenes::SceneDescription description = read_chosen_scene(choice, problems);
-  problems.throw_if_errors();
-  auto source = session::scene_source(description, options.radar_file, settings_of(options));
-  source->warnings.insert(source->warnings.begin(), problems.all().begin(), problems.all().end());
-  return source;
+  return session::scene_source(description, options.radar_file, settings_of(options), problems);
 }
 
 }  // namespace

@@ -44,6 +44,69 @@ void add_own_data(CLI::App& command, TrackOptions& options) {
       ->check(number_from(0.0, 1000.0));
 }
 
+// How measurements become tracks, of any input.
+void add_tracker(CLI::App& command, TrackOptions& options) {
+  command
+      .add_option("--association", options.association,
+                  "Measurements to tracks: best assignment, or joint probabilities")
+      ->check(CLI::IsMember({"nearest", "joint"}))
+      ->capture_default_str();
+  command
+      .add_option(
+          "--acceleration", options.acceleration_mps2,
+          "m/s2, unknown to the tracker, of targets that drive straight on: 0.5 for steady "
+          "traffic. Braking has a model of its own, but not with --range-only: 4 to 8 there. "
+          "More tells less of who is who after a crossing")
+      ->check(number_from(0.01, 20.0))
+      ->capture_default_str();
+  command
+      .add_option("--coast", options.coast_s, "Seconds that a track lives without a measurement")
+      ->check(number_from(0.0, 60.0))
+      ->capture_default_str();
+}
+
+// Of highway scenarios.
+void add_simulation(CLI::App& command, TrackOptions& options) {
+  command
+      .add_option(
+          "--waveform", options.scheme,
+          "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
+          "pairs in order), two slopes, two stages, or a coded stretch between two ramps (default "
+          "two-stage, or what the scenario names); ramps as the file has them")
+      ->check(CLI::IsMember({"triangle", "sorted-triangle", "two-slopes", "two-stage", "coded"}));
+  command
+      .add_option("--detection-probability", options.detection_probability,
+                  "Of each target in each frame")
+      ->check(number_from(0.0, 1.0))
+      ->capture_default_str();
+  command.add_option("--false-measurements", options.false_per_frame, "Mean number in a frame")
+      ->check(number_from(0.0, 100.0))
+      ->capture_default_str();
+  command.add_option("--noise-figure", options.noise_figure_dB, "dB, instead of the file's")
+      ->check(number_from(0.0, 60.0));
+  command.add_flag("--range-only", options.range_only,
+                   "One receiver without azimuth: tracks of range and range rate alone");
+  CLI::Option* samples = command.add_flag(
+      "--samples", options.samples,
+      "Measure from beat samples and noise (two stages) instead of from frequencies");
+  samples->excludes("--waveform")->excludes("--detection-probability");
+  samples->excludes("--false-measurements")->excludes("--range-only");
+  command.add_option("--run", options.run, "Another draw of the same seed")
+      ->check(whole_number_from(0, 1000000))
+      ->capture_default_str();
+}
+
+// Beside it stands only what it does not vary itself.
+void add_study(CLI::App& command, TrackOptions& options) {
+  CLI::Option* study = command.add_flag(
+      "--study", options.study,
+      "What accuracy costs: buffer, noise figure, reflections, ghosts, waveform and association "
+      "against error and time, and families of random traffic, as tables and plots (two minutes; "
+      "needs gnuplot)");
+  for (const char* studied : {"--waveform", "--association", "--samples", "--plots", "--run"})
+    study->excludes(studied);
+}
+
 }  // namespace
 
 CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOptions& common) {
@@ -63,61 +126,13 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
       .add_option("-o,--output", options.output,
                   "Folder to write to (default out/<file's name>-tracks)")
       ->type_name(kFolderValue);
-  command
-      .add_option(
-          "--waveform", options.scheme,
-          "How beats become ranges and speeds: one triangle (all pairs, with ghosts; or "
-          "pairs in order), two slopes, two stages, or a coded stretch between two ramps (default "
-          "two-stage, or what the scenario names); ramps as the file has them")
-      ->check(CLI::IsMember({"triangle", "sorted-triangle", "two-slopes", "two-stage", "coded"}));
-  command
-      .add_option("--association", options.association,
-                  "Measurements to tracks: best assignment, or joint probabilities")
-      ->check(CLI::IsMember({"nearest", "joint"}))
-      ->capture_default_str();
-  command
-      .add_option("--detection-probability", options.detection_probability,
-                  "Of each target in each frame")
-      ->check(number_from(0.0, 1.0))
-      ->capture_default_str();
-  command.add_option("--false-measurements", options.false_per_frame, "Mean number in a frame")
-      ->check(number_from(0.0, 100.0))
-      ->capture_default_str();
-  command.add_option("--noise-figure", options.noise_figure_dB, "dB, instead of the file's")
-      ->check(number_from(0.0, 60.0));
-  command
-      .add_option(
-          "--acceleration", options.acceleration_mps2,
-          "m/s2, unknown to the tracker, of targets that drive straight on: 0.5 for steady "
-          "traffic. Braking has a model of its own, but not with --range-only: 4 to 8 there. "
-          "More tells less of who is who after a crossing")
-      ->check(number_from(0.01, 20.0))
-      ->capture_default_str();
-  command
-      .add_option("--coast", options.coast_s, "Seconds that a track lives without a measurement")
-      ->check(number_from(0.0, 60.0))
-      ->capture_default_str();
-  command.add_flag("--range-only", options.range_only,
-                   "One receiver without azimuth: tracks of range and range rate alone");
-  CLI::Option* samples = command.add_flag(
-      "--samples", options.samples,
-      "Measure from beat samples and noise (two stages) instead of from frequencies");
-  samples->excludes("--waveform")->excludes("--detection-probability");
-  samples->excludes("--false-measurements")->excludes("--range-only");
+  add_tracker(command, options);
+  add_simulation(command, options);
   command.add_flag("--plots", options.plots, "Draw range and errors over time too (needs gnuplot)");
-  CLI::Option* study = command.add_flag(
-      "--study", options.study,
-      "What accuracy costs: buffer, noise figure, waveform and association against "
-      "error and time, as tables and plots (one minute; needs gnuplot)");
-  for (const char* studied : {"--waveform", "--association", "--samples", "--plots"})
-    study->excludes(studied);
   command.add_option("--seed", options.seed, "Seed of everything random")
       ->check(any_seed())
       ->capture_default_str();
-  command.add_option("--run", options.run, "Another draw of the same seed")
-      ->check(whole_number_from(0, 1000000))
-      ->capture_default_str()
-      ->excludes(study);
+  add_study(command, options);
   command.footer(
       "Writes tracks.csv (with the covariance of x, y, vx, vy and the normalised error squared "
       "against the truth) and measurements.csv for each scenario, run.json with the metrics and "

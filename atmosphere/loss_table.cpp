@@ -10,7 +10,6 @@
 namespace fanbeam::atmosphere {
 namespace {
 
-
 // The loss of one cause alone: the air stays what it is.
 PathAttenuation alone(Weather weather, bool Weather::*cause, double frequency_Hz,
                       GasPart gas_part = GasPart::whole) {

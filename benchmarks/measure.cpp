@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/median.h"
 #include "core/parallel.h"
@@ -28,6 +29,8 @@ std::vector<double> candidates(CasterKind caster) {
   if (caster == CasterKind::rays) {
     for (int step = kCoarsest; step <= kFinest; ++step)
       result.push_back(std::round(std::exp2(step / 4.0) * 1000.0) / 1000.0);
+    // No coarser than the program takes.
+    std::erase_if(result, [](double rays) { return rays < renderer::kFewestRaysPerCell; });
     return result;
   }
   constexpr int kFew = 3;

@@ -76,7 +76,7 @@ constexpr Target kOffOverAbsent{1.01, 1.01};
 constexpr Target kEstimatesWithin{0.95, 0.95, true};
 
 std::string target_text(const ErrorTarget& target) {
-  return fmt::format("{:.1f} / {:.1f}", target.with_noise, target.noise_free);
+  return fmt::format("{:g} / {:g}", target.with_noise, target.noise_free);
 }
 
 std::string at(const ViewFigures& view) {

@@ -187,14 +187,16 @@ std::optional<bool> JsonNode::flag() const {
   return std::nullopt;
 }
 
-std::optional<std::string> JsonNode::text() const {
+std::optional<std::string> JsonNode::any_text() const {
   if (!present()) return std::nullopt;
-  if (!of(value_).is_string()) {
-    error(ErrorClass::parse, "a text in quotes");
-    return std::nullopt;
-  }
-  auto text = of(value_).get<std::string>();
-  if (is_printable_text(text)) return text;
+  if (of(value_).is_string()) return of(value_).get<std::string>();
+  error(ErrorClass::parse, "a text in quotes");
+  return std::nullopt;
+}
+
+std::optional<std::string> JsonNode::text() const {
+  std::optional<std::string> text = any_text();
+  if (!text || is_printable_text(*text)) return text;
   error(ErrorClass::range, "a text without control characters");
   return std::nullopt;
 }

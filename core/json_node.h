@@ -56,7 +56,8 @@ class JsonNode {
   std::optional<double> number(const NumberRange& range) const;
   std::optional<int> whole(int low, int high) const;  // E-RANGE also for a fraction
   std::optional<bool> flag() const;
-  std::optional<std::string> text() const;
+  std::optional<std::string> text() const;  // E-RANGE also for control characters
+  std::optional<std::string> any_text() const;
   std::vector<double> numbers(const NumberRange& range, std::size_t most) const;
   std::vector<std::string> texts(std::size_t most) const;
   // The value as JSON on one line, members sorted by name; "null" where it is missing. Says nothing.

@@ -7,8 +7,8 @@
 //   GET  /metrics            the same in Prometheus' text format
 //   GET  /api/plan           effects, whether they run, why
 //   GET  /api/cell?scope=bscope&frame=N&column=C&row=R
-//                            ground truth of a cell (truth.h), row 0 on top; "gone" for a frame of
-//                            more than some seconds ago
+//                            ground truth of a cell (truth.h), row 0 on top; "gone" for a frame that
+//                            the hub has no more
 //   GET  /api/sensor         axes of the pictures; POST sets tilt_deg, low_dB, high_dB
 //   GET  /api/weather        POST sets visibility_m (none: no fog), rain_rate_mm_per_h and
 //                            snow_rate_mm_per_h (none: no snow)

@@ -37,8 +37,8 @@ std::shared_ptr<LiveFrame> FrameMaker::rendered(const session::Session::Moment& 
                                                 const Tick& tick, const core::Pose& pose,
                                                 const core::StopToken& stop) {
   const renderer::Frame made = session_.render(under, pose, tick.number, {true, true}, stop);
-  const std::shared_ptr<const scenes::Scene> scene = session_.scene(under);
   auto frame = std::make_shared<LiveFrame>();
+  const auto& scene = frame->scene = session_.scene(under);
   frame->bscope = sensors::bscope_picture(scene->description.sensor, made.bscope_grey);
   frame->cscope = sensors::cscope_picture(scene->description.sensor, made.cscope_grey);
   frame->low_dB = scene->description.sensor.display.low_dB;

@@ -1,8 +1,9 @@
 // Where frames and what is said of them meet: the channel puts them in, whoever shows them takes the
-// newest. Whoever asks about one that a page still shows gets what it was made of: of the last minute,
-// pictures are not kept. Thread-safe.
+// newest. Whoever asks about one that a page still shows gets what it was made of, for a minute at least
+// and while no more than 32 changes of conditions came after it. Thread-safe.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <deque>
@@ -26,9 +27,10 @@ struct PictureErrors {
 };
 
 struct LiveFrame {
-  std::uint64_t number = 0;          // from 1 up
-  core::Pose pose;                   // of the frame's middle
-  session::Session::Moment under{};  // conditions
+  std::uint64_t number = 0;                      // from 1 up
+  core::Pose pose;                               // of the frame's middle
+  session::Session::Moment under{};              // conditions and sampling
+  std::shared_ptr<const scenes::Scene> scene{};  // of `under`
   core::Picture8 bscope, cscope;
   double low_dB = 0.0, high_dB = 0.0;  // of grey 0 and 255
   double cscope_top_rad = 0.0;         // upper edge
@@ -41,11 +43,11 @@ struct LiveFrame {
   std::optional<PictureErrors> errors{};  // of its sampling, as far as they were known
 };
 
-// What a frame was made of.
+// What a frame was made of, its sampling apart.
 struct FrameOrigin {
   std::uint64_t number = 0;
   core::Pose pose;
-  session::Session::Moment under{};
+  std::shared_ptr<const scenes::Scene> scene;
 };
 
 struct Status {
@@ -82,11 +84,14 @@ inline bool is_lasting_offset(const Status& status) {
 
 class Hub {
  public:
+  explicit Hub(double rate_Hz = 16.0)
+      : kept_(static_cast<std::size_t>(std::clamp(kKept_s * rate_Hz, 64.0, 65536.0))) {}
+
   void publish(std::shared_ptr<const LiveFrame> frame) {
     std::function<void()> call;
     {
       const std::lock_guard<std::mutex> lock(mutex_);
-      remember({frame->number, frame->pose, frame->under});
+      remember({frame->number, frame->pose, frame->scene});
       newest_ = std::move(frame);
       call = on_frame_;
     }
@@ -121,18 +126,20 @@ class Hub {
   }
 
  private:
-  // A minute at 16 Hz. Conditions take megabytes: where targets move they are others in every frame.
-  static constexpr std::size_t kKept = 1024, kKeptConditions = 32;
+  static constexpr double kKept_s = 64.0;
+  // Conditions take megabytes: where targets move they are others in every frame.
+  static constexpr std::size_t kMostChanges = 32;
 
   void remember(FrameOrigin origin) {
-    if (!origins_.empty() && origins_.back().under != origin.under) ++changes_;
+    if (!origins_.empty() && origins_.back().scene != origin.scene) ++changes_;
     origins_.push_back(std::move(origin));
-    while (origins_.size() > kKept || changes_ >= kKeptConditions) {
-      if (origins_[0].under != origins_[1].under) --changes_;
+    while (origins_.size() > kept_ || changes_ > kMostChanges) {
+      if (origins_[0].scene != origins_[1].scene) --changes_;
       origins_.pop_front();
     }
   }
 
+  std::size_t kept_;
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> newest_;
   std::deque<FrameOrigin> origins_;

@@ -33,14 +33,14 @@ std::shared_ptr<const Truth::Known> Truth::known(std::uint64_t frame) const {
                                   [&](const auto& one) { return one->frame == frame; });
   if (found != kept_.end()) return *found;
   const std::optional<FrameOrigin> shown = hub_.origin(frame);
-  if (!shown || !shown->under) return nullptr;
+  if (!shown || !shown->scene) return nullptr;
   auto known = std::make_shared<Known>();
   known->frame = frame;
-  known->scene = session_.scene(shown->under);
+  known->scene = shown->scene;
   const bool elevations = known->scene->description.sensor.display.cscope_mode ==
                           sensors::Display::CScopeMode::true_elevation;
   renderer::Frame made = session_.render(
-      shown->under, shown->pose, frame,
+      session_.moment(shown->scene), shown->pose, frame,
       {.bscope = false, .cscope = false, .layers = true, .cscope_layers = elevations});
   known->layers = std::move(*made.layers);
   kept_.push_back(known);

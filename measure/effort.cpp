@@ -32,6 +32,7 @@ Effort full_effort() {
 
 Effort quick_effort() {
   Effort effort;
+  effort.quick = true;
   effort.repetitions = 3;
   effort.reference_passes = 2;
   effort.rays = {0.5, 4, 16};

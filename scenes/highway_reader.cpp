@@ -197,38 +197,50 @@ std::optional<std::size_t> target_named(const JsonNode& node,
   return std::nullopt;
 }
 
-// A row that its target's motion contradicts: a sign or a unit that was mistaken.
+std::string words_of(double range_m, double range_rate_mps, double azimuth_rad) {
+  return core::number_text(range_m) + " m, " + core::number_text(range_rate_mps) + " m/s, " +
+         core::number_text(-azimuth_rad) + " rad";
+}
+
+// The first row that its target's motion contradicts: a sign or a unit that was mistaken.
 void check_truth(const JsonNode& rows, const std::vector<core::HighwayTruth>& told,
                  const core::HighwayTarget& target, const core::HighwayScenario& scenario) {
   constexpr double kMost_m = 0.1, kMost_mps = 0.1, kMost_rad = 2e-3;
-  if (told.size() != rows.elements()) return;  // a row is told as wrong already
-  for (std::size_t i = 0; i < told.size() && !rows.problems().is_full(); ++i) {
+  for (std::size_t i = 0; i < told.size(); ++i) {
     const core::HighwayTruth moved =
         truth_at(target, scenario.radar_speed_mps, scenario.radar, told[i].time_s);
-    if (std::abs(moved.range_m - told[i].range_m) > kMost_m ||
-        std::abs(moved.range_rate_mps - told[i].range_rate_mps) > kMost_mps ||
-        std::abs(std::remainder(moved.azimuth_rad - told[i].azimuth_rad, 2.0 * core::kPi)) >
+    if (std::abs(moved.range_m - told[i].range_m) <= kMost_m &&
+        std::abs(moved.range_rate_mps - told[i].range_rate_mps) <= kMost_mps &&
+        std::abs(std::remainder(moved.azimuth_rad - told[i].azimuth_rad, 2.0 * core::kPi)) <=
             kMost_rad)
-      rows.element(i).error(ErrorClass::range,
-                            "what the target's motion makes, " + core::number_text(moved.range_m) +
-                                " m, " + core::number_text(moved.range_rate_mps) + " m/s and " +
-                                core::number_text(-moved.azimuth_rad) +
-                                " rad, within 0.1 m, 0.1 m/s and 2 mrad");
+      continue;
+    const JsonNode row = rows.element(i);
+    row.problems().error(ErrorClass::range, row.place(), row.pointer(),
+                         words_of(told[i].range_m, told[i].range_rate_mps, told[i].azimuth_rad),
+                         "what the target's motion makes, " +
+                             words_of(moved.range_m, moved.range_rate_mps, moved.azimuth_rad) +
+                             ", within 0.1 m, 0.1 m/s and 2 mrad");
+    return;
   }
 }
 
-void read_truth(const JsonNode& tables, core::HighwayScenario& result) {
+// `sound`: nothing was wrong with the scenario's radar and targets, so that motion can judge truth.
+void read_truth(const JsonNode& tables, core::HighwayScenario& result, bool sound) {
   std::set<std::size_t> told;
   const std::size_t count = tables.size(kMostEntries);
   for (std::size_t i = 0; i < count; ++i) {
     const JsonNode table = tables.element(i);
     const std::optional<std::size_t> owner = target_named(table, result);
     if (!owner) continue;
-    if (!told.insert(*owner).second)
+    if (!told.insert(*owner).second) {
       refuse(table, "id", ErrorClass::ref, result.targets[*owner].id, "one table for each target");
-    else
-      check_truth(table.member("rows"), result.truth[*owner] = truth_of(table),
-                  result.targets[*owner], result);
+      continue;
+    }
+    std::vector<core::HighwayTruth>& rows = result.truth[*owner];
+    rows = truth_of(table);
+    // Rows that are no rows are told already.
+    if (const JsonNode list = table.member("rows"); sound && rows.size() == list.elements())
+      check_truth(list, rows, result.targets[*owner], result);
   }
 }
 
@@ -383,6 +395,7 @@ core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayR
                         "radar_overrides", "suppressed_detections", "purpose", "waveforms",
                         "events", "acceptance", "seeds", "sweeps", "triangle_intersections_max"});
   core::HighwayScenario result;
+  const std::size_t before = scenario.problems().all().size();
   result.id = text(scenario, "id");
   result.title = text(scenario, "title");
   result.duration_s = number(scenario, "duration_s", 1e-6, 1e6);
@@ -399,7 +412,7 @@ core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayR
     check_unique(targets.element(i), result.targets.back().id, names);
   }
   result.truth.resize(result.targets.size());
-  read_truth(scenario.member("truth"), result);
+  read_truth(scenario.member("truth"), result, scenario.problems().all().size() == before);
   read_suppressed(scenario.member("suppressed_detections"), result);
   return result;
 }

@@ -204,6 +204,12 @@ Session::Moment Session::now() const {
   return inside_->published;
 }
 
+Session::Moment Session::moment(std::shared_ptr<const scenes::Scene> earlier) const {
+  const std::lock_guard<std::mutex> one(inside_->setting);
+  return std::make_shared<const Published>(std::move(earlier), inside_->asked.sampling,
+                                           inside_->seed);
+}
+
 std::shared_ptr<const scenes::Scene> Session::scene(const Moment& under) const {
   return under->scene;
 }

@@ -85,6 +85,8 @@ class Session {
   struct Published;
   using Moment = std::shared_ptr<const Published>;
   Moment now() const;
+  // Conditions that scene() told earlier, with the sampling of now.
+  Moment moment(std::shared_ptr<const scenes::Scene> earlier) const;
   std::shared_ptr<const scenes::Scene> scene(const Moment& under) const;
   renderer::Sampling sampling(const Moment& under) const;
   renderer::Frame render(const Moment& under, const core::Pose& pose, std::uint64_t frame_index,

@@ -63,7 +63,7 @@ Pace measure_pace(const scenes::Scene& scene, int frame, bool slices) {
   return pace;
 }
 
-double cost_s(const CostBench& bench, const CostParts& parts) {
+double expected_cost_s(const CostBench& bench, const CostParts& parts) {
   const auto frames = static_cast<double>(bench.frames.size());
   double total_s = 0.0;
   if (parts.ladder || parts.numerics)

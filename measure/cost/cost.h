@@ -18,7 +18,7 @@ struct CostParts {
 Pace measure_pace(const scenes::Scene& scene, int frame, bool slices);
 
 // How long measure_cost is expected to take.
-double cost_s(const CostBench& bench, const CostParts& parts);
+double expected_cost_s(const CostBench& bench, const CostParts& parts);
 // `threads`: as they are, for the record.
 CostFigures measure_cost(const CostBench& bench, const CostParts& parts, int threads);
 

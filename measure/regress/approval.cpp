@@ -14,6 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kMostRecord_bytes = 64U << 20U;
 constexpr core::JsonLimits kLimits{64, 20'000'000};
+constexpr std::size_t kMostRows = 10'000'000;
 constexpr const char* kFile = "approval.json";
 
 core::JsonFile read_record(const fs::path& path) {
@@ -32,7 +33,7 @@ std::string row_name(const core::JsonNode& row, std::size_t index) {
   if (row.is_object())
     for (const char* key : {"effect", "material"})
       if (const core::JsonNode name = row.member(key); name.present())
-        return name.text().value_or("");
+        return name.any_text().value_or("");
   return std::to_string(index);
 }
 
@@ -58,13 +59,15 @@ Settings settings_of(const core::JsonNode& run) {
   }
   // Reasons and bounds follow from the rest.
   const core::JsonNode plan = run.required("plan");
-  for (std::size_t i = 0; i < plan.elements(); ++i)
+  const std::size_t effects = plan.size(kMostRows);
+  for (std::size_t i = 0; i < effects; ++i)
     for (const char* key : {"effect", "on"})
       flatten("plan[" + row_name(plan.element(i), i) + "]." + key, plan.element(i).required(key),
               settings);
   const core::JsonNode frames = run.required("frames");
+  const std::size_t count = frames.size(kMostRows);
   Json indices = Json::array();
-  for (std::size_t i = 0; i < frames.elements(); ++i)
+  for (std::size_t i = 0; i < count; ++i)
     if (const auto index = frames.element(i).required("index").whole(0, 2'000'000'000))
       indices.push_back(*index);
   settings["frames"] = indices.dump();
@@ -110,7 +113,7 @@ std::optional<Approval> read_approval(const fs::path& folder) {
   const core::JsonFile file = read_record(path);
   core::ProblemList problems;
   const core::JsonNode json(file, problems);
-  Approval approval{required_text(json, "reason"),
+  Approval approval{json.required("reason").any_text().value_or(""),
                     required_text(json, "version"),
                     required_text(json, "commit"),
                     required_text(json, "isa"),

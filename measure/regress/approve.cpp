@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 
 #include "core/files.h"
 #include "core/folder_swap.h"
@@ -78,7 +79,7 @@ void refuse_unknown_case(const Suite& suite, const std::string& only) {
                           "a case of the suite, such as" + near);
 }
 
-std::size_t approve_case(const SuiteCase& one, const fs::path& rendered, const fs::path& approved,
+std::size_t approve_case(const fs::path& rendered, const fs::path& approved,
                          const std::string& reason) {
   std::size_t pictures = 0;
   core::replace_folder(approved, [&](const fs::path& folder) {
@@ -106,10 +107,10 @@ std::size_t approve_cases(const Suite& suite, const Approving& approving) {
   core::remove_abandoned_temporaries(suite.approved);
   for (const SuiteCase* one : cases) {
     const fs::path approved = suite.approved / one->folder;
-    approving.told(*one,
-                   approve_case(*one, rendered_folder(approving.output, one->folder), approved,
-                                approving.reason),
-                   approved);
+    approving.told(
+        *one,
+        approve_case(rendered_folder(approving.output, one->folder), approved, approving.reason),
+        approved);
   }
   return cases.size();
 }

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/errors.h"
-#include "measure/regress/image_files.h"
+#include "measure/image_files.h"
 
 namespace fanbeam::measure {
 namespace {

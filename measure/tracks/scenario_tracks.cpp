@@ -34,16 +34,6 @@ tracking::Scheme scheme_named(const std::string& name) {
   return name == "coded" ? tracking::Scheme::coded : tracking::Scheme::two_stage;
 }
 
-// The reader knows which waveforms a file has, not which one is used, nor every scenario's frame period.
-void check_length(const std::string& name, tracking::Scheme scheme,
-                  const core::HighwayRadar& radar) {
-  const double length_s = length_of(scheme, radar.waveforms);
-  if (length_s > radar.frame_s)
-    core::throw_input_error(
-        core::ErrorClass::range, "waveform " + name, core::number_text(length_s) + " s of ramps",
-        "no more than the frame period of " + core::number_text(radar.frame_s) + " s");
-}
-
 void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFrame& frame,
               ScenarioTracks& tracks) {
   for (const tracking::RadarMeasurement& one : frame.measurements)
@@ -94,6 +84,17 @@ Json json_of_tracks(const core::HighwayScenario& scenario, const ScenarioTracks&
 
 }  // namespace
 
+// The reader knows which waveforms a file has, not which one is used.
+void check_waveform(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
+                    const TrackSettings& settings, core::ProblemList& problems) {
+  const std::string name = scheme_of(settings, scenario);
+  if (!fits(scheme_named(name), radar))
+    problems.error(
+        core::ErrorClass::range, {}, "scenario " + scenario.id + " waveform " + name,
+        core::number_text(length_of(scheme_named(name), radar.waveforms)) + " s of ramps",
+        "no more than the frame period of " + core::number_text(radar.frame_s) + " s");
+}
+
 int target_of(const tracking::ScenarioScore& score, int track) {
   for (const auto& [index, id] : score.mot.current_match())
     if (id == track) return index;
@@ -110,7 +111,6 @@ ScenarioTracks track_scenario(const core::HighwayScenario& scenario,
   tracks.scheme = scheme_of(settings, scenario);
   const tracking::SimulationSettings simulation =
       simulation_settings(settings, scheme_named(tracks.scheme));
-  check_length(tracks.scheme, simulation.scheme, radar);
   const auto run = static_cast<std::uint32_t>(settings.run);
   std::optional<tracking::SampledRadar> sampled;
   if (settings.samples) sampled.emplace(radar);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/highway.h"
 #include "measure/tracks/scenario_history.h"
 #include "measure/tracks/track_settings.h"
@@ -29,6 +30,10 @@ struct ScenarioTracks {
 
 // The target that a track follows; -1 for none.
 int target_of(const tracking::ScenarioScore& score, int track);
+
+// E-RANGE where the waveform that the settings mean takes longer than a frame.
+void check_waveform(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
+                    const TrackSettings& settings, core::ProblemList& problems);
 
 // `progress` is told after each frame how many are done.
 ScenarioTracks track_scenario(const core::HighwayScenario& scenario,

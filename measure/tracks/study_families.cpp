@@ -24,6 +24,8 @@ session::PlotSeries sorted_series(const char* name, std::vector<double> values) 
 }  // namespace
 
 StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& settings) {
+  if (!fits(tracking::Scheme::two_stage, radar))
+    return {"Families of traffic: none, two stages take longer than a frame of this radar.\n", {}};
   const tracking::SimulationSettings simulation =
       simulation_settings(settings, tracking::Scheme::two_stage);
   // Place and velocity; on one axis for a radar without azimuth.
@@ -56,7 +58,7 @@ StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& s
     std::vector<double> motas, errors;
     for (const tracking::FamilyRun& run : score.runs) {
       motas.push_back(run.mota);
-      errors.push_back(run.nees);
+      if (run.nees) errors.push_back(*run.nees);
     }
     mota.series.push_back(sorted_series(family.name, motas));
     nees.series.push_back(sorted_series(family.name, errors));

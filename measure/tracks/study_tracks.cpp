@@ -111,6 +111,39 @@ std::string row(const std::string& scenario, const std::string& waveform,
                      one.switches, 1e3 * one.range_m, one.ms);
 }
 
+// A waveform from frequencies, with both associations.
+std::string rows_of(const StudyScenario& one, const Named& waveform, TrackSettings settings) {
+  const core::HighwayScenario& scenario = *one.scenario;
+  const tracking::SimulationSettings simulation = simulation_settings(settings, waveform.scheme);
+  std::string rows;
+  for (const char* association : {"nearest", "joint"}) {
+    settings.association = association;
+    rows += row(
+        scenario.id, waveform.name, association,
+        tracked(one, tracker_settings(settings, simulation, one.radar, scenario.radar_speed_mps),
+                kTrackRuns, false, [&](int run, int frame) {
+                  return simulated_frame(scenario, one.radar, simulation, settings.seed,
+                                         static_cast<std::uint32_t>(run), frame);
+                }));
+  }
+  return rows;
+}
+
+// Misses and false measurements are what samples make of it.
+std::string sampled_row(const StudyScenario& one, TrackSettings settings) {
+  const core::HighwayScenario& scenario = *one.scenario;
+  settings.association = "nearest";
+  settings.detection_probability = 1.0;
+  settings.false_per_frame = 0.0;
+  const tracking::SampledRadar sampled(one.radar);
+  return row(scenario.id, "two stages, from samples", "nearest; time of all",
+             tracked(one, tracker_settings(settings, {}, one.radar, scenario.radar_speed_mps), 1,
+                     true, [&](int run, int frame) {
+                       return sampled.measure(scenario, settings.seed,
+                                              static_cast<std::uint32_t>(run), frame);
+                     }));
+}
+
 }  // namespace
 
 StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed) {
@@ -150,39 +183,16 @@ StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed) {
   return part;
 }
 
-StudyPart study_tracks(const std::vector<StudyScenario>& scenarios, const TrackSettings& asked) {
+StudyPart study_tracks(const std::vector<StudyScenario>& scenarios, const TrackSettings& settings) {
   StudyPart part;
   part.text =
       "| scenario | waveform | association | GOSPA, m | MOTA | false tracks in a scan | switches | "
       "range, mm rms | tracker, ms a scan |\n|---|---|---|---|---|---|---|---|---|\n";
   std::string sampled_rows;
   for (const StudyScenario& one : scenarios) {
-    const core::HighwayScenario& scenario = *one.scenario;
     for (const Named& waveform : kSchemes)
-      for (const char* association : {"nearest", "joint"}) {
-        TrackSettings settings = asked;
-        settings.association = association;
-        const tracking::SimulationSettings simulation = simulation_settings(asked, waveform.scheme);
-        part.text +=
-            row(scenario.id, waveform.name, association,
-                tracked(one,
-                        tracker_settings(settings, simulation, one.radar, scenario.radar_speed_mps),
-                        kTrackRuns, false, [&](int run, int frame) {
-                          return simulated_frame(scenario, one.radar, simulation, asked.seed,
-                                                 static_cast<std::uint32_t>(run), frame);
-                        }));
-      }
-    const tracking::SampledRadar sampled(one.radar);
-    const tracking::SimulationSettings as_sampled;
-    TrackSettings settings = asked;
-    settings.association = "nearest";
-    sampled_rows += row(
-        scenario.id, "two stages, from samples", "nearest; time of all",
-        tracked(one, tracker_settings(settings, as_sampled, one.radar, scenario.radar_speed_mps), 1,
-                true, [&](int run, int frame) {
-                  return sampled.measure(scenario, asked.seed, static_cast<std::uint32_t>(run),
-                                         frame);
-                }));
+      if (fits(waveform.scheme, one.radar)) part.text += rows_of(one, waveform, settings);
+    if (fits(Scheme::two_stage, one.radar)) sampled_rows += sampled_row(one, settings);
   }
   part.text += sampled_rows;
   return part;

@@ -4,6 +4,10 @@
 
 namespace fanbeam::measure {
 
+bool fits(tracking::Scheme scheme, const core::HighwayRadar& radar) {
+  return length_of(scheme, radar.waveforms) <= radar.frame_s;
+}
+
 tracking::SimulationSettings simulation_settings(const TrackSettings& settings,
                                                  tracking::Scheme scheme) {
   tracking::SimulationSettings simulation;

@@ -23,6 +23,9 @@ struct TrackSettings {
   int run = 0;           // another draw of the same seed
 };
 
+// Whether all ramps of the waveform end within a frame.
+bool fits(tracking::Scheme scheme, const core::HighwayRadar& radar);
+
 // Of road scenarios: how a radar measures them by one waveform, and the tracker that goes with it.
 tracking::SimulationSettings simulation_settings(const TrackSettings& settings,
                                                  tracking::Scheme scheme);

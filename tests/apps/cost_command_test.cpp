@@ -97,6 +97,7 @@ TEST_CASE("fanbeam cost writes tables, plots and a page, and its errors fall alo
   CHECK(first.output.find("t: 1 frame, about ") != std::string::npos);
   CHECK(first.output.find("a quick look") != std::string::npos);
   const fs::path one = folder.path() / "one";
+  CHECK(bytes_of(one / "cost.md").find("**A quick look: ") != std::string::npos);
   std::vector<std::string> names;
   for (const auto& [name, bytes] : contents(one)) {
     names.push_back(name);

@@ -336,6 +336,14 @@ TEST_CASE("Samples that fmcw left have the times and the speed that its record t
   REQUIRE(times_s.size() == 3);
   CHECK(*times_s.begin() == Approx(first_s).margin(1e-6));
   CHECK(*times_s.rbegin() == Approx(last_s).margin(1e-6));
+  // A file by its name alone, from within its folder, has its time and speed too.
+  const auto within =
+      tests::run_fanbeam("track 00004.npy -q --radar ../radar.toml -o " + tests::quoted(out),
+                         "cd " + tests::quoted(signals / "beat") + " &&");
+  INFO(within.output);
+  REQUIRE(within.exit_code == 0);
+  CHECK(tests::json_of(out / "run.json")["radar_speed_mps"].get<double>() ==
+        Approx(100.0 / 3.6).margin(0.01));
   // An option goes before the record.
   REQUIRE(track(signals, out, "--frame-period 0.2 --radar-speed 3").exit_code == 0);
   CHECK(tests::json_of(out / "run.json")["frame_s"] == 0.2);

@@ -98,9 +98,9 @@ TEST_CASE("Pictures are approved with a reason, and then pass", "[regress]") {
   check_markup(place.out() / "report.html");
   check_markup(place.out() / "junit.xml");
 
-  require_exit(place.approve("--reason 'the closed form of flat ground'"), 0);
+  require_exit(place.approve("--reason 'the closed form\nof flat ground'"), 0);
   const nlohmann::json approval = json_of(place.approved() / "grass" / "approval.json");
-  CHECK(approval["reason"] == "the closed form of flat ground");
+  CHECK(approval["reason"] == "the closed form\nof flat ground");
   CHECK(approval["isa"] == "x86-64-v2");
   CHECK(approval["settings"]["seed"] == 0);
   CHECK(bytes_of(place.approved() / "grass" / "bscope" / "00000.png") ==

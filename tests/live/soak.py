@@ -14,64 +14,25 @@ import mmap
 import os
 import random
 import re
-import signal
 import socket
 import struct
-import subprocess
 import sys
 import threading
 import time
 import urllib.request
 
+from flying import Viewer, end, own_approach, resident_MB, share, start
+
 FANBEAM, DATA, FOLDER = sys.argv[1:4]
 MINUTES = float(sys.argv[4]) if len(sys.argv) > 4 else 20.0
 HOURS = float(sys.argv[5]) if len(sys.argv) > 5 else 8.0
 RATE_Hz = 16
-FOOT_m, LENGTH_s, SPEED_mps, SLOPE_deg = 0.3048, 65.0, 70.0, 3.8
-
-
-def resident_MB(pid):
-    with open(f"/proc/{pid}/status", encoding="ascii") as status:
-        return int(re.search(r"VmRSS:\s+(\d+)", status.read()).group(1)) / 1024
 
 
 def stolen_and_all():
     with open("/proc/stat", encoding="ascii") as stat:
         times = [int(word) for word in stat.readline().split()[1:9]]
     return times[7], sum(times)
-
-
-def share(values, part):
-    values = sorted(values)
-    return values[min(len(values) - 1, int(part * len(values)))] if values else math.nan
-
-
-def start(*options):
-    live = subprocess.Popen([FANBEAM, "live", *options, "--http", "0"], stdout=subprocess.PIPE, text=True)
-    return live, re.search(r"http://\S+", live.stdout.readline()).group(0)
-
-
-def end(live):
-    live.send_signal(signal.SIGTERM)
-    return live.wait(30)
-
-
-class Viewer(threading.Thread):
-    """Reads frames as a page does, and keeps what they say of themselves."""
-
-    def __init__(self, url):
-        super().__init__(daemon=True)
-        self.url, self.heads = url, []
-        self.start()
-
-    def run(self):
-        try:
-            with urllib.request.urlopen(f"{self.url}frames") as stream:
-                while size := stream.read(4):
-                    head = json.loads(stream.read(int.from_bytes(size, "little")).split(b"\n", 1)[0])
-                    self.heads.append({key: head[key] for key in ("number", "frame_ms", "pose_age_ms", "samples", "errors")})
-        except (OSError, ValueError):
-            pass  # the server ended
 
 
 class MemoryReader(threading.Thread):
@@ -99,26 +60,6 @@ class MemoryReader(threading.Thread):
             time.sleep(1 / 64)
 
 
-class Approach:
-    """Straight down the scene's own approach, again and again."""
-
-    def __init__(self, head):
-        self.head = head
-
-    def line(self, clock_s):
-        t, head = clock_s % LENGTH_s, self.head
-        heading, slope = math.radians(head["heading_deg"]), math.tan(math.radians(SLOPE_deg))
-        along_m = SPEED_mps * t
-        latitude = head["latitude_deg"] + math.degrees(along_m * math.cos(heading) / 6.37e6)
-        longitude = head["longitude_deg"] + math.degrees(
-            along_m * math.sin(heading) / 6.37e6 / math.cos(math.radians(latitude)))
-        feet = (head["height_m"] - slope * along_m) / FOOT_m
-        fps = SPEED_mps / FOOT_m
-        return (f"fanbeam,2,{clock_s:.6f},{latitude:.12f},{longitude:.12f},{feet:.6f},300,{head['roll_deg']},"
-                f"{head['pitch_deg']},{head['heading_deg']},{fps * math.cos(heading):.6f},{fps * math.sin(heading):.6f},"
-                f"{fps * slope:.6f},9000,0,0\n").encode()
-
-
 class Sender(threading.Thread):
     """Packets as FlightGear sends them: whole display frames of 60 Hz apart, 16 a second."""
 
@@ -137,21 +78,13 @@ class Sender(threading.Thread):
             number += 1
 
 
-def own_approach(scene):
-    live, url = start(scene, "--data", DATA, "--from", "ils", "--rate", "4", "--rays-per-cell", "1")
-    viewer = urllib.request.urlopen(f"{url}frames")
-    head = json.loads(viewer.read(int.from_bytes(viewer.read(4), "little")).split(b"\n", 1)[0])
-    end(live)
-    return Approach(head)
-
-
 def benchmark(minutes):
     scene = "innsbruck-26"
-    approach = own_approach(scene)
+    approach = own_approach(FANBEAM, scene, "--data", DATA)
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as one:
         one.bind(("127.0.0.1", 0))
         port = one.getsockname()[1]
-    live, url = start(scene, "--data", DATA, "--from", f"fg-generic:{port},datum=ellipsoid", "--to", f"shm:soak{os.getpid()}")
+    live, url = start(FANBEAM, scene, "--data", DATA, "--from", f"fg-generic:{port},datum=ellipsoid", "--to", f"shm:soak{os.getpid()}")
     sender = Sender(port, approach)
     viewers = [Viewer(url), Viewer(url)]
     memory_reader = MemoryReader(f"soak{os.getpid()}")
@@ -227,8 +160,8 @@ def write_hours(file, hours, approach, draw):
 def hours_of_replay(hours):
     name = os.path.join(FOLDER, "hours.recording")
     with open(name, "w", encoding="ascii") as file:
-        write_hours(file, hours, own_approach("flat-grass"), random.Random(1))
-    live, url = start("flat-grass", "--replay", name, "--lockstep")
+        write_hours(file, hours, own_approach(FANBEAM, "flat-grass"), random.Random(1))
+    live, url = start(FANBEAM, "flat-grass", "--replay", name, "--lockstep")
     begin, memory, frames = time.monotonic(), [], []
     while live.poll() is None:
         time.sleep(2)

@@ -8,7 +8,7 @@
 namespace fanbeam::tracking {
 namespace {
 
-constexpr double kRoadSpeed_mps = 100.0 / 3.6, kScan_s = 0.05;
+constexpr double kRoadSpeed_mps = 100.0 / 3.6;
 
 core::RandomKey key_of(int run) { return {20251121, 2525, static_cast<std::uint32_t>(run)}; }
 
@@ -37,7 +37,7 @@ core::HighwayScenario scene(double duration_s, double radar_speed_mps,
 }
 
 // Farther apart than 1.2 cells of range (0.72 m) all the time.
-core::HighwayScenario side_by_side(int run) {
+core::HighwayScenario side_by_side(int run, double) {
   const double range_m = uniform(run, 1, 30.0, 80.0);
   const double speed_mps = kRoadSpeed_mps + uniform(run, 2, -1.0, 1.0);
   const double apart_mps = uniform(run, 3, 0.0, 0.5),
@@ -49,7 +49,7 @@ core::HighwayScenario side_by_side(int run) {
 }
 
 // Meeting, within a cell for a while, and parting again, or not yet.
-core::HighwayScenario overtaking(int run) {
+core::HighwayScenario overtaking(int run, double) {
   const double range_m = uniform(run, 1, 30.0, 80.0);
   const double speed_mps = kRoadSpeed_mps + uniform(run, 2, -1.0, 1.0);
   const double meeting_mps = uniform(run, 3, 0.3, 0.5);
@@ -58,7 +58,7 @@ core::HighwayScenario overtaking(int run) {
                 car("B", range_m - uniform(run, 4, 1.2, 2.0), 1.5, speed_mps + meeting_mps)});
 }
 
-core::HighwayScenario braking(int run) {
+core::HighwayScenario braking(int run, double) {
   core::HighwayTarget other = car("A", uniform(run, 1, 40.0, 60.0), -3.7, kRoadSpeed_mps + 1.0);
   core::HighwayTarget target = car("B", uniform(run, 2, 90.0, 130.0), 0.0, kRoadSpeed_mps);
   const double from_s = uniform(run, 3, 0.8, 1.5);
@@ -68,7 +68,7 @@ core::HighwayScenario braking(int run) {
   return scene(4.5, kRoadSpeed_mps, {other, target});
 }
 
-core::HighwayScenario stop_and_go(int run) {
+core::HighwayScenario stop_and_go(int run, double) {
   core::HighwayTarget jam = car("A", uniform(run, 1, 30.0, 60.0), 0.0, uniform(run, 2, 8.0, 15.0));
   const double stop_s = uniform(run, 3, 0.5, 1.5);
   const double braking_mps2 = uniform(run, 4, 2.0, 5.0);
@@ -80,7 +80,7 @@ core::HighwayScenario stop_and_go(int run) {
 }
 
 // By 3.7 m within 2.4 to 4 s, behind another car.
-core::HighwayScenario lane_change(int run) {
+core::HighwayScenario lane_change(int run, double) {
   const double from_s = uniform(run, 1, 0.5, 1.5), half_s = uniform(run, 2, 1.2, 2.0);
   const double across_mps2 = 3.7 / (half_s * half_s);
   core::HighwayTarget target =
@@ -93,18 +93,20 @@ core::HighwayScenario lane_change(int run) {
 }
 
 // As the tracker expects: 0.5 m/s2 along and across, another one in each scan.
-core::HighwayScenario wandering(int run) {
+core::HighwayScenario wandering(int run, double frame_s) {
+  constexpr double kLength_s = 6.0;
+  const int scans = static_cast<int>(std::lround(std::min(kLength_s / frame_s, 1e6)));
   std::vector<core::HighwayTarget> cars = {
       car("A", uniform(run, 1, 30.0, 60.0), -3.7, kRoadSpeed_mps + uniform(run, 2, -2.0, 2.0)),
       car("B", uniform(run, 3, 80.0, 120.0), 0.0, kRoadSpeed_mps + uniform(run, 4, -2.0, 2.0))};
   std::uint64_t draw = 100;
   for (core::HighwayTarget& one : cars)
-    for (int scan = 0; scan < 120; ++scan) {
+    for (int scan = 0; scan < scans; ++scan) {
       const auto n = core::normal_pair(key_of(run), draw++, 0);
       one.accelerations.push_back(
-          {scan * kScan_s, (scan + 1) * kScan_s, {kSteady_mps2 * n[0], kSteady_mps2 * n[1]}});
+          {scan * frame_s, (scan + 1) * frame_s, {kSteady_mps2 * n[0], kSteady_mps2 * n[1]}});
     }
-  return scene(6.0, kRoadSpeed_mps, cars);
+  return scene(kLength_s, kRoadSpeed_mps, cars);
 }
 
 constexpr RoadFamily kFamilies[] = {{"side by side", side_by_side}, {"braking", braking},
@@ -146,7 +148,7 @@ FamilyScore score_family(const RoadFamily& family, int runs, const core::Highway
                          const SettingsOf& settings, const MeasureRun& measure) {
   FamilyScore score;
   for (int run = 0; run < runs; ++run) {
-    const core::HighwayScenario scenario = family.draw(run);
+    const core::HighwayScenario scenario = family.draw(run, radar.frame_s);
     ScenarioScore one;
     MeanSquare nees;
     run_scenario(
@@ -157,7 +159,8 @@ FamilyScore score_family(const RoadFamily& family, int runs, const core::Highway
           add_nees(frame, one.mot, nees);
           add_nees(frame, one.mot, score.nees);
         });
-    score.runs.push_back({one.mot.mota(), one.mot.switches(), nees.mean()});
+    score.runs.push_back({one.mot.mota(), one.mot.switches(), {}});
+    if (nees.count() > 0) score.runs.back().nees = nees.mean();
   }
   return score;
 }

@@ -15,6 +15,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,7 @@ namespace fanbeam::tracking {
 
 struct RoadFamily {
   const char* name;
-  core::HighwayScenario (*draw)(int run);
+  core::HighwayScenario (*draw)(int run, double frame_s);
 };
 // In the order above.
 std::span<const RoadFamily> road_families();
@@ -34,8 +35,9 @@ struct FamilyRun {
   double mota = 0.0;
   int switches = 0;
   // Normalised error squared of position and velocity, mean over what is matched from 0.3 s on: 4 on
-  // average where a filter is as good as it says.
-  double nees = 0.0;
+  // average where a filter is as good as it says, 2 for a radar without azimuth. Absent where nothing is
+  // matched.
+  std::optional<double> nees;
 };
 struct FamilyScore {
   std::vector<FamilyRun> runs;

@@ -77,7 +77,7 @@ def frame(
     radar          TOML file of a radar, which also has windows, detector, angle method, clusters, channel
                    errors and places of elements (docs/fmcw.md); the scene's own by default. The other arguments replace what it says
     transmitters   and receivers of the array, 3 and 4
-    numbers        of the waveform, in SI: {"bandwidth": 250e6, "ramp": 20e-6}; docs/fmcw.md lists them
+    numbers        of the waveform, in SI: {"bandwidth": 250e6, "ramp": 20e-6}; those of "fanbeam help waveform" without dashes
     line_width_Hz  of the oscillator, 0: no phase noise; adc_bits 0: no quantiser
     unfold         speeds of detections, by time division of the transmitters
     """

@@ -10,18 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The median from frame to frame; nothing where there is none.
-std::optional<double> median_step_s(const std::vector<DetectedFrame>& frames) {
-  std::vector<double> steps_s;
-  for (std::size_t i = 1; i < frames.size(); ++i)
-    if (frames[i].time_s > frames[i - 1].time_s)
-      steps_s.push_back(frames[i].time_s - frames[i - 1].time_s);
-  if (steps_s.empty()) return std::nullopt;
-  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return *middle;
-}
-
 class DetectionSource : public MeasuredSource {
  public:
   DetectionSource(const fs::path& path, const std::optional<fs::path>& radar_file,
@@ -42,7 +30,9 @@ class DetectionSource : public MeasuredSource {
                               "none", "at least one frame");
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
     kind = "detections";
-    frame_s = median_step_s(frames_).value_or(frame_s);
+    std::vector<double> times_s;
+    for (const DetectedFrame& one : frames_) times_s.push_back(one.time_s);
+    frame_s = median_step_s(times_s).value_or(frame_s);
     radar_speed_mps = speed_of(frames_.front());
   }
   int frames() const override { return static_cast<int>(frames_.size()); }
@@ -67,6 +57,16 @@ class DetectionSource : public MeasuredSource {
 };
 
 }  // namespace
+
+std::optional<double> median_step_s(const std::vector<double>& times_s) {
+  std::vector<double> steps_s;
+  for (std::size_t i = 1; i < times_s.size(); ++i)
+    if (times_s[i] > times_s[i - 1]) steps_s.push_back(times_s[i] - times_s[i - 1]);
+  if (steps_s.empty()) return std::nullopt;
+  const auto middle = steps_s.begin() + static_cast<std::ptrdiff_t>(steps_s.size() / 2);
+  std::nth_element(steps_s.begin(), middle, steps_s.end());
+  return *middle;
+}
 
 std::unique_ptr<MeasuredSource> detection_source(const fs::path& path,
                                                  const std::optional<fs::path>& radar_file,

@@ -4,8 +4,8 @@
 //   detections    (session/signal/detection_file.h)
 //   samples       (session/signal/sample_file.h), with the radar that they are of
 //
-// Times of samples: where they are the beats of `fanbeam fmcw`, as the run.json beside them says, and so
-// is the radar's speed; else a period apart.
+// Times of samples: where they are the beats of `fanbeam fmcw`, as the run.json in the folder above them
+// says, and so is the radar's speed; else a period apart.
 #pragma once
 
 #include <filesystem>
@@ -35,6 +35,8 @@ struct MeasuredFrame {
   std::vector<SeenTarget> targets;  // in view; of a scene
 };
 
+inline constexpr double kFramePeriod_s = 0.05;  // where nothing tells it
+
 class MeasuredSource {
  public:
   virtual ~MeasuredSource() = default;
@@ -43,9 +45,9 @@ class MeasuredSource {
 
   std::string name, kind;        // "street-76ghz", "scene"
   double radar_speed_mps = 0.0;  // at the first frame
-  double frame_s = 0.05, most_range_m = 1e6;
+  double frame_s = kFramePeriod_s, most_range_m = 1e6;
   std::optional<tracking::Resolution> resolution{};  // where the radar is known
-  std::vector<core::Problem> warnings{};             // of the scene, and of folding, once
+  std::vector<core::Problem> warnings{};             // of the scene, of times, and of folding, once
 };
 
 struct SourceSettings {
@@ -56,13 +58,13 @@ struct SourceSettings {
   std::uint64_t seed = 0;                   // of a scene
 };
 
-inline constexpr double kFramePeriod_s = 0.05;  // of samples, where nothing tells it
-
 // The three throw InputError for whatever is wrong with the input. `radar_file`: empty for the scene's
-// own, or its sensor.
+// own, or its sensor. `problems`: of reading the scene; they are told together with the radar file's, and
+// what is left of them becomes the source's warnings.
 std::unique_ptr<MeasuredSource> scene_source(const scenes::SceneDescription& description,
                                              const std::filesystem::path& radar_file,
-                                             const SourceSettings& settings);
+                                             const SourceSettings& settings,
+                                             core::ProblemList& problems);
 // Without a radar measurements have the errors of a body alone, and no resolution.
 std::unique_ptr<MeasuredSource> detection_source(
     const std::filesystem::path& path, const std::optional<std::filesystem::path>& radar_file,
@@ -72,6 +74,9 @@ std::unique_ptr<MeasuredSource> sample_source(const std::filesystem::path& path,
                                               const std::vector<std::filesystem::path>& files,
                                               const std::filesystem::path& radar_file,
                                               const SourceSettings& settings);
+
+// From one time to the next, of those that rise; nothing where none does.
+std::optional<double> median_step_s(const std::vector<double>& times_s);
 
 // Samples in a folder, or in beat/ below it, by name; none where it has none.
 std::vector<std::filesystem::path> sample_files_in(const std::filesystem::path& folder);

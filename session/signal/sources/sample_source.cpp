@@ -18,19 +18,11 @@ struct Moment {
   double time_s = 0.0, radar_speed_mps = 0.0;
 };
 
-// When `fanbeam fmcw` made each of the files, as the run.json of their folder says; none where it does
-// not name them all, in the order of time.
-std::vector<Moment> recorded_moments(const std::vector<fs::path>& files) {
-  const fs::path folder = fs::absolute(files.front()).parent_path().parent_path();
-  std::error_code status;
-  if (!fs::is_regular_file(folder / "run.json", status)) return {};
-  constexpr core::JsonLimits kLimits{64, 20'000'000};
+// What the run.json of a folder that `fanbeam fmcw` wrote says of its files, by name relative to it.
+std::map<std::string, Moment> moments_in(const core::JsonNode& record) {
   constexpr core::NumberRange kTimes_s{-1e12, 1e12}, kSpeeds_mps{-1000.0, 1000.0};
-  core::ProblemList problems;
-  const auto file = core::read_json_file(folder / "run.json", 256ULL << 20U, kLimits, problems);
-  if (!file) return {};
-  const core::JsonNode frames = core::JsonNode(*file, problems).member("frames");
-  std::map<std::string, Moment> known;  // by file, relative to the folder
+  std::map<std::string, Moment> known;
+  const core::JsonNode frames = record.member("frames");
   for (std::size_t i = 0; i < frames.elements(); ++i) {
     const core::JsonNode frame = frames.element(i);
     const auto time_s = frame.member("time_s").number(kTimes_s);
@@ -39,11 +31,34 @@ std::vector<Moment> recorded_moments(const std::vector<fs::path>& files) {
     for (const std::string& name : frame.member("files").texts(1000))
       known[name] = {*time_s, speed_mps};
   }
+  return known;
+}
+
+// When each file was made, one folder above them; none, and why in `warnings`, where the record there does
+// not say it of all in the order of time.
+std::vector<Moment> recorded_moments(const std::vector<fs::path>& files,
+                                     core::ProblemList& warnings) {
+  const fs::path own = fs::absolute(files.front()).lexically_normal().parent_path();
+  const fs::path record = own.parent_path() / "run.json";
+  std::error_code status;
+  if (!fs::is_regular_file(record, status)) return {};
+  constexpr core::JsonLimits kLimits{64, 20'000'000};
+  core::ProblemList problems;
+  const auto file = core::read_json_file(record, 256ULL << 20U, kLimits, problems);
+  const auto known =
+      file ? moments_in(core::JsonNode(*file, problems)) : std::map<std::string, Moment>();
   std::vector<Moment> moments;
+  if (known.empty()) return moments;  // another program's
   for (const fs::path& one : files) {
-    const auto found = known.find((one.parent_path().filename() / one.filename()).generic_string());
-    if (found == known.end()) return {};
-    if (!moments.empty() && found->second.time_s <= moments.back().time_s) return {};
+    const auto found = known.find((own.filename() / one.filename()).generic_string());
+    const bool later =
+        found != known.end() && (moments.empty() || found->second.time_s > moments.back().time_s);
+    if (!later) {
+      warnings.warning("TIMES", {record.string()}, "frames",
+                       "no later time of " + one.filename().string(),
+                       "samples are taken to be one --frame-period apart, the radar to stand");
+      return {};
+    }
     moments.push_back(found->second);
   }
   return moments;
@@ -80,14 +95,15 @@ class SampleSource : public MeasuredSource {
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
     kind = "samples";
     // Several frames in a file have no times there.
-    if (files_.frames() == static_cast<int>(files.size())) moments_ = recorded_moments(files);
+    core::ProblemList told;
+    if (files_.frames() == static_cast<int>(files.size())) moments_ = recorded_moments(files, told);
+    warnings = told.all();
     if (asked_.frame_period_s) {
       frame_s = *asked_.frame_period_s;
     } else if (moments_.size() > 1) {
-      frame_s = (moments_.back().time_s - moments_.front().time_s) /
-                static_cast<double>(moments_.size() - 1);
-    } else {
-      frame_s = kFramePeriod_s;
+      std::vector<double> times_s;
+      for (const Moment& one : moments_) times_s.push_back(one.time_s);
+      frame_s = median_step_s(times_s).value_or(frame_s);
     }
     radar_speed_mps = speed_at(0);
     most_range_m = radar_.axes.range_step_m * radar_.detection.transform.kept_range_cells;

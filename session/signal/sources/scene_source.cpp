@@ -15,11 +15,10 @@ namespace {
 class SceneSource : public MeasuredSource {
  public:
   SceneSource(const scenes::SceneDescription& description, const std::filesystem::path& asked,
-              const SourceSettings& asked_of)
+              const SourceSettings& asked_of, core::ProblemList& problems)
       : asked_(asked_of) {
     const std::filesystem::path file = asked.empty() ? description.signal_file : asked;
     settings_.seed = asked_.seed;
-    core::ProblemList problems;
     if (!file.empty()) read_radar_file(file, settings_, problems);
     problems.throw_if_errors();
     scene_ = Session(description, {}, problems).scene();
@@ -86,8 +85,9 @@ class SceneSource : public MeasuredSource {
 
 std::unique_ptr<MeasuredSource> scene_source(const scenes::SceneDescription& description,
                                              const std::filesystem::path& radar_file,
-                                             const SourceSettings& settings) {
-  return std::make_unique<SceneSource>(description, radar_file, settings);
+                                             const SourceSettings& settings,
+                                             core::ProblemList& problems) {
+  return std::make_unique<SceneSource>(description, radar_file, settings, problems);
 }
 
 }  // namespace fanbeam::session
