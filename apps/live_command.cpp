@@ -227,7 +227,7 @@ class LiveRun {
   std::unique_ptr<session::Session> session_;
   std::shared_ptr<const scenes::Scene> scene_;
   double rate_Hz_;
-  live::Hub hub_{rate_Hz_};
+  live::Hub hub_;
   std::optional<live::Journal> journal_;
   live::Desk desk_;
   live::Listener listener_;

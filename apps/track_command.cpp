@@ -177,7 +177,7 @@ int track(const TrackOptions& options, const CommonOptions& common) {
     return study(options, radar_of(options, file.radar), scenarios, folder, common.quiet);
   core::ProblemList problems;
   for (const core::HighwayScenario* scenario : scenarios)
-    check_waveform(*scenario, scenario->radar, options, problems);
+    measure::check_waveform(*scenario, options, problems);
   problems.throw_if_errors();
   Json json = record_of(options), timing = Json::array();
   for (const core::HighwayScenario* scenario : scenarios) {

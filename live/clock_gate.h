@@ -4,8 +4,8 @@
 // came: a simulator that draws less than once a second sends no more often. One that is not ahead of it is late, or
 // came twice; but a clock that stands while packets go on coming is a paused simulator, whose
 // aircraft stands too. Anything else is a jump: it waits, and counts when the next packet follows
-// from it. So no single packet, whatever its time, locks out those that follow (hard case F12), and a
-// restart is followed on its second packet. Pure.
+// from it; then both do. So no single packet, whatever its time, locks out those that follow (hard case
+// F12), and a restart is followed on its second packet. Pure.
 #pragma once
 
 #include <algorithm>
@@ -29,15 +29,19 @@ class ClockGate {
       jumped_s_ = clock_s;
       return feeds::PacketFault::jump;
     }
+    after_jump_ = !follows(ahead_s) && !paused;
     last_s_ = clock_s;
     arrived_s_ = arrived_s;
     jumped_s_.reset();
     return feeds::PacketFault::none;
   }
+  // Whether the packet taken last follows from one that was called a jump.
+  bool after_jump() const { return after_jump_; }
 
  private:
   std::optional<double> last_s_, jumped_s_;
   double arrived_s_ = 0.0;
+  bool after_jump_ = false;
 };
 
 }  // namespace fanbeam::live

@@ -12,6 +12,8 @@ namespace fanbeam::live {
 namespace {
 
 constexpr std::size_t kCompared = 80;  // packets: five seconds of 16 Hz
+// A packet that waits longer for the next one is no news any more.
+constexpr double kTogether_s = 1.0;
 
 }  // namespace
 
@@ -41,14 +43,33 @@ bool Feed::take(std::span<const std::uint8_t> datagram, Clock::time_point arrive
   if (state && protocol_.fine_clock)
     fault = gate_.take(state->clock_s,
                        std::chrono::duration<double>(arrived.time_since_epoch()).count());
+  if (fault == feeds::PacketFault::jump) {
+    settle(false);
+    jumped_ = {*state, {datagram.begin(), datagram.end()}, arrived};
+    return false;
+  }
   count(fault);
   if (fault != feeds::PacketFault::none) return false;
-  const auto [pose, clock_s] = heard(*state);
-  mailbox_->put(pose, {datagram.begin(), datagram.end()}, arrived, clock_s, source_);
-  compare_heights(pose, state->height_above_ground_m);
+  settle(jumped_ && gate_.after_jump() &&
+         seconds_between(jumped_->arrived, arrived) <= kTogether_s);
+  put({*state, {datagram.begin(), datagram.end()}, arrived});
   const std::lock_guard<std::mutex> lock(mutex_);
   newest_ = state;
   return true;
+}
+
+// What waited counts, or is of no use.
+void Feed::settle(bool counts) {
+  if (!jumped_) return;
+  count(counts ? feeds::PacketFault::none : feeds::PacketFault::jump);
+  if (counts) put(*jumped_);
+  jumped_.reset();
+}
+
+void Feed::put(const Taken& one) {
+  const auto [pose, clock_s] = heard(one.state);
+  mailbox_->put(pose, one.datagram, one.arrived, clock_s, source_);
+  compare_heights(pose, one.state.height_above_ground_m);
 }
 
 void Feed::tell_visibility(double visibility_m) {

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "core/geodetic.h"
 #include "feeds/protocol.h"
@@ -37,7 +38,8 @@ class Feed {
        const feeds::Protocol& protocol = feeds::kProtocols[0],
        std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>(), std::size_t source = 0);
 
-  // Any bytes, from one thread; whether they are a packet of use.
+  // Any bytes, from one thread; whether they are a packet of use by themselves. The first after a step of
+  // the simulator's clock waits for the next one: then both count, or it is counted as a jump.
   bool take(std::span<const std::uint8_t> datagram, Clock::time_point arrived = Clock::now());
   // One that nobody asked for: counted.
   void turn_away();
@@ -59,7 +61,14 @@ class Feed {
   std::optional<double> height_offset_m() const;
 
  private:
+  struct Taken {
+    feeds::AircraftState state;
+    std::vector<std::uint8_t> datagram;
+    Clock::time_point arrived;
+  };
   Heard heard(const feeds::AircraftState& state) const;
+  void settle(bool counts);
+  void put(const Taken& one);
   void count(feeds::PacketFault fault);
   void compare_heights(const core::Pose& pose, double told_m);
 
@@ -67,6 +76,7 @@ class Feed {
   core::VerticalDatum datum_;
   const feeds::Protocol& protocol_;  // one of feeds::kProtocols
   ClockGate gate_;
+  std::optional<Taken> jumped_;  // waits
   std::shared_ptr<Mailbox> mailbox_;
   std::size_t source_;
   mutable std::mutex mutex_;

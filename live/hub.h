@@ -1,9 +1,9 @@
 // Where frames and what is said of them meet: the channel puts them in, whoever shows them takes the
-// newest. Whoever asks about one that a page still shows gets what it was made of, for a minute at least
-// and while no more than 32 changes of conditions came after it. Thread-safe.
+// newest. Whoever asks about one that a page still shows gets what it was made of, for a minute and while
+// no more than 32 changes of conditions came after it. Thread-safe.
 #pragma once
 
-#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <deque>
@@ -84,8 +84,8 @@ inline bool is_lasting_offset(const Status& status) {
 
 class Hub {
  public:
-  explicit Hub(double rate_Hz = 16.0)
-      : kept_(static_cast<std::size_t>(std::clamp(kKept_s * rate_Hz, 64.0, 65536.0))) {}
+  // `kept_s`: how long it is known what a frame was made of.
+  explicit Hub(double kept_s = 64.0) : kept_s_(kept_s) {}
 
   void publish(std::shared_ptr<const LiveFrame> frame) {
     std::function<void()> call;
@@ -105,8 +105,8 @@ class Hub {
   // Nothing where it is not kept.
   std::optional<FrameOrigin> origin(std::uint64_t number) const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    for (const FrameOrigin& one : origins_)
-      if (one.number == number) return one;
+    for (const auto& [made, origin] : origins_)
+      if (origin.number == number) return origin;
     return std::nullopt;
   }
 
@@ -126,23 +126,28 @@ class Hub {
   }
 
  private:
-  static constexpr double kKept_s = 64.0;
+  using Steady = std::chrono::steady_clock;
+
   // Conditions take megabytes: where targets move they are others in every frame.
-  static constexpr std::size_t kMostChanges = 32;
+  static constexpr std::size_t kMostChanges = 32, kMostOrigins = 65536;
 
   void remember(FrameOrigin origin) {
-    if (!origins_.empty() && origins_.back().scene != origin.scene) ++changes_;
-    origins_.push_back(std::move(origin));
-    while (origins_.size() > kept_ || changes_ > kMostChanges) {
-      if (origins_[0].scene != origins_[1].scene) --changes_;
+    const Steady::time_point now = Steady::now();
+    if (!origins_.empty() && origins_.back().second.scene != origin.scene) ++changes_;
+    origins_.emplace_back(now, std::move(origin));
+    const auto old = [&](Steady::time_point made) {
+      return std::chrono::duration<double>(now - made).count() > kept_s_;
+    };
+    while (old(origins_[0].first) || origins_.size() > kMostOrigins || changes_ > kMostChanges) {
+      if (origins_[0].second.scene != origins_[1].second.scene) --changes_;
       origins_.pop_front();
     }
   }
 
-  std::size_t kept_;
+  double kept_s_;
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> newest_;
-  std::deque<FrameOrigin> origins_;
+  std::deque<std::pair<Steady::time_point, FrameOrigin>> origins_;  // by when they were published
   std::size_t changes_ = 0;  // of conditions from one of them to the next
   Status status_;
   std::function<void()> on_frame_;

@@ -37,10 +37,12 @@ std::shared_ptr<const Truth::Known> Truth::known(std::uint64_t frame) const {
   auto known = std::make_shared<Known>();
   known->frame = frame;
   known->scene = shown->scene;
+  // What stages hold is shared while conditions stand.
+  if (!under_ || session_.scene(under_) != shown->scene) under_ = session_.moment(shown->scene);
   const bool elevations = known->scene->description.sensor.display.cscope_mode ==
                           sensors::Display::CScopeMode::true_elevation;
   renderer::Frame made = session_.render(
-      session_.moment(shown->scene), shown->pose, frame,
+      under_, shown->pose, frame,
       {.bscope = false, .cscope = false, .layers = true, .cscope_layers = elevations});
   known->layers = std::move(*made.layers);
   kept_.push_back(known);

@@ -49,6 +49,7 @@ class Truth {
   const Hub& hub_;
   mutable std::mutex mutex_;
   mutable std::deque<std::shared_ptr<const Known>> kept_;
+  mutable session::Session::Moment under_;  // of the frame that was rendered last
 };
 
 }  // namespace fanbeam::live

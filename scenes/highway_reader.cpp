@@ -224,8 +224,9 @@ void check_truth(const JsonNode& rows, const std::vector<core::HighwayTruth>& to
   }
 }
 
-// `sound`: nothing was wrong with the scenario's radar and targets, so that motion can judge truth.
-void read_truth(const JsonNode& tables, core::HighwayScenario& result, bool sound) {
+// `sound`: of each target, that nothing was wrong with its motion, so that it can judge truth.
+void read_truth(const JsonNode& tables, core::HighwayScenario& result,
+                const std::vector<bool>& sound) {
   std::set<std::size_t> told;
   const std::size_t count = tables.size(kMostEntries);
   for (std::size_t i = 0; i < count; ++i) {
@@ -239,7 +240,8 @@ void read_truth(const JsonNode& tables, core::HighwayScenario& result, bool soun
     std::vector<core::HighwayTruth>& rows = result.truth[*owner];
     rows = truth_of(table);
     // Rows that are no rows are told already.
-    if (const JsonNode list = table.member("rows"); sound && rows.size() == list.elements())
+    const JsonNode list = table.member("rows");
+    if (sound[*owner] && rows.size() == list.elements())
       check_truth(list, rows, result.targets[*owner], result);
   }
 }
@@ -395,11 +397,13 @@ core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayR
                         "radar_overrides", "suppressed_detections", "purpose", "waveforms",
                         "events", "acceptance", "seeds", "sweeps", "triangle_intersections_max"});
   core::HighwayScenario result;
-  const std::size_t before = scenario.problems().all().size();
   result.id = text(scenario, "id");
   result.title = text(scenario, "title");
   result.duration_s = number(scenario, "duration_s", 1e-6, 1e6);
+  const auto problems = [&] { return scenario.problems().all().size(); };
+  std::size_t before = problems();
   result.radar_speed_mps = number(scenario, "ego_speed_mps", -1e4, 1e4);
+  const bool speed_sound = problems() == before;
   result.radar = radar;
   if (const JsonNode other = scenario.member("radar_overrides"); other.present())
     result.radar = radar_of(other, &radar);
@@ -407,12 +411,15 @@ core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayR
   std::set<std::string> names;
   const JsonNode targets = scenario.required("targets");
   const std::size_t count = targets.size(kMostEntries);
+  std::vector<bool> sound;
   for (std::size_t i = 0; i < count; ++i) {
+    before = problems();
     result.targets.push_back(target_of(targets.element(i)));
+    sound.push_back(speed_sound && problems() == before);
     check_unique(targets.element(i), result.targets.back().id, names);
   }
   result.truth.resize(result.targets.size());
-  read_truth(scenario.member("truth"), result, scenario.problems().all().size() == before);
+  read_truth(scenario.member("truth"), result, sound);
   read_suppressed(scenario.member("suppressed_detections"), result);
   return result;
 }

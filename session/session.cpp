@@ -205,9 +205,11 @@ Session::Moment Session::now() const {
 }
 
 Session::Moment Session::moment(std::shared_ptr<const scenes::Scene> earlier) const {
-  const std::lock_guard<std::mutex> one(inside_->setting);
-  return std::make_shared<const Published>(std::move(earlier), inside_->asked.sampling,
-                                           inside_->seed);
+  const SamplingWish wish = [&] {
+    const std::lock_guard<std::mutex> one(inside_->setting);
+    return inside_->asked.sampling;
+  }();
+  return std::make_shared<const Published>(std::move(earlier), wish, inside_->seed);
 }
 
 std::shared_ptr<const scenes::Scene> Session::scene(const Moment& under) const {

@@ -85,8 +85,9 @@ Json json_of_tracks(const core::HighwayScenario& scenario, const ScenarioTracks&
 }  // namespace
 
 // The reader knows which waveforms a file has, not which one is used.
-void check_waveform(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
-                    const TrackSettings& settings, core::ProblemList& problems) {
+void check_waveform(const core::HighwayScenario& scenario, const TrackSettings& settings,
+                    core::ProblemList& problems) {
+  const core::HighwayRadar& radar = scenario.radar;
   const std::string name = scheme_of(settings, scenario);
   if (!fits(scheme_named(name), radar))
     problems.error(

@@ -32,8 +32,8 @@ struct ScenarioTracks {
 int target_of(const tracking::ScenarioScore& score, int track);
 
 // E-RANGE where the waveform that the settings mean takes longer than a frame.
-void check_waveform(const core::HighwayScenario& scenario, const core::HighwayRadar& radar,
-                    const TrackSettings& settings, core::ProblemList& problems);
+void check_waveform(const core::HighwayScenario& scenario, const TrackSettings& settings,
+                    core::ProblemList& problems);
 
 // `progress` is told after each frame how many are done.
 ScenarioTracks track_scenario(const core::HighwayScenario& scenario,

@@ -188,13 +188,18 @@ StudyPart study_tracks(const std::vector<StudyScenario>& scenarios, const TrackS
   part.text =
       "| scenario | waveform | association | GOSPA, m | MOTA | false tracks in a scan | switches | "
       "range, mm rms | tracker, ms a scan |\n|---|---|---|---|---|---|---|---|---|\n";
-  std::string sampled_rows;
+  std::string sampled_rows, left_out;
   for (const StudyScenario& one : scenarios) {
     for (const Named& waveform : kSchemes)
-      if (fits(waveform.scheme, one.radar)) part.text += rows_of(one, waveform, settings);
+      if (fits(waveform.scheme, one.radar))
+        part.text += rows_of(one, waveform, settings);
+      else
+        left_out +=
+            fmt::format("{}{}: {}", left_out.empty() ? "" : "; ", one.scenario->id, waveform.name);
     if (fits(Scheme::two_stage, one.radar)) sampled_rows += sampled_row(one, settings);
   }
   part.text += sampled_rows;
+  if (!left_out.empty()) part.text += "\nLonger than a frame, left out: " + left_out + ".\n";
   return part;
 }
 

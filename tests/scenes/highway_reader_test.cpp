@@ -207,6 +207,22 @@ TEST_CASE("Truth that the motion contradicts is refused with what the motion mak
     check_refused(file_with_truth(replaced(kTable, "[0, 50.1, 2, 0.06]", row)),
                   core::ErrorClass::range, "/scenarios/0/truth/0/rows/0");
   }
+  // The first row of a table, with its own numbers; a fault elsewhere is told beside it.
+  const std::string twice = R"({"id": "A", "rows": [[0, 55.1, 2, 0.06], [1, 99, 2, 0.06]],
+                               "in_view": [true, true]})";
+  const std::string file =
+      replaced(file_with_truth(twice), "\"title\": \"", "\"title\": 5, \"note\": \"");
+  const auto problems = refusal(file).problems();
+  std::string told;
+  for (const core::Problem& problem : problems) told += to_string(problem) + "\n";
+  INFO(told);
+  CHECK(told.find("rows/0 = 55.1 m, 2 m/s, 0.06 rad") != std::string::npos);
+  CHECK(told.find("/scenarios/0/title") != std::string::npos);
+  CHECK(told.find("rows/1") == std::string::npos);
+  // A target that is read with a fault has no motion that could judge.
+  const auto faulty = refusal(replaced(file_with_truth(twice), "\"rcs_m2\"", "\"rcs\""));
+  for (const core::Problem& problem : faulty.problems())
+    CHECK(problem.field.find("truth") == std::string::npos);
 }
 
 TEST_CASE("No scenario, target or truth table replaces another of its name", "[highway]") {

@@ -52,14 +52,14 @@ std::string words_of(const FamilyScore& score) {
 }
 
 bool in_band(const FamilyScore& score) {
-  const Interval band = mean_interval(4, kRuns);
+  const Interval band = mean_interval(4, static_cast<int>(score.runs.size()));
   return score.nees.mean() >= band.low && score.nees.mean() <= band.high;
 }
 
 // Of four states; cars that drive straight on, which the tracker does not know, bring it somewhat below: their speed across the
 // line of sight errs by 0.6 of what is told.
 void check_honest(const FamilyScore& score) {
-  const Interval band = mean_interval(4, kRuns);
+  const Interval band = mean_interval(4, static_cast<int>(score.runs.size()));
   CHECK(score.nees.mean() <= band.high);
   CHECK(score.nees.mean() >= 3.0);
 }

@@ -34,31 +34,30 @@ std::map<std::string, Moment> moments_in(const core::JsonNode& record) {
   return known;
 }
 
-// When each file was made, one folder above them; none, and why in `warnings`, where the record there does
-// not say it of all in the order of time.
+// When each file was made, by the record one folder above them; none, and why in `warnings`, where that is a
+// record of samples which does not say it of all in the order of time.
 std::vector<Moment> recorded_moments(const std::vector<fs::path>& files,
                                      core::ProblemList& warnings) {
   const fs::path own = fs::absolute(files.front()).lexically_normal().parent_path();
   const fs::path record = own.parent_path() / "run.json";
   std::error_code status;
   if (!fs::is_regular_file(record, status)) return {};
+  const auto refused = [&](const std::string& why) {
+    warnings.warning("TIMES", {record.string()}, "frames", why,
+                     "--frame-period and --radar-speed count, or what they are without it");
+    return std::vector<Moment>();
+  };
   constexpr core::JsonLimits kLimits{64, 20'000'000};
   core::ProblemList problems;
   const auto file = core::read_json_file(record, 256ULL << 20U, kLimits, problems);
-  const auto known =
-      file ? moments_in(core::JsonNode(*file, problems)) : std::map<std::string, Moment>();
+  if (!file) return refused("cannot be read: " + problems.all().front().value);
+  const auto known = moments_in(core::JsonNode(*file, problems));
   std::vector<Moment> moments;
   if (known.empty()) return moments;  // another program's
   for (const fs::path& one : files) {
     const auto found = known.find((own.filename() / one.filename()).generic_string());
-    const bool later =
-        found != known.end() && (moments.empty() || found->second.time_s > moments.back().time_s);
-    if (!later) {
-      warnings.warning("TIMES", {record.string()}, "frames",
-                       "no later time of " + one.filename().string(),
-                       "samples are taken to be one --frame-period apart, the radar to stand");
-      return {};
-    }
+    if (found == known.end() || !(moments.empty() || found->second.time_s > moments.back().time_s))
+      return refused("no later time of " + one.filename().string());
     moments.push_back(found->second);
   }
   return moments;
@@ -96,7 +95,9 @@ class SampleSource : public MeasuredSource {
     kind = "samples";
     // Several frames in a file have no times there.
     core::ProblemList told;
-    if (files_.frames() == static_cast<int>(files.size())) moments_ = recorded_moments(files, told);
+    const bool asked_all = asked_.frame_period_s && asked_.radar_speed_mps;
+    if (!asked_all && files_.frames() == static_cast<int>(files.size()))
+      moments_ = recorded_moments(files, told);
     warnings = told.all();
     if (asked_.frame_period_s) {
       frame_s = *asked_.frame_period_s;
