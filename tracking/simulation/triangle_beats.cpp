@@ -173,8 +173,9 @@ SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::Tria
                             double sample_rate_Hz, double noise_W,
                             const std::vector<signal::RangeSpeed>& coarse) {
   const int count = samples.shape.samples;
-  const auto weights = signal::window_weights(
-      {.kind = signal::WindowKind::chebyshev, .level_dB = 60.0, .symmetric = true}, count);
+  // The periodic form: with the symmetric one's ends six cars take 74 ms a scan instead of 28.
+  const auto weights =
+      signal::window_weights({.kind = signal::WindowKind::chebyshev, .level_dB = 60.0}, count);
   signal::ToneRecords records[2];
   std::vector<double> bins[2];
   core::parallel_for(2, [&](std::size_t ramp) {
