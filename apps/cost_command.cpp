@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "apps/cost_levels.h"
 #include "apps/cost_progress.h"
 #include "apps/render_command.h"
 #include "core/files.h"
@@ -30,18 +31,21 @@ renderer::CasterKind effects_caster(const CostOptions& options, const scenes::Sc
   return wish == renderer::CasterWish::rays ? renderer::CasterKind::rays : scene.caster.chosen;
 }
 
-measure::CostParts parts_of(const CostOptions& options) {
-  const auto asked = [&](const char* part) {
-    return std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
-  };
-  return {asked("ladder"), asked("effects"), asked("numerics"), asked("levels")};
+bool asks(const CostOptions& options, const char* part) {
+  return std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
 }
 
-// Announces how long it will take, and measures.
+// Announces how long it will take, and measures. The signal level is no part of measure's, which knows no
+// signals.
 measure::CostFigures run(const measure::CostBench& quiet_bench, const CostOptions& options,
                          const CommonOptions& common, int threads) {
-  const measure::CostParts parts = parts_of(options);
-  const double total_s = expected_cost_s(quiet_bench, parts);
+  const measure::CostParts parts{asks(options, "ladder"), asks(options, "effects"),
+                                 asks(options, "numerics")};
+  const std::string why_no_levels_there =
+      asks(options, "levels") ? why_no_levels(quiet_bench) : std::string();
+  const bool levels = asks(options, "levels") && why_no_levels_there.empty();
+  const double total_s =
+      expected_cost_s(quiet_bench, parts) + (levels ? levels_s(quiet_bench) : 0.0);
   const std::string& name = quiet_bench.scene.description.name;
   const std::size_t frames = quiet_bench.frames.size();
   if (!common.quiet)
@@ -52,7 +56,10 @@ measure::CostFigures run(const measure::CostBench& quiet_bench, const CostOption
   bench.progress = [&](const std::string& step, double expected_s) {
     progress.begin(step, expected_s);
   };
-  return measure_cost(bench, parts, threads);
+  measure::CostFigures figures = measure_cost(bench, parts, threads);
+  figures.why_no_levels = why_no_levels_there;
+  if (levels) figures.levels = measure_levels(bench);
+  return figures;
 }
 
 measure::Effort effort_of(const CostOptions& options) {

@@ -63,9 +63,7 @@ session::FmcwRadar radar_of(const FmcwOptions& options, const scenes::SceneDescr
     return session::fmcw_radar(options, scene.sensor);
   } catch (const core::InputError&) {
     if (file.empty()) throw;
-    session::FmcwSettings alone;
-    core::ProblemList problems;
-    session::read_radar_file(file, alone, problems);
+    const session::FmcwSettings alone = session::radar_settings(file);
     session::radar_in_file(file, [&] { return session::fmcw_radar(alone, scene.sensor); });
     throw;
   }

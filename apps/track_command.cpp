@@ -10,10 +10,10 @@
 #include "core/decibel.h"
 #include "core/files.h"
 #include "core/text.h"
-#include "measure/tracks/own_tracks.h"
-#include "measure/tracks/scenario_tracks.h"
-#include "measure/tracks/study.h"
 #include "scenes/highway_reader.h"
+#include "session/signal/tracks/own_tracks.h"
+#include "session/signal/tracks/scenario_tracks.h"
+#include "session/signal/tracks/study.h"
 #include "session/version.h"
 #include "tracking/simulation/sampled_frame.h"
 #include "tracking/tracker/track_geometry.h"
@@ -32,7 +32,7 @@ void check_id(const std::string& id) {
         "1 to 64 letters, digits, '.', '-' and '_', the first a letter or digit");
 }
 
-void print(const core::HighwayScenario& scenario, const measure::ScenarioTracks& tracks) {
+void print(const core::HighwayScenario& scenario, const session::ScenarioTracks& tracks) {
   const tracking::ScenarioScore& score = tracks.score;
   fmt::print(
       "{:<4} {:>2} tracks of {} targets, GOSPA {:.3f} m, MOTA {:.4f}, {} switches, "
@@ -49,7 +49,7 @@ void print(const core::HighwayScenario& scenario, const measure::ScenarioTracks&
                one.first, one.second, one.time_s, one.swap_probability);
   for (const tracking::Track& track : tracks.tracks_at_end) {
     if (!track.confirmed) continue;
-    const int target = measure::target_of(score, track.id);
+    const int target = session::target_of(score, track.id);
     const std::string truth =
         target < 0 ? std::string("no target there")
                    : fmt::format("{} at {:.3f} m, its identity right with probability {:.6g}",
@@ -79,7 +79,7 @@ void print_record(const fs::path& file) {
   fmt::print("record {}\n", fs::absolute(file).lexically_normal().string());
 }
 
-void print(const session::MeasuredSource& source, const measure::OwnTracks& tracks) {
+void print(const session::MeasuredSource& source, const session::OwnTracks& tracks) {
   fmt::print("{}: {} frames of {}, {:.1f} detections and {:.1f} measurements a frame\n",
              source.name, tracks.frames, source.kind,
              static_cast<double>(tracks.detections) / tracks.frames,
@@ -93,16 +93,16 @@ void print(const session::MeasuredSource& source, const measure::OwnTracks& trac
                one.seen);
 }
 
-measure::OwnTracks tracks_of(session::MeasuredSource& source, const TrackOptions& options,
+session::OwnTracks tracks_of(session::MeasuredSource& source, const TrackOptions& options,
                              bool quiet) {
   Progress progress(source.name, source.frames(), quiet);  // ends before anything is printed
-  return measure::track_source(source, options, [&](int done) { progress.step(done); });
+  return session::track_source(source, options, [&](int done) { progress.step(done); });
 }
 
 int track_own_data(const TrackOptions& options, const CommonOptions& common) {
   const auto source = own_source(options);
   const fs::path folder = output_of(options, source->name);
-  const measure::OwnTracks tracks = tracks_of(*source, options, common.quiet);
+  const session::OwnTracks tracks = tracks_of(*source, options, common.quiet);
   write_own_tracks(tracks, *source, options, body_errors(options), options.plots, folder);
   if (common.quiet) return kExitDone;
   print_problems(source->warnings);
@@ -130,10 +130,10 @@ std::vector<const core::HighwayScenario*> chosen(const TrackOptions& options,
 int study(const TrackOptions& options, const core::HighwayRadar& radar,
           const std::vector<const core::HighwayScenario*>& scenarios, const fs::path& folder,
           bool quiet) {
-  std::vector<measure::StudyScenario> studied;
+  std::vector<session::StudyScenario> studied;
   for (const core::HighwayScenario* scenario : scenarios)
     studied.push_back({scenario, radar_of(options, scenario->radar)});
-  measure::track_study(studied, radar, options, folder, [&](const char* part) {
+  session::track_study(studied, radar, options, folder, [&](const char* part) {
     if (!quiet) fmt::print("{}\n", part);
   });
   if (!quiet) print_record(folder / "study.md");
@@ -157,12 +157,12 @@ Json record_of(const TrackOptions& options) {
 // From frequencies, fewer are done in seconds: a bar would only flicker.
 constexpr int kManyFrames = 50'000;
 
-measure::ScenarioTracks track_one(const TrackOptions& options,
+session::ScenarioTracks track_one(const TrackOptions& options,
                                   const core::HighwayScenario& scenario,
                                   const core::HighwayRadar& radar, bool quiet) {
   const int frames = tracking::frames_of(scenario, radar);
   Progress progress(scenario.id, frames, quiet || !(options.samples || frames > kManyFrames));
-  return measure::track_scenario(scenario, radar, options, [&](int done) { progress.step(done); });
+  return session::track_scenario(scenario, radar, options, [&](int done) { progress.step(done); });
 }
 
 }  // namespace
@@ -177,12 +177,12 @@ int track(const TrackOptions& options, const CommonOptions& common) {
     return study(options, radar_of(options, file.radar), scenarios, folder, common.quiet);
   core::ProblemList problems;
   for (const core::HighwayScenario* scenario : scenarios)
-    measure::check_waveform(*scenario, options, problems);
+    session::check_waveform(*scenario, options, problems);
   problems.throw_if_errors();
   Json json = record_of(options), timing = Json::array();
   for (const core::HighwayScenario* scenario : scenarios) {
     const core::HighwayRadar radar = radar_of(options, scenario->radar);
-    const measure::ScenarioTracks tracks = track_one(options, *scenario, radar, common.quiet);
+    const session::ScenarioTracks tracks = track_one(options, *scenario, radar, common.quiet);
     write_scenario_tracks(*scenario, tracks, options.plots, folder / scenario->id);
     if (!common.quiet) print(*scenario, tracks);
     json["scenarios"].push_back(Json::parse(scenario_tracks_json(*scenario, radar, tracks)));

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "apps/common.h"
-#include "measure/tracks/track_settings.h"
+#include "session/signal/tracks/track_settings.h"
 
 namespace fanbeam::apps {
 
-struct TrackOptions : measure::TrackSettings {
+struct TrackOptions : session::TrackSettings {
   std::string file;
   std::string scenario;                     // its id; empty: all of the file
   std::string output;                       // default out/<file's name>-tracks

@@ -5,7 +5,6 @@
 #include "core/turns.h"
 #include "measure/cost/cost_csv.h"
 #include "measure/cost/cost_markdown.h"
-#include "measure/cost/levels.h"
 #include "measure/cost/levels_report.h"
 #include "measure/cost_plots.h"
 #include "measure/effect_prices.h"
@@ -71,7 +70,6 @@ double expected_cost_s(const CostBench& bench, const CostParts& parts) {
   if (parts.ladder) total_s += frames * bench.pace.ladder_s(bench.effort);
   if (parts.effects) total_s += effects_s(bench);
   if (parts.numerics) total_s += numerics_s(bench);
-  if (parts.levels && why_no_levels(bench).empty()) total_s += levels_s(bench);
   return total_s;
 }
 
@@ -83,9 +81,6 @@ CostFigures measure_cost(const CostBench& bench, const CostParts& parts, int thr
     if (parts.numerics) figures.numerics = measure_numerics(bench, references);
   }
   if (parts.effects) figures.effects = measure_effects(bench);
-  if (!parts.levels) return figures;
-  figures.why_no_levels = why_no_levels(bench);
-  if (figures.why_no_levels.empty()) figures.levels = measure_levels(bench);
   return figures;
 }
 

@@ -1,4 +1,5 @@
-// What accuracy and effects cost in time on a scene: all that `fanbeam cost` measures, and its files.
+// What accuracy and effects cost in time on a scene: what `fanbeam cost` measures, and its files. The signal
+// level (CostFigures::levels) is its caller's.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,6 @@ namespace fanbeam::measure {
 
 struct CostParts {
   bool ladder = true, effects = true, numerics = true;
-  bool levels = true;  // where the sensor has a signal level
 };
 
 // How long one frame takes, in each way of sampling, which all later durations are foreseen by.

@@ -1,4 +1,4 @@
-// What levels.h measured as CSV, plot and a section of the page.
+// What was measured of the signal level as CSV, plot and a section of the page.
 #pragma once
 
 #include <string>

@@ -265,6 +265,14 @@ void read_radar_file(const std::filesystem::path& file, FmcwSettings& settings,
   read(ConfigTable::from_file(file, problems), settings);
 }
 
+FmcwSettings radar_settings(const std::filesystem::path& file) {
+  FmcwSettings settings;
+  core::ProblemList problems;
+  read_radar_file(file, settings, problems);
+  problems.throw_if_errors();
+  return settings;
+}
+
 void read_radar_text(std::string_view text, const std::string& name, FmcwSettings& settings,
                      core::ProblemList& problems) {
   read(ConfigTable::from_text(text, name, problems), settings);

@@ -38,6 +38,8 @@ namespace fanbeam::session {
 
 void read_radar_file(const std::filesystem::path& file, FmcwSettings& settings,
                      core::ProblemList& problems);
+// For whoever needs a whole one: throws all that is wrong.
+FmcwSettings radar_settings(const std::filesystem::path& file);
 void read_radar_text(std::string_view text, const std::string& name, FmcwSettings& settings,
                      core::ProblemList& problems);
 

@@ -18,12 +18,6 @@ using namespace fanbeam::tests;
 
 namespace {
 
-double uniform(int run, std::uint64_t what, double low, double high) {
-  // Of a normal number its distribution: uniform.
-  const double n = core::normal_pair(run_key(run, 2525), what, 0)[0];
-  return low + (high - low) * 0.5 * std::erfc(-n / std::sqrt(2.0));
-}
-
 constexpr int kRuns = 100;
 
 FamilyScore score_of(const RoadFamily& family, int runs, bool from_samples = false) {
@@ -110,9 +104,9 @@ TEST_CASE("A coded stretch follows six cars of like speeds", "[tracker][statisti
     std::vector<core::HighwayTarget> cars;
     for (std::uint64_t i = 0; i < 6; ++i)
       cars.push_back(car(std::array{"A", "B", "C", "D", "E", "F"}[i],
-                         uniform(run, 10 + i, 15.0, 150.0),
-                         std::floor(uniform(run, 30 + i, -1.5, 2.5)) * 3.7 - 1.8,
-                         kRoadSpeed_mps + uniform(run, 50 + i, -8.0, 8.0)));
+                         road_uniform(run, 10 + i, 15.0, 150.0),
+                         std::floor(road_uniform(run, 30 + i, -1.5, 2.5)) * 3.7 - 1.8,
+                         kRoadSpeed_mps + road_uniform(run, 50 + i, -8.0, 8.0)));
     const core::HighwayRadar radar = highway_radar();
     const core::HighwayScenario scenario = scene(6.0, kRoadSpeed_mps, cars);
     ScenarioScore one;

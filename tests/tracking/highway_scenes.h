@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "core/highway.h"
+#include "tracking/simulation/road_families.h"
 #include "tracking/simulation/scenario_run.h"
 #include "tracking/tracker/track_geometry.h"
 
@@ -19,24 +20,17 @@ inline core::HighwayRadar highway_radar() {
 
 inline core::HighwayTarget car(const char* id, double x_m, double y_m, double vx_mps,
                                double section_m2 = 10.0, double vy_mps = 0.0) {
-  core::HighwayTarget target;
-  target.id = id;
+  core::HighwayTarget target = tracking::road_car(id, x_m, y_m, vx_mps);
   target.cross_section_m2 = section_m2;
-  target.position_m = {x_m, y_m};
-  target.velocity_mps = {vx_mps, vy_mps};
+  target.velocity_mps[1] = vy_mps;
   return target;
 }
 
+using tracking::kRoadSpeed_mps;
 inline core::HighwayScenario scene(double duration_s, double radar_speed_mps,
                                    std::vector<core::HighwayTarget> targets) {
-  core::HighwayScenario result;
-  result.duration_s = duration_s;
-  result.radar_speed_mps = radar_speed_mps;
-  result.targets = std::move(targets);
-  return result;
+  return tracking::road_scene(duration_s, radar_speed_mps, std::move(targets));
 }
-
-inline constexpr double kRoadSpeed_mps = 100.0 / 3.6;
 
 inline core::HighwayScenario one_stopped_car() {
   return scene(3.0, kRoadSpeed_mps, {car("A", 150.0, 0.0, 0.0)});

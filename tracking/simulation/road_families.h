@@ -24,6 +24,14 @@
 
 namespace fanbeam::tracking {
 
+inline constexpr double kRoadSpeed_mps = 100.0 / 3.6;
+
+core::HighwayTarget road_car(const char* id, double x_m, double y_m, double vx_mps);
+core::HighwayScenario road_scene(double duration_s, double radar_speed_mps,
+                                 std::vector<core::HighwayTarget> targets);
+// Draw `what` of a run.
+double road_uniform(int run, std::uint64_t what, double low, double high);
+
 struct RoadFamily {
   const char* name;
   core::HighwayScenario (*draw)(int run, double frame_s);

@@ -52,13 +52,10 @@ void take_numbers(const std::map<std::string, double>& numbers, Settings& settin
 // `own`: the radar file that the scene names, which another one replaces.
 session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::path& own) {
   session::FmcwSettings settings;
-  core::ProblemList problems;
   const auto given = told["radar"].cast<std::string>();
   if (const std::filesystem::path file = given.empty() ? own : std::filesystem::path(given);
-      !file.empty()) {
-    session::read_radar_file(file, settings, problems);
-    problems.throw_if_errors();
-  }
+      !file.empty())
+    settings = session::radar_settings(file);
   if (const auto kind = told["waveform"].cast<std::string>(); !kind.empty())
     settings.waveform = kind;
   take_numbers(told["numbers"].cast<std::map<std::string, double>>(), settings);
@@ -75,6 +72,7 @@ session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::p
   take("adc_bits", settings.adc_bits);
   take("unfold", settings.unfold);
   take("seed", settings.seed);
+  core::ProblemList problems;
   core::check_range(problems, "transmitters", settings.transmitters, {1, 64});
   core::check_range(problems, "receivers", settings.receivers, {1, 64});
   core::check_range(problems, "false_alarm_probability", settings.false_alarm_probability,

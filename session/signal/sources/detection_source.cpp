@@ -17,10 +17,8 @@ class DetectionSource : public MeasuredSource {
       : asked_(settings) {
     core::ProblemList problems;
     if (radar_file) {
-      FmcwSettings radar_settings;
-      read_radar_file(*radar_file, radar_settings, problems);
-      problems.throw_if_errors();
-      radar_ = radar_in_file(*radar_file, [&] { return fmcw_radar(radar_settings); });
+      const FmcwSettings known = radar_settings(*radar_file);
+      radar_ = radar_in_file(*radar_file, [&] { return fmcw_radar(known); });
       resolution = resolution_of(*radar_);
     }
     frames_ = read_detections(path, problems);

@@ -14,14 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Moment {
+struct Recorded {
   double time_s = 0.0, radar_speed_mps = 0.0;
 };
 
 // What the run.json of a folder that `fanbeam fmcw` wrote says of its files, by name relative to it.
-std::map<std::string, Moment> moments_in(const core::JsonNode& record) {
+std::map<std::string, Recorded> moments_in(const core::JsonNode& record) {
   constexpr core::NumberRange kTimes_s{-1e12, 1e12}, kSpeeds_mps{-1000.0, 1000.0};
-  std::map<std::string, Moment> known;
+  std::map<std::string, Recorded> known;
   const core::JsonNode frames = record.member("frames");
   for (std::size_t i = 0; i < frames.elements(); ++i) {
     const core::JsonNode frame = frames.element(i);
@@ -36,8 +36,8 @@ std::map<std::string, Moment> moments_in(const core::JsonNode& record) {
 
 // When each file was made, by the record one folder above them; none, and why in `warnings`, where that is a
 // record of samples which does not say it of all in the order of time.
-std::vector<Moment> recorded_moments(const std::vector<fs::path>& files,
-                                     core::ProblemList& warnings) {
+std::vector<Recorded> recorded_moments(const std::vector<fs::path>& files,
+                                       core::ProblemList& warnings) {
   const fs::path own = fs::absolute(files.front()).lexically_normal().parent_path();
   const fs::path record = own.parent_path() / "run.json";
   std::error_code status;
@@ -45,14 +45,14 @@ std::vector<Moment> recorded_moments(const std::vector<fs::path>& files,
   const auto refused = [&](const std::string& why) {
     warnings.warning("TIMES", {record.string()}, "frames", why,
                      "--frame-period and --radar-speed count, or what they are without it");
-    return std::vector<Moment>();
+    return std::vector<Recorded>();
   };
   constexpr core::JsonLimits kLimits{64, 20'000'000};
   core::ProblemList problems;
   const auto file = core::read_json_file(record, 256ULL << 20U, kLimits, problems);
   if (!file) return refused("cannot be read: " + problems.all().front().value);
   const auto known = moments_in(core::JsonNode(*file, problems));
-  std::vector<Moment> moments;
+  std::vector<Recorded> moments;
   if (known.empty()) return moments;  // another program's
   for (const fs::path& one : files) {
     const auto found = known.find((own.filename() / one.filename()).generic_string());
@@ -75,20 +75,12 @@ std::vector<fs::path> numpy_files_in(const fs::path& folder) {
   return files;
 }
 
-FmcwSettings settings_in(const fs::path& radar_file) {
-  FmcwSettings settings;
-  core::ProblemList problems;
-  read_radar_file(radar_file, settings, problems);
-  problems.throw_if_errors();
-  return settings;
-}
-
 class SampleSource : public MeasuredSource {
  public:
   SampleSource(const fs::path& path, const std::vector<fs::path>& files, const fs::path& radar_file,
                const SourceSettings& settings)
       : asked_(settings),
-        settings_(settings_in(radar_file)),
+        settings_(radar_settings(radar_file)),
         radar_(radar_in_file(radar_file, [this] { return fmcw_radar(settings_); })),
         files_(files, radar_, settings_.layout) {
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
@@ -103,7 +95,7 @@ class SampleSource : public MeasuredSource {
       frame_s = *asked_.frame_period_s;
     } else if (moments_.size() > 1) {
       std::vector<double> times_s;
-      for (const Moment& one : moments_) times_s.push_back(one.time_s);
+      for (const Recorded& one : moments_) times_s.push_back(one.time_s);
       frame_s = median_step_s(times_s).value_or(frame_s);
     }
     radar_speed_mps = speed_at(0);
@@ -139,7 +131,7 @@ class SampleSource : public MeasuredSource {
   FmcwSettings settings_;
   FmcwRadar radar_;
   SampleFiles files_;
-  std::vector<Moment> moments_;  // of each frame, where they are known
+  std::vector<Recorded> moments_;  // of each frame, where they are known
 };
 
 }  // namespace

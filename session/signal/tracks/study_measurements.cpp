@@ -8,7 +8,7 @@
 #include "core/constants.h"
 #include "core/decibel.h"
 #include "core/random.h"
-#include "measure/tracks/study.h"
+#include "session/signal/tracks/study.h"
 #include "signal/detection/tone.h"
 #include "signal/pairing/triangle.h"
 #include "signal/receiver/receiver_noise.h"
@@ -17,7 +17,7 @@
 #include "tracking/metrics/error_statistics.h"
 #include "tracking/simulation/measurement_bound.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 namespace {
 
 constexpr double kRange_m = 100.0, kSpeed_mps = -100.0 / 3.6, kSection_m2 = 10.0;
@@ -124,14 +124,13 @@ StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed) {
       "speed "
       "error, mm/s rms | bound, mm/s | measuring takes, ms | processing, ms |\n"
       "|---|---|---|---|---|---|---|---|\n";
-  session::Plot plot;
+  Plot plot;
   plot.title = "One car at 100 m, 100 km/h closing: error over the ramps in the buffer";
   plot.x = {"ramps of 2 ms in the buffer", true, 1.5, 80.0};
   plot.y = {"error of range (mm rms)", true, {}, {}};
-  plot.series = {
-      {"measured, of its middle", {}, {}, session::PlotSeries::Style::line_points},
-      {"bound", {}, {}, session::PlotSeries::Style::dashed_line},
-      {"measured, taken as of its end", {}, {}, session::PlotSeries::Style::line_points}};
+  plot.series = {{"measured, of its middle", {}, {}, PlotSeries::Style::line_points},
+                 {"bound", {}, {}, PlotSeries::Style::dashed_line},
+                 {"measured, taken as of its end", {}, {}, PlotSeries::Style::line_points}};
   const auto bound = tracking::measurement_bound(radar, kSection_m2, kRange_m, 0.0);
   for (const int triangles : {1, 2, 4, 8, 16, 32}) {
     const Errors errors = errors_of(radar, triangles, seed);
@@ -158,13 +157,13 @@ StudyPart study_noise_figure(const core::HighwayRadar& radar, std::uint64_t seed
   part.text =
       "| noise figure, dB | signal to noise, dB | range error, mm rms | bound, mm | speed error, "
       "mm/s rms | bound, mm/s | wrong peaks of 100 |\n|---|---|---|---|---|---|---|\n";
-  session::Plot plot;
+  Plot plot;
   plot.title = "The same of one triangle: error over the noise figure";
   plot.x = {"noise figure (dB)", false, 0.0, 52.0};
   plot.y = {"error of range (mm rms)", true, {}, {}};
-  plot.series = {{"measured", {}, {}, session::PlotSeries::Style::line_points},
-                 {"bound", {}, {}, session::PlotSeries::Style::dashed_line},
-                 {"wrong peaks (of 100)", {}, {}, session::PlotSeries::Style::points}};
+  plot.series = {{"measured", {}, {}, PlotSeries::Style::line_points},
+                 {"bound", {}, {}, PlotSeries::Style::dashed_line},
+                 {"wrong peaks (of 100)", {}, {}, PlotSeries::Style::points}};
   for (const double figure_dB : {0.1, 1.0, 4.5, 10.0, 20.0, 30.0, 40.0, 44.0, 46.0, 48.0, 50.0}) {
     core::HighwayRadar noisy = radar;
     noisy.noise_figure = core::power_from_dB(figure_dB);
@@ -217,16 +216,16 @@ StudyPart study_reflections(const core::HighwayRadar& radar, std::uint64_t seed)
       "| noise figure, dB | no road: range, mm rms; speed, mm/s rms; wrong, % | road, -0.7 | road, "
       "-1 "
       "|\n|---|---|---|---|\n";
-  session::Plot range, speed;
+  Plot range, speed;
   range.title = "A car at 60 to 140 m over the road's reflection: error of range";
   speed.title = "The same: error of speed";
   range.x = speed.x = {"noise figure (dB)", false, 0.0, 52.0};
   range.y = {"error of range (mm rms)", true, {}, {}};
   speed.y = {"error of speed (mm/s rms)", true, {}, {}};
-  for (session::Plot* plot : {&range, &speed})
-    plot->series = {{"no reflection", {}, {}, session::PlotSeries::Style::line_points},
-                    {"coefficient -0.7", {}, {}, session::PlotSeries::Style::line_points},
-                    {"coefficient -1", {}, {}, session::PlotSeries::Style::line_points}};
+  for (Plot* plot : {&range, &speed})
+    plot->series = {{"no reflection", {}, {}, PlotSeries::Style::line_points},
+                    {"coefficient -0.7", {}, {}, PlotSeries::Style::line_points},
+                    {"coefficient -1", {}, {}, PlotSeries::Style::line_points}};
   for (const double figure_dB : {0.1, 1.0, 4.5, 10.0, 20.0, 30.0, 40.0, 44.0, 48.0}) {
     core::HighwayRadar noisy = radar;
     noisy.noise_figure = core::power_from_dB(figure_dB);
@@ -247,4 +246,4 @@ StudyPart study_reflections(const core::HighwayRadar& radar, std::uint64_t seed)
   return part;
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

@@ -7,12 +7,12 @@
 #include <iterator>
 
 #include "core/random.h"
-#include "measure/tracks/study.h"
+#include "session/signal/tracks/study.h"
 #include "tracking/association/crossing.h"
 #include "tracking/simulation/sampled_frame.h"
 #include "tracking/simulation/scenario_run.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 namespace {
 
 using tracking::Scheme;
@@ -150,7 +150,7 @@ StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed) {
   StudyPart part;
   part.text = "| targets |";
   std::string line = "|---|";
-  session::Plot missed, ghosts;
+  Plot missed, ghosts;
   missed.title = "Missed targets of one frame";
   ghosts.title = "Ghosts of one frame";
   missed.x = ghosts.x = {"targets", false, 0.0, 16.0};
@@ -159,8 +159,8 @@ StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed) {
   for (const Named& one : kSchemes) {
     part.text += fmt::format(" {}: missed %, ghosts |", one.name);
     line += "---|";
-    for (session::Plot* plot : {&missed, &ghosts})
-      plot->series.push_back({one.name, {}, {}, session::PlotSeries::Style::line_points});
+    for (Plot* plot : {&missed, &ghosts})
+      plot->series.push_back({one.name, {}, {}, PlotSeries::Style::line_points});
   }
   part.text += "\n" + line + "\n";
   for (const int count : {2, 4, 6, 8, 10, 15}) {
@@ -172,7 +172,7 @@ StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed) {
       const double values[] = {std::max(kLeastMissed, 100.0 * rates.missed),
                                std::max(kLeastGhosts, rates.ghosts_per_frame)};
       for (std::size_t k = 0; k < 2; ++k) {
-        session::PlotSeries& series = (k == 0 ? missed : ghosts).series[i];
+        PlotSeries& series = (k == 0 ? missed : ghosts).series[i];
         series.x.push_back(count);
         series.y.push_back(values[k]);
       }
@@ -209,13 +209,13 @@ StudyPart study_crossing(std::uint64_t seed) {
   part.text =
       "| speeds known to, m/s | 2 p (1 - p) | told, mean | swaps that happen "
       "|\n|---|---|---|---|\n";
-  session::Plot plot;
+  Plot plot;
   plot.title = "Two cars 3 km/h apart meet: are they exchanged afterwards?";
   plot.x = {"standard deviation of each speed (m/s)", false, 0.0, 0.65};
   plot.y = {"probability of a swap", false, 0.0, 0.3};
-  plot.series = {{"2 p (1 - p)", {}, {}, session::PlotSeries::Style::line},
-                 {"told, mean", {}, {}, session::PlotSeries::Style::line_points},
-                 {"happens", {}, {}, session::PlotSeries::Style::points}};
+  plot.series = {{"2 p (1 - p)", {}, {}, PlotSeries::Style::line},
+                 {"told, mean", {}, {}, PlotSeries::Style::line_points},
+                 {"happens", {}, {}, PlotSeries::Style::points}};
   for (const double sigma : {0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6}) {
     const double p = 0.5 * std::erfc(kDifference_mps / (2.0 * sigma));
     const double variance = 2.0 * sigma * sigma;
@@ -242,4 +242,4 @@ StudyPart study_crossing(std::uint64_t seed) {
   return part;
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

@@ -8,16 +8,16 @@
 #include "session/signal/sources/measured_source.h"
 #include "tracking/tracker/tracker.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 class OwnHistory {
  public:
-  void add(const session::MeasuredFrame& frame, const tracking::Tracker& tracker);
+  void add(const MeasuredFrame& frame, const tracking::Tracker& tracker);
 
   // Measurements as dots; tracks of what moves as lines in colours, of what stands in black.
-  session::Plot ranges(const std::string& name) const;
+  Plot ranges(const std::string& name) const;
   // Where tracks were, relative to the radar.
-  session::Plot plan(const std::string& name) const;
+  Plot plan(const std::string& name) const;
 
  private:
   struct Line {
@@ -29,4 +29,4 @@ class OwnHistory {
   Line measurements_;
 };
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

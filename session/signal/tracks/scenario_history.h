@@ -6,7 +6,7 @@
 #include "session/plots/gnuplot.h"
 #include "tracking/simulation/scenario_run.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 // What the plots show, gathered frame by frame.
 class ScenarioHistory {
@@ -16,10 +16,10 @@ class ScenarioHistory {
 
   // Truth dashed, one colour for each target; measurements as dots; tracks as points in the colour
   // of the target they follow.
-  session::Plot ranges(const core::HighwayScenario& scenario) const;
+  Plot ranges(const core::HighwayScenario& scenario) const;
   // Range of each track less that of its target; dashed, twice the standard deviation that the
   // track tells.
-  session::Plot errors(const core::HighwayScenario& scenario) const;
+  Plot errors(const core::HighwayScenario& scenario) const;
 
  private:
   struct Line {
@@ -34,4 +34,4 @@ class ScenarioHistory {
   Line measurements_;
 };
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

@@ -1,4 +1,4 @@
-#include "measure/tracks/own_tracks.h"
+#include "session/signal/tracks/own_tracks.h"
 
 #include <fmt/format.h>
 
@@ -10,18 +10,15 @@
 #include "core/constants.h"
 #include "core/files.h"
 #include "core/units.h"
-#include "measure/tracks/track_table.h"
+#include "session/signal/tracks/track_table.h"
 #include "session/version.h"
 #include "tracking/tracker/track_geometry.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using session::MeasuredFrame;
-using session::MeasuredSource;
-using session::SeenTarget;
 
 tracking::TrackerSettings own_tracker(const TrackSettings& settings, const MeasuredSource& source) {
   core::HighwayRadar radar;
@@ -73,13 +70,13 @@ void add(const MeasuredFrame& frame, const tracking::Tracker& tracker, OwnTracks
   tracks.history.add(frame, tracker);
 }
 
-Json json_of(const TrackSettings& settings, const MeasuredSource& source,
-             const session::BodyErrors& errors, const OwnTracks& tracks) {
+Json json_of(const TrackSettings& settings, const MeasuredSource& source, const BodyErrors& errors,
+             const OwnTracks& tracks) {
   Json targets = Json::array();
   for (const auto& [name, one] : tracks.targets)
     targets.push_back({{"name", name}, {"seen", one.seen}, {"followed", one.followed}});
-  Json json = {{"version", session::version_text()},
-               {"commit", session::commit_text()},
+  Json json = {{"version", version_text()},
+               {"commit", commit_text()},
                {"input", source.name},
                {"kind", source.kind},
                {"seed", settings.seed},
@@ -139,7 +136,7 @@ OwnTracks track_source(MeasuredSource& source, const TrackSettings& settings,
 }
 
 void write_own_tracks(const OwnTracks& tracks, const MeasuredSource& source,
-                      const TrackSettings& settings, const session::BodyErrors& errors, bool plots,
+                      const TrackSettings& settings, const BodyErrors& errors, bool plots,
                       const fs::path& folder) {
   core::write_file_atomically(folder / "tracks.csv", tracks.tracks);
   core::write_file_atomically(folder / "measurements.csv", tracks.measurements);
@@ -149,8 +146,8 @@ void write_own_tracks(const OwnTracks& tracks, const MeasuredSource& source,
                        {"tracking_ms_per_scan", 1e3 * tracks.tracking_s / tracks.frames}};
   core::write_file_atomically(folder / "timing.json", timing.dump(2) + "\n");
   if (!plots || tracks.measured == 0) return;
-  session::write_plots(tracks.history.ranges(source.name), folder / "ranges");
-  session::write_plots(tracks.history.plan(source.name), folder / "plan");
+  write_plots(tracks.history.ranges(source.name), folder / "ranges");
+  write_plots(tracks.history.plan(source.name), folder / "plan");
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

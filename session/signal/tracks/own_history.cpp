@@ -1,10 +1,10 @@
-#include "measure/tracks/own_history.h"
+#include "session/signal/tracks/own_history.h"
 
 #include <cmath>
 
 #include "tracking/tracker/track_geometry.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 namespace {
 
 constexpr std::size_t kStanding = 6, kDots = 4;  // of the plot's eight colours
@@ -16,7 +16,7 @@ std::size_t colour_of_track(int id) {
 
 }  // namespace
 
-void OwnHistory::add(const session::MeasuredFrame& frame, const tracking::Tracker& tracker) {
+void OwnHistory::add(const MeasuredFrame& frame, const tracking::Tracker& tracker) {
   const auto put = [&](double range_m, double azimuth_rad, Line& line) {
     line.time_s.push_back(frame.time_s);
     line.range_m.push_back(range_m);
@@ -34,32 +34,32 @@ void OwnHistory::add(const session::MeasuredFrame& frame, const tracking::Tracke
   }
 }
 
-session::Plot OwnHistory::ranges(const std::string& name) const {
-  session::Plot plot;
+Plot OwnHistory::ranges(const std::string& name) const {
+  Plot plot;
   plot.title =
       name + ": measurements (dots), tracks of what moves in colours, of what stands black";
   plot.x.label = "time, s";
   plot.y.label = "range, m";
   plot.y.low = 0.0;
   plot.series.push_back(
-      {"", measurements_.time_s, measurements_.range_m, session::PlotSeries::Style::points, kDots});
+      {"", measurements_.time_s, measurements_.range_m, PlotSeries::Style::points, kDots});
   for (const auto& [id, line] : tracks_)
-    plot.series.push_back({"", line.time_s, line.range_m, session::PlotSeries::Style::line,
+    plot.series.push_back({"", line.time_s, line.range_m, PlotSeries::Style::line,
                            line.moves() ? colour_of_track(id) : kStanding});
   return plot;
 }
 
-session::Plot OwnHistory::plan(const std::string& name) const {
-  session::Plot plot;
+Plot OwnHistory::plan(const std::string& name) const {
+  Plot plot;
   plot.title = name + ": where tracks were seen from the radar";
   plot.x.label = "right, m";
   plot.y.label = "forward, m";
-  plot.series.push_back({"", measurements_.right_m, measurements_.forward_m,
-                         session::PlotSeries::Style::points, kDots});
+  plot.series.push_back(
+      {"", measurements_.right_m, measurements_.forward_m, PlotSeries::Style::points, kDots});
   for (const auto& [id, line] : tracks_)
-    plot.series.push_back({"", line.right_m, line.forward_m, session::PlotSeries::Style::line,
+    plot.series.push_back({"", line.right_m, line.forward_m, PlotSeries::Style::line,
                            line.moves() ? colour_of_track(id) : kStanding});
   return plot;
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

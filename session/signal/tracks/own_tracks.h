@@ -6,11 +6,11 @@
 #include <map>
 #include <string>
 
-#include "measure/tracks/own_history.h"
-#include "measure/tracks/track_settings.h"
 #include "session/signal/sources/measured_source.h"
+#include "session/signal/tracks/own_history.h"
+#include "session/signal/tracks/track_settings.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 struct OwnTracks {
   // A track that was confirmed: moving in most of its frames, or not.
@@ -35,12 +35,12 @@ struct OwnTracks {
 
 // `progress` is told after each frame how many are done. The radar's turn is foreseen with its speed at
 // the first frame; what moves is told by its speed at each.
-OwnTracks track_source(session::MeasuredSource& source, const TrackSettings& settings,
+OwnTracks track_source(MeasuredSource& source, const TrackSettings& settings,
                        const std::function<void(int done)>& progress);
 
 // tracks.csv, measurements.csv, run.json, timing.json and with `plots` ranges and plan as SVG and PNG.
-void write_own_tracks(const OwnTracks& tracks, const session::MeasuredSource& source,
-                      const TrackSettings& settings, const session::BodyErrors& errors, bool plots,
+void write_own_tracks(const OwnTracks& tracks, const MeasuredSource& source,
+                      const TrackSettings& settings, const BodyErrors& errors, bool plots,
                       const std::filesystem::path& folder);
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

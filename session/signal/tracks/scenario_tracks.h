@@ -8,11 +8,11 @@
 
 #include "core/errors.h"
 #include "core/highway.h"
-#include "measure/tracks/scenario_history.h"
-#include "measure/tracks/track_settings.h"
+#include "session/signal/tracks/scenario_history.h"
+#include "session/signal/tracks/track_settings.h"
 #include "tracking/simulation/scenario_run.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 struct ScenarioTracks {
   tracking::ScenarioScore score;
@@ -47,4 +47,4 @@ std::string scenario_tracks_json(const core::HighwayScenario& scenario,
 void write_scenario_tracks(const core::HighwayScenario& scenario, const ScenarioTracks& tracks,
                            bool plots, const std::filesystem::path& folder);
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

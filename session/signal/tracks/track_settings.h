@@ -8,7 +8,7 @@
 #include "tracking/simulation/measurement_simulator.h"
 #include "tracking/simulation/scenario_run.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 struct TrackSettings {
   std::string association = "nearest";  // or "joint"
@@ -33,4 +33,4 @@ tracking::TrackerSettings tracker_settings(const TrackSettings& settings,
                                            const tracking::SimulationSettings& simulation,
                                            const core::HighwayRadar& radar, double radar_speed_mps);
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

@@ -1,4 +1,4 @@
-#include "measure/cost/levels.h"
+#include "apps/cost_levels.h"
 
 #include <fmt/core.h>
 
@@ -12,14 +12,14 @@
 #include "session/signal/signal_bscope.h"
 #include "signal/scan/column_sweep.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::apps {
 namespace {
 
 constexpr int kThinParts = 8;
 constexpr renderer::Products kBscopeAlone = {.bscope = true, .cscope = false};
 
 // Converged powers behind the sweep, noise in them.
-std::vector<double> reference_W(const CostBench& bench, const sensors::Sensor& sensor) {
+std::vector<double> reference_W(const measure::CostBench& bench, const sensors::Sensor& sensor) {
   const auto thin = bench.with_sensor(renderer::thin_cells(sensor, kThinParts));
   renderer::Sampling sampling = bench.effort.reference(1);
   sampling.rays_per_cell /= kThinParts;
@@ -52,13 +52,13 @@ class GreyDistance {
   std::vector<double> reference_;
 };
 
-void measure_pictures(const CostBench& bench, const sensors::Sensor& sensor,
-                      const GreyDistance& distance, std::vector<LevelStep>& steps) {
+void measure_pictures(const measure::CostBench& bench, const sensors::Sensor& sensor,
+                      const GreyDistance& distance, std::vector<measure::LevelStep>& steps) {
   const renderer::FramePose pose = bench.scene.frame_pose(bench.frames.front());
   const renderer::RangeResponse response(sensor);
   std::vector<renderer::FrameRenderer> renderers;
   for (const double fineness : bench.effort.rays)
-    renderers.emplace_back(bench.scene.world, sampling_of(Way::rays, fineness), kBscopeAlone,
+    renderers.emplace_back(bench.scene.world, measure::sampling_of(measure::Way::rays, fineness), kBscopeAlone,
                            renderer::Effects{});
   const auto render = [&](const renderer::FrameRenderer& frames) {
     std::vector<double> power_W = frames.render(pose).bscope_W;
@@ -74,8 +74,8 @@ void measure_pictures(const CostBench& bench, const sensors::Sensor& sensor,
                      distance.rms(render(renderers[i]), sensor.noise_power_W())});
 }
 
-void measure_signals(const CostBench& bench, const GreyDistance& distance,
-                     std::vector<LevelStep>& steps) {
+void measure_signals(const measure::CostBench& bench, const GreyDistance& distance,
+                     std::vector<measure::LevelStep>& steps) {
   const renderer::FramePose pose = bench.scene.frame_pose(bench.frames.front());
   std::vector<double> sum_W, times_ms;
   for (const int looks : bench.effort.looks) {
@@ -83,10 +83,10 @@ void measure_signals(const CostBench& bench, const GreyDistance& distance,
       session::SignalBscopeSettings settings;
       settings.looks = 1;
       settings.seed = times_ms.size();
-      const Clock::time_point begin = Clock::now();
+      const measure::Clock::time_point begin = measure::Clock::now();
       const std::vector<double> power_W =
           session::signal_bscope(bench.scene.world, pose, settings).power_W;
-      times_ms.push_back(milliseconds_since(begin));
+      times_ms.push_back(measure::milliseconds_since(begin));
       sum_W.resize(power_W.size(), 0.0);
       for (std::size_t i = 0; i < power_W.size(); ++i) sum_W[i] += power_W[i];
     }
@@ -102,29 +102,29 @@ void measure_signals(const CostBench& bench, const GreyDistance& distance,
 
 }  // namespace
 
-std::string why_no_levels(const CostBench& bench) {
+std::string why_no_levels(const measure::CostBench& bench) {
   return signal::why_no_column_sweep(bench.scene.world.sensor);
 }
 
-double levels_s(const CostBench& bench) {
+double levels_s(const measure::CostBench& bench) {
   // Measured: a look takes as long as some 30 frames of rays at default sampling.
   constexpr double kLookOverFrame = 30.0;
   double rays_ms = 0.0;
   for (const double fineness : bench.effort.rays)
-    rays_ms += bench.pace.step_ms(Way::rays, fineness);
+    rays_ms += bench.pace.step_ms(measure::Way::rays, fineness);
   return bench.pace.build_s + bench.pace.reference_s(bench.effort) +
          (bench.effort.repetitions + 6.0) * rays_ms / 1000.0 +
          bench.effort.looks.back() * kLookOverFrame * bench.pace.frame_ms / 1000.0;
 }
 
-std::vector<LevelStep> measure_levels(const CostBench& bench) {
+std::vector<measure::LevelStep> measure_levels(const measure::CostBench& bench) {
   bench.begin(fmt::format("frame {}, signal level", bench.frames.front()), levels_s(bench));
   const sensors::Sensor sensor = session::with_sweep_window(bench.scene.world.sensor);
   const GreyDistance distance(sensor, reference_W(bench, sensor));
-  std::vector<LevelStep> steps;
+  std::vector<measure::LevelStep> steps;
   measure_pictures(bench, sensor, distance, steps);
   measure_signals(bench, distance, steps);
   return steps;
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::apps

@@ -1,4 +1,4 @@
-#include "measure/tracks/track_table.h"
+#include "session/signal/tracks/track_table.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "tracking/tracker/track_geometry.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 namespace {
 
 // Of a track along one axis: all of it lies ahead.
@@ -48,4 +48,4 @@ std::string measurement_row(double time_s, const tracking::RadarMeasurement& one
                      one.range_rate_systematic_mps, one.azimuth_systematic_rad);
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

@@ -13,14 +13,14 @@
 
 #include "measure/bench.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::apps {
 
 // Why the scene's sensor has no signal level; empty where it has.
-std::string why_no_levels(const CostBench& bench);
+std::string why_no_levels(const measure::CostBench& bench);
 
 // Of the bench's first frame. The sensor must have a signal level.
-std::vector<LevelStep> measure_levels(const CostBench& bench);
+std::vector<measure::LevelStep> measure_levels(const measure::CostBench& bench);
 
-double levels_s(const CostBench& bench);
+double levels_s(const measure::CostBench& bench);
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::apps

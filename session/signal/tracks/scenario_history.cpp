@@ -1,4 +1,4 @@
-#include "measure/tracks/scenario_history.h"
+#include "session/signal/tracks/scenario_history.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "tracking/tracker/track_geometry.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 namespace {
 
 constexpr std::size_t kBlack = 6, kMeasurementColour = 4;  // of the plot's eight colours
@@ -60,42 +60,41 @@ void ScenarioHistory::add(const core::HighwayScenario& scenario,
   }
 }
 
-session::Plot ScenarioHistory::ranges(const core::HighwayScenario& scenario) const {
-  session::Plot plot;
+Plot ScenarioHistory::ranges(const core::HighwayScenario& scenario) const {
+  Plot plot;
   plot.title = scenario.id + ": tracks and truth";
   plot.x.label = "time (s)";
   plot.y.label = "range (m)";
   plot.series.push_back({"measurements", measurements_.x, measurements_.y,
-                         session::PlotSeries::Style::points, kMeasurementColour});
+                         PlotSeries::Style::points, kMeasurementColour});
   for (const auto& [target, line] : truth_)
     plot.series.push_back({name(scenario, target) + ", truth", line.x, line.y,
-                           session::PlotSeries::Style::dashed_line, colour_of(target)});
+                           PlotSeries::Style::dashed_line, colour_of(target)});
   for (const auto& [key, line] : tracks_) {
     const auto [target, id] = key;
     plot.series.push_back(
         {"track " + std::to_string(id) +
              (target < 0 ? std::string(", no target") : ", " + name(scenario, target)),
-         line.x, line.y, session::PlotSeries::Style::line, colour_of(target)});
+         line.x, line.y, PlotSeries::Style::line, colour_of(target)});
   }
   return plot;
 }
 
-session::Plot ScenarioHistory::errors(const core::HighwayScenario& scenario) const {
-  session::Plot plot;
+Plot ScenarioHistory::errors(const core::HighwayScenario& scenario) const {
+  Plot plot;
   plot.title = scenario.id + ": errors of range, and twice the standard deviation told";
   plot.x.label = "time (s)";
   plot.y.label = "range of the track less that of its target (mm)";
   std::vector<double> sizes, amounts;  // of bounds, of errors
   for (const auto& [target, line] : errors_) {
     plot.series.push_back({name(scenario, target) + ", error", line.x, line.y,
-                           session::PlotSeries::Style::line, colour_of(target)});
+                           PlotSeries::Style::line, colour_of(target)});
     const Line& sigma = sigmas_.at(target);
     std::vector<double> below = sigma.y;
     for (double& value : below) value = -value;
     for (const auto* side : {&sigma.y, &std::as_const(below)})
       plot.series.push_back({side == &sigma.y ? name(scenario, target) + ", bounds" : std::string(),
-                             sigma.x, *side, session::PlotSeries::Style::dashed_line,
-                             colour_of(target)});
+                             sigma.x, *side, PlotSeries::Style::dashed_line, colour_of(target)});
     sizes.insert(sizes.end(), sigma.y.begin(), sigma.y.end());
     for (const double value : line.y) amounts.push_back(std::abs(value));
   }
@@ -106,4 +105,4 @@ session::Plot ScenarioHistory::errors(const core::HighwayScenario& scenario) con
   return plot;
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/highway.h"
-#include "measure/tracks/track_settings.h"
 #include "session/plots/gnuplot.h"
+#include "session/signal/tracks/track_settings.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 // With the file's radar, the scenario's own changes and the options' in it.
 struct StudyScenario {
@@ -23,7 +23,7 @@ struct StudyScenario {
 // A table of Markdown, and the plots that belong to it, by file name without ending.
 struct StudyPart {
   std::string text;
-  std::vector<std::pair<std::string, session::Plot>> plots;
+  std::vector<std::pair<std::string, Plot>> plots;
 };
 
 // One car of 10 m2 at 100 m that closes at 100 km/h, measured from samples of `triangles` triangles
@@ -53,4 +53,4 @@ void track_study(const std::vector<StudyScenario>& scenarios, const core::Highwa
                  const TrackSettings& settings, const std::filesystem::path& folder,
                  const std::function<void(const char* part)>& told);
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

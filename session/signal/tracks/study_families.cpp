@@ -3,19 +3,19 @@
 
 #include <algorithm>
 
-#include "measure/tracks/study.h"
+#include "session/signal/tracks/study.h"
 #include "tracking/filters/chi_square.h"
 #include "tracking/simulation/road_families.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 namespace {
 
 constexpr int kFamilyRuns = 100;
 
 // One figure of every run, from the smallest up, over the share of runs.
-session::PlotSeries sorted_series(const char* name, std::vector<double> values) {
+PlotSeries sorted_series(const char* name, std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  session::PlotSeries series{name, {}, values, session::PlotSeries::Style::line};
+  PlotSeries series{name, {}, values, PlotSeries::Style::line};
   for (std::size_t i = 0; i < values.size(); ++i)
     series.x.push_back(100.0 * (static_cast<double>(i) + 0.5) / static_cast<double>(values.size()));
   return series;
@@ -36,7 +36,7 @@ StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& s
       "| family, {} draws | MOTA | worst | runs without a switch | NEES ({:.2f} to {:.2f}) |\n"
       "|---|---|---|---|---|\n",
       kFamilyRuns, band.low, band.high);
-  session::Plot mota, nees;
+  Plot mota, nees;
   mota.title = "Families of traffic: MOTA of each draw";
   nees.title = fmt::format(
       "Families of traffic: normalised error squared of each draw, {} where told errors are true",
@@ -66,10 +66,10 @@ StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& s
   nees.series.push_back({"",
                          {0.0, 100.0},
                          {static_cast<double>(states), static_cast<double>(states)},
-                         session::PlotSeries::Style::dashed_line,
+                         PlotSeries::Style::dashed_line,
                          6});
   part.plots = {{"families-mota", mota}, {"families-nees", nees}};
   return part;
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

@@ -1,10 +1,10 @@
-#include "measure/tracks/study.h"
+#include "session/signal/tracks/study.h"
 
 #include <fmt/format.h>
 
 #include "core/files.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 void track_study(const std::vector<StudyScenario>& scenarios, const core::HighwayRadar& radar,
                  const TrackSettings& settings, const std::filesystem::path& folder,
@@ -13,7 +13,7 @@ void track_study(const std::vector<StudyScenario>& scenarios, const core::Highwa
   const auto add = [&](const char* what, const StudyPart& part) {
     page += part.text + "\n";
     for (const auto& [name, plot] : part.plots) {
-      session::write_plots(plot, folder / name);
+      write_plots(plot, folder / name);
       page += fmt::format("![{}]({}.png)\n\n", plot.title, name);
     }
     told(what);
@@ -29,4 +29,4 @@ void track_study(const std::vector<StudyScenario>& scenarios, const core::Highwa
   core::write_file_atomically(folder / "study.md", page);
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

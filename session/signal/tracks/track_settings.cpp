@@ -1,8 +1,8 @@
-#include "measure/tracks/track_settings.h"
+#include "session/signal/tracks/track_settings.h"
 
 #include <algorithm>
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 bool fits(tracking::Scheme scheme, const core::HighwayRadar& radar) {
   return length_of(scheme, radar.waveforms) <= radar.frame_s;
@@ -35,4 +35,4 @@ tracking::TrackerSettings tracker_settings(const TrackSettings& settings,
   return tracker;
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

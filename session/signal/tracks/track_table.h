@@ -5,7 +5,7 @@
 
 #include "tracking/tracker/track.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 
 // x forward, y right, relative to the radar.
 inline constexpr const char* kTrackColumns =
@@ -24,4 +24,4 @@ std::string track_cells(double time_s, const tracking::Track& track, double rada
 std::string covariance_cells(const tracking::Gaussian& state);
 std::string measurement_row(double time_s, const tracking::RadarMeasurement& measurement);
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session

@@ -1,4 +1,4 @@
-#include "measure/tracks/scenario_tracks.h"
+#include "session/signal/tracks/scenario_tracks.h"
 
 #include <fmt/format.h>
 
@@ -7,11 +7,11 @@
 
 #include "core/errors.h"
 #include "core/files.h"
-#include "measure/tracks/track_table.h"
+#include "session/signal/tracks/track_table.h"
 #include "tracking/simulation/sampled_frame.h"
 #include "tracking/tracker/track_geometry.h"
 
-namespace fanbeam::measure {
+namespace fanbeam::session {
 namespace {
 
 namespace fs = std::filesystem;
@@ -175,8 +175,8 @@ void write_scenario_tracks(const core::HighwayScenario& scenario, const Scenario
   core::write_file_atomically(folder / "tracks.csv", tracks.tracks);
   core::write_file_atomically(folder / "measurements.csv", tracks.measurements);
   if (!plots) return;
-  session::write_plots(tracks.history.ranges(scenario), folder / "ranges");
-  session::write_plots(tracks.history.errors(scenario), folder / "errors");
+  write_plots(tracks.history.ranges(scenario), folder / "ranges");
+  write_plots(tracks.history.errors(scenario), folder / "errors");
 }
 
-}  // namespace fanbeam::measure
+}  // namespace fanbeam::session
