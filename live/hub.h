@@ -84,8 +84,9 @@ inline bool is_lasting_offset(const Status& status) {
 
 class Hub {
  public:
+  Hub() = default;
   // `kept_s`: how long it is known what a frame was made of.
-  explicit Hub(double kept_s = 64.0) : kept_s_(kept_s) {}
+  explicit Hub(double kept_s) : kept_s_(kept_s) {}
 
   void publish(std::shared_ptr<const LiveFrame> frame) {
     std::function<void()> call;
@@ -144,7 +145,7 @@ class Hub {
     }
   }
 
-  double kept_s_;
+  double kept_s_ = 64.0;
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> newest_;
   std::deque<std::pair<Steady::time_point, FrameOrigin>> origins_;  // by when they were published
