@@ -7,6 +7,7 @@
 #include "core/turns.h"
 #include "measure/clock.h"
 #include "renderer/accuracy/swept_picture.h"
+#include "renderer/frame_renderer.h"
 #include "renderer/stages/range_response.h"
 #include "sensors/display/display.h"
 #include "session/signal/signal_bscope.h"
@@ -58,8 +59,8 @@ void measure_pictures(const measure::CostBench& bench, const sensors::Sensor& se
   const renderer::RangeResponse response(sensor);
   std::vector<renderer::FrameRenderer> renderers;
   for (const double fineness : bench.effort.rays)
-    renderers.emplace_back(bench.scene.world, measure::sampling_of(measure::Way::rays, fineness), kBscopeAlone,
-                           renderer::Effects{});
+    renderers.emplace_back(bench.scene.world, measure::sampling_of(measure::Way::rays, fineness),
+                           kBscopeAlone, renderer::Effects{});
   const auto render = [&](const renderer::FrameRenderer& frames) {
     std::vector<double> power_W = frames.render(pose).bscope_W;
     response.apply(power_W);

@@ -66,10 +66,8 @@ std::optional<BenchScene> load(const std::string& name, const scenes::BuildOptio
     fmt::print(stderr, "[skipped] {} needs data that are not in {}\n", name, data_folder());
     return std::nullopt;
   }
-  const renderer::FrameRenderer renderer(result.scene->world,
-                                         renderer::sampling_for(renderer::kDefaultRaysPerCell), {},
-                                         {.thermal_noise = result.noise()});
-  renderer.render(view_at(result, 2500.0).pose);
+  renderer::render_frame(result.scene->world, renderer::sampling_for(renderer::kDefaultRaysPerCell),
+                         {}, {.thermal_noise = result.noise()}, view_at(result, 2500.0).pose);
   result.peak_memory_bytes = process_memory_bytes("VmHWM") - before_bytes;
   return result;
 }

@@ -48,8 +48,8 @@ void azimuth_beam(State& state, const BenchScene& scene) {
 
 void display(State& state, const BenchScene& scene) {
   const View view = view_at(scene, kDistance_m);
-  const renderer::FrameRenderer renderer(view.world(), default_sampling(), {}, {});
-  renderer::Frame frame = renderer.render(view.pose);
+  const renderer::Frame frame =
+      renderer::render_frame(view.world(), default_sampling(), {}, {}, view.pose);
   const FramePower power{frame.bscope_W, frame.cscope_W_m3};
   for ([[maybe_unused]] const auto& iteration : state)
     benchmark::DoNotOptimize(grey_of(view.sensor(), power, true));

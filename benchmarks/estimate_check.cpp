@@ -47,8 +47,8 @@ void check_frame(const BenchScene& bench, int frame, const Effort& effort,
   renderer::Effects effects = renderer::effects_of(scene.plan, 1);
   effects.speckle = effects.swerling = false;
   const auto render = [&](const renderer::Sampling& sampling) {
-    return renderer::FrameRenderer(scene.world, sampling, {true, true}, effects)
-        .render(scene.frame_pose(frame));
+    return renderer::render_frame(scene.world, sampling, {true, true}, effects,
+                                  scene.frame_pose(frame));
   };
   // In two halves: they tell the error of their mean, which is in what a frame differs from it.
   renderer::Sampling half = effort.reference(1), other_half = effort.reference(2);

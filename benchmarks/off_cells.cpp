@@ -6,6 +6,7 @@
 
 #include "renderer/casting/profile/profile_caster.h"
 #include "renderer/casting/ray_caster.h"
+#include "renderer/frame_renderer.h"
 
 namespace fanbeam::benchmarks {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "benchmarks/frame_clock.h"
 #include "core/median.h"
+#include "renderer/frame_renderer.h"
 #include "scenes/scene_reader.h"
 #include "session/session.h"
 

@@ -62,9 +62,8 @@ bool Quality::look() {
     sampling.estimate_error = true;
     renderer::Effects effects = renderer::effects_of(scene->plan, session_.seed());
     effects.speckle = effects.swerling = false;
-    const renderer::Frame made =
-        renderer::FrameRenderer(scene->world, sampling, {true, true}, effects)
-            .render(scene->pose_at(frame->pose));
+    const renderer::Frame made = renderer::render_frame(scene->world, sampling, {true, true},
+                                                        effects, scene->pose_at(frame->pose));
     if (!made.error) return false;
     const std::lock_guard<std::mutex> lock(mutex_);
     samples_ = frame->samples;

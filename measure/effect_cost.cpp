@@ -7,6 +7,7 @@
 #include "core/effect_plan.h"
 #include "core/turns.h"
 #include "measure/clock.h"
+#include "renderer/frame_renderer.h"
 
 namespace fanbeam::measure {
 namespace {

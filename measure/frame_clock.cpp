@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "measure/clock.h"
+#include "renderer/frame_renderer.h"
 #include "sensors/display/display.h"
 
 namespace fanbeam::measure {
@@ -40,6 +41,10 @@ FrameClock::FrameClock(const renderer::World& world, const renderer::FramePose& 
           world, renderer::naive_sampling(kind, rays_per_cell), renderer::Products{}, effects,
           std::make_unique<renderer::NaiveCaster>(world, kind,
                                                   rays_per_cell * cells_of(world.sensor), span))) {}
+
+FrameClock::~FrameClock() = default;
+
+renderer::FramePower FrameClock::power() const { return power_of(renderer_->render(pose_)); }
 
 renderer::Frame FrameClock::render() const {
   renderer::Frame frame = renderer_->render(pose_);

@@ -5,7 +5,11 @@
 
 #include "renderer/accuracy/grey_error.h"
 #include "renderer/accuracy/naive_caster.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
+
+namespace fanbeam::renderer {
+class FrameRenderer;
+}
 
 namespace fanbeam::measure {
 
@@ -23,6 +27,7 @@ class FrameClock {
   FrameClock(const renderer::World& world, const renderer::FramePose& pose,
              renderer::NaiveKind kind, double rays, const renderer::ElevationSpan& span,
              const renderer::Effects& effects);
+  ~FrameClock();
 
   // All that is timed.
   renderer::Frame render() const;
@@ -33,7 +38,7 @@ class FrameClock {
   double second_frame_ms() const;
 
   // Of frames whose time does not matter.
-  renderer::FramePower power() const { return power_of(renderer_->render(pose_)); }
+  renderer::FramePower power() const;
   renderer::FrameError error(const renderer::GreyReference& reference) const {
     return reference.error_of(power());
   }

@@ -11,7 +11,7 @@
 
 #include "measure/figures.h"
 #include "renderer/casting/sampling.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "renderer/world.h"
 
 namespace fanbeam::measure {

@@ -112,6 +112,11 @@ FrameRenderer::~FrameRenderer() = default;
 
 Frame FrameRenderer::render(const FramePose& pose) const { return stages_->render(pose); }
 
+Frame render_frame(const World& world, const Sampling& sampling, const Products& products,
+                   const Effects& effects, const FramePose& pose) {
+  return FrameRenderer(world, sampling, products, effects).render(pose);
+}
+
 std::vector<double> Frame::received_W() const { return plus(bscope_W, noise_W); }
 
 Frame FrameRenderer::Stages::render(const FramePose& pose) const {

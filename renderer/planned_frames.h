@@ -1,5 +1,5 @@
-// Renderers of one world, for frames that go through different stages (renderer::frame_plan) or ask
-// for different products: one for each combination, made when a frame first asks for it.
+// Frames of one world that go through different stages (scenes::frame_plan) or ask for different
+// products: a renderer for each combination, made when a frame first asks for it.
 //
 // A combination costs the tables of one FrameRenderer: milliseconds and a few megabytes. Plans of
 // one sequence make at most eight, and products sixty-four.
@@ -12,20 +12,25 @@
 #include <utility>
 
 #include "core/effect_plan.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 
 namespace fanbeam::renderer {
+
+class FrameRenderer;
 
 class PlannedFrames {
  public:
   // `world` must outlive this, and have been built for what every plan runs.
-  PlannedFrames(const World& world, const Sampling& sampling, std::uint64_t seed)
-      : world_(world), sampling_(sampling), seed_(seed) {}
+  PlannedFrames(const World& world, const Sampling& sampling, std::uint64_t seed);
+  ~PlannedFrames();
 
-  // Valid as long as this object. Thread-safe; who asks while another renderer is made waits for it.
-  const FrameRenderer& for_plan(const core::EffectPlan& plan, const Products& products);
+  // Thread-safe; who asks while another renderer is made waits for it. Errors: those of
+  // FrameRenderer.
+  Frame render(const core::EffectPlan& plan, const Products& products, const FramePose& pose);
 
  private:
+  const FrameRenderer& renderer_for(const core::EffectPlan& plan, const Products& products);
+
   const World& world_;
   Sampling sampling_;
   std::uint64_t seed_;

@@ -5,6 +5,7 @@
 
 #include "core/turns.h"
 #include "renderer/accuracy/sampling_ladder.h"
+#include "renderer/frame_renderer.h"
 #include "renderer/plan/effects.h"
 #include "renderer/plan/plan.h"
 #include "session/frame_choice.h"

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "renderer/casting/sampling.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "scenes/scene.h"
 
 namespace fanbeam::session {

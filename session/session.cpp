@@ -329,12 +329,11 @@ renderer::Frame Session::render(const Moment& under, const core::Pose& pose,
   at.frame_index = frame_index;
   renderer::check(at);
   if (scenes::planned_for(*under->scene, at))
-    return under->frames.for_plan(under->scene->plan, wanted).render(at);
+    return under->frames.render(under->scene->plan, wanted, at);
   const core::EffectPlan plan = scenes::plan_alone(*under->scene, at);
   const renderer::World world = scenes::world_for(*under->scene, plan);
-  renderer::Frame frame = renderer::FrameRenderer(world, under->sampling, wanted,
-                                                  renderer::effects_of(plan, inside_->seed))
-                              .render(at);
+  renderer::Frame frame = renderer::render_frame(world, under->sampling, wanted,
+                                                 renderer::effects_of(plan, inside_->seed), at);
   frame.events.emplace_back("outside_volume");
   return frame;
 }
@@ -345,7 +344,7 @@ renderer::Frame Session::render_flown(int frame, const core::EffectPlan& plan,
   const Work work(stop, inside_->threads);
   const Moment under = now();
   check(wanted, *under->scene);
-  return under->frames.for_plan(plan, wanted).render(under->scene->frame_pose(frame));
+  return under->frames.render(plan, wanted, under->scene->frame_pose(frame));
 }
 
 }  // namespace fanbeam::session

@@ -24,7 +24,7 @@
 
 #include "core/errors.h"
 #include "core/stop.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "scenes/scene.h"
 #include "session/conditions.h"
 

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "bindings/python/convert.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "scenes/scene.h"
 
 namespace fanbeam::bindings {

@@ -22,7 +22,7 @@
 #include <string>
 #include <vector>
 
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "scenes/scene.h"
 #include "session/labels/object_shapes.h"
 #include "session/labels/place.h"
@@ -34,7 +34,7 @@ inline constexpr std::array<int, 2> kRunwayGrid = {100, 5};  // along, across
 
 // Cells of a picture, its top row first.
 struct MaskLabel {
-  std::vector<std::uint32_t> cells{};  // column * rows + row, rising
+  std::vector<std::uint32_t> cells{};            // column * rows + row, rising
   int left = 0, top = 0, columns = 0, rows = 0;  // the box around them
 };
 

@@ -13,7 +13,7 @@
 
 #include "core/image.h"
 #include "core/stop.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "sensors/sensor.h"
 #include "session/figure/figure_facts.h"
 #include "session/labels/frame_labels.h"

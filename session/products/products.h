@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 
 namespace fanbeam::session {
 

@@ -12,7 +12,7 @@
 #include "core/effect_plan.h"
 #include "renderer/accuracy/refinement.h"
 #include "renderer/casting/sampling.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "scenes/scene.h"
 #include "session/sampling_choice.h"
 

@@ -9,7 +9,7 @@
 
 #include "core/image.h"
 #include "renderer/accuracy/swept_picture.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "scenes/scene.h"
 #include "scenes/scene_reader.h"
 #include "tests/apps/program.h"
@@ -44,9 +44,9 @@ std::vector<double> converged_W(scenes::SceneDescription description) {
   const auto scene = built(description);
   renderer::Sampling sampling = renderer::reference_sampling(1, 4);
   sampling.rays_per_cell = 1.0;  // and thin cell: 512 a cell
-  const renderer::FrameRenderer frames(scene->world, sampling, {.bscope = true, .cscope = false},
-                                       {});
-  return renderer::swept_power_W(sensor, frames.render(scene->frame_pose(kFrame)).bscope_W, kParts);
+  const renderer::Frame frame = renderer::render_frame(
+      scene->world, sampling, {.bscope = true, .cscope = false}, {}, scene->frame_pose(kFrame));
+  return renderer::swept_power_W(sensor, frame.bscope_W, kParts);
 }
 
 const std::vector<double>& picture_W() {

@@ -53,9 +53,8 @@ TEST_CASE("The error that is told is the renderer's own estimate for the frame t
   const auto scene = session->scene();
   renderer::Effects effects = renderer::effects_of(scene->plan, 0);
   effects.speckle = effects.swerling = false;
-  const renderer::Frame made =
-      renderer::FrameRenderer(scene->world, sampling, {true, true}, effects)
-          .render(scene->pose_at(live::circle(*scene)(1.0)));
+  const renderer::Frame made = renderer::render_frame(scene->world, sampling, {true, true}, effects,
+                                                      scene->pose_at(live::circle(*scene)(1.0)));
   REQUIRE(made.error.has_value());
   CHECK(coarse.errors->bscope_grey == made.error->rms_grey);
   CHECK(coarse.errors->cscope_grey == made.error->cscope_rms_grey);

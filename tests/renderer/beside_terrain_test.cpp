@@ -29,8 +29,8 @@ renderer::World level_tile(const sensors::Sensor& sensor, double height_m) {
 
 renderer::Frame frame_of(const renderer::World& world, const renderer::Sampling& sampling,
                          double height_m) {
-  return renderer::FrameRenderer(world, sampling, {}, {.thermal_noise = true})
-      .render(tests::level_pose(height_m));
+  return renderer::render_frame(world, sampling, {}, {.thermal_noise = true},
+                                tests::level_pose(height_m));
 }
 
 // Of a row, over all columns.
@@ -76,7 +76,7 @@ TEST_CASE("Beyond its rim a tile looks as the ground that goes on to the antenna
   pose.q_NB = core::quaternion_from({core::radians(roll_deg), 0.0, 0.0});
   const auto seen = [&](terrain::HeightField field) {
     const renderer::World world = tests::world(sensor, std::move(field), {kMeadow});
-    return renderer::FrameRenderer(world, sampling, {}, {}).render(pose).bscope_W;
+    return renderer::render_frame(world, sampling, {}, {}, pose).bscope_W;
   };
   const std::vector<double> beside = seen(tile(height_m));
   const std::vector<double> above = seen(tests::ground(3300.0, 30.0, height_m));

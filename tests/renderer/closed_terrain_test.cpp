@@ -16,8 +16,8 @@ constexpr double kHeight_m = 60.0;
 
 renderer::Frame frame_over(const renderer::World& world, const renderer::Sampling& sampling,
                            double height_m) {
-  return renderer::FrameRenderer(world, sampling, {}, {.thermal_noise = true})
-      .render(tests::level_pose(height_m));
+  return renderer::render_frame(world, sampling, {}, {.thermal_noise = true},
+                                tests::level_pose(height_m));
 }
 
 // Share of cells that differ by more than 0.001 dB.
@@ -142,8 +142,7 @@ TEST_CASE("R13: closed ground shows no sky below the horizon, whatever the rays 
       renderer::FramePose pose = tests::level_pose(height_m);
       pose.position_m.x = 5.0;  // along a diagonal's and a column's posts
       const renderer::Frame frame =
-          renderer::FrameRenderer(world, renderer::sampling_for(rays_per_cell), {}, {})
-              .render(pose);
+          renderer::render_frame(world, renderer::sampling_for(rays_per_cell), {}, {}, pose);
       int sky = 0;
       for (const double power_W : frame.bscope_W) sky += power_W > 0.0 ? 0 : 1;
       // Rows between the first range cell and the last.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "renderer/frame_renderer.h"
 #include "tests/renderer/city_world.h"
 
 namespace {

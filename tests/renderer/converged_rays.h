@@ -14,7 +14,7 @@ struct Powers {
 
 inline Powers render(const renderer::World& world, const renderer::Sampling& sampling,
                      const renderer::FramePose& pose) {
-  renderer::Frame frame = renderer::FrameRenderer(world, sampling, {}, {}).render(pose);
+  renderer::Frame frame = renderer::render_frame(world, sampling, {}, {}, pose);
   return {std::move(frame.bscope_W), std::move(frame.cscope_W_m3)};
 }
 

@@ -41,9 +41,9 @@ TEST_CASE("M02 the dark half of a scene is the noise-only picture, or the floor,
     for (const bool noise : {true, false}) {
       const renderer::Effects effects{.thermal_noise = noise};
       const renderer::Frame seen =
-          renderer::FrameRenderer(half, sampling, {}, effects).render(tests::level_pose(80.0));
+          renderer::render_frame(half, sampling, {}, effects, tests::level_pose(80.0));
       const renderer::Frame floor =
-          renderer::FrameRenderer(nothing, {}, {}, effects).render(tests::level_pose(80.0));
+          renderer::render_frame(nothing, {}, {}, effects, tests::level_pose(80.0));
       double lit_grey = 0.0;
       for (std::size_t i = 0; i < seen.bscope_grey.size(); ++i) {
         const int column = static_cast<int>(i) % kColumns;
@@ -67,7 +67,7 @@ TEST_CASE("S05 targets abeam, behind and at the antenna are not drawn, and are c
   renderer::World world = tests::world(sensor, std::nullopt, {});
   world.targets = {reflector({20.0, 900.0, 0.0})};
   const auto frame_of = [&world] {
-    return renderer::FrameRenderer(world, {}, {}, {}).render(tests::level_pose(kHeight_m));
+    return renderer::render_frame(world, {}, {}, {}, tests::level_pose(kHeight_m));
   };
   const renderer::Frame alone = frame_of();
   CHECK(alone.unprojected == 0);

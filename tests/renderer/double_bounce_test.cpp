@@ -54,7 +54,7 @@ renderer::Frame render(const renderer::World& world, const renderer::Sampling& s
                        bool double_bounce, double height_m = kHeight_m) {
   renderer::Effects effects;
   effects.double_bounce = double_bounce;
-  return renderer::FrameRenderer(world, sampling, {}, effects).render(tests::level_pose(height_m));
+  return renderer::render_frame(world, sampling, {}, effects, tests::level_pose(height_m));
 }
 
 // What the effect adds to each range cell, in the mean over the middle columns.

@@ -132,7 +132,7 @@ TEST_CASE("The largest echo of a wall across the beam is what the kernel deposit
                    {materials::PhongNrcs(1e-9, 0.0, 1.0), materials::PhongNrcs(0.3, 0.0, 1.0)},
                    {tests::box({-900.0, range_m + 2.0, 0.0}, {900.0, range_m + 12.0, 600.0}, 1)});
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(300.0));
+      renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(300.0));
   double brightest_W = 0.0;
   for (std::size_t row = 95; row < 110; ++row)
     brightest_W = std::max(brightest_W, frame.bscope_W[row * 4 + 1]);

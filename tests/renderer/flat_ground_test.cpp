@@ -51,8 +51,8 @@ Error compare(const renderer::World& world, const renderer::Sampling& sampling,
               const std::function<double(double)>& sin_grazing = plane_sine,
               const std::function<double(double)>& depression = plane_depression) {
   const sensors::Sensor& sensor = world.sensor;
-  const renderer::Frame frame = renderer::FrameRenderer(world, sampling, {true, false}, {})
-                                    .render(tests::level_pose(kHeight_m));
+  const renderer::Frame frame =
+      renderer::render_frame(world, sampling, {true, false}, {}, tests::level_pose(kHeight_m));
   Error error;
   int count = 0;
   for (int cell = 0; cell < sensor.range.cells; ++cell) {
@@ -182,9 +182,8 @@ TEST_CASE("R01 constant sigma0 falls with R^-3 between cells: -9.0309 dB per dou
   sensor.antenna.elevation.half_power_width_rad = core::radians(170.0);
   sensor.antenna.elevation.cut_rad = core::radians(80.0);
   const renderer::World world = tests::world(sensor, plane(), {kConstant});
-  const renderer::Frame frame =
-      renderer::FrameRenderer(world, renderer::sampling_for(16.0), {true, false}, {})
-          .render(tests::level_pose(kHeight_m));
+  const renderer::Frame frame = renderer::render_frame(
+      world, renderer::sampling_for(16.0), {true, false}, {}, tests::level_pose(kHeight_m));
   const auto power_W = [&](int cell) {
     return frame.bscope_W[static_cast<std::size_t>(cell * sensor.scan.columns + 1)];
   };

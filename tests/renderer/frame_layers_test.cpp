@@ -40,8 +40,7 @@ renderer::Frame rendered(const renderer::World& world, const renderer::Sampling&
                          const renderer::Effects& effects = {},
                          const renderer::Products& wanted = {.layers = true,
                                                              .cscope_layers = true}) {
-  return renderer::FrameRenderer(world, sampling, wanted, effects)
-      .render(tests::level_pose(kHeight_m));
+  return renderer::render_frame(world, sampling, wanted, effects, tests::level_pose(kHeight_m));
 }
 
 constexpr int kColumns = 8;
@@ -363,8 +362,7 @@ TEST_CASE("All of a plain is lit for a rolled antenna", "[frame_layers]") {
   renderer::FramePose pose = tests::level_pose(60.0);
   pose.q_NB = pose.q_NB * glm::angleAxis(core::radians(30.0), glm::dvec3(1.0, 0.0, 0.0));
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, renderer::sampling_for(4.0), {.layers = true}, {})
-          .render(pose);
+      renderer::render_frame(world, renderer::sampling_for(4.0), {.layers = true}, {}, pose);
   int lit = 0, dark = 0;
   // Nearer, some columns look below their elevation pattern.
   for (std::size_t i = 160U * 60U; i < frame.bscope_W.size(); ++i) {

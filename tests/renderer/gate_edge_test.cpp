@@ -47,7 +47,7 @@ void check_gate_rows(const renderer::Sampling& sampling, double tolerance) {
   // The near edge falls at other shares of its row each time.
   for (const double height_m : {15.0, 17.3, 18.9, 21.1, 24.7, 28.2}) {
     const renderer::Frame frame =
-        renderer::FrameRenderer(world, sampling, {}, {}).render(tests::level_pose(height_m));
+        renderer::render_frame(world, sampling, {}, {}, tests::level_pose(height_m));
     for (const double edge_m : {sensor.range.minimum_m, sensor.range.maximum_m()}) {
       const int row =
           static_cast<int>((display.cscope_top_rad + std::asin(height_m / edge_m)) * rows_per_rad);

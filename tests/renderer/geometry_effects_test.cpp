@@ -19,8 +19,8 @@ terrain::HeightField plane() {
 // Middle column's power per cell.
 std::vector<double> middle_column(const renderer::World& world, double rays_per_cell = 64.0) {
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, renderer::sampling_for(rays_per_cell), {true, false}, {})
-          .render(tests::level_pose(kHeight_m));
+      renderer::render_frame(world, renderer::sampling_for(rays_per_cell), {true, false}, {},
+                             tests::level_pose(kHeight_m));
   std::vector<double> power_W;
   for (int k = 0; k < world.sensor.range.cells; ++k)
     power_W.push_back(frame.bscope_W[static_cast<std::size_t>(k * world.sensor.scan.columns +
@@ -91,12 +91,10 @@ TEST_CASE("A rolled, pitched and unstabilised antenna sees the same ground", "[g
     renderer::FramePose pose = tests::level_pose(kHeight_m);
     pose.q_NB = core::quaternion_from({core::radians(10.0), core::radians(-5.0), 0.0});
     const renderer::Frame coarse =
-        renderer::FrameRenderer(world, renderer::sampling_for(16.0), {true, false}, {})
-            .render(pose);
+        renderer::render_frame(world, renderer::sampling_for(16.0), {true, false}, {}, pose);
     renderer::Sampling fine = renderer::sampling_for(400.0);
     fine.largest_step_rad = 2e-4;
-    const renderer::Frame dense =
-        renderer::FrameRenderer(world, fine, {true, false}, {}).render(pose);
+    const renderer::Frame dense = renderer::render_frame(world, fine, {true, false}, {}, pose);
     double worst_dB = 0.0;
     for (std::size_t i = 0; i < coarse.bscope_W.size(); ++i) {
       // Below the noise lie the cells that the pattern's cut runs through: nothing of them shows.
@@ -111,8 +109,8 @@ TEST_CASE("A rolled, pitched and unstabilised antenna sees the same ground", "[g
 
 TEST_CASE("The C-scope leaves no empty row inside lit ground", "[geometry]") {
   const renderer::World world = tests::world(tests::hivision(8), plane(), {kGrass});
-  const renderer::Frame frame = renderer::FrameRenderer(world, renderer::sampling_for(2.0), {}, {})
-                                    .render(tests::level_pose(kHeight_m));
+  const renderer::Frame frame = renderer::render_frame(world, renderer::sampling_for(2.0), {}, {},
+                                                       tests::level_pose(kHeight_m));
   const sensors::Display& display = world.sensor.display;
   // Ground between the last and the first range cell: depression asin(h / R).
   for (int row = 0; row < display.cscope_rows; ++row) {

@@ -69,7 +69,7 @@ double height_for_m(double distance_m, double sensor_m, double longer_m) {
 // Received power of one frame over the whole picture.
 double frame_W(const renderer::World& world, const renderer::Effects& effects) {
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, {}, {}, effects).render(tests::level_pose(60.0));
+      renderer::render_frame(world, {}, {}, effects, tests::level_pose(60.0));
   double sum = 0.0;
   for (const double value : frame.bscope_W) sum += value;
   return sum;

@@ -3,6 +3,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/random.h"
+#include "renderer/frame_renderer.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {
@@ -19,8 +20,8 @@ TEST_CASE("T13 a sensor in or on the ground sees noise alone and is flagged", "[
                    tests::ground(4000.0, 100.0, [](double, double) { return 0.0; }), {kGrass});
   const renderer::FrameRenderer frames(world, {}, {}, {.thermal_noise = true});
   const renderer::World nothing = tests::world(tests::hivision(8), std::nullopt, {kGrass});
-  const renderer::Frame noise = renderer::FrameRenderer(nothing, {}, {}, {.thermal_noise = true})
-                                    .render(tests::level_pose(60.0));
+  const renderer::Frame noise =
+      renderer::render_frame(nothing, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0));
   CHECK(frames.render(tests::level_pose(1e-3)).events.empty());
   for (const double height_m : {-1.0, 0.0, -0.0, -1e-300}) {
     const renderer::Frame frame = frames.render(tests::level_pose(height_m));

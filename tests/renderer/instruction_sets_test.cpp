@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "renderer/frame_renderer.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {

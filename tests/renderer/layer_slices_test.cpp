@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "core/units.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/bounce_fan.h"
 #include "sensors/cells.h"
@@ -19,9 +19,9 @@ using namespace fanbeam;
 
 renderer::LayerSet truth_of(const renderer::World& world, double height_m, bool of_cscope) {
   const renderer::FrameLayers layers =
-      *renderer::FrameRenderer(world, renderer::sampling_for(1.0),
-                               {.layers = true, .cscope_layers = true}, {})
-           .render(tests::level_pose(height_m))
+      *renderer::render_frame(world, renderer::sampling_for(1.0),
+                              {.layers = true, .cscope_layers = true}, {},
+                              tests::level_pose(height_m))
            .layers;
   return of_cscope ? layers.cscope : layers.bscope;
 }

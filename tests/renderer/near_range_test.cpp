@@ -80,8 +80,8 @@ terrain::PlacedMesh sheet(const glm::dvec3& centre_m, bool up) {
 renderer::Frame frame_of(const sensors::Sensor& sensor, std::vector<tests::Body> bodies,
                          const renderer::Sampling& sampling, double height_m) {
   const renderer::World world = tests::world(sensor, std::nullopt, {kGrass}, std::move(bodies));
-  return renderer::FrameRenderer(world, sampling, {}, {.thermal_noise = true})
-      .render(tests::level_pose(height_m));
+  return renderer::render_frame(world, sampling, {}, {.thermal_noise = true},
+                                tests::level_pose(height_m));
 }
 
 constexpr double kHeight_m = 60.0;
@@ -149,7 +149,7 @@ TEST_CASE("R02: a point target in the blind range has no echo", "[near_range]") 
     world.targets = {
         {"post", materials::ConstantRcs{1.0}, {{0.0, {0.0, range_m, kHeight_m}}}, glm::dmat3(1.0)}};
     const renderer::Frame frame =
-        renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(kHeight_m));
+        renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(kHeight_m));
     double sum_W = 0.0;
     for (const double power_W : frame.bscope_W) sum_W += power_W;
     return sum_W;

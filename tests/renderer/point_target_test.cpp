@@ -72,7 +72,7 @@ TEST_CASE("A trihedral at a known position has the right row, column and watts f
     // Roll and pitch must not matter: the scan is stabilised.
     pose.q_NB =
         core::quaternion_from({core::radians(2.0 * i - 9.0), core::radians(3.0), heading_rad});
-    const renderer::Frame picture = renderer::FrameRenderer(world, {}, {}, {}).render(pose);
+    const renderer::Frame picture = renderer::render_frame(world, {}, {}, {}, pose);
 
     double total_W = 0.0, peak_W = 0.0;
     int row = -1, column = -1;
@@ -125,7 +125,7 @@ TEST_CASE("R01 a point target falls with R^-4: -12.0412 dB per doubling", "[targ
                       {{0.0, {0.0, range_m * std::cos(e), 100.0 + range_m * std::sin(e)}}},
                       glm::dmat3(1.0)}};
     const renderer::Frame frame =
-        renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(100.0));
+        renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(100.0));
     double sum = 0.0;
     for (const double value : frame.bscope_W) sum += value;
     return sum;

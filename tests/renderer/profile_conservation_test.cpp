@@ -177,9 +177,8 @@ TEST_CASE("C-scope rows hold the range cells' power times R^3", "[profile]") {
   for (const double relief_m : {0.0, 2.0, 20.0, 60.0})
     for (const bool with_town : {false, true}) {
       const renderer::World world = scene(sensor, relief_m, with_town);
-      const renderer::Frame frame =
-          renderer::FrameRenderer(world, renderer::profile_sampling_for(8.0), {}, {})
-              .render(tests::level_pose(kHeight_m));
+      const renderer::Frame frame = renderer::render_frame(
+          world, renderer::profile_sampling_for(8.0), {}, {}, tests::level_pose(kHeight_m));
       for (std::size_t column = 0; column < 4; ++column) {
         double low = 0.0, middle = 0.0, high = 0.0, rows = 0.0;
         for (std::size_t k = 0; k < frame.bscope_W.size() / 4; ++k) {

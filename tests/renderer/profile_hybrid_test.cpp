@@ -4,6 +4,7 @@
 
 #include "core/parallel.h"
 #include "renderer/casting/ray_caster.h"
+#include "renderer/frame_renderer.h"
 #include "tests/renderer/converged_rays.h"
 
 namespace {

@@ -129,8 +129,8 @@ TEST_CASE("A frame over level ground is the cell's integral times the azimuth be
   const double beam_rad = sensors::two_way_width(sensor.antenna.azimuth);
   for (const double slices : {1.0, 16.0}) {
     const renderer::Frame frame =
-        renderer::FrameRenderer(world, renderer::profile_sampling_for(slices), {true, false}, {})
-            .render(tests::level_pose(kHeight_m));
+        renderer::render_frame(world, renderer::profile_sampling_for(slices), {true, false}, {},
+                               tests::level_pose(kHeight_m));
     for (std::size_t i = 0; i < frame.bscope_W.size(); ++i)
       REQUIRE(frame.bscope_W[i] == Approx(per_rad[i / 6] * beam_rad).epsilon(1e-9));
   }
@@ -147,8 +147,8 @@ TEST_CASE("HiVision over Phong ground follows the closed form within 0.01 dB at 
           tests::closed_form(sensor, plane_under(sensor, {}, 0.0, nrcs));
       const renderer::World world = plane(sensor, spacing_m, {}, nrcs);
       const renderer::Frame frame =
-          renderer::FrameRenderer(world, renderer::profile_sampling_for(4.0), {true, false}, {})
-              .render(tests::level_pose(kHeight_m));
+          renderer::render_frame(world, renderer::profile_sampling_for(4.0), {true, false}, {},
+                                 tests::level_pose(kHeight_m));
       double largest_dB = 0.0;
       std::size_t worst_cell = 0;
       for (std::size_t i = 0; i < frame.bscope_W.size(); ++i) {

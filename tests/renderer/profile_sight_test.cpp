@@ -278,7 +278,7 @@ TEST_CASE("A frame of slices shows the targets that a frame of rays shows", "[pr
         {"light", materials::ConstantRcs{1.0}, {{0.0, light.at_m}}, glm::dmat3(1.0)});
   const renderer::FramePose pose = tests::level_pose(kHeight_m);
   const auto render = [&](const renderer::Sampling& sampling) {
-    return renderer::FrameRenderer(world, sampling, {}, {}).render(pose);
+    return renderer::render_frame(world, sampling, {}, {}, pose);
   };
   const renderer::Frame rays = render({});
   const renderer::Frame slices =

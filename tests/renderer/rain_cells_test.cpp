@@ -34,8 +34,7 @@ atmosphere::Weather shower(double rate_mm_per_h) {
 }
 
 renderer::Frame frame_of(const renderer::World& world) {
-  return renderer::FrameRenderer(world, renderer::Sampling{}, {}, {})
-      .render(tests::level_pose(150.0));
+  return renderer::render_frame(world, renderer::Sampling{}, {}, {}, tests::level_pose(150.0));
 }
 
 }  // namespace

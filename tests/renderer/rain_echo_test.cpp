@@ -39,8 +39,8 @@ renderer::World rainy_world(const sensors::Sensor& sensor, bool with_ground,
 
 renderer::Frame render(const renderer::World& world, bool echo = true,
                        renderer::Products products = {true, false}) {
-  return renderer::FrameRenderer(world, renderer::sampling_for(2.0), products, {.rain_echo = echo})
-      .render(tests::level_pose(kHeight_m));
+  return renderer::render_frame(world, renderer::sampling_for(2.0), products, {.rain_echo = echo},
+                                tests::level_pose(kHeight_m));
 }
 
 double two_way_gain_above(const sensors::Sensor& sensor, double lowest_rad) {
@@ -178,9 +178,9 @@ TEST_CASE("The side of a building cuts the rain behind it where it stands", "[ra
   const renderer::World open = rainy_world(sensor, false, rain(10.0));
   const int cell = sensors::range_row(sensor.range, 2000.0);
   const auto row_of = [&](const renderer::World& world, double samples) {
-    const renderer::Frame frame = renderer::FrameRenderer(world, renderer::sampling_for(samples),
-                                                          {true, false}, {.rain_echo = true})
-                                      .render(tests::level_pose(kHeight_m));
+    const renderer::Frame frame =
+        renderer::render_frame(world, renderer::sampling_for(samples), {true, false},
+                               {.rain_echo = true}, tests::level_pose(kHeight_m));
     return std::vector<double>(frame.bscope_W.begin() + cell * 8,
                                frame.bscope_W.begin() + cell * 8 + 8);
   };

@@ -123,7 +123,7 @@ TEST_CASE("a point target's measured response has the window's side lobe and wid
     renderer::Effects effects;
     effects.range_response = true;
     const renderer::Frame frame =
-        renderer::FrameRenderer(world, {}, {true, false}, effects).render(tests::level_pose(100.0));
+        renderer::render_frame(world, {}, {true, false}, effects, tests::level_pose(100.0));
     const auto power = [&](int k) { return frame.bscope_W[static_cast<std::size_t>(k * 8 + 4)]; };
     int peak = 0;
     for (int k = 0; k < 1200; ++k)
@@ -232,8 +232,7 @@ TEST_CASE("without a window the effect switched on changes no byte, nor do more 
         sensor, tests::ground(4000.0, 250.0, [](double, double) { return 0.0; }), {grass});
     renderer::Effects effects;
     effects.range_response = on;
-    return renderer::FrameRenderer(world, {}, {true, true}, effects)
-        .render(tests::level_pose(60.0));
+    return renderer::render_frame(world, {}, {true, true}, effects, tests::level_pose(60.0));
   };
   const renderer::Frame off = render(Window::none, false, 0);
   const renderer::Frame on = render(Window::none, true, 0);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/parallel.h"
+#include "renderer/frame_renderer.h"
 #include "renderer/plan/plan.h"
 #include "sensors/receiver/receiver_figures.h"
 #include "tests/renderer/test_worlds.h"
@@ -29,8 +30,8 @@ renderer::Frame rendered(const renderer::World& world, const renderer::Effects& 
                          std::uint64_t frame_index = 0) {
   renderer::FramePose pose = tests::level_pose(60.0);
   pose.frame_index = frame_index;
-  return renderer::FrameRenderer(world, renderer::sampling_for(2.0), {true, true, true}, effects)
-      .render(pose);
+  return renderer::render_frame(world, renderer::sampling_for(2.0), {true, true, true}, effects,
+                                pose);
 }
 
 bool same(const renderer::Frame& a, const renderer::Frame& b) {

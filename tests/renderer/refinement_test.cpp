@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "renderer/accuracy/grey_error.h"
+#include "renderer/frame_renderer.h"
 #include "renderer/plan/caster_choice.h"
 #include "tests/renderer/city_world.h"
 
@@ -88,7 +89,7 @@ TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
     const renderer::FramePose pose = pose_of(number);
     const renderer::Effects effects{.thermal_noise = number % 2 == 1};
     const auto render = [&](const renderer::Sampling& sampling) {
-      return renderer::FrameRenderer(world, sampling, {}, effects).render(pose);
+      return renderer::render_frame(world, sampling, {}, effects, pose);
     };
     const auto reference_of = [&](const renderer::Sampling& sampling) {
       const renderer::Frame converged = render(sampling);

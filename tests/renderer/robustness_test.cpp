@@ -10,6 +10,7 @@
 #include "core/units.h"
 #include "renderer/casting/fan_layout.h"
 #include "renderer/casting/ray_caster.h"
+#include "renderer/frame_renderer.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {
@@ -94,8 +95,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
   const sensors::Sensor sensor = tests::hivision(8);
   SECTION("no geometry at all") {
     const renderer::World world = tests::world(sensor, std::nullopt, {kGrass});
-    const renderer::Frame frame = renderer::FrameRenderer(world, {}, {}, {.thermal_noise = true})
-                                      .render(tests::level_pose(60.0));
+    const renderer::Frame frame =
+        renderer::render_frame(world, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events == std::vector<std::string>{"empty_view"});
     for (const double power_W : frame.bscope_W) CHECK(power_W == 0.0);
@@ -109,8 +110,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     one.mesh.material_names = {"wall"};
     one.material_of_name = {0};
     const renderer::World world = tests::world(sensor, std::nullopt, {kGrass}, {one});
-    const renderer::Frame frame = renderer::FrameRenderer(world, {}, {}, {.thermal_noise = true})
-                                      .render(tests::level_pose(60.0));
+    const renderer::Frame frame =
+        renderer::render_frame(world, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events.empty());
     // All of the triangle's power lies in the one or two cells of a wall at 1000 m.
@@ -131,8 +132,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     const renderer::World world =
         tests::world(sensor, std::nullopt, {kGrass},
                      {tests::box({-50.0, -900.0, 0.0}, {50.0, -800.0, 50.0}, 0)});
-    const renderer::Frame frame = renderer::FrameRenderer(world, {}, {}, {.thermal_noise = true})
-                                      .render(tests::level_pose(60.0));
+    const renderer::Frame frame =
+        renderer::render_frame(world, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0));
     check_finite(frame);
     CHECK(frame.events == std::vector<std::string>{"empty_view"});
   }
@@ -141,8 +142,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
     tiny.range.cells = 1;
     tiny.display.cscope_rows = 1;
     const renderer::World world = tests::world(tiny, rolling_ground(), {kGrass});
-    check_finite(renderer::FrameRenderer(world, {}, {}, {.thermal_noise = true})
-                     .render(tests::level_pose(60.0)));
+    check_finite(
+        renderer::render_frame(world, {}, {}, {.thermal_noise = true}, tests::level_pose(60.0)));
   }
 }
 
@@ -151,10 +152,10 @@ TEST_CASE("M02 a perfectly dark surface equals the noise-only picture exactly", 
   const renderer::World dark = tests::world(sensor, rolling_ground(), {kDark});
   const renderer::World nothing = tests::world(sensor, std::nullopt, {kDark});
   for (const bool noise : {true, false}) {
-    const renderer::Frame a = renderer::FrameRenderer(dark, {}, {}, {.thermal_noise = noise})
-                                  .render(tests::level_pose(80.0));
-    const renderer::Frame b = renderer::FrameRenderer(nothing, {}, {}, {.thermal_noise = noise})
-                                  .render(tests::level_pose(80.0));
+    const renderer::Frame a =
+        renderer::render_frame(dark, {}, {}, {.thermal_noise = noise}, tests::level_pose(80.0));
+    const renderer::Frame b =
+        renderer::render_frame(nothing, {}, {}, {.thermal_noise = noise}, tests::level_pose(80.0));
     CHECK(same_bytes(a.bscope_grey, b.bscope_grey));
     CHECK(same_bytes(a.cscope_grey, b.cscope_grey));
     if (!noise)
@@ -261,7 +262,7 @@ TEST_CASE("R14 what stands on the ground is visible, what stands behind a wall i
   add("light behind the wall", 0.0, 1050.0, 0.3);
   add("light beside the wall", 60.0, 1050.0, 0.3);
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(60.0));
+      renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(60.0));
   const sensors::Sensor& sensor = world.sensor;
   const auto power_W = [&](double x, double y) {
     const double range_m = std::sqrt(x * x + y * y + 59.7 * 59.7);

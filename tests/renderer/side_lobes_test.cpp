@@ -44,7 +44,7 @@ renderer::World flat_world(const sensors::Sensor& sensor) {
 
 renderer::Frame frame_of(const sensors::Sensor& sensor) {
   const renderer::World world = flat_world(sensor);
-  return renderer::FrameRenderer(world, {}, {true, true}, {}).render(tests::level_pose(60.0));
+  return renderer::render_frame(world, {}, {true, true}, {}, tests::level_pose(60.0));
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ TEST_CASE("a target shows in every column at twice the level in dB", "[side_lobe
                     {{0.0, {1.0, 1000.0 * std::cos(e), 100.0 + 1000.0 * std::sin(e)}}},
                     glm::dmat3(1.0)}};
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, {}, {true, false}, {}).render(tests::level_pose(100.0));
+      renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(100.0));
   const std::size_t row = 119;  // 993.7 to 1000.4 m
   const double peak_W = sensor.radar_constant_W_m2() / 1e12;
   for (const std::size_t column : {0U, 8U, 39U})
@@ -113,8 +113,7 @@ TEST_CASE("elevation side lobes light the ground that the beam leaves dark", "[s
   sensors::Sensor sensor = tests::hivision(4);
   const auto nearest = [](const sensors::Sensor& used) {
     const renderer::World world = flat_world(used);
-    return renderer::FrameRenderer(world, {}, {true, false}, {})
-        .render(tests::level_pose(300.0))
+    return renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(300.0))
         .bscope_W[30 * 4 + 1];  // 400 m
   };
   CHECK(nearest(sensor) == 0.0);

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "sensors/sensor_file.h"
 #include "terrain/buildings/solid_prisms.h"
 

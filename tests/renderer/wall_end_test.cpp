@@ -32,7 +32,7 @@ renderer::World oblique_wall(double deep_m) {
 // Of the cell that the wall's end reaches into, in all columns.
 double end_W(const renderer::World& world, const renderer::Sampling& sampling) {
   const renderer::Frame frame =
-      renderer::FrameRenderer(world, sampling, {}, {}).render(tests::level_pose(kHeight_m));
+      renderer::render_frame(world, sampling, {}, {}, tests::level_pose(kHeight_m));
   double sum_W = 0.0;
   for (int column = 0; column < world.sensor.scan.columns; ++column)
     sum_W += frame.bscope_W[static_cast<std::size_t>(50 * world.sensor.scan.columns + column)];

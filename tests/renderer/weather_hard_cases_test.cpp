@@ -25,8 +25,8 @@ renderer::World grass(const sensors::Sensor& sensor, double half_extent_m) {
 
 renderer::Frame frame_of(const renderer::World& world, double height_m,
                          const renderer::Effects& effects) {
-  return renderer::FrameRenderer(world, renderer::sampling_for(2.0), {}, effects)
-      .render(tests::level_pose(height_m));
+  return renderer::render_frame(world, renderer::sampling_for(2.0), {}, effects,
+                                tests::level_pose(height_m));
 }
 
 bool same(const renderer::Frame& a, const renderer::Frame& b) {

@@ -11,7 +11,7 @@ namespace {
 
 renderer::Frame frame_of(const renderer::World& world, const renderer::FramePose& pose,
                          const renderer::Effects& effects) {
-  return renderer::FrameRenderer(world, coarse_sampling(), {}, effects).render(pose);
+  return renderer::render_frame(world, coarse_sampling(), {}, effects, pose);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include "core/errors.h"
 #include "core/units.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "scenes/scene.h"
 #include "scenes/scene_reader.h"
@@ -94,9 +94,9 @@ struct Shown {
 inline Shown shown(const EffectScene& scene, const std::string& effects,
                    double accuracy_grey = 0.5) {
   const auto scene_built = built(scene, effects, accuracy_grey);
-  const renderer::FrameRenderer frames(scene_built->world, coarse_sampling(), {},
-                                       renderer::effects_of(scene_built->plan, 7));
-  return {frames.render(scene_built->frame_pose(scene_built->frame_count() / 2)),
+  return {renderer::render_frame(scene_built->world, coarse_sampling(), {},
+                                 renderer::effects_of(scene_built->plan, 7),
+                                 scene_built->frame_pose(scene_built->frame_count() / 2)),
           scene_built->plan};
 }
 

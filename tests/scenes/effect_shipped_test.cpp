@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <set>
 
+#include "renderer/frame_renderer.h"
 #include "renderer/plan/plan.h"
 #include "sensors/display/display.h"
 #include "tests/scenes/effect_scene.h"

@@ -35,8 +35,8 @@ double change_of(const scenes::Scene& scene, int frame) {
   renderer::PlannedFrames renderers(scene.world, few_rays(), 1);
   const renderer::FramePose pose = scene.frame_pose(frame);
   return largest_difference_grey(
-      renderers.for_plan(scene.plan, {true, true}).render(pose),
-      renderers.for_plan(scenes::frame_plan(scene, frame), {true, true}).render(pose));
+      renderers.render(scene.plan, {true, true}, pose),
+      renderers.render(scenes::frame_plan(scene, frame), {true, true}, pose));
 }
 
 const core::EffectDecision& decision(const core::EffectPlan& plan, core::EffectId effect) {
@@ -135,8 +135,8 @@ TEST_CASE("No switch from frame to frame is seen", "[scenes][frame_plan]") {
       for (core::EffectDecision& each : without.decisions)
         if (each.effect == stage) each.on = false;
       const renderer::FramePose pose = scene->frame_pose(kAllInView);
-      CHECK(largest_difference_grey(renderers.for_plan(scene->plan, {true, true}).render(pose),
-                                    renderers.for_plan(without, {true, true}).render(pose)) > 0.0);
+      CHECK(largest_difference_grey(renderers.render(scene->plan, {true, true}, pose),
+                                    renderers.render(without, {true, true}, pose)) > 0.0);
     }
   }
 }

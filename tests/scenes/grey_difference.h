@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 
 namespace fanbeam::tests {
 

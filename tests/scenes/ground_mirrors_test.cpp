@@ -6,7 +6,7 @@
 
 #include "core/effect_plan.h"
 #include "core/files.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "renderer/plan/effects.h"
 #include "sensors/cells.h"
 #include "sensors/sensor_file.h"
@@ -28,9 +28,8 @@ half_extent_m = 4000.0
 }
 
 renderer::Frame shown(const scenes::Scene& scene, renderer::CasterKind caster, double samples) {
-  return renderer::FrameRenderer(scene.world, renderer::sampling_for(caster, samples), {true, true},
-                                 renderer::effects_of(scene.plan, 1))
-      .render(scene.frame_pose(0));
+  return renderer::render_frame(scene.world, renderer::sampling_for(caster, samples), {true, true},
+                                renderer::effects_of(scene.plan, 1), scene.frame_pose(0));
 }
 
 double rms(const std::vector<double>& a, const std::vector<double>& b) {

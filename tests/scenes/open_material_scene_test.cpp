@@ -63,8 +63,7 @@ void write_model(const TemporaryFolder& folder) {
 
 double sum_W(const scenes::Scene& scene) {
   const renderer::Frame frame =
-      renderer::FrameRenderer(scene.world, renderer::sampling_for(4.0), {}, {})
-          .render(scene.frame_pose(0));
+      renderer::render_frame(scene.world, renderer::sampling_for(4.0), {}, {}, scene.frame_pose(0));
   double sum_W = 0.0;
   for (const double power_W : frame.bscope_W) sum_W += power_W;
   return sum_W;

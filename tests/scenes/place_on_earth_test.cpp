@@ -85,10 +85,9 @@ struct Seen {
 
 Seen seen(const TemporaryFolder& folder, const std::string& text, CasterKind kind) {
   Seen result{tests::good_scene(folder, text), {}};
-  result.frame = renderer::FrameRenderer(result.scene->world, renderer::default_sampling(kind),
-                                         {.bscope = true, .cscope = false},
-                                         renderer::effects_of(result.scene->plan, 1))
-                     .render(result.scene->frame_pose(0));
+  result.frame = renderer::render_frame(
+      result.scene->world, renderer::default_sampling(kind), {.bscope = true, .cscope = false},
+      renderer::effects_of(result.scene->plan, 1), result.scene->frame_pose(0));
   return result;
 }
 

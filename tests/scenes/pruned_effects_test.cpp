@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/files.h"
-#include "renderer/frame_renderer.h"
 #include "core/effect_plan.h"
+#include "core/files.h"
+#include "renderer/frame.h"
 #include "tests/scenes/grey_difference.h"
 #include "tests/scenes/scene_folder.h"
 
@@ -105,9 +105,9 @@ Shown shown(const TemporaryFolder& folder, const std::string& effects) {
   const auto scene = scenes::build_scene(description, options, problems);
   renderer::Sampling sampling;
   sampling.sub_columns = 1;
-  const renderer::FrameRenderer frames(scene->world, sampling, {true, true},
-                                       renderer::effects_of(scene->plan, 1));
-  return {frames.render(scene->frame_pose(0)), scene->plan};
+  return {renderer::render_frame(scene->world, sampling, {true, true},
+                                 renderer::effects_of(scene->plan, 1), scene->frame_pose(0)),
+          scene->plan};
 }
 
 double bound_of(const core::EffectPlan& plan, core::EffectId effect) {

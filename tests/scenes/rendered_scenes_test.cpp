@@ -27,9 +27,8 @@ std::unique_ptr<scenes::Scene> load(const std::string& name,
 }
 
 renderer::Frame render(const scenes::Scene& scene, int frame, double rays_per_cell = 16.0) {
-  return renderer::FrameRenderer(scene.world, renderer::sampling_for(rays_per_cell), {},
-                                 renderer::effects_of(scene.plan, 1))
-      .render(scene.frame_pose(frame));
+  return renderer::render_frame(scene.world, renderer::sampling_for(rays_per_cell), {},
+                                renderer::effects_of(scene.plan, 1), scene.frame_pose(frame));
 }
 
 // B-scope grey at a place given in landing coordinates, over 3 x 1 cells: the mean for surfaces,

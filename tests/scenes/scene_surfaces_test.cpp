@@ -8,7 +8,7 @@
 #include "core/constants.h"
 #include "core/files.h"
 #include "core/units.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "tests/scenes/scene_folder.h"
 
 namespace fanbeam::tests {
@@ -59,9 +59,8 @@ renderer::Frame frame_of(const Scene& scene) {
   renderer::Sampling sampling;
   sampling.sub_columns = 1;
   sampling.rays_per_cell = 1.0;
-  const renderer::FrameRenderer frames(scene.world, sampling, {true, false},
-                                       renderer::effects_of(scene.plan, 1));
-  return frames.render(scene.frame_pose(0));
+  return renderer::render_frame(scene.world, sampling, {true, false},
+                                renderer::effects_of(scene.plan, 1), scene.frame_pose(0));
 }
 
 double level_dB(const Scene& scene, const std::string& material, double grazing_deg) {

@@ -40,9 +40,9 @@ double largest_change_grey(const scenes::Scene& one, const scenes::Scene& other)
   double largest = 0.0;
   for (int frame = 0; frame < one.frame_count(); frame += 60)
     largest = std::max(
-        largest, largest_difference_grey(
-                     frames.for_plan(one.plan, {true, true}).render(one.frame_pose(frame)),
-                     others.for_plan(other.plan, {true, true}).render(other.frame_pose(frame))));
+        largest,
+        largest_difference_grey(frames.render(one.plan, {true, true}, one.frame_pose(frame)),
+                                others.render(other.plan, {true, true}, other.frame_pose(frame))));
   return largest;
 }
 

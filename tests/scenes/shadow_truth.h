@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/units.h"
+#include "renderer/frame_renderer.h"
 #include "scenes/scene.h"
 #include "scenes/scene_reader.h"
 #include "sensors/cells.h"

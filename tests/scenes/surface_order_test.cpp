@@ -25,9 +25,9 @@ std::map<int, double> grey_of(const materials::MaterialLibrary& library, const s
   const renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 20.0, [](double, double) { return 0.0; }),
                    {curves[*library.index_of(name)]});
-  const renderer::Frame frame = renderer::FrameRenderer(world, renderer::sampling_for(4.0),
-                                                        {true, false}, {.thermal_noise = noise})
-                                    .render(tests::level_pose(kHeight_m));
+  const renderer::Frame frame =
+      renderer::render_frame(world, renderer::sampling_for(4.0), {true, false},
+                             {.thermal_noise = noise}, tests::level_pose(kHeight_m));
   std::map<int, double> grey;
   for (int row = 0; row < sensor.range.cells; ++row) {
     const double grazing_deg =

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "renderer/frame_renderer.h"
 #include "tests/scenes/scene_folder.h"
 
 namespace fanbeam::tests {

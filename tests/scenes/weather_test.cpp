@@ -117,8 +117,8 @@ TEST_CASE("Snow costs what its bound allows, and nothing when there is none", "[
     scenes::BuildOptions options;
     options.wishes = renderer::parse_effect_wishes(effects);
     const auto scene = scenes::build_scene(description, options, problems);
-    const renderer::FrameRenderer frames(scene->world, renderer::Sampling{}, {}, {});
-    return std::pair(frames.render(scene->frame_pose(0)), decision(*scene, core::EffectId::snow));
+    return std::pair(renderer::render_frame(scene->world, {}, {}, {}, scene->frame_pose(0)),
+                     decision(*scene, core::EffectId::snow));
   };
   const auto [without, none] = frame_of("", "-snow");
   CHECK(frame_of("snow_rate_mm_per_h = 0.0\n", "+snow").first.bscope_W == without.bscope_W);

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "renderer/accuracy/grey_error.h"
-#include "renderer/frame_renderer.h"
+#include "renderer/frame.h"
 #include "tests/scenes/scene_folder.h"
 #include "tests/shared_data.h"
 
@@ -24,9 +24,9 @@ std::unique_ptr<scenes::Scene> shipped(const std::string& name, const std::vecto
 
 renderer::FramePower power_of(const scenes::Scene& scene, int frame,
                               const renderer::Sampling& sampling) {
-  renderer::Frame rendered = renderer::FrameRenderer(scene.world, sampling, {true, true},
-                                                     renderer::effects_of(scene.plan, 0))
-                                 .render(scene.frame_pose(frame));
+  renderer::Frame rendered =
+      renderer::render_frame(scene.world, sampling, {true, true},
+                             renderer::effects_of(scene.plan, 0), scene.frame_pose(frame));
   return {std::move(rendered.bscope_W), std::move(rendered.cscope_W_m3)};
 }
 

@@ -71,9 +71,9 @@ TEST_CASE("A session's frames are those of the scene built for them", "[session]
   const TemporaryFolder folder;
   const auto session = opened_text(folder, tests::kSmallScene + kMast);
   const auto scene = tests::good_scene(folder, tests::kSmallScene + kMast);
-  const renderer::FrameRenderer frames(scene->world, session->sampling(), {},
-                                       renderer::effects_of(scene->plan, 0));
-  CHECK(same(rendered(*session), frames.render(scene->frame_pose(40))));
+  CHECK(same(rendered(*session),
+             renderer::render_frame(scene->world, session->sampling(), {},
+                                    renderer::effects_of(scene->plan, 0), scene->frame_pose(40))));
 }
 
 TEST_CASE("Weather set is weather of the file, and the one before comes back", "[session]") {
