@@ -6,6 +6,7 @@
 
 #include "atmosphere/fog/fog_water.h"
 #include "renderer/plan/largest_echo.h"
+#include "sensors/receiver/point_response.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -122,9 +123,13 @@ std::string side_lobe_cause(const SceneFacts& facts, double bound_dB) {
 }
 
 std::string range_response_cause(const SceneFacts& facts, double bound_dB) {
+  const sensors::PointResponse ahead(facts.sensor, facts.sensor.scan.columns / 2);
+  const std::string width = printed("%.3g m", ahead.half_power_width_m()) + " (half power)";
   if (bound_dB >= window_dB(facts.sensor))
-    return "the sweep spreads a bright echo along range through " + window_text(facts);
-  return "the sweep spreads echoes along range and changes pixels by up to " + dB_text(bound_dB);
+    return "the sweep spreads an echo over " + width + " of range, a bright one through " +
+           window_text(facts);
+  return "the sweep spreads echoes over " + width + " of range and changes pixels by up to " +
+         dB_text(bound_dB);
 }
 
 std::string noise_cause(const SceneFacts& facts, double bound_dB) {

@@ -32,17 +32,6 @@ std::optional<double> interpolated(const std::vector<double>& from, const std::v
 
 }  // namespace
 
-std::optional<double> steered_azimuth_rad(const FrequencyScan& scan, double frequency_Hz) {
-  if (scan.law == Law::table)
-    return interpolated(scan.table_frequency_Hz, scan.table_azimuth_rad, frequency_Hz);
-  if (!(frequency_Hz >= scan.cutoff_Hz && frequency_Hz > 0.0)) return std::nullopt;
-  const double cut = scan.cutoff_Hz / frequency_Hz;
-  const double sine = scan.line_length_per_spacing * std::sqrt((1.0 - cut) * (1.0 + cut)) -
-                      order_Hz(scan) / frequency_Hz;
-  if (!(std::abs(sine) <= 1.0)) return std::nullopt;
-  return std::asin(sine);
-}
-
 // With x = 1/f, s = sin(theta), A = L/d and B = m c / d the law s + B x = A sqrt(1 - (fc x)^2) is
 // the quadratic (B^2 + A^2 fc^2) x^2 + 2 s B x + s^2 - A^2 = 0, whose positive root counts.
 std::optional<double> frequency_towards_Hz(const FrequencyScan& scan, double azimuth_rad) {

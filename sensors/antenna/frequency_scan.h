@@ -14,7 +14,7 @@
 //
 // Input: L/d 1 to 1000, cutoff below the carrier, spacing 0.1 to 100 mm, order 0 to 1000.
 // Neglected: loss along the line, the change of the guide's coupling with frequency, grating lobes.
-// Accuracy: inverse of itself within 1e-12 relative. Cost: closed form; a table one search.
+// Accuracy: 1e-12 relative. Cost: closed form; a table one search.
 #pragma once
 
 #include <optional>
@@ -23,10 +23,8 @@
 
 namespace fanbeam::sensors {
 
-// Nothing below cutoff, where |sin(theta)| > 1, or outside the table.
-std::optional<double> steered_azimuth_rad(const FrequencyScan& scan, double frequency_Hz);
-
-// The inverse. Nothing where no frequency points there.
+// The frequency whose beam points there. Nothing where there is none: |sin(theta)| out of reach, below
+// cutoff, or outside the table.
 std::optional<double> frequency_towards_Hz(const FrequencyScan& scan, double azimuth_rad);
 
 // d azimuth / d frequency where the beam points to `azimuth_rad`; 0 where it cannot point.

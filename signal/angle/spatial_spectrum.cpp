@@ -36,18 +36,6 @@ Eigen::Map<const Eigen::VectorXcd> beam_vector(const Steering& steering, int bea
 
 }  // namespace
 
-std::vector<double> fourier_spectrum(const Covariance& covariance, const Steering& steering) {
-  check_steering(covariance, steering);
-  const Matrix r = matrix_of(covariance);
-  const double scale = 1.0 / (static_cast<double>(covariance.elements) * covariance.elements);
-  std::vector<double> powers(static_cast<std::size_t>(steering.beams));
-  for (int beam = 0; beam < steering.beams; ++beam) {
-    const auto a = beam_vector(steering, beam);
-    powers[static_cast<std::size_t>(beam)] = std::max(0.0, a.dot(r * a).real() * scale);
-  }
-  return powers;
-}
-
 std::vector<double> capon_spectrum(const Covariance& covariance, const Steering& steering,
                                    double loading) {
   check_steering(covariance, steering);
@@ -86,31 +74,6 @@ std::vector<double> music_spectrum(const Covariance& covariance, const Steering&
 std::vector<double> eigenvalues(const Covariance& covariance) {
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix_of(covariance), Eigen::EigenvaluesOnly);
   return {eigen.eigenvalues().begin(), eigen.eigenvalues().end()};
-}
-
-int source_count(const Covariance& covariance, int snapshots) {
-  if (snapshots < 1) refuse("snapshots", snapshots, "1 or more");
-  const std::vector<double> values = eigenvalues(covariance);
-  const int n = covariance.elements;
-  const double largest = values.back();
-  if (!(largest > 0.0)) return 0;
-  int best = 0;
-  double least = 0.0;
-  for (int k = 0; k < n; ++k) {
-    double logs = 0.0, sum = 0.0;
-    for (int i = 0; i < n - k; ++i) {
-      const double value = std::max(values[static_cast<std::size_t>(i)], 1e-15 * largest);
-      logs += std::log(value);
-      sum += value;
-    }
-    const double log_ratio = logs - (n - k) * std::log(sum / (n - k));
-    const double length = -snapshots * log_ratio + 0.5 * k * (2.0 * n - k) * std::log(snapshots);
-    if (k == 0 || length < least) {
-      least = length;
-      best = k;
-    }
-  }
-  return best;
 }
 
 std::vector<SpectrumPeak> spectrum_peaks(const std::vector<double>& powers) {

@@ -29,6 +29,19 @@ Steering grid_for(int elements) {
                           kWavelength_m, {azimuths});
 }
 
+// Of a beam to each direction: a^H R a / N^2.
+std::vector<double> fourier_spectrum(const Covariance& covariance, const Steering& grid) {
+  std::vector<double> powers;
+  for (int beam = 0; beam < grid.beams; ++beam) {
+    std::complex<double> sum = 0.0;
+    for (int i = 0; i < grid.elements; ++i)
+      for (int j = 0; j < grid.elements; ++j)
+        sum += std::conj(grid.at(beam, i)) * covariance.at(i, j) * grid.at(beam, j);
+    powers.push_back(sum.real() / (grid.elements * grid.elements));
+  }
+  return powers;
+}
+
 double degrees_of(double beam) { return (beam - 600.0) * kGridStep_deg; }
 
 // Two waves of power `snr` over noise of 1, at +-separation / 2.
@@ -166,7 +179,7 @@ TEST_CASE("smoothing separates two sources in one snapshot at the reference rate
   CHECK(music30.rmse_deg == Approx(0.15).epsilon(0.15));
 }
 
-TEST_CASE("a lone source has its power in the Fourier and Capon spectra", "[angle]") {
+TEST_CASE("a lone source has its power in the Capon spectrum", "[angle]") {
   // Exact covariance: p a a^H + s2 I.
   const Steering grid = grid_for(8);
   Covariance covariance{8, std::vector<std::complex<double>>(64)};
@@ -174,20 +187,10 @@ TEST_CASE("a lone source has its power in the Fourier and Capon spectra", "[angl
     for (int column = 0; column < 8; ++column)
       covariance.at(row, column) =
           5.0 * grid.at(700, row) * std::conj(grid.at(700, column)) + (row == column ? 0.4 : 0.0);
-  CHECK(fourier_spectrum(covariance, grid)[700] == Approx(5.0 + 0.4 / 8.0));
   CHECK(capon_spectrum(covariance, grid)[700] == Approx(5.0 + 0.4 / 8.0));
   CHECK(spectrum_peaks(music_spectrum(covariance, grid, 1))[0].beam ==
         Approx(700.0).margin(0.01).epsilon(0.0));
-  CHECK(source_count(covariance, 100) == 1);
   CHECK(spectrum_peaks({1.0, 2.0}).empty());
-}
-
-TEST_CASE("the number of sources is told by the shortest description", "[angle]") {
-  int right = 0;
-  for (std::uint32_t trial = 0; trial < 50; ++trial)
-    if (source_count(sample_covariance(two_sources(12, 64, 8.0, 10.0, 9000 + trial)), 64) == 2)
-      ++right;
-  CHECK(right >= 48);
 }
 
 TEST_CASE("smoothing is the mean over shifted sub-arrays, forwards and backwards", "[angle]") {
@@ -215,7 +218,6 @@ TEST_CASE("covariances that cannot be made or inverted", "[angle]") {
   const Steering grid = grid_for(4);
   const Covariance zero{4, std::vector<std::complex<double>>(16)};
   for (const double power : capon_spectrum(zero, grid)) REQUIRE(power == 0.0);
-  CHECK(source_count(zero, 10) == 0);
   CHECK_THROWS_AS(music_spectrum(zero, grid, 4), core::InputError);
   CHECK_THROWS_AS(capon_spectrum(zero, grid_for(3)), core::InputError);
 }
