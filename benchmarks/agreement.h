@@ -5,9 +5,9 @@
 #include <string>
 
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/effort.h"
-#include "benchmarks/frame_clock.h"
 #include "benchmarks/off_cells.h"
+#include "benchmarks/report_effort.h"
+#include "benchmarks/view_clock.h"
 
 namespace fanbeam::benchmarks {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "benchmarks/frame_clock.h"
+#include "benchmarks/view_clock.h"
 #include "core/errors.h"
 #include "core/median.h"
 #include "core/parallel.h"

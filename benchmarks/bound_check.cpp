@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/frame_clock.h"
 #include "benchmarks/verdict.h"
+#include "benchmarks/view_clock.h"
 #include "measure/effect_cost.h"
 #include "measure/effect_prices.h"
 #include "renderer/plan/plan.h"

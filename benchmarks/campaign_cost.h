@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "benchmarks/effort.h"
+#include "benchmarks/report_effort.h"
 
 namespace fanbeam::benchmarks {
 

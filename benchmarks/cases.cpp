@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "benchmarks/frame_clock.h"
+#include "benchmarks/view_clock.h"
 #include "renderer/casting/path_loss_table.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/stages/azimuth_beam.h"

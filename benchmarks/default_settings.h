@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/effort.h"
-#include "benchmarks/frame_clock.h"
-#include "benchmarks/sequence.h"
+#include "benchmarks/report_effort.h"
+#include "benchmarks/view_clock.h"
+#include "benchmarks/written_sequence.h"
 
 namespace fanbeam::benchmarks {
 

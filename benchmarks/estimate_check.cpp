@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/frame_clock.h"
+#include "benchmarks/view_clock.h"
 #include "renderer/accuracy/refinement.h"
 
 namespace fanbeam::benchmarks {

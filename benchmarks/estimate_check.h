@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "benchmarks/effort.h"
+#include "benchmarks/report_effort.h"
 
 namespace fanbeam::benchmarks {
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <string_view>
 
+#include "benchmarks/bench_report.h"
 #include "benchmarks/cases.h"
 #include "benchmarks/estimate_check.h"
 #include "benchmarks/machine_load.h"
-#include "benchmarks/report.h"
 #include "core/errors.h"
 #include "core/files.h"
 #include "core/parallel.h"

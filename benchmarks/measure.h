@@ -9,8 +9,8 @@
 #include "benchmarks/agreement.h"
 #include "benchmarks/bare_pass.h"
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/effort.h"
-#include "benchmarks/frame_clock.h"
+#include "benchmarks/report_effort.h"
+#include "benchmarks/view_clock.h"
 #include "measure/ladder.h"
 #include "renderer/casting/sampling.h"
 

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/effort.h"
-#include "benchmarks/frame_clock.h"
+#include "benchmarks/report_effort.h"
+#include "benchmarks/view_clock.h"
 
 namespace fanbeam::benchmarks {
 

@@ -1,6 +1,6 @@
 #include <fmt/core.h>
 
-#include "benchmarks/report.h"
+#include "benchmarks/bench_report.h"
 
 namespace fanbeam::benchmarks {
 namespace {

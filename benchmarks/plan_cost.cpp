@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "benchmarks/frame_clock.h"
+#include "benchmarks/view_clock.h"
 #include "core/median.h"
 #include "renderer/frame_renderer.h"
 #include "scenes/scene_reader.h"

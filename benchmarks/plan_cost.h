@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/effort.h"
+#include "benchmarks/report_effort.h"
 
 namespace fanbeam::benchmarks {
 

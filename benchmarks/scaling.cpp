@@ -7,7 +7,7 @@
 #include <memory>
 #include <optional>
 
-#include "benchmarks/frame_clock.h"
+#include "benchmarks/view_clock.h"
 #include "core/median.h"
 
 namespace fanbeam::benchmarks {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmarks/bench_scene.h"
-#include "benchmarks/effort.h"
+#include "benchmarks/report_effort.h"
 
 namespace fanbeam::benchmarks {
 

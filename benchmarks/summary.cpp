@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-#include "benchmarks/report.h"
+#include "benchmarks/bench_report.h"
 
 namespace fanbeam::benchmarks {
 namespace {

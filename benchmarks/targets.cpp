@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "benchmarks/report.h"
+#include "benchmarks/bench_report.h"
 #include "benchmarks/verdict.h"
 
 namespace fanbeam::benchmarks {

@@ -42,6 +42,7 @@ FrameClock::FrameClock(const renderer::World& world, const renderer::FramePose& 
           std::make_unique<renderer::NaiveCaster>(world, kind,
                                                   rays_per_cell * cells_of(world.sensor), span))) {}
 
+FrameClock::FrameClock(FrameClock&&) noexcept = default;
 FrameClock::~FrameClock() = default;
 
 renderer::FramePower FrameClock::power() const { return power_of(renderer_->render(pose_)); }

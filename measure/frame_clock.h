@@ -27,6 +27,7 @@ class FrameClock {
   FrameClock(const renderer::World& world, const renderer::FramePose& pose,
              renderer::NaiveKind kind, double rays, const renderer::ElevationSpan& span,
              const renderer::Effects& effects);
+  FrameClock(FrameClock&&) noexcept;
   ~FrameClock();
 
   // All that is timed.

@@ -1,4 +1,4 @@
-#include "benchmarks/effort.h"
+#include "benchmarks/report_effort.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "benchmarks/sequence.h"
+#include "benchmarks/written_sequence.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "benchmarks/report.h"
+#include "benchmarks/bench_report.h"
 
 #include <fmt/core.h>
 #include <unistd.h>

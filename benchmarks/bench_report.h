@@ -12,7 +12,7 @@
 #include "benchmarks/measure.h"
 #include "benchmarks/plan_cost.h"
 #include "benchmarks/scaling.h"
-#include "benchmarks/sequence.h"
+#include "benchmarks/written_sequence.h"
 
 namespace fanbeam::benchmarks {
 
