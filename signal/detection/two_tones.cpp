@@ -11,7 +11,7 @@
 namespace fanbeam::signal {
 namespace {
 
-constexpr double kReach = 1.6, kStep = 0.1, kFinest = 1e-4;  // bins
+constexpr double kReach = 1.6, kStep = 0.1, kFinest = 1e-5;  // bins
 constexpr double kLeastApart = 1.0 / 3.0;
 constexpr double kLeastShare = 0.01;  // of the stronger one's power
 constexpr double kModelError = 1e-4;  // of the energy
@@ -167,6 +167,10 @@ std::optional<std::pair<Tone, Tone>> two_tones(const ToneRecords& records, doubl
   const Correlator correlator(records, near_bin, curvature_bins);
   if (!leaves_more(correlator, near_bin, noise_W)) return std::nullopt;
   Places best = best_near(correlator, {near_bin, near_bin, 0.0}, kReach, kStep);
+  // Of two whose phases oppose the peak may be beyond the stronger one.
+  const double middle = 0.5 * (best.first + best.second);
+  if (std::max(near_bin - best.first, best.second - near_bin) > kReach - kStep)
+    best = best_near(correlator, {middle, middle, 0.0}, kReach, kStep);
   for (double step = 0.25 * kStep; step > kFinest; step *= 0.25)
     best = best_near(correlator, best, 4.0 * step, step);
   const auto c = static_cast<double>(correlator.records());

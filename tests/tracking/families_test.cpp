@@ -133,6 +133,9 @@ TEST_CASE("From samples, the families keep their names", "[sampled][statistics]"
     INFO(name << ": " << words_of(score));
     CHECK(score.mota() >= 0.97);
     CHECK(score.without_switch() == runs);
+    CHECK(score.nees.mean() <= mean_interval(4, runs).high);
+    CHECK(score.nees.mean() >=
+          2.0);  // 0.5 where every measurement told 5 mm for what processing leaves
   }
 }
 

@@ -135,9 +135,12 @@ std::vector<SampledRadar::Coarse> SampledRadar::coarse_of(const signal::FloatCub
     const bool lone =
         directions.size() == 1 && is_lone_wave(snapshot, elements_m, axes_.wavelength_m,
                                                directions[0], kCoarseLeft, peak.cell.background_W);
-    for (const double azimuth_rad : directions)
+    const std::vector<double> sigmas =
+        direction_sigmas_rad(snapshot, directions, radar_.array_pitch_wavelengths,
+                             peak.cell.background_W / cube.shape.channels);
+    for (std::size_t i = 0; i < directions.size(); ++i)
       result.push_back({axes_.range_m(peak.column, axes_.doppler_Hz(peak.row)),
-                        axes_.speed_mps(peak.row), azimuth_rad, peak.cell.power_W,
+                        axes_.speed_mps(peak.row), directions[i], sigmas[i], peak.cell.power_W,
                         directions.size(), lone});
   }
   std::stable_sort(result.begin(), result.end(),
@@ -178,7 +181,8 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
   std::vector<Found> found;
   for (std::size_t i = 0; i < detections.size(); ++i) {
     Pair best;
-    for (const signal::RangeSpeed& place : places[i]) try_place(model, beats, place, best);
+    for (const signal::RangeSpeed& place : places[i])
+      try_place(model, beats, place, detections[i], best);
     if (!best.found) continue;
     add(apart(model, beats, best, detections[i]), found);
   }
@@ -186,7 +190,7 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
   for (std::size_t i = 0; i < detections.size(); ++i)
     for (const signal::RangeSpeed& place : places[i]) {
       Pair best;
-      try_place(model, left_over(beats, found), place, best);
+      try_place(model, left_over(beats, found), place, detections[i], best);
       if (best.found &&
           std::abs(beats.up[best.up].azimuth_rad - beats.down[best.down].azimuth_rad) < kAgree_rad)
         add(apart(model, beats, best, detections[i]), found);
@@ -203,12 +207,16 @@ void SampledRadar::find_directions(std::vector<Beat>& beats) const {
   for (Beat& beat : beats) {
     beat.azimuth_rad =
         signal::azimuth_peak(beat.amplitudes, elements_m, axes_.wavelength_m).azimuth_rad;
+    beat.azimuth_sigma_rad =
+        bound_at(radar_, beat.signal_to_noise / beat.amplitude_noise_ratio, beat.azimuth_rad)
+            .azimuth_sigma_rad;
     // Noise of the amplitudes of all channels.
     double all = 0.0;
     for (const auto& value : beat.amplitudes) all += std::norm(value);
     const auto channels = static_cast<double>(beat.amplitudes.size());
-    beat.lone_wave = is_lone_wave(beat.amplitudes, elements_m, axes_.wavelength_m, beat.azimuth_rad,
-                                  kFineLeft, all * channels / beat.signal_to_noise);
+    beat.lone_wave =
+        is_lone_wave(beat.amplitudes, elements_m, axes_.wavelength_m, beat.azimuth_rad, kFineLeft,
+                     beat.amplitude_noise_ratio * all * channels / beat.signal_to_noise);
   }
 }
 

@@ -3,27 +3,31 @@
 // assumptions: merging, misses, false measurements and errors are what the processing makes of the
 // samples.
 //
-// Waveform: two stages, as HighwayWaveforms has them; the default: a chirp sequence of 256 ramps of 20 us, at 20 MHz, gives range, speed and
-// azimuth by Chebyshev windows of -60 dB, an ordered-statistic detector along range (1e-7 per cell)
-// and the one or two plane waves of a cell (directions.h). A triangle of 2 ms ramps, at 500 kHz,
-// gives the beats (triangle_beats.h), each with the direction that its amplitudes over the channels have.
-// A coarse detection takes the pair of beats that fits best within four standard deviations (0.3 m,
-// 0.3 m/s; 6 mrad between directions of beats that are one plane wave each), at its own speed or at
-// one of its folds by the chirps' rate (2 vmax = 98.6 m/s); one without a pair is dropped. Where a beat is
-// one of two tones of a peak, both targets are told, each with the other ramp's beat from its direction, or
+// Waveform: two stages, as HighwayWaveforms has them; the default: a chirp sequence of 256 ramps of 20
+// us, at 20 MHz, gives range, speed and azimuth by Chebyshev windows of -60 dB, an ordered-statistic
+// detector along range (1e-7 per cell) and the one or two plane waves of a cell (directions.h). A
+// triangle of 2 ms ramps, at 500 kHz, gives the beats (triangle_beats.h), each with the direction that
+// its amplitudes over the channels have. A coarse detection takes the pair of beats that fits best
+// within four standard deviations (0.3 m, 0.3 m/s; 6 mrad between the directions of its beats and of
+// its cell, as far as each is one plane wave), at its own speed or at one of its folds by the chirps'
+// rate (2 vmax = 98.6 m/s); one without a pair is dropped. Its direction is that of its beats, where
+// they are one wave each and within 0.6 of a beam of the cell's, else its cell's. Where a beat is one
+// of two tones of a peak, both targets are told, each with the other ramp's beat from its direction, or
 // where that is not split, with the one there is and an error that says so. Beats that no detection has
 // taken make a second target within a cell.
 // Array: a line of `radar.array_elements` receivers that share the gain, so that their coherent sum
 // has the ratio of the link budget. Phases of targets are random in every frame, and their
 // cross-sections as in measurement_simulator.h, by the same draws.
 // Ranges belong to the turnaround of the triangle, which is the time of the frame.
-// The standard deviations told are the bounds of measurement_bound.h at the ratio measured, and for
-// a windowed beat those of its window.
+// The standard deviations told are the Cramer-Rao bounds at the ratio measured, of tones that share a
+// ramp where there are several (signal/detection/tone_bound.h), and for a windowed beat those of its
+// window. Errors are these from 0.7 bins (0.4 m, 0.7 m/s) between beats on. Told apart from them, where
+// taking turns ends: 2e-4 bins of a ramp (0.06 mm, 0.1 mm/s); 0.5 mrad of a cell's direction; of a beat
+// that holds two waves 0.2 bins, of one that may be the other target's what the two are apart; of a
+// direction that is of several, a beam evenly.
 // Neglected: what measurement_simulator.h neglects but the above; a target's turn within a frame.
 // Every draw is a function of seed, run, frame and sample; the same bits for any number of threads.
-// Systematic errors told: 5 mm, 5 mm/s, 0.5 mrad, for far side lobes, the bend of beats and a
-// target's turn.
-// Cost: six targets some 55 ms of processor time, a fifth of it for the receiver noise of 1.2
+// Cost: six targets some 60 ms of processor time, a fifth of it for the receiver noise of 1.2
 // million samples.
 #pragma once
 
@@ -56,7 +60,8 @@ class SampledRadar {
  private:
   // A local maximum of the coarse map.
   struct Coarse {
-    double range_m = 0.0, speed_mps = 0.0, azimuth_rad = 0.0, power_W = 0.0;
+    double range_m = 0.0, speed_mps = 0.0, azimuth_rad = 0.0, azimuth_sigma_rad = 0.0;
+    double power_W = 0.0;
     std::size_t directions = 1;  // that the cell has
     bool lone_wave = false;      // one plane wave is all that it has
   };
@@ -71,21 +76,26 @@ class SampledRadar {
   struct Found {
     std::size_t up = 0, down = 0;
     signal::RangeSpeed place;
-    double azimuth_rad = 0.0;
-    bool half_merged = false;  // one of its beats is another target's too
-    bool merged = false;       // both are those of two targets
+    double azimuth_rad = 0.0, azimuth_sigma_rad = 0.0, azimuth_systematic_rad = 0.0;
+    double merged_bins = 0.0;  // how far a beat of it may be off that is another target's too
   };
   void add(const std::vector<Found>& more, std::vector<Found>& found) const;
   static SampledBeats left_over(SampledBeats beats, const std::vector<Found>& found);
   void find_directions(std::vector<Beat>& beats) const;
   static double misfit(const signal::TriangleModel& model, const SampledBeats& beats,
-                       std::size_t up, std::size_t down, const signal::RangeSpeed& coarse);
+                       std::size_t up, std::size_t down, const signal::RangeSpeed& place,
+                       const Coarse& cell);
   static void try_place(const signal::TriangleModel& model, const SampledBeats& beats,
-                        const signal::RangeSpeed& coarse, Pair& best);
+                        const signal::RangeSpeed& place, const Coarse& cell, Pair& best);
   static bool seen_before(const std::vector<Found>& found, const Found& one, double apart);
   std::vector<signal::RangeSpeed> folded(const Coarse& one) const;
   std::vector<Found> apart(const signal::TriangleModel& model, const SampledBeats& beats,
                            const Pair& best, const Coarse& coarse) const;
+  Found as_it_is(const SampledBeats& beats, const Pair& best, const Coarse& coarse) const;
+  std::vector<Found> by_misfit(const signal::TriangleModel& model, const SampledBeats& beats,
+                               const Pair& best, const Coarse& coarse,
+                               const std::vector<std::size_t>& up,
+                               const std::vector<std::size_t>& down) const;
   RadarMeasurement measured(const SampledBeats& beats, const Found& one) const;
   double beam_sine() const;
   std::vector<Coarse> coarse_of(const signal::FloatCube& samples) const;

@@ -2,25 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include "core/constants.h"
 #include "core/parallel.h"
 #include "signal/detection/tone.h"
-#include "signal/detection/two_tones.h"
+#include "signal/detection/tone_bound.h"
 #include "signal/fourier/fft.h"
 #include "signal/fourier/window.h"
 #include "signal/fourier/window_figures.h"
+#include "tracking/simulation/ramp_tones.h"
 
 namespace fanbeam::tracking {
 namespace {
 
 constexpr std::size_t kPadding = 2;
-constexpr double kThreshold = 20.0;  // 13 dB over the mean noise of a line
-constexpr double kTouching = 3.0;    // bins between peaks whose main lobes do
-constexpr double kStill = 3e-4;      // bins: 0.2 mm
-constexpr int kMostSweeps = 12;
+constexpr double kThreshold = 20.0;    // 13 dB over the mean noise of a line
+constexpr double kBendReach = 2.4;     // bins
 constexpr double kLeastLine = 3.2e-6;  // -55 dB: over the side lobes of the strongest
 
 signal::ToneRecords records_of(const signal::FloatCube& samples, int chirp) {
@@ -48,9 +46,11 @@ std::vector<double> lines_of(const signal::ToneRecords& records, const std::vect
   return lines;
 }
 
+// Sums over channels fluctuate less: the threshold is that of one channel for the sum.
+double least_line(double channels) { return 1.0 + kThreshold / std::sqrt(channels); }
+
 std::vector<double> peak_bins(const std::vector<double>& lines, std::size_t channels) {
-  // Sums over channels fluctuate less: the threshold is that of one channel for the sum.
-  const double least = std::max(1.0 + kThreshold / std::sqrt(static_cast<double>(channels)),
+  const double least = std::max(least_line(static_cast<double>(channels)),
                                 kLeastLine * *std::max_element(lines.begin(), lines.end()));
   std::vector<double> bins;
   const std::size_t count = lines.size();
@@ -61,108 +61,62 @@ std::vector<double> peak_bins(const std::vector<double>& lines, std::size_t chan
   return bins;
 }
 
-// Bins of 0 and of `count` are one.
-double bins_apart(double a, double b, double count) {
-  return std::abs(std::remainder(a - b, count));
-}
-
-// `times` -1 takes it away.
-void add(const signal::Tone& tone, double times, signal::ToneRecords& records) {
-  const std::size_t count = records.front().size();
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::complex<double> phasor = std::polar(
-        1.0, 2.0 * core::kPi * tone.bin * static_cast<double>(n) / static_cast<double>(count));
-    for (std::size_t channel = 0; channel < records.size(); ++channel)
-      records[channel][n] += times * tone.amplitudes[channel] * phasor;
-  }
-}
-
-// Tones of all peaks. Those whose main lobes touch are sought in turn, each in what the others leave
-// (J. Li, P. Stoica, IEEE Trans. SP-44, 1996), until none moves any more.
-std::vector<signal::Tone> tones_of(const signal::ToneRecords& records,
-                                   const std::vector<double>& bins,
-                                   const std::vector<double>& weights) {
-  const auto count = static_cast<double>(records.front().size());
-  std::vector<signal::Tone> tones;
-  for (const double near : bins) tones.push_back(signal::refined_tone(records, near, weights));
-  std::vector<bool> lost(tones.size(), false);
-  for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-    double furthest = 0.0;
-    for (std::size_t i = 0; i < tones.size(); ++i) {
-      signal::ToneRecords rest;
-      for (std::size_t j = 0; j < tones.size(); ++j) {
-        if (j == i || lost[i] || bins_apart(bins[i], bins[j], count) > kTouching) continue;
-        if (rest.empty()) rest = records;
-        add(tones[j], -1.0, rest);
-      }
-      if (rest.empty()) continue;
-      signal::Tone tone = signal::refined_tone(rest, tones[i].bin, weights);
-      // One that leaves its peak has none of its own.
-      lost[i] = bins_apart(tone.bin, bins[i], count) > 1.0;
-      if (lost[i]) continue;
-      furthest = std::max(furthest, bins_apart(tone.bin, tones[i].bin, count));
-      tones[i] = std::move(tone);
-    }
-    if (furthest < kStill) break;
-  }
-  return tones;
-}
-
-// Where a ramp has the beat of a coarse place, and how much it bends.
-struct Hint {
-  double bin = 0.0, curvature_bins = 0.0;
-};
-
-std::vector<Hint> hints_of(const std::vector<signal::RangeSpeed>& coarse,
-                           const signal::TriangleModel& model, bool up, double bin_Hz) {
-  std::vector<Hint> hints;
+// Where a ramp has the beats of coarse places, and how much they bend.
+std::vector<BentPeak> places_of(const std::vector<signal::RangeSpeed>& coarse,
+                                const signal::TriangleModel& model, bool up, double bin_Hz) {
+  std::vector<BentPeak> places;
   for (const signal::RangeSpeed& place : coarse) {
     const signal::BeatPair beats = predict(model, place);
     // d2 phi / dt2 = 4 pi S tau', over the ramp.
     const double drift_Hz = 4.0 * (up ? 1.0 : -1.0) * model.slope_Hz_per_s *
                             place.radial_speed_mps / core::kSpeedOfLight_mps * model.ramp_s;
-    hints.push_back({(up ? beats.up_Hz : beats.down_Hz) / bin_Hz, drift_Hz / bin_Hz});
+    places.push_back({(up ? beats.up_Hz : beats.down_Hz) / bin_Hz, drift_Hz / bin_Hz});
   }
-  return hints;
+  return places;
 }
 
-constexpr double kHintReach = 2.5;  // bins
-
-const Hint* nearest_hint(const std::vector<Hint>& hints, double bin, double count) {
-  const Hint* best = nullptr;
-  for (const Hint& hint : hints)
-    if (bins_apart(hint.bin, bin, count) < kHintReach &&
-        (best == nullptr || bins_apart(hint.bin, bin, count) < bins_apart(best->bin, bin, count)))
-      best = &hint;
-  return best;
+// What the bend c of the other one of two tones leaves, d bins away: pi c (t^2 - 1/12) of its
+// amplitude, which moves a tone of the same power by up to c / (2 pi d); rms over their phases, as
+// measured. About as much of its amplitude is left beside the
+// tone's.
+double bend_bins(const RampTone& one, const std::vector<RampTone>& all, double count) {
+  double worst = 0.0;
+  for (const RampTone& other : all) {
+    const double apart = bins_apart(one.bent.tone.bin, other.bent.tone.bin, count);
+    if (&other == &one || !other.jointly || apart >= kBendReach) continue;
+    worst = std::max(worst, std::sqrt(other.bent.tone.power / one.bent.tone.power) *
+                                other.other_bends / (4.0 * core::kPi * std::max(apart, 0.3)));
+  }
+  return worst;
 }
 
-// The tones of a ramp as beats, those apart that make one peak.
-std::vector<Beat> beats_of(const signal::ToneRecords& records,
-                           const std::vector<signal::Tone>& tones, const std::vector<Hint>& hints,
-                           double bin_Hz, double noise_W) {
-  const auto count = static_cast<double>(records.front().size());
-  signal::ToneRecords rest = records;  // without all tones
-  for (const signal::Tone& tone : tones) add(tone, -1.0, rest);
+// Of a tone sought under the window, over one sought without: variance of its place and noise of its
+// amplitude.
+struct WindowCost {
+  double variance_ratio = 1.0, noise_ratio = 1.0;
+};
+
+std::vector<Beat> beats_of(const std::vector<RampTone>& found, std::size_t samples, double bin_Hz,
+                           double noise_W, const WindowCost& window) {
+  const auto count = static_cast<double>(samples);
+  std::vector<signal::Tone> tones;
+  for (const RampTone& one : found) tones.push_back(one.bent.tone);
+  const std::vector<signal::ToneBound> bounds = signal::tone_bounds(tones, samples, noise_W);
   std::vector<Beat> beats;
-  const auto put = [&](const signal::Tone& tone, std::size_t peak) {
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const signal::Tone& tone = found[i].bent.tone;
     const double bin = tone.bin - count * std::floor((tone.bin + 0.5 * count) / count);
+    const WindowCost cost = found[i].jointly ? WindowCost{} : window;
+    const double ratio = count * tone.power / noise_W, bend = bend_bins(found[i], found, count);
+    // What cannot be told is told to a bin and to half a beam.
+    const double sigma_bins =
+        std::min(1.0, std::hypot(std::sqrt(cost.variance_ratio * bounds[i].variance_bins2), bend,
+                                 found[i].bent.unsettled_bins));
+    const double noise_ratio =
+        std::min(std::max(1.0, ratio / 2.0),
+                 cost.noise_ratio * bounds[i].amplitude_noise_ratio + bend * bend * ratio);
     beats.push_back(
-        {bin * bin_Hz, count * tone.power / noise_W, tone.amplitudes, static_cast<int>(peak)});
-  };
-  for (std::size_t i = 0; i < tones.size(); ++i) {
-    std::optional<std::pair<signal::Tone, signal::Tone>> two;
-    if (const Hint* hint = nearest_hint(hints, tones[i].bin, count)) {
-      signal::ToneRecords own = rest;
-      add(tones[i], 1.0, own);
-      two = signal::two_tones(own, tones[i].bin, hint->curvature_bins, noise_W);
-    }
-    if (two) {
-      put(two->first, i);
-      put(two->second, i);
-    } else {
-      put(tones[i], i);
-    }
+        {bin * bin_Hz, sigma_bins * bin_Hz, ratio, tone.amplitudes, noise_ratio, found[i].peak});
   }
   return beats;
 }
@@ -183,24 +137,26 @@ SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::Tria
     bins[ramp] = peak_bins(lines_of(records[ramp], weights, noise_W), records[ramp].size());
   });
   const bool alone = bins[0].size() == 1 && bins[1].size() == 1;
-  SampledBeats result;
-  if (!alone) result.variance_ratio = signal::window_figures(weights).variance_ratio;
-  std::vector<signal::Tone> tones[2];
-  core::parallel_for(2, [&](std::size_t ramp) {
-    tones[ramp] = tones_of(records[ramp], bins[ramp], alone ? std::vector<double>{} : weights);
-  });
+  WindowCost cost;
+  if (!alone) {
+    const signal::WindowFigures figures = signal::window_figures(weights);
+    cost = {figures.variance_ratio, figures.noise_bandwidth_bins};
+  }
   // The first chirp is the ramp up where its middle comes before the turnaround.
   const int up = model.up_middle_s < 0.0 ? 0 : 1;
   const double bin_Hz = sample_rate_Hz / count;
   std::vector<Beat> beats[2];
   core::parallel_for(2, [&](std::size_t ramp) {
     const bool is_up = static_cast<int>(ramp) == up;
-    const auto hints = hints_of(coarse, model, is_up, bin_Hz);
-    beats[ramp] = beats_of(records[ramp], tones[ramp], hints, bin_Hz, noise_W);
+    const std::vector<BentPeak> places = places_of(coarse, model, is_up, bin_Hz);
+    const auto channels = static_cast<double>(records[ramp].size());
+    const double least_power = cost.noise_ratio * channels * least_line(channels) * noise_W / count;
+    const std::vector<RampTone> found =
+        ramp_tones(records[ramp], bins[ramp], places, alone ? std::vector<double>{} : weights,
+                   noise_W, least_power);
+    beats[ramp] = beats_of(found, records[ramp].front().size(), bin_Hz, noise_W, cost);
   });
-  result.up = std::move(beats[up]);
-  result.down = std::move(beats[1 - up]);
-  return result;
+  return {std::move(beats[up]), std::move(beats[1 - up])};
 }
 
 }  // namespace fanbeam::tracking
