@@ -6,7 +6,7 @@
 //
 // Datum: `altitude_m` counts from the simulator's own sea level, in which its terrain is drawn too:
 // whoever uses it says which datum that is. Angles: FlightGear turns degrees into radians with the
-// 32-bit value of pi/180 (measured: 7.75e-9 too small, 5 cm at latitude 64); latitude and longitude
+// 32-bit value of pi/180 (measured: 7.75e-9 too small, 5.5 cm at latitude 64); latitude and longitude
 // here are freed of that, to 5e-13 deg.
 // The clock has steps of a second: no timing comes from it.
 #pragma once

@@ -9,6 +9,7 @@
 #include "measure/effort.h"
 #include "measure/figures.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/plan/effects.h"
 #include "scenes/scene.h"
 
 namespace fanbeam::measure {

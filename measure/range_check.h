@@ -7,12 +7,14 @@
 // rounding the direction does is another ray, not another range.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "measure/figures.h"
 #include "renderer/casting/sampling.h"
-#include "renderer/frame.h"
+#include "renderer/frame_pose.h"
 #include "renderer/world.h"
+#include "terrain/ray_scene.h"
 
 namespace fanbeam::measure {
 

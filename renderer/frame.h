@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/echo.h"
-#include "core/pose.h"
 #include "renderer/accuracy/error_estimate.h"
 #include "renderer/casting/sampling.h"
 #include "renderer/frame_pose.h"
@@ -16,7 +14,6 @@
 #include "renderer/stages/frame_layers.h"
 #include "renderer/stages/threshold.h"
 #include "renderer/world.h"
-#include "sensors/antenna/antenna_frame.h"
 #include "sensors/shadow/shadow_obstacles.h"
 
 namespace fanbeam::renderer {

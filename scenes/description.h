@@ -25,7 +25,7 @@
 
 namespace fanbeam::scenes {
 
-// A horizontal place: geodetic, or relative to the scene's first runway.
+// A horizontal place: geodetic, or relative to the named end of one of the scene's runways.
 struct Spot {
   bool on_runway = false;
   double latitude_rad = 0.0, longitude_rad = 0.0;

@@ -11,7 +11,7 @@
 #include "atmosphere/weather.h"
 #include "core/effect_plan.h"
 #include "core/errors.h"
-#include "renderer/frame.h"
+#include "renderer/frame_pose.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
 #include "renderer/plan/scene_facts.h"

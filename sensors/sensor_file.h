@@ -28,9 +28,9 @@
 //                        table_azimuth_deg, +-90, 2 to 4096 values, both increasing
 //   [range]              minimum_m, 0 to 1e6; cell_m, above 0 to 1e5; cells, 1 to 16384, or
 //                        maximum_m for as many whole cells as fit; columns x cells at most 2^24
-//   [waveform]           frequency_GHz, above 0 to 1000; bandwidth_MHz, above 0 to 1e5, with at
+//   [waveform]           frequency_GHz, 0.1 to 300; bandwidth_MHz, above 0 to 1e5, with at
 //                        least one bin of c / 2B in the range window;
-//                        transmit_power_W, above 0 to 1e9; doppler_compensated;
+//                        transmit_power_W, above 0 to 1e9; doppler_compensated, true alone;
 //                        window "none" | "rectangular" | "hann" | "hamming" | "taylor", the last
 //                        with taylor_side_lobe_dB, -80 to -15, default -35, and
 //                        taylor_equal_lobes, 2 to 20, default 4; "none" for sweep "whole-scan";

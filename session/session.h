@@ -12,7 +12,7 @@
 // Nothing here prints, reads the environment, or limits other loops of the process.
 //
 // Errors: InputError with every problem, and then nothing has changed; core::Stopped when a token
-// asks. What is neglected: renderer/frame_renderer.h.
+// asks. What is neglected: docs/effects.md.
 #pragma once
 
 #include <cstdint>

@@ -79,7 +79,7 @@ FANBEAM_API const char* fanbeam_version_text(void) FANBEAM_NOEXCEPT;
 FANBEAM_API uint32_t fanbeam_version_number(void) FANBEAM_NOEXCEPT;
 
 /* Of this thread's last call that returns fanbeam_status; "" where there is nothing to tell. One
- * problem a line: "scene.toml:12:5: E-RANGE weather.visibility_m = -3: expected 1 to 100000 m", the
+ * problem a line: "scene.toml:12:5: E-RANGE weather.visibility_m = -3: expected 10 to 100000 m", the
  * place where there is one, a code, the field, the value found, what was expected. Warnings begin
  * with W-. The text holds until this thread's next such call. */
 FANBEAM_API const char* fanbeam_last_error(void) FANBEAM_NOEXCEPT;

@@ -30,7 +30,8 @@ constexpr core::NumberRange kPercent{0.0, 100.0};
 std::vector<std::string> picture_products() {
   std::vector<std::string> names;
   for (const session::Product& product : session::kProducts)
-    if (product.name != "preview" && product.name != "obstacles") names.emplace_back(product.name);
+    if (product.name != "preview" && product.name != "obstacles" && product.name != "labels")
+      names.emplace_back(product.name);
   return names;
 }
 
@@ -152,7 +153,7 @@ class CaseReader {
       render.caster = kWishes[table_.choice("caster", {kWishes[0], kWishes[1], kWishes[2]}, 0)];
     }
     const auto samples =
-        table_.optional_number("rays_per_cell", {renderer::kFewestRaysPerCell, 100000.0});
+        table_.optional_number("rays_per_cell", {renderer::kFewestRaysPerCell, 10000.0});
     const auto accuracy = table_.optional_number("accuracy_grey", renderer::kAccuracies_grey);
     render.sampling.rays_per_cell = samples.value_or(0.0);
     render.sampling.accuracy_grey = accuracy.value_or(0.0);

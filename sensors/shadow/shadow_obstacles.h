@@ -46,7 +46,7 @@ struct ShadowObstacle {
   double height_m = 0.0;
   double height_error_m = 0.0;  // what one range cell of shadow is worth
   double shadow_length_m = 0.0;
-  bool truncated = false;  // the shadow is cut off: the height is a lower bound
+  bool truncated = false;  // the shadow is cut off: uncertain, too
   bool merged = false;     // another object stands in the shadow, which may be partly its own
   // The shadow does not tell the height (shadow_certainty.h); then height_m and
   // height_error_m are not to be shown.

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "core/effect_plan.h"
+#include "renderer/accuracy/error_estimate.h"
 #include "renderer/accuracy/refinement.h"
 #include "renderer/casting/sampling.h"
-#include "renderer/frame.h"
 #include "scenes/scene.h"
 #include "session/sampling_choice.h"
 

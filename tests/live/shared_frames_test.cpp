@@ -9,14 +9,19 @@
 
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <thread>
 #include <vector>
 
 #include "core/errors.h"
+#include "core/files.h"
 #include "sensors/sensor_file.h"
+#include "tests/terrain/ascii_grid.h"
 
 using namespace fanbeam;
 using live::SharedFrames;
@@ -178,4 +183,61 @@ TEST_CASE("A name in use is refused, one that a dead process left is taken over"
   SharedFrames second(name, sensor(), 16.0);
   second.write(frame_of(3));
   CHECK(Reader(name).newest()->first == 3);
+}
+
+namespace {
+
+// The lines of docs/live.md between two that are so, indented or not, for the memory of that name.
+std::string program_of(const std::string& first, const std::string& last, const std::string& name) {
+  std::string text = core::read_file(FANBEAM_SOURCE_DIR "/docs/live.md", 1U << 20U);
+  const std::size_t begin = text.find(first), end = text.find(last, begin);
+  REQUIRE(begin != std::string::npos);
+  REQUIRE(end != std::string::npos);
+  text = text.substr(begin, end - begin);
+  for (std::size_t at = 0; (at = text.find("/dev/shm/radar", at)) != std::string::npos;)
+    text.replace(at, 14, "/dev/shm/" + name);
+  return text;
+}
+
+// What the program prints first, while frames are written whose pixels are the last byte of their number.
+std::string first_line(const std::string& command, SharedFrames& frames) {
+  std::atomic<bool> done{false};
+  std::thread writer([&] {
+    for (std::uint64_t number = 1; !done; ++number) {
+      frames.write(frame_of(number));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  });
+  std::FILE* program = popen(("timeout 20 " + command).c_str(), "r");
+  char line[200] = "";
+  if (program != nullptr && std::fgets(line, sizeof line, program) == nullptr) line[0] = '\0';
+  done = true;
+  writer.join();
+  if (program != nullptr) pclose(program);
+  return line;
+}
+
+}  // namespace
+
+TEST_CASE("The readers of the documents, in C and Python, take whole frames", "[shared_frames]") {
+  const std::string name = own_name();
+  const tests::TemporaryFolder folder;
+  folder.write("reader.c", program_of("#include <fcntl.h>", "```\n\n## Security", name));
+  std::string python = program_of("    import mmap", "| Offset |", name), straight;
+  for (std::size_t at = 0; at < python.size(); at = python.find('\n', at) + 1)
+    if (python.compare(at, 4, "    ") == 0)
+      straight += python.substr(at + 4, python.find('\n', at) + 1 - at - 4);
+  folder.write("reader.py", straight);
+  const std::string c = (folder.path() / "reader").string(), source = c + ".c";
+  REQUIRE(std::system(("cc -O2 -Wall -Wextra -Werror -o " + c + " " + source).c_str()) == 0);
+  for (const std::string& command : {c, "/usr/bin/python3 -u " + c + ".py"}) {
+    SharedFrames frames(name, sensor(), 16.0);
+    const std::string line = first_line(command, frames);
+    INFO(command << ": " << line);
+    unsigned long long number = 0;
+    double pixel = -1.0;
+    REQUIRE(std::sscanf(line.c_str(), "%llu %lf", &number, &pixel) == 2);
+    CHECK(number > 0);
+    CHECK(pixel == static_cast<double>(number % 256));
+  }
 }

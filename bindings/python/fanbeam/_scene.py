@@ -391,7 +391,7 @@ class Scene:
         self._set_sampling("time_budget", ms)
 
     def set_reference(self) -> None:
-        """Converged pictures, as errors are stated against: a minute each."""
+        """Converged pictures, as errors are stated against: 10 s to well over a minute each."""
         self._set_sampling("reference", 0.0)
 
     def _set_sampling(self, kind: str, value: float) -> None:

@@ -75,7 +75,8 @@ def frame(
     want           of "beat", "cube", "range-doppler", "range-azimuth", "detections"
     waveform       a kind ("chirp-sequence", "triangle", ...) or "automotive-76ghz"; "": by the sensor
     radar          TOML file of a radar, which also has windows, detector, angle method, clusters, channel
-                   errors and places of elements (docs/fmcw.md); the scene's own by default. The other arguments replace what it says
+                   errors and places of elements (docs/fmcw.md); the scene's own by default. The other arguments replace what it says;
+                   line_width_Hz beside a table of phase noise is refused
     transmitters   and receivers of the array, 3 and 4
     numbers        of the waveform, in SI: {"bandwidth": 250e6, "ramp": 20e-6}; those of "fanbeam help waveform" without dashes
     line_width_Hz  of the oscillator, 0: no phase noise; adc_bits 0: no quantiser

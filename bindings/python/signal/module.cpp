@@ -63,6 +63,7 @@ session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::p
   const auto take = [&told]<class T>(const char* name, T& value) {
     if (told.contains(name)) value = told[name].cast<T>();
   };
+  if (told.contains("transmitters") || told.contains("receivers")) settings.put_on_a_line();
   take("real", settings.real);
   take("transmitters", settings.transmitters);
   take("receivers", settings.receivers);
@@ -143,9 +144,9 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   without_lock([&](const core::StopToken& stop) {
     const core::StopScope scope(stop);
     made->paths = session::fmcw_paths(*now, index, settings);
-    made->frame =
-        session::fmcw_frame(made->radar, sensor, made->paths.paths, index, settings, products,
-                            {now->plan, now->accuracy_grey, now->options.wishes}, made->paths.interferers);
+    made->frame = session::fmcw_frame(
+        made->radar, sensor, made->paths.paths, index, settings, products,
+        {now->plan, now->accuracy_grey, now->options.wishes}, made->paths.interferers);
   });
   const py::object owner = owner_of(made);
   py::list beats;
