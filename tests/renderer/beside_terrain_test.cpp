@@ -4,6 +4,7 @@
 #include <functional>
 #include <numeric>
 
+#include "core/pose.h"
 #include "renderer/accuracy/grey_error.h"
 #include "tests/renderer/city_world.h"
 

@@ -1,6 +1,7 @@
 // What walls and towers do to a B-scope, as numbers.
 #include <catch2/catch.hpp>
 
+#include "core/pose.h"
 #include "core/units.h"
 #include "tests/renderer/test_worlds.h"
 

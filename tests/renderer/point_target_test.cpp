@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/pose.h"
 #include "core/units.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "terrain/local_frame.h"

@@ -1,4 +1,5 @@
 // The profile caster against converged rays on small worlds full of difficulties.
+#include "core/pose.h"
 #include "tests/renderer/converged_rays.h"
 
 namespace {

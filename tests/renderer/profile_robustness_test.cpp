@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "core/parallel.h"
+#include "core/pose.h"
 #include "renderer/frame_renderer.h"
 #include "tests/renderer/profile_closed_form.h"
 

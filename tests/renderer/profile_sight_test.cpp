@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <numeric>
 
+#include "core/pose.h"
 #include "tests/renderer/profile_closed_form.h"
 
 namespace {

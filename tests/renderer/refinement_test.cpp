@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/parallel.h"
+#include "core/pose.h"
 #include "renderer/accuracy/grey_error.h"
 #include "renderer/frame_renderer.h"
 #include "renderer/plan/caster_choice.h"

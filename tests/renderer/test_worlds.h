@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/pose.h"
 #include "renderer/frame.h"
 #include "sensors/sensor_file.h"
 #include "terrain/buildings/solid_prisms.h"

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "core/files.h"
+#include "renderer/frame.h"
 #include "tests/scenes/effect_threshold.h"
 
 namespace fanbeam::tests {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "renderer/frame.h"
 #include "tests/scenes/built_scene.h"
 #include "tests/scenes/problem_checks.h"
 

@@ -8,6 +8,7 @@
 
 #include "core/units.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/frame.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 #include "tests/scenes/built_scene.h"

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/units.h"
+#include "renderer/frame.h"
 #include "scenes/scene.h"
 #include "scenes/scene_reader.h"
 #include "sensors/cells.h"

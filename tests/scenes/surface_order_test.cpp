@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "materials/library/material_library.h"
+#include "renderer/frame.h"
 #include "sensors/cells.h"
 #include "tests/renderer/test_worlds.h"
 

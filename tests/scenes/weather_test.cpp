@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/units.h"
+#include "renderer/frame.h"
 #include "tests/scenes/problem_checks.h"
 
 using namespace fanbeam;

@@ -9,7 +9,6 @@
 namespace fanbeam::tracking {
 namespace {
 
-constexpr double kStill = 1e-4;  // bins: 0.06 mm of 250 MHz
 constexpr int kMostTurns = 12;
 constexpr double kOwnPeak = 1.0;  // bins
 // Bins within which main lobes overlap. Beyond, side lobes alone pull, and one turn takes that off to a thousandth.
@@ -86,11 +85,11 @@ std::vector<BentTone> tones_in_turn(const signal::ToneRecords& records,
       if (own.lost) continue;
       const double move = bins_apart(tone.bin, from_bin, count);
       furthest = std::max(furthest, move);
-      own.unsettled_bins = move < kStill || !touches(peaks, i, count) ? 0.0 : 10.0 * move;
+      own.unsettled_bins = move < kStill_bins || !touches(peaks, i, count) ? 0.0 : 10.0 * move;
       own.tone = std::move(tone);
       add(own, -1.0, rest);
     }
-    if (furthest < kStill) break;
+    if (furthest < kStill_bins) break;
   }
   return tones;
 }

@@ -17,7 +17,6 @@ constexpr double kBeside = 6.0;     // bins from two tones that were one, within
 constexpr double kSideLobes = 12.0;  // bins
 constexpr double kFaint = 1e-3;      // of the power of the tone whose side lobe it may be
 constexpr int kMoreTurns = 6;
-constexpr double kStill = 1e-4;  // bins
 
 enum class Kind { seen, unseen, doubtful };
 
@@ -108,7 +107,7 @@ class Ramp {
       double furthest = 0.0;
       for (std::size_t i = 0; i < found_.size(); i += found_[i].jointly ? 2 : 1)
         if (is_beside_two(i, turn == 0)) furthest = std::max(furthest, seek_again(i));
-      if (furthest < kStill) break;
+      if (furthest < kStill_bins) break;
     }
   }
 
