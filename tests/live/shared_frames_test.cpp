@@ -208,7 +208,7 @@ std::string first_line(const std::string& command, SharedFrames& frames) {
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
   });
-  std::FILE* program = popen(("timeout 20 " + command).c_str(), "r");
+  std::FILE* program = popen(("timeout 20 " + command + " 2>/dev/null").c_str(), "r");
   char line[200] = "";
   if (program != nullptr && std::fgets(line, sizeof line, program) == nullptr) line[0] = '\0';
   done = true;
