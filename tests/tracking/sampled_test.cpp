@@ -155,7 +155,7 @@ struct ToldErrors {
     MeanSquare range, rate, azimuth, range_m;
   };
   Of near, far, merged;
-  int unlike = 0;
+  int unlike = 0, cars = 0, told = 0;
 
   void add(const std::vector<core::HighwayTruth>& truth, const core::HighwayRadar& radar,
            const RadarMeasurement& one) {
@@ -178,7 +178,7 @@ struct ToldErrors {
     }
     const bool tells = one.range_systematic_m > 0.01;
     if (!tells && apart_bins < 0.7) return;
-    if (!tells) unlike += misfit(*own) > 1.0 ? 1 : 0;
+    unlike += !tells && misfit(*own) > 1.0 ? 1 : 0;
     Of& errors = tells ? merged : apart_bins < 3.0 ? near : far;
     const double range_m = one.range_m - own->range_m;
     errors.range_m.add(range_m);
@@ -202,9 +202,14 @@ ToldErrors told_errors(const char* family_name) {
         std::vector<core::HighwayTruth> truth;
         for (const auto& target : scenario.targets)
           truth.push_back(truth_at(target, scenario.radar_speed_mps, radar, frame * radar.frame_s));
+        for (std::size_t i = 0; i < truth.size(); ++i)
+          errors.cars +=
+              truth[i].in_view && !core::is_suppressed(scenario.targets[i], frame * radar.frame_s);
         for (const RadarMeasurement& one :
-             sampled.measure(scenario, 77, static_cast<std::uint32_t>(run), frame))
+             sampled.measure(scenario, 77, static_cast<std::uint32_t>(run), frame)) {
+          ++errors.told;
           errors.add(truth, radar, one);
+        }
       }
     }
   }
@@ -220,6 +225,9 @@ TEST_CASE("From samples, cars err by the noise, as their measurements tell",
   for (const char* family : {"side by side", "braking", "overtaking"}) {
     const ToldErrors all = told_errors(family);
     CHECK(all.unlike == 0);
+    CHECK(all.cars > 100);
+    CHECK(all.told >= 0.97 * all.cars);
+    CHECK(all.near.range.count() + all.far.range.count() >= 0.55 * all.cars);
     for (const auto& [what, errors] :
          {std::pair{"near", all.near}, {"far", all.far}, {"merged", all.merged}}) {
       INFO(family << ", " << what << ": " << errors.range.count() << ", range "

@@ -4,9 +4,10 @@
 //
 // with the bend c_i in bins over the ramp, known (a target's speed gives it), places and amplitudes
 // not. Sought in turn, each straightened in what the others leave (J. Li, P. Stoica, IEEE Trans. SP-44,
-// 1996), until none moves by 1e-4 bins any more: otherwise main lobes that touch pull by tenths of a
-// bin, and side lobes of a tone that is ten times as strong by a hundredth. Tones nearer than two bins
-// may not get there in the twelve turns there are.
+// 1996), until none moves by 1e-4 bins any more; farther than 3.5 bins from every other peak once is
+// enough. Otherwise main lobes that touch pull by tenths of a bin, and side lobes of a tone that is ten
+// times as strong by a hundredth. Tones nearer than two bins may not get there in the twelve turns there
+// are, which they tell.
 #pragma once
 
 #include <vector>

@@ -103,12 +103,21 @@ class Ramp {
 
   // What stands beside two tones was sought beside one.
   void settle() {
+    std::vector<double> moved(found_.size(), 0.0);
     for (int turn = 0; turn < kMoreTurns; ++turn) {
       double furthest = 0.0;
-      for (std::size_t i = 0; i < found_.size(); i += found_[i].jointly ? 2 : 1)
-        if (is_beside_two(i, turn == 0)) furthest = std::max(furthest, seek_again(i));
+      for (std::size_t i = 0; i < found_.size(); i += found_[i].jointly ? 2 : 1) {
+        if (!is_beside_two(i, turn == 0)) continue;
+        moved[i] = seek_again(i);
+        furthest = std::max(furthest, moved[i]);
+      }
       if (furthest < kStill_bins) break;
     }
+    for (std::size_t i = 0; i < found_.size(); i += found_[i].jointly ? 2 : 1)
+      for (std::size_t own = i; own < i + (found_[i].jointly ? 2 : 1); ++own) {
+        double& told = found_[own].bent.unsettled_bins;
+        if (moved[i] >= kStill_bins) told = std::max(told, 10.0 * moved[i]);
+      }
   }
 
   void add_doubtful(const std::vector<Peak>& peaks, double least_power) {
@@ -122,8 +131,11 @@ class Ramp {
     if (doubtful.empty()) return;
     const std::vector<BentTone> tones = tones_in_turn(rest_, doubtful, weights_);
     for (std::size_t i = 0; i < tones.size(); ++i)
-      if (!tones[i].lost && tones[i].tone.power > least_power)
+      if (!tones[i].lost && tones[i].tone.power > least_power) {
+        add(tones[i], -1.0, rest_);
         found_.push_back({tones[i], numbers[i]});
+      }
+    settle();
   }
 
   std::vector<RampTone> take() { return std::move(found_); }
@@ -152,7 +164,8 @@ class Ramp {
       put({two->first, curvature_bins}, i, true, spread);
       put({two->second, curvature_bins}, partner, true, spread);
     } else if (partner != i && bins_apart(own_bin, tones[partner].tone.bin, count()) < kOneTone) {
-      put(tones_in_turn(rest_, {{middle, curvature_bins}}, weights_).front(), i, false, 0.0);
+      const BentTone one = tones_in_turn(rest_, {{middle, curvature_bins}}, weights_).front();
+      put(one.lost ? tones[i] : one, i, false, 0.0);
     } else {
       put(tones[i], i, false, 0.0);
       if (partner != i) put(tones[partner], partner, false, 0.0);
@@ -161,13 +174,14 @@ class Ramp {
 
   // Within six bins, or `once` at any distance: side lobes are done with then.
   bool is_beside_two(std::size_t i, bool once) const {
-    const std::size_t size = found_[i].jointly ? 2 : 1;
+    const std::size_t end = i + (found_[i].jointly ? 2 : 1);
     for (std::size_t j = 0; j < found_.size(); ++j) {
-      if (j >= i && j < i + size) continue;
-      if (once && !found_[i].jointly && found_[j].jointly) return true;
-      if ((found_[i].jointly || found_[j].jointly) &&
-          bins_apart(found_[i].bent.tone.bin, found_[j].bent.tone.bin, count()) < kBeside)
-        return true;
+      if (j >= i && j < end) continue;
+      if (once && found_[j].jointly) return true;
+      if (!found_[i].jointly && !found_[j].jointly) continue;
+      for (std::size_t own = i; own < end; ++own)
+        if (bins_apart(found_[own].bent.tone.bin, found_[j].bent.tone.bin, count()) < kBeside)
+          return true;
     }
     return false;
   }
@@ -176,6 +190,7 @@ class Ramp {
   double seek_again(std::size_t i) {
     RampTone& one = found_[i];
     const double before_bin = one.bent.tone.bin;
+    double other_move = 0.0;
     add(one.bent, 1.0, rest_);
     if (one.jointly) {
       RampTone& other = found_[i + 1];
@@ -183,6 +198,7 @@ class Ramp {
       const double middle = one.bent.tone.bin +
                             0.5 * std::remainder(other.bent.tone.bin - one.bent.tone.bin, count());
       if (auto two = signal::two_tones(rest_, middle, one.bent.curvature_bins, noise_W_)) {
+        other_move = bins_apart(two->second.bin, other.bent.tone.bin, count());
         one.bent.tone = std::move(two->first);
         other.bent.tone = std::move(two->second);
       }
@@ -190,10 +206,10 @@ class Ramp {
     } else {
       const BentPeak place{one.bent.tone.bin, one.bent.curvature_bins};
       const BentTone again = tones_in_turn(rest_, {place}, weights_).front();
-      if (!again.lost) one.bent = again;
+      if (!again.lost) one.bent.tone = again.tone;
     }
     add(one.bent, -1.0, rest_);
-    return bins_apart(one.bent.tone.bin, before_bin, count());
+    return std::max(other_move, bins_apart(one.bent.tone.bin, before_bin, count()));
   }
 
   const signal::ToneRecords& records_;

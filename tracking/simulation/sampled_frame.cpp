@@ -191,8 +191,7 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
     for (const signal::RangeSpeed& place : places[i]) {
       Pair best;
       try_place(model, left_over(beats, found), place, detections[i], best);
-      if (best.found &&
-          std::abs(beats.up[best.up].azimuth_rad - beats.down[best.down].azimuth_rad) < kAgree_rad)
+      if (best.found && agree(beats.up[best.up], beats.down[best.down]))
         add(apart(model, beats, best, detections[i]), found);
     }
   std::vector<RadarMeasurement> result;

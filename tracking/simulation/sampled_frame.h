@@ -8,13 +8,13 @@
 // detector along range (1e-7 per cell) and the one or two plane waves of a cell (directions.h). A
 // triangle of 2 ms ramps, at 500 kHz, gives the beats (triangle_beats.h), each with the direction that
 // its amplitudes over the channels have. A coarse detection takes the pair of beats that fits best
-// within four standard deviations (0.3 m, 0.3 m/s; 6 mrad between the directions of its beats and of
-// its cell, as far as each is one plane wave), at its own speed or at one of its folds by the chirps'
-// rate (2 vmax = 98.6 m/s); one without a pair is dropped. Its direction is that of its beats, where
-// they are one wave each and within 0.6 of a beam of the cell's, else its cell's. Where a beat is one
-// of two tones of a peak, both targets are told, each with the other ramp's beat from its direction, or
-// where that is not split, with the one there is and an error that says so. Beats that no detection has
-// taken make a second target within a cell.
+// within four standard deviations (0.3 m, 0.3 m/s; 6 mrad and noise between the directions of its beats
+// and of its cell, as far as each is one plane wave), at its own speed or at one of its folds by the
+// chirps' rate (2 vmax = 98.6 m/s); one without a pair is dropped. Its direction is that of its beats,
+// where they are one wave each and within 0.6 of a beam of the cell's, else its cell's. Where a beat is
+// one of two tones of a peak, both targets are told, each with the other ramp's beat from its
+// direction, or where that is not split, with the one there is and an error that says so. Beats that no
+// detection has taken make a second target within a cell.
 // Array: a line of `radar.array_elements` receivers that share the gain, so that their coherent sum
 // has the ratio of the link budget. Phases of targets are random in every frame, and their
 // cross-sections as in measurement_simulator.h, by the same draws.
@@ -65,7 +65,6 @@ class SampledRadar {
     std::size_t directions = 1;  // that the cell has
     bool lone_wave = false;      // one plane wave is all that it has
   };
-  static constexpr double kAgree_rad = 0.006;  // directions of a target's two beats
   // A pair of beats that fits a coarse place.
   struct Pair {
     double misfit = 16.0;  // four standard deviations, squared
@@ -82,20 +81,23 @@ class SampledRadar {
   void add(const std::vector<Found>& more, std::vector<Found>& found) const;
   static SampledBeats left_over(SampledBeats beats, const std::vector<Found>& found);
   void find_directions(std::vector<Beat>& beats) const;
-  static double misfit(const signal::TriangleModel& model, const SampledBeats& beats,
-                       std::size_t up, std::size_t down, const signal::RangeSpeed& place,
-                       const Coarse& cell);
-  static void try_place(const signal::TriangleModel& model, const SampledBeats& beats,
-                        const signal::RangeSpeed& place, const Coarse& cell, Pair& best);
+  // Of two that are one plane wave each: squared, over what it may be.
+  template <class One, class Other>
+  double disagreement(const One& one, const Other& other) const;
+  bool agree(const Beat& one, const Beat& other) const;
+  double misfit(const signal::TriangleModel& model, const SampledBeats& beats, std::size_t up,
+                std::size_t down, const signal::RangeSpeed& place, const Coarse& cell) const;
+  void try_place(const signal::TriangleModel& model, const SampledBeats& beats,
+                 const signal::RangeSpeed& place, const Coarse& cell, Pair& best) const;
   static bool seen_before(const std::vector<Found>& found, const Found& one, double apart);
   std::vector<signal::RangeSpeed> folded(const Coarse& one) const;
   std::vector<Found> apart(const signal::TriangleModel& model, const SampledBeats& beats,
                            const Pair& best, const Coarse& coarse) const;
-  Found as_it_is(const SampledBeats& beats, const Pair& best, const Coarse& coarse) const;
-  std::vector<Found> by_misfit(const signal::TriangleModel& model, const SampledBeats& beats,
-                               const Pair& best, const Coarse& coarse,
-                               const std::vector<std::size_t>& up,
-                               const std::vector<std::size_t>& down) const;
+  Found found_of(const SampledBeats& beats, std::size_t up, std::size_t down,
+                 const signal::RangeSpeed& place, const Coarse& coarse) const;
+  std::vector<Found> two_of_each(const signal::TriangleModel& model, const SampledBeats& beats,
+                                 const Pair& best, const Coarse& coarse, std::size_t other_up,
+                                 std::size_t other_down) const;
   RadarMeasurement measured(const SampledBeats& beats, const Found& one) const;
   double beam_sine() const;
   std::vector<Coarse> coarse_of(const signal::FloatCube& samples) const;

@@ -1,42 +1,58 @@
 // Beats of a triangle to targets: which two belong together, and what they say.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/constants.h"
 #include "signal/pairing/triangle.h"
+#include "signal/waveform/waveform.h"
 #include "tracking/simulation/sampled_frame.h"
 
 namespace fanbeam::tracking {
 namespace {
 
-constexpr double kCoarseSigma_m = 0.3, kCoarseSigma_mps = 0.3;
+// Of a coarse place, in cells of range and of speed.
+constexpr double kCoarse_cells = 0.5, kCoarse_dopplers = 0.78;
+// Of a beam: how far directions of one target may disagree, besides noise; how far a coarse cell's is
+// pulled by neighbours in range and speed; farther apart two directions are two coarse detections.
+constexpr double kAgree = 0.04, kPulled = 0.0034, kOneCell = 0.6;
+constexpr double kMostDisagreement = 4.0;  // two standard deviations, squared
 // What taking turns leaves where it ends (bent_tones.h).
 constexpr double kSettled_bins = 2e-4;
-// Of a coarse cell's direction, by neighbours in range and speed.
-constexpr double kPulled_rad = 5e-4;
 // Two tones that are one beat are up to 0.7 bins apart: evenly.
 constexpr double kMerged_bins = 0.7 / 3.4641;
 constexpr double kSure = 9.0;  // three standard deviations, squared
-// Of a beam: farther apart two directions are two coarse detections.
-constexpr double kOneCell = 0.6;
 constexpr double kNowhere_Hz = 1e15;
 
 }  // namespace
+
+template <class One, class Other>
+double SampledRadar::disagreement(const One& one, const Other& other) const {
+  const double known_rad = kAgree * beam_sine();
+  return std::pow(one.azimuth_rad - other.azimuth_rad, 2) /
+         (known_rad * known_rad + one.azimuth_sigma_rad * one.azimuth_sigma_rad +
+          other.azimuth_sigma_rad * other.azimuth_sigma_rad);
+}
+
+bool SampledRadar::agree(const Beat& one, const Beat& other) const {
+  return radar_.array_elements < 2 || disagreement(one, other) < kMostDisagreement;
+}
 
 // Of range, speed and the directions of what is one plane wave each: two cars of one speed beside each
 // other are in one coarse cell's reach, and told apart by where they are.
 double SampledRadar::misfit(const signal::TriangleModel& model, const SampledBeats& beats,
                             std::size_t up, std::size_t down, const signal::RangeSpeed& place,
-                            const Coarse& cell) {
+                            const Coarse& cell) const {
   const signal::RangeSpeed pair = solve(model, {beats.up[up].Hz, beats.down[down].Hz});
   const Beat &rising = beats.up[up], &falling = beats.down[down];
-  double sum = std::pow((pair.range_m - place.range_m) / kCoarseSigma_m, 2) +
-               std::pow((pair.radial_speed_mps - place.radial_speed_mps) / kCoarseSigma_mps, 2);
-  const auto compare = [&sum](const auto& one, const auto& other) {
-    if (one.lone_wave && other.lone_wave)
-      sum += std::pow(one.azimuth_rad - other.azimuth_rad, 2) /
-             (kAgree_rad * kAgree_rad + one.azimuth_sigma_rad * one.azimuth_sigma_rad +
-              other.azimuth_sigma_rad * other.azimuth_sigma_rad);
+  const double sigma_m = kCoarse_cells * core::kSpeedOfLight_mps / (2.0 * radar_.bandwidth_Hz);
+  const double sigma_mps =
+      kCoarse_dopplers * 0.5 * waveform_.wavelength_m() /
+      (repetition_s_ * static_cast<double>(signal::stage_segments(waveform_, 0).size()));
+  double sum = std::pow((pair.range_m - place.range_m) / sigma_m, 2) +
+               std::pow((pair.radial_speed_mps - place.radial_speed_mps) / sigma_mps, 2);
+  const auto compare = [&](const auto& one, const auto& other) {
+    if (one.lone_wave && other.lone_wave) sum += disagreement(one, other);
   };
   compare(rising, falling);
   compare(rising, cell);
@@ -46,7 +62,8 @@ double SampledRadar::misfit(const signal::TriangleModel& model, const SampledBea
 
 // The pair of beats that fits a coarse place best, if any does and better than `best`.
 void SampledRadar::try_place(const signal::TriangleModel& model, const SampledBeats& beats,
-                             const signal::RangeSpeed& place, const Coarse& cell, Pair& best) {
+                             const signal::RangeSpeed& place, const Coarse& cell,
+                             Pair& best) const {
   for (std::size_t i = 0; i < beats.up.size(); ++i)
     for (std::size_t j = 0; j < beats.down.size(); ++j) {
       const double one = misfit(model, beats, i, j, place, cell);
@@ -88,49 +105,64 @@ SampledBeats SampledRadar::left_over(SampledBeats beats, const std::vector<Found
   return beats;
 }
 
-// The triangle's direction, if that is one target's, else the coarse cell's, whose neighbours in speed
-// are out of the way. Beats that hold more than one wave have range and speed of both.
-SampledRadar::Found SampledRadar::as_it_is(const SampledBeats& beats, const Pair& best,
+// With the direction of both beats, if that is one target's, else of the one that is, else the coarse
+// cell's, whose neighbours in speed are out of the way. Beats that hold more than one wave have range
+// and speed of both; one receiver cannot know.
+SampledRadar::Found SampledRadar::found_of(const SampledBeats& beats, std::size_t up,
+                                           std::size_t down, const signal::RangeSpeed& place,
                                            const Coarse& coarse) const {
-  const Beat &rising = beats.up[best.up], &falling = beats.down[best.down];
-  const bool lone = rising.lone_wave && falling.lone_wave;
-  const double fine_rad = 0.5 * (rising.azimuth_rad + falling.azimuth_rad);
-  const bool fine =
-      lone && std::abs(std::sin(fine_rad) - std::sin(coarse.azimuth_rad)) < kOneCell * beam_sine();
-  Found found{best.up, best.down, best.place};
-  if (!lone && radar_.array_elements > 1) found.merged_bins = kMerged_bins;
-  if (fine) {
-    found.azimuth_rad = fine_rad;
+  const Beat &rising = beats.up[up], &falling = beats.down[down];
+  const bool both = rising.lone_wave && falling.lone_wave && agree(rising, falling);
+  Found found{up, down, place};
+  if (!both && radar_.array_elements > 1) found.merged_bins = kMerged_bins;
+  if (both) {
+    found.azimuth_rad = 0.5 * (rising.azimuth_rad + falling.azimuth_rad);
     found.azimuth_sigma_rad = 0.5 * std::hypot(rising.azimuth_sigma_rad, falling.azimuth_sigma_rad);
+  } else if (rising.lone_wave != falling.lone_wave && !coarse.lone_wave) {
+    const Beat& own = rising.lone_wave ? rising : falling;
+    found.azimuth_rad = own.azimuth_rad;
+    found.azimuth_sigma_rad = own.azimuth_sigma_rad;
   } else {
     found.azimuth_rad = coarse.azimuth_rad;
     found.azimuth_sigma_rad = coarse.azimuth_sigma_rad;
-    found.azimuth_systematic_rad =
-        coarse.lone_wave || coarse.directions > 1 ? kPulled_rad : beam_sine() / std::sqrt(12.0);
+    found.azimuth_systematic_rad = coarse.lone_wave || coarse.directions > 1
+                                       ? kPulled * beam_sine()
+                                       : beam_sine() / std::sqrt(12.0);
   }
   return found;
 }
 
-// Two targets of which both ramps have two beats, and no direction tells which belong together: those
-// that fit the coarse place better, wrong by half of what they are apart where that does not tell
-// either.
-std::vector<SampledRadar::Found> SampledRadar::by_misfit(
-    const signal::TriangleModel& model, const SampledBeats& beats, const Pair& best,
-    const Coarse& coarse, const std::vector<std::size_t>& up,
-    const std::vector<std::size_t>& down) const {
-  const auto fit = [&](std::size_t i, std::size_t j) {
-    return misfit(model, beats, up[i], down[j], best.coarse, coarse);
-  };
-  const double straight = fit(0, 0) + fit(1, 1), crossed = fit(0, 1) + fit(1, 0);
-  const std::size_t swapped = crossed < straight ? 1 : 0;
-  const double apart_Hz = std::min(std::abs(beats.up[up[0]].Hz - beats.up[up[1]].Hz),
-                                   std::abs(beats.down[down[0]].Hz - beats.down[down[1]].Hz));
+// Two targets of which both ramps have two beats. Which belong together is told by their directions,
+// else by the pair that fits the coarse place: the other two are what is left (the sum of the misfits
+// of both is of no use: its middle is the same either way). Where neither is sure they may be wrong by
+// half of what they are apart.
+std::vector<SampledRadar::Found> SampledRadar::two_of_each(const signal::TriangleModel& model,
+                                                           const SampledBeats& beats,
+                                                           const Pair& best, const Coarse& coarse,
+                                                           std::size_t other_up,
+                                                           std::size_t other_down) const {
+  const Beat &up = beats.up[best.up], &up2 = beats.up[other_up];
+  const Beat &down = beats.down[best.down], &down2 = beats.down[other_down];
+  const bool lone = up.lone_wave && up2.lone_wave && down.lone_wave && down2.lone_wave;
+  const double crossed_by = lone ? disagreement(up, down) + disagreement(up2, down2) -
+                                       disagreement(up, down2) - disagreement(up2, down)
+                                 : 0.0;
+  const bool by_direction = std::abs(crossed_by) > kSure;
+  const double crossed_fit =
+      std::min(misfit(model, beats, best.up, other_down, best.coarse, coarse),
+               misfit(model, beats, other_up, best.down, best.coarse, coarse));
+  const double apart_Hz = std::min(std::abs(up.Hz - up2.Hz), std::abs(down.Hz - down2.Hz));
+  const double unsure_bins =
+      by_direction || crossed_fit - best.misfit > kSure ? 0.0 : apart_Hz * radar_.ramp_s;
+  const bool crossed = by_direction && crossed_by > 0.0;
   std::vector<Found> result;
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::size_t one = up[i], other = down[i == swapped ? 0 : 1];
-    result.push_back({one, other, solve(model, {beats.up[one].Hz, beats.down[other].Hz}),
-                      coarse.azimuth_rad, coarse.azimuth_sigma_rad, kPulled_rad,
-                      std::abs(crossed - straight) < kSure ? apart_Hz * radar_.ramp_s : 0.0});
+  for (const auto& [i, j] : {std::pair{best.up, crossed ? other_down : best.down},
+                             std::pair{other_up, crossed ? best.down : other_down}}) {
+    if (!result.empty() && !(misfit(model, beats, i, j, best.coarse, coarse) < Pair{}.misfit))
+      continue;  // another coarse place's
+    const signal::RangeSpeed place = solve(model, {beats.up[i].Hz, beats.down[j].Hz});
+    result.push_back(found_of(beats, i, j, place, coarse));
+    result.back().merged_bins = std::max(result.back().merged_bins, unsure_bins);
   }
   return result;
 }
@@ -142,45 +174,43 @@ std::vector<SampledRadar::Found> SampledRadar::apart(const signal::TriangleModel
                                                      const Coarse& coarse) const {
   const std::vector<std::size_t> up = of_peak(beats.up, best.up);
   const std::vector<std::size_t> down = of_peak(beats.down, best.down);
-  if (up.size() == 1 && down.size() == 1) return {as_it_is(beats, best, coarse)};
-  if (radar_.array_elements < 2 && up.size() == 2 && down.size() == 2)
-    return by_misfit(model, beats, best, coarse, up, down);
+  const Found as_it_is = found_of(beats, best.up, best.down, best.place, coarse);
+  if (up.size() == 1 && down.size() == 1) return {as_it_is};
+  if (up.size() == 2 && down.size() == 2)
+    return two_of_each(model, beats, best, coarse, up[up[0] == best.up ? 1 : 0],
+                       down[down[0] == best.down ? 1 : 0]);
   const bool by_up = up.size() > 1;
   const std::vector<Beat>& others = by_up ? beats.down : beats.up;
   std::vector<Found> result;
   for (const std::size_t one : by_up ? up : down) {
     const Beat& own = (by_up ? beats.up : beats.down)[one];
     std::size_t other = by_up ? best.down : best.up;
-    double apart_rad = kAgree_rad;
+    double least = kMostDisagreement;
     bool alone = false;  // no other target is in either beat
     for (std::size_t k = 0; k < others.size(); ++k) {
       const std::size_t i = by_up ? one : k, j = by_up ? k : one;
-      const double differ_rad = std::abs(others[k].azimuth_rad - own.azimuth_rad);
-      if (!own.lone_wave || !others[k].lone_wave || differ_rad >= apart_rad ||
+      if (!own.lone_wave || !others[k].lone_wave || disagreement(own, others[k]) >= least ||
           !(misfit(model, beats, i, j, best.coarse, coarse) < Pair{}.misfit))
         continue;
-      apart_rad = differ_rad;
+      least = disagreement(own, others[k]);
       other = k;
       alone = true;
     }
     const std::size_t i = by_up ? one : other, j = by_up ? other : one;
     // The tone of a target that is elsewhere and only shares this peak.
     if (!alone && !(misfit(model, beats, i, j, best.coarse, coarse) < Pair{}.misfit)) continue;
-    Found found{i, j, solve(model, {beats.up[i].Hz, beats.down[j].Hz}), own.azimuth_rad,
-                own.azimuth_sigma_rad};
-    if (alone) {
-      found.azimuth_rad = 0.5 * (own.azimuth_rad + others[other].azimuth_rad);
-      found.azimuth_sigma_rad =
-          0.5 * std::hypot(own.azimuth_sigma_rad, others[other].azimuth_sigma_rad);
-    } else {
-      found.merged_bins = kMerged_bins;
-      if (!own.lone_wave) found.azimuth_systematic_rad = beam_sine() / std::sqrt(12.0);
+    const signal::RangeSpeed place = solve(model, {beats.up[i].Hz, beats.down[j].Hz});
+    Found found = found_of(beats, i, j, place, coarse);
+    if (!alone && own.lone_wave) {
+      found.azimuth_rad = own.azimuth_rad;
+      found.azimuth_sigma_rad = own.azimuth_sigma_rad;
+      found.azimuth_systematic_rad = 0.0;
     }
     if (std::abs(std::sin(found.azimuth_rad) - std::sin(coarse.azimuth_rad)) <=
         kOneCell * beam_sine())
       result.push_back(found);
   }
-  if (result.empty()) result.push_back(as_it_is(beats, best, coarse));
+  if (result.empty()) result.push_back(as_it_is);
   return result;
 }
 

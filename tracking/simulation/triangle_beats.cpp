@@ -17,7 +17,7 @@ namespace fanbeam::tracking {
 namespace {
 
 constexpr std::size_t kPadding = 2;
-constexpr double kThreshold = 20.0;    // 13 dB over the mean noise of a line
+constexpr double kThreshold = 20.0;    // of one channel, over the mean noise of a line: 13 dB
 constexpr double kBendReach = 2.4;     // bins
 constexpr double kLeastLine = 3.2e-6;  // -55 dB: over the side lobes of the strongest
 

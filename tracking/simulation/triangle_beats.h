@@ -27,13 +27,11 @@ struct SampledBeats {
 };
 
 // `samples`: two chirps, up and down, of any number of channels; `noise_W` of one sample of one
-// channel. Peaks of the spectrum under a Chebyshev window of -60 dB, summed over the channels, 13 dB
-// above the noise of one and at most 55 dB below the strongest; sharper by maximum likelihood, without
-// window where each ramp has one peak. Tones are sought in turn, each bent as the speed of the nearest
-// `coarse` place bends it (bent_tones.h). A peak near which there is one, and two peaks within 2.4
-// bins, are tried as two tones (signal/detection/two_tones.h), of one bend: what another one's differs
-// is in sigma_Hz. Peaks that no coarse place explains are kept if they are more than what those leave.
-// Deviations told: signal/detection/tone_bound.h.
+// channel. Peaks of the spectrum under a Chebyshev window of -60 dB, summed over the channels, as much
+// above the mean noise as 13 dB are of one channel (8.3 dB of twelve), and at most 55 dB below the
+// strongest; sharper by maximum likelihood, without window where each ramp has one peak. Which tones
+// they are: ramp_tones.h, bent as the speeds of `coarse` places bend them; what bends differ within two
+// tones of one peak is in sigma_Hz. Deviations told: signal/detection/tone_bound.h.
 SampledBeats triangle_beats(const signal::FloatCube& samples, const signal::TriangleModel& model,
                             double sample_rate_Hz, double noise_W,
                             const std::vector<signal::RangeSpeed>& coarse);
