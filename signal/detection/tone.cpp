@@ -58,7 +58,8 @@ Slope slope_at(const ToneRecords& records, const std::vector<double>& weights, d
 
 }  // namespace
 
-Tone refined_tone(const ToneRecords& records, double near_bin, const std::vector<double>& weights) {
+Tone refined_tone(const ToneRecords& records, double near_bin, const std::vector<double>& weights,
+                  double tolerance_bins) {
   check_input(records, weights);
   Tone tone;
   tone.bin = near_bin;
@@ -70,7 +71,7 @@ Tone refined_tone(const ToneRecords& records, double near_bin, const std::vector
         slope.second < 0.0 ? -slope.first / slope.second : std::copysign(0.1, slope.first);
     const double move = std::clamp(wanted, -0.25, 0.25);
     tone.bin += move;
-    if (std::abs(move) < 1e-11) break;
+    if (std::abs(move) < tolerance_bins) break;
   }
   const std::size_t count = records.front().size();
   const std::vector<std::complex<double>> phasors = tone_phasors(count, tone.bin, weights);

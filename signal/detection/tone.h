@@ -11,7 +11,7 @@
 // b and have amplitudes of their own (channels of a cube).
 //
 // Inputs: two samples or more, finite, records of one size; weights none or as many as samples.
-// E-RANGE, E-NONFINITE otherwise. Accuracy of the climb: 1e-10 bins. Cost: some 6 sums over the
+// E-RANGE, E-NONFINITE otherwise. Accuracy of the climb: 1e-10 bins by default. Cost: some 6 sums over the
 // samples.
 #pragma once
 
@@ -28,8 +28,9 @@ struct Tone {
 
 using ToneRecords = std::vector<std::vector<std::complex<double>>>;
 
+// Ends after a step shorter than `tolerance_bins`, which leaves about its square.
 Tone refined_tone(const ToneRecords& records, double near_bin,
-                  const std::vector<double>& weights = {});
+                  const std::vector<double>& weights = {}, double tolerance_bins = 1e-11);
 
 // The strongest tone of one record, from its padded spectrum.
 Tone strongest_tone(const std::vector<std::complex<double>>& samples,

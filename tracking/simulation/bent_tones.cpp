@@ -10,27 +10,43 @@ namespace fanbeam::tracking {
 namespace {
 
 constexpr int kMostTurns = 12;
-constexpr double kOwnPeak = 1.0;  // bins
+constexpr double kTolerance_bins = 1e-7;
+constexpr double kStraight_bins = 1e-4;  // a bend that moves nothing
+constexpr double kOwnPeak = 1.0;         // bins
 // Bins within which main lobes overlap. Beyond, side lobes alone pull, and one turn takes that off to a thousandth.
 constexpr double kTouching = 3.5;
 
-double bend_turns(double curvature_bins, std::size_t n, std::size_t count) {
-  const double t =
-      (static_cast<double>(n) - 0.5 * static_cast<double>(count - 1)) / static_cast<double>(count);
-  return 0.5 * curvature_bins * t * t;
+// exp(j 2 pi (b n / N + c t^2 / 2)), each from the one before: the step turns by the same at every sample.
+std::vector<std::complex<double>> phasors_of(double bin, double curvature_bins, std::size_t count) {
+  const auto n = static_cast<double>(count);
+  const double first_t = -0.5 * (n - 1.0) / n;
+  const auto turned = [](double turns) {
+    return std::polar(1.0, 2.0 * core::kPi * std::remainder(turns, 1.0));
+  };
+  std::complex<double> phasor = turned(0.5 * curvature_bins * first_t * first_t);
+  std::complex<double> step =
+      turned(bin / n + 0.5 * curvature_bins * (2.0 * first_t + 1.0 / n) / n);
+  const std::complex<double> turn = turned(curvature_bins / (n * n));
+  std::vector<std::complex<double>> phasors;
+  phasors.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    phasors.push_back(phasor);
+    phasor *= step;
+    step *= turn;
+  }
+  return phasors;
 }
 
 signal::Tone refined(const signal::ToneRecords& records, const BentPeak& near,
                      const std::vector<double>& weights) {
-  if (near.curvature_bins == 0.0) return signal::refined_tone(records, near.bin, weights);
+  if (std::abs(near.curvature_bins) < kStraight_bins)
+    return signal::refined_tone(records, near.bin, weights, kTolerance_bins);
   signal::ToneRecords straight = records;
   const std::size_t count = records.front().size();
-  for (std::size_t n = 0; n < count; ++n) {
-    const std::complex<double> phasor =
-        std::polar(1.0, -2.0 * core::kPi * bend_turns(near.curvature_bins, n, count));
-    for (auto& record : straight) record[n] *= phasor;
-  }
-  return signal::refined_tone(straight, near.bin, weights);
+  const auto phasors = phasors_of(0.0, -near.curvature_bins, count);
+  for (auto& record : straight)
+    for (std::size_t n = 0; n < count; ++n) record[n] *= phasors[n];
+  return signal::refined_tone(straight, near.bin, weights, kTolerance_bins);
 }
 
 bool touches(const std::vector<BentPeak>& peaks, std::size_t one, double count) {
@@ -46,13 +62,10 @@ double bins_apart(double a, double b, double count) {
 }
 
 void add(const BentTone& bent, double times, signal::ToneRecords& records) {
-  const std::size_t count = records.front().size();
-  for (std::size_t n = 0; n < count; ++n) {
-    const double turns = bent.tone.bin * static_cast<double>(n) / static_cast<double>(count) +
-                         bend_turns(bent.curvature_bins, n, count);
-    const std::complex<double> phasor = times * std::polar(1.0, 2.0 * core::kPi * turns);
-    for (std::size_t channel = 0; channel < records.size(); ++channel)
-      records[channel][n] += bent.tone.amplitudes[channel] * phasor;
+  const auto phasors = phasors_of(bent.tone.bin, bent.curvature_bins, records.front().size());
+  for (std::size_t channel = 0; channel < records.size(); ++channel) {
+    const std::complex<double> amplitude = times * bent.tone.amplitudes[channel];
+    for (std::size_t n = 0; n < phasors.size(); ++n) records[channel][n] += amplitude * phasors[n];
   }
 }
 
