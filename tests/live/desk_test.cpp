@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "live/flights.h"
 #include "tests/live/live_scene.h"
