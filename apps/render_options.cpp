@@ -25,7 +25,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
               "(default: the scene's accuracy, else " +
                   core::number_text(renderer::kDefaultRaysPerCell) + " rays or " +
                   core::number_text(renderer::kDefaultSlicesPerColumn) + " slices)")
-          ->check(number_from(renderer::kFewestRaysPerCell, 10000.0));
+          ->check(number_from(renderer::kSamplesPerCell.low, renderer::kSamplesPerCell.high));
   CLI::Option* accuracy = add_accuracy_option(
       command, options.accuracy_grey,
       "Error allowed, RMS in grey levels: half of it is for effects left out, half for sampling, "

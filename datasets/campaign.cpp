@@ -81,7 +81,7 @@ void read_campaign_table(ConfigTable table, Campaign& campaign) {
   campaign.isa = std::array{core::InstructionLevel::v2, core::InstructionLevel::v3,
                             core::InstructionLevel::v4}[level];
   campaign.sample = table.choice("realisation", {"mean", "sample"}, 0) == 1;
-  campaign.samples_per_cell = table.number("samples_per_cell", {0.3, 10000.0}, 0.0);
+  campaign.samples_per_cell = table.number("samples_per_cell", renderer::kSamplesPerCell, 0.0);
   campaign.sensor = table.text("sensor", "");
   campaign.archives = table.choice("runs_as", {"folders", "archives"}, 0) == 1;
 }

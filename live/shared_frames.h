@@ -2,8 +2,8 @@
 // a socket: a ring that readers look into at their own pace.
 //
 // /dev/shm/NAME, mode 0600, little-endian, written in place; docs/live.md has the layout with readers
-// in C and Python. A slot's sequence is odd while it is written and twice the
-// frame's number when it is whole: a reader copies the slot and takes the copy when the sequence was
+// in C and Python. A slot's sequence is odd while it is written and twice the frame's number when it is
+// whole: a reader copies the slot and takes the copy when the sequence was
 // the same even number before and after. With eight slots it has half a second at 16 Hz to do so.
 // Readers cannot hold up or harm the writer's frames, whatever they do. Axes and levels that a control
 // moves stand in each slot as they are of its frame, and in the header as of the newest.

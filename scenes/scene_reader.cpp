@@ -209,7 +209,8 @@ void read_display(ConfigTable& root, const sensors::RangeGate& range, sensors::D
 }
 
 void read_accuracy(ConfigTable accuracy, SceneDescription& scene) {
-  scene.rays_per_cell = accuracy.number("rays_per_cell", {0.0, 10000.0}, 0.0);
+  scene.rays_per_cell =
+      accuracy.number("rays_per_cell", {0.0, renderer::kSamplesPerCell.high}, 0.0);
   if (scene.rays_per_cell > 0.0 && scene.rays_per_cell < renderer::kFewestRaysPerCell)
     accuracy.error(core::ErrorClass::range, "rays_per_cell", core::number_text(scene.rays_per_cell),
                    "0 or at least " + core::number_text(renderer::kFewestRaysPerCell));

@@ -79,9 +79,10 @@ void check(const SamplingWish& wish, core::ProblemList& problems) {
   if (const auto* budget = std::get_if<TimeBudget>(&wish))
     return core::check_range(problems, "time budget", budget->ms, renderer::kTimeBudgets_ms, "ms");
   const double per_cell = std::get<Samples>(wish).per_cell;
-  if (per_cell != 0.0 && !(per_cell >= renderer::kFewestRaysPerCell && per_cell <= 10000.0))
+  if (per_cell != 0.0 && !renderer::kSamplesPerCell.holds(per_cell))
     problems.error(core::ErrorClass::range, {}, "samples per cell", core::number_text(per_cell),
-                   "0, or " + core::number_text(renderer::kFewestRaysPerCell) + " to 10000");
+                   "0, or " + core::number_text(renderer::kSamplesPerCell.low) + " to " +
+                       core::number_text(renderer::kSamplesPerCell.high));
 }
 
 sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& settings,

@@ -19,8 +19,8 @@ constexpr std::size_t kMostDataFolders = 256;
 
 void check_samples(Arguments& arguments, double samples_per_cell) {
   if (samples_per_cell != 0.0)
-    arguments.number(samples_per_cell, "setup.samples_per_cell",
-                     {renderer::kFewestRaysPerCell, 10000.0}, "(or 0)");
+    arguments.number(samples_per_cell, "setup.samples_per_cell", renderer::kSamplesPerCell,
+                     "(or 0)");
 }
 
 std::vector<std::filesystem::path> folders_of(const fanbeam_setup& setup, Arguments& arguments) {

@@ -129,8 +129,7 @@ py::list set_sensor(const Scene& scene, std::optional<double> tilt_deg,
 py::list set_sampling(const Scene& scene, const std::string& kind, double value) {
   session::SamplingWish wish;
   if (kind == "samples") {
-    if (value != 0.0)
-      core::require_range("samples_per_cell", value, {renderer::kFewestRaysPerCell, 10000.0});
+    if (value != 0.0) core::require_range("samples_per_cell", value, renderer::kSamplesPerCell);
     wish = session::Samples{value};
   } else if (kind == "accuracy") {
     core::require_range("accuracy_grey", value, renderer::kAccuracies_grey, "grey levels");

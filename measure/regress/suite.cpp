@@ -152,8 +152,7 @@ class CaseReader {
       static_assert(kWishes.size() == 3);
       render.caster = kWishes[table_.choice("caster", {kWishes[0], kWishes[1], kWishes[2]}, 0)];
     }
-    const auto samples =
-        table_.optional_number("rays_per_cell", {renderer::kFewestRaysPerCell, 10000.0});
+    const auto samples = table_.optional_number("rays_per_cell", renderer::kSamplesPerCell);
     const auto accuracy = table_.optional_number("accuracy_grey", renderer::kAccuracies_grey);
     render.sampling.rays_per_cell = samples.value_or(0.0);
     render.sampling.accuracy_grey = accuracy.value_or(0.0);

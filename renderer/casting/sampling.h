@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/number_range.h"
+
 namespace fanbeam::renderer {
 
 // Two ways to see a scene: ray_caster.h and profile/profile_caster.h.
@@ -52,6 +54,8 @@ Sampling reference_sampling(std::uint64_t seed, int passes = 16);
 inline constexpr double kDefaultRaysPerCell = 4.0;
 // Below it a ray would give to cells farther away than the plan's bounds count (largest_echo.h).
 inline constexpr double kFewestRaysPerCell = 0.3;
+// That may be asked for, of rays and of slices.
+inline constexpr core::NumberRange kSamplesPerCell{kFewestRaysPerCell, 10000.0};
 
 // `rays_per_cell` rays per range cell and column, split between azimuth and range in the proportion
 // that measured best (docs/performance.md): azimuth first.

@@ -1,5 +1,6 @@
 #include "signal/detection/tone.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -84,6 +85,29 @@ Tone refined_tone(const ToneRecords& records, double near_bin, const std::vector
     tone.power += std::norm(value / sum);
   }
   return tone;
+}
+
+std::vector<Tone> tones_at(const ToneRecords& records, const std::vector<double>& bins) {
+  check_input(records, {});
+  const std::size_t count = records.front().size();
+  Eigen::MatrixXcd phasors(static_cast<Eigen::Index>(count),
+                           static_cast<Eigen::Index>(bins.size()));
+  for (std::size_t k = 0; k < bins.size(); ++k)
+    for (std::size_t n = 0; n < count; ++n)
+      phasors(static_cast<Eigen::Index>(n), static_cast<Eigen::Index>(k)) =
+          unit_phasor(bins[k] * static_cast<double>(n) / static_cast<double>(count));
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixXcd> fit(phasors);
+  std::vector<Tone> tones;
+  for (const double bin : bins) tones.push_back({bin, {}, 0.0});
+  for (const auto& record : records) {
+    const Eigen::VectorXcd amplitudes = fit.solve(Eigen::Map<const Eigen::VectorXcd>(
+        record.data(), static_cast<Eigen::Index>(record.size())));
+    for (std::size_t k = 0; k < tones.size(); ++k) {
+      tones[k].amplitudes.push_back(amplitudes(static_cast<Eigen::Index>(k)));
+      tones[k].power += std::norm(tones[k].amplitudes.back());
+    }
+  }
+  return tones;
 }
 
 Tone strongest_tone(const std::vector<std::complex<double>>& samples,

@@ -32,6 +32,9 @@ using ToneRecords = std::vector<std::vector<std::complex<double>>>;
 Tone refined_tone(const ToneRecords& records, double near_bin,
                   const std::vector<double>& weights = {}, double tolerance_bins = 1e-11);
 
+// Tones at known places, all at once: the amplitudes that leave least of the records.
+std::vector<Tone> tones_at(const ToneRecords& records, const std::vector<double>& bins);
+
 // The strongest tone of one record, from its padded spectrum.
 Tone strongest_tone(const std::vector<std::complex<double>>& samples,
                     const std::vector<double>& weights = {});

@@ -269,6 +269,18 @@ TEST_CASE("A suite's faults are told all at once, by line, and nothing is render
   CHECK_FALSE(fs::exists(place.out()));
 }
 
+// A case of labels alone compared nothing and passed.
+TEST_CASE("What holds no picture is no product of a suite", "[regress]") {
+  for (const char* product : {"labels", "obstacles", "preview"}) {
+    Workplace place;
+    place.set_suite(std::string("products = [\"") + product + "\"]");
+    const Result result = place.run();
+    INFO(result.output);
+    CHECK(result.exit_code == 3);
+    CHECK(result.output.find("E-REF case[0].products") != std::string::npos);
+  }
+}
+
 TEST_CASE("Approving wants a reason, a case of the suite, and results of this suite", "[regress]") {
   Workplace place;
   place.set_suite();

@@ -56,6 +56,15 @@ def test_what_is_wanted_is_checked(lone_target):
     assert {problem.field for problem in told.value.problems} == {"transmitters", "adc_bits"}
 
 
+def test_numbers_of_elements_replace_the_places_of_a_radar_file(lone_target, tmp_path):
+    file = tmp_path / "radar.toml"
+    file.write_text("[array]\ntransmitter_right_m = [0.0]\nreceiver_right_m = [0.0, 0.002, 0.004]\n")
+    own = fanbeam.signal.frame(lone_target, 0, want=("beat",), radar=file)
+    more = fanbeam.signal.frame(lone_target, 0, want=("beat",), radar=file, transmitters=2)
+    assert own.beats[0].shape[0] == 3
+    assert more.beats[0].shape[0] == 6
+
+
 def test_fftw_comes_with_signals_alone():
     script = "import fanbeam; print('fftw' in open('/proc/self/maps').read())"
     plain = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

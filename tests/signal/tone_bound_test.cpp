@@ -85,6 +85,23 @@ TEST_CASE("Places of tones are periodic, and what cannot be told has no bound", 
   CHECK_THROWS_AS(tone_bounds({}, kSamples, std::nan("")), core::InputError);
 }
 
+TEST_CASE("Amplitudes of tones at known places are those that made the records", "[detection]") {
+  ToneRecords records(2, std::vector<std::complex<double>>(kSamples));
+  const std::complex<double> made[2][2] = {{{1.0, 2.0}, {0.5, 0.0}}, {{-3.0, 0.1}, {0.0, 4.0}}};
+  const double bins[] = {10.2, 10.7};
+  for (std::size_t c = 0; c < 2; ++c)
+    for (std::size_t n = 0; n < kSamples; ++n)
+      for (std::size_t k = 0; k < 2; ++k)
+        records[c][n] +=
+            made[k][c] * std::polar(1.0, 2.0 * kPi * bins[k] * static_cast<double>(n) / kSamples);
+  const auto tones = tones_at(records, {bins[0], bins[1]});
+  REQUIRE(tones.size() == 2);
+  for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t c = 0; c < 2; ++c) CHECK(std::abs(tones[k].amplitudes[c] - made[k][c]) < 1e-9);
+    CHECK(tones[k].power == Approx(std::norm(made[k][0]) + std::norm(made[k][1])));
+  }
+}
+
 // Places and amplitudes of both, over what is told.
 TEST_CASE("Two tones of one peak err by their bound", "[detection][statistics]") {
   constexpr std::size_t kRecords = 12;

@@ -13,10 +13,12 @@ constexpr int kMostTurns = 12;
 constexpr double kTolerance_bins = 1e-7;
 constexpr double kStraight_bins = 1e-4;  // a bend that moves nothing
 constexpr double kOwnPeak = 1.0;         // bins
-// Bins within which main lobes overlap. Beyond, side lobes alone pull, and one turn takes that off to a thousandth.
+// Bins within which main lobes overlap. Beyond, side lobes alone pull, and one turn takes that off to a
+// thousandth.
 constexpr double kTouching = 3.5;
 
-// exp(j 2 pi (b n / N + c t^2 / 2)), each from the one before: the step turns by the same at every sample.
+// exp(j 2 pi (b n / N + c t^2 / 2)), each from the one before: the step turns by the same at every
+// sample.
 std::vector<std::complex<double>> phasors_of(double bin, double curvature_bins, std::size_t count) {
   const auto n = static_cast<double>(count);
   const double first_t = -0.5 * (n - 1.0) / n;

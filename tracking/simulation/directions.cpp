@@ -15,7 +15,6 @@ namespace {
 using signal::Snapshot;
 
 constexpr int kTurns = 10;
-constexpr double kHalfABeam_rad = core::kPi / 2.0;  // of one element
 constexpr double kLeastShare = 0.1;
 // Beamwidths from which on taking turns gets to the end in ten.
 constexpr double kApart = 1.5;
@@ -67,40 +66,18 @@ std::vector<double> directions_rad(const Snapshot& snapshot,
 std::vector<double> direction_sigmas_rad(const Snapshot& snapshot,
                                          const std::vector<double>& directions_rad,
                                          double pitch_wavelengths, double noise_W) {
-  const auto elements = static_cast<double>(snapshot.size());
-  if (snapshot.size() < 2) return std::vector<double>(directions_rad.size(), kHalfABeam_rad);
-  std::vector<signal::Tone> tones;
-  for (const double direction : directions_rad)
-    tones.push_back({-elements * pitch_wavelengths * std::sin(direction), {}, 0.0});
-  const auto sum_at = [&](double bin) {
-    std::complex<double> sum = 0.0;
-    for (std::size_t n = 0; n < snapshot.size(); ++n)
-      sum +=
-          snapshot[n] * std::polar(1.0, -2.0 * core::kPi * bin * static_cast<double>(n) / elements);
-    return sum;
-  };
-  // Of both at once.
-  std::complex<double> shared = 0.0;
-  if (tones.size() == 2)
-    for (std::size_t n = 0; n < snapshot.size(); ++n)
-      shared += std::polar(
-          1.0, 2.0 * core::kPi * (tones[1].bin - tones[0].bin) * static_cast<double>(n) / elements);
-  const double scale = elements * elements - std::norm(shared);
-  for (std::size_t i = 0; i < tones.size(); ++i) {
-    const std::complex<double> other = tones.size() == 2 ? sum_at(tones[1 - i].bin) : 0.0;
-    const std::complex<double> cross = i == 0 ? shared : std::conj(shared);
-    const std::complex<double> amplitude =
-        scale > 0.0 ? (elements * sum_at(tones[i].bin) - cross * other) / scale : 0.0;
-    tones[i].amplitudes = {amplitude};
-    tones[i].power = std::norm(amplitude);
-  }
-  const auto bounds = signal::tone_bounds(tones, snapshot.size(), noise_W);
+  // Even over all of them, as measurement_bound.h has it.
+  if (snapshot.size() < 2)
+    return std::vector<double>(directions_rad.size(), core::kPi / std::sqrt(3.0));
+  const double aperture = static_cast<double>(snapshot.size()) * pitch_wavelengths;
+  std::vector<double> bins;
+  for (const double direction : directions_rad) bins.push_back(-aperture * std::sin(direction));
+  const auto bounds =
+      signal::tone_bounds(signal::tones_at({snapshot}, bins), snapshot.size(), noise_W);
   std::vector<double> sigmas;
-  for (std::size_t i = 0; i < tones.size(); ++i) {
-    const double per_rad = elements * pitch_wavelengths * std::cos(directions_rad[i]);
-    const double most = 0.5 / (elements * pitch_wavelengths);
-    sigmas.push_back(std::min(most, std::sqrt(bounds[i].variance_bins2) / per_rad));
-  }
+  for (std::size_t i = 0; i < bins.size(); ++i)
+    sigmas.push_back(std::min(0.5 / aperture, std::sqrt(bounds[i].variance_bins2) /
+                                                  (aperture * std::cos(directions_rad[i]))));
   return sigmas;
 }
 

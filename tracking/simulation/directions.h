@@ -18,7 +18,7 @@ std::vector<double> directions_rad(const std::vector<std::complex<double>>& snap
                                    double beam_sine, double noise_W);
 
 // How well these one or two directions can be known: the Cramer-Rao bound
-// (signal/detection/tone_bound.h), at most half a beam, which is also that of less than two elements.
+// (signal/detection/tone_bound.h), at most half of lambda / (N d); any direction for less than two elements.
 // Of an array of `pitch_wavelengths`.
 std::vector<double> direction_sigmas_rad(const std::vector<std::complex<double>>& snapshot,
                                          const std::vector<double>& directions_rad,

@@ -52,16 +52,18 @@ void find_doubtful(const std::vector<BentTone>& tones, double count, std::vector
         peaks[i].kind = Kind::doubtful;
 }
 
+bool is_sure(const BentTone& tone, const Peak& peak) {
+  return !tone.lost && peak.kind != Kind::doubtful;
+}
+
 // The nearest first.
 void find_partners(const std::vector<BentTone>& tones, double count, std::vector<Peak>& peaks) {
   std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> near;
-  const auto counts = [&](std::size_t i) {
-    return !tones[i].lost && peaks[i].kind != Kind::doubtful;
-  };
   for (std::size_t i = 0; i < tones.size(); ++i)
     for (std::size_t j = i + 1; j < tones.size(); ++j) {
       const double apart = bins_apart(tones[i].tone.bin, tones[j].tone.bin, count);
-      if (counts(i) && counts(j) && apart < kOneLobe) near.push_back({apart, {i, j}});
+      if (is_sure(tones[i], peaks[i]) && is_sure(tones[j], peaks[j]) && apart < kOneLobe)
+        near.push_back({apart, {i, j}});
     }
   std::sort(near.begin(), near.end());
   for (const auto& [apart, pair] : near) {
@@ -95,10 +97,9 @@ class Ramp {
   void split(const std::vector<Peak>& peaks, const std::vector<BentTone>& tones) {
     rest_ = records_;
     for (std::size_t i = 0; i < tones.size(); ++i)
-      if (!tones[i].lost && peaks[i].kind != Kind::doubtful) add(tones[i], -1.0, rest_);
+      if (is_sure(tones[i], peaks[i])) add(tones[i], -1.0, rest_);
     for (std::size_t i = 0; i < tones.size(); ++i)
-      if (!tones[i].lost && peaks[i].kind != Kind::doubtful && peaks[i].partner >= i)
-        split_one(peaks, tones, i);
+      if (is_sure(tones[i], peaks[i]) && peaks[i].partner >= i) split_one(peaks, tones, i);
   }
 
   // What stands beside two tones was sought beside one.
@@ -106,18 +107,17 @@ class Ramp {
     std::vector<double> moved(found_.size(), 0.0);
     for (int turn = 0; turn < kMoreTurns; ++turn) {
       double furthest = 0.0;
-      for (std::size_t i = 0; i < found_.size(); i += found_[i].jointly ? 2 : 1) {
+      for (std::size_t i = 0; i < found_.size(); i = end_of(i)) {
         if (!is_beside_two(i, turn == 0)) continue;
         moved[i] = seek_again(i);
         furthest = std::max(furthest, moved[i]);
       }
       if (furthest < kStill_bins) break;
     }
-    for (std::size_t i = 0; i < found_.size(); i += found_[i].jointly ? 2 : 1)
-      for (std::size_t own = i; own < i + (found_[i].jointly ? 2 : 1); ++own) {
-        double& told = found_[own].bent.unsettled_bins;
-        if (moved[i] >= kStill_bins) told = std::max(told, 10.0 * moved[i]);
-      }
+    for (std::size_t i = 0; i < found_.size(); i = end_of(i))
+      for (std::size_t own = i; own < end_of(i) && moved[i] >= kStill_bins; ++own)
+        found_[own].bent.unsettled_bins =
+            std::max(found_[own].bent.unsettled_bins, 10.0 * moved[i]);
   }
 
   void add_doubtful(const std::vector<Peak>& peaks, double least_power) {
@@ -142,13 +142,16 @@ class Ramp {
 
  private:
   double count() const { return static_cast<double>(records_.front().size()); }
+  // Two that are sought jointly follow each other.
+  std::size_t end_of(std::size_t i) const { return i + (found_[i].jointly ? 2 : 1); }
+  double middle_of(const signal::Tone& one, const signal::Tone& other) const {
+    return one.bin + 0.5 * std::remainder(other.bin - one.bin, count());
+  }
 
   void split_one(const std::vector<Peak>& peaks, const std::vector<BentTone>& tones,
                  std::size_t i) {
     const std::size_t partner = peaks[i].partner;
-    const double own_bin = tones[i].tone.bin;
-    const double middle =
-        own_bin + 0.5 * std::remainder(tones[partner].tone.bin - own_bin, count());
+    const double middle = middle_of(tones[i].tone, tones[partner].tone);
     const double curvature_bins = 0.5 * (peaks[i].curvature_bins + peaks[partner].curvature_bins);
     add(tones[i], 1.0, rest_);
     if (partner != i) add(tones[partner], 1.0, rest_);
@@ -163,7 +166,8 @@ class Ramp {
       const double spread = spread_of_bends(seen_, middle, count());
       put({two->first, curvature_bins}, i, true, spread);
       put({two->second, curvature_bins}, partner, true, spread);
-    } else if (partner != i && bins_apart(own_bin, tones[partner].tone.bin, count()) < kOneTone) {
+    } else if (partner != i &&
+               bins_apart(tones[i].tone.bin, tones[partner].tone.bin, count()) < kOneTone) {
       const BentTone one = tones_in_turn(rest_, {{middle, curvature_bins}}, weights_).front();
       put(one.lost ? tones[i] : one, i, false, 0.0);
     } else {
@@ -174,7 +178,7 @@ class Ramp {
 
   // Within six bins, or `once` at any distance: side lobes are done with then.
   bool is_beside_two(std::size_t i, bool once) const {
-    const std::size_t end = i + (found_[i].jointly ? 2 : 1);
+    const std::size_t end = end_of(i);
     for (std::size_t j = 0; j < found_.size(); ++j) {
       if (j >= i && j < end) continue;
       if (once && found_[j].jointly) return true;
@@ -195,8 +199,7 @@ class Ramp {
     if (one.jointly) {
       RampTone& other = found_[i + 1];
       add(other.bent, 1.0, rest_);
-      const double middle = one.bent.tone.bin +
-                            0.5 * std::remainder(other.bent.tone.bin - one.bent.tone.bin, count());
+      const double middle = middle_of(one.bent.tone, other.bent.tone);
       if (auto two = signal::two_tones(rest_, middle, one.bent.curvature_bins, noise_W_)) {
         other_move = bins_apart(two->second.bin, other.bent.tone.bin, count());
         one.bent.tone = std::move(two->first);

@@ -194,6 +194,7 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
       if (best.found && agree(beats.up[best.up], beats.down[best.down]))
         add(apart(model, beats, best, detections[i]), found);
     }
+  tell_shared(found);
   std::vector<RadarMeasurement> result;
   for (const Found& one : found) result.push_back(measured(beats, one));
   return result;

@@ -11,10 +11,10 @@
 // within four standard deviations (0.3 m, 0.3 m/s; 6 mrad and noise between the directions of its beats
 // and of its cell, as far as each is one plane wave), at its own speed or at one of its folds by the
 // chirps' rate (2 vmax = 98.6 m/s); one without a pair is dropped. Its direction is that of its beats,
-// where they are one wave each and within 0.6 of a beam of the cell's, else its cell's. Where a beat is
-// one of two tones of a peak, both targets are told, each with the other ramp's beat from its
-// direction, or where that is not split, with the one there is and an error that says so. Beats that no
-// detection has taken make a second target within a cell.
+// where they are one wave each, else its cell's. Where a beat is one of two tones of a peak, both
+// targets are told, each with the other ramp's beat from its direction, or where that is not split,
+// with the one there is and an error that says so. Beats that no detection has taken make a second
+// target within a cell.
 // Array: a line of `radar.array_elements` receivers that share the gain, so that their coherent sum
 // has the ratio of the link budget. Phases of targets are random in every frame, and their
 // cross-sections as in measurement_simulator.h, by the same draws.
@@ -79,6 +79,7 @@ class SampledRadar {
     double merged_bins = 0.0;  // how far a beat of it may be off that is another target's too
   };
   void add(const std::vector<Found>& more, std::vector<Found>& found) const;
+  static void tell_shared(std::vector<Found>& found);
   static SampledBeats left_over(SampledBeats beats, const std::vector<Found>& found);
   void find_directions(std::vector<Beat>& beats) const;
   // Of two that are one plane wave each: squared, over what it may be.

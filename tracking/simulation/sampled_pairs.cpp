@@ -20,8 +20,8 @@ constexpr double kMostDisagreement = 4.0;  // two standard deviations, squared
 // What taking turns leaves where it ends (bent_tones.h).
 constexpr double kSettled_bins = 2e-4;
 // Two tones that are one beat are up to 0.7 bins apart: evenly.
-constexpr double kMerged_bins = 0.7 / 3.4641;
-constexpr double kSure = 9.0;  // three standard deviations, squared
+constexpr double kMerged_bins = 0.7 * 0.28868;  // 1 / sqrt(12)
+constexpr double kSure = 9.0;                   // three standard deviations, squared
 constexpr double kNowhere_Hz = 1e15;
 
 }  // namespace
@@ -103,6 +103,16 @@ SampledBeats SampledRadar::left_over(SampledBeats beats, const std::vector<Found
     beats.up[one.up].Hz = beats.down[one.down].Hz = kNowhere_Hz;
   }
   return beats;
+}
+
+// A beat that two targets take is of both.
+void SampledRadar::tell_shared(std::vector<Found>& found) {
+  for (Found& one : found) {
+    const auto takers = std::count_if(found.begin(), found.end(), [&](const Found& other) {
+      return other.up == one.up || other.down == one.down;
+    });
+    if (takers > 1) one.merged_bins = std::max(one.merged_bins, kMerged_bins);
+  }
 }
 
 // With the direction of both beats, if that is one target's, else of the one that is, else the coarse

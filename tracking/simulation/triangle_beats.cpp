@@ -77,8 +77,7 @@ std::vector<BentPeak> places_of(const std::vector<signal::RangeSpeed>& coarse,
 
 // What the bend c of the other one of two tones leaves, d bins away: pi c (t^2 - 1/12) of its
 // amplitude, which moves a tone of the same power by up to c / (2 pi d); rms over their phases, as
-// measured. About as much of its amplitude is left beside the
-// tone's.
+// measured. About as much of its amplitude is left beside the tone's.
 double bend_bins(const RampTone& one, const std::vector<RampTone>& all, double count) {
   double worst = 0.0;
   for (const RampTone& other : all) {
@@ -108,7 +107,7 @@ std::vector<Beat> beats_of(const std::vector<RampTone>& found, std::size_t sampl
     const double bin = tone.bin - count * std::floor((tone.bin + 0.5 * count) / count);
     const WindowCost cost = found[i].jointly ? WindowCost{} : window;
     const double ratio = count * tone.power / noise_W, bend = bend_bins(found[i], found, count);
-    // What cannot be told is told to a bin and to half a beam.
+    // What cannot be told is told to a bin and to a third of a beam.
     const double sigma_bins =
         std::min(1.0, std::hypot(std::sqrt(cost.variance_ratio * bounds[i].variance_bins2), bend,
                                  found[i].bent.unsettled_bins));
