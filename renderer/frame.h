@@ -49,7 +49,7 @@ struct Frame {
   std::uint64_t rays = 0;
   std::uint64_t slices = 0;
   std::uint64_t blanked = 0;           // hits nearer than the first range cell
-  std::uint64_t unprojected = 0;       // point targets abeam of, behind or at the antenna
+  std::uint64_t unprojected = 0;       // point targets without a direction; point_targets.h
   std::optional<FrameLayers> layers;   // when asked for; frame_layers.h
   std::optional<ErrorEstimate> error;  // when the sampling asks for it
   // "below_terrain": the sensor is not above the ground, the picture holds noise alone.

@@ -207,9 +207,9 @@ std::optional<ErrorEstimate> FrameRenderer::Stages::cast(const sensors::AntennaF
     add_rain(antenna, sums);
     return std::nullopt;
   }
-  const ErrorEstimate error =
-      Refinement(world_, sampling_, *caster_, double_bounce_.get(), effects_)
-          .cast(antenna, with_cscope, sums, sight, bounced);
+  const ErrorEstimate error = Refinement(world_, sampling_, *caster_, double_bounce_.get(),
+                                         effects_, products_.cscope && !shows_elevation())
+                                  .cast(antenna, with_cscope, sums, sight, bounced);
   add_rain(antenna, sums);
   return error;
 }

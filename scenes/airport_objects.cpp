@@ -66,6 +66,7 @@ class AirportTable {
     for (const int end : {0, 1}) {
       runway.ends[end].name = from.ends[end].name;
       runway.ends[end].displaced_m = from.ends[end].displaced_m;
+      runway.ends[end].displaced_place = from.place;
       place_end(airport, from.ends[end], runway.ends[end]);
       if (from.ends[end].approach_lights.value_or(false))
         runway.approach_lights.push_back(from.ends[end].name);

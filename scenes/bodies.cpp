@@ -142,7 +142,13 @@ void add_buildings(const BuildingsDescription& buildings, const Ground& ground,
                    const MaterialNames& names, FileBudget& budget, core::ProblemList& problems,
                    Bodies& bodies) {
   const std::string text = budget.read(buildings.file, terrain::kLargestCityFile_bytes);
-  if (terrain::is_cityjson(text))
+  const bool is_city = terrain::is_cityjson(text);
+  for (const auto& key : is_city ? buildings.footprint_keys : buildings.city_keys)
+    problems.error(ErrorClass::unsupported, key.place, key.path,
+                   is_city ? "a key of GeoJSON footprints" : "a key of CityJSON",
+                   "no such key: " + buildings.file.filename().string() +
+                       (is_city ? " is" : " is no") + " CityJSON");
+  if (is_city)
     add_city(text, buildings, ground, names, problems, bodies);
   else
     add_footprints(buildings, ground, names, problems, bodies);

@@ -2,6 +2,7 @@
 // table of scene.toml. docs/scene-format.md documents every key.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -62,6 +63,7 @@ struct RunwayEndDescription {
   core::Geodetic pavement_end;
   bool on_ground = false;  // as high as the elevation data say, not as pavement_end
   double displaced_m = 0.0;
+  core::Place displaced_place;
 };
 
 struct RunwayDescription {
@@ -131,6 +133,12 @@ struct BuildingsDescription {
   std::string crs;                // "EPSG:28992", where the file does not say
   bool heights_as_filed = false;  // else each building is moved up or down onto the scene's ground
   std::map<std::string, std::string> surface_materials;  // "Window" to ours
+  // Keys given that only one kind of file has a use for; which kind it is, is not known yet.
+  struct Key {
+    std::string path;  // "buildings[0].crs"
+    core::Place place;
+  };
+  std::vector<Key> footprint_keys, city_keys;
   core::Place place;
 };
 
@@ -144,6 +152,8 @@ struct TargetDescription {
   struct Swing {
     double amplitude_m = 0.0, period_s = 1.0;
     double phase_rad = 0.0;  // amplitude sin(2 pi t / period + phase)
+    // The straight legs, of a 192nd of the period or less, that a part of the way becomes.
+    double legs(double duration_s) const { return std::ceil(192.0 * duration_s / period_s); }
   };
   std::string name;
   materials::RcsModel rcs;

@@ -1,6 +1,7 @@
 #include "scenes/frame_plan.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "renderer/plan/frame_facts.h"
 #include "scenes/frame_sight.h"
@@ -39,6 +40,9 @@ core::EffectPlan plan_alone(const Scene& scene, const renderer::FramePose& pose)
   const double height_m = renderer::antenna_of(scene.description.sensor, pose).position_m.z;
   facts.lowest_m = std::min({facts.lowest_m, height_m, pose.position_m.z});
   facts.highest_m = std::max({facts.highest_m, height_m, pose.position_m.z});
+  const glm::dvec3& down = pose.north_east_down[2];
+  facts.vertical_turn_rad =
+      std::max(facts.vertical_turn_rad, std::atan2(std::hypot(down.x, down.y), -down.z));
   return renderer::plan(facts, scene.accuracy_grey, scene.options.wishes);
 }
 

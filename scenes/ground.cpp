@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "core/units.h"
+#include "scenes/airport/airport.h"
 #include "scenes/elevation_voids.h"
 #include "scenes/natural_ground.h"
 #include "scenes/placed_problems.h"
@@ -55,7 +56,9 @@ Ground::Ground(const SceneDescription& scene, const terrain::LocalFrame& frame,
   const NaturalGround natural(terrain, level_m(), names, problems);
   for (const RunwayDescription& runway : scene.runways)
     runways_.push_back(place_runway(runway, natural, names));
-  if (natural.usable()) shape(natural);
+  if (!natural.usable()) return;
+  tell_steps();
+  shape(natural);
 }
 
 double Ground::level_m() const {
@@ -128,11 +131,34 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description,
   if (runway.length_m() < 100.0)
     problems_.error(ErrorClass::range, description.place, "runway length",
                     core::number_text(runway.length_m()) + " m", "ends at least 100 m apart");
+  const RunwayEndDescription* const ends = description.ends;
+  check_displaced(ends[0].displaced_m + ends[1].displaced_m, runway.length_m(),
+                  ends[ends[1].displaced_m > ends[0].displaced_m ? 1 : 0].displaced_place,
+                  problems_);
   for (const terrain::RunwayEnd& end : runway.ends)
     if (!field_.height_at(end.pavement_end_m.x, end.pavement_end_m.y))
       problems_.error(ErrorClass::range, description.place, "runway end",
                       local_text(end.pavement_end_m), "a place on the scene's terrain");
   return runway;
+}
+
+void Ground::tell_steps() const {
+  constexpr double kTold_m = 0.5;
+  const auto name = [&](std::size_t i) {
+    const RunwayEndDescription* const ends = scene_.runways[i].ends;
+    return ends[0].name + "/" + ends[1].name;
+  };
+  for (std::size_t i = 1; i < runways_.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const double step_m = terrain::largest_step_m(runways_[k], runways_[i]);
+      if (step_m > kTold_m)
+        problems_.warning("OVERLAP", scene_.runways[i].place, "runway",
+                          name(k) + " and " + name(i) + " differ by " +
+                              core::number_text(std::round(step_m * 10.0) / 10.0) +
+                              " m where their strips overlap",
+                          "blended there: check the ends' elevations, or make strip_half_width_m "
+                          "smaller");
+    }
 }
 
 Zone Ground::zone(glm::dvec2 position_m) const {
@@ -195,8 +221,7 @@ std::optional<double> Ground::post_up_m(const NaturalGround& natural, glm::dvec2
     const core::Geodetic g = frame_.to_geodetic({position_m, up_m});
     std::optional<double> height_m = natural.height_m(g, position_m);
     if (!height_m) return std::nullopt;
-    for (const terrain::Runway& runway : runways_)
-      height_m = terrain::flattened_height_m(runway, position_m, *height_m);
+    height_m = terrain::flattened_height_m(runways_, position_m, *height_m);
     *height_m += natural.canopy_m(position_m, zone(position_m));
     up_m += ellipsoidal_m(*height_m, g.latitude_rad, g.longitude_rad, scene_.datum) - g.height_m;
   }

@@ -41,7 +41,8 @@ enum class Zone { open, approach, airfield };
 
 class Ground {
  public:
-  // Loads rasters, generates what is to be generated, flattens the runway strips.
+  // Loads rasters, generates what is to be generated, flattens the runway strips. W-OVERLAP for two
+  // runways whose lines differ by more than 0.5 m where their strips overlap.
   Ground(const SceneDescription& scene, const terrain::LocalFrame& frame,
          const MaterialNames& names, core::ProblemList& problems);
 
@@ -84,6 +85,8 @@ class Ground {
   // elevation data under the runway come nearest to.
   double elevation_on_ground_m(const RunwayDescription& description, int end,
                                const NaturalGround& natural) const;
+  // Of runways whose strips overlap at different heights.
+  void tell_steps() const;
   void shape(const NaturalGround& natural);
   // Local up of a post, nothing where the elevation data end.
   std::optional<double> post_up_m(const NaturalGround& natural, glm::dvec2 position_m) const;

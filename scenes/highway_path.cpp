@@ -41,7 +41,7 @@ std::vector<double> highway_times_s(const core::HighwayTarget& target, double du
   for (const Span& span : accelerating(target, begin_s, end_s)) {
     const double first = std::floor(std::max(span.start_s, begin_s) / kLeg_s) - 0.5;
     const double last = std::ceil(std::min(span.end_s, end_s) / kLeg_s) + 0.5;
-    if (last - first > static_cast<double>(kMostWaypoints - times_s.size()))
+    if (static_cast<double>(times_s.size()) + last - first >= static_cast<double>(kMostWaypoints))
       core::throw_input_error(core::ErrorClass::limit, "highway", duration_s,
                               "accelerations of 200 s at most");
     for (double leg = first; leg <= last; leg += 1.0) times_s.push_back(leg * kLeg_s);
@@ -66,7 +66,8 @@ const HighwayFile* HighwayPaths::file_of(core::ConfigTable& table) {
 
 std::vector<TargetDescription::Waypoint> HighwayPaths::path(core::ConfigTable& target,
                                                             const Spot& origin,
-                                                            double above_ground_m) {
+                                                            double above_ground_m,
+                                                            WaypointBudget& budget) {
   core::ConfigTable table = target.table("highway");
   const std::string scenario_id = table.required_text("scenario");
   const std::string target_id = table.required_text("target");
@@ -88,9 +89,13 @@ std::vector<TargetDescription::Waypoint> HighwayPaths::path(core::ConfigTable& t
                 "a target of the scenario" + ids_there_text(target_id, scenario->targets));
     return {};
   }
+  if (budget.is_spent()) return {};
   std::vector<TargetDescription::Waypoint> result;
   try {
-    for (const double time_s : highway_times_s(*law, scenario->duration_s)) {
+    const std::vector<double> times_s = highway_times_s(*law, scenario->duration_s);
+    if (!budget.take(target, "highway", static_cast<double>(times_s.size()))) return {};
+    result.reserve(times_s.size());
+    for (const double time_s : times_s) {
       // Of a radar that stands still: over ground.
       const core::RelativeMotion motion = relative_motion(*law, 0.0, time_s);
       Spot spot = origin;

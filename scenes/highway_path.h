@@ -19,6 +19,7 @@
 #include "scenes/data_search.h"
 #include "scenes/description.h"
 #include "scenes/highway_reader.h"
+#include "scenes/waypoint_budget.h"
 
 namespace fanbeam::scenes {
 
@@ -32,9 +33,9 @@ class HighwayPaths {
 
   // The path of the target that the table `highway` of `target` names, about `origin`. Reports what
   // the reader of scenarios refuses; E-REF for an unknown scenario or target, or a place that is
-  // not on a runway.
+  // not on a runway; E-LIMIT, and no path, once `budget` is spent.
   std::vector<TargetDescription::Waypoint> path(core::ConfigTable& target, const Spot& origin,
-                                                double above_ground_m);
+                                                double above_ground_m, WaypointBudget& budget);
 
   std::vector<std::filesystem::path> files() const;
 

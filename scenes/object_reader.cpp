@@ -1,6 +1,7 @@
 #include "scenes/object_reader.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <set>
 
 #include "core/decibel.h"
@@ -32,6 +33,7 @@ void read_runway_end(ConfigTable& runway, const char* key, RunwayEndDescription&
   end.pavement_end.longitude_rad = radians(table.required_number("longitude_deg", {-180, 180}));
   end.pavement_end.height_m = table.required_number("elevation_m", {-500, 6000});
   end.displaced_m = table.number("displaced_m", {0, 3000}, 0.0);
+  end.displaced_place = table.place("displaced_m");
 }
 
 RunwayDescription read_runway(ConfigTable& table) {
@@ -153,6 +155,14 @@ BuildingsDescription read_buildings(ConfigTable& table, const DataSearch& search
   ConfigTable surfaces = table.table("surfaces");
   for (const std::string& key : surfaces.keys())
     buildings.surface_materials[key] = surfaces.text(key, "");
+  const auto given = [&](std::initializer_list<const char*> keys) {
+    std::vector<BuildingsDescription::Key> found;
+    for (const char* key : keys)
+      if (table.has(key)) found.push_back({table.path(key), table.place(key)});
+    return found;
+  };
+  buildings.footprint_keys = given({"height_property", "min_height_property", "base"});
+  buildings.city_keys = given({"crs", "heights", "surfaces"});
   return buildings;
 }
 
@@ -210,9 +220,10 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
   for (ConfigTable& table : root.tables("buildings"))
     scene.buildings.push_back(read_buildings(table, search));
   HighwayPaths highway(search);
+  WaypointBudget waypoints;
   for (ConfigTable& table : root.tables("target"))
     scene.targets.push_back(
-        read_target(table, objects, highway, scene.sensor.waveform.polarisation));
+        read_target(table, objects, highway, waypoints, scene.sensor.waveform.polarisation));
   for (const std::filesystem::path& file : highway.files()) scene.files.push_back(file);
   for (ConfigTable& table : root.tables("interferer", kMostInterferers)) {
     scene.interferers.push_back(read_interferer(table, scene.sensor.waveform));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "scenes/ground.h"
 #include "scenes/model_materials.h"
 #include "terrain/ray_scene.h"
+#include "terrain/surface_map.h"
 
 namespace fanbeam::scenes {
 
@@ -24,9 +26,12 @@ struct Objects {
 
 // The pavements of [[airport]], the rectangles of [[surface]] on them, the runways on top, each in file
 // order. Adds "pavement 1", "surface 1" and so on, "runway 36/18" and "runway 36/18 markings" to `objects`.
-std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
-                                                 const Ground& ground, const MaterialNames& names,
-                                                 Objects& objects);
+// E-LIMIT for the one after which they lie on more than `most_cells` of the ground (terrain::cells_under);
+// what would follow is left out.
+std::vector<terrain::SurfacePatch> build_patches(
+    const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
+    Objects& objects, core::ProblemList& problems,
+    std::uint64_t most_cells = terrain::kMostPatchedCells);
 
 // Boxes, building files and models, in this order: as triangles for rays, and as what a vertical
 // cut can make of them.

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <string>
 
 #include "scenes/objects.h"
 #include "terrain/buildings/clean_footprint.h"
@@ -59,14 +61,44 @@ void add_pavement(const PavementDescription& pavement, const Ground& ground,
   }
 }
 
+// Counts the cells of the ground that the patches lie on.
+class CellBudget {
+ public:
+  CellBudget(const Ground& ground, core::ProblemList& problems, std::uint64_t most)
+      : field_(ground.field()), problems_(problems), most_(most) {}
+
+  // False, and told, where the patches added since the last call are more than there is room for.
+  bool holds(const std::vector<terrain::SurfacePatch>& patches, const core::Place& place,
+             const char* field) {
+    for (; counted_ < patches.size(); ++counted_)
+      cells_ += terrain::cells_under(patches[counted_], field_);
+    if (cells_ <= most_) return true;
+    problems_.error(core::ErrorClass::limit, place, field,
+                    std::to_string(cells_) + " cells of the terrain under surfaces",
+                    "at most " + std::to_string(most_) +
+                        ", each counted for every surface on it: a wider terrain.spacing_m");
+    return false;
+  }
+
+ private:
+  const terrain::HeightField& field_;
+  core::ProblemList& problems_;
+  std::uint64_t most_, cells_ = 0;
+  std::size_t counted_ = 0;
+};
+
 }  // namespace
 
 std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
                                                  const Ground& ground, const MaterialNames& names,
-                                                 Objects& objects) {
+                                                 Objects& objects, core::ProblemList& problems,
+                                                 std::uint64_t most_cells) {
   std::vector<terrain::SurfacePatch> patches;
-  for (const PavementDescription& pavement : scene.pavements)
+  CellBudget budget(ground, problems, most_cells);
+  for (const PavementDescription& pavement : scene.pavements) {
     add_pavement(pavement, ground, names, objects, patches);
+    if (!budget.holds(patches, pavement.place, "airport")) return patches;
+  }
   for (const SurfaceDescription& surface : scene.surfaces) {
     const auto end = ground.landing_end(surface.runway_end, surface.place);
     if (!end) continue;
@@ -80,6 +112,7 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
         names.id(surface.material, surface.place, "surface.material")));
     patches.back().object = objects.add(
         "surface " + std::to_string(&surface - scene.surfaces.data() + 1), ObjectKind::surface);
+    if (!budget.holds(patches, surface.place, "surface")) return patches;
   }
   for (std::size_t i = 0; i < ground.runways().size(); ++i) {
     const RunwayDescription& described = scene.runways[i];
@@ -89,6 +122,7 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
     for (terrain::SurfacePatch& patch :
          terrain::runway_patches(ground.runways()[i], pavement, markings))
       patches.push_back(std::move(patch));
+    if (!budget.holds(patches, described.place, "runway")) return patches;
   }
   return patches;
 }

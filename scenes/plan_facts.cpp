@@ -20,6 +20,7 @@ renderer::SceneFacts facts_of(const SceneDescription& description, const Site& s
   facts.largest_eta_m2_per_m3 = largest_eta_m2_per_m3;
   facts.lowest_m = std::min(stands.lowest_m, volume.lowest_m);
   facts.highest_m = std::max(stands.highest_m, volume.highest_m);
+  facts.vertical_turn_rad = volume.vertical_turn_rad;
   add_surface_facts(site, description.surface_state, facts);
   add_mirror_facts(stands, mirroring, facts);
   facts.has_point_targets = !targets.empty();

@@ -86,7 +86,8 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   const Ground ground(description, setting.frame, names, problems);
   Objects objects;
   objects.add("terrain", renderer::ObjectKind::terrain);
-  std::vector<terrain::SurfacePatch> patches = build_patches(description, ground, names, objects);
+  std::vector<terrain::SurfacePatch> patches =
+      build_patches(description, ground, names, objects, problems);
   ModelMaterials model_materials(description, library.size(), problems);
   Bodies bodies =
       build_bodies(description, ground, names, model_materials, std::move(objects), problems);

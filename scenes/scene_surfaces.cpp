@@ -59,10 +59,13 @@ void add_surface_facts(const Site& site, SurfaceState state, renderer::SceneFact
     const std::size_t turned = library.in_state(index, state);
     if (turned == index) continue;
     // A perfectly dark material has no finite change: the whole window may be at stake.
-    facts.surface_change_dB =
-        std::max(facts.surface_change_dB,
-                 std::min(shown[index].largest_change_dB(dry[index]), kNoFiniteChange_dB));
-    facts.state_changes_mirrors = facts.state_changes_mirrors ||
+    const double change_dB =
+        std::min(shown[index].largest_change_dB(dry[index]), kNoFiniteChange_dB);
+    facts.surface_change_dB = std::max(facts.surface_change_dB, change_dB);
+    // What a surface scatters it cannot mirror (renderer/surfaces/mirrors.h): a little more may be all
+    // that was left.
+    const bool mirrors = library[index].rms_height_m && !library[index].dielectric.empty();
+    facts.state_changes_mirrors = facts.state_changes_mirrors || (mirrors && change_dB > 0.0) ||
                                   library[index].dielectric != library[turned].dielectric ||
                                   library[index].rms_height_m != library[turned].rms_height_m;
   }

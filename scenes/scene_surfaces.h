@@ -45,7 +45,8 @@ std::vector<SurfaceRecord> record_surfaces(const SceneDescription& scene,
 // Fills the facts on surfaces: their state, what it changes, and the brightest of them. The change
 // is the largest of NRCS, either way, from dry to `state`: over the materials that are used and all
 // grazing angles, as the ray caster reads them (nrcs_table.h: 4096 even steps of the sine, finer
-// ones below 1.8 deg, held below 0.001 deg); 3000 dB where one of the two is dark.
+// ones below 1.8 deg, held below 0.001 deg); 3000 dB where one of the two is dark. Mirrors change with
+// the medium, the rms height, and the NRCS of what mirrors.
 void add_surface_facts(const Site& site, materials::SurfaceState state,
                        renderer::SceneFacts& facts);
 

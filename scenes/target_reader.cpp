@@ -1,5 +1,6 @@
 #include "scenes/target_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/decibel.h"
@@ -75,22 +76,28 @@ core::Swerling read_rcs(ConfigTable& target, ObjectNames& objects, double wire_p
   return core::Swerling::steady;
 }
 
-// Of a target between two waypoints or more. Its way becomes legs of a 24th of the period.
-TargetDescription::Swing read_swing(ConfigTable& target, const TargetDescription& description) {
+// Of a target between two waypoints or more.
+TargetDescription::Swing read_swing(ConfigTable& target, const TargetDescription& description,
+                                    WaypointBudget& budget) {
   constexpr double kMostSwings = 5000.0;
   ConfigTable table = target.table("swing");
   TargetDescription::Swing swing;
   swing.amplitude_m = table.required_number("amplitude_m", {0.0, 10.0});
   swing.period_s = table.required_number("period_s", {0.05, 60.0});
   swing.phase_rad = radians(table.number("phase_deg", {-360.0, 360.0}, 0.0));
-  const double duration_s = description.path.empty()
-                                ? 0.0
-                                : description.path.back().time_s - description.path.front().time_s;
-  if (description.path.size() < 2)
+  const auto& path = description.path;
+  const double duration_s = path.empty() ? 0.0 : path.back().time_s - path.front().time_s;
+  if (path.size() < 2) {
     target.error(core::ErrorClass::ref, "swing", "without a way", "two waypoints or more");
-  else if (duration_s > kMostSwings * swing.period_s)
+  } else if (duration_s > kMostSwings * swing.period_s) {
     table.error(core::ErrorClass::limit, "period_s", core::number_text(swing.period_s),
                 "at most 5000 swings from the first waypoint to the last");
+  } else {
+    double waypoints = 1.0;
+    for (std::size_t i = 1; i < path.size(); ++i)  // whose times may be out of order, and told
+      waypoints += std::max(swing.legs(path[i].time_s - path[i - 1].time_s), 0.0);
+    budget.take(target, "swing", waypoints);
+  }
   return swing;
 }
 
@@ -101,7 +108,7 @@ double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBs
 }
 
 TargetDescription read_target(ConfigTable& table, ObjectNames& objects, HighwayPaths& highway,
-                              core::Polarisation polarisation) {
+                              WaypointBudget& waypoint_budget, core::Polarisation polarisation) {
   TargetDescription target;
   target.place = table.place("");
   target.name = table.text("name", "target");
@@ -121,12 +128,13 @@ TargetDescription read_target(ConfigTable& table, ObjectNames& objects, HighwayP
     target.path.push_back(
         {time_s, read_spot(waypoint, "at"), waypoint.number("above_ground_m", {-100, 20000}, 0.0)});
   }
-  if (table.has("swing")) target.swing = read_swing(table, target);
+  if (table.has("swing")) target.swing = read_swing(table, target, waypoint_budget);
   if (table.has("highway")) {
     if (!waypoints.empty())
       table.error(core::ErrorClass::ref, "highway", "beside waypoints", "one of the two");
     const Spot origin = read_spot(table, "at");
-    target.path = highway.path(table, origin, table.number("above_ground_m", {-100, 20000}, 0.0));
+    target.path = highway.path(table, origin, table.number("above_ground_m", {-100, 20000}, 0.0),
+                               waypoint_budget);
   } else if (waypoints.empty()) {
     target.path.push_back(
         {0.0, read_spot(table, "at"), table.number("above_ground_m", {-100, 20000}, 0.0)});

@@ -78,10 +78,9 @@ void add_line(const LineDescription& line, const Ground& ground, core::Polarisat
   close_group(line.name, line.place, targets, true);
 }
 
-// The way with a swing along it, in legs of a 192nd of the period or less: speeds within 1.7 % of the largest.
+// The way with a swing along it: speeds within 1.7 % of the largest.
 std::vector<PointTarget::Waypoint> swung(const std::vector<PointTarget::Waypoint>& path,
                                          const TargetDescription::Swing& swing) {
-  constexpr double kLegs = 192.0;
   std::vector<PointTarget::Waypoint> result;
   for (std::size_t i = 1; i < path.size(); ++i) {
     const PointTarget::Waypoint &from = path[i - 1], &to = path[i];
@@ -89,7 +88,7 @@ std::vector<PointTarget::Waypoint> swung(const std::vector<PointTarget::Waypoint
     const double length_m = glm::length(way_m);
     const glm::dvec3 ahead = length_m > 0.0 ? way_m / length_m : glm::dvec3(0.0);
     const double duration_s = to.time_s - from.time_s;
-    const double legs = std::ceil(kLegs * duration_s / swing.period_s);
+    const double legs = swing.legs(duration_s);
     for (double leg = result.empty() ? 0.0 : 1.0; leg <= legs; ++leg) {
       const double time_s = leg == legs ? to.time_s : from.time_s + leg / legs * duration_s;
       const double offset_m =
@@ -110,7 +109,9 @@ void add_target(const TargetDescription& description, const Ground& ground, Poin
     if (const auto at_m = ground.local_m(waypoint.at))
       target.path.push_back({waypoint.time_s, ground.on_ground_m(*at_m, waypoint.above_ground_m)});
   }
-  if (target.path.empty()) return;
+  // A waypoint that is nowhere has been told; what swings needs all of its way.
+  const bool whole = target.path.size() == description.path.size();
+  if (target.path.empty() || (description.swing && !whole)) return;
   if (description.swing) target.path = swung(target.path, *description.swing);
   targets.points.push_back(std::move(target));
   close_group(description.name, description.place, targets);

@@ -160,4 +160,30 @@ void check_and_clean(TriangleMesh& mesh, const std::string& file, core::ProblemL
                    "removed");
 }
 
+std::size_t count_borders(const TriangleMesh& mesh, const std::vector<bool>& materials) {
+  const std::vector<std::uint32_t> first = first_vertex_at_position(mesh.vertices_m);
+  // The lower end, the other one, which comes first (bit 1), one of the materials (bit 0).
+  std::vector<std::uint64_t> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint64_t from = first[mesh.triangles[i][k]];
+      const std::uint64_t to = first[mesh.triangles[i][(k + 1) % 3]];
+      edges.push_back((std::min(from, to) << 33U) | (std::max(from, to) << 2U) |
+                      (from < to ? 2U : 0U) | (materials[mesh.triangle_material[i]] ? 1U : 0U));
+    }
+  std::sort(edges.begin(), edges.end());
+  std::size_t borders = 0;
+  for (std::size_t begin = 0, end = 0; begin < edges.size(); begin = end) {
+    bool is_run[2] = {false, false};  // this way, that way
+    std::size_t asked = 0;
+    for (; end < edges.size() && edges[end] >> 2U == edges[begin] >> 2U; ++end) {
+      is_run[(edges[end] >> 1U) & 1U] = true;
+      asked += edges[end] & 1U;
+    }
+    if (is_run[0] != is_run[1]) borders += asked;
+  }
+  return borders;
+}
+
 }  // namespace fanbeam::terrain

@@ -1,6 +1,7 @@
 // Triangles as data, before any ray-casting library sees them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <string>
@@ -32,5 +33,10 @@ inline constexpr double kLargestCoordinate_m = 1.0e6;
 // end), with mesh, element and value. Warnings: W-DEGENERATE with the count removed. `file` goes
 // into the messages.
 void check_and_clean(TriangleMesh& mesh, const std::string& file, core::ProblemList& problems);
+
+// Where surfaces end: the edges, of triangles whose material is one of `materials` (parallel to
+// material_names), that no triangle of the mesh has the other way round. A closed body has none. The mesh
+// must be checked, of fewer than 2^31 vertices.
+std::size_t count_borders(const TriangleMesh& mesh, const std::vector<bool>& materials);
 
 }  // namespace fanbeam::terrain

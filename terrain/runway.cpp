@@ -80,6 +80,44 @@ void paint_markings(const Runway& runway, std::vector<SurfacePatch>& patches) {
   paint.pair(0.0, runway.width_m / 2 - 0.45, landing_m, 0.9);
 }
 
+// Of one value exactly that.
+class WeightedMean {
+ public:
+  void add(double value, double weight) {
+    // Each has a say where all have come down to none.
+    const double counted = std::max(weight, 1e-9);
+    ++count_;
+    weights_ += counted;
+    sum_ += counted * value;
+    last_ = value;
+  }
+  bool empty() const { return count_ == 0; }
+  double value() const { return count_ == 1 ? last_ : sum_ / weights_; }
+
+ private:
+  int count_ = 0;
+  double weights_ = 0.0, sum_ = 0.0, last_ = 0.0;
+};
+
+// The largest difference of two lines at samples of the first one's strip that lie in the other's.
+double step_on_strip_m(const Runway& runway, const Runway& other) {
+  constexpr int kAlong = 300, kAcross = 8;
+  const double strip_length_m = runway.length_m() + 120.0;
+  const glm::dvec2 along = runway.along();
+  double largest_m = 0.0;
+  for (int i = 0; i <= kAlong; ++i)
+    for (int k = 0; k <= kAcross; ++k) {
+      const double s_m = strip_length_m * i / kAlong - 60.0;
+      const double t_m = runway.strip_half_width_m * (2.0 * k / kAcross - 1.0);
+      const glm::dvec2 at_m = runway.ends[0].pavement_end_m + along * s_m + across(along) * t_m;
+      const std::optional<StripHeight> there = strip_height(other, at_m);
+      if (!there || there->natural_share > 0.0) continue;
+      if (const auto here = strip_height(runway, at_m))
+        largest_m = std::max(largest_m, std::abs(here->height_m - there->height_m));
+    }
+  return largest_m;
+}
+
 }  // namespace
 
 double Runway::length_m() const {
@@ -105,7 +143,7 @@ std::vector<SurfacePatch> runway_patches(const Runway& runway, ObjectId pavement
   return patches;
 }
 
-double flattened_height_m(const Runway& runway, glm::dvec2 position_m, double natural_height_m) {
+std::optional<StripHeight> strip_height(const Runway& runway, glm::dvec2 position_m) {
   const glm::dvec2 relative = position_m - runway.ends[0].pavement_end_m;
   const double length_m = runway.length_m();
   const double s_m = glm::dot(relative, runway.along());
@@ -114,13 +152,35 @@ double flattened_height_m(const Runway& runway, glm::dvec2 position_m, double na
   const double beyond_m = std::max({-60.0 - s_m, s_m - length_m - 60.0, 0.0});
   const double beside_m = std::max(t_m - runway.strip_half_width_m, 0.0);
   const double outside_m = std::hypot(beyond_m, beside_m);
-  if (outside_m >= runway.blend_m) return natural_height_m;
+  if (outside_m >= runway.blend_m) return std::nullopt;
   const double share = std::clamp(s_m / length_m, 0.0, 1.0);
-  const double strip_m =
-      runway.ends[0].elevation_m * (1.0 - share) + runway.ends[1].elevation_m * share;
   const double u = outside_m / runway.blend_m;
-  const double natural_share = u * u * (3.0 - 2.0 * u);
+  return StripHeight{
+      runway.ends[0].elevation_m * (1.0 - share) + runway.ends[1].elevation_m * share,
+      u * u * (3.0 - 2.0 * u),
+      std::min({runway.strip_half_width_m - t_m, s_m + 60.0, length_m + 60.0 - s_m})};
+}
+
+double flattened_height_m(const std::vector<Runway>& runways, glm::dvec2 position_m,
+                          double natural_height_m) {
+  WeightedMean inside, beside;
+  double natural_share = 1.0;
+  for (const Runway& runway : runways) {
+    const std::optional<StripHeight> strip = strip_height(runway, position_m);
+    if (!strip) continue;
+    natural_share *= strip->natural_share;
+    if (strip->natural_share == 0.0)
+      inside.add(strip->height_m, strip->inside_m);
+    else
+      beside.add(strip->height_m, (1.0 - strip->natural_share) / strip->natural_share);
+  }
+  if (inside.empty() && beside.empty()) return natural_height_m;
+  const double strip_m = inside.empty() ? beside.value() : inside.value();
   return strip_m * (1.0 - natural_share) + natural_height_m * natural_share;
+}
+
+double largest_step_m(const Runway& runway, const Runway& other) {
+  return std::max(step_on_strip_m(runway, other), step_on_strip_m(other, runway));
 }
 
 std::vector<ReflectorSite> edge_light_sites(const Runway& runway) {

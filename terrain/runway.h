@@ -10,6 +10,7 @@
 #pragma once
 
 #include <glm/vec2.hpp>
+#include <optional>
 #include <vector>
 
 #include "terrain/surface_map.h"
@@ -50,9 +51,26 @@ struct Runway {
 std::vector<SurfacePatch> runway_patches(const Runway& runway, ObjectId pavement = kTerrainObject,
                                          ObjectId markings = kTerrainObject);
 
-// Ground height near a runway: inside the strip the straight line between the published end
-// elevations, outside the natural height, a smooth blend between.
-double flattened_height_m(const Runway& runway, glm::dvec2 position_m, double natural_height_m);
+// What one runway makes of the ground at a place.
+struct StripHeight {
+  double height_m = 0.0;       // of the straight line between the ends' elevations
+  double natural_share = 0.0;  // 0 in the strip, smoothly to 1 where the blend ends
+  double inside_m = 0.0;       // from the nearest border of the strip; negative beside it
+};
+// Nothing beyond the blend.
+std::optional<StripHeight> strip_height(const Runway& runway, glm::dvec2 position_m);
+
+// Ground height near runways: inside a strip the straight line between the published end elevations,
+// outside the natural height, a smooth blend between. Where strips overlap, the mean of their lines
+// weighted by the distances to the strips' borders; where only blends do, by the odds of strip against
+// natural ground. Neither depends on the order of the runways but by rounding. Where borders of two strips
+// cross, the one point has both heights, and slopes around it are steep where the lines differ.
+double flattened_height_m(const std::vector<Runway>& runways, glm::dvec2 position_m,
+                          double natural_height_m);
+
+// How much the lines of two runways differ at most where their strips overlap; 0 where they do not. Of
+// samples of both strips: 300 steps along, 8 across.
+double largest_step_m(const Runway& runway, const Runway& other);
 
 // A place for a small reflector.
 struct ReflectorSite {

@@ -27,9 +27,17 @@ struct SurfacePatch {
 SurfacePatch rectangle_patch(glm::dvec2 centre_m, glm::dvec2 along, double length_m, double width_m,
                              MaterialId material);
 
+// Of all patches together: 4 bytes for each.
+inline constexpr std::uint64_t kMostPatchedCells = 100'000'000;
+
+// Cells of the ground that remember a patch: those between its borders, row by row, whatever lies
+// between them. Of a patch beyond the ground some at its edge.
+std::uint64_t cells_under(const SurfacePatch& patch, const HeightField& field);
+
 class SurfaceMap {
  public:
-  // Copies the cells' materials, ids below 32768; patches later in the list lie on top.
+  // Copies the cells' materials, ids below 32768; patches later in the list lie on top. Throws
+  // InputError E-LIMIT, before memory is taken, for patches over more than kMostPatchedCells cells.
   SurfaceMap(const HeightField& field, std::vector<SurfacePatch> patches);
 
   // Point is clamped to the grid.
@@ -69,6 +77,7 @@ class SurfaceMap {
   struct Box {
     double west_m, south_m, east_m, north_m;
   };
+  void list_patches(const HeightField& field, std::size_t entries);
   bool inside(const SurfacePatch& patch, const Box& box, double x_m, double y_m) const noexcept;
   Cover patched_cover(std::size_t cell, double x_m, double y_m) const noexcept;
 

@@ -105,4 +105,19 @@ Interval valid_frequency_Hz(DielectricMedium medium) {
   }
 }
 
+std::optional<Interval> valid_temperature_K(DielectricMedium medium) {
+  switch (medium) {
+    case DielectricMedium::water:
+      return Interval{253.15, 333.15};
+    case DielectricMedium::ice:
+      return Interval{240.0, 273.15};
+    case DielectricMedium::dry_soil:
+    case DielectricMedium::moist_soil:
+    case DielectricMedium::wet_soil:
+      return Interval{273.15, 313.15};
+    default:
+      return std::nullopt;
+  }
+}
+
 }  // namespace fanbeam::materials

@@ -60,5 +60,7 @@ std::vector<std::string> dielectric_medium_names();
 Permittivity permittivity_of(DielectricMedium medium, double frequency_Hz, double temperature_K);
 
 Interval valid_frequency_Hz(DielectricMedium medium);
+// The temperatures above; nothing for a medium that accepts every one.
+std::optional<Interval> valid_temperature_K(DielectricMedium medium);
 
 }  // namespace fanbeam::materials

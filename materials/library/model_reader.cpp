@@ -1,5 +1,6 @@
 #include "materials/library/model_reader.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -76,20 +77,17 @@ PhongSurface read_phong(ConfigTable& table) {
   return surface;
 }
 
-OhSurface read_oh(ConfigTable& table) {
-  OhSurface surface;
-  surface.rms_height_m = table.required_number("rms_height_mm", kHeight_mm) / 1000.0;
-  surface.temperature_K = table.number("temperature_C", {-50.0, 60.0}, 15.0) + 273.15;
+void read_oh_medium(ConfigTable& table, OhSurface& surface) {
   if (table.has("permittivity")) {
     if (table.has("medium"))
       table.error(ErrorClass::range, "medium", "given with permittivity", "one of the two");
     const std::vector<double> parts = table.numbers("permittivity", {0.0, 1000.0}, 2, 2);
-    if (parts.size() != 2) return surface;
+    if (parts.size() != 2) return;
     if (parts[0] < 1.0)
       table.error(ErrorClass::range, "permittivity", core::number_text(parts[0]),
                   "[real, loss] with a real part of at least 1");
     surface.medium = Permittivity{parts[0], parts[1]};
-    return surface;
+    return;
   }
   const std::string name = table.required_text("medium");
   if (const auto medium = dielectric_medium_named(name)) {
@@ -100,6 +98,29 @@ OhSurface read_oh(ConfigTable& table) {
       known += (known.empty() ? "" : ", ") + other;
     table.error(ErrorClass::ref, "medium", '"' + name.substr(0, 200) + '"', "one of " + known);
   }
+}
+
+void read_oh_temperature(ConfigTable& table, OhSurface& surface) {
+  constexpr double kFreezing_K = 273.15;
+  NumberRange range_C{-50.0, 60.0};
+  Interval known_K{range_C.low + kFreezing_K, range_C.high + kFreezing_K};
+  if (const auto* medium = std::get_if<DielectricMedium>(&surface.medium))
+    if (const auto of_medium_K = valid_temperature_K(*medium)) {
+      known_K = *of_medium_K;
+      // To hundredths: 240 K are -33.15 C.
+      range_C.low = std::round((known_K.low - kFreezing_K) * 100.0) / 100.0;
+      range_C.high = std::round((known_K.high - kFreezing_K) * 100.0) / 100.0;
+    }
+  const double temperature_C =
+      table.number("temperature_C", range_C, std::clamp(15.0, range_C.low, range_C.high));
+  surface.temperature_K = std::clamp(temperature_C + kFreezing_K, known_K.low, known_K.high);
+}
+
+OhSurface read_oh(ConfigTable& table) {
+  OhSurface surface;
+  surface.rms_height_m = table.required_number("rms_height_mm", kHeight_mm) / 1000.0;
+  read_oh_medium(table, surface);
+  read_oh_temperature(table, surface);
   return surface;
 }
 

@@ -6,6 +6,7 @@
 //   model = "nrl-sea", sea_state         0 to 6
 //   model = "oh1992", medium             a name of dielectric_medium.h; or permittivity = [real,
 //                                        loss]; rms_height_mm, 0 to 1000; temperature_C, -50 to 60
+//                                        and known to the medium, default 15 or the nearest
 //   model = "rough-metal", rms_slope     0.01 to 1; rms_height_mm, 0 to 1000
 //   model = "tabulated", grazing_deg     increasing, above 0 to 90; sigma0 (linear) or sigma0_dB,
 //                                        as many; frequency_range_GHz; polarisation "HH", "VV",

@@ -5,6 +5,7 @@
 
 #include "renderer/stages/antenna_image.h"
 #include "sensors/display/display.h"
+#include "sensors/shadow/shadow_cscope.h"
 
 namespace fanbeam::renderer {
 namespace {
@@ -31,10 +32,11 @@ std::vector<double> over(const std::vector<double>& common, double noise,
 
 }  // namespace
 
-ColumnError::ColumnError(const sensors::Sensor& sensor, bool noise)
+ColumnError::ColumnError(const sensors::Sensor& sensor, bool noise, double drawn_from_m)
     : sensor_(sensor),
       noise_W_(noise ? sensor.noise_power_W() : 0.0),
-      noise_W_m3_(noise ? sensors::cscope_noise_W_m3(sensor) : 0.0) {}
+      noise_W_m3_(noise ? sensors::cscope_noise_W_m3(sensor) : 0.0),
+      drawn_from_m_(drawn_from_m) {}
 
 void ColumnError::put_under(const FanSums& common) {
   common_W_ = image(common.range_W_per_rad, common.cells, common);
@@ -47,19 +49,29 @@ std::vector<double> ColumnError::image(const std::vector<double>& sums, int bins
   return through_antenna(sums, bins, fan, sensor_, static_cast<int>(std::lround(per_column)));
 }
 
-ColumnError::Squares ColumnError::between(const FanSums& one, const FanSums& other) const {
-  const auto columns = static_cast<std::size_t>(sensor_.scan.columns);
-  const auto bscope = [&](const FanSums& fan) {
-    return sensors::bscope_grey(
-        sensor_, over(common_W_, noise_W_, image(fan.range_W_per_rad, fan.cells, fan)));
-  };
-  const auto cscope = [&](const FanSums& fan) {
+std::vector<double> ColumnError::cscope_grey(const FanSums& fan,
+                                             const std::vector<double>& received_W) const {
+  if (!(drawn_from_m_ > 0.0))
     return sensors::cscope_grey(
         sensor_, over(common_W_m3_, noise_W_m3_, image(fan.elevation_W_m3_per_rad, fan.rows, fan)));
+  std::vector<sensors::ShadowObstacle> raised;
+  if (sensor_.display.cscope_mode == sensors::Display::CScopeMode::shadow)
+    raised = sensors::shadow_obstacles(sensor_, received_W, drawn_from_m_);
+  return sensors::cscope_grey(
+      sensor_, sensors::shadow_cscope_W_m3(sensor_, received_W, drawn_from_m_, raised));
+}
+
+ColumnError::Squares ColumnError::between(const FanSums& one, const FanSums& other) const {
+  const auto columns = static_cast<std::size_t>(sensor_.scan.columns);
+  const auto received_W = [&](const FanSums& fan) {
+    return over(common_W_, noise_W_, image(fan.range_W_per_rad, fan.cells, fan));
   };
-  return {mean_squares(bscope(one), bscope(other), columns),
-          one.rows > 0 ? mean_squares(cscope(one), cscope(other), columns)
-                       : std::vector<double>(columns, 0.0)};
+  const std::vector<double> one_W = received_W(one), other_W = received_W(other);
+  const bool with_cscope = drawn_from_m_ > 0.0 || one.rows > 0;
+  return {mean_squares(sensors::bscope_grey(sensor_, one_W), sensors::bscope_grey(sensor_, other_W),
+                       columns),
+          with_cscope ? mean_squares(cscope_grey(one, one_W), cscope_grey(other, other_W), columns)
+                      : std::vector<double>(columns, 0.0)};
 }
 
 }  // namespace fanbeam::renderer

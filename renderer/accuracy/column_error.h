@@ -12,22 +12,25 @@ namespace fanbeam::renderer {
 class ColumnError {
  public:
   // `noise`: the receiver's mean noise power is in both pictures, as a display shows them.
-  ColumnError(const sensors::Sensor& sensor, bool noise);
+  // `drawn_from_m`: where it is above 0, C-scopes of mode flat_earth or shadow are drawn from both
+  // B-scopes, of an antenna that high above the ground (sensors/shadow/shadow_cscope.h).
+  ColumnError(const sensors::Sensor& sensor, bool noise, double drawn_from_m = 0.0);
 
   // What both pictures have as well, such as the echo of rain.
   void put_under(const FanSums& common);
 
   // Mean squares over a column's cells of the difference of unrounded grey, one value per column.
   struct Squares {
-    std::vector<double> bscope_grey2, cscope_grey2;  // the latter all 0 without elevation rows
+    std::vector<double> bscope_grey2, cscope_grey2;  // the latter all 0 without a C-scope
   };
   Squares between(const FanSums& one, const FanSums& other) const;
 
  private:
   std::vector<double> image(const std::vector<double>& sums, int bins, const FanSums& fan) const;
+  std::vector<double> cscope_grey(const FanSums& fan, const std::vector<double>& received_W) const;
 
   const sensors::Sensor& sensor_;
-  double noise_W_, noise_W_m3_;
+  double noise_W_, noise_W_m3_, drawn_from_m_;
   std::vector<double> common_W_, common_W_m3_;  // empty for nothing
 };
 

@@ -149,7 +149,9 @@ class TooCoarse {
 ErrorEstimate Refinement::cast(const sensors::AntennaFrame& antenna, bool with_cscope,
                                FanSums& sums, SightLines& sight, BounceFan* bounced) const {
   caster_.cast(antenna, with_cscope, CastPass{}, sums, sight);
-  ColumnError difference(world_.sensor, effects_.thermal_noise);
+  ColumnError difference(
+      world_.sensor, effects_.thermal_noise,
+      draws_cscope_ ? world_.surfaces().height_above_ground_m(antenna.position_m) : 0.0);
   if (effects_.rain_echo && world_.volume_echo) {
     FanSums rain = empty_like(sums);
     add_rain_echo(world_, antenna, sampling_.sub_columns, rain);

@@ -31,12 +31,16 @@
 // the target, of the B-scope and of the C-scope where there is one. Double bounces have samples of
 // their own; they are refined in whole fans, and share the target: sqrt(1/2) of it for each.
 //
+// A C-scope of mode flat_earth or shadow is drawn from each of two B-scopes that are compared. In mode
+// shadow an obstacle that one of the two raises and the other does not counts in full; one that tips in
+// columns that are good enough already is not seen.
+//
 // Not in the estimate: point targets, which are not sampled at random. The echo of rain is not
 // either, but it fills the cells in which errors would show.
 // Deterministic: depends on the pose and the world alone.
 // Cost: that of level 0 twice with rays and three times with slices, at least, and two pictures per
 // level to compare; in rain its echo once more, so that a frame has the same bytes with an estimate
-// and without.
+// and without. In mode shadow two searches per comparison (sensors/shadow/shadow_obstacles.h).
 #pragma once
 
 #include "renderer/accuracy/column_error.h"
@@ -51,10 +55,16 @@ namespace fanbeam::renderer {
 
 class Refinement {
  public:
-  // `bounces` is null where that effect is off. All must outlive it.
+  // `bounces` is null where that effect is off; `draws_cscope`: a C-scope is drawn from the B-scope,
+  // in a mode that does. All must outlive it.
   Refinement(const World& world, const Sampling& sampling, const Caster& caster,
-             const DoubleBounce* bounces, const Effects& effects)
-      : world_(world), sampling_(sampling), caster_(caster), bounces_(bounces), effects_(effects) {}
+             const DoubleBounce* bounces, const Effects& effects, bool draws_cscope = false)
+      : world_(world),
+        sampling_(sampling),
+        caster_(caster),
+        bounces_(bounces),
+        effects_(effects),
+        draws_cscope_(draws_cscope) {}
 
   // Casts and adds the bounces: until the estimate is at most the sampling's target_grey, or, where
   // that is 0, what the sampling gives by itself with the estimate of its error. `bounced`, unless
@@ -77,6 +87,7 @@ class Refinement {
   const Caster& caster_;
   const DoubleBounce* bounces_;
   Effects effects_;
+  bool draws_cscope_;
 };
 
 }  // namespace fanbeam::renderer

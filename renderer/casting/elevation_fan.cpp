@@ -17,6 +17,10 @@ constexpr int kMarginCells = 2;
 // Between headings that are searched for what stands above the ground; wider ones lie farther apart.
 constexpr int kMostGaps = 512;
 constexpr double kHorizonMargin_rad[] = {3e-4, 1.2e-3};
+// So little of a column below its lowest direction is left out, as a level antenna has it.
+constexpr double kLeastBelow_rad = 1e-3;
+// An azimuth of a cone that goes down, but rises by less from end to end, has one range.
+constexpr double kLeastRise = 0.02;
 
 glm::dvec2 heading_at(const sensors::AntennaFrame& frame, double azimuth_rad, double elevation_rad,
                       sensors::ScanSurface surface) {
@@ -34,21 +38,40 @@ double slope_of(const sensors::AntennaFrame& frame, const glm::dvec3& relative_m
   return glm::dot(relative_m, frame.up) / along;
 }
 
-// Where an azimuth meets what lies `lower_m` below, `range_m` away: of a direction e forward and up in
-// the azimuth's own plane, F cos e + U sin e + constant is its vertical part. Straight below, nearer.
-double elevation_down(const sensors::AntennaFrame& frame, double azimuth_rad, double lower_m,
-                      double range_m, sensors::ScanSurface surface) {
+// The vertical part of an azimuth's directions e, forward and up in its own plane:
+// along cos e + up sin e + across.
+struct VerticalPart {
+  double along, up, across;
+
+  double lowest_rad() const { return std::atan2(-up, -along); }
+  double rise() const { return std::hypot(along, up); }
+  bool is_even() const { return rise() < kLeastRise && across < -kLeastRise; }
+};
+
+VerticalPart vertical_part(const sensors::AntennaFrame& frame, double azimuth_rad,
+                           sensors::ScanSurface surface) {
   const double ca = std::cos(azimuth_rad), across = std::sin(azimuth_rad) * frame.right.z;
   const bool cone = surface == sensors::ScanSurface::cone;
-  const double along = ca * frame.forward.z + (cone ? 0.0 : across);
-  const double up = cone ? ca * frame.up.z : frame.up.z;
-  const double down = -lower_m / std::max(range_m, 1e-9) - (cone ? across : 0.0);
-  const double half_rad =
-      std::acos(std::clamp(down / std::max(std::hypot(along, up), 1e-9), -1.0, 1.0));
-  const double middle_rad = std::atan2(up, along);
-  const double one = std::remainder(middle_rad - half_rad, 2.0 * core::kPi);
-  const double other = std::remainder(middle_rad + half_rad, 2.0 * core::kPi);
-  return std::abs(one) <= std::abs(other) ? one : other;  // the one in front
+  return {ca * frame.forward.z + (cone ? 0.0 : across), cone ? ca * frame.up.z : frame.up.z,
+          cone ? across : 0.0};
+}
+
+// Where an azimuth meets what lies `lower_m` below, `range_m` away: above its lowest direction, and
+// below. Straight below, nearer.
+struct Meetings {
+  double above_rad, below_rad;
+
+  double in_front_rad() const {
+    return std::abs(above_rad) <= std::abs(below_rad) ? above_rad : below_rad;
+  }
+};
+
+Meetings meetings(const VerticalPart& part, double lower_m, double range_m) {
+  const double down = -lower_m / std::max(range_m, 1e-9) - part.across;
+  const double half_rad = std::acos(std::clamp(down / std::max(part.rise(), 1e-9), -1.0, 1.0));
+  const double highest_rad = std::atan2(part.up, part.along);
+  return {std::remainder(highest_rad - half_rad, 2.0 * core::kPi),
+          std::remainder(highest_rad + half_rad, 2.0 * core::kPi)};
 }
 
 }  // namespace
@@ -67,32 +90,75 @@ ElevationFan::ElevationFan(const World& world, const Sampling& sampling, Nearest
 
 void ElevationFan::place(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
                          std::vector<double>& edges) const {
+  if (holds_lowest(frame, (left_rad + right_rad) / 2)) {
+    place_both_ways(frame, left_rad, right_rad, edges);
+    return;
+  }
   edges.clear();
-  const double middle_rad = (left_rad + right_rad) / 2;
   if (world_.surfaces().terrain() != nullptr) {
     const glm::dvec3& at_m = frame.position_m;
     if (nearest_ == Nearest::antenna || !world_.surfaces().terrain()->height_at(at_m.x, at_m.y))
       edges.push_back(lowest_rad_);
-    follow_ground(frame, middle_rad, edges);
+  }
+  climb(frame, left_rad, right_rad, Way::in_front, highest_rad_, edges);
+}
+
+bool ElevationFan::holds_lowest(const sensors::AntennaFrame& frame, double azimuth_rad) const {
+  const sensors::ScanSurface surface = world_.sensor.scan.surface;
+  // What a cone's border reaches beyond 90 deg aside is no other direction.
+  const bool beyond = surface == sensors::ScanSurface::cone && std::cos(azimuth_rad) <= 0.0;
+  if (azimuths_are_upright(frame, surface) || beyond) return false;
+  const VerticalPart part = vertical_part(frame, azimuth_rad, surface);
+  return part.lowest_rad() > std::min(lowest_rad_, 0.0) + kLeastBelow_rad || part.is_even();
+}
+
+// What lies below the lowest direction lies above it for an antenna whose up axis is turned round.
+void ElevationFan::place_both_ways(const sensors::AntennaFrame& frame, double left_rad,
+                                   double right_rad, std::vector<double>& edges) const {
+  const VerticalPart part =
+      vertical_part(frame, (left_rad + right_rad) / 2, world_.sensor.scan.surface);
+  if (part.is_even()) {
+    edges.assign(1, lowest_rad_);
+    add_until(highest_rad_, 1, object_step_rad_, edges);
+    return;
+  }
+  const double from_rad = std::clamp(part.lowest_rad(), lowest_rad_, highest_rad_);
+  sensors::AntennaFrame turned_round = frame;
+  turned_round.up = -frame.up;
+  std::vector<double> below{-from_rad};
+  climb(turned_round, left_rad, right_rad, Way::from_lowest, -lowest_rad_, below);
+  edges.assign(1, from_rad);
+  climb(frame, left_rad, right_rad, Way::from_lowest, highest_rad_, edges);
+  edges.insert(edges.begin(), below.rbegin(), below.rend() - 1);
+  for (std::size_t i = 0; i + 1 < below.size(); ++i) edges[i] = -edges[i];
+  if (edges.size() < 2) edges.clear();
+}
+
+// Adds to what `edges` begin with, up to what shows highest and no farther than `end_rad`.
+void ElevationFan::climb(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
+                         Way way, double end_rad, std::vector<double>& edges) const {
+  const std::size_t begun = way == Way::from_lowest ? edges.size() : 0;
+  if (world_.surfaces().terrain() != nullptr) {
+    follow_ground(frame, (left_rad + right_rad) / 2, way, end_rad, edges);
     // Beside the centre azimuth the horizon may stand a little higher.
     for (const double margin_rad : kHorizonMargin_rad)
-      if (!edges.empty())
-        add_until(std::min(edges.back() + margin_rad, highest_rad_), 1, object_step_rad_, edges);
+      if (edges.size() > begun)
+        add_until(std::min(edges.back() + margin_rad, end_rad), 1, object_step_rad_, edges);
   }
   if (!world_.surfaces().has_meshes()) return;
   const double horizon_rad = edges.empty() ? lowest_rad_ : edges.back();
-  const double top_rad = highest_object_rad(frame, left_rad, right_rad, horizon_rad);
+  const double top_rad = highest_object_rad(frame, left_rad, right_rad, horizon_rad, end_rad);
   if (edges.empty()) {
     if (top_rad <= lowest_rad_) return;
     edges.push_back(lowest_rad_);
   }
-  add_until(std::min(top_rad, highest_rad_), 1, object_step_rad_, edges);
+  add_until(std::min(top_rad, end_rad), 1, object_step_rad_, edges);
 }
 
 // Looks along headings near enough at the farthest range that nothing stands between two of them: from
 // one azimuth to the other, and as far beside as those of a tilted antenna lean above `low_rad`.
 double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame, double left_rad,
-                                        double right_rad, double low_rad) const {
+                                        double right_rad, double low_rad, double end_rad) const {
   const sensors::ScanSurface surface = world_.sensor.scan.surface;
   const bool level = azimuths_are_upright(frame, surface);
   const double middle_rad = (left_rad + right_rad) / 2;
@@ -101,7 +167,7 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame, doub
   double first_rad = left_rad - middle_rad, last_rad = right_rad - middle_rad;
   if (!level)
     for (const double azimuth_rad : {left_rad, right_rad})
-      for (const double elevation_rad : {low_rad, (low_rad + highest_rad_) / 2, highest_rad_}) {
+      for (const double elevation_rad : {low_rad, (low_rad + end_rad) / 2, end_rad}) {
         const double turned_rad =
             turn_rad(middle, heading_at(frame, azimuth_rad, elevation_rad, surface));
         first_rad = std::min(first_rad, turned_rad);
@@ -118,14 +184,15 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame, doub
   return top_rad;
 }
 
-void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
-                                 std::vector<double>& edges) const {
+void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad, Way way,
+                                 double end_rad, std::vector<double>& edges) const {
   const terrain::HeightField& ground = *world_.surfaces().terrain();
   const sensors::RangeGate& gate = world_.sensor.range;
   const double stride = std::max(1.0, 1.0 / sampling_.rays_per_cell);
   const glm::dvec3& sensor = frame.position_m;
   const sensors::ScanSurface surface = world_.sensor.scan.surface;
-  const bool level = azimuths_are_upright(frame, surface);
+  const bool level = way == Way::in_front && azimuths_are_upright(frame, surface);
+  const VerticalPart part = vertical_part(frame, azimuth_rad, surface);
   glm::dvec2 heading = heading_at(frame, azimuth_rad, 0.0, surface);
   const double below_m = std::abs(world_.surfaces().height_above_ground_m(sensor));
   double drop_m = below_m, lower_m = below_m;  // the second one negative for ground above
@@ -133,9 +200,12 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = std::max(gate.minimum_m + gate.cell_m * k, 0.0);
     // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
-    if (!level)
-      heading = heading_at(frame, azimuth_rad,
-                           elevation_down(frame, azimuth_rad, lower_m, range_m, surface), surface);
+    if (!level) {
+      const Meetings meets = meetings(part, lower_m, range_m);
+      const double to_rad = way == Way::in_front ? meets.in_front_rad() : meets.above_rad;
+      if (way == Way::from_lowest && std::abs(to_rad) > core::kPi / 2) continue;
+      heading = heading_at(frame, azimuth_rad, to_rad, surface);
+    }
     // The ground distance of a slant range needs the height there: the one of the step before is
     // close enough. Nearer than the ground below there is the nadir.
     const double distance_m = std::sqrt(std::max(range_m * range_m - drop_m * drop_m, 1e-6));
@@ -154,9 +224,9 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     const double rays = sampling_.rays_per_cell * stride;
     const int parts = static_cast<int>(std::floor(step * rays) - std::floor((step - 1) * rays));
     if (edges.empty()) {
-      edges.push_back(std::clamp(elevation_rad, lowest_rad_, highest_rad_));
+      edges.push_back(std::clamp(elevation_rad, lowest_rad_, end_rad));
     } else {
-      add_until(std::min(elevation_rad, highest_rad_), parts, sampling_.largest_step_rad, edges);
+      add_until(std::min(elevation_rad, end_rad), parts, sampling_.largest_step_rad, edges);
     }
   }
 }

@@ -6,6 +6,10 @@
 // ground the fan goes on to the top of the highest object, row by row of the C-scope: few rays, and
 // what stands there shows against nothing. The fan only places samples: what they hit is decided by
 // the caster.
+//
+// Of level ground range rises with elevation, above the lowest direction of an azimuth. Where the beam
+// holds that direction (an antenna that looks down, is inverted or on its side), range falls with
+// elevation below it: each part is followed from there outwards.
 #pragma once
 
 #include <vector>
@@ -29,10 +33,18 @@ class ElevationFan {
              std::vector<double>& edges) const;
 
  private:
-  void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad,
-                     std::vector<double>& edges) const;
+  // How a column is followed: to where the ground lies in front, or, of a beam that holds the lowest
+  // direction, upwards from there.
+  enum class Way { in_front, from_lowest };
+  bool holds_lowest(const sensors::AntennaFrame& frame, double azimuth_rad) const;
+  void place_both_ways(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
+                       std::vector<double>& edges) const;
+  void climb(const sensors::AntennaFrame& frame, double left_rad, double right_rad, Way way,
+             double end_rad, std::vector<double>& edges) const;
+  void follow_ground(const sensors::AntennaFrame& frame, double azimuth_rad, Way way,
+                     double end_rad, std::vector<double>& edges) const;
   double highest_object_rad(const sensors::AntennaFrame& frame, double left_rad, double right_rad,
-                            double low_rad) const;
+                            double low_rad, double end_rad) const;
   double highest_object_rad(const sensors::AntennaFrame& frame, const glm::dvec2& heading) const;
   void add_until(double elevation_rad, int parts, double largest_step_rad,
                  std::vector<double>& edges) const;

@@ -36,7 +36,7 @@ struct Sampling {
   // many rays).
   bool deposit_intervals = true;
   // Reference: this many passes over each sub-column, rays jittered in azimuth and elevation, keyed
-  // by `seed`.
+  // by `seed`. Neither with target_grey nor with estimate_error: rays of all levels would be the same.
   int jittered_passes = 0;
   std::uint64_t seed = 0;
   // Above 0: every frame is refined until its estimated error, RMS over a picture's displayed grey,

@@ -22,9 +22,8 @@ namespace {
 
 using atmosphere::Weather;
 
-// Added to the heights: an antenna sits up to 173 m beside the pose, and far from the scene's origin
-// level is tilted, by 3 deg after 300 km.
-constexpr double kMargin_m = 300.0;
+// At least so much is added to the heights: plans then do not hang on metres of lever.
+constexpr double kLeastMargin_m = 300.0;
 // The casters' table of losses begins this much below the ground.
 constexpr double kTableMargin_m = 10.0;
 
@@ -41,6 +40,11 @@ std::pair<double, double> sines_of_beam(const sensors::Sensor& sensor) {
           sine(antenna.boresight_elevation_rad + reach_rad)};
 }
 
+// From the aircraft to its antenna, whatever its attitude.
+double lever_m(const sensors::Mounting& mounting) {
+  return std::hypot(mounting.forward_m, mounting.right_m, mounting.down_m);
+}
+
 // The largest loss per kilometre at any height that is seen, all the way to the farthest range that
 // shows in a cell.
 double longest_path_dB(const SceneFacts& facts, core::EffectId effect) {
@@ -52,12 +56,17 @@ double longest_path_dB(const SceneFacts& facts, core::EffectId effect) {
   const double frequency_Hz = facts.sensor.waveform.frequency_Hz;
   const double range_m = facts.sensor.range.maximum_m() + kSpreadCells * facts.sensor.range.cell_m;
   const atmosphere::PathAttenuation path(weather, frequency_Hz);
+  // Level at the aircraft is tilted against the heights, which count from the origin's level.
+  const double lever = lever_m(facts.sensor.mounting);
+  const double margin_m = std::max(kLeastMargin_m, lever + range_m * facts.vertical_turn_rad);
   double lowest_m = facts.lowest_m - kTableMargin_m;
-  double highest_m = facts.highest_m + kMargin_m;
+  double highest_m = facts.highest_m + margin_m;
+  // Over ground an antenna is above it, or sees nothing.
+  if (facts.leaves_ground) lowest_m -= lever;
   // What falls echoes as high and, off the edge of the terrain, as low as the beam reaches.
   if (facts.largest_eta_m2_per_m3 > 0.0) {
     const auto [down, up] = sines_of_beam(facts.sensor);
-    if (facts.leaves_ground) lowest_m -= kMargin_m + std::max(0.0, -range_m * down);
+    if (facts.leaves_ground) lowest_m -= margin_m + std::max(0.0, -range_m * down);
     highest_m += std::max(0.0, range_m * up);
   }
   const double layers_dB_per_km = path.largest_one_way_dB_per_km(lowest_m, highest_m);
@@ -98,10 +107,11 @@ double receiver_noise_dB(const SceneFacts& facts) {
 bool has_surface_state(const SceneFacts& facts) { return facts.surface_not_dry; }
 double whole_window_dB(const SceneFacts& facts) { return window_dB(facts.sensor); }
 
-// The same holds for what another state makes of mirrors.
+// The same holds for what another state makes of mirrors. What unchanged mirrors light scatters by
+// sigma0 times a factor of its integral (surfaces/bistatic_nrcs.h): both change by as much.
 double surface_state_dB(const SceneFacts& facts) {
-  return facts.state_changes_mirrors && has_mirrored_echo(facts) ? whole_window_dB(facts)
-                                                                 : facts.surface_change_dB;
+  if (facts.state_changes_mirrors && has_mirrored_echo(facts)) return whole_window_dB(facts);
+  return (corners_possible(facts) ? 2.0 : 1.0) * facts.surface_change_dB;
 }
 
 bool shows_sample(const SceneFacts& facts) { return facts.sample; }

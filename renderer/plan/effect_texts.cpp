@@ -115,7 +115,9 @@ std::string surface_state_cause(const SceneFacts& facts, double bound_dB) {
   if (facts.state_changes_mirrors && has_mirrored_echo(facts))
     return "wet or snow-covered surfaces mirror otherwise than dry ones, which can change " +
            window_text(facts);
-  return "wet or snow-covered surfaces differ from dry ones by up to " + dB_text(bound_dB);
+  return std::string("wet or snow-covered surfaces") +
+         (corners_possible(facts) ? " and their corners" : "") + " differ from dry ones by up to " +
+         dB_text(bound_dB);
 }
 
 std::string side_lobe_cause(const SceneFacts& facts, double bound_dB) {

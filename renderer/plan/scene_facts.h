@@ -13,8 +13,9 @@ namespace fanbeam::renderer {
 struct SceneFacts {
   atmosphere::Weather weather;
   sensors::Sensor sensor;
-  double lowest_m = 0.0;  // of ground and sensor
+  double lowest_m = 0.0;  // of ground and aircraft
   double highest_m = 0.0;
+  double vertical_turn_rad = 0.0;  // largest, from the origin's vertical to the aircraft's
   // Mirrored rays may meet something: a body, or ground that is not level.
   bool mirrored_rays_end = false;
   bool has_point_targets = false;
@@ -28,7 +29,7 @@ struct SceneFacts {
   bool fluctuating_targets = false;  // a target of Swerling case 1 to 4
   bool surface_not_dry = false;
   double surface_change_dB = 0.0;      // largest change of NRCS from dry to the scene's state
-  bool state_changes_mirrors = false;  // dielectric or roughness of a material differ in that state
+  bool state_changes_mirrors = false;  // a material mirrors otherwise in that state
   double largest_eta_m2_per_m3 = 0.0;  // of rain and snow, anywhere
   // The beam may pass the rim of the ground within range, and go on under it.
   bool leaves_ground = true;

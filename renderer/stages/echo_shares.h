@@ -18,7 +18,8 @@ void share_echo(const core::Echo& echo, const sensors::Sensor& sensor, const Sha
   const sensors::ColumnPlace place =
       sensors::column_place(sensor, echo.azimuth_rad, echo.elevation_rad);
   for (int column = place.first; column <= place.last; ++column)
-    share(cell, column, echo.power_W * sensors::column_gain(sensor, place, column));
+    if (place.is_seen_by(column))
+      share(cell, column, echo.power_W * sensors::column_gain(sensor, place, column));
 }
 
 }  // namespace fanbeam::renderer

@@ -127,7 +127,7 @@ class SurfaceCaster {
       return;
     const glm::dvec3 direction = glm::normalize(
         glm::dvec3(batch.direction_x[lane], batch.direction_y[lane], batch.direction_z[lane]));
-    const auto angles = sensors::angles(antenna_, direction, world_.sensor.scan.surface);
+    const auto angles = sensors::angles(antenna_, direction, world_.sensor.scan);
     if (!angles) return;
     const glm::dvec3 hit_m = antenna_.position_m + echo.range_m * direction;
     echo.azimuth_rad = angles->azimuth_rad;

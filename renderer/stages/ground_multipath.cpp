@@ -80,10 +80,9 @@ std::optional<GroundPath> ground_path(const World& world, const sensors::Antenna
   const double image_m = glm::length(path_m);
   const double direct_m = glm::distance(antenna.position_m, target_m);
   const double sine = std::min((found->sensor_above_m + found->target_above_m) / image_m, 1.0);
-  const auto angles =
-      sensors::angles(antenna, at_m - antenna.position_m, world.sensor.scan.surface);
-  const auto direct =
-      sensors::angles(antenna, target_m - antenna.position_m, world.sensor.scan.surface);
+  const sensors::Scan& scan = world.sensor.scan;
+  const auto angles = sensors::angles(antenna, at_m - antenna.position_m, scan);
+  const auto direct = sensors::angles(antenna, target_m - antenna.position_m, scan);
   if (!angles || !direct || !(direct_m > 0.0)) return std::nullopt;
   const sensors::Antenna& beams = world.sensor.antenna;
   const auto gain = [&](double elevation_rad) {

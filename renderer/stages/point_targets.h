@@ -22,12 +22,13 @@ struct TargetEchoes {
   // With power at azimuth gain 1; `object_id` is the target's index; the radial speed is left at 0.
   // Sorted as the targets are.
   std::vector<core::Echo> echoes;
-  // Targets without a direction in the antenna's frame: abeam of it, behind it or at it.
+  // Targets without a direction in the antenna's frame: at it, and abeam of it or behind it unless
+  // the scan turns by more than half a circle.
   std::uint64_t unprojected = 0;
 };
 
-// Of all targets at `time_s` in front of the antenna and inside the range gate, as if nothing stood
-// between.
+// Of all targets at `time_s` that a beam of the scan reaches inside the range gate, as if nothing
+// stood between.
 TargetEchoes unobstructed_echoes(const World& world, const sensors::AntennaFrame& antenna,
                                  double time_s);
 

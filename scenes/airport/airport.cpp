@@ -45,13 +45,8 @@ void check_ends(const Landing& landing, core::ProblemList& problems) {
     problems.error(ErrorClass::range, place, "distance of the runway's ends",
                    core::number_text(std::round(landing.length_m)) + " m",
                    "100 to 10000 m (latitude before longitude)");
-  double displaced_m = 0.0;
-  for (const AirportRunwayEnd& end : landing.runway.ends) displaced_m += end.displaced_m;
-  if (displaced_m > 0.0 && displaced_m + 100.0 > landing.length_m)
-    problems.error(ErrorClass::range, place, "displaced thresholds",
-                   core::number_text(displaced_m) + " m together",
-                   "at least 100 m of the pavement's " +
-                       core::number_text(std::round(landing.length_m)) + " m left to land on");
+  const AirportRunwayEnd* const ends = landing.runway.ends;
+  check_displaced(ends[0].displaced_m + ends[1].displaced_m, landing.length_m, place, problems);
   if (landing.runway.surface.water)
     problems.error(ErrorClass::unsupported, place, "surface", landing.runway.surface.as_found,
                    "a runway on land");
@@ -120,6 +115,15 @@ void report_unknown_airport(const std::string& ident, const std::vector<std::str
                  near.empty() ? "an airport of this file, which has none"
                               : "one of this file's airports (" + std::to_string(known.size()) +
                                     "), nearest: " + near);
+}
+
+void check_displaced(double both_m, double length_m, const core::Place& place,
+                     core::ProblemList& problems) {
+  if (both_m > 0.0 && both_m + 100.0 > length_m)
+    problems.error(ErrorClass::range, place, "displaced thresholds",
+                   core::number_text(both_m) + " m together",
+                   "at least 100 m of the pavement's " + core::number_text(std::round(length_m)) +
+                       " m left to land on");
 }
 
 std::optional<Landing> choose_landing(const Airport& airport, const std::string& runway,

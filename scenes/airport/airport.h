@@ -70,6 +70,11 @@ std::string landing_name(const std::string& ident, const std::string& runway);
 void report_unknown_airport(const std::string& ident, const std::vector<std::string>& known,
                             const core::Place& place, core::ProblemList& problems);
 
+// E-RANGE at `place` where the displaced thresholds of both ends leave less than 100 m of the
+// pavement to land on.
+void check_displaced(double both_m, double length_m, const core::Place& place,
+                     core::ProblemList& problems);
+
 struct Landing {
   AirportRunway runway;
   int end = 0;               // of `runway`, that is landed on

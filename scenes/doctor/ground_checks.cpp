@@ -33,7 +33,7 @@ Off off_terrain(const DoctorParts& parts, const terrain::Runway& runway) {
     const core::Geodetic at = parts.scene.frame.to_geodetic(parts.ground.on_ground_m(at_m, 0.0));
     const auto natural_m = parts.natural.height_m(at, at_m);
     if (!natural_m) continue;
-    const double off_m = terrain::flattened_height_m(runway, at_m, *natural_m) - *natural_m;
+    const double off_m = terrain::strip_height(runway, at_m).value().height_m - *natural_m;
     if (std::abs(off_m) <= std::abs(off.largest_m)) continue;
     off.largest_m = off_m;
     off.where_m = parts.ground.on_ground_m(at_m, 0.0);

@@ -45,7 +45,7 @@ IlsPath::IlsPath(const IlsApproach& approach, const terrain::LocalFrame& frame)
         core::ErrorClass::range, "wind_speed_mps", approach.wind_speed_mps,
         "at least 5 m/s below the airspeed of " + core::number_text(airspeed_mps_) + " m/s");
   runway_speed_mps_ = ground_speed_on_m(0.0);
-  decision_to_go_m_ = to_go_at(approach.decision_height_m - approach.height_on_ground_m);
+  decision_to_go_m_ = glide_to_go_at(approach.decision_height_m);
   lay_turn();
   lay_flare();
   if (turn_end_to_go_m_ < flare_to_go_m_)
@@ -146,7 +146,14 @@ double IlsPath::glide_wheel_height_m(double to_go_m) const {
   return glide_height_m(to_go_m) + approach_.runway_slope * to_go_m - approach_.height_on_ground_m;
 }
 
-// Newton's method on a line that is nearly straight: three steps reach rounding.
+// Newton's method on lines that are nearly straight: three steps reach rounding.
+double IlsPath::glide_to_go_at(double height_m) const {
+  const double slope = std::tan(approach_.glide_path_rad);
+  double to_go_m = 0.0;
+  for (int i = 0; i < 12; ++i) to_go_m -= (glide_height_m(to_go_m) - height_m) / slope;
+  return to_go_m;
+}
+
 double IlsPath::to_go_at(double wheel_height_m) const {
   const double slope = std::tan(approach_.glide_path_rad) + approach_.runway_slope;
   double to_go_m = 0.0;

@@ -39,6 +39,7 @@ class IlsPath {
   Plan turned(double turn_to_go_m) const;
   double glide_height_m(double to_go_m) const;  // reference point above the threshold
   double glide_wheel_height_m(double to_go_m) const;
+  double glide_to_go_at(double height_m) const;  // of the reference point above the threshold
   double to_go_at(double wheel_height_m) const;
   double ground_speed_on_m(double relative_course_rad) const;
   void lay_turn();

@@ -11,6 +11,8 @@ using core::degrees;
 using core::radians;
 
 void read_column(ConfigTable& columns, std::string_view key, TrajectoryColumn& column) {
+  // Who names a column counts on it.
+  if (columns.has(key)) column.may_be_missing = false;
   column.name = columns.text(key, column.name);
   column.unit = columns.text(std::string(key) + "_unit", column.unit);
 }

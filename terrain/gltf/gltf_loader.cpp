@@ -1,5 +1,6 @@
 #include "terrain/gltf/gltf_loader.h"
 
+#include <algorithm>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <map>
@@ -57,6 +58,9 @@ class MeshBuilder {
     }
     return std::move(mesh_);
   }
+
+  // By slot of those drawn: one of its materials is double-sided.
+  const std::vector<bool>& double_sided() const { return double_sided_; }
 
  private:
   // Throws E-LIMIT before any element is read.
@@ -136,6 +140,8 @@ class MeshBuilder {
     const auto next = static_cast<std::uint32_t>(mesh_.material_names.size());
     const auto slot = slots_.emplace(name, next).first->second;
     if (slot == next) mesh_.material_names.push_back(name);
+    double_sided_.resize(mesh_.material_names.size(), false);
+    if (material >= 0 && model_.parts.materials[material].doubleSided) double_sided_[slot] = true;
     return slot;
   }
 
@@ -158,7 +164,21 @@ class MeshBuilder {
   TriangleMesh mesh_;
   std::map<int, std::vector<Patch>> patches_;
   std::map<std::string, std::uint32_t> slots_;
+  std::vector<bool> double_sided_;
 };
+
+// Rays would meet either of two triangles in one place by chance, so that the back is not drawn. Of a
+// closed body, which exporters like to call double-sided, nobody sees it.
+void tell_one_sided(const TriangleMesh& mesh, const std::vector<bool>& double_sided,
+                    const std::string& file, core::ProblemList& problems) {
+  if (std::find(double_sided.begin(), double_sided.end(), true) == double_sided.end()) return;
+  const std::size_t borders = count_borders(mesh, double_sided);
+  if (borders == 0) return;
+  problems.warning("ONE-SIDED", core::Place{file}, "doubleSided",
+                   std::to_string(borders) + " edges where open surfaces end",
+                   "their front alone echoes, their back hides what is behind: give sheets a "
+                   "thickness");
+}
 
 GltfModel read_model(const std::filesystem::path& file, const std::filesystem::path& allowed_folder,
                      const FileReader& read_file, core::ProblemList& problems) {
@@ -183,11 +203,13 @@ TriangleMesh load_gltf(const std::filesystem::path& file,
   check_gltf_nodes(model, found);
   found.throw_if_errors();
   const std::vector<GltfInstance> instances = gltf_instances(model, found);
-  TriangleMesh mesh = MeshBuilder(model, found).build(instances);
+  MeshBuilder builder(model, found);
+  TriangleMesh mesh = builder.build(instances);
   mesh.name = file.stem().string();
   found.throw_if_errors();
   check_and_clean(mesh, model.file, found);
   found.throw_if_errors();
+  tell_one_sided(mesh, builder.double_sided(), model.file, found);
   if (mesh.triangles.empty())
     found.warning("EMPTY", core::Place{model.file}, "scene", "no triangles", "nothing is drawn");
   problems.append(found.all());

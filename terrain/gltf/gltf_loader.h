@@ -9,6 +9,9 @@
 // sparse, by the core specification is read as such. Points and lines are skipped with W-SKIPPED.
 // Source: Khronos Group, glTF 2.0 Specification, version 2.0.1 (2021), and its extension
 // KHR_mesh_quantization (2020).
+// A triangle has one side, that from which its corners run counter-clockwise: its back echoes nothing
+// and hides what is behind. A material's doubleSided is not modelled but told (W-ONE-SIDED) where it
+// matters, with the number of edges at which such surfaces end; closed bodies have none.
 //
 // Frame: glTF's +Y is up and +Z forward, in metres. The mesh has x right, y forward, z up, so
 // (x, y, z) = (-x_gltf, z_gltf, y_gltf). A transform that mirrors also turns the winding round, so
@@ -34,7 +37,8 @@ namespace fanbeam::terrain {
 // E-LIMIT, E-UNSUPPORTED, E-REF), then buffers (E-PATH, E-IO, E-PARSE), accessors and node tree
 // (E-REF, E-RANGE, E-NONFINITE), then the geometry itself (E-UNSUPPORTED and E-REF for data that are
 // not there among others). Limits stand in gltf_limits.h. Warnings
-// go to `problems`: W-DEGENERATE, W-BOUNDS, W-SKIPPED, and W-EMPTY for a scene without triangles.
+// go to `problems`: W-DEGENERATE, W-BOUNDS, W-SKIPPED, W-ONE-SIDED, and W-EMPTY for a scene without
+// triangles.
 TriangleMesh load_gltf(const std::filesystem::path& file,
                        const std::filesystem::path& allowed_folder, core::ProblemList& problems,
                        const FileReader& read_file = core::read_file);

@@ -57,7 +57,7 @@ constexpr Member kPrimitive[] = {{"attributes", Kind::object, true, nullptr, 0, 
                                  {"extensions", Kind::anything}};
 constexpr Member kMesh[] = {{"name", Kind::text},
                             {"primitives", Kind::objects, true, nullptr, 0, kPrimitive}};
-constexpr Member kMaterial[] = {{"name", Kind::text}};
+constexpr Member kMaterial[] = {{"name", Kind::text}, {"doubleSided", Kind::flag}};
 constexpr Member kSparseIndices[] = {{"bufferView", Kind::index, true, "bufferViews"},
                                      {"byteOffset", Kind::integer},
                                      {"componentType", Kind::integer, true}};

@@ -53,10 +53,13 @@ class BandReader {
   void check_readable() const;
   void check_side_files() const;
   void check_side_text(const std::filesystem::path& path) const;
+  void check_mask_file(const std::filesystem::path& path) const;
   void check_shape() const;
+  void check_size(GDALRasterBand& band) const;
   void check_kind(GDALRasterBand& band) const;
   PixelMap make_map() const;
   std::vector<float> read_samples(GDALRasterBand& band) const;
+  std::vector<std::uint8_t> read_mask(GDALRasterBand& band) const;
 
   std::string file_;
   GdalMessages messages_;
@@ -70,8 +73,8 @@ void BandReader::check_readable() const {
     refuse(core::ErrorClass::io, "raster", "no such file, or not readable", "a readable file");
 }
 
-// GDAL reads "dem.prj" and "dem.tif.aux.xml" beside "dem.tif" unasked, wherever links lead it, whole,
-// and opens what they name.
+// GDAL reads "dem.prj", "dem.tif.aux.xml" and "dem.tif.msk" beside "dem.tif" unasked, wherever links lead
+// it, whole, and opens what they name.
 void BandReader::check_side_files() const {
   namespace fs = std::filesystem;
   const fs::path path = fs::absolute(file_);
@@ -80,11 +83,13 @@ void BandReader::check_side_files() const {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(start)) continue;
+    const bool is_mask = EQUAL(name.c_str(), (path.filename().string() + ".msk").c_str());
+    if (!is_mask && !name.starts_with(start)) continue;
     if (!core::lies_inside(folder, entry.path()))
       refuse(core::ErrorClass::path, "side file", name,
              "files beside the raster that are no links out of its folder");
     if (name.ends_with(".prj") || name.ends_with(".aux.xml")) check_side_text(entry.path());
+    if (is_mask) check_mask_file(entry.path());
   }
 }
 
@@ -97,15 +102,30 @@ void BandReader::check_side_text(const std::filesystem::path& path) const {
            "a coordinate reference system that names no files");
 }
 
+// GDAL takes a mask of any format, also one that names files; all writers make a TIFF.
+void BandReader::check_mask_file(const std::filesystem::path& path) const {
+  std::error_code error;
+  char start[4] = {};
+  if (std::filesystem::is_regular_file(path, error))
+    std::ifstream(path, std::ios::binary).read(start, sizeof(start));
+  const std::string_view order(start, 2);
+  if ((order != "II" || start[3] != 0) && (order != "MM" || start[2] != 0))
+    refuse(core::ErrorClass::path, "side file", path.filename().string(), "a mask that is a TIFF");
+}
+
 void BandReader::check_shape() const {
   if (dataset_->GetRasterCount() != 1)
     refuse(core::ErrorClass::unsupported, "bands", std::to_string(dataset_->GetRasterCount()),
            "one band");
-  const std::int64_t width = dataset_->GetRasterXSize();
-  const std::int64_t height = dataset_->GetRasterYSize();
+  check_size(*dataset_->GetRasterBand(1));
+}
+
+void BandReader::check_size(GDALRasterBand& band) const {
+  const std::int64_t width = band.GetXSize();
+  const std::int64_t height = band.GetYSize();
   int block_width = 0;
   int block_height = 0;
-  dataset_->GetRasterBand(1)->GetBlockSize(&block_width, &block_height);
+  band.GetBlockSize(&block_width, &block_height);
   const std::int64_t block = static_cast<std::int64_t>(block_width) * block_height;
   if (width * height > kMostSamples || block > kMostSamples)
     refuse(core::ErrorClass::limit, "size",
@@ -157,18 +177,45 @@ std::vector<float> BandReader::read_samples(GDALRasterBand& band) const {
     refuse(core::ErrorClass::parse, "samples", messages_.first_error_or("unreadable"),
            "a complete file");
 
+  const std::vector<std::uint8_t> mask = read_mask(band);
   int has_nodata = 0;
   const auto nodata = static_cast<float>(band.GetNoDataValue(&has_nodata));
   const double scale = band.GetScale();
   const double offset = band.GetOffset();
-  for (float& sample : samples) {
-    if ((has_nodata != 0 && sample == nodata) || !std::isfinite(sample)) {
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    float& sample = samples[i];
+    const bool masked = !mask.empty() && mask[i] == 0;
+    if (masked || (has_nodata != 0 && sample == nodata) || !std::isfinite(sample)) {
       sample = std::numeric_limits<float>::quiet_NaN();
     } else {
       sample = static_cast<float>(offset + scale * static_cast<double>(sample));
     }
   }
   return samples;
+}
+
+// By sample, 0 where the file says that there is no value; empty where it has no mask but what its
+// nodata value makes.
+std::vector<std::uint8_t> BandReader::read_mask(GDALRasterBand& band) const {
+  const int flags = band.GetMaskFlags();
+  if (messages_.has_errors())
+    refuse(core::ErrorClass::parse, "mask", messages_.first_error_or(""), "a complete file");
+  if (flags == GMF_NODATA || (flags & GMF_ALL_VALID) != 0) return {};
+  GDALRasterBand& mask = *band.GetMaskBand();
+  const int width = band.GetXSize(), height = band.GetYSize();
+  if (mask.GetXSize() != width || mask.GetYSize() != height)
+    refuse(core::ErrorClass::parse, "mask",
+           std::to_string(mask.GetXSize()) + " x " + std::to_string(mask.GetYSize()),
+           "the raster's size");
+  check_size(mask);
+  std::vector<std::uint8_t> values(static_cast<std::size_t>(width) *
+                                   static_cast<std::size_t>(height));
+  const CPLErr status = mask.RasterIO(GF_Read, 0, 0, width, height, values.data(), width, height,
+                                      GDT_Byte, 0, 0, nullptr);
+  if (status != CE_None || messages_.has_errors())
+    refuse(core::ErrorClass::parse, "mask", messages_.first_error_or("unreadable"),
+           "a complete file");
+  return values;
 }
 
 RasterFacts BandReader::facts() const {

@@ -2,7 +2,8 @@
 //
 // Formats: GeoTIFF, DTED, SRTM .hgt, ESRI ASCII grid (its system in a .prj beside it).
 // Pixel-is-area and pixel-is-point files are told apart by GDAL. Files that point to other files
-// (VRT) and remote names are not opened.
+// (VRT) and remote names are not opened. There is no value where a sample is the file's nodata value,
+// or not finite, or where a mask (in a GeoTIFF, or a TIFF "dem.tif.msk" beside "dem.tif") is 0.
 #pragma once
 
 #include <cstddef>
@@ -42,10 +43,10 @@ struct RasterFacts {
 inline constexpr std::int64_t kMostSamples = 100'000'000;
 
 // Throws InputError: E-IO (missing or unreadable file), E-PATH (a file of the same name beside it,
-// such as its .prj, is a symbolic link out of the folder), E-PARSE (not one of the formats, damaged,
-// or shorter than it claims), E-LIMIT (more than kMostSamples, found before anything is allocated),
-// E-REF (no georeference), E-UNSUPPORTED (more than one band, complex numbers, heights not in
-// metres, or as PixelMap).
+// such as its .prj, is a symbolic link out of the folder, or a mask that is no TIFF), E-PARSE (not one
+// of the formats, damaged, or shorter than it claims, a mask of another size), E-LIMIT (more than
+// kMostSamples, found before anything is allocated), E-REF (no georeference), E-UNSUPPORTED (more than
+// one band, complex numbers, heights not in metres, or as PixelMap).
 RasterBand read_raster_band(const std::filesystem::path& path);
 
 // SRTM .hgt and DTED always count from EGM96; other formats where their system has a vertical part.

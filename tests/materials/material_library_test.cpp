@@ -74,6 +74,36 @@ TEST_CASE("M07 bad coefficients are refused by class, with file and line", "[mat
   require_problem(problems_of(material_text("\"dark\"", "0", "1")), "E-PARSE", 2, "test_grass.a");
 }
 
+TEST_CASE("M07 a temperature that the medium's model does not know is refused at its line",
+          "[materials][M07]") {
+  const auto rough = [](const std::string& medium, const std::string& temperature) {
+    return "[frozen]\nmodel = \"oh1992\"\nmedium = \"" + medium + "\"\nrms_height_mm = 1\n" +
+           temperature + "confidence = \"assumed\"\nsource = \"a test\"\n";
+  };
+  struct Medium {
+    const char *name, *too_cold, *too_warm, *range;
+  };
+  for (const Medium& medium :
+       {Medium{"ice", "-33.2", "5", "-33.15 to 0"}, Medium{"moist_soil", "-1", "41", "0 to 40"},
+        Medium{"water", "-21", "61", "-20 to 60"}})
+    for (const std::string temperature : {medium.too_cold, medium.too_warm}) {
+      const ProblemList problems =
+          problems_of(rough(medium.name, "temperature_C = " + temperature + "\n"));
+      require_problem(problems, "E-RANGE", 5, "frozen.temperature_C");
+      REQUIRE(problems.all().front().expected == medium.range);
+    }
+  const auto sigma0_of = [&](const std::string& medium, const std::string& temperature) {
+    ProblemList problems;
+    const MaterialLibrary library =
+        MaterialLibrary::from_text(rough(medium, temperature), "test.toml", problems);
+    REQUIRE(problems.all().empty());
+    return library.curves(SurfaceState::dry, Polarisation::horizontal, 35e9).at(0).sigma0(0.5);
+  };
+  REQUIRE(sigma0_of("ice", "temperature_C = -33.15\n") > 0.0);
+  REQUIRE(sigma0_of("ice", "") == sigma0_of("ice", "temperature_C = 0\n"));
+  REQUIRE(sigma0_of("water", "") == sigma0_of("water", "temperature_C = 15\n"));
+}
+
 TEST_CASE("M07 an empty table is E-PARSE, a table with one row is a library", "[materials][M07]") {
   const ProblemList empty = problems_of("# nothing\n");
   REQUIRE(empty.all().size() == 1);

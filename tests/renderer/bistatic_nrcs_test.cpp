@@ -104,3 +104,23 @@ TEST_CASE("A surface mirrors no more than it leaves unscattered", "[bistatic]") 
   for (int i = 1; i <= 32; ++i)
     CHECK(mirrors.power(1, i / 32.0, 1.0) + sheet.scattered_share(i / 32.0) <= 1.0 + 1e-12);
 }
+
+// Bounds of a surface's state count on it. The second surface is darker at grazing angles and bright at
+// the normal: it scatters less there, and has more of it cut off by the limit.
+TEST_CASE("A change of NRCS changes bistatic echoes by up to twice as many dB", "[bistatic]") {
+  const NrcsTable even(materials::PhongNrcs(3.0, 0.0, 1.0)),
+      lobed(materials::PhongNrcs(0.75, 11.25, 3.0));
+  const double change_dB = lobed.largest_change_dB(even);
+  CHECK(change_dB == Approx(10.0 * std::log10(4.0)).epsilon(1e-3));
+  const BistaticNrcs before(even), after(lobed);
+  double largest_dB = 0.0;
+  for (const double in : {0.01, 0.03, 0.1, 0.3, 0.6, 1.0})
+    for (const double out : {0.01, 0.03, 0.1, 0.3, 0.6, 1.0})
+      for (const double on_half : {(in + out) / 2, std::min((in + out) / 2 + 0.3, 1.0), 1.0}) {
+        const double ratio =
+            after.sigma0_over_sine(in, out, on_half) / before.sigma0_over_sine(in, out, on_half);
+        largest_dB = std::max(largest_dB, std::abs(10.0 * std::log10(ratio)));
+      }
+  CHECK(largest_dB > 1.1 * change_dB);
+  CHECK(largest_dB <= 2.0 * change_dB);
+}

@@ -115,3 +115,48 @@ TEST_CASE("Fans of tilted antennas reach to the tops that their azimuths meet", 
     CHECK(above > 40);
   }
 }
+
+// Inverted, looking down, and on its side: range falls with elevation in all or a part of a column.
+TEST_CASE("Fans of turned antennas hold the ground on both sides of the lowest direction",
+          "[elevation_fan]") {
+  struct Case {
+    double roll_deg, pitch_deg, boresight_deg;
+  };
+  for (const Case& of : {Case{180.0, 0.0, 3.8},
+                         {0.0, -90.0, 0.0},
+                         {0.0, -90.0, -3.8},
+                         {0.0, -75.0, -3.8},
+                         {90.0, 0.0, 0.0},
+                         {-160.0, -20.0, 10.0}})
+    for (const sensors::ScanSurface surface :
+         {sensors::ScanSurface::plane, sensors::ScanSurface::cone}) {
+      sensors::Sensor sensor = tests::hivision(8);
+      sensor.scan.surface = surface;
+      sensor.scan.stabilised = false;
+      sensor.antenna.boresight_elevation_rad = core::radians(of.boresight_deg);
+      sensor.mounting.roll_rad = core::radians(of.roll_deg);
+      sensor.mounting.pitch_rad = core::radians(of.pitch_deg);
+      constexpr double kAzimuth_rad = 0.2, kHeight_m = 300.0;
+      const std::vector<double> edges = edges_of(sensor, kHeight_m, 0.0, kAzimuth_rad);
+      INFO("roll " << of.roll_deg << ", pitch " << of.pitch_deg << ", cone "
+                   << (surface == sensors::ScanSurface::cone));
+      REQUIRE(edges.size() > 2);
+      CHECK(std::is_sorted(edges.begin(), edges.end()));
+      const sensors::AntennaFrame antenna =
+          renderer::antenna_of(sensor, tests::level_pose(kHeight_m));
+      const double reach_rad = sensors::reach_rad(sensor.antenna.elevation) - 1e-3;
+      int seen = 0;
+      for (double beside_rad = -reach_rad; beside_rad < reach_rad; beside_rad += 0.01) {
+        const double elevation_rad = sensor.antenna.boresight_elevation_rad + beside_rad;
+        const double down = -sensors::direction(antenna, kAzimuth_rad, elevation_rad, surface).z;
+        if (!(down * 0.95 * sensor.range.maximum_m() > kHeight_m)) continue;
+        ++seen;
+        INFO("elevation " << elevation_rad);
+        const auto above = std::lower_bound(edges.begin(), edges.end(), elevation_rad);
+        REQUIRE(above != edges.begin());
+        REQUIRE(above != edges.end());
+        CHECK(*above - *(above - 1) <= 3.001e-3);
+      }
+      CHECK(seen > 5);
+    }
+}

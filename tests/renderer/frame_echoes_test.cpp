@@ -192,3 +192,18 @@ TEST_CASE("Echoes of a frame do not depend on threads, and differ from frame to 
   other.sampling.rays_per_cell = 1e5;
   CHECK_THROWS_WITH(renderer::frame_echoes(world, pose, other), Catch::Contains("E-LIMIT"));
 }
+
+TEST_CASE("A scan all round has scatterers behind it as many as ahead", "[frame_echoes]") {
+  sensors::Sensor sensor = tests::hivision(36);
+  sensor.scan.field_of_view_rad = 2.0 * core::kPi;
+  const renderer::World world = tests::world(
+      sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }), {kGrass});
+  renderer::FrameEchoSettings settings = fine(1);
+  settings.sampling.sub_columns = 1;
+  int ahead = 0, behind = 0;
+  for (const core::Echo& echo :
+       renderer::frame_echoes(world, tests::level_pose(kHeight_m), settings).echoes)
+    ++(std::abs(echo.azimuth_rad) > core::kPi / 2 ? behind : ahead);
+  CHECK(ahead > 1000);
+  CHECK(behind == Approx(ahead).epsilon(0.1));
+}

@@ -276,3 +276,15 @@ TEST_CASE("In a realisation over speckled ground nulls are the ground alone, lob
   CHECK(target_W(lobe_m, true) / free_W == Approx(16.0).epsilon(0.05));
   CHECK(std::abs(target_W(null_m, true)) < 0.05 * free_W);
 }
+
+TEST_CASE("Behind a scan all round the ground mirrors as it does ahead", "[multipath]") {
+  renderer::World world = flat_world(3000.0, 2.0, kMetal);
+  world.sensor.scan.field_of_view_rad = 2.0 * core::kPi;
+  const auto ahead = renderer::ground_path(world, antenna_at(60.0), {0.0, 3000.0, 2.0});
+  const auto behind = renderer::ground_path(world, antenna_at(60.0), {0.0, -3000.0, 2.0});
+  REQUIRE(ahead);
+  REQUIRE(behind);
+  CHECK(behind->longer_m == Approx(ahead->longer_m).epsilon(1e-9));
+  CHECK(behind->amplitude.real() == Approx(ahead->amplitude.real()).epsilon(1e-9));
+  CHECK(behind->elevation_rad == Approx(ahead->elevation_rad).epsilon(1e-9));
+}

@@ -5,7 +5,11 @@
 
 #include "core/pose.h"
 #include "core/units.h"
+#include "renderer/casting/fan_layout.h"
+#include "renderer/stages/azimuth_beam.h"
+#include "renderer/stages/point_targets.h"
 #include "sensors/antenna/beam_pattern.h"
+#include "sensors/cells.h"
 #include "terrain/local_frame.h"
 #include "tests/renderer/test_worlds.h"
 
@@ -143,4 +147,74 @@ TEST_CASE("A moving target is where its waypoints say", "[target]") {
   CHECK(target.position_at(15.0).x == Approx(50.0));
   CHECK(target.position_at(15.0).y == Approx(25.0));
   CHECK(target.position_at(99.0).x == 100.0);
+}
+
+TEST_CASE("A target and a small patch share one azimuth profile under an uneven beam", "[target]") {
+  sensors::Sensor sensor = tests::hivision(40);
+  sensors::BeamCut& cut = sensor.antenna.azimuth;
+  cut.shape = sensors::BeamCut::Shape::table;
+  cut.cut_rad = core::radians(1.0);
+  cut.table_angle_rad = {core::radians(-1.0), 0.0, core::radians(0.5), core::radians(1.0)};
+  cut.table_gain = {0.0, 1.0, 0.5, 0.25};
+
+  // Unit power in one sub-column right of the middle.
+  constexpr int kParts = 4;
+  renderer::FanSums fan;
+  fan.step_rad = sensor.scan.column_width_rad() / kParts;
+  const int margin = renderer::margin_sub_columns(sensor, kParts);
+  fan.sub_columns = 40 * kParts + 2 * margin;
+  fan.first_azimuth_rad = -sensor.scan.field_of_view_rad / 2 - margin * fan.step_rad;
+  fan.cells = 1;
+  const int lit = margin + 20 * kParts + 1;
+  std::vector<double> sums(static_cast<std::size_t>(fan.sub_columns), 0.0);
+  sums[static_cast<std::size_t>(lit)] = 1.0 / fan.step_rad;
+  const std::vector<double> patch = renderer::apply_azimuth_beam(sums, 1, fan, sensor, kParts);
+
+  core::Echo echo;
+  echo.range_m = sensors::range_middle_m(sensor.range, 100);
+  echo.azimuth_rad = fan.first_azimuth_rad + (lit + 0.5) * fan.step_rad;
+  echo.power_W = 1.0;
+  std::vector<double> bscope_W(static_cast<std::size_t>(sensor.range.cells) * 40), none;
+  renderer::add_echoes({echo}, sensor, bscope_W, none);
+  for (std::size_t column = 0; column < 40; ++column) {
+    INFO("column " << column);
+    CHECK(bscope_W[100 * 40 + column] == Approx(patch[column]).epsilon(0.0).margin(1e-3));
+  }
+}
+
+TEST_CASE("A scan all round shows targets behind it, and one at 179.9 deg on both sides of 180",
+          "[target]") {
+  sensors::Sensor sensor = tests::hivision(360);
+  sensor.scan.field_of_view_rad = 2.0 * core::kPi;
+  renderer::World world = tests::world(sensor, std::nullopt, {});
+  for (const double bearing_deg : {90.4, 135.4, 179.9}) {
+    const double bearing_rad = core::radians(bearing_deg);
+    world.targets.push_back(
+        {"sphere",
+         materials::ConstantRcs{1.0},
+         {{0.0, {1000.0 * std::sin(bearing_rad), 1000.0 * std::cos(bearing_rad), 60.0}}},
+         glm::dmat3(1.0)});
+  }
+  const renderer::FramePose pose = tests::level_pose(60.0);
+  const renderer::TargetEchoes found = renderer::unobstructed_echoes(
+      world, sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB, {}, true),
+      0.0);
+  CHECK(found.unprojected == 0);
+  REQUIRE(found.echoes.size() == 3);
+  CHECK(found.echoes[1].azimuth_rad == Approx(core::radians(135.4)));
+
+  const renderer::Frame frame = renderer::render_frame(world, {}, {}, {}, pose);
+  CHECK(frame.unprojected == 0);
+  const int row = sensors::range_row(sensor.range, 1000.0);
+  const auto power_W = [&](int column) {
+    return frame.bscope_W[static_cast<std::size_t>(row * 360 + column)];
+  };
+  for (const int column : {270, 315, 359}) {
+    CHECK(power_W(column) > power_W(column - 1));
+    CHECK(power_W(column) > power_W((column + 1) % 360));
+  }
+  const auto gain = [&](double offset_deg) {
+    return sensors::two_way_gain(sensor.antenna.azimuth, core::radians(offset_deg));
+  };
+  CHECK(power_W(0) / power_W(359) == Approx(gain(0.6) / gain(0.4)).epsilon(1e-6));
 }

@@ -202,6 +202,9 @@ TEST_CASE("What an airport's line leaves out or has wrong", "[airport]") {
                "airport,runway_end,end_lat_deg,end_lon_deg,width_m,surface\n"
                "TEST,36,52.0,10.0,45,ASP\nTEST,18,52.018,10.0,45,ASP\n");
   told(tests::replaced(scene_with(""), "apt.dat", "apt.csv"), "no elevation of 36");
+  folder.write("apt.dat", tests::replaced(kAirport, "010.00000000 100.0 0", "010.00000000 1950 0"));
+  told(scene_with(""),
+       "apt.dat:5: E-RANGE displaced thresholds = 1950 m together: expected at least 100 m of");
 }
 
 TEST_CASE("Airports of the sample of X-Plane's gateway become scenes, every pavement of theirs",

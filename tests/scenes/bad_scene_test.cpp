@@ -174,6 +174,30 @@ TEST_CASE("Runways off the map, too short, named twice, and ends that do not exi
                  "17:1: E-REF runway = \"09\": expected one of the runway ends \"36\", \"18\"");
 }
 
+TEST_CASE("Displaced thresholds leave 100 m of a runway to land on", "[bad_scene]") {
+  const TemporaryFolder folder;
+  const auto displaced = [](const std::string& first_m, const std::string& second_m) {
+    return tests::replaced(tests::replaced(tests::kSmallScene, "elevation_m = 50.0 }",
+                                           "elevation_m = 50.0, displaced_m = " + first_m + " }"),
+                           "elevation_m = 60.0 }",
+                           "elevation_m = 60.0, displaced_m = " + second_m + " }");
+  };
+  const auto check_told = [&](const std::string& text, const std::string& value, int line) {
+    const tests::Outcome outcome = tests::build_text(folder, text);
+    CHECK(outcome.scene == nullptr);
+    REQUIRE(outcome.problems.size() == 1);
+    const core::Problem& problem = outcome.problems[0];
+    CHECK(problem.code == "E-RANGE");
+    CHECK(problem.field == "displaced thresholds");
+    CHECK(problem.value == value);
+    CHECK(problem.expected == "at least 100 m of the pavement's 1001 m left to land on");
+    CHECK(problem.place.line == line);
+  };
+  check_told(displaced("1500.0", "0.0"), "1500 m together", 12);
+  check_told(displaced("400.0", "550.0"), "950 m together", 13);
+  CHECK(tests::good_scene(folder, displaced("400.0", "450.0")) != nullptr);
+}
+
 TEST_CASE("Objects outside the terrain and unknown materials", "[bad_scene]") {
   check_problems("left_m = 200.0", "left_m = 2600.0",
                  "17:1: E-RANGE box[0].at = -2600 m east, 300 m north of the origin: expected a "
@@ -322,6 +346,24 @@ TEST_CASE("Trajectory files: problems have the file's own line", "[bad_scene]") 
       folder, file_trajectory("vertical_datum = \"scene\"\ncolumns = { height = \"heigth_m\" }\n"),
       {"@/flight.csv:1: E-PARSE column \"heigth_m\" = missing: expected a column of this name; "
        "perhaps height_m of time_s, latitude_deg, longitude_deg, height_m"});
+}
+
+TEST_CASE("A column that a scene names must be there, a default one may be missing",
+          "[bad_scene]") {
+  const TemporaryFolder folder;
+  std::string rows = "time_s,latitude_deg,longitude_deg,height_m,bank_deg\n";
+  for (int t = 0; t <= 20; ++t)
+    rows += std::to_string(t) + "," + core::number_text(51.99 + 0.0005 * t) + ",10,300,0\n";
+  folder.write("flight.csv", rows);
+  const auto flight = [](const std::string& columns) {
+    return file_trajectory("vertical_datum = \"scene\"\ncolumns = { " + columns + " }\n");
+  };
+  check_problems(folder, flight("roll = \"bnak_deg\""),
+                 {"@/flight.csv:1: E-PARSE column \"bnak_deg\" = missing: expected a column of "
+                  "this name; perhaps bank_deg of time_s, latitude_deg, longitude_deg, height_m, "
+                  "bank_deg"});
+  CHECK(tests::good_scene(folder, flight("roll = \"bank_deg\"")) != nullptr);
+  CHECK(tests::good_scene(folder, flight("height = \"height_m\"")) != nullptr);
 }
 
 TEST_CASE("R17 absurd sizes are E-LIMIT or E-RANGE at once, without allocating", "[bad_scene]") {

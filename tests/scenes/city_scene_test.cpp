@@ -80,6 +80,43 @@ TEST_CASE(
   CHECK(std::count(names.begin(), names.end(), "metal") == 1);
 }
 
+TEST_CASE("keys that the kind of a building file has no use for are told at their places",
+          "[cityjson]") {
+  const auto told = [](const std::string& file, const std::string& text, const std::string& keys) {
+    const tests::TemporaryFolder folder;
+    folder.write(file, text);
+    const tests::Outcome outcome =
+        tests::build_text(folder, tests::replaced(city_scene(keys), "city.json", file));
+    std::vector<std::string> problems;
+    for (const std::string& problem : tests::messages(folder, outcome.problems))
+      problems.push_back(problem.substr(problem.find(':') + 1));
+    return problems;
+  };
+  using Problems = std::vector<std::string>;
+  const char* shed = R"({"type": "FeatureCollection", "features": [{"type": "Feature",
+"properties": {"render_height": 5}, "geometry": {"type": "Polygon", "coordinates":
+[[[10.464, 52.249], [10.465, 52.249], [10.465, 52.25], [10.464, 52.249]]]}}]})";
+  CHECK(
+      told("town.geojson", shed,
+           "crs = \"EPSG:28992\"\nheights = \"as_filed\"\nsurfaces = { RoofSurface = \"metal\" }\n"
+           "base = \"mean\"") ==
+      Problems{"10:1: E-UNSUPPORTED buildings[0].crs = a key of CityJSON: expected no such key: "
+               "town.geojson is no CityJSON",
+               "11:1: E-UNSUPPORTED buildings[0].heights = a key of CityJSON: expected no such "
+               "key: town.geojson is no CityJSON",
+               "12:1: E-UNSUPPORTED buildings[0].surfaces = a key of CityJSON: expected no such "
+               "key: town.geojson is no CityJSON"});
+  CHECK(told("city.json", tests::house().dump(),
+             "base = \"mean\"\nheight_property = \"h\"\nmin_height_property = \"m\"\n"
+             "heights = \"as_filed\"") ==
+        Problems{"10:1: E-UNSUPPORTED buildings[0].base = a key of GeoJSON footprints: expected no "
+                 "such key: city.json is CityJSON",
+                 "11:1: E-UNSUPPORTED buildings[0].height_property = a key of GeoJSON footprints: "
+                 "expected no such key: city.json is CityJSON",
+                 "12:1: E-UNSUPPORTED buildings[0].min_height_property = a key of GeoJSON "
+                 "footprints: expected no such key: city.json is CityJSON"});
+}
+
 TEST_CASE("buildings beyond the terrain are counted and left out", "[cityjson]") {
   const Town town(tests::house(620000.0));
   CHECK(town.scene().world.solids().others.empty());

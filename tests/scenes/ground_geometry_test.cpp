@@ -77,6 +77,52 @@ TEST_CASE(
   CHECK(largest_m < 45.0);
 }
 
+TEST_CASE("Runways that cross at two heights are told, and blended in either order",
+          "[ground_geometry]") {
+  const std::string runway = "[[runway]]\nfirst = { name = \"36\"";
+  const auto crossing = [](const std::string& elevation) {
+    return "[[runway]]\nfirst = { name = \"09\", latitude_deg = 52.0045, longitude_deg = 9.99, "
+           "elevation_m = " +
+           elevation +
+           " }\nsecond = { name = \"27\", latitude_deg = 52.0045, "
+           "longitude_deg = 10.01, elevation_m = " +
+           elevation + " }\n";
+  };
+  const auto overlaps = [](const tests::Outcome& outcome) {
+    std::vector<std::string> told;
+    for (const core::Problem& problem : outcome.problems)
+      if (problem.code == "W-OVERLAP") told.push_back(problem.value);
+    return told;
+  };
+  const std::string text = standing();
+  const TemporaryFolder folder;
+  const tests::Outcome before =
+      tests::build_text(folder, tests::replaced(text, runway, crossing("65.0") + runway));
+  const tests::Outcome behind =
+      tests::build_text(folder, tests::replaced(text, "[[box]]", crossing("65.0") + "[[box]]"));
+  REQUIRE(before.scene != nullptr);
+  REQUIRE(behind.scene != nullptr);
+  // 36/18 is at 55 m in the middle, and rises 1 % along the 150 m of the other's strip.
+  CHECK(overlaps(before) ==
+        std::vector<std::string>{"09/27 and 36/18 differ by 10.7 m where their strips overlap"});
+  CHECK(overlaps(behind) ==
+        std::vector<std::string>{"36/18 and 09/27 differ by 10.7 m where their strips overlap"});
+  for (const auto& [latitude_deg, longitude_deg] :
+       {std::pair{52.0045, 10.0}, {52.0042, 10.0004}, {52.0048, 9.9993}, {52.002, 10.0}}) {
+    const glm::dvec2 at_m = local_m(*before.scene, latitude_deg, longitude_deg);
+    CHECK(height_m(*before.scene, at_m) == Approx(height_m(*behind.scene, at_m)).margin(1e-6));
+  }
+  CHECK(height_m(*behind.scene, local_m(*behind.scene, 52.0045, 10.0)) ==
+        Approx(60.0).epsilon(0.0).margin(1.0));
+  const tests::Outcome level =
+      tests::build_text(folder, tests::replaced(text, "[[box]]", crossing("55.0") + "[[box]]"));
+  CHECK(overlaps(level).size() == 1);  // 0.75 m at the borders
+  const std::string flat = tests::replaced(text, "elevation_m = 60.0", "elevation_m = 50.0");
+  CHECK(overlaps(tests::build_text(folder,
+                                   tests::replaced(flat, "[[box]]", crossing("50.0") + "[[box]]")))
+            .empty());
+}
+
 TEST_CASE("Elevations above the geoid become ellipsoidal once, and the origin is at height 0",
           "[ground_geometry]") {
   const tests::Outcome outcome =

@@ -276,6 +276,40 @@ TEST_CASE("Members that the format does not have are told, with those like them"
   }
 }
 
+TEST_CASE("A truth table has the format's members alone, those for people among them",
+          "[highway]") {
+  const std::string people = R"("columns": ["t_s"], "snr_2ms_ramp_db_worst": 50, "id")";
+  CHECK(scenes::parse_highway(file_with_truth(replaced(kTable, "\"id\"", people)), "x.json")
+            .scenarios[0]
+            .truth[0]
+            .size() == 1);
+  const auto problems =
+      refusal(file_with_truth(replaced(kTable, "\"id\"", "\"in_veiw\": [], \"id\""))).problems();
+  REQUIRE(problems.size() == 1);
+  CHECK(problems[0].field == "/scenarios/0/truth/0/in_veiw");
+  CHECK(problems[0].expected.find("in_view") != std::string::npos);
+}
+
+TEST_CASE("A waveform has to fit the frames of the scenarios that name it, and no others",
+          "[highway]") {
+  // Of 0.2 s, in frames of 0.05 s or of 0.5.
+  const auto with = [](const std::string& members) {
+    return replaced(
+        replaced(file_with(kStraight), "\"scenarios\"",
+                 R"("waveforms": {"w": {"type": "triangle", "ramp_s": 0.1}}, "scenarios")"),
+        "]}]}", "]}]" + members + "}");
+  };
+  CHECK_NOTHROW(scenes::parse_highway(with(""), "x.json"));
+  CHECK_NOTHROW(scenes::parse_highway(
+      with(R"(, "waveforms": ["w"], "radar_overrides": {"frame_period_s": 0.5})"), "x.json"));
+  check_refused(with(R"(, "waveforms": ["w"])"), core::ErrorClass::range,
+                "/scenarios/0/waveforms/0");
+  check_refused(
+      replaced(with(R"(, "waveforms": ["w"], "radar_overrides": {"frame_period_s": 0.1})"),
+               "\"frame_period_s\": 0.05", "\"frame_period_s\": 0.5"),
+      core::ErrorClass::range, "/scenarios/0/waveforms/0");
+}
+
 TEST_CASE("What another kind of waveform or motion has is refused, not passed over", "[highway]") {
   const auto with_waveforms = [](const std::string& text) {
     return replaced(file_with(kStraight), "\"scenarios\"",
@@ -286,8 +320,6 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
   check_refused(
       with_waveforms(R"("w": {"type": "two-stage", "ramp_s": 0.002, "coarse": {}, "fine": {}})"),
       core::ErrorClass::ref, "/waveforms/w/ramp_s");
-  check_refused(with_waveforms(R"("w": {"type": "triangle", "ramp_s": 0.1})"),
-                core::ErrorClass::range, "/waveforms/w");
   const std::string circle =
       R"("motion": "circular", "radius_m": 50, "azimuth0_rad": 0, "angular_rate_rad_s": 0.1)";
   check_refused(file_with(circle + R"(, "velocity_mps": [1, 2])"), core::ErrorClass::ref,
@@ -298,6 +330,16 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
     CHECK(refusal(replaced(file_with(kStraight), "\"max_range_m\"",
                            std::string(fixed) + ", \"max_range_m\""))
               .has(core::ErrorClass::unsupported));
+  for (const char* segment :
+       {R"("type": "acceleration", "acceleration_mps2": [1, 0], "lateral_m": 3.5)",
+        R"("type": "lane-change", "lateral_m": 3.5, "acceleration_mps2": [1, 0])"}) {
+    const bool lane = std::string(segment).find("lane") != std::string::npos;
+    check_refused(file_with(replaced(kStraight, "[]",
+                                     "[{\"t0_s\": 0, \"t1_s\": 1, " + std::string(segment) + "}]")),
+                  core::ErrorClass::ref,
+                  std::string("/scenarios/0/targets/0/segments/0/") +
+                      (lane ? "acceleration_mps2" : "lateral_m"));
+  }
   // Members of JSON have no order: of two triangles the first by name counts.
   const auto radar =
       scenes::parse_highway(with_waveforms(R"("z": {"type": "triangle", "ramp_s": 0.001},

@@ -5,6 +5,8 @@
 
 #include "core/highway.h"
 #include "scenes/highway_path.h"
+#include "tests/peak_memory.h"
+#include "tests/processor_time.h"
 #include "tests/scenes/scene_folder.h"
 
 using namespace fanbeam;
@@ -73,6 +75,26 @@ TEST_CASE("Legs are short where a target accelerates and single where it does no
   CHECK(times_s[2] - times_s[1] == Approx(1e-3));
   target.lane_changes[0].end_s = 1e5;
   CHECK_THROWS_AS(scenes::highway_times_s(target, 1e5), core::InputError);
+  // As many as there is room for leave none for more.
+  target.lane_changes = {{0.0, 199.9965, 3.5}, {0.0, 199.9965, 3.5}};
+  CHECK_THROWS_AS(scenes::highway_times_s(target, 300.0), core::InputError);
+}
+
+TEST_CASE(
+    "R17 paths of a scenario of two million waypoints in all are E-LIMIT, and no more are made",
+    "[highway][R17]") {
+  const tests::TemporaryFolder folder;
+  std::filesystem::copy_file(kHighway / "traffic.json", folder.path() / "traffic.json");
+  // D changes its lane for 2.4 s: 2400 legs.
+  std::string text = tests::kSmallScene;
+  for (int i = 0; i < 2000; ++i) text += kTarget;
+  const tests::PeakMemory memory;
+  const tests::Outcome outcome = tests::build_text(folder, text);
+  REQUIRE(outcome.problems.size() == 1);
+  INFO(core::to_string(outcome.problems[0]));
+  CHECK(outcome.problems[0].code == "E-LIMIT");
+  CHECK(std::abs(std::stod(outcome.problems[0].field.substr(7)) - 2e6 / 2404) < 5.0);
+  CHECK(memory.rise_MiB() < 1000.0 * tests::kSanitizerMemory);
 }
 
 TEST_CASE("A target of a scenario starts at its place and refuses what is not there", "[highway]") {

@@ -120,6 +120,47 @@ TEST_CASE("R17 lines of a million points in all are E-LIMIT", "[hostile_scene][R
   CHECK(tests::processor_time_s() - begin_s < tests::kAtOnce_s);
 }
 
+TEST_CASE("R17 surfaces over 100 million cells of the ground in all are E-LIMIT",
+          "[hostile_scene][R17]") {
+  // Each lies on all 250 x 250 cells.
+  const std::string surface =
+      "[[surface]]\nrunway = \"36\"\nmaterial = \"short_grass\"\n"
+      "behind_threshold_m = [-9000.0, 9000.0]\nleft_m = [-9000.0, 9000.0]\n";
+  const std::string text =
+      tests::replaced(tests::kSmallScene, "spacing_m = 50.0", "spacing_m = 20.0") +
+      repeated(surface, 1700);
+  const TemporaryFolder folder;
+  const double begin_s = tests::processor_time_s();
+  const tests::PeakMemory memory;
+  const tests::Outcome outcome = tests::build_text(folder, text);
+  INFO(codes_of(outcome.problems));
+  REQUIRE(outcome.problems.size() == 1);
+  CHECK(outcome.problems[0].code == "E-LIMIT");
+  CHECK(outcome.problems[0].field == "surface");
+  CHECK(outcome.problems[0].place.line == 28 + 5 * 1600);
+  CHECK(memory.rise_MiB() < 500.0 * tests::kSanitizerMemory);
+  CHECK(tests::processor_time_s() - begin_s < tests::kAtOnce_s);
+}
+
+TEST_CASE("R17 swings of two million waypoints in all are E-LIMIT before any is made",
+          "[hostile_scene][R17]") {
+  // 5000 swings, which one target may have: 960 000 legs.
+  const std::string target =
+      "[[target]]\nrcs = { rcs_dBsm = 0.0 }\nswing = { amplitude_m = 0.3, period_s = 0.2 }\n"
+      "waypoint = [{ time_s = 0.0, at = { runway = \"36\", behind_threshold_m = 0.0 } },\n"
+      "{ time_s = 1000.0, at = { runway = \"36\", behind_threshold_m = 900.0 } }]\n";
+  const TemporaryFolder folder;
+  const tests::PeakMemory memory;
+  const tests::Outcome outcome =
+      tests::build_text(folder, tests::kSmallScene + repeated(target, 100));
+  INFO(codes_of(outcome.problems));
+  REQUIRE(outcome.problems.size() == 1);
+  CHECK(outcome.problems[0].code == "E-LIMIT");
+  CHECK(outcome.problems[0].field == "target[2].swing");
+  CHECK(outcome.problems[0].place.line == 28 + 5 * 2 + 2);
+  CHECK(memory.rise_MiB() < 100.0 * tests::kSanitizerMemory);
+}
+
 TEST_CASE("R17 models and buildings are counted by the bytes of their files",
           "[hostile_scene][R17]") {
   const TemporaryFolder folder;

@@ -200,6 +200,21 @@ TEST_CASE("The stop is where the deceleration puts it", "[ils]") {
   CHECK(height_m == Approx(200.0 * 0.3048).epsilon(0.0).margin(0.1));
 }
 
+TEST_CASE("On a rising runway the decision height still counts from the threshold", "[ils]") {
+  IlsApproach approach = braunschweig();
+  approach.glide_path_rad = core::radians(3.0);
+  approach.runway_slope = 0.02;
+  approach.decision_height_m = 60.96;
+  approach.end = ApproachEnd::decision_height;
+  const terrain::LocalFrame frame = frame_at(approach, terrain::EarthModel::plane);
+  const Trajectory decided = fly_ils_approach(approach, frame);
+  const glm::dvec3 last_m =
+      frame.to_local_m(decided.poses().back().position) - frame.to_local_m(approach.threshold);
+  // (60.96 - 15) / tan 3 deg, and up to one step before it.
+  CHECK(std::hypot(last_m.x, last_m.y) == Approx(877.0).epsilon(0.0).margin(1.5));
+  CHECK(last_m.z == Approx(60.96).epsilon(0.0).margin(0.1));
+}
+
 TEST_CASE("An offset localiser is followed to where it meets the centre line", "[ils]") {
   const IlsApproach approach = innsbruck();
   const Trajectory flight = fly(approach);

@@ -213,6 +213,25 @@ TEST_CASE("Wrong names and keys of point scatterers", "[targets][bad_scene]") {
   CHECK(problems("object_library = \"none.toml\"\n").empty() == false);
 }
 
+TEST_CASE("A bad waypoint of a target that swings is told with its line", "[targets][bad_scene]") {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& second_at) {
+    const std::string text =
+        kSmallScene +
+        "\n[[target]]\nrcs = { rcs_dBsm = 10.0 }\n"
+        "swing = { amplitude_m = 0.3, period_s = 1.0 }\n"
+        "[[target.waypoint]]\ntime_s = 0.0\n" +
+        kAt + "[[target.waypoint]]\ntime_s = 9.0\nat = { runway = " + second_at + " }\n";
+    const tests::Outcome outcome = tests::build_text(folder, text);
+    REQUIRE(outcome.problems.size() == 1);
+    CHECK(outcome.problems[0].place.line == std::count(text.begin(), text.end(), '\n'));
+    return outcome.problems[0].code + " " + outcome.problems[0].field;
+  };
+  CHECK(told("\"36\", behind_threshold_m = 100.0, left_m = 2600.0") ==
+        "E-RANGE target[0].waypoint[1].at");
+  CHECK(told("\"09\", behind_threshold_m = 100.0") == "E-REF runway");
+}
+
 TEST_CASE("A scene may bring objects of its own", "[targets]") {
   const TemporaryFolder folder;
   folder.write("mine.toml", R"([windsock]

@@ -77,6 +77,30 @@ TEST_CASE("every node that places a mesh is a part with its name", "[gltf]") {
   CHECK(mesh.triangle_part == std::vector<std::uint32_t>{0, 1});
 }
 
+TEST_CASE("a double-sided material is told where its surface has a back that shows", "[gltf]") {
+  const auto told = [](json document, const std::string& bytes, bool double_sided) {
+    document["materials"] = json::array();
+    document["materials"][0]["doubleSided"] = double_sided;
+    document["meshes"][0]["primitives"][0]["material"] = 0;
+    core::ProblemList warnings;
+    loaded(document, warnings, bytes);
+    std::string texts;
+    for (const core::Problem& problem : warnings.all())
+      texts += problem.code + " " + problem.value + "; ";
+    return texts;
+  };
+  CHECK(told(triangle_document(), tests::triangle_bytes(), true) ==
+        "W-ONE-SIDED 3 edges where open surfaces end; ");
+  CHECK(told(triangle_document(), tests::triangle_bytes(), false).empty());
+  // A tetrahedron whose faces have corners of their own; without the last one it is open there.
+  const std::string a = tests::floats({0, 0, 0}), b = tests::floats({1, 0, 0}),
+                    c = tests::floats({0, 1, 0}), d = tests::floats({0, 0, 1});
+  const std::string three = a + c + b + a + b + d + b + c + d, all = three + a + d + c;
+  CHECK(told(document_of(all, 4), all, true).empty());
+  CHECK(told(document_of(three, 4), three, true) ==
+        "W-ONE-SIDED 3 edges where open surfaces end; ");
+}
+
 TEST_CASE("strips and fans keep every triangle's winding", "[gltf]") {
   // A strip of two squares and a fan around its first corner, all facing glTF +Z.
   const std::string strip = tests::floats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0, 1, 2, 0});

@@ -1,7 +1,11 @@
 #include "terrain/raster/raster_file.h"
 
+#include <gdal_priv.h>
+
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -81,6 +85,29 @@ std::string tiny_geotiff(bool strip_written, std::uint16_t samples_per_pixel) {
   return bytes;
 }
 
+// A GeoTIFF of 4 x 4 samples of 77 whose first row is masked, and that names no nodata value.
+std::filesystem::path write_masked(const TemporaryFolder& folder, const char* internal) {
+  GDALAllRegister();
+  const CPLConfigOptionSetter where("GDAL_TIFF_INTERNAL_MASK", internal, false);
+  const std::filesystem::path file = folder.path() / "masked.tif";
+  const GDALDatasetUniquePtr dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+      file.c_str(), 4, 4, 1, GDT_Int16, nullptr));
+  REQUIRE(dataset != nullptr);
+  std::array<double, 6> geotransform = {11.0, 0.01, 0.0, 47.0, 0.0, -0.01};
+  CHECK(dataset->SetGeoTransform(geotransform.data()) == CE_None);
+  CHECK(dataset->SetProjection(tests::kWgs84Wkt) == CE_None);
+  const auto fill = [](GDALRasterBand& band, GDALDataType type, auto values) {
+    CHECK(band.RasterIO(GF_Write, 0, 0, 4, 4, values.data(), 4, 4, type, 0, 0, nullptr) == CE_None);
+  };
+  GDALRasterBand& band = *dataset->GetRasterBand(1);
+  fill(band, GDT_Int16, std::vector<std::int16_t>(16, 77));
+  REQUIRE(dataset->CreateMaskBand(GMF_PER_DATASET) == CE_None);
+  std::vector<std::uint8_t> mask(16, 255);
+  std::fill_n(mask.begin(), 4, std::uint8_t{0});
+  fill(*band.GetMaskBand(), GDT_Byte, mask);
+  return file;
+}
+
 }  // namespace
 
 TEST_CASE("GeoTIFF blocks that were never written are no heights of zero", "[raster_file]") {
@@ -89,6 +116,32 @@ TEST_CASE("GeoTIFF blocks that were never written are no heights of zero", "[ras
   CHECK(whole.samples == std::vector<float>(16, 77.0F));
   CHECK_THAT(refusal_of(folder.write("sparse.tif", tiny_geotiff(false, 1))),
              Contains("E-PARSE samples = blocks that were never written"));
+}
+
+TEST_CASE("Where the mask of a raster is 0 there is no value, in the file or beside it",
+          "[raster_file]") {
+  for (const char* internal : {"YES", "NO"}) {
+    CAPTURE(internal);
+    const TemporaryFolder folder;
+    const auto file = write_masked(folder, internal);
+    CHECK(std::filesystem::exists(file.string() + ".msk") == (internal[0] == 'N'));
+    const RasterBand band = read_raster_band(file);
+    REQUIRE(band.samples.size() == 16);
+    for (std::size_t i = 0; i < 16; ++i)
+      CHECK((i < 4 ? std::isnan(band.samples[i]) : band.samples[i] == 77.0F));
+  }
+}
+
+TEST_CASE("F05 a mask beside a raster that is no TIFF is never opened", "[raster_file]") {
+  const TemporaryFolder folder;
+  const auto file = folder.write("whole.tif", tiny_geotiff(true, 1));
+  const char* vrt = "<VRTDataset rasterXSize=\"4\" rasterYSize=\"4\"/>";
+  for (const char* name : {"whole.tif.msk", "WHOLE.TIF.MSK"}) {
+    folder.write(name, vrt);
+    CHECK_THAT(refusal_of(file), Contains("E-PATH side file") && Contains("a mask that is a TIFF"));
+    std::filesystem::remove(folder.path() / name);
+  }
+  CHECK(refusal_of(file) == "accepted");
 }
 
 TEST_CASE("A picture of three bands is no terrain", "[raster_file]") {

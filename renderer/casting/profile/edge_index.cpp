@@ -27,7 +27,8 @@ class PlanView {
         right_rad_(right_rad),
         left_ray_(forward * std::cos(left_rad) + right_ * std::sin(left_rad)),
         right_ray_(forward * std::cos(right_rad) + right_ * std::sin(right_rad)),
-        far_m_(far_m) {}
+        far_m_(far_m),
+        all_round_(right_rad - left_rad >= 2.0 * core::kPi) {}
 
   // Appends the ring's edges in view. True when the sensor stands inside the ring.
   bool add_ring(const PlanRing& ring, std::vector<CutEdge>& edges) const {
@@ -44,12 +45,22 @@ class PlanView {
       const glm::dvec2 to = corner - sensor_m_;
       const double to_rad = heading_rad(to);
       if (around) turned_rad += std::remainder(to_rad - from_rad, 2.0 * core::kPi);
-      // Edges that pass behind the sensor cross the jump of the heading, far from any slice.
-      const bool seen = std::abs(to_rad - from_rad) < core::kPi &&
-                        std::max(from_rad, to_rad) >= left_rad_ &&
+      // Edges that pass behind the sensor cross the jump of the heading: far from any slice, or, with
+      // slices all round, on both sides of it.
+      const bool jumps = std::abs(to_rad - from_rad) >= core::kPi;
+      const bool seen = !jumps && std::max(from_rad, to_rad) >= left_rad_ &&
                         std::min(from_rad, to_rad) <= right_rad_;
-      if (seen)
-        edges.push_back({from, to, from_rad, to_rad, cross(from, to), highest_tangent, ring.prism});
+      const double round_rad = from_rad > 0.0 ? 2.0 * core::kPi : -2.0 * core::kPi;
+      const auto add = [&](double begin_rad, double end_rad) {
+        edges.push_back(
+            {from, to, begin_rad, end_rad, cross(from, to), highest_tangent, ring.prism});
+      };
+      if (seen) {
+        add(from_rad, to_rad);
+      } else if (jumps && all_round_) {
+        add(from_rad, to_rad + round_rad);
+        add(from_rad - round_rad, to_rad);
+      }
       from = to;
       from_rad = to_rad;
     }
@@ -86,6 +97,7 @@ class PlanView {
   double left_rad_, right_rad_;
   glm::dvec2 left_ray_, right_ray_;
   double far_m_;
+  bool all_round_;
 };
 
 // One of the rings of what `outline_m` goes around.

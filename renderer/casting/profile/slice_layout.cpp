@@ -11,6 +11,9 @@
 namespace fanbeam::renderer {
 namespace {
 
+// A beam to straight below or above spans it, but for rounding.
+constexpr double kHalfTurn_rad = core::kPi + 1e-6;
+
 struct Headings {
   double left_rad = core::kPi, right_rad = -core::kPi;
 };
@@ -61,14 +64,20 @@ std::vector<Slice> level_slices(const World& world, int per_sub_column,
 std::vector<Slice> tilted_slices(const World& world, int per_sub_column,
                                  const sensors::AntennaFrame& antenna, const FanSums& sums) {
   const Headings seen = headings_of_fan(world, antenna, sums);
-  const double wanted_rad = sums.step_rad / per_sub_column;
-  const int count = static_cast<int>(std::ceil((seen.right_rad - seen.left_rad) / wanted_rad)) + 1;
+  // Headings on both sides of straight behind: the beam holds the nadir, or looks back past it. Then
+  // all headings once, for those between the outermost that were tried may be seen as well.
+  const bool all_round = seen.right_rad - seen.left_rad > kHalfTurn_rad;
+  const double left_rad = all_round ? -core::kPi : seen.left_rad;
+  const double span_rad = all_round ? 2.0 * core::kPi : seen.right_rad - seen.left_rad;
+  const double step_rad = sums.step_rad / per_sub_column;
+  const int count = static_cast<int>(std::ceil(span_rad / step_rad)) + (all_round ? 0 : 1);
+  const double wanted_rad = all_round ? span_rad / count : step_rad;
   const glm::dvec2 forward = horizontal(antenna.forward);
   const glm::dvec2 clockwise(forward.y, -forward.x);
   std::vector<Slice> slices;
   slices.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i) {
-    const double heading_rad = seen.left_rad + (i + 0.5) * wanted_rad;
+    const double heading_rad = left_rad + (i + 0.5) * wanted_rad;
     slices.push_back({forward * std::cos(heading_rad) + clockwise * std::sin(heading_rad),
                       heading_rad, wanted_rad});
   }

@@ -18,7 +18,8 @@ namespace fanbeam::renderer {
 std::vector<Slice> level_slices(const World& world, int per_sub_column,
                                 const sensors::AntennaFrame& antenna, const FanSums& sums);
 
-// For any antenna: evenly over all headings in which some elevation of the beam sees the fan.
+// For any antenna: evenly over all headings in which some elevation of the beam sees the fan; all
+// round, each once, where the nadir is in it.
 std::vector<Slice> tilted_slices(const World& world, int per_sub_column,
                                  const sensors::AntennaFrame& antenna, const FanSums& sums);
 

@@ -1,0 +1,85 @@
+// The ground under runways: one strip, and strips that overlap.
+#include "terrain/runway.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+namespace fanbeam::terrain {
+namespace {
+
+// 3 km between two places, level.
+Runway level_runway(glm::dvec2 from_m, glm::dvec2 to_m, double elevation_m) {
+  Runway runway;
+  runway.ends[0] = {from_m, 0.0, elevation_m};
+  runway.ends[1] = {to_m, 0.0, elevation_m};
+  return runway;
+}
+
+const Runway kNorth = level_runway({0.0, -1500.0}, {0.0, 1500.0}, 100.0);
+const Runway kEast = level_runway({-1500.0, 0.0}, {1500.0, 0.0}, 110.0);
+constexpr double kNatural_m = 130.0;
+
+Approx near_to(double value_m) { return Approx(value_m).epsilon(0.0).margin(1e-9); }
+
+double height_m(const std::vector<Runway>& runways, double x_m, double y_m) {
+  return flattened_height_m(runways, {x_m, y_m}, kNatural_m);
+}
+
+TEST_CASE("One runway's strip is its line, then a smooth blend to the natural ground", "[runway]") {
+  CHECK(height_m({}, 0.0, 0.0) == kNatural_m);
+  CHECK(height_m({kNorth}, 74.0, 900.0) == near_to(100.0));
+  CHECK(height_m({kNorth}, 0.0, 1560.0) == near_to(100.0));
+  CHECK(height_m({kNorth}, 175.0, 900.0) == kNatural_m);
+  // u^2 (3 - 2 u) at 25 m and 50 m of 100 m.
+  CHECK(height_m({kNorth}, 100.0, 900.0) == near_to(100.0 * (1.0 - 0.15625) + 130.0 * 0.15625));
+  CHECK(height_m({kNorth}, -125.0, 900.0) == near_to(115.0));
+}
+
+TEST_CASE("Where strips of two runways cross, the ground depends on no order and has no step",
+          "[runway]") {
+  for (double x_m = -301.0; x_m <= 301.0; x_m += 7.0)
+    for (double y_m = -301.0; y_m <= 301.0; y_m += 7.0)
+      if (std::abs(height_m({kNorth, kEast}, x_m, y_m) - height_m({kEast, kNorth}, x_m, y_m)) >
+          1e-9)
+        FAIL_CHECK("at " << x_m << ", " << y_m);
+  for (const std::vector<Runway>& both :
+       {std::vector<Runway>{kNorth, kEast}, std::vector<Runway>{kEast, kNorth}}) {
+    // In one strip alone its own line counts, in the other's blend too.
+    CHECK(height_m(both, 0.0, 900.0) == near_to(100.0));
+    CHECK(height_m(both, 20.0, 76.0) == near_to(100.0));
+    CHECK(height_m(both, -90.0, 10.0) == near_to(110.0));
+    // In both by the distances to their borders: 75 m and 75 m, 75 m and 15 m.
+    CHECK(height_m(both, 0.0, 0.0) == near_to(105.0));
+    CHECK(height_m(both, 0.0, 60.0) == near_to((75.0 * 100.0 + 15.0 * 110.0) / 90.0));
+    // 10 m over the 75 m from border to middle, at most 10/75 in a metre.
+    double steepest = 0.0;
+    for (int y_m = -200; y_m < 200; ++y_m)
+      steepest =
+          std::max(steepest, std::abs(height_m(both, 0.0, y_m + 1.0) - height_m(both, 0.0, y_m)));
+    CHECK(steepest < 10.0 / 75.0 + 1e-9);
+    CHECK(steepest > 0.05);
+    // Between both, where the blends meet, and beyond them.
+    CHECK(height_m(both, 100.0, 100.0) > 100.0);
+    CHECK(height_m(both, 100.0, 100.0) < kNatural_m);
+    CHECK(height_m(both, 300.0, 300.0) == kNatural_m);
+  }
+}
+
+TEST_CASE("The largest step is that of two lines in a place of both strips", "[runway]") {
+  CHECK(largest_step_m(kNorth, kEast) == near_to(10.0));
+  CHECK(largest_step_m(kEast, kNorth) == near_to(10.0));
+  const auto parallel = [](double x_m) {
+    return level_runway({x_m, -1500.0}, {x_m, 1500.0}, 103.0);
+  };
+  CHECK(largest_step_m(kNorth, parallel(140.0)) == near_to(3.0));
+  CHECK(largest_step_m(kNorth, parallel(160.0)) == 0.0);
+  // A strip far narrower than the steps along the other one.
+  Runway narrow = kEast;
+  narrow.strip_half_width_m = 1.0;
+  CHECK(largest_step_m(kNorth, narrow) == near_to(10.0));
+}
+
+}  // namespace
+}  // namespace fanbeam::terrain
