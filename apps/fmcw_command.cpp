@@ -55,6 +55,22 @@ std::set<std::string> chosen_products(const std::string& text, const session::Fm
   return products;
 }
 
+// What none of the products looks at would be ignored in silence.
+void refuse_idle_options(const FmcwOptions& options, const std::set<std::string>& products) {
+  core::ProblemList problems;
+  const auto refuse = [&](const std::string& option, const std::string& expected) {
+    problems.error(core::ErrorClass::unsupported, {}, option, "given", expected);
+  };
+  if (products == std::set<std::string>{kScan})
+    for (const std::string& option : options.given_for_chain)
+      refuse(option,
+             "with a product besides bscope, which has the sensor's sweep and range window");
+  if (!products.contains(kScan) && options.looks > 0) refuse("--looks", "with --products bscope");
+  if (!products.contains(kSpectrogram) && !options.spectrogram_of.empty())
+    refuse("--spectrogram-of", "with --products spectrogram");
+  problems.throw_if_errors();
+}
+
 // What does not go together is the radar file's fault where it is so without any option.
 session::FmcwRadar radar_of(const FmcwOptions& options, const scenes::SceneDescription& scene) {
   const fs::path file =
@@ -85,12 +101,8 @@ class Run {
                     ? core::default_output_folder(scene.description.name, "-fmcw")
                     : fs::path(options.output),
                 "", options.overwrite) {
-    if (!products_.contains(kSpectrogram)) {
-      if (!options.spectrogram_of.empty())
-        core::throw_input_error(core::ErrorClass::range, "--spectrogram-of",
-                                "given without its product", "with --products spectrogram");
-      return;
-    }
+    refuse_idle_options(options, products_);
+    if (!products_.contains(kSpectrogram)) return;
     spectrogram_.emplace(radar_, options.spectrogram_of);
     const auto& targets = scene.world.targets;
     if (!options.spectrogram_of.empty() &&
@@ -165,7 +177,10 @@ class Run {
 
   // What a frame refuses comes before anything is there.
   void begin_writing() const {
-    if (records_.empty()) output_.begin(products_);
+    if (!records_.empty()) return;
+    std::set<std::string> files;
+    if (runs_chain()) files.insert(session::kRadarFile);
+    output_.begin(products_, files);
   }
 
   void process(int index) {
@@ -223,10 +238,10 @@ class Run {
     const double signal_ms = ms_since(begin);
     session::FmcwFrameRecord record = session::fmcw_record(scene_, index, paths, frame);
     begin_writing();
-    record.files =
-        session::write_fmcw_products(output_.path(), products_, radar_, frame,
-                                     {index, record.time_s, scene_.description.name,
-                                      options_.dynamic_range_dB, record.radar_speed_mps});
+    record.files = session::write_fmcw_products(
+        output_.path(), products_, radar_, frame,
+        {index, record.time_s, scene_.description.name, options_.dynamic_range_dB,
+         record.radar_speed_mps, record.radar_velocity_mps});
     if (spectrogram_) spectrogram_->add(record.time_s, frame, ranges_of(paths));
     if (products_.contains(kInterference))
       write_interference(index, paths, frame, budget, record.files);

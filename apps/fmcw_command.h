@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <set>
 #include <string>
 
 #include "apps/common.h"
@@ -20,6 +21,7 @@ struct FmcwOptions : SceneChoice, session::FmcwSettings {
   bool overwrite = false;      // where other files are
   std::string spectrogram_of;  // targets whose names begin with it; empty: all ranges
   std::string radar_file;      // --radar, read already
+  std::set<std::string> given_for_chain{};  // options given that the B-scope does not look at
   // Puts the options that were given over the settings again: the scene may name a radar file.
   std::function<void()> put_given_again = [] {};
   int threads = 0;

@@ -182,6 +182,23 @@ void add_plan(CLI::App& command, FmcwOptions& options) {
   add_effects_option(command, options.effects, renderer::Touches::samples);
 }
 
+// Of waveform, array and processing, the B-scope has its sensor's.
+void keep_given_for_chain(CLI::App& command, FmcwOptions& options) {
+  CLI::App declared;
+  FmcwOptions unused;
+  add_radar(declared, unused);
+  add_processing(declared, unused);
+  std::set<std::string> names = {"--refuse-folding"};
+  for (const CLI::Option* option : declared.get_options()) names.insert(option->get_name());
+  for (const char* receiver : {"--line-width", "--adc-bits", "--adc-full-scale", "--help"})
+    names.erase(receiver);
+  command.parse_complete_callback([&command, &options, names] {
+    for (const CLI::Option* option : command.get_options())
+      if (option->count() > 0 && names.contains(option->get_name()))
+        options.given_for_chain.insert(option->get_name());
+  });
+}
+
 }  // namespace
 
 CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOptions& common) {
@@ -238,6 +255,7 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
       "Frequency, sweep and element pattern are those of the scene's sensor. Speeds are positive "
       "receding, azimuths positive right. docs/fmcw.md explains every step and file.");
   add_common_options(command, common);
+  keep_given_for_chain(command, options);
   return command;
 }
 

@@ -114,8 +114,11 @@ core::HighwayRadar radar_of(const JsonNode& radar, const core::HighwayRadar* bas
 }
 
 void read_segment(const JsonNode& segment, core::HighwayTarget& result) {
-  check_keys(segment, {"type", "t0_s", "t1_s", "acceleration_mps2", "lateral_m"});
   const std::string type = text(segment, "type");
+  std::vector<const char*> known = {"type", "t0_s", "t1_s"};
+  if (type != "lane-change") known.push_back("acceleration_mps2");
+  if (type != "acceleration") known.push_back("lateral_m");
+  check_keys(segment, known);
   const double start_s = number(segment, "t0_s"), end_s = number(segment, "t1_s");
   if (!(end_s - start_s >= kShortest_s))
     refuse(segment, "t1_s", ErrorClass::range, core::number_text(end_s),
@@ -161,6 +164,8 @@ core::HighwayTarget target_of(const JsonNode& target) {
 }
 
 std::vector<core::HighwayTruth> truth_of(const JsonNode& table) {
+  check_keys(table, {"id", "rows", "in_view", "columns", "snr_2ms_ramp_db_at_start",
+                     "snr_2ms_ramp_db_worst"});
   const JsonNode rows = table.required("rows"), in_view = table.required("in_view");
   const std::size_t count = rows.size(kMostEntries), seen_count = in_view.size(kMostEntries);
   if (count != seen_count)
@@ -359,20 +364,14 @@ Waveforms waveforms_of(const JsonNode& table, core::HighwayRadar& radar) {
   std::set<std::string> types;
   if (!table.present()) return named;
   for (const std::string& name : table.keys()) {
-    const JsonNode node = table.member(name);
     NamedWaveform& one = named[name];
-    read_waveform(node, one);
-    if (length_s(one) > radar.frame_s)
-      table.problems().error(
-          ErrorClass::range, node.place(), node.pointer(),
-          core::number_text(length_s(one)) + " s of ramps",
-          "no more than the frame period of " + core::number_text(radar.frame_s) + " s");
+    read_waveform(table.member(name), one);
     if (types.insert(one.type).second) take(one, radar.waveforms);
   }
   return named;
 }
 
-// The first that a scenario names of a type replaces the file's.
+// The first that a scenario names of a type replaces the file's, and has to end within this scenario's frames.
 void choose_waveforms(const JsonNode& names, const Waveforms& named,
                       core::HighwayScenario& scenario) {
   if (!names.present()) return;
@@ -388,6 +387,11 @@ void choose_waveforms(const JsonNode& names, const Waveforms& named,
     if (std::find(types.begin(), types.end(), found->second.type) != types.end()) continue;
     types.push_back(found->second.type);
     take(found->second, scenario.radar.waveforms);
+    const double frame_s = scenario.radar.frame_s;
+    if (const double ramps_s = length_s(found->second); ramps_s > frame_s)
+      refuse(names, std::to_string(i).c_str(), ErrorClass::range,
+             name + " with " + core::number_text(ramps_s) + " s of ramps",
+             "no more than the frame period of " + core::number_text(frame_s) + " s");
   }
 }
 

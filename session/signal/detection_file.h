@@ -6,7 +6,7 @@
 // of one time are a frame.
 // JSON: {"time_s", "detections": [...]} of one frame, or {"frames": [those]}; a detection has range_m,
 // radial_speed_mps and azimuth_rad, and may have power_W, snr_dB and cluster; a frame may have
-// radar_speed_mps.
+// radar_velocity_mps, [forward, right] over ground in the antenna's axes, or radar_speed_mps, forward alone.
 // A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
 // order of their names.
 //
@@ -15,6 +15,7 @@
 // are E-TIME.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -27,8 +28,8 @@ namespace fanbeam::session {
 struct DetectedFrame {
   double time_s = 0.0;
   std::vector<signal::RadarDetection> detections;
-  std::vector<int> clusters;                // of each, or signal::kNoCluster
-  std::optional<double> radar_speed_mps{};  // over ground, where the file tells it
+  std::vector<int> clusters;                                  // of each, or signal::kNoCluster
+  std::optional<std::array<double, 2>> radar_velocity_mps{};  // where the file tells it
 };
 
 // Of a folder; none where it holds none.

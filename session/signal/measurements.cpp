@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "core/constants.h"
 #include "signal/fourier/window_figures.h"
+#include "signal/waveform/doppler.h"
 
 namespace fanbeam::session {
 namespace {
@@ -74,15 +76,17 @@ RadarMeasurement of_one(const signal::RadarDetection& detection, const BodyError
 }
 
 bool is_object(const std::vector<signal::RadarDetection>& parts) {
-  double least_m = parts.front().range_m, most_m = least_m;
-  double left_m = parts.front().range_m * std::sin(parts.front().azimuth_rad), right_m = left_m;
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  double back_m = kFar, front_m = -kFar, left_m = kFar, right_m = -kFar;
   for (const signal::RadarDetection& part : parts) {
-    least_m = std::min(least_m, part.range_m);
-    most_m = std::max(most_m, part.range_m);
-    left_m = std::min(left_m, part.range_m * std::sin(part.azimuth_rad));
-    right_m = std::max(right_m, part.range_m * std::sin(part.azimuth_rad));
+    const double x_m = part.range_m * std::cos(part.azimuth_rad);
+    const double y_m = part.range_m * std::sin(part.azimuth_rad);
+    back_m = std::min(back_m, x_m);
+    front_m = std::max(front_m, x_m);
+    left_m = std::min(left_m, y_m);
+    right_m = std::max(right_m, y_m);
   }
-  return std::hypot(most_m - least_m, right_m - left_m) <= kLongestObject_m;
+  return std::hypot(front_m - back_m, right_m - left_m) <= kLongestObject_m;
 }
 
 RadarMeasurement of_object(const std::vector<signal::RadarDetection>& parts,
@@ -92,18 +96,25 @@ RadarMeasurement of_object(const std::vector<signal::RadarDetection>& parts,
   const auto weight = [&](const signal::RadarDetection& part) {
     return sum > 0.0 ? part.power_W / sum : 1.0 / static_cast<double>(parts.size());
   };
+  // Half a turn left is half a turn right: azimuths count from one of them.
+  const auto turned_rad = [](double azimuth_rad, double from_rad) {
+    return signal::fold(azimuth_rad - from_rad, core::kPi);
+  };
+  const double first_rad = parts.front().azimuth_rad;
   RadarMeasurement mean = of_one(parts.front(), errors);
-  mean.range_m = mean.range_rate_mps = mean.azimuth_rad = 0.0;
+  mean.range_m = mean.range_rate_mps = 0.0;
+  double mean_turned_rad = 0.0;
   for (const signal::RadarDetection& part : parts) {
     mean.range_m += weight(part) * part.range_m;
     mean.range_rate_mps += weight(part) * part.radial_speed_mps;
-    mean.azimuth_rad += weight(part) * part.azimuth_rad;
+    mean_turned_rad += weight(part) * turned_rad(part.azimuth_rad, first_rad);
   }
+  mean.azimuth_rad = signal::fold(first_rad + mean_turned_rad, core::kPi);
   double range = 0.0, rate = 0.0, azimuth = 0.0;
   for (const signal::RadarDetection& part : parts) {
     range += weight(part) * std::pow(part.range_m - mean.range_m, 2);
     rate += weight(part) * std::pow(part.radial_speed_mps - mean.range_rate_mps, 2);
-    azimuth += weight(part) * std::pow(part.azimuth_rad - mean.azimuth_rad, 2);
+    azimuth += weight(part) * std::pow(turned_rad(part.azimuth_rad, mean.azimuth_rad), 2);
   }
   mean.range_systematic_m = std::hypot(errors.range_m, std::sqrt(range));
   mean.range_rate_systematic_mps = std::hypot(errors.range_rate_mps, std::sqrt(rate));

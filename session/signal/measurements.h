@@ -1,7 +1,8 @@
 // From detections to what a tracker takes: one measurement an object, with its errors.
 //
-// Detections of one cluster no longer than an object are one measurement: means weighted with the
-// power, and the weighted deviation of its parts as a systematic error. Longer clusters (a guard rail, a
+// Detections of one cluster no longer than an object, by the diagonal of their extents forward and right, are
+// one measurement: means weighted with the power (of azimuths across the half turn behind too), and the weighted
+// deviation of its parts as a systematic error. Longer clusters (a guard rail, a
 // wall) are taken apart again, and so is what has no cluster.
 // Noise, where the radar is known (r the detection's signal to noise in a cell, C channels, bins of the
 // windows' variance ratio q, S the sum of squares of the virtual elements' places to the right about their

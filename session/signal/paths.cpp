@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 
 #include "core/constants.h"
 #include "core/effect_plan.h"
@@ -26,6 +27,13 @@ double half_fan_rad(const sensors::Sensor& sensor) {
 double element_gain(const sensors::Sensor& sensor, double azimuth_rad) {
   if (scans(sensor)) return std::abs(azimuth_rad) <= sensor.scan.field_of_view_rad / 2 ? 1.0 : 0.0;
   return sensors::one_way_gain_with_side_lobes(sensor.antenna.azimuth, azimuth_rad);
+}
+
+std::array<double, 2> own_velocity_mps(const scenes::Scene& scene, int frame) {
+  const renderer::FramePose pose = scene.frame_pose(frame);
+  const glm::dvec3 velocity_mps = pose.north_east_down * scene.trajectory->at(pose.time_s).v_N_mps;
+  const sensors::AntennaFrame antenna = renderer::antenna_of(scene.world.sensor, pose);
+  return {glm::dot(velocity_mps, antenna.forward), glm::dot(velocity_mps, antenna.right)};
 }
 
 FmcwPaths fmcw_paths(const scenes::Scene& scene, int frame, const FmcwSettings& options) {

@@ -1,6 +1,7 @@
 // From a frame of a scene to what the signal sees of it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct FmcwPaths {
 // azimuth pattern. A sensor whose beam scans a field of view wider than the beam is taken as an
 // array that lights the field evenly and forms the beams afterwards: 1 inside the field, 0 outside.
 double element_gain(const sensors::Sensor& sensor, double azimuth_rad);
+
+// Of the antenna over ground in a frame, along its own axes: forward, right. Without what its lever arm adds in a
+// turn, as in the echoes' radial speeds.
+std::array<double, 2> own_velocity_mps(const scenes::Scene& scene, int frame);
 
 // Echoes of a frame, weighted with the element's two-way pattern; those of weight 0 are left out.
 // The clock's zero of the waveform is the frame's time.

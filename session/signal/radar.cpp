@@ -59,9 +59,10 @@ double wanted_range_m(const FmcwSettings& options, const Front& front) {
 }
 
 // Samples that reach the last range cell without folding, in whole megahertz.
-double reaching_rate_Hz(const WaveformSettings& wanted, double bandwidth_Hz, double most_range_m) {
+double reaching_rate_Hz(const WaveformSettings& wanted, double most_range_m) {
   const auto ramp = wanted.numbers[number_of("--ramp")];
   const double ramp_s = ramp ? *ramp * 1e-6 : 20e-6;
+  const double bandwidth_Hz = wanted.numbers[number_of("--bandwidth")].value() * 1e6;
   const double beat_Hz = 2.0 * bandwidth_Hz / ramp_s * most_range_m / core::kSpeedOfLight_mps;
   return 1e6 * std::ceil(std::max(1e6, 1.05 * beat_Hz) * 1e-6) * (wanted.real ? 2.0 : 1.0);
 }
@@ -85,8 +86,7 @@ signal::Waveform waveform_of(const FmcwSettings& options, const std::string& nam
     suggest("--slots", transmitters_of(options), wanted);
     suggest("--sample-rate", 20e6, wanted);
   } else if (is_sequence(kind)) {
-    suggest("--sample-rate",
-            reaching_rate_Hz(wanted, front.bandwidth_Hz, wanted_range_m(options, front)), wanted);
+    suggest("--sample-rate", reaching_rate_Hz(wanted, wanted_range_m(options, front)), wanted);
   }
   return chosen_waveform(wanted);
 }
@@ -180,8 +180,8 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   settings.unfold = options.unfold && slots > 1;
   const auto range_weights = signal::window_weights(settings.transform.range_window, samples);
   const auto doppler_weights = signal::window_weights(settings.transform.doppler_window, chirps);
-  settings.cfar = cfar_of(options, {range_weights, samples, doppler_weights, chirps},
-                          signal::independent_channels(radar.array));
+  settings.cfar =
+      cfar_of(options, {range_weights, samples, doppler_weights, chirps}, radar.array.channels());
   radar.clusters = clusters_of(options, radar.axes, range_weights, doppler_weights);
   radar.noise_cell_W = signal::noise_sample_W(radar.noise_figure, fs_Hz) *
                        signal::noise_gain(range_weights) * signal::noise_gain(doppler_weights);
@@ -237,6 +237,10 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",
                             std::string(signal::name(options.angle_method)),
                             "beamforming, or an array on a line at one pitch");
+  if (!radar.line && !(options.angle_window == ProcessingSettings{}.angle_window))
+    core::throw_input_error(core::ErrorClass::unsupported, "angle window",
+                            signal::name(options.angle_window),
+                            "none, or an array on a line at one pitch");
   if (elements_m.size() < 2 && options.angle_method != signal::AngleMethod::beamforming)
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",
                             std::string(signal::name(options.angle_method)),
@@ -272,11 +276,15 @@ FmcwRadar fmcw_radar(const FmcwSettings& options) {
   Front front;
   front.frequency_Hz = told("--frequency", "waveform.frequency_GHz") * 1e9;
   front.bandwidth_Hz = told("--bandwidth", "waveform.bandwidth_MHz") * 1e6;
+  // No scene tells how far it should reach, and recorded samples had a rate of their own.
+  const std::string name = options.waveform.empty() ? kAutomotive : options.waveform;
+  if (name != kAutomotive && is_sequence(kind_of(name)))
+    told("--sample-rate", "waveform.sample_rate_MHz");
   if (!options.noise_figure_dB)
     problems.error(core::ErrorClass::ref, {}, "receiver.noise_figure_dB", "missing", "a number");
   problems.throw_if_errors();
   front.noise_figure = core::power_from_dB(*options.noise_figure_dB);
-  return made(options, options.waveform.empty() ? kAutomotive : options.waveform, front);
+  return made(options, name, front);
 }
 
 }  // namespace fanbeam::session

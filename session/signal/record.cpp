@@ -58,7 +58,7 @@ Json axes_json(const FmcwRadar& radar) {
 Json processing_json(const FmcwSettings& options, const FmcwRadar& radar) {
   return {{"range_window", signal::name(options.range_window)},
           {"doppler_window", signal::name(options.doppler_window)},
-          {"angle_window", signal::name(options.angle_window)},
+          {"angle_window", radar.line ? signal::name(options.angle_window) : "none"},
           {"mitigation", std::string(signal::name(options.mitigation))},
           {"angle_method", std::string(signal::name(options.angle_method))},
           {"clusters",
@@ -105,6 +105,7 @@ Json frame_json(const FmcwFrameRecord& frame) {
   Json json = {{"index", frame.index},
                {"time_s", frame.time_s},
                {"radar_speed_mps", frame.radar_speed_mps},
+               {"radar_velocity_mps", frame.radar_velocity_mps},
                {"rays", frame.rays},
                {"paths", frame.paths},
                {"received_W", frame.received_W},
@@ -136,6 +137,7 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
   record.time_s =
       scene.trajectory->frame_time_s(index, scene.description.sensor.scan.frame_rate_Hz);
   record.radar_speed_mps = glm::length(scene.trajectory->at(record.time_s).v_N_mps);
+  record.radar_velocity_mps = own_velocity_mps(scene, index);
   record.rays = paths.rays;
   record.paths = paths.paths.size();
   for (const signal::ScatterPath& path : paths.paths)

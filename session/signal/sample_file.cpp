@@ -72,31 +72,42 @@ SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRad
   real_ = !radar.waveform.complex_baseband;
   transmitters_ = static_cast<int>(radar.array.transmitters_m.size());
   receivers_ = static_cast<int>(radar.array.receivers_m.size());
-  correct();
+  core::ProblemList problems;
+  correct(problems);
+  for (std::filesystem::path& path : files)
+    if (!problems.is_full()) add(std::move(path), problems);
   std::size_t frames = 0;
-  for (std::filesystem::path& path : files) {
-    File file{std::move(path), {}, 1};
-    file.header = core::read_npy_header(file.path);
-    if (layout_.axes.empty())
-      layout_.axes = file.header.shape.size() == 4
-                         ? std::vector<std::string>{"frame", "channel", "chirp", "sample"}
-                         : std::vector<std::string>{"channel", "chirp", "sample"};
-    check(file);
-    file.frames = axis_of(layout_.axes, file.header.shape, "frame").length;
-    frames += file.frames;
-    if (frames > kMostRecordedFrames || file.header.count() / file.frames > kMostFrameValues)
-      core::throw_input_error(core::ErrorClass::limit, core::Place{file.path.string()}, "shape",
-                              std::to_string(frames) + " frames",
-                              "a million frames of 2^28 values at most");
-    files_.push_back(std::move(file));
-  }
+  for (const File& file : files_) frames += file.frames;
+  if (frames > kMostRecordedFrames)
+    problems.error(core::ErrorClass::limit, core::Place{files_.back().path.string()}, "shape",
+                   std::to_string(frames) + " frames in all", "a million at most");
+  problems.throw_if_errors();
   frames_ = static_cast<int>(frames);
 }
 
+void SampleFiles::add(std::filesystem::path path, core::ProblemList& problems) {
+  File file{std::move(path), {}, 1};
+  try {
+    file.header = core::read_npy_header(file.path);
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+    return;
+  }
+  if (layout_.axes.empty())
+    layout_.axes = file.header.shape.size() == 4
+                       ? std::vector<std::string>{"frame", "channel", "chirp", "sample"}
+                       : std::vector<std::string>{"channel", "chirp", "sample"};
+  if (!fits(file, problems)) return;
+  file.frames = axis_of(layout_.axes, file.header.shape, "frame").length;
+  if (const std::size_t values = file.header.count() / file.frames; values > kMostFrameValues)
+    problems.error(core::ErrorClass::limit, core::Place{file.path.string()}, "shape",
+                   std::to_string(values) + " values in a frame", "2^28 at most");
+  files_.push_back(std::move(file));
+}
+
 // By the scale, and by what calibration tells of each channel.
-void SampleFiles::correct() {
+void SampleFiles::correct(core::ProblemList& problems) {
   const auto channels = static_cast<std::size_t>(shape_.channels);
-  core::ProblemList problems;
   const auto check = [&](const char* key, const std::vector<double>& values) {
     if (!values.empty() && values.size() != channels)
       problems.error(core::ErrorClass::range, {}, key, std::to_string(values.size()) + " numbers",
@@ -104,23 +115,24 @@ void SampleFiles::correct() {
   };
   check("samples.channel_gain_dB", layout_.channel_gains_dB);
   check("samples.channel_phase_deg", layout_.channel_phases_rad);
-  problems.throw_if_errors();
+  if (problems.has_errors()) return;
   for (const std::complex<double>& known :
        channel_factors(layout_.channel_gains_dB, layout_.channel_phases_rad, shape_.channels))
     corrections_.push_back(static_cast<std::complex<float>>(layout_.scale_sqrtW / known));
 }
 
-void SampleFiles::check(const File& file) const {
+bool SampleFiles::fits(const File& file, core::ProblemList& problems) const {
   const std::vector<std::size_t>& shape = file.header.shape;
-  core::ProblemList problems;
+  bool good = true;
   const auto refuse = [&](const std::string& value, const std::string& expected) {
     problems.error(core::ErrorClass::range, core::Place{file.path.string()}, "shape", value,
                    expected);
+    good = false;
   };
   if (shape.size() != layout_.axes.size()) {
     refuse(std::to_string(shape.size()) + " axes",
            fmt::format("{}: {}", layout_.axes.size(), fmt::join(layout_.axes, ", ")));
-    problems.throw_if_errors();
+    return false;
   }
   const auto length = [&](const char* name) { return axis_of(layout_.axes, shape, name).length; };
   const auto at_least = [&](const char* name, std::size_t least) {
@@ -134,7 +146,8 @@ void SampleFiles::check(const File& file) const {
              fmt::format("{}, as the array has", count));
   };
   const bool is_complex = file.header.type.find('c') != std::string::npos;
-  if (is_complex == real_)
+  good = is_complex != real_;
+  if (!good)
     problems.error(core::ErrorClass::unsupported, core::Place{file.path.string()}, "type",
                    file.header.type,
                    real_ ? "real samples, as the radar file says (real = true)"
@@ -149,7 +162,7 @@ void SampleFiles::check(const File& file) const {
     if (!turns) exactly("transmitter", transmitters_);
     exactly("receiver", receivers_);
   }
-  problems.throw_if_errors();
+  return good;
 }
 
 signal::FloatCube SampleFiles::frame(int index) const {

@@ -31,8 +31,9 @@ std::optional<std::vector<std::string>> sample_axes(const std::string& text);
 
 class SampleFiles {
  public:
-  // All headers are read: their shapes have to fit the radar's first stage (E-RANGE with what was
-  // expected; more samples or chirps than the waveform has are left out, of a ramp's end).
+  // All headers are read, and what is wrong with them is told together: their shapes have to fit the radar's first
+  // stage (E-RANGE with what was expected; more samples or chirps than the waveform has are left out, of a ramp's
+  // end).
   SampleFiles(std::vector<std::filesystem::path> files, const FmcwRadar& radar,
               SampleLayout layout);
 
@@ -45,8 +46,9 @@ class SampleFiles {
     core::NpyHeader header;
     std::size_t frames = 1;
   };
-  void check(const File& file) const;
-  void correct();
+  void add(std::filesystem::path path, core::ProblemList& problems);
+  bool fits(const File& file, core::ProblemList& problems) const;
+  void correct(core::ProblemList& problems);
 
   std::vector<File> files_;
   SampleLayout layout_;

@@ -19,6 +19,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::vector<std::size_t> shape_of(const signal::FloatCube& cube) {
+  const auto length = [](int count) { return static_cast<std::size_t>(count); };
+  return {length(cube.shape.channels), length(cube.shape.chirps), length(cube.shape.samples)};
+}
+
+std::vector<double> real_parts(const signal::FloatCube& cube) {
+  std::vector<double> parts;
+  parts.reserve(cube.values.size());
+  for (const std::complex<float>& value : cube.values) parts.push_back(value.real());
+  return parts;
+}
+
+double forward_m(const signal::RadarDetection& found) {
+  return found.range_m * signal::direction(found.azimuth_rad, found.elevation_rad).x;
+}
+double right_m(const signal::RadarDetection& found) {
+  return found.range_m * signal::direction(found.azimuth_rad, found.elevation_rad).y;
+}
+
 class Writer {
  public:
   Writer(const fs::path& folder, const FmcwRadar& radar, const FmcwFrame& frame,
@@ -26,8 +45,14 @@ class Writer {
       : folder_(folder), radar_(radar), frame_(frame), stamp_(stamp) {}
 
   void beats() const {
-    for (std::size_t stage = 0; stage < frame_.beats.size(); ++stage)
-      cube("beat", frame_.beats[stage], stage == 0 ? "" : "-stage" + std::to_string(stage));
+    for (std::size_t stage = 0; stage < frame_.beats.size(); ++stage) {
+      const std::string part = stage == 0 ? "" : "-stage" + std::to_string(stage);
+      const signal::FloatCube& beat = frame_.beats[stage];
+      if (radar_.waveform.complex_baseband)
+        cube("beat", beat, part);
+      else
+        core::write_npy(file("beat", part + ".npy"), shape_of(beat), real_parts(beat));
+    }
   }
   void spectrum() const {
     const BeatSpectrum found = beat_spectrum(radar_, frame_.beats[0]);
@@ -51,11 +76,7 @@ class Writer {
     return fmt::format("{}, frame {}: {}", stamp_.scene, stamp_.frame, what);
   }
   void cube(const char* product, const signal::FloatCube& values, const std::string& part) const {
-    const auto length = [](int count) { return static_cast<std::size_t>(count); };
-    core::write_npy(
-        file(product, part + ".npy"),
-        {length(values.shape.channels), length(values.shape.chirps), length(values.shape.samples)},
-        values.values);
+    core::write_npy(file(product, part + ".npy"), shape_of(values), values.values);
   }
   HeatMapAxis range_axis() const {
     return {"range, m", 0.0, radar_.axes.range_step_m, frame_.range_doppler.columns, {}};
@@ -128,8 +149,7 @@ void Writer::top_view() const {
   picture.y = {"forward, m", grid.nearest_m, grid.step_m, grid.rows, {}};
   picture.equal_scales = true;
   for (const signal::RadarDetection& found : frame_.found->detections)
-    picture.marks.emplace_back(found.range_m * std::sin(found.azimuth_rad),
-                               found.range_m * std::cos(found.azimuth_rad));
+    picture.marks.emplace_back(right_m(found), forward_m(found));
   map("top-view", frame_.top_view, radar_.noise_azimuth_W, std::move(picture));
 }
 
@@ -140,28 +160,27 @@ void Writer::detections() const {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < frame_.found->detections.size(); ++i) {
     const signal::RadarDetection& found = frame_.found->detections[i];
-    const double forward_m = found.range_m * std::cos(found.azimuth_rad);
-    const double right_m = found.range_m * std::sin(found.azimuth_rad);
     const double snr_dB = 10.0 * std::log10(std::max(found.snr, 1e-30));
-    table +=
-        fmt::format("{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4e},{:.2f},{:.3f},{:.3f},{}\n",
-                    stamp_.frame, stamp_.time_s, i, found.range_m, found.radial_speed_mps,
-                    core::degrees(found.azimuth_rad), core::degrees(found.elevation_rad),
-                    found.power_W, snr_dB, forward_m, right_m, frame_.found->clusters[i]);
+    table += fmt::format(
+        "{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4e},{:.2f},{:.3f},{:.3f},{}\n", stamp_.frame,
+        stamp_.time_s, i, found.range_m, found.radial_speed_mps, core::degrees(found.azimuth_rad),
+        core::degrees(found.elevation_rad), found.power_W, snr_dB, forward_m(found), right_m(found),
+        frame_.found->clusters[i]);
     list.push_back({{"range_m", found.range_m},
                     {"radial_speed_mps", found.radial_speed_mps},
                     {"azimuth_rad", found.azimuth_rad},
                     {"elevation_rad", found.elevation_rad},
                     {"power_W", found.power_W},
                     {"snr_dB", snr_dB},
-                    {"forward_m", forward_m},
-                    {"right_m", right_m},
+                    {"forward_m", forward_m(found)},
+                    {"right_m", right_m(found)},
                     {"cluster", frame_.found->clusters[i]}});
   }
   core::write_file_atomically(file("detections", ".csv"), table);
   const nlohmann::ordered_json json = {{"frame", stamp_.frame},
                                        {"time_s", stamp_.time_s},
                                        {"radar_speed_mps", stamp_.radar_speed_mps},
+                                       {"radar_velocity_mps", stamp_.radar_velocity_mps},
                                        {"detections", list}};
   core::write_file_atomically(file("detections", ".json"), json.dump(1) + "\n");
 }

@@ -1,6 +1,7 @@
 // What fanbeam fmcw leaves of a frame on disk.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -14,8 +15,9 @@ struct FmcwStamp {
   int frame = 0;
   double time_s = 0.0;
   std::string scene;
-  double dynamic_range_dB = 60.0;  // of the pictures' colours, from the noise up
-  double radar_speed_mps = 0.0;    // over ground
+  double dynamic_range_dB = 60.0;              // of the pictures' colours, from the noise up
+  double radar_speed_mps = 0.0;                // over ground
+  std::array<double, 2> radar_velocity_mps{};  // the same in the antenna's axes: forward, right
 };
 
 // Files DIR/<product>/00000.*, of every product that is wanted and that the waveform has. Throws

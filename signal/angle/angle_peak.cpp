@@ -42,6 +42,12 @@ struct Beamformer {
       aperture_m = std::max(aperture_m, std::abs(a.z - elements_m[0].z));
     return aperture_m > 0.0 ? steps_for(aperture_m) : 0;
   }
+  // Of elements above each other all azimuths are one.
+  bool is_vertical() const {
+    return std::all_of(elements_m.begin(), elements_m.end(), [&](const glm::dvec3& a) {
+      return a.x == elements_m[0].x && a.y == elements_m[0].y;
+    });
+  }
   int steps_for(double aperture_m) const {
     // The farthest element from the first is at least half the aperture away.
     const double steps = std::ceil(16.0 * aperture_m / wavelength_m);
@@ -83,6 +89,7 @@ double climbed(const Function& f, double low, double high) {
 }
 
 double angle_of_step(int step, int steps) {
+  if (steps == 0) return 0.0;
   return std::asin(std::clamp(2.0 * step / steps - 1.0, -1.0, 1.0));
 }
 
@@ -94,7 +101,7 @@ AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>
   check_input(beam);
   const int rows = beam.vertical_steps();
   if (rows == 0) return azimuth_peak(snapshot, elements_m, wavelength_m);
-  const int steps = beam.scan_steps();
+  const int steps = beam.is_vertical() ? 0 : beam.scan_steps();
   AnglePeak peak;
   peak.power = -1.0;
   for (int row = 0; row <= rows; ++row)
@@ -106,7 +113,8 @@ AnglePeak direction_peak(const Snapshot& snapshot, const std::vector<glm::dvec3>
       const double power = beam.power(azimuth_rad, elevation_rad);
       if (power > peak.power) peak = {azimuth_rad, elevation_rad, power};
     }
-  const double reach_rad = 2.0 * core::kPi / steps, rise_rad = 2.0 * core::kPi / rows;
+  const double reach_rad = steps == 0 ? 0.0 : 2.0 * core::kPi / steps;
+  const double rise_rad = 2.0 * core::kPi / rows;
   const auto near = [](double centre, double reach) {
     return std::pair(std::max(-0.5 * core::kPi, centre - reach),
                      std::min(0.5 * core::kPi, centre + reach));

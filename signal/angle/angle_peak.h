@@ -8,7 +8,7 @@
 // merge: see signal/angle/spatial_spectrum.h. Azimuths are searched from -pi/2 to pi/2, at a given
 // elevation.
 //
-// Elements that are all in one place tell no direction: azimuth 0.
+// Elements that are all in one place tell no direction, and those above each other no azimuth: 0.
 //
 // Inputs: as many values as elements, at least one, finite. E-RANGE, E-NONFINITE otherwise.
 // Accuracy of the climb: 1e-7 rad. Cost: a scan of 16 x L / wavelength + 1 sums over the elements, L

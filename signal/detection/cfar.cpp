@@ -162,8 +162,11 @@ std::vector<CfarOffset> cfar_offsets(const CfarSettings& settings) {
   for (int r = -rows; r <= rows; ++r)
     for (int c = -columns; c <= columns; ++c)
       if (std::abs(r) > settings.along_rows.guard || std::abs(c) > settings.along_columns.guard)
-        offsets.push_back({r, c, r > 0 || (r == 0 && c > 0)});
+        offsets.push_back({r, c, c > 0 || (c == 0 && r > 0)});
   if (offsets.empty()) refuse("cfar.reference", 0, "a reference cell along one axis at least");
+  if (has_halves(settings.kind))
+    std::stable_partition(offsets.begin(), offsets.end(),
+                          [](const CfarOffset& offset) { return !offset.after; });
   return offsets;
 }
 

@@ -4,8 +4,8 @@
 // the background. The window reaches `guard + reference` cells to either side along columns (range)
 // and rows (Doppler or angle); a reach of 0 along an axis makes the detector one-dimensional. In
 // two dimensions the reference is the rectangle without the inner rectangle of guard cells. For the
-// detectors of two halves, the halves are the cells before and after the cell in the order of the
-// map. A cell is reported when power > factor x estimate, with the factor of
+// detectors of two halves, the halves are the cells nearer and farther in range (columns), those of the
+// cell's own range by their row: a step of clutter in range lies in one of them. A cell is reported when power > factor x estimate, with the factor of
 // signal/detection/cfar_factor.h for the reference cells that exist: at an edge these are fewer, or
 // the window goes on at the other end where the axis wraps (Doppler). The ordered statistic keeps
 // its rank's fraction of N, rounded to the nearest and at least 1. Where one half is missing, the

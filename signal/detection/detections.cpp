@@ -119,6 +119,8 @@ std::vector<RadarDetection> detect(const Cube<Real>& beat, const PowerMap& map, 
                       peak.cell.background_W / array.channels(), array, timing, settings);
     for (const SourceDirection& wave : directions.waves) {
       RadarDetection detection = measured(place, directions.doppler_Hz, snr, axes, timing);
+      // A peak in the first cell may be refined to the other side of the radar.
+      if (!(detection.range_m > 0.0)) continue;
       detection.azimuth_rad = wave.azimuth_rad;
       detection.elevation_rad = wave.elevation_rad;
       detection.power_W = wave.power_W;

@@ -12,7 +12,7 @@
 // The speed is unambiguous within +-wavelength / (4 repetition). With `unfold`, a time-division
 // array tells which of its folds it is (signal/transform/slot_compensation.h).
 // The detector is that of CfarSettings on the sum over channels; calibrate its design probability
-// with looks = independent_channels(array) (signal/detection/cfar_calibration.h).
+// with as many looks as the array has channels (signal/detection/cfar_calibration.h).
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@
 namespace fanbeam::signal {
 
 struct RadarDetection {
-  double range_m = 0.0;  // at the middle of the frame, from the array's origin
+  double range_m = 0.0;  // at the middle of the frame, from the array's origin; above 0
   double radial_speed_mps = 0.0;
   double azimuth_rad = 0.0;
   double elevation_rad = 0.0;

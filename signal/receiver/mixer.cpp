@@ -46,13 +46,16 @@ MixerTrace mixer_trace(const Waveform& waveform, const ScatterPath& echo) {
     core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind",
                             std::string(name(waveform.kind)), "a waveform of ramps or steps");
   const Segment segment = stage_segments(waveform, 0).front();
-  const int samples = samples_per_segment(waveform, 0);
-  const double rate_Hz = waveform.sample_rate_Hz[0];
-  // The low pass falls from half the sample rate to twice the sweep.
+  // Real samples show beats up to half their rate, complex ones, which the trace is the real part of, all of it.
+  const int twice = waveform.complex_baseband ? 2 : 1;
+  const int samples = twice * samples_per_segment(waveform, 0);
+  const double rate_Hz = twice * waveform.sample_rate_Hz[0];
+  // The low pass falls from half the trace's rate to twice the sweep.
   if (!(waveform.bandwidth_Hz >= 0.5 * rate_Hz))
-    core::throw_input_error(core::ErrorClass::range, "waveform.bandwidth_Hz", waveform.bandwidth_Hz,
-                            core::number_text(0.5 * rate_Hz) +
-                                " or more, half of the sample rate: or sum and beat overlap");
+    core::throw_input_error(
+        core::ErrorClass::range, "waveform.bandwidth_Hz", waveform.bandwidth_Hz,
+        core::number_text(0.5 * rate_Hz) +
+            " or more, the highest beat of its samples: or sum and beat overlap");
   // A whole number of samples of the product for one of the beat.
   const auto times = static_cast<int>(std::ceil(kSweepsOfRate * waveform.bandwidth_Hz / rate_Hz));
   const double fine_Hz = rate_Hz * times;

@@ -48,10 +48,8 @@ void add_receiver_noise(const Array& array, const ReceiverNoise& noise, Cube<Rea
   const int parts = noise.complex_baseband ? 2 : 1;
   const int step = 3 - parts;
   for_rows(cube.shape, [&](int channel, int chirp) {
-    const int source =
-        array.multiplex == Multiplex::simultaneous ? array.receiver_of(channel) : channel;
     std::vector<float> normals(static_cast<std::size_t>(parts * cube.shape.samples));
-    core::normal_numbers(key, 0, static_cast<std::uint64_t>(parts) * cube.index(source, chirp, 0),
+    core::normal_numbers(key, 0, static_cast<std::uint64_t>(parts) * cube.index(channel, chirp, 0),
                          normals.size(), normals.data());
     Real* values = reinterpret_cast<Real*>(cube.values.data() + cube.index(channel, chirp, 0));
     for (std::size_t i = 0; i < normals.size(); ++i)

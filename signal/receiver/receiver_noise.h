@@ -1,9 +1,8 @@
 // What a receiver adds to a beat signal: thermal noise and quantisation (phase noise: oscillator.h).
 //
 // Thermal noise is white in time: complex Gaussian of variance k T0 F fs per complex sample (real
-// Gaussian of k T0 F fs / 2 per real one). It belongs to the physical receiver: virtual channels
-// that one receiver serves at the same time (Multiplex::simultaneous) share the sample, channels in
-// time division do not. Windows and transforms correlate it afterwards as they do in a radar; it
+// Gaussian of k T0 F fs / 2 per real one), each virtual channel's its own: in time division by time,
+// and orthogonal codes of simultaneous transmitters leave E[y_i y_k*] = sigma^2 sum c_i c_k* = 0. Windows and transforms correlate it afterwards as they do in a radar; it
 // is never added to spectra.
 //
 // The quantiser rounds real and imaginary part to steps of full_scale / 2^(bits - 1), and clips to

@@ -12,10 +12,12 @@
 namespace fanbeam::signal {
 namespace {
 
-bool has_echo(const Waveform& waveform, double in_segment_s, double delay_s) {
+// Of this pulse or of one before: a radar has sent them at every interval, before the first of the frame too.
+bool has_echo(const Waveform& waveform, const Segment& segment, double in_segment_s,
+              double delay_s) {
   if (waveform.kind != WaveformKind::pulsed) return true;
-  const double since_s = in_segment_s - delay_s;
-  return since_s >= 0.0 && since_s < waveform.pulse_width_s;
+  const double intervals = (in_segment_s - delay_s) / segment.duration_s;
+  return (intervals - std::floor(intervals)) * segment.duration_s < waveform.pulse_width_s;
 }
 
 void add_row(const Frame& frame, int channel, int chirp, const std::vector<ScatterPath>& paths,
@@ -27,7 +29,7 @@ void add_row(const Frame& frame, int channel, int chirp, const std::vector<Scatt
       const double in_segment_s = n / frame.sample_rate_Hz;
       const double delay_s =
           geometry.at(segment.start_s + in_segment_s).length_m / core::kSpeedOfLight_mps;
-      if (!has_echo(frame.waveform, in_segment_s, delay_s)) continue;
+      if (!has_echo(frame.waveform, segment, in_segment_s, delay_s)) continue;
       const double turns = beat_turns(frame.waveform, segment, in_segment_s, delay_s);
       cube.at(channel, chirp, n) += path.amplitude_sqrtW * unit_phasor(turns);
     }

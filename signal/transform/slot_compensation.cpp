@@ -61,7 +61,10 @@ DopplerFold doppler_fold(const std::vector<std::complex<double>>& snapshot, cons
   const auto elements_m = virtual_elements_m(array);
   DopplerFold best;
   best.direction.power = -1.0;
-  for (int fold = -(slots / 2); fold < slots - slots / 2; ++fold) {
+  for (int k = -(slots / 2); k < slots - slots / 2; ++k) {
+    // Of an even number of slots -S/2 and S/2 turn them alike: the one that keeps within +-1 / (2 Ts).
+    const bool beyond = 2 * k == -slots && doppler_Hz < 0.0;
+    const int fold = beyond ? k + slots : k;
     auto compensated = snapshot;
     compensate_slots(compensated, array, doppler_Hz + fold / (slots * slot_period_s),
                      slot_period_s);

@@ -8,7 +8,7 @@
 //   per snapshot   with a refined Doppler: what is left is the error of that Doppler.
 //
 // Doppler is only known within +-1 / (2 S Ts): a fold k adds k / (S Ts) and turns slot s by another
-// 2 pi k s / S. `doppler_fold` tries the S folds and takes the one whose snapshot adds up to the
+// 2 pi k s / S. `doppler_fold` tries the S folds within +-1 / (2 Ts) and takes the one whose snapshot adds up to the
 // strongest plane wave. Source: F. Roos et al., "Enhancement of Doppler unambiguity for
 // chirp-sequence modulated TDM-MIMO radars", ICMIM 2018. It holds for one scatterer per cell. With
 // 3 x 4 elements on a line the best wrong fold loses only 1.37 dB, so it needs a signal-to-noise
@@ -35,7 +35,7 @@ void compensate_slots(std::vector<std::complex<double>>& snapshot, const Array& 
                       double doppler_Hz, double slot_period_s);
 
 struct DopplerFold {
-  int fold = 0;         // the true Doppler is doppler_Hz + fold / (slots Ts); from -slots/2 up
+  int fold = 0;         // the true Doppler is doppler_Hz + fold / (slots Ts)
   AnglePeak direction;  // of the snapshot, compensated for that Doppler
 };
 

@@ -38,11 +38,6 @@ Array line_array(int transmitters, int receivers, double pitch_m) {
   return array;
 }
 
-int independent_channels(const Array& array) {
-  return array.multiplex == Multiplex::simultaneous ? static_cast<int>(array.receivers_m.size())
-                                                    : array.channels();
-}
-
 std::vector<glm::dvec3> virtual_elements_m(const Array& array) {
   std::vector<glm::dvec3> elements_m;
   for (const glm::dvec3& transmitter_m : array.transmitters_m)

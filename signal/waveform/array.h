@@ -47,10 +47,6 @@ struct Array {
 // positive and finite.
 Array line_array(int transmitters, int receivers, double pitch_m);
 
-// Channels whose noise is their own: those of one receiver share it where transmitters are simultaneous. The
-// looks that calibrated_cfar wants for a sum over channels.
-int independent_channels(const Array& array);
-
 // Position of every channel's virtual element.
 std::vector<glm::dvec3> virtual_elements_m(const Array& array);
 

@@ -220,3 +220,19 @@ TEST_CASE("False alarms are as many as asked for, in turn and at once, by every 
       CHECK(static_cast<double>(found) > 0.6 * expected - 4.0 * std::sqrt(expected));
     }
 }
+
+TEST_CASE("Samples reach the sensor's last range cell whatever bandwidth is asked for", "[fmcw]") {
+  core::ProblemList problems;
+  const sensors::Sensor sensor =
+      sensors::read_sensor(FANBEAM_SOURCE_DIR "/sensors/hivision.toml", problems);
+  REQUIRE_FALSE(problems.has_errors());
+  for (const double bandwidth_MHz : {10.0, 22.473, 225.0}) {
+    FmcwSettings options;
+    options.numbers[1] = bandwidth_MHz;
+    const FmcwRadar radar = fmcw_radar(options, sensor);
+    const int samples = signal::samples_per_segment(radar.waveform, 0);
+    INFO(bandwidth_MHz << " MHz: " << samples << " samples");
+    CHECK(radar.axes.range_step_m * samples >= sensor.range.maximum_m());
+    CHECK(radar.detection.transform.kept_range_cells < samples);
+  }
+}

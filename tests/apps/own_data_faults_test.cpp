@@ -1,6 +1,9 @@
 // What fanbeam track refuses of its inputs and of options that do not belong to them, and gaps between frames.
 #include <fmt/format.h>
 
+#include <complex>
+#include <limits>
+
 #include "core/npy.h"
 #include "session/signal/radar.h"
 #include "session/signal/radar_file.h"
@@ -138,6 +141,22 @@ TEST_CASE("Whose range a spectrogram looks about is not taken without one", "[fm
   CHECK(run.output.find("--products spectrogram") != std::string::npos);
 }
 
+TEST_CASE("What no chosen product looks at is refused, all of it", "[fmcw]") {
+  const tests::TemporaryFolder folder;
+  const std::string out = " -o " + tests::quoted(folder.path() / "out");
+  auto run = tests::run_fanbeam(
+      "fmcw braunschweig-26 -q --products bscope --waveform triangle --cfar ca --transmitters 8" +
+      out);
+  INFO(run.output);
+  CHECK(run.exit_code == 2);
+  for (const char* option : {"--waveform", "--cfar", "--transmitters"})
+    CHECK(run.output.find(option) != std::string::npos);
+  run = tests::run_fanbeam("fmcw street-76ghz -q --products beat --looks 64" + out);
+  CHECK(run.exit_code == 2);
+  CHECK(run.output.find("--looks") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+}
+
 TEST_CASE("Real samples are not read as complex ones", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path radar = folder.write("radar.toml", kRadar);
@@ -150,6 +169,48 @@ TEST_CASE("Real samples are not read as complex ones", "[track]") {
   CHECK(run.output.find("real = true") != std::string::npos);
 }
 
+TEST_CASE("A radar file and detections that are wrong are told together", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path radar = folder.write("bad.toml", std::string(kRadar) + "colour = 1\n");
+  const fs::path csv = folder.write("bad.csv", std::string(kColumns) + "0,-3,1,0\n");
+  const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
+  INFO(run.output);
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("bad.toml") != std::string::npos);
+  CHECK(run.output.find("range_m = -3") != std::string::npos);
+}
+
+TEST_CASE("All files of samples are looked at before the first is tracked", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path radar = folder.write("radar.toml", kRadar), out = folder.path() / "out";
+  fs::create_directory(folder.path() / "raw");
+  const auto write = [&](int number, std::size_t channels, float value) {
+    std::vector<std::complex<float>> samples(channels * 20 * 100, {1e-6F, 0.0F});
+    samples.back() = value;
+    core::write_npy(folder.path() / fmt::format("raw/frame_{}.npy", number), {channels, 20, 100},
+                    samples);
+  };
+  const auto told = [&] {
+    const auto run = track(folder.path() / "raw", out, "--radar " + tests::quoted(radar));
+    INFO(run.output);
+    CHECK(run.exit_code == 3);
+    CHECK_FALSE(fs::exists(out));
+    return run.output;
+  };
+  write(1, 4, 0.0F);
+  for (const int bad : {2, 10}) write(bad, 3, 0.0F);
+  folder.write("raw/frame_3.npy", "x");
+  const std::string headers = told();
+  for (const char* name : {"frame_2.npy", "frame_3.npy", "frame_10.npy"})
+    CHECK(headers.find(name) != std::string::npos);
+  for (const int number : {2, 3, 10})
+    write(number, 4, number == 3 ? 0.0F : std::numeric_limits<float>::quiet_NaN());
+  const std::string values = told();
+  for (const char* name : {"frame_2.npy: E-NONFINITE", "frame_10.npy: E-NONFINITE"})
+    CHECK(values.find(name) != std::string::npos);
+  CHECK(values.find("frame_3.npy") == std::string::npos);
+}
+
 TEST_CASE("Places on a line have the pitch between them, whatever it is", "[fmcw]") {
   core::ProblemList problems;
   session::FmcwSettings settings;
@@ -157,6 +218,7 @@ TEST_CASE("Places on a line have the pitch between them, whatever it is", "[fmcw
 frequency_GHz = 76
 bandwidth_MHz = 250
 slots = 1
+sample_rate_MHz = 20
 kind = "chirp-sequence"
 [array]
 transmitter_right_m = [0.0]
@@ -174,6 +236,19 @@ adc_full_scale_dBm = -30
   const session::FmcwRadar radar = session::fmcw_radar(settings);
   CHECK(radar.line);
   CHECK(radar.pitch_m == Approx(0.0028));
+  // A rate that nobody told was 1 MHz: every range a twentieth of what it is.
+  session::FmcwSettings no_rate = settings;
+  no_rate.numbers.fill(std::nullopt);
+  for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i)
+    if (std::string_view(session::kWaveformNumbers[i].option) != "--sample-rate")
+      no_rate.numbers[i] = settings.numbers[i];
+  CHECK_THROWS_WITH(session::fmcw_radar(no_rate), Catch::Contains("waveform.sample_rate_MHz"));
+  // Off a line no window is laid over the channels; one that is asked for was dropped.
+  session::FmcwSettings bent = settings;
+  bent.receivers_m[1].y += 1e-4;
+  CHECK_FALSE(session::fmcw_radar(bent).line);
+  bent.angle_window = {.kind = signal::WindowKind::hann, .symmetric = true};
+  CHECK_THROWS_WITH(session::fmcw_radar(bent), Catch::Contains("angle window"));
   // What is wrong with the receiver is written too.
   session::FmcwSettings again;
   session::read_radar_text(

@@ -313,6 +313,47 @@ TEST_CASE("Detections that fmcw left tell the radar's speed, and the posts of a 
   CHECK(standing["moving_tracks"].get<int>() > standing["confirmed_tracks"].get<int>() / 2);
 }
 
+// With its speed taken along the antenna's axis every post was told 21 m/s over ground.
+TEST_CASE("A radar that looks askance has its own velocity in its axes, and posts stand",
+          "[fmcw][track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path askance = folder.path() / "askance", out = folder.path() / "tracks";
+  fs::copy(FANBEAM_SOURCE_DIR "/scenes/highway-76ghz", askance, fs::copy_options::recursive);
+  std::string text = tests::bytes_of(askance / "scene.toml");
+  const std::string signal = "signal = \"radar.toml\"\n";
+  REQUIRE(text.find(signal) != std::string::npos);
+  text.insert(text.find(signal) + signal.size(), "yaw_deg = 45.0\n");
+  std::ofstream(askance / "scene.toml") << text;
+  const double along_mps = 100.0 / 3.6 * std::sqrt(0.5);
+  const auto told = [&](double forward_mps, double right_mps) {
+    const nlohmann::json record = tests::json_of(out / "run.json");
+    CHECK(record["radar_velocity_mps"][0].get<double>() == Approx(forward_mps).margin(0.01));
+    CHECK(record["radar_velocity_mps"][1].get<double>() == Approx(right_mps).margin(0.01));
+    CHECK(record["radar_speed_mps"].get<double>() == Approx(100.0 / 3.6).margin(0.01));
+    return record;
+  };
+  REQUIRE(track(askance, out, "--frames 0:12").exit_code == 0);
+  const nlohmann::json record = told(along_mps, -along_mps);
+  REQUIRE(record["confirmed_tracks"] > 10);
+  CHECK(record["moving_tracks"].get<int>() < record["confirmed_tracks"].get<int>() / 2);
+  // Detections have it beside them, samples from the record of fmcw; an old record tells the speed alone.
+  const fs::path signals = folder.path() / "signals";
+  REQUIRE(tests::run_fanbeam("fmcw " + tests::quoted(askance) +
+                             " -q --frames 0 --products beat,detections -o " +
+                             tests::quoted(signals))
+              .exit_code == 0);
+  REQUIRE(track(signals, out).exit_code == 0);
+  CHECK(told(along_mps, -along_mps)["kind"] == "detections");
+  fs::remove_all(signals / "detections");
+  REQUIRE(track(signals, out).exit_code == 0);
+  CHECK(told(along_mps, -along_mps)["kind"] == "samples");
+  nlohmann::json old = tests::json_of(signals / "run.json");
+  REQUIRE(old["frames"][0].erase("radar_velocity_mps") == 1);
+  std::ofstream(signals / "run.json") << old.dump();
+  REQUIRE(track(signals, out).exit_code == 0);
+  told(100.0 / 3.6, 0.0);
+}
+
 // Every second frame of a radar that drives: 0.05 s a frame and a radar at rest would be taken else.
 TEST_CASE("Samples that fmcw left have the times and the speed that its record tells",
           "[fmcw][track]") {
@@ -481,7 +522,7 @@ TEST_CASE("waveform shows what a mixer gets and gives", "[waveform]") {
   INFO(run.output);
   REQUIRE(run.exit_code == 0);
   const std::string beat = tests::bytes_of(out / "beat.csv");
-  CHECK(std::count(beat.begin(), beat.end(), '\n') == 1 + 400);
+  CHECK(std::count(beat.begin(), beat.end(), '\n') == 1 + 800);
   CHECK(
       tests::bytes_of(out / "mixer.csv").starts_with("time_s,transmitted,received,product\n0,1.0"));
   CHECK(fs::exists(out / "mixer.png"));
@@ -489,4 +530,18 @@ TEST_CASE("waveform shows what a mixer gets and gives", "[waveform]") {
   CHECK(run.exit_code == 2);
   run = tests::run_fanbeam("waveform pulsed --range 60 --mixer " + tests::quoted(out));
   CHECK(run.exit_code == 3);
+}
+
+// Their radar.toml says real = true, and complex files beside it were refused.
+TEST_CASE("Real samples are written as such and read again", "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path made = folder.path() / "real";
+  const auto run = tests::run_fanbeam(
+      "fmcw street-76ghz -q --real --frames 0:3 --products beat -o " + tests::quoted(made));
+  INFO(run.output);
+  REQUIRE(run.exit_code == 0);
+  CHECK(core::read_npy_header(made / "beat/00000.npy").type == "<f8");
+  const auto followed = track(made, folder.path() / "tracks");
+  INFO(followed.output);
+  CHECK(followed.exit_code == 0);
 }

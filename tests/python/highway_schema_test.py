@@ -65,6 +65,13 @@ CHANGES = {
         change(["waveforms"], {"two": {"type": "two-stage", "coarse": {"ramp_s": 1}, "fine": {}}}), False),
     "another code": (change(["waveforms"], {"pn": {"type": "up-flat-down", "flat_code": "gold-127"}}), False),
     "noise below none": (change(["radar", "noise_figure_db"], -1), False),
+    "farther than any radar": (change(["radar", "max_range_m"], 1e10), False),
+    "truth": (change(["scenarios", 0, "truth"], [{"id": "A", "rows": [], "in_view": [], "columns": ["t_s"]}]), True),
+    "unknown member of truth": (
+        change(["scenarios", 0, "truth"], [{"id": "A", "rows": [], "in_view": [], "in_veiw": []}]), False),
+    "a lane change that accelerates": (
+        change(["scenarios", 0, "targets", 3, "segments", 0, "acceleration_mps2"], [1, 0]), False),
+    "a radius of a straight way": (change(["scenarios", 0, "targets", 0, "radius_m"], 50), False),
 }
 
 

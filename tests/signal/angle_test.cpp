@@ -183,27 +183,31 @@ TEST_CASE("motion between slots moves the angle when it is left in, and not when
   }
 }
 
+// Up to +-49.3 m/s at slots of 20 us. Of an even number of slots half a turn either way is one phase: the fold that was tried
+// led a car that recedes at 30 m/s to -69.
 TEST_CASE("the fold of a Doppler beyond its limit is told by the array", "[angle][slots]") {
-  const Array line = half_wave_line(3, 4);
-  // Unambiguous within +-16.44 m/s for three slots of 20 us.
-  const double limit_Hz = 1.0 / (3.0 * kSlot_s);
-  int wrong = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    const double speed_mps = -48.0 + 0.48 * trial;
-    auto snapshot = plane_wave(line, radians(-60.0 + 0.6 * trial));
-    move(snapshot, line, speed_mps);
-    for (std::size_t m = 0; m < snapshot.size(); ++m)
-      snapshot[m] += tests::noise(0.05, m + 100 * static_cast<std::uint64_t>(trial), 12);
-    const double folded_Hz = std::remainder(doppler_Hz(speed_mps), limit_Hz);
-    const DopplerFold found = doppler_fold(snapshot, line, folded_Hz, kSlot_s, kWavelength_m);
-    const double found_mps = 0.5 * kWavelength_m * (folded_Hz + found.fold * limit_Hz);
-    if (std::abs(found_mps - speed_mps) > 1e-6) ++wrong;
-    // The direction is that of the snapshot under the fold found.
-    compensate_slots(snapshot, line, folded_Hz + found.fold * limit_Hz, kSlot_s);
-    REQUIRE(azimuth_peak(snapshot, virtual_elements_m(line), kWavelength_m).azimuth_rad ==
-            Approx(found.direction.azimuth_rad).margin(1e-9).epsilon(0.0));
+  for (const int slots : {2, 3, 4}) {
+    CAPTURE(slots);
+    const Array line = half_wave_line(slots, 4);
+    const double limit_Hz = 1.0 / (slots * kSlot_s);
+    int wrong = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+      const double speed_mps = -48.0 + 0.48 * trial;
+      auto snapshot = plane_wave(line, radians(-60.0 + 0.6 * trial));
+      move(snapshot, line, speed_mps);
+      for (std::size_t m = 0; m < snapshot.size(); ++m)
+        snapshot[m] += tests::noise(0.05, m + 100 * static_cast<std::uint64_t>(trial), 12);
+      const double folded_Hz = std::remainder(doppler_Hz(speed_mps), limit_Hz);
+      const DopplerFold found = doppler_fold(snapshot, line, folded_Hz, kSlot_s, kWavelength_m);
+      const double found_mps = 0.5 * kWavelength_m * (folded_Hz + found.fold * limit_Hz);
+      if (std::abs(found_mps - speed_mps) > 1e-6) ++wrong;
+      // The direction is that of the snapshot under the fold found.
+      compensate_slots(snapshot, line, folded_Hz + found.fold * limit_Hz, kSlot_s);
+      REQUIRE(azimuth_peak(snapshot, virtual_elements_m(line), kWavelength_m).azimuth_rad ==
+              Approx(found.direction.azimuth_rad).margin(1e-9).epsilon(0.0));
+    }
+    CHECK(wrong == 0);
   }
-  CHECK(wrong == 0);
 }
 
 TEST_CASE("compensation of a whole cube leaves half a Doppler cell's phase at most",
@@ -268,6 +272,37 @@ TEST_CASE("the top view of half a wavelength's pitch reaches to both sides", "[t
   for (int column = 14; column < 20; ++column) {
     CHECK(view.at(2, column) > 3.0);
     CHECK(view.at(2, column) < 7.0);
+  }
+}
+
+TEST_CASE("elements above each other tell heights and no azimuth", "[angle]") {
+  Array column;
+  column.receivers_m.clear();
+  for (int i = 0; i < 8; ++i) column.receivers_m.emplace_back(0.0, 0.0, 0.5 * kWavelength_m * i);
+  const AnglePeak peak = direction_peak(plane_wave(column, radians(20.0), radians(10.0)),
+                                        virtual_elements_m(column), kWavelength_m);
+  CHECK(peak.azimuth_rad == 0.0);
+  CHECK(peak.elevation_rad == Approx(radians(10.0)).margin(1e-6));
+  CHECK(peak.power == Approx(1.0));
+}
+
+// Of a pitch below half a wavelength several cells lie beyond end-fire; at half a wavelength rounding decides whether the
+// first one is at -90 deg to the last bit.
+TEST_CASE("the top view of any pitch up to half a wavelength reaches to both sides", "[top_view]") {
+  for (const double pitch : {0.2, 0.45, 0.5 * (1.0 - 1e-15), 0.5 * (1.0 + 1e-15)}) {
+    CAPTURE(pitch);
+    const std::vector<double> azimuths = angle_cell_azimuths_rad(64, pitch, 1.0);
+    PowerMap map(64, 11);
+    for (int row = 0; row < 64; ++row)
+      for (int range = 0; range <= 10; ++range)
+        map.at(row, range) = std::abs(azimuths[static_cast<std::size_t>(row)]);
+    const PowerMap view =
+        top_view(map, azimuths, 1.0,
+                 {.nearest_m = 0.0, .leftmost_m = -10.0, .step_m = 1.0, .rows = 8, .columns = 21});
+    for (const int column : {0, 4, 16, 20})
+      CHECK(view.at(0, column) == Approx(0.5 * kPi).margin(1e-6));
+    CHECK(view.at(1, 5) == Approx(std::atan(5.0)).margin(0.02));
+    CHECK(view.at(1, 15) == Approx(std::atan(5.0)).margin(0.02));
   }
 }
 

@@ -187,3 +187,18 @@ TEST_CASE("Paths that are no numbers or reach the array are refused", "[beat]") 
   CHECK_THROWS_AS(reference_beat(waveform, 0, {}, {path_at(10.0, 1e6)}), core::InputError);
   CHECK_THROWS_AS(reference_beat(waveform, 0, line_array(3, 4, 2e-3), {}), core::InputError);
 }
+
+TEST_CASE("A pulse's echo from beyond the interval comes in the next one, as in a radar",
+          "[beat]") {
+  PulsedParameters parameters;  // 10 us: 1499 m
+  const Waveform waveform = pulsed(parameters);
+  const double interval_m = 0.5 * c_mps * parameters.interval_s;
+  const DoubleCube near = reference_beat(waveform, 0, {}, {path_at(2000.0 - interval_m, 0.0)});
+  const DoubleCube far = reference_beat(waveform, 0, {}, {path_at(2000.0, 0.0)});
+  int lit = 0;
+  for (std::size_t i = 0; i < near.values.size(); ++i) {
+    CHECK(std::abs(near.values[i]) == Approx(std::abs(far.values[i])));
+    lit += std::abs(far.values[i]) > 0.5 ? 1 : 0;
+  }
+  CHECK(lit == 2 * parameters.pulses);  // 10 ns at 200 MHz
+}

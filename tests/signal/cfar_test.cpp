@@ -233,6 +233,24 @@ TEST_CASE("calibration tells what a detector's estimate of noise is on average",
   CHECK(found[0].margin == Approx(cfar_detections(map, {.kind = told.kind})[0].margin));
 }
 
+// Halves by rows (Doppler) had both sides of the step: a background of 50.
+TEST_CASE("greatest of guards a step of clutter in range in two dimensions too", "[cfar]") {
+  PowerMap map(40, 40);
+  for (int row = 0; row < 40; ++row)
+    for (int column = 0; column < 40; ++column) map.at(row, column) = column < 20 ? 1.0 : 100.0;
+  map.at(15, 18) = 1e6;
+  CfarSettings settings{.along_columns = {2, 8, false}, .along_rows = {2, 2, true}};
+  const auto background_W = [&](CfarKind kind) {
+    settings.kind = kind;
+    for (const CfarCell& cell : cfar_detections(map, settings))
+      if (cell.row == 15 && cell.column == 18) return cell.background_W;
+    return -1.0;
+  };
+  // Of 88 cells 80 lie farther, 72 of them behind the step; four of the other eight beside the cell count with them.
+  CHECK(background_W(CfarKind::greatest_of) > 80.0);
+  CHECK(background_W(CfarKind::smallest_of) == Approx(1.0).margin(9.0));
+}
+
 TEST_CASE("a sum over channels is calibrated to a few percent, even for rare alarms",
           "[cfar][calibration]") {
   const auto taylor = window_weights({.kind = WindowKind::taylor}, 256);

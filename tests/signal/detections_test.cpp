@@ -147,3 +147,20 @@ TEST_CASE("noise alone gives hardly a detection", "[detections]") {
   CHECK(detect(beat, radar.array, radar.timing, settings_for(beat.shape)).size() <= 1);
   CHECK_THROWS_AS(detect(DoubleCube({8, 8, 3}), radar.array, radar.timing, {}), core::InputError);
 }
+
+// The first cell's peak of what stands at the radar is refined to either side of it.
+TEST_CASE("no detection lies behind the radar or at it", "[detections]") {
+  const Radar radar;
+  DetectionSettings settings = settings_for({256, 64, 12});
+  int near = 0;
+  for (const double speed_mps : {0.0, 6.0, 12.0, 16.0}) {
+    DoubleCube beat =
+        reference_beat(radar.waveform, 0, radar.array, {path(0.02, speed_mps, 0.0, 1.0)});
+    tests::add_noise(beat, 1e-6, 33);
+    for (const RadarDetection& found : detect(beat, radar.array, radar.timing, settings)) {
+      CHECK(found.range_m > 0.0);
+      near += found.range_m < 1.0 ? 1 : 0;
+    }
+  }
+  CHECK(near > 0);
+}

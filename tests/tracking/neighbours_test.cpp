@@ -39,7 +39,7 @@ Followed follow(const core::HighwayScenario& scenario, const SampledRadar* sampl
       },
       [&](const Frame& frame) {
         result.score.add(scenario, frame);
-        result.at_end = frame.confirmed(scenario).size();
+        result.at_end = frame.confirmed().size();
         for (const auto& [target, id] : result.score.mot.current_match())
           for (const Track& track : frame.tracker->tracks())
             if (track.id == id)

@@ -64,6 +64,8 @@ Outcome cross(double acceleration_mps2, int run) {
     if (frame == 10)
       for (const Track& track : tracker.tracks()) before[track.id] = nearest(track);
     if (tracker.crossings().empty()) continue;
+    // Given up: half and half, and which goes on is not yet seen.
+    if (tracker.crossings()[0].swap_probability == 0.5) return {};
     outcome.crossed = true;
     outcome.swap = tracker.crossings()[0].swap_probability;
     outcome.kept = true;

@@ -218,7 +218,7 @@ TEST_CASE("S4 beaming targets show their speed in the angle alone", "[tracker][s
     ClearMot metric(3.0);
     std::map<int, int> first;
     track_scene(scenario, simulation, settings, run, [&](const Frame& frame) {
-      metric.add_frame(frame.targets(scenario), frame.confirmed(scenario));
+      metric.add_frame(frame.targets(scenario), frame.confirmed());
       if (frame.time_s < 1.0) return;
       if (first.empty()) first = metric.last_match();
       for (const auto& [target, id] : metric.last_match()) {

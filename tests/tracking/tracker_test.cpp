@@ -142,6 +142,21 @@ TEST_CASE("What is marked as clutter need not be tracked, and is no false track 
   CHECK(score.tracks.size() == 1);
 }
 
+TEST_CASE("A car that stands 2 m beside clutter is followed all the same", "[tracker]") {
+  core::HighwayScenario scenario =
+      scene(1.0, 0.0, {car("A", 60.0, 0.0, 0.0), car("post", 60.0, 2.0, 0.0)});
+  scenario.targets[1].clutter = true;
+  ScenarioScore score;
+  run_scenario(
+      scenario, highway_radar(), settings_for(0.0), [](int) { return std::vector{at(60.0, 0.0)}; },
+      [&](const Frame& frame) { score.add(scenario, frame); });
+  CHECK(score.mot.missed() == 1);  // the first frame
+  CHECK(score.mot.false_tracks() == 0);
+  CHECK(score.range_m.count() == 20);
+  CHECK(score.tracks.size() == 1);
+  CHECK(score.gospa_m.mean() < 0.5);
+}
+
 TEST_CASE("A new target with a tangential speed not yet known is kept from its first frames",
           "[tracker]") {
   // 25 m/s across at 80 m: the range rate changes by 0.2 m/s from frame to frame before the angle
@@ -207,6 +222,12 @@ TEST_CASE("A pair unresolved for too long is given up, and set aside again at th
   for (int i = 0; i < 45; ++i) step(0.0, false);
   CHECK(aside() == 0);
   REQUIRE(confirmed(tracker) == 1);
+  // Which of the two goes on nobody knows.
+  REQUIRE(tracker.crossings().size() == 1);
+  CHECK(tracker.crossings()[0].swap_probability == 0.5);
+  const auto goes_on = std::find_if(tracker.tracks().begin(), tracker.tracks().end(),
+                                    [](const Track& one) { return one.confirmed; });
+  CHECK(goes_on->identity_probability == 0.5);
   // Apart again, and together a second time.
   apart_m = 4.0;
   for (int i = 0; i < 20; ++i) step(-0.04, true);
@@ -220,6 +241,49 @@ TEST_CASE("A pair unresolved for too long is given up, and set aside again at th
     CHECK(aside() == 2);
   }
   for (const int id : ids) CHECK(track_of(tracker, id) != nullptr);
+}
+
+// Set aside for seconds, a pair's gates reach over tens of metres: one of the two took the third car's measurement.
+TEST_CASE("An unresolved pair leaves the measurements of a third car to its track", "[tracker]") {
+  const TrackerSettings settings = settings_for();
+  Tracker tracker(settings);
+  int frame = 0;
+  const auto step = [&](double apart_m) {
+    std::vector<RadarMeasurement> seen = {at(60.0, 0.0), at(85.0, 0.3 * frame * 0.05, 0.02)};
+    seen.back().range_m += 0.15 * std::pow(0.05 * frame, 2.0);
+    if (apart_m > 0.0) seen.push_back(at(60.0 + apart_m, -0.8, 0.001));
+    tracker.update(0.05 * frame++, seen);
+  };
+  for (double apart_m = 4.0; apart_m > 1.2; apart_m -= 0.04) step(apart_m);
+  REQUIRE(confirmed(tracker) == 3);
+  std::vector<int> ids;
+  for (const Track& track : tracker.tracks()) ids.push_back(track.id);
+  for (int i = 0; i < 100; ++i) {
+    step(0.0);
+    int aside = 0, measured = 0;
+    for (const int id : ids) {
+      const Track* const track = track_of(tracker, id);
+      REQUIRE(track != nullptr);
+      aside += track->unresolved_with.has_value();
+      measured += track->coasted == 0;
+    }
+    REQUIRE(aside == 2);
+    REQUIRE(measured == 1);
+  }
+  CHECK(tracker.crossings().empty());
+}
+
+TEST_CASE("Frames that are missing end an unresolved pair as they end any track", "[tracker]") {
+  const TrackerSettings settings = settings_for();
+  Tracker tracker(settings);
+  double time_s = 0.0;
+  for (double apart_m = 4.0; apart_m > 1.2; apart_m -= 0.04, time_s += 0.05)
+    tracker.update(time_s, {at(60.0, 0.0), at(60.0 + apart_m, -0.8, 0.001)});
+  tracker.update(time_s, {at(60.0, 0.0)});
+  REQUIRE(confirmed(tracker) == 2);
+  REQUIRE(tracker.tracks()[0].unresolved_with.has_value());
+  tracker.update(time_s + settings.longest_gap_s + 0.01, {at(60.0, 0.0)});
+  CHECK(confirmed(tracker) == 0);
 }
 
 // Two cars that a lorry hides are no surer than one.

@@ -73,12 +73,14 @@ ClearMot::ClearMot(double gate_m) : gate_m_(gate_m) {
 }
 
 void ClearMot::add_frame(const std::vector<NamedPlace>& targets,
-                         const std::vector<NamedPlace>& tracks) {
+                         const std::vector<NamedPlace>& tracks, const std::set<int>& excused) {
   check(targets);
   check(tracks);
   current_ = kept(current_, targets, tracks, gate_m_);
   assign_rest(targets, tracks, gate_m_, current_);
+  std::set<int> matched_tracks;
   for (const auto& [target, track] : current_) {
+    matched_tracks.insert(track);
     const auto before = last_.find(target);
     if (before != last_.end() && before->second != track) ++switches_;
     last_[target] = track;
@@ -88,7 +90,8 @@ void ClearMot::add_frame(const std::vector<NamedPlace>& targets,
   matches_ += matched;
   instances_ += static_cast<int>(targets.size());
   missed_ += static_cast<int>(targets.size()) - matched;
-  false_ += static_cast<int>(tracks.size()) - matched;
+  for (const NamedPlace& one : tracks)
+    if (!matched_tracks.contains(one.id) && !excused.contains(one.id)) ++false_;
 }
 
 double ClearMot::mota() const {

@@ -3,7 +3,8 @@
 //   MOTA = 1 - sum (missed + false + switches) / sum (targets),   MOTP = mean distance of matches
 // In every frame the matches of the frame before stay while their distance is inside the gate;
 // only the rest is assigned anew, at the least sum of distances. A switch is counted when a target
-// is matched to another track than the last it was matched to.
+// is matched to another track than the last it was matched to. A track whose id is among those excused may
+// match a target, and is no false one where it does not.
 // Source: K. Bernardin, R. Stiefelhagen, "Evaluating multiple object tracking performance: the
 // CLEAR MOT metrics", EURASIP J. Image and Video Processing, 2008.
 // Inputs: a gate above 0 (E-RANGE), finite places (E-NONFINITE), names that occur once in a frame
@@ -13,6 +14,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "tracking/metrics/ospa.h"
@@ -27,7 +29,8 @@ struct NamedPlace {
 class ClearMot {
  public:
   explicit ClearMot(double gate_m);
-  void add_frame(const std::vector<NamedPlace>& targets, const std::vector<NamedPlace>& tracks);
+  void add_frame(const std::vector<NamedPlace>& targets, const std::vector<NamedPlace>& tracks,
+                 const std::set<int>& excused = {});
 
   int instances() const { return instances_; }
   int missed() const { return missed_; }

@@ -90,19 +90,25 @@ std::vector<NamedPlace> ScenarioFrame::targets(const core::HighwayScenario& scen
   return result;
 }
 
-std::vector<NamedPlace> ScenarioFrame::confirmed(const core::HighwayScenario& scenario) const {
+std::vector<NamedPlace> ScenarioFrame::confirmed() const {
   std::vector<NamedPlace> result;
   for (const Track& track : tracker->tracks()) {
     if (!track.confirmed) continue;
     const Gaussian state = combined(track.state);
-    const Place place{state.mean[0], axes == 1 ? 0.0 : state.mean[1]};
-    bool at_clutter = false;
-    for (std::size_t i = 0; i < motion.size(); ++i)
-      at_clutter = at_clutter || (scenario.targets[i].clutter &&
-                                  distance_m(place, place_of(motion[i], axes)) <= kMatch_m);
-    if (!at_clutter) result.push_back({track.id, place});
+    result.push_back({track.id, {state.mean[0], axes == 1 ? 0.0 : state.mean[1]}});
   }
   return result;
+}
+
+std::set<int> ScenarioFrame::at_clutter(const core::HighwayScenario& scenario,
+                                        const std::vector<NamedPlace>& tracks) const {
+  std::set<int> ids;
+  for (const NamedPlace& one : tracks)
+    for (std::size_t i = 0; i < motion.size(); ++i)
+      if (scenario.targets[i].clutter &&
+          distance_m(one.place, place_of(motion[i], axes)) <= kMatch_m)
+        ids.insert(one.id);
+  return ids;
 }
 
 double nees_of(const Track& track, const core::RelativeMotion& motion) {
@@ -117,8 +123,12 @@ double nees_of(const Track& track, const core::RelativeMotion& motion) {
 
 void ScenarioScore::add(const core::HighwayScenario& scenario, const ScenarioFrame& frame) {
   const std::vector<NamedPlace> targets = frame.targets(scenario);
-  const std::vector<NamedPlace> confirmed = frame.confirmed(scenario);
-  mot.add_frame(targets, confirmed);
+  std::vector<NamedPlace> confirmed = frame.confirmed();
+  std::set<int> left_out = frame.at_clutter(scenario, confirmed);
+  mot.add_frame(targets, confirmed, left_out);
+  // A car may stop beside a post: what follows it is its track.
+  for (const auto& [target, id] : mot.current_match()) left_out.erase(id);
+  std::erase_if(confirmed, [&](const NamedPlace& one) { return left_out.contains(one.id); });
   gospa_m.add(gospa(places(targets), places(confirmed), {}).total_m);
   ospa_m.add(tracking::ospa_m(places(targets), places(confirmed), {}));
   for (const NamedPlace& one : confirmed) tracks.insert(one.id);

@@ -2,7 +2,7 @@
 //
 // Score over all frames: mean GOSPA and OSPA (p 2, c 5 m, alpha 2), CLEAR-MOT within 3 m, errors of
 // range and range rate of matched tracks. Without azimuth, places are ranges. Targets that are marked as clutter need not be tracked:
-// they are no targets, and a track within 3 m of one is no false track.
+// they are no targets, and a track within 3 m of one that matches no target is left out of all of it.
 #pragma once
 
 #include <functional>
@@ -48,8 +48,10 @@ struct ScenarioFrame {
 
   // In view, named by their place in the scenario.
   std::vector<NamedPlace> targets(const core::HighwayScenario& scenario) const;
-  // Confirmed tracks, less those at clutter.
-  std::vector<NamedPlace> confirmed(const core::HighwayScenario& scenario) const;
+  std::vector<NamedPlace> confirmed() const;
+  // Of these tracks the ids of those within 3 m of clutter.
+  std::set<int> at_clutter(const core::HighwayScenario& scenario,
+                           const std::vector<NamedPlace>& tracks) const;
 };
 
 // Of a track that follows this target; infinite where its covariance is none.
@@ -61,7 +63,7 @@ struct ScenarioScore {
   MeanSquare range_m, range_rate_mps;
   MeanSquare
       nees;  // of position and velocity of matched tracks: 4 on average where they are honest, 2 on one axis
-  std::set<int> tracks;  // ever confirmed
+  std::set<int> tracks;  // ever confirmed, and not left out as clutter's
 
   void add(const core::HighwayScenario& scenario, const ScenarioFrame& frame);
 };

@@ -27,7 +27,8 @@ struct SampledBeats {
 };
 
 // `samples`: two chirps, up and down, of any number of channels; `noise_W` of one sample of one
-// channel. Peaks of the spectrum under a Chebyshev window of -60 dB, summed over the channels, as much
+// channel. Peaks of the spectrum under a Chebyshev window of 60 dB in its periodic form, whose highest side
+// lobes lie at -56.6 dB (1024 samples), summed over the channels, as much
 // above the mean noise as 13 dB are of one channel (8.3 dB of twelve), and at most 55 dB below the
 // strongest; sharper by maximum likelihood, without window where each ramp has one peak. Which tones
 // they are: ramp_tones.h, bent as the speeds of `coarse` places bend them; what bends differ within two

@@ -26,8 +26,8 @@ struct Track {
   double identity_probability = 1.0;
 };
 
-// Two tracks that could not be told apart and then were: with this probability they have exchanged
-// their targets.
+// Two tracks that could not be told apart and then were, or were given up: with this probability they
+// have exchanged their targets.
 struct Crossing {
   double time_s = 0.0;  // when they parted
   int first = 0, second = 0;

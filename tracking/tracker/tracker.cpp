@@ -77,7 +77,7 @@ void Tracker::update(double time_s, const std::vector<RadarMeasurement>& measure
       track.existence.pass(step_s, settings_.believed_s);
   }
   std::erase_if(tracks_, [&](const Track& track) {
-    return track.unseen_s > settings_.longest_gap_s && !track.unresolved_with;
+    return (track.unresolved_with ? step_s : track.unseen_s) > settings_.longest_gap_s;
   });
   time_s_ = time_s;
   find_unresolved(step_s, frame);

@@ -19,9 +19,10 @@
 //   coasting      up to `most_coasted` frames without a measurement, and no more than twice those with one,
 //                 then a track ends: ghosts live by chance, and rarely for long; so does one predicted
 //                 outside the field of view. Where frames themselves are missing it ends after
-//                 `longest_gap_s`, before the next frame is looked at
+//                 `longest_gap_s`, an unresolved one too, before the next frame is looked at
 //   unresolved    two confirmed tracks predicted closer than the resolution on all axes, of which the
-//                 radar sees but one: no two measurements, one inside each gate. They are not
+//                 radar sees but one: no two measurements, one inside each gate, that fit no other
+//                 confirmed track better. They are not
 //                 updated until both can be given a measurement of their own again; then the
 //                 likelier of the two ways is taken and its probability
 //                 (tracking/association/crossing.h) goes into both tracks. Without azimuth the
@@ -29,9 +30,9 @@
 //                 beats leave of two ranges looks like two. Frames in which nothing is measured of
 //                 either are coasted as by any other track (with azimuth: without, merged beats may
 //                 leave nothing). After
-//                 `most_unresolved_s` they are given up: both take part again, are not set aside
-//                 with each other before they have been apart, and the one without measurements
-//                 ends
+//                 `most_unresolved_s` they are given up: both take part again, as likely exchanged as
+//                 not, are not set aside with each other before they have been apart, and the one
+//                 without measurements ends
 //   start         position and closing speed as measured, nothing known of the tangential speed;
 //                 closer than the resolution to a confirmed track, where biased pairs of merged
 //                 beats lie, only with an azimuth, outside of that track's gate, and if it has a
@@ -90,12 +91,14 @@ class Tracker {
   struct Frame;
 
   bool has_azimuth() const { return settings_.motion.axes() == 2; }
-  std::vector<double> log_likelihoods(const Track& track, const Frame& frame) const;
-  bool is_measured(const Track& track, const Frame& frame) const;
-  void coast_unresolved(double step_s, const Frame& frame);
-  void find_unresolved(double step_s, const Frame& frame);
+  void claim(Frame& frame) const;
+  std::vector<double> log_likelihoods(const Track& one, const Track& other, Frame& frame) const;
+  bool is_measured(const Track& one, const Track& other, Frame& frame) const;
+  void coast_unresolved(double step_s, Frame& frame);
+  void give_up(double step_s, Frame& frame);
+  void find_unresolved(double step_s, Frame& frame);
   std::optional<std::pair<std::size_t, std::size_t>> seen_apart(const Track& a, const Track& b,
-                                                                const Frame& frame) const;
+                                                                Frame& frame) const;
   void part(Frame& frame);
   void part(Track& a, Track& b, Frame& frame);
   void associate(Frame& frame);

@@ -17,6 +17,12 @@ void release(Track& track) {
   track.coasted = 1;
 }
 
+const Track* track_of(const std::vector<Track>& tracks, int id) {
+  const auto found =
+      std::find_if(tracks.begin(), tracks.end(), [&](const Track& one) { return one.id == id; });
+  return found == tracks.end() ? nullptr : &*found;
+}
+
 void set_aside(Track& track, const Track& with) {
   track.unresolved_with = with.id;
   track.unresolved_s = 0.0;
@@ -25,31 +31,57 @@ void set_aside(Track& track, const Track& with) {
 
 }  // namespace
 
-// Of each measurement, if it is the track's; kNone outside of its gate, and for one that is used.
-std::vector<double> Tracker::log_likelihoods(const Track& track, const Frame& frame) const {
+void Tracker::claim(Frame& frame) const {
+  if (!frame.claims.empty()) return;
+  frame.claims.resize(frame.measurements.size());
+  for (const Track& track : tracks_) {
+    if (!track.confirmed || track.unresolved_with) continue;
+    const QuickGate gate(track.state, measured_, gate_);
+    for (std::size_t j = 0; j < frame.measurements.size(); ++j) {
+      if (!gate.may_hold(frame.measurements[j])) continue;
+      const Update told = innovation(track.state, measured_, frame.measurements[j]);
+      if (!told.applied || told.normalised_innovation_squared > gate_) continue;
+      Claim next{track.id, told.log_likelihood};
+      for (Claim& best : frame.claims[j])
+        if (next.log_likelihood > best.log_likelihood) std::swap(best, next);
+    }
+  }
+}
+
+// Of each measurement, if it is one's of a pair; kNone outside of its gate, for one that is used, and for one that fits a
+// third track better: the gate of a pair that has been set aside for seconds reaches to the cars around it.
+std::vector<double> Tracker::log_likelihoods(const Track& one, const Track& other,
+                                             Frame& frame) const {
+  claim(frame);
   const std::vector<RadarMeasurement>& seen = frame.measurements;
   std::vector<double> result(seen.size(), kNone);
-  const QuickGate gate(track.state, measured_, gate_);
+  const QuickGate gate(one.state, measured_, gate_);
+  const auto third = [&](const Claim& claim) { return claim.id != one.id && claim.id != other.id; };
   for (std::size_t j = 0; j < seen.size(); ++j) {
     if (frame.used[j] || !gate.may_hold(seen[j])) continue;
-    const Update told = innovation(track.state, measured_, seen[j]);
-    if (told.applied && told.normalised_innovation_squared <= gate_)
+    const Update told = innovation(one.state, measured_, seen[j]);
+    if (!told.applied || told.normalised_innovation_squared > gate_) continue;
+    const auto best = std::find_if(frame.claims[j].begin(), frame.claims[j].end(), third);
+    if (best == frame.claims[j].end() || told.log_likelihood >= best->log_likelihood)
       result[j] = told.log_likelihood;
   }
   return result;
 }
 
-bool Tracker::is_measured(const Track& track, const Frame& frame) const {
-  const std::vector<double> fits = log_likelihoods(track, frame);
+bool Tracker::is_measured(const Track& one, const Track& other, Frame& frame) const {
+  const std::vector<double> fits = log_likelihoods(one, other, frame);
   return std::any_of(fits.begin(), fits.end(), [](double fit) { return fit > kNone; });
 }
 
 // Frames in which a pair shows nothing at all. Without azimuth merged beats may leave nothing.
-void Tracker::coast_unresolved(double step_s, const Frame& frame) {
+void Tracker::coast_unresolved(double step_s, Frame& frame) {
   if (!has_azimuth()) return;
   std::vector<int> measured;  // ids
-  for (const Track& track : tracks_)
-    if (track.unresolved_with && is_measured(track, frame)) measured.push_back(track.id);
+  for (const Track& track : tracks_) {
+    if (!track.unresolved_with) continue;
+    const Track* const other = track_of(tracks_, *track.unresolved_with);
+    if (is_measured(track, other ? *other : track, frame)) measured.push_back(track.id);
+  }
   const auto is_in = [&](int id) {
     return std::find(measured.begin(), measured.end(), id) != measured.end();
   };
@@ -66,18 +98,26 @@ void Tracker::coast_unresolved(double step_s, const Frame& frame) {
   }
 }
 
-// Pairs stay together until `part` or time separates them.
-void Tracker::find_unresolved(double step_s, const Frame& frame) {
-  coast_unresolved(step_s, frame);
-  std::vector<PolarPlace> places;
+// Pairs that have been one for too long. Whichever of them goes on, nothing tells which of the two it is.
+void Tracker::give_up(double step_s, Frame& frame) {
   for (Track& track : tracks_) {
-    places.push_back(polar(track.state));
     if (!track.unresolved_with) continue;
     track.unresolved_s += step_s;
     if (track.unresolved_s <= settings_.most_unresolved_s) continue;
     track.given_up_with = track.unresolved_with;
+    track.identity_probability *= 0.5;
+    if (track.id < *track.given_up_with)
+      crossings_.push_back({frame.time_s, track.id, *track.given_up_with, 0.5});
     release(track);
   }
+}
+
+// Pairs stay together until `part` or time separates them.
+void Tracker::find_unresolved(double step_s, Frame& frame) {
+  coast_unresolved(step_s, frame);
+  give_up(step_s, frame);
+  std::vector<PolarPlace> places;
+  for (const Track& track : tracks_) places.push_back(polar(track.state));
   for (std::size_t i = 0; i < tracks_.size(); ++i)
     for (std::size_t j = i + 1; j < tracks_.size(); ++j) {
       Track &a = tracks_[i], &b = tracks_[j];
@@ -90,7 +130,7 @@ void Tracker::find_unresolved(double step_s, const Frame& frame) {
       if (!a.confirmed || !b.confirmed || a.unresolved_with || b.unresolved_with ||
           a.given_up_with == b.id || b.given_up_with == a.id ||
           (has_azimuth() &&
-           (seen_apart(a, b, frame) || !(is_measured(a, frame) || is_measured(b, frame)))))
+           (seen_apart(a, b, frame) || !(is_measured(a, b, frame) || is_measured(b, a, frame)))))
         continue;
       set_aside(a, b);
       set_aside(b, a);
@@ -114,9 +154,10 @@ void Tracker::part(Frame& frame) {
 // The likeliest two measurements for the two tracks; nothing where the radar sees one or none there.
 std::optional<std::pair<std::size_t, std::size_t>> Tracker::seen_apart(const Track& a,
                                                                        const Track& b,
-                                                                       const Frame& frame) const {
+                                                                       Frame& frame) const {
   const std::vector<RadarMeasurement>& seen = frame.measurements;
-  const std::vector<double> fits_a = log_likelihoods(a, frame), fits_b = log_likelihoods(b, frame);
+  const std::vector<double> fits_a = log_likelihoods(a, b, frame),
+                            fits_b = log_likelihoods(b, a, frame);
   double best = kNone;
   std::optional<std::pair<std::size_t, std::size_t>> found;
   for (std::size_t i = 0; i < seen.size(); ++i)

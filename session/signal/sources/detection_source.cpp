@@ -16,37 +16,44 @@ class DetectionSource : public MeasuredSource {
                   const SourceSettings& settings)
       : asked_(settings) {
     core::ProblemList problems;
-    if (radar_file) {
-      const FmcwSettings known = radar_settings(*radar_file);
-      radar_ = radar_in_file(*radar_file, [&] { return fmcw_radar(known); });
-      resolution = resolution_of(*radar_);
-    }
+    if (radar_file) read_radar(*radar_file, problems);
+    const std::size_t before = problems.all().size();
     frames_ = read_detections(path, problems);
+    if (frames_.empty() && problems.all().size() == before)
+      problems.error(core::ErrorClass::range, core::Place{path.string()}, "detections", "none",
+                     "at least one frame");
     problems.throw_if_errors();
-    if (frames_.empty())
-      core::throw_input_error(core::ErrorClass::range, core::Place{path.string()}, "detections",
-                              "none", "at least one frame");
+    if (radar_) resolution = resolution_of(*radar_);
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
     kind = "detections";
     std::vector<double> times_s;
     for (const DetectedFrame& one : frames_) times_s.push_back(one.time_s);
     frame_s = median_step_s(times_s).value_or(frame_s);
-    radar_speed_mps = speed_of(frames_.front());
+    radar_velocity_mps = velocity_of(frames_.front());
   }
   int frames() const override { return static_cast<int>(frames_.size()); }
 
   MeasuredFrame frame(int index) override {
     const DetectedFrame& found = frames_[static_cast<std::size_t>(index)];
     return {found.time_s,
-            speed_of(found),
+            velocity_of(found),
             found.detections.size(),
             measurements_of(found, radar_ ? &*radar_ : nullptr, asked_.errors),
             {}};
   }
 
  private:
-  double speed_of(const DetectedFrame& frame) const {
-    return asked_.radar_speed_mps.value_or(frame.radar_speed_mps.value_or(0.0));
+  void read_radar(const fs::path& file, core::ProblemList& problems) {
+    try {
+      const FmcwSettings known = radar_settings(file);
+      radar_ = radar_in_file(file, [&] { return fmcw_radar(known); });
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+    }
+  }
+  RadarVelocity_mps velocity_of(const DetectedFrame& frame) const {
+    if (asked_.radar_speed_mps) return {*asked_.radar_speed_mps, 0.0};
+    return frame.radar_velocity_mps.value_or(RadarVelocity_mps{});
   }
 
   SourceSettings asked_;

@@ -5,9 +5,11 @@
 //   samples       (session/signal/sample_file.h), with the radar that they are of
 //
 // Times of samples: where they are the beats of `fanbeam fmcw`, as the run.json in the folder above them
-// says, and so is the radar's speed; else a period apart.
+// says, and so is the radar's velocity; else a period apart. A speed alone, told by an option or a file, is one
+// along the antenna's axis.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -27,9 +29,12 @@ struct SeenTarget {
   double range_m = 0.0, range_rate_mps = 0.0, azimuth_rad = 0.0;
 };
 
+// Over ground, in the antenna's axes, as azimuths are: forward, right.
+using RadarVelocity_mps = std::array<double, 2>;
+
 struct MeasuredFrame {
   double time_s = 0.0;
-  double radar_speed_mps = 0.0;  // over ground, forward
+  RadarVelocity_mps radar_velocity_mps{};
   std::size_t detections = 0;
   std::vector<tracking::RadarMeasurement> measurements;
   std::vector<SeenTarget> targets;  // in view; of a scene
@@ -43,8 +48,8 @@ class MeasuredSource {
   virtual int frames() const = 0;
   virtual MeasuredFrame frame(int index) = 0;
 
-  std::string name, kind;        // "street-76ghz", "scene"
-  double radar_speed_mps = 0.0;  // at the first frame
+  std::string name, kind;                  // "street-76ghz", "scene"
+  RadarVelocity_mps radar_velocity_mps{};  // at the first frame
   double frame_s = kFramePeriod_s, most_range_m = 1e6;
   std::optional<tracking::Resolution> resolution{};  // where the radar is known
   std::vector<core::Problem> warnings{};             // of the scene, of times, and of folding, once
@@ -52,7 +57,7 @@ class MeasuredSource {
 
 struct SourceSettings {
   BodyErrors errors;
-  std::optional<double> radar_speed_mps{};  // instead of what the input says
+  std::optional<double> radar_speed_mps{};  // along the antenna's axis, not what the input says
   std::optional<double> frame_period_s{};   // of samples, instead of what the input says
   std::string frames{};                     // of a scene, A:B[:STEP]; empty: all
   std::uint64_t seed = 0;                   // of a scene
@@ -69,7 +74,8 @@ std::unique_ptr<MeasuredSource> scene_source(const scenes::SceneDescription& des
 std::unique_ptr<MeasuredSource> detection_source(
     const std::filesystem::path& path, const std::optional<std::filesystem::path>& radar_file,
     const SourceSettings& settings);
-// `path`: as it was asked for, of which the source has its name.
+// `path`: as it was asked for, of which the source has its name. All values are read once before: of every file the
+// first that is not finite is told (E-NONFINITE).
 std::unique_ptr<MeasuredSource> sample_source(const std::filesystem::path& path,
                                               const std::vector<std::filesystem::path>& files,
                                               const std::filesystem::path& radar_file,
@@ -78,7 +84,8 @@ std::unique_ptr<MeasuredSource> sample_source(const std::filesystem::path& path,
 // From one time to the next, of those that rise; nothing where none does.
 std::optional<double> median_step_s(const std::vector<double>& times_s);
 
-// Samples in a folder, or in beat/ below it, by name; none where it has none.
+// Samples in a folder, or in beat/ below it, by name, numbers in names by their value; none where it has none. Later
+// stages of waveforms are left out (NAME-stage1.npy beside NAME.npy).
 std::vector<std::filesystem::path> sample_files_in(const std::filesystem::path& folder);
 
 }  // namespace fanbeam::session

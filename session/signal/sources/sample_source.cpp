@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <system_error>
 
 #include "core/json_node.h"
@@ -15,21 +16,30 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Recorded {
-  double time_s = 0.0, radar_speed_mps = 0.0;
+  double time_s = 0.0;
+  RadarVelocity_mps radar_velocity_mps{};
 };
+
+// Records of before the velocity had two components tell the speed alone.
+RadarVelocity_mps velocity_in(const core::JsonNode& frame) {
+  constexpr core::NumberRange kSpeeds_mps{-1000.0, 1000.0};
+  const std::vector<double> told = frame.member("radar_velocity_mps").numbers(kSpeeds_mps, 2);
+  if (told.size() == 2) return {told[0], told[1]};
+  return {frame.member("radar_speed_mps").number(kSpeeds_mps).value_or(0.0), 0.0};
+}
 
 // What the run.json of a folder that `fanbeam fmcw` wrote says of its files, by name relative to it.
 std::map<std::string, Recorded> moments_in(const core::JsonNode& record) {
-  constexpr core::NumberRange kTimes_s{-1e12, 1e12}, kSpeeds_mps{-1000.0, 1000.0};
+  constexpr core::NumberRange kTimes_s{-1e12, 1e12};
   std::map<std::string, Recorded> known;
   const core::JsonNode frames = record.member("frames");
   for (std::size_t i = 0; i < frames.elements(); ++i) {
     const core::JsonNode frame = frames.element(i);
     const auto time_s = frame.member("time_s").number(kTimes_s);
     if (!time_s) continue;
-    const double speed_mps = frame.member("radar_speed_mps").number(kSpeeds_mps).value_or(0.0);
+    const RadarVelocity_mps velocity_mps = velocity_in(frame);
     for (const std::string& name : frame.member("files").texts(1000))
-      known[name] = {*time_s, speed_mps};
+      known[name] = {*time_s, velocity_mps};
   }
   return known;
 }
@@ -63,16 +73,73 @@ std::vector<Recorded> recorded_moments(const std::vector<fs::path>& files,
   return moments;
 }
 
+// A later stage of a waveform is no frame of its own: "00000-stage1.npy" belongs to "00000.npy".
+bool is_later_stage(const fs::path& file) {
+  const std::string stem = file.stem().string();
+  const std::size_t at = stem.rfind("-stage");
+  if (at == std::string::npos) return false;
+  const std::string number = stem.substr(at + 6);
+  std::error_code status;
+  return !number.empty() && number.find_first_not_of("0123456789") == std::string::npos &&
+         fs::is_regular_file(file.parent_path() / (stem.substr(0, at) + ".npy"), status);
+}
+
+bool is_digit(char one) { return one >= '0' && one <= '9'; }
+
+// The number that begins at `at`, without zeros in front; `at` is then behind it.
+std::string_view number_at(std::string_view text, std::size_t& at) {
+  std::size_t first = at;
+  while (at < text.size() && is_digit(text[at])) ++at;
+  while (first < at && text[first] == '0') ++first;
+  return text.substr(first, at - first);
+}
+
+// "frame_2" comes before "frame_10", as its number does.
+bool comes_before(std::string_view a, std::string_view b) {
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (is_digit(a[i]) && is_digit(b[j])) {
+      const std::string_view left = number_at(a, i), right = number_at(b, j);
+      if (left.size() != right.size()) return left.size() < right.size();
+      if (left != right) return left < right;
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i;
+      ++j;
+    }
+  }
+  if (i < a.size() || j < b.size()) return j < b.size();
+  return a < b;
+}
+
 std::vector<fs::path> numpy_files_in(const fs::path& folder) {
   std::error_code status;
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder, status)) {
-    // A second stage of a waveform is no frame of its own.
-    const bool stage = entry.path().stem().string().find("-stage") != std::string::npos;
-    if (entry.path().extension() == ".npy" && !stage) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
+  for (const auto& entry : fs::directory_iterator(folder, status))
+    if (entry.path().extension() == ".npy" && !is_later_stage(entry.path()))
+      files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return comes_before(a.filename().string(), b.filename().string());
+  });
   return files;
+}
+
+// Found when its turn comes, a value in the last of many files would cost the tracks of all before it.
+void check_values(const std::vector<fs::path>& files) {
+  constexpr std::size_t kValuesAtOnce = std::size_t{1} << 20U;
+  core::ProblemList problems;
+  for (const fs::path& file : files) {
+    if (problems.is_full()) break;
+    try {
+      const core::NpyHeader header = core::read_npy_header(file);
+      const std::size_t count = header.type == "<i2" ? 0 : header.count();
+      for (std::size_t from = 0; from < count; from += kValuesAtOnce)
+        core::read_npy(file, header, from, std::min(kValuesAtOnce, count - from));
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+    }
+  }
+  problems.throw_if_errors();
 }
 
 class SampleSource : public MeasuredSource {
@@ -83,6 +150,7 @@ class SampleSource : public MeasuredSource {
         settings_(radar_settings(radar_file)),
         radar_(radar_in_file(radar_file, [this] { return fmcw_radar(settings_); })),
         files_(files, radar_, settings_.layout) {
+    check_values(files);
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());
     kind = "samples";
     // Several frames in a file have no times there.
@@ -98,7 +166,7 @@ class SampleSource : public MeasuredSource {
       for (const Recorded& one : moments_) times_s.push_back(one.time_s);
       frame_s = median_step_s(times_s).value_or(frame_s);
     }
-    radar_speed_mps = speed_at(0);
+    radar_velocity_mps = velocity_at(0);
     most_range_m = radar_.axes.range_step_m * radar_.detection.transform.kept_range_cells;
     resolution = resolution_of(radar_);
   }
@@ -110,7 +178,7 @@ class SampleSource : public MeasuredSource {
     process_samples(radar_, settings_, {"detections"}, frame);
     const DetectedFrame found{time_at(index), frame.found->detections, frame.found->clusters};
     return {found.time_s,
-            speed_at(index),
+            velocity_at(index),
             found.detections.size(),
             measurements_of(found, &radar_, asked_.errors),
             {}};
@@ -122,9 +190,10 @@ class SampleSource : public MeasuredSource {
                ? index * frame_s
                : moments_[static_cast<std::size_t>(index)].time_s;
   }
-  double speed_at(int index) const {
-    if (asked_.radar_speed_mps) return *asked_.radar_speed_mps;
-    return moments_.empty() ? 0.0 : moments_[static_cast<std::size_t>(index)].radar_speed_mps;
+  RadarVelocity_mps velocity_at(int index) const {
+    if (asked_.radar_speed_mps) return {*asked_.radar_speed_mps, 0.0};
+    if (moments_.empty()) return {};
+    return moments_[static_cast<std::size_t>(index)].radar_velocity_mps;
   }
 
   SourceSettings asked_;

@@ -1,4 +1,3 @@
-#include <glm/geometric.hpp>
 #include <set>
 
 #include "scenes/scene.h"
@@ -36,7 +35,7 @@ class SceneSource : public MeasuredSource {
     frame_s = step / sensor.scan.frame_rate_Hz;
     most_range_m = sensor.range.maximum_m();
     resolution = resolution_of(radar_);
-    radar_speed_mps = speed_at(indices_.front());
+    radar_velocity_mps = velocity_at(indices_.front());
   }
   int frames() const override { return static_cast<int>(indices_.size()); }
 
@@ -52,7 +51,7 @@ class SceneSource : public MeasuredSource {
     }
     const DetectedFrame made{time_of(index), found.found->detections, found.found->clusters};
     MeasuredFrame frame{made.time_s,
-                        speed_at(index),
+                        velocity_at(index),
                         made.detections.size(),
                         measurements_of(made, &radar_, asked_.errors),
                         {}};
@@ -68,9 +67,9 @@ class SceneSource : public MeasuredSource {
   double time_of(int index) const {
     return scene_->trajectory->frame_time_s(index, scene_->description.sensor.scan.frame_rate_Hz);
   }
-  double speed_at(int index) const {
-    return asked_.radar_speed_mps.value_or(
-        glm::length(scene_->trajectory->at(time_of(index)).v_N_mps));
+  RadarVelocity_mps velocity_at(int index) const {
+    if (asked_.radar_speed_mps) return {*asked_.radar_speed_mps, 0.0};
+    return own_velocity_mps(*scene_, index);
   }
 
   SourceSettings asked_;

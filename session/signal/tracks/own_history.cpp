@@ -30,7 +30,7 @@ void OwnHistory::add(const MeasuredFrame& frame, const tracking::Tracker& tracke
     const tracking::PolarPlace place = polar(track.state);
     Line& line = tracks_[track.id];
     put(place.range_m, place.azimuth_rad, line);
-    line.moving += is_moving(track, {frame.radar_speed_mps, 0.0}) ? 1 : 0;
+    line.moving += is_moving(track, frame.radar_velocity_mps) ? 1 : 0;
   }
 }
 

@@ -26,7 +26,9 @@ tracking::TrackerSettings own_tracker(const TrackSettings& settings, const Measu
   radar.most_range_m = source.most_range_m;
   radar.most_azimuth_rad = core::kPi;
   tracking::TrackerSettings tracker = tracking::road_tracker(
-      radar, source.radar_speed_mps, settings.acceleration_mps2, settings.coast_s);
+      radar, source.radar_velocity_mps[0], settings.acceleration_mps2, settings.coast_s);
+  for (tracking::MotionModel& model : tracker.motion.motions)
+    model.radar_velocity_mps = source.radar_velocity_mps;
   if (settings.association == "joint") tracker.association = tracking::Association::joint;
   if (source.resolution) tracker.resolution = *source.resolution;
   return tracker;
@@ -49,12 +51,12 @@ void add(const MeasuredFrame& frame, const tracking::Tracker& tracker, OwnTracks
     tracks.measurements += measurement_row(frame.time_s, one);
   for (const tracking::Track& track : tracker.tracks()) {
     tracks.tracks +=
-        fmt::format("{},{:.6g}{}\n", track_cells(frame.time_s, track, frame.radar_speed_mps),
+        fmt::format("{},{:.6g}{}\n", track_cells(frame.time_s, track, frame.radar_velocity_mps),
                     track.existence.probability(), covariance_cells(combined(track.state)));
     if (!track.confirmed) continue;
     OwnTracks::Seen& seen = tracks.confirmed[track.id];
     ++seen.frames;
-    seen.moving += is_moving(track, {frame.radar_speed_mps, 0.0}) ? 1 : 0;
+    seen.moving += is_moving(track, frame.radar_velocity_mps) ? 1 : 0;
   }
   for (const SeenTarget& target : frame.targets) {
     OwnTracks::Followed& one = tracks.targets[target.name];
@@ -75,12 +77,14 @@ Json json_of(const TrackSettings& settings, const MeasuredSource& source, const 
   Json targets = Json::array();
   for (const auto& [name, one] : tracks.targets)
     targets.push_back({{"name", name}, {"seen", one.seen}, {"followed", one.followed}});
+  const RadarVelocity_mps& velocity_mps = source.radar_velocity_mps;
   Json json = {{"version", version_text()},
                {"commit", commit_text()},
                {"input", source.name},
                {"kind", source.kind},
                {"seed", settings.seed},
-               {"radar_speed_mps", source.radar_speed_mps},
+               {"radar_speed_mps", std::hypot(velocity_mps[0], velocity_mps[1])},
+               {"radar_velocity_mps", velocity_mps},
                {"frame_s", source.frame_s},
                {"association", settings.association},
                {"acceleration_mps2", settings.acceleration_mps2},

@@ -33,8 +33,8 @@ struct OwnTracks {
   int moving() const;
 };
 
-// `progress` is told after each frame how many are done. The radar's turn is foreseen with its speed at
-// the first frame; what moves is told by its speed at each.
+// `progress` is told after each frame how many are done. Turns of targets are foreseen with the radar's velocity
+// at the first frame; what moves is told by that at each.
 OwnTracks track_source(MeasuredSource& source, const TrackSettings& settings,
                        const std::function<void(int done)>& progress);
 

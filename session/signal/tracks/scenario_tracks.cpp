@@ -41,7 +41,7 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
   for (const tracking::Track& track : frame.tracker->tracks()) {
     const int target = target_of(tracks.score, track.id);
     tracks.tracks += fmt::format(
-        "{},{},{:.6g},{}{}\n", track_cells(frame.time_s, track, scenario.radar_speed_mps),
+        "{},{},{:.6g},{}{}\n", track_cells(frame.time_s, track, {scenario.radar_speed_mps, 0.0}),
         target < 0 ? std::string() : scenario.targets[static_cast<std::size_t>(target)].id,
         track.existence.probability(),
         target < 0

@@ -26,14 +26,20 @@ constexpr int kRuns = 100;
 // An error beyond this is a wrong peak, not noise about the right one.
 constexpr double kOutlier_m = 1.0;
 
-// Measures a car by single triangles; times of turnarounds lie one frame of 4 ms apart.
+// The radar as it measures here: bounds are those of its triangle.
+core::HighwayRadar by_triangles(core::HighwayRadar radar) {
+  radar.ramp_s = radar.waveforms.triangle_ramp_s;
+  return radar;
+}
+
+// Measures a car by single triangles; turnarounds lie a triangle apart.
 class TriangleRadar {
  public:
   explicit TriangleRadar(const core::HighwayRadar& radar) : radar_(radar) {
     signal::TriangleParameters parameters;
     parameters.frequency_Hz = radar.centre_frequency_Hz;
     parameters.bandwidth_Hz = radar.bandwidth_Hz;
-    parameters.ramp_s = radar_.ramp_s = radar.waveforms.triangle_ramp_s;
+    parameters.ramp_s = radar_.ramp_s;
     waveform_ = signal::triangle(parameters);
     model_ = signal::triangle_model(waveform_, 0);
   }
@@ -117,7 +123,8 @@ Errors errors_of(const core::HighwayRadar& radar, int triangles, std::uint64_t s
 
 }  // namespace
 
-StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed) {
+StudyPart study_buffer(const core::HighwayRadar& given, std::uint64_t seed) {
+  const core::HighwayRadar radar = by_triangles(given);
   StudyPart part;
   part.text =
       "| ramps in the buffer | range error, mm rms | bound, mm | taken as of its end, mm rms | "
@@ -126,7 +133,7 @@ StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed) {
       "|---|---|---|---|---|---|---|---|\n";
   Plot plot;
   plot.title = "One car at 100 m, 100 km/h closing: error over the ramps in the buffer";
-  plot.x = {"ramps of 2 ms in the buffer", true, 1.5, 80.0};
+  plot.x = {fmt::format("ramps of {:.6g} ms in the buffer", 1e3 * radar.ramp_s), true, 1.5, 80.0};
   plot.y = {"error of range (mm rms)", true, {}, {}};
   plot.series = {{"measured, of its middle", {}, {}, PlotSeries::Style::line_points},
                  {"bound", {}, {}, PlotSeries::Style::dashed_line},
@@ -152,7 +159,8 @@ StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed) {
   return part;
 }
 
-StudyPart study_noise_figure(const core::HighwayRadar& radar, std::uint64_t seed) {
+StudyPart study_noise_figure(const core::HighwayRadar& given, std::uint64_t seed) {
+  const core::HighwayRadar radar = by_triangles(given);
   StudyPart part;
   part.text =
       "| noise figure, dB | signal to noise, dB | range error, mm rms | bound, mm | speed error, "
@@ -209,7 +217,8 @@ Errors errors_over_ranges(const core::HighwayRadar& radar, double reflection, st
 
 }  // namespace
 
-StudyPart study_reflections(const core::HighwayRadar& radar, std::uint64_t seed) {
+StudyPart study_reflections(const core::HighwayRadar& given, std::uint64_t seed) {
+  const core::HighwayRadar radar = by_triangles(given);
   constexpr std::array kRoads = {0.0, -0.7, -1.0};
   StudyPart part;
   part.text =

@@ -18,13 +18,14 @@ std::array<double, 4> on_the_road(const tracking::Track& track) {
 
 }  // namespace
 
-std::string track_cells(double time_s, const tracking::Track& track, double radar_speed_mps) {
+std::string track_cells(double time_s, const tracking::Track& track,
+                        const std::array<double, 2>& radar_velocity_mps) {
   const auto state = on_the_road(track);
   const tracking::PolarPlace place = polar(track.state);
   return fmt::format("{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g}",
                      time_s, track.id, track.confirmed ? 1 : 0, state[0], state[1], state[2],
                      state[3], place.range_m, place.range_rate_mps, place.azimuth_rad,
-                     is_moving(track, {radar_speed_mps, 0.0}) ? 1 : 0, track.identity_probability);
+                     is_moving(track, radar_velocity_mps) ? 1 : 0, track.identity_probability);
 }
 
 // The upper triangle, row after row; of a track along one axis x is the range, and y and vy are empty.

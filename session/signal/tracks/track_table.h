@@ -1,6 +1,7 @@
 // Rows of tracks.csv and measurements.csv.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "tracking/tracker/track.h"
@@ -18,8 +19,9 @@ inline constexpr const char* kMeasurementColumns =
     "range_sigma_m,range_rate_sigma_mps,azimuth_sigma_rad,"
     "range_systematic_m,range_rate_systematic_mps,azimuth_systematic_rad\n";
 
-// Of kTrackColumns. `radar_speed_mps` forward: moving is meant over ground.
-std::string track_cells(double time_s, const tracking::Track& track, double radar_speed_mps);
+// Of kTrackColumns. `radar_velocity_mps` forward and right: moving is meant over ground.
+std::string track_cells(double time_s, const tracking::Track& track,
+                        const std::array<double, 2>& radar_velocity_mps);
 // Of kCovarianceColumns, a comma before each.
 std::string covariance_cells(const tracking::Gaussian& state);
 std::string measurement_row(double time_s, const tracking::RadarMeasurement& measurement);

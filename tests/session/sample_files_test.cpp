@@ -1,0 +1,40 @@
+// Which files of a folder are frames of samples, and in what order.
+#include <catch2/catch.hpp>
+#include <string>
+#include <vector>
+
+#include "session/signal/sources/measured_source.h"
+#include "tests/scenes/scene_folder.h"
+
+using namespace fanbeam;
+
+namespace {
+
+std::vector<std::string> frames_of(const std::vector<std::string>& names) {
+  const tests::TemporaryFolder folder;
+  for (const std::string& name : names) folder.write(name, "");
+  std::vector<std::string> found;
+  for (const auto& file : session::sample_files_in(folder.path()))
+    found.push_back(file.filename().string());
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("Files of samples come in the order of their numbers, with zeros in front or without",
+          "[track]") {
+  const std::vector<std::string> order = {"frame_1.npy",  "frame_2.npy",  "frame_010.npy",
+                                          "frame_10.npy", "frame_11.npy", "frame_100.npy"};
+  CHECK(frames_of({order[5], order[3], order[0], order[4], order[2], order[1], "notes.txt"}) ==
+        order);
+  CHECK(frames_of({"b2-1.npy", "a10.npy", "b2-0.npy", "a9.npy", "99999999999999999999999.npy"}) ==
+        std::vector<std::string>{"99999999999999999999999.npy", "a9.npy", "a10.npy", "b2-0.npy",
+                                 "b2-1.npy"});
+}
+
+TEST_CASE("Only the later stages of a frame that is there are left out", "[track]") {
+  CHECK(frames_of({"00000.npy", "00000-stage1.npy", "front-stage.npy", "on-stage2.npy",
+                   "two-stage-3.npy"}) == std::vector<std::string>{"00000.npy", "front-stage.npy",
+                                                                   "on-stage2.npy",
+                                                                   "two-stage-3.npy"});
+}
