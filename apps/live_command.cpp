@@ -1,6 +1,9 @@
 #include "apps/live_command.h"
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
+#include <thread>
 #include <utility>
 
 #include "apps/live_status_line.h"
@@ -51,6 +54,32 @@ std::unique_ptr<session::Session> opened(const LiveOptions& options, const live:
   if (!quiet) print_problems(problems.all());
   return session;
 }
+
+// Asks for the end of a flight when a signal did or its time is up, whatever its thread waits for or
+// renders by then.
+class EndWatch {
+ public:
+  // `seconds` from `begin` on; 0: for ever.
+  EndWatch(core::StopSource end, core::StopToken asked, live::Clock::time_point begin,
+           double seconds)
+      : thread_([this, end = std::move(end), asked = std::move(asked), begin, seconds]() mutable {
+          constexpr std::chrono::milliseconds kNap(20);
+          for (; !left_; std::this_thread::sleep_for(kNap))
+            if (asked.reason() != 0 ||
+                (seconds > 0.0 && live::seconds_between(begin, live::Clock::now()) >= seconds))
+              return end.request();
+        }) {}
+  ~EndWatch() {
+    left_ = true;
+    thread_.join();
+  }
+  EndWatch(const EndWatch&) = delete;
+  EndWatch& operator=(const EndWatch&) = delete;
+
+ private:
+  std::atomic<bool> left_{false};
+  std::thread thread_;
+};
 
 // What goes on while scenes are switched.
 struct Continued {
@@ -121,17 +150,15 @@ class LiveRun {
       sinks.write(hub_.newest());
       line_.show(now, network_.clients());
       const bool enough =
-          (options_.seconds > 0.0 &&
-           live::seconds_between(continued_.begin, live::Clock::now()) >= options_.seconds) ||
-          (options_.frames > 0 && now.frames >= static_cast<std::uint64_t>(options_.frames));
-      if (asked.reason() != 0 || enough || sinks.any_ended() || switches()) end.request();
+          options_.frames > 0 && now.frames >= static_cast<std::uint64_t>(options_.frames);
+      if (enough || sinks.any_ended() || switches()) end.request();
     };
     live::ChannelSettings settings{rate_Hz_, samples(), begin, journal_ ? &*journal_ : nullptr};
     settings.dress = listener_.dress();
     settings.keep_received = wiring_.to.want_received();
     if (options_.threads > 0) settings.threads = static_cast<unsigned>(options_.threads);
     if (quality) settings.beside_s = [&quality] { return quality->processor_s(); };
-    render(settings, each_frame, end.token());
+    fly_until(end, asked, settings, each_frame);
     if (listens) listener_.leave(network_);
     continued_.frames = hub_.status().frames;
   }
@@ -200,6 +227,17 @@ class LiveRun {
     return wiring_.first().circle ? live::circle(*scene_) : live::approach(*scene_);
   }
 
+  void fly_until(const core::StopSource& end, const core::StopToken& asked,
+                 const live::ChannelSettings& settings, const live::Told& told) {
+    const core::StopToken stop = end.token();
+    const core::StopScope scope(stop);
+    const EndWatch watch(end, asked, continued_.begin, options_.seconds);
+    try {
+      render(settings, told, stop);
+    } catch (const core::Stopped&) {  // while conditions were set
+    }
+  }
+
   void render(const live::ChannelSettings& settings, const live::Told& told,
               const core::StopToken& stop) {
     const bool listens = wiring_.first().listens();
@@ -265,6 +303,7 @@ int fly(const LiveOptions& given, const CommonOptions& common) {
           .fly();
       session = continued.databases.take();
     }
+    continued.sinks.end();
   } catch (const core::Stopped&) {  // while the scene was opened: as good an end
   }
   return kExitDone;

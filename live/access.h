@@ -1,7 +1,8 @@
 // Who may look and steer.
 //
-// On loopback, with no token: requests for this machine by name (`Host` localhost, 127.0.0.1 or [::1]: no
-// name that somebody else's server resolves) and from fanbeam's own page (`Origin`, where there is one).
+// On loopback, with no token: requests for this machine by name (`Host` localhost, [::1] or an address of
+// 127.0.0.0/8 in numbers: no name that somebody else's server resolves) and from fanbeam's own page
+// (`Origin`, where there is one).
 //
 // With a token, which whoever listens beyond loopback must have: every request carries it, as
 // "Authorization: Bearer TOKEN" or as the cookie that GET /?token=TOKEN hands out, which a browser

@@ -68,15 +68,14 @@ class Channel {
       return maker_.look_back();
     }
     const auto made = maker_.make(tick, *seen, stop);
-    // What a plan of its own costs says nothing of the sampling.
-    if (made && !(settings_.samples > 0.0) && !made->outside_volume)
-      maker_.sample(pace_.after(maker_.now_s(), made->frame_s));
+    if (made && !(settings_.samples > 0.0))
+      maker_.sample(pace_.after(maker_.now_s(), made->frame_s, made->outside_volume));
   }
 
   const PoseSource& source_;
   ChannelSettings settings_;
   double period_s_;
-  Pace pace_;
+  PaceByVolume pace_;
   FrameMaker maker_;
   Hub& hub_;
 };

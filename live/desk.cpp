@@ -99,6 +99,11 @@ void set_sensor(session::Session& session, const core::JsonNode& root) {
   settings.low_dB = root.member("low_dB").number({-400.0, 400.0});
   settings.high_dB = root.member("high_dB").number({-400.0, 400.0});
   root.problems().throw_if_errors();
+  // Posted back as they are told: those of a display that has no others to set stay.
+  const sensors::Display display = session.scene()->description.sensor.display;
+  if (display.mapping == sensors::Display::Mapping::seed && settings.low_dB == display.low_dB &&
+      settings.high_dB == display.high_dB)
+    settings.low_dB = settings.high_dB = std::nullopt;
   session.set(settings);
 }
 
@@ -166,10 +171,7 @@ Answer Desk::picture(const std::string& path, const std::string& query) const {
   const std::shared_ptr<const LiveFrame> frame = hub_.newest();
   if (!frame) return refusal(503, "no frame yet");
   core::Picture8 shown = bscope ? frame->bscope : frame->cscope;
-  if (gain_dB != 0.0) {
-    const sensors::Display& display = session_.scene()->description.sensor.display;
-    amplify(shown, gain_dB / (display.high_dB - display.low_dB));
-  }
+  if (gain_dB != 0.0) amplify(shown, gain_dB / (frame->high_dB - frame->low_dB));
   return {200, "image/png", core::png_bytes(shown)};
 }
 
@@ -205,7 +207,10 @@ std::string message_of(const LiveFrame& frame) {
                   {"errors", errors_json(frame.errors)},
                   {"frame_ms", frame.frame_ms},
                   {"pose_age_ms", frame.pose_age_ms},
-                  {"outside_volume", frame.outside_volume}};
+                  {"outside_volume", frame.outside_volume},
+                  {"low_dB", frame.low_dB},
+                  {"high_dB", frame.high_dB},
+                  {"cscope_top_deg", core::degrees(frame.cscope_top_rad)}};
   std::string message = head.dump() + "\n";
   message.append(frame.bscope.pixels.begin(), frame.bscope.pixels.end());
   message.append(frame.cscope.pixels.begin(), frame.cscope.pixels.end());

@@ -64,7 +64,7 @@ class Desk {
 };
 
 // A frame as it goes through a WebSocket: a line of JSON with its facts (number, size of both
-// pictures, pose, times), a line feed, then the bytes of the B-scope and of the C-scope, top row
+// pictures, pose, times, and of the axes what a control moves, as it was of this frame), a line feed, then the bytes of the B-scope and of the C-scope, top row
 // first.
 std::string message_of(const LiveFrame& frame);
 

@@ -1,6 +1,7 @@
 #include "live/feed.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,7 +12,10 @@
 namespace fanbeam::live {
 namespace {
 
-constexpr std::size_t kCompared = 80;  // packets: five seconds of 16 Hz
+// Heights are compared over so long, and no more often than that.
+constexpr double kCompared_s = 5.0, kBetween_s = 0.05;
+// Farther from one packet to the next is another flight, or too few packets to compare.
+constexpr double kElsewhere_m = 2000.0;
 // A packet that waits longer for the next one is no news any more.
 constexpr double kTogether_s = 1.0;
 
@@ -69,7 +73,7 @@ void Feed::settle(bool counts) {
 void Feed::put(const Taken& one) {
   const auto [pose, clock_s] = heard(one.state);
   mailbox_->put(pose, one.datagram, one.arrived, clock_s, source_);
-  compare_heights(pose, one.state.height_above_ground_m);
+  compare_heights(pose, one.state.height_above_ground_m, one.arrived);
 }
 
 void Feed::tell_visibility(double visibility_m) {
@@ -90,12 +94,21 @@ void Feed::count(feeds::PacketFault fault) {
   ++bad_[static_cast<std::size_t>(fault)];
 }
 
-void Feed::compare_heights(const core::Pose& pose, double told_m) {
-  const double ours_m =
-      scene_->world.surfaces().height_above_ground_m(scene_->frame.to_local_m(pose.position));
+void Feed::compare_heights(const core::Pose& pose, double told_m, Clock::time_point arrived) {
+  const glm::dvec3 at_m = scene_->frame.to_local_m(pose.position);
+  const terrain::HeightField* const terrain = scene_->world.surfaces().terrain();
+  const auto ground_m = terrain != nullptr ? terrain->height_at(at_m.x, at_m.y) : std::nullopt;
   const std::lock_guard<std::mutex> lock(mutex_);
-  offsets_m_.push_back(told_m - ours_m);
-  if (offsets_m_.size() > kCompared) offsets_m_.pop_front();
+  const bool elsewhere = last_m_ && glm::distance(*last_m_, at_m) > kElsewhere_m;
+  last_m_ = at_m;
+  if (elsewhere || gate_.after_jump()) compared_.clear();
+  while (!compared_.empty() && seconds_between(compared_.front().arrived, arrived) > kCompared_s)
+    compared_.pop_front();
+  if (!ground_m ||
+      (!compared_.empty() && seconds_between(compared_.back().arrived, arrived) < kBetween_s))
+    return;
+  if (compared_.empty()) compared_since_ = arrived;
+  compared_.push_back({arrived, told_m - (at_m.z - *ground_m)});
 }
 
 std::optional<feeds::AircraftState> Feed::newest() const {
@@ -123,8 +136,11 @@ void Feed::tell(Status& status) const {
 
 std::optional<double> Feed::height_offset_m() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (offsets_m_.size() < kCompared) return std::nullopt;
-  return core::median({offsets_m_.begin(), offsets_m_.end()});
+  if (compared_.empty() || seconds_between(compared_since_, compared_.back().arrived) < kCompared_s)
+    return std::nullopt;
+  std::vector<double> offsets_m;
+  for (const Compared& one : compared_) offsets_m.push_back(one.offset_m);
+  return core::median(std::move(offsets_m));
 }
 
 }  // namespace fanbeam::live

@@ -2,14 +2,16 @@
 //
 // Heights are turned into those of the ellipsoid by the datum that the user names. A datum that is
 // applied twice or never shifts the aircraft by tens of metres and looks plausible; so the height
-// above ground that the simulator tells is held against the scene's, and a median over the last
-// five seconds that is more than 3 m off is told. (Terrain may differ by that much in its own right;
-// only the user can tell.)
+// above ground that the simulator tells is held against the scene's where the scene has ground, and a
+// median over the last five seconds that is more than 3 m off is told. After a step of the clock or of the
+// place the five seconds begin anew. (Terrain may differ by that much in its own right; only the user can
+// tell.)
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -57,7 +59,7 @@ class Feed {
   std::optional<feeds::AircraftState> newest() const;
   // Adds packets, and bad ones by reason.
   void tell(Status& status) const;
-  // The median of the last five seconds; nothing before them.
+  // The median of the last five seconds over the scene's ground; nothing before there were as many.
   std::optional<double> height_offset_m() const;
 
  private:
@@ -70,7 +72,7 @@ class Feed {
   void settle(bool counts);
   void put(const Taken& one);
   void count(feeds::PacketFault fault);
-  void compare_heights(const core::Pose& pose, double told_m);
+  void compare_heights(const core::Pose& pose, double told_m, Clock::time_point arrived);
 
   std::shared_ptr<const scenes::Scene> scene_;
   core::VerticalDatum datum_;
@@ -84,7 +86,13 @@ class Feed {
   std::optional<double> visibility_m_, rain_norm_;  // told apart
   std::uint64_t packets_ = 0;
   std::array<std::uint64_t, feeds::kPacketFaults> bad_{};
-  std::deque<double> offsets_m_;  // the simulator's height above ground less ours
+  struct Compared {
+    Clock::time_point arrived;
+    double offset_m = 0.0;  // the simulator's height above ground less ours
+  };
+  std::deque<Compared> compared_;
+  Clock::time_point compared_since_{};  // without a break
+  std::optional<glm::dvec3> last_m_;    // of the scene's frame
 };
 
 }  // namespace fanbeam::live

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/stop.h"
 #include "live/watchers_private.h"
 
 namespace fanbeam::live {
@@ -43,7 +44,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     parser_.emplace();
     parser_->header_limit(kMostHeader_bytes);
     parser_->body_limit(kMostBody_bytes);
-    stream_.expires_after(kPatience);
+    stream_.expires_after(room_.patience);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](error_code error, std::size_t) {
                        if (!error) self->take(self->parser_->release());
@@ -65,6 +66,9 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     }
     // In the office: some answers are rendered, and frames and other visitors do not wait for them.
     asio::post(room_.office, [self = shared_from_this(), request, asked] {
+      const core::StopToken leaving = self->room_.leaving.token();
+      if (leaving.reason() != 0) return;
+      const core::StopScope scope(leaving);
       const auto given = std::make_shared<const Answer>(self->room_.desk.answer(asked));
       asio::post(self->stream_.get_executor(),
                  [self, request, given] { self->answer(request, *given); });
@@ -86,7 +90,7 @@ class Visitor : public std::enable_shared_from_this<Visitor> {
     response_->keep_alive(request.keep_alive());
     if (request.method() != http::verb::head) response_->body() = answer.body;
     response_->prepare_payload();
-    stream_.expires_after(kPatience);
+    stream_.expires_after(room_.patience);
     http::async_write(stream_, *response_,
                       [self = shared_from_this()](error_code error, std::size_t) {
                         if (error) return;
@@ -159,7 +163,8 @@ Endpoint parse_endpoint(const std::string& text, const std::string& field) {
 }
 
 struct Network::Inside {
-  Inside(const Desk& desk, Hub& of) : hub(of), room{desk, of} {}
+  Inside(const Desk& desk, Hub& of, std::chrono::milliseconds patience)
+      : hub(of), room{desk, of, patience} {}
 
   struct Receiver {
     udp::socket socket;
@@ -222,14 +227,17 @@ struct Network::Inside {
   std::thread thread, listener;
 };
 
-Network::Network(const Desk& desk, Hub& hub) : inside_(std::make_unique<Inside>(desk, hub)) {}
+Network::Network(const Desk& desk, Hub& hub, std::chrono::milliseconds patience)
+    : inside_(std::make_unique<Inside>(desk, hub, patience)) {}
 
 Network::~Network() {
   inside_->hub.on_frame({});
+  inside_->room.leaving.request();
   for (auto* const context : {&inside_->datagrams, &inside_->context})
     asio::post(*context, [context] { context->stop(); });  // behind what was sent last
   for (auto* const thread : {&inside_->listener, &inside_->thread})
     if (thread->joinable()) thread->join();
+  // Not stop(): who waits in its queue has a socket of `context`, which goes first.
   inside_->room.office.join();
 }
 

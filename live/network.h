@@ -1,13 +1,15 @@
 // What listens: the page with its WebSocket, and a simulator's datagrams. A thread for each, and one that
 // answers, so that no request, whatever it takes to answer, keeps a frame or a datagram waiting.
 //
-// Bounded: 32 connections, 8 KiB of header, 64 KiB of body, 30 s for a request, 64 KiB of a message
-// from a browser (all are thrown away). A client that reads slowly misses frames: one is under way
-// to it at a time, and the next is then the newest. Beyond loopback (endpoint.beyond_loopback) the
-// desk must have a token and datagrams a list of peers: the caller sees to that.
+// Bounded: 32 connections, 8 KiB of header, 64 KiB of body, 30 s for a request, an answer and a frame that
+// is under way, 64 KiB of a message from a browser (all are thrown away). A client that reads slowly misses
+// frames: one is under way to it at a time, and the next is then the newest; who does not take one within the
+// 30 s is left. Beyond loopback (endpoint.beyond_loopback) the desk must have a token and datagrams a list of
+// peers: the caller sees to that.
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -51,9 +53,11 @@ Endpoint parse_endpoint(const std::string& text, const std::string& field);
 
 class Network {
  public:
-  // All must outlive it.
-  Network(const Desk& desk, Hub& hub);
-  ~Network();  // closes every connection
+  static constexpr std::chrono::milliseconds kPatience{30'000};
+
+  // All must outlive it. `patience`: the 30 s.
+  Network(const Desk& desk, Hub& hub, std::chrono::milliseconds patience = kPatience);
+  ~Network();  // closes every connection; what is being rendered for an answer is stopped
   Network(const Network&) = delete;
   Network& operator=(const Network&) = delete;
 

@@ -6,11 +6,15 @@
 // fine as fits; time is taken to grow as the samples and a half, for what does not depend on them
 // (measured: docs/performance-notes.md). A step that was left because it was too slow is not tried
 // again for ten seconds, so that the picture does not flicker between two.
+// Outside the planned volume every frame is made by a plan of its own, whose cost says nothing of the
+// sampling inside: what is too slow there makes frames coarser there alone.
 // Pure: time comes in as an argument.
 #pragma once
 
 #include <cstddef>
 #include <deque>
+#include <optional>
+#include <utility>
 #include <vector>
 
 namespace fanbeam::live {
@@ -49,6 +53,27 @@ class Pace {
   std::size_t refused_step_ = 0;  // until then
   double refused_until_s_ = 0.0;
   std::deque<Taken> taken_;  // the last hundred with this step
+};
+
+// Inside and outside the planned volume: out there it begins as it was inside, which goes on as it was.
+class PaceByVolume {
+ public:
+  PaceByVolume(std::vector<double> ladder, double period_s)
+      : inside_(std::move(ladder), period_s) {}
+
+  double samples() const { return outside_ ? outside_->samples() : inside_.samples(); }
+  // As Pace::after, of a frame that was `outside` or not.
+  double after(double now_s, double frame_s, bool outside) {
+    if (!outside)
+      outside_.reset();
+    else if (!outside_)
+      outside_ = inside_;
+    return (outside ? *outside_ : inside_).after(now_s, frame_s);
+  }
+
+ private:
+  Pace inside_;
+  std::optional<Pace> outside_;  // while it is there
 };
 
 }  // namespace fanbeam::live

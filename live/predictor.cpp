@@ -10,6 +10,8 @@ namespace {
 // would be most of the time between them.
 constexpr double kFarApart_s = 0.5, kNear_s = 0.03;
 constexpr std::size_t kKept = 16;
+// A place told for so long is no packet that came twice; what is slower may turn on the spot.
+constexpr double kStill_s = 0.05, kMoves_mps = 0.1;
 
 }  // namespace
 
@@ -38,7 +40,10 @@ void Predictor::take(const core::Pose& pose, double arrived_s, const std::option
   Known now{arrived_s, arrived_s, frame_.to_local_m(pose.position),
             frame_.north_east_down_at(pose.position) * pose.v_N_mps, pose};
   now.time_s = clock_.time_of(clock_s ? *clock_s : flown_s(now), arrived_s);
+  if (!heard_ || now.at_m != heard_->at_m) there_since_s_ = arrived_s;
   heard_ = now;
+  now.stands = arrived_s - there_since_s_ >= kStill_s && glm::length(now.v_mps) > kMoves_mps;
+  if (now.stands) now.v_mps = glm::dvec3(0.0);
   const Known* const last = waiting_ ? &*waiting_ : flight_.empty() ? nullptr : &flight_.back();
   if (last != nullptr && !(now.time_s > last->time_s)) return;
   if (!flight_.empty() && !follows(flight_.back(), now)) {
@@ -86,7 +91,9 @@ core::Pose Predictor::after(double ahead_s) const {
   const auto before = std::find_if(flight_.rbegin(), flight_.rend(), [&](const Known& one) {
     return one.time_s <= b.time_s - kNear_s;
   });
-  if (before == flight_.rend() || b.time_s - before->time_s > kFarApart_s)
+  // What stands, or stood a moment ago, tells nothing of them either.
+  if (before == flight_.rend() || b.time_s - before->time_s > kFarApart_s || b.stands ||
+      before->stands)
     return placed(b.at_m + ahead_s * b.v_mps, b.v_mps, b.pose.q_NB);
   const double span_s = b.time_s - before->time_s;
   const glm::dvec3 a_mps2 = (b.v_mps - before->v_mps) / span_s;

@@ -17,6 +17,9 @@
 // the old flight, the waiting one is dropped. So a single packet never moves the aircraft, and a
 // reset is followed on its second packet.
 //
+// Pauses. A paused simulator goes on telling the speed that it had. Where the place stays the same to the
+// last digit from one packet to another, 50 ms or more apart, the aircraft stands, whatever speed is told.
+//
 // Pure: times are seconds of one clock that the caller reads.
 #pragma once
 
@@ -50,6 +53,7 @@ class Predictor {
     double time_s = 0.0, arrived_s = 0.0;
     glm::dvec3 at_m{0.0}, v_mps{0.0};  // of the scene's frame
     core::Pose pose;
+    bool stands = false;
   };
 
   static bool follows(const Known& before, const Known& now);
@@ -62,6 +66,7 @@ class Predictor {
   std::size_t source_ = 0;
   SourceClock clock_;
   std::optional<Known> heard_;  // last, whether it counted or not
+  double there_since_s_ = 0.0;  // that its place was told
   double flown_s_ = 0.0;        // the clock of what is flown
   std::deque<Known> flight_;    // oldest first
   std::optional<Known> waiting_;

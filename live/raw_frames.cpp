@@ -17,7 +17,7 @@
 namespace fanbeam::live {
 
 RawFrames::RawFrames(Scope scope, const std::string& file, bool every_frame)
-    : scope_(scope), every_frame_(every_frame) {
+    : scope_(scope), name_(file), every_frame_(every_frame) {
   struct stat facts {};
   if (file != "-" && ::stat(file.c_str(), &facts) == 0 && S_ISFIFO(facts.st_mode))
     pipe_ = file;
@@ -37,6 +37,16 @@ RawFrames::~RawFrames() {
   if (file_ >= 0) ::close(file_);
 }
 
+// Some file systems refuse only here.
+void RawFrames::close() {
+  taker_.reset();
+  if (file_ >= 0 && ::close(file_) != 0 && fault_ == 0) fault_ = errno;
+  file_ = -1;
+  if (fault_ != 0 && fault_ != EPIPE)
+    core::throw_input_error(core::ErrorClass::io, core::Place{name_}, "--to", std::strerror(fault_),
+                            "a file or pipe that can be written");
+}
+
 // Opening a pipe that nobody reads would wait, whoever asks to stop.
 bool RawFrames::has_reader() {
   if (file_ >= 0) return true;
@@ -45,13 +55,18 @@ bool RawFrames::has_reader() {
   return file_ >= 0;
 }
 
+bool RawFrames::refused() {
+  fault_ = errno;
+  return false;
+}
+
 // Whole, also at the end of the flight, or until the reader is gone; a reader that stands still holds
 // nobody's end up.
 bool RawFrames::put(const LiveFrame& frame, const FrameTaker& taker) {
   constexpr int kNap_ms = 100;
   const core::Picture8& picture = scope_ == Scope::bscope ? frame.bscope : frame.cscope;
   while (!has_reader()) {
-    if (errno != ENXIO) return false;
+    if (errno != ENXIO) return refused();
     if (!every_frame_ || taker.leaving()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(kNap_ms));
   }
@@ -67,7 +82,7 @@ bool RawFrames::put(const LiveFrame& frame, const FrameTaker& taker) {
     const std::size_t part = std::min<std::size_t>(picture.pixels.size() - done, PIPE_BUF);
     const ssize_t count = ::write(file_, picture.pixels.data() + done, part);
     if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return false;
+    if (count < 0) return refused();
     done += static_cast<std::size_t>(count);
   }
   return true;

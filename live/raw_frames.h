@@ -18,22 +18,30 @@ class RawFrames {
   // output.
   // Throws InputError E-IO.
   RawFrames(Scope scope, const std::string& file, bool every_frame);
-  ~RawFrames();  // writes no more
+  ~RawFrames();  // as close(), but tells nobody
   RawFrames(const RawFrames&) = delete;
   RawFrames& operator=(const RawFrames&) = delete;
 
-  void write(const std::shared_ptr<const LiveFrame>& frame) { taker_->write(frame); }
+  void write(const std::shared_ptr<const LiveFrame>& frame) {
+    if (taker_) taker_->write(frame);
+  }
   // The reader is gone, or the disk is full.
-  bool ended() const { return taker_->ended(); }
+  bool ended() const { return !taker_ || taker_->ended(); }
+  // Writes no more. Throws InputError E-IO where the system refused to write; that the reader left is a
+  // good end.
+  void close();
 
  private:
   bool put(const LiveFrame& frame, const FrameTaker& taker);
   bool has_reader();
+  bool refused();
 
   Scope scope_;
+  std::string name_;
   std::string pipe_{};  // that waits for its reader
   bool every_frame_;
   int file_ = -1;
+  int fault_ = 0;  // errno of what was refused, of the taker's thread
   std::optional<FrameTaker> taker_;
 };
 

@@ -1,6 +1,7 @@
 #include "live/shared_frames.h"
 
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -21,9 +22,18 @@ using Layout = SharedLayout;
 
 static_assert(std::atomic_ref<std::uint64_t>::is_always_lock_free);
 
-[[noreturn]] void refuse(const std::string& name, const std::string& why) {
-  core::throw_input_error(core::ErrorClass::io, core::Place{"/dev/shm/" + name}, "", why,
-                          "shared memory of this process alone");
+[[noreturn]] void refuse(const std::string& name, const std::string& why,
+                         const char* expected = "shared memory of this process alone") {
+  core::throw_input_error(core::ErrorClass::io, core::Place{"/dev/shm/" + name}, "", why, expected);
+}
+
+// Anybody may put a file there, and would read what is written into it, or change it.
+void check_own(const std::string& name, int file) {
+  struct stat facts {};
+  if (fstat(file, &facts) == 0 && facts.st_uid == geteuid() && (facts.st_mode & 077U) == 0) return;
+  close(file);
+  refuse(name, fmt::format("a file of user {}, mode {:03o}", facts.st_uid, facts.st_mode & 0777U),
+         "none, or one of this user's that nobody else may open");
 }
 
 void check_name(const std::string& name) {
@@ -38,6 +48,7 @@ void check_name(const std::string& name) {
 int opened(const std::string& name, int more) {
   const int file = shm_open(("/" + name).c_str(), O_RDWR | O_CREAT | O_CLOEXEC | more, 0600);
   if (file < 0) refuse(name, std::generic_category().message(errno));
+  check_own(name, file);
   if (flock(file, LOCK_EX | LOCK_NB) == 0) return file;
   close(file);
   refuse(name, "in use by another process");

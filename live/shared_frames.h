@@ -34,8 +34,9 @@ struct SharedLayout {
 class SharedFrames {
  public:
   // `name`: letters, digits, dots, hyphens and underscores, no dot first, at most 64. Throws
-  // InputError: E-PARSE for another name, E-IO when the system refuses or another process holds it.
-  // What a process left that has ended is taken over.
+  // InputError: E-PARSE for another name, E-IO when the system refuses, another process holds it, or a file
+  // of that name is another user's or one that others may open. What a process left that has ended is
+  // taken over.
   SharedFrames(const std::string& name, const sensors::Sensor& sensor, double rate_Hz);
   ~SharedFrames();  // the name is gone; who has it mapped keeps what it sees
   SharedFrames(const SharedFrames&) = delete;

@@ -13,7 +13,10 @@ constexpr std::uint64_t kMostHeard_bytes = 64u << 10;  // of a message; it is th
 class SocketWatcher : public Watcher {
  public:
   SocketWatcher(tcp::socket socket, Room& room)
-      : Watcher(room.hub, room.connections, room.viewers), stream_(std::move(socket)) {
+      : Watcher(room.hub, room.connections, room.viewers),
+        patience_(room.patience),
+        stream_(std::move(socket)),
+        late_(stream_.get_executor()) {
     stream_.read_message_max(kMostHeard_bytes);
     stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
     stream_.binary(true);
@@ -30,9 +33,17 @@ class SocketWatcher : public Watcher {
  private:
   void send(const LiveFrame& frame) override {
     message_ = message_of(frame);
-    stream_.async_write(
-        asio::buffer(message_),
-        [this, self = shared_from_this()](error_code error, std::size_t) { sent(error); });
+    late_.expires_after(patience_);
+    late_.async_wait([this, self = shared_from_this()](error_code error) {
+      // Set anew, if the frame got through meanwhile.
+      if (!error && late_.expiry() <= std::chrono::steady_clock::now())
+        beast::get_lowest_layer(stream_).close();
+    });
+    stream_.async_write(asio::buffer(message_),
+                        [this, self = shared_from_this()](error_code error, std::size_t) {
+                          late_.expires_at(asio::steady_timer::time_point::max());
+                          sent(error);
+                        });
   }
 
   // What a browser says means nothing; reading answers pings and sees it leave.
@@ -46,7 +57,9 @@ class SocketWatcher : public Watcher {
     });
   }
 
+  std::chrono::milliseconds patience_;
   websocket::stream<beast::tcp_stream> stream_;
+  asio::steady_timer late_;  // with the frame that is under way
   beast::flat_buffer heard_;
   std::string message_;
 };
@@ -89,6 +102,7 @@ class StreamWatcher : public Watcher {
  public:
   StreamWatcher(tcp::socket socket, const StreamKind& kind, Room& room)
       : Watcher(room.hub, room.connections, room.viewers),
+        patience_(room.patience),
         stream_(std::move(socket)),
         kind_(kind) {}
 
@@ -110,7 +124,7 @@ class StreamWatcher : public Watcher {
 
   template <class Done>
   void write(Done done) {
-    stream_.expires_after(kPatience);
+    stream_.expires_after(patience_);
     asio::async_write(stream_, asio::buffer(message_),
                       [this, self = shared_from_this(), done](error_code error, std::size_t) {
                         stream_.expires_never();
@@ -129,6 +143,7 @@ class StreamWatcher : public Watcher {
         });
   }
 
+  std::chrono::milliseconds patience_;
   beast::tcp_stream stream_;
   const StreamKind& kind_;
   std::string message_;

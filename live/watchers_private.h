@@ -9,12 +9,11 @@
 #include <string>
 #include <string_view>
 
+#include "core/stop.h"
 #include "live/asio_private.h"
 #include "live/desk.h"
 
 namespace fanbeam::live {
-
-constexpr std::chrono::seconds kPatience(30);  // for a request, an answer, a frame under way
 
 using HttpRequest = http::request<http::string_body>;
 
@@ -57,7 +56,9 @@ using Watchers = std::set<std::weak_ptr<Watcher>, std::owner_less<std::weak_ptr<
 struct Room {
   const Desk& desk;
   const Hub& hub;
-  asio::thread_pool office{1};  // where requests are answered
+  std::chrono::milliseconds patience;  // with a request, an answer, a frame under way
+  core::StopSource leaving{};          // of what is rendered for answers
+  asio::thread_pool office{1};         // where requests are answered
   std::atomic<int> connections{0}, viewers{0};
   Watchers watching{};  // of the thread alone
 };

@@ -130,4 +130,16 @@ bool Sinks::any_ended() const {
   return std::any_of(raw_.begin(), raw_.end(), [](const auto& raw) { return raw->ended(); });
 }
 
+void Sinks::end() {
+  core::ProblemList problems;
+  for (const auto& raw : raw_) {
+    try {
+      raw->close();
+    } catch (const core::InputError& error) {
+      problems.append(error.problems());
+    }
+  }
+  problems.throw_if_errors();
+}
+
 }  // namespace fanbeam::live

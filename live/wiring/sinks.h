@@ -38,6 +38,8 @@ class Sinks {
   void begin(const scenes::SceneDescription& scene, double rate_Hz);
   void write(const std::shared_ptr<const LiveFrame>& frame);
   bool any_ended() const;
+  // No more frames. Throws InputError E-IO with all that could not be written.
+  void end();
 
  private:
   const FramesTo& to_;

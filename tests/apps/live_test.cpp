@@ -45,6 +45,74 @@ TEST_CASE("SIGTERM and SIGINT are the good end of live, while it opens its scene
     }
 }
 
+namespace {
+
+// On a busy machine; by themselves the cases below take ten seconds and more.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kLiveEnds_s = 8.0;
+#else
+constexpr double kLiveEnds_s = 3.0;
+#endif
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Two frames, ten minutes of silence between them.
+std::string silent_recording(const TemporaryFolder& folder) {
+  return folder
+      .write("silent.jsonl",
+             R"({"fanbeam_live":1,"scene":"flat-grass","from":["native-fdm:0"],"rate_Hz":16,)"
+             R"("lockstep":false})"
+             "\n"
+             R"({"frame":1,"now_s":0.1,"at_s":0.1,"samples":1})"
+             "\n"
+             R"({"frame":2,"now_s":600.1,"at_s":600.1,"samples":1})"
+             "\n")
+      .string();
+}
+
+}  // namespace
+
+TEST_CASE("A signal ends live while it waits for a frame, or makes one that takes long", "[live]") {
+  const TemporaryFolder folder;
+  const std::vector<std::vector<std::string>> cases{{"--rate", "0.1"},
+                                                    {"--replay", silent_recording(folder)},
+                                                    {"--lockstep", "--rays-per-cell", "10000"}};
+  for (const auto& options : cases) {
+    INFO(options[0]);
+    std::vector<std::string> words{"live", "flat-grass", "--http", "0", "-q"};
+    words.insert(words.end(), options.begin(), options.end());
+    Child child(words);
+    child.wait_until_it_handles_signals();
+    wait_ms(3000.0);
+    REQUIRE(child.running());
+    const auto begin = std::chrono::steady_clock::now();
+    child.send(SIGINT);
+    const int status = child.wait();
+    CHECK(seconds_since(begin) < kLiveEnds_s);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+  }
+}
+
+TEST_CASE("The seconds of live end it between two frames too", "[live]") {
+  const auto begin = std::chrono::steady_clock::now();
+  const Result result = run_fanbeam("live flat-grass --http 0 --rate 0.1 --seconds 1");
+  INFO(result.output);
+  CHECK(result.exit_code == 0);
+  CHECK(seconds_since(begin) < 8.0);  // the second frame is due after ten
+}
+
+TEST_CASE("A disk that is full ends live with an error", "[live]") {
+  const Result full = run_fanbeam(
+      "live flat-grass --http 0 --lockstep --rays-per-cell 1 --frames 2 --to raw-bscope:/dev/full");
+  INFO(full.output);
+  CHECK(full.exit_code == 4);
+  CHECK(full.output.find("E-IO") != std::string::npos);
+  CHECK(full.output.find("/dev/full") != std::string::npos);
+}
+
 TEST_CASE("All that is wrong with live's addresses is told before a scene is opened", "[live]") {
   const Result result = run_fanbeam("live no-such-scene --http 0.0.0.0:1 --from native-fdm:99999");
   CHECK(result.exit_code == 2);

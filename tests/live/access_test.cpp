@@ -31,10 +31,12 @@ int status_of(const Access& access, const Request& request) {
 
 TEST_CASE("Without a token this machine's own names alone may ask", "[access]") {
   const Access access;
-  for (const char* host : {"localhost", "localhost:8416", "127.0.0.1:1", "[::1]:8416", "[::1]"})
+  for (const char* host : {"localhost", "localhost:8416", "127.0.0.1:1", "127.0.0.2:8416",
+                           "127.9.8.7", "[::1]:8416", "[::1]"})
     CHECK(status_of(access, asking("/", host)) == 200);
   for (const char* host : {"", "radar.example", "127.0.0.1.radar.example", "localhost.evil:8416",
-                           "[::2]:8416", "10.0.0.1", ":8416", "]", "[::1"})
+                           "[::2]:8416", "10.0.0.1", ":8416", "]", "[::1",
+                           "127.0.0.2.radar.example", "127.1", "127.0.0.2.3", "128.0.0.1:8416"})
     CHECK(status_of(access, asking("/", host)) == 403);
 }
 

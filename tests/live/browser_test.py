@@ -216,6 +216,41 @@ class Page(unittest.TestCase):
         self.page.find_element("id", "tilt").send_keys(Keys.ARROW_LEFT)
         self.wait(lambda: self.far_mean() > mean - 10, "picture as it was")
 
+    def test_a_held_frame_is_read_by_its_own_levels(self):
+        self.page.find_element("id", "freeze").click()
+        def told():
+            self.page.execute_script("state.cursor.bscope = [0.6, 0.4]; tell('bscope')")
+            return self.page.find_element("id", "btold").text
+        held, low = told(), self.page.find_element("id", "low")
+        self.assertIn(" dB", held)
+        try:
+            low.clear()
+            low.send_keys("-35", Keys.TAB)
+            self.wait(lambda: self.js("state.sensor.low_dB") == -35, "other levels")
+            self.assertEqual(told(), held)
+            self.assertEqual(self.js("state.frame.head.low_dB"), -55)
+        finally:
+            low.clear()
+            low.send_keys("-55", Keys.TAB)
+            self.wait(lambda: self.js("state.sensor.low_dB") == -55, "levels as they were")
+
+    def test_the_tilt_leaves_levels_alone_that_another_set(self):
+        def post(body):
+            urllib.request.urlopen(urllib.request.Request(
+                self.url + "api/sensor", data=json.dumps(body).encode(),
+                headers={"Content-Type": "application/json"}), timeout=10).close()
+        sensor = lambda: self.js("fetch('/api/sensor').then(answer => answer.json())")
+        before = sensor()
+        try:
+            post({"tilt_deg": before["tilt_deg"], "low_dB": -47, "high_dB": 9})
+            self.page.get(self.url)
+            self.wait(lambda: self.js("state.sensor && state.sensor.low_dB") == -47, "its levels")
+            self.page.find_element("id", "tilt").send_keys(Keys.ARROW_RIGHT)
+            self.wait(lambda: sensor()["tilt_deg"] > before["tilt_deg"], "another tilt")
+            self.assertEqual((sensor()["low_dB"], sensor()["high_dB"]), (-47, 9))
+        finally:
+            post({})
+
     def test_the_plan_view_shows_the_picture_and_outlines_the_runway(self):
         self.assertEqual(self.js("state.runways.map(runway => runway.corners.length)"), [4])
         self.wait(lambda: self.bright("planview") > 3, "plan view")
@@ -347,6 +382,36 @@ class Rate(unittest.TestCase):
                 json.dump(told, file, indent=1)
         self.assertGreater(got, self.SECONDS)  # one a second, or something stands
         self.assertGreater(shown, self.SECONDS)
+
+
+class AnotherServer(unittest.TestCase):
+    def test_the_page_that_stays_open_shows_the_scene_of_the_server_that_is_there_now(self):
+        live, url = start_live("0", "--from", "circle", "flat-grass")
+        page = browser(800, 600)
+        try:
+            def wait(script, what):
+                for _ in range(300):
+                    if page.execute_script("return " + script):
+                        return
+                    time.sleep(0.1)
+                self.fail(f"no {what} within 30 s")
+            page.get(url)
+            wait("state.scene === 'flat-grass' && state.past.length > 5", "frames of the first scene")
+            self.assertEqual(page.execute_script("return state.runways"), [])
+            first = page.execute_script("return state.past[0].come_ms")
+            live.terminate()
+            self.assertEqual(live.wait(10), 0)
+            live.stdout.close()
+            live, _ = start_live(re.search(r":(\d+)/", url).group(1), "--from", "ils", "braunschweig-26")
+            wait("state.scene === 'braunschweig-26' && state.past.length > 1", "frames of the second scene")
+            self.assertEqual(page.execute_script("return state.runways.length"), 1)
+            self.assertGreater(page.execute_script("return state.past[0].come_ms"), first)
+            numbers = page.execute_script("return state.past.map(one => one.head.number)")
+            self.assertEqual(numbers, sorted(set(numbers)))
+        finally:
+            page.quit()
+            live.terminate()
+            live.wait(10)
 
 
 class BeyondThisMachine(unittest.TestCase):

@@ -67,6 +67,9 @@ TEST_CASE("A frame is the PNG of its picture", "[desk]") {
   frame->number = 7;
   frame->bscope = {2, 1, {10, 20}};
   frame->cscope = {1, 2, {30, 40}};
+  frame->low_dB = -41.0;
+  frame->high_dB = 10.0;
+  frame->cscope_top_rad = -0.1;
   office.hub.publish(frame);
   const live::Answer answer = office.desk.answer(get("/frame/cscope.png?n=3"));
   CHECK(answer.type == "image/png");
@@ -81,6 +84,32 @@ TEST_CASE("A frame is the PNG of its picture", "[desk]") {
   CHECK(head["number"] == 7);
   CHECK(head["bscope"] == json({2, 1}));
   CHECK(message.substr(end + 1) == std::string("\x0a\x14\x1e\x28"));
+  // Levels and edges are this frame's, whatever the sensor's are by now.
+  CHECK(head["low_dB"] == -41.0);
+  CHECK(head["high_dB"] == 10.0);
+  CHECK(head["cscope_top_deg"].get<double>() == Approx(-0.1 * 180.0 / core::kPi));
+  office.folder.write("raised.png", office.desk.answer(get("/frame/cscope.png?gain_dB=10.2")).body);
+  CHECK(core::read_image(office.folder.path() / "raised.png").layers.at(0).values ==
+        std::vector<double>{30.0 + 51.0, 40.0 + 51.0});
+}
+
+// The tilt of the page goes with the levels in force.
+TEST_CASE("The sensor, posted back as it is told, stays as it is with any display", "[desk]") {
+  for (const char* file : {"hivision.toml", "hivision-seed.toml"}) {
+    INFO(file);
+    const tests::TemporaryFolder folder;
+    const auto session =
+        tests::live_session(folder, tests::kSmallScene + "\n[sensor]\nfile = \"" + file + "\"\n");
+    live::Hub hub;
+    const live::Desk desk(*session, hub);
+    const json told = json::parse(desk.answer(get("/api/sensor")).body);
+    const json body{{"tilt_deg", -2.0}, {"low_dB", told["low_dB"]}, {"high_dB", told["high_dB"]}};
+    const live::Answer answer = desk.answer(post("/api/sensor", body.dump()));
+    CHECK(answer.status == 200);
+    CHECK(json::parse(answer.body)["tilt_deg"].get<double>() == Approx(-2.0));
+    CHECK(json::parse(answer.body)["low_dB"] == told["low_dB"]);
+    CHECK(json::parse(answer.body)["high_dB"] == told["high_dB"]);
+  }
 }
 
 TEST_CASE("Weather and tilt reach the session; what is wrong is told whole and changes nothing",

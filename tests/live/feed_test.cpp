@@ -29,14 +29,19 @@ TEST_CASE("A datum that is applied once too often shows in the heights above gro
   const session::Session misled(description, {}, problems);
   live::Feed wrong(misled.scene(), core::VerticalDatum::egm96);
   std::ifstream stream(*recording, std::ios::binary);
+  const auto begin = live::Clock::now();
   char head[12];
   while (stream.read(head, sizeof head)) {
+    double arrived_s = 0.0;
     std::uint16_t length = 0;
+    std::memcpy(&arrived_s, head, 8);
     std::memcpy(&length, head + 10, 2);
     std::vector<std::uint8_t> payload(length);
     stream.read(reinterpret_cast<char*>(payload.data()), length);
-    right.take(payload);
-    wrong.take(payload);
+    const auto arrived =
+        begin + std::chrono::microseconds(static_cast<std::int64_t>(1e6 * arrived_s));
+    right.take(payload, arrived);
+    wrong.take(payload, arrived);
   }
   live::Status status;
   right.tell(status);
@@ -49,6 +54,46 @@ TEST_CASE("A datum that is applied once too often shows in the heights above gro
   CHECK(live::is_lasting_offset(status));
   // The geoid of EGM96 is 65.4 m above the ellipsoid there.
   CHECK(*status.height_offset_m == Approx(-65.4).margin(3.0));
+}
+
+TEST_CASE("Heights above ground are compared over the scene's own ground, for five seconds",
+          "[feed]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[1]);
+  const auto begin = live::Clock::now();
+  double now_s = 100.0;
+  const auto fly = [&](double latitude_deg, double for_s, double step_s = 0.0625) {
+    for (const double end_s = now_s + for_s; now_s < end_s; now_s += step_s) {
+      const std::string line = "fanbeam,1," + std::to_string(now_s) + "," +
+                               std::to_string(latitude_deg) + ",9.985,600,500,0,0,90,0,0,0,5000";
+      feed.take({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()},
+                begin + std::chrono::microseconds(static_cast<std::int64_t>(1e6 * now_s)));
+    }
+  };
+  const scenes::Scene& scene = *session->scene();
+  const double ours_m = scene.world.surfaces().height_above_ground_m(
+      scene.frame.to_local_m({core::radians(51.99), core::radians(9.985), 600.0 * core::kFoot_m}));
+  fly(51.99, 4.9);
+  CHECK_FALSE(feed.height_offset_m());
+  fly(51.99, 0.4);
+  REQUIRE(feed.height_offset_m());
+  CHECK(*feed.height_offset_m() == Approx(500.0 * core::kFoot_m - ours_m).margin(0.01));
+  // A hundred kilometres off, where the scene has none, and back: begun anew.
+  fly(53.0, 6.0);
+  CHECK_FALSE(feed.height_offset_m());
+  fly(51.99, 4.9);
+  CHECK_FALSE(feed.height_offset_m());
+  // However many packets there are in a second.
+  fly(51.99, 6.0, 0.5);
+  CHECK(feed.height_offset_m());
+  // After a restart too.
+  const std::string again = "fanbeam,1,0,51.99,9.985,600,500,0,0,90,0,0,0,5000",
+                    next = "fanbeam,1,0.06,51.99,9.985,600,500,0,0,90,0,0,0,5000";
+  for (const std::string& line : {again, next})
+    feed.take({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()},
+              begin + std::chrono::microseconds(static_cast<std::int64_t>(1e6 * now_s)));
+  CHECK_FALSE(feed.height_offset_m());
 }
 
 TEST_CASE("Of several sources the one named first leads, another while it is silent", "[feed]") {
@@ -250,6 +295,29 @@ TEST_CASE("F13 a step of the simulator's clock counts from its second packet, a 
     CHECK(take(50.0) == PacketFault::late);
     CHECK(take(50.2) == PacketFault::none);
   }
+}
+
+// It locked good ones out for as long as it was ahead.
+TEST_CASE("F12 a stray packet less than a second ahead costs two good ones at most", "[feed]") {
+  using feeds::PacketFault;
+  live::ClockGate gate;
+  CHECK(gate.take(49.94, 9.94) == PacketFault::none);
+  CHECK(gate.take(50.0, 10.0) == PacketFault::none);
+  CHECK(gate.take(50.95, 10.01) == PacketFault::none);
+  int lost = 0;
+  for (int i = 1; i <= 30; ++i)
+    lost += gate.take(50.0 + 0.06 * i, 10.0 + 0.06 * i) != PacketFault::none;
+  CHECK(lost <= 2);
+  CHECK_FALSE(gate.after_jump());
+  // The clock put back by half a second.
+  CHECK(gate.take(51.3, 11.86) == PacketFault::late);
+  CHECK(gate.take(51.36, 11.92) == PacketFault::none);
+  CHECK(gate.take(51.42, 11.98) == PacketFault::none);
+  // Two that the network held back come at once, and put nothing back.
+  CHECK(gate.take(51.6, 12.16) == PacketFault::none);
+  CHECK(gate.take(51.48, 12.161) == PacketFault::late);
+  CHECK(gate.take(51.54, 12.162) == PacketFault::late);
+  CHECK(gate.take(51.66, 12.22) == PacketFault::none);
 }
 
 // Clock and place at once: each alone is settled on the second packet.

@@ -30,9 +30,10 @@ struct Station {
   tests::TemporaryFolder folder;
   std::unique_ptr<session::Session> session = tests::live_session(folder);
   std::string token;
+  std::chrono::milliseconds patience = live::Network::kPatience;
   live::Hub hub;
   live::Desk desk{*session, hub, nullptr, token.empty() ? live::Access() : live::Access(token, {})};
-  live::Network network{desk, hub};
+  live::Network network{desk, hub, patience};
   std::uint16_t port = network.serve({});
 
   std::string host() const { return "127.0.0.1:" + std::to_string(port); }
@@ -176,6 +177,54 @@ TEST_CASE("F16 frames arrive whole and in order; who reads late, or never, misse
     ++read;
   }
   CHECK(read < kFrames);
+}
+
+// Whoever also sent something was never left.
+TEST_CASE("F16 a socket that takes no frame while patience lasts is left, silent or not",
+          "[network][threads]") {
+  Station station{.patience = std::chrono::seconds(1)};
+  station.network.start();
+  asio::io_context context;
+  const auto quick = watching(context, station), silent = watching(context, station);
+  const auto chatty = watching(context, station);
+  wait_for([&] { return station.network.clients() == 3; });
+  constexpr int kFrames = 50, kRows = 100'000;  // enough to fill every buffer on the way
+  for (std::uint64_t number = 1; number <= kFrames; ++number) {
+    station.hub.publish(frame_of(number, kRows));
+    next_head(*quick);
+  }
+  wait_for([&] {
+    boost::system::error_code ignored;
+    chatty->write(asio::buffer("x", 1), ignored);
+    return station.network.clients() == 1;
+  });
+  station.hub.publish(frame_of(kFrames + 1));
+  CHECK(next_head(*quick)["number"] == kFrames + 1);
+}
+
+// Each was rendered to its end, one after the other.
+TEST_CASE("The end does not wait for answers that nobody will get", "[network][threads]") {
+  auto station = std::make_unique<Station>();
+  station->session->set(session::Samples{100.0});
+  station->network.start();
+  asio::io_context context;
+  std::vector<tcp::socket> asking;
+  for (std::uint64_t number = 1; number <= 16; ++number) {
+    auto frame = std::make_shared<live::LiveFrame>();
+    frame->number = number;
+    frame->scene = station->session->scene();
+    frame->pose = live::circle(*frame->scene)(0.1 * static_cast<double>(number));
+    station->hub.publish(frame);
+    asking.emplace_back(context);
+    asking.back().connect(station->endpoint());
+    asio::write(asking.back(), asio::buffer("GET /api/cell?scope=bscope&column=80&row=300&frame=" +
+                                            std::to_string(number) +
+                                            " HTTP/1.1\r\nHost: " + station->host() + "\r\n\r\n"));
+  }
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  const auto begin = live::Clock::now();
+  station.reset();
+  CHECK(live::seconds_between(begin, live::Clock::now()) < 4.0);
 }
 
 TEST_CASE(

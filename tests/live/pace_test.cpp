@@ -65,6 +65,21 @@ TEST_CASE("Sampling grows at a frame in ten seconds too", "[pace]") {
   CHECK(pace.samples() == 8);
 }
 
+TEST_CASE("What is too slow outside the volume is coarser there alone", "[pace]") {
+  fanbeam::live::PaceByVolume pace(kLadder, kPeriod_s);
+  double now_s = 0.0;
+  const auto next = [&](double frame_s, bool outside) {
+    return pace.after(now_s += kPeriod_s, frame_s, outside);
+  };
+  for (int i = 0; i < 300; ++i) next(0.01 + 0.01 * pace.samples(), false);
+  REQUIRE(pace.samples() == 4);
+  CHECK(next(0.25, true) == 2);
+  CHECK(next(0.25, true) == 1);
+  for (int i = 0; i < 100; ++i) CHECK(next(0.09, true) == 1);
+  CHECK(next(0.05, false) == 4);
+  for (int i = 0; i < 100; ++i) CHECK(next(0.05, false) == 4);
+}
+
 TEST_CASE("A step that was too slow is left alone for ten seconds", "[pace]") {
   Pace pace(kLadder, kPeriod_s);
   double now_s = 0.0;

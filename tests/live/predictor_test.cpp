@@ -259,6 +259,33 @@ TEST_CASE("F13 one stray pose moves nothing; a reset is followed on its second p
   CHECK(*paused.newest_s() == 6.25);
 }
 
+// It crept ahead by the speed that was told, and back with the next packet.
+TEST_CASE("A simulator that is paused stands, whatever speed it goes on telling", "[predictor]") {
+  for (const bool tells_clock : {true, false}) {
+    INFO("clock " << tells_clock);
+    Predictor predictor(kFrame);
+    const auto take = [&](int flown, double arrived_s) {
+      predictor.take(turning(0.0625 * flown), arrived_s,
+                     tells_clock ? std::optional(50.0 + 0.0625 * flown) : std::nullopt);
+    };
+    for (int i = 0; i < 20; ++i) take(i, 0.0625 * i);
+    const core::Pose still = turning(0.0625 * 19);
+    for (int i = 20; i < 60; ++i) {
+      take(19, 0.0625 * i);
+      for (const double ahead_s : {0.0, 0.031, 0.1, 0.4}) {
+        CHECK(apart_m(*predictor.at(0.0625 * i + ahead_s), still) < 1e-6);
+        CHECK(turned_rad(*predictor.at(0.0625 * i + ahead_s), still) < 1e-6);
+      }
+      if (i > 21) CHECK(apart_m(*predictor.at(0.0625 * i - 0.03), still) < 1e-6);
+    }
+    // Goes on, without a leap.
+    take(20, 0.0625 * 60);
+    CHECK(apart_m(*predictor.at(0.0625 * 60 + 0.03), turning(0.0625 * 20 + 0.03)) < 0.05);
+    take(21, 0.0625 * 61);
+    CHECK(apart_m(*predictor.at(0.0625 * 61 + 0.03), turning(0.0625 * 21 + 0.03)) < 0.05);
+  }
+}
+
 namespace {
 
 struct Worst {

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <iterator>
@@ -104,6 +105,24 @@ TEST_CASE("A reader that leaves ends the pictures, not the program", "[raw_frame
   ::close(reader);
   raw.write(frame_of(2, 10));
   CHECK(raw.ended());
+  CHECK_NOTHROW(raw.close());
+}
+
+TEST_CASE("What the system refuses to write is told at the end", "[raw_frames][threads]") {
+  for (const bool every_frame : {true, false}) {
+    RawFrames raw(RawFrames::Scope::bscope, "/dev/full", every_frame);
+    raw.write(frame_of(1, 10));
+    for (int i = 0; i < 500 && !raw.ended(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    CHECK(raw.ended());
+    try {
+      raw.close();
+      FAIL("a full disk is none");
+    } catch (const core::InputError& error) {
+      CHECK(error.problems().at(0).code == "E-IO");
+      CHECK(error.problems().at(0).place.file == "/dev/full");
+    }
+  }
 }
 
 TEST_CASE("A file that cannot be written is told", "[raw_frames]") {

@@ -179,10 +179,40 @@ TEST_CASE("A name in use is refused, one that a dead process left is taken over"
     CHECK_THROWS_AS(SharedFrames(name, sensor(), 16.0), core::InputError);
     CHECK(Reader(name).number(104) == 0);  // untouched
   }
-  std::ofstream("/dev/shm/" + name) << "left behind";
+  const std::string left = "/dev/shm/" + name;
+  std::ofstream(left) << "left behind";
+  REQUIRE(chmod(left.c_str(), 0600) == 0);
   SharedFrames second(name, sensor(), 16.0);
   second.write(frame_of(3));
   CHECK(Reader(name).newest()->first == 3);
+}
+
+// Whoever put it there could read frames, and write over them.
+TEST_CASE("A file that others may open, or that is another user's, is refused and left alone",
+          "[shared_frames]") {
+  const std::string name = own_name(), file = "/dev/shm/" + name;
+  const auto refusal = [&] {
+    try {
+      const SharedFrames frames(name, sensor(), 16.0);
+    } catch (const core::InputError& error) {
+      return error.problems().at(0).code + " " + error.problems().at(0).value;
+    }
+    return std::string("taken");
+  };
+  std::ofstream(file).close();
+  for (const mode_t mode : {0666U, 0640U, 0604U}) {
+    REQUIRE(chmod(file.c_str(), mode) == 0);
+    CHECK(refusal().starts_with("E-IO a file of user "));
+    CHECK(access(file.c_str(), F_OK) == 0);
+  }
+  REQUIRE(chmod(file.c_str(), 0600) == 0);
+  constexpr uid_t kNobody = 65534;
+  if (geteuid() == 0 && chown(file.c_str(), kNobody, kNobody) == 0) {
+    CHECK(refusal().starts_with("E-IO"));
+    CHECK(access(file.c_str(), F_OK) == 0);
+    REQUIRE(chown(file.c_str(), 0, 0) == 0);
+  }
+  CHECK(refusal() == "taken");
 }
 
 namespace {
