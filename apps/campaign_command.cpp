@@ -32,6 +32,10 @@ Campaign read_checked(const CampaignOptions& options, const CommonOptions& commo
   Campaign campaign = datasets::read_campaign(options.file, problems);
   check_data_folder(options.data, problems);
   problems.throw_if_errors();
+  if (!common.isa.empty() && common.isa != core::short_name_of(campaign.isa))
+    core::throw_input_error(core::ErrorClass::range, "--isa", common.isa,
+                            fmt::format("{}, which the campaign's file says, or none",
+                                        core::short_name_of(campaign.isa)));
   if (!common.quiet) print_problems(problems.all());
   return campaign;
 }
@@ -45,8 +49,7 @@ std::vector<int> shard_of(const std::vector<int>& runs, const std::string& text)
   if (text.empty()) return runs;
   const std::size_t slash = text.find('/');
   const auto part = core::parse_number(text.substr(0, slash));
-  const auto parts =
-      core::parse_number(slash == std::string::npos ? "" : text.substr(slash + 1));
+  const auto parts = core::parse_number(slash == std::string::npos ? "" : text.substr(slash + 1));
   const bool whole = part.error == core::NumberError::none &&
                      parts.error == core::NumberError::none &&
                      part.value == std::floor(part.value) && parts.value == std::floor(parts.value);
@@ -109,12 +112,11 @@ int run(const CampaignOptions& options, const CommonOptions& common, const Campa
 }
 
 int status(const CampaignOptions& options, const Campaign& campaign) {
-  const datasets::Status found =
-      datasets::status_of(campaign, folder_of(options.output, campaign));
+  const datasets::Status found = datasets::status_of(campaign, folder_of(options.output, campaign));
   if (options.json) {
-    const nlohmann::ordered_json json = {{"campaign", campaign.name},  {"runs", found.runs},
-                                         {"made", found.made},         {"under_way", found.under_way},
-                                         {"failed", found.failed},     {"missing", found.missing()}};
+    const nlohmann::ordered_json json = {
+        {"campaign", campaign.name},    {"runs", found.runs},     {"made", found.made},
+        {"under_way", found.under_way}, {"failed", found.failed}, {"missing", found.missing()}};
     fmt::print("{}\n", json.dump(1));
   } else {
     fmt::print("{}: {} of {} runs there, {} under way, {} failed, {} missing\n", campaign.name,
@@ -124,8 +126,7 @@ int status(const CampaignOptions& options, const Campaign& campaign) {
 }
 
 int merge(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
-  const datasets::Merged merged =
-      datasets::merge(campaign, folder_of(options.output, campaign));
+  const datasets::Merged merged = datasets::merge(campaign, folder_of(options.output, campaign));
   if (common.quiet) return kExitDone;
   fmt::print("{} of {} runs, {} frames\n", merged.runs, campaign.runs, merged.frames);
   for (const fs::path& file : merged.files)
@@ -133,12 +134,14 @@ int merge(const CampaignOptions& options, const CommonOptions& common, const Cam
   return kExitDone;
 }
 
-// As a shell takes it back.
+// As a shell takes it back, plain words as they are.
 std::string quoted(const std::string& text) {
-  if (text.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") ==
-      std::string::npos)
+  if (text.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") ==
+          std::string::npos &&
+      !text.empty())
     return text;
-  return "'" + text + "'";
+  return datasets::shell_quoted(text);
 }
 
 int verify(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
@@ -155,8 +158,10 @@ int verify(const CampaignOptions& options, const CommonOptions& common, const Ca
     return kExitDone;
   }
   const std::string folder = options.output.empty() ? "" : " -o " + quoted(options.output);
-  fmt::print("{} of {} runs are to be made again:\nfanbeam campaign run {}{} --runs {} --replace\n",
-             wrong.size(), runs.size(), quoted(options.file), folder, datasets::runs_text(wrong));
+  const std::string data = options.data.empty() ? "" : " --data " + quoted(options.data);
+  fmt::print(
+      "{} of {} runs are to be made again:\nfanbeam campaign run {}{}{} --runs {} --replace\n",
+      wrong.size(), runs.size(), quoted(options.file), folder, data, datasets::runs_text(wrong));
   return kExitCompareFailed;
 }
 
@@ -165,12 +170,11 @@ int slurm(const CampaignOptions& options, const CommonOptions& common, const Cam
   placed.file = fs::absolute(campaign.file).lexically_normal();
   const fs::path script = options.output.empty() ? fs::path("job.sh") : fs::path(options.output);
   core::write_file_atomically(
-      script,
-      datasets::slurm_script(
-          placed, {fs::read_symlink("/proc/self/exe"),
-                   fs::absolute(folder_of(options.folder, campaign)).lexically_normal(),
-                   options.data.empty() ? "" : fs::absolute(options.data).string(), options.tasks,
-                   options.threads}));
+      script, datasets::slurm_script(
+                  placed, {fs::read_symlink("/proc/self/exe"),
+                           fs::absolute(folder_of(options.folder, campaign)).lexically_normal(),
+                           options.data.empty() ? "" : fs::absolute(options.data).string(),
+                           options.tasks, options.threads}));
   if (!common.quiet) fmt::print("bash {}\n", quoted(script.string()));
   return kExitDone;
 }

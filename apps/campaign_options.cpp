@@ -35,12 +35,11 @@ void add_runs(CLI::App& command, CampaignOptions& options) {
       ->type_name("RUNS");
 }
 
-void add_data(CLI::App& command, CampaignOptions& options) {
-  command
-      .add_option("--data", options.data,
+void add_data(CLI::App& command, CampaignOptions& options,
+              const char* what =
                   "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
-                  "names")
-      ->type_name(kFolderValue);
+                  "names") {
+  command.add_option("--data", options.data, what)->type_name(kFolderValue);
 }
 
 void add_threads(CLI::App& command, CampaignOptions& options) {
@@ -108,6 +107,7 @@ CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options, Comm
                               "Check every file against its hash, and tell what repairs the rest");
   add_output(verify, options);
   add_runs(verify, options);
+  add_data(verify, options, "That of the runs, for the command that repairs them");
   add_slurm(campaign, options, common);
   add_common_options(campaign, common);
   return campaign;

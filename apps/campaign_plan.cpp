@@ -12,6 +12,7 @@
 #include "apps/text_table.h"
 #include "core/files.h"
 #include "core/parallel.h"
+#include "core/stop.h"
 #include "datasets/draw.h"
 #include "datasets/run_conditions.h"
 #include "datasets/worker.h"
@@ -117,10 +118,10 @@ void print_pilot(const CampaignOptions& options, const Campaign& campaign) {
   double seconds = 0.0, bytes = 0.0;
   int made = 0;
   for (int i = 0; i < std::min(kPilotRuns, campaign.runs); ++i) {
-    const int run = static_cast<int>((2LL * i + 1) * campaign.runs / (2 * kPilotRuns)) %
-                    campaign.runs;
-    if (worker.make(run) != datasets::RunEnd::made ||
-        worker.make(run) != datasets::RunEnd::made) {
+    core::throw_if_stopped();
+    const int run =
+        static_cast<int>((2LL * i + 1) * campaign.runs / (2 * kPilotRuns)) % campaign.runs;
+    if (worker.make(run) != datasets::RunEnd::made || worker.make(run) != datasets::RunEnd::made) {
       fmt::print("  run {} fails: fanbeam campaign run tells why\n", run);
       continue;
     }
@@ -152,7 +153,14 @@ int plan_campaign(const CampaignOptions& options, const Campaign& campaign) {
   for (const auto& [what, refusal] : drawn.refused)
     fmt::print("would be refused: {} {}, such as run {}: {}\n", refusal.count,
                refusal.count == 1 ? "run" : "runs", refusal.run, refusal.why);
-  if (options.pilot) print_pilot(options, campaign);
+  if (options.pilot) {
+    const StopOnSignals stop_on_signals;
+    try {
+      print_pilot(options, campaign);
+    } catch (const core::Stopped&) {
+      return end_by_stop_signal();
+    }
+  }
   return drawn.refused.empty() ? kExitDone : kExitInvalidInput;
 }
 

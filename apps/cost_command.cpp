@@ -25,12 +25,6 @@ std::vector<int> frames_of(const CostOptions& options, int count) {
   return options.frames.empty() ? session::spread_over(frames, count < 4 ? 1 : 2) : frames;
 }
 
-renderer::CasterKind effects_caster(const CostOptions& options, const scenes::Scene& scene) {
-  const renderer::CasterWish wish =
-      options.caster.empty() ? scene.description.caster : renderer::caster_wish(options.caster);
-  return wish == renderer::CasterWish::rays ? renderer::CasterKind::rays : scene.caster.chosen;
-}
-
 bool asks(const CostOptions& options, const char* part) {
   return std::find(options.parts.begin(), options.parts.end(), part) != options.parts.end();
 }
@@ -75,8 +69,8 @@ int cost(const CostOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
   scenes::BuildOptions build;
-  if (options.caster == renderer::name_of(renderer::CasterWish::profile))
-    build.caster = renderer::CasterWish::profile;  // refuses where there are none
+  // Slices are refused where there are none.
+  if (!options.caster.empty()) build.caster = renderer::caster_wish(options.caster);
   std::shared_ptr<const scenes::Scene> scene =
       session::Session(description, {.build = build}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
@@ -107,7 +101,7 @@ int cost(const CostOptions& options, const CommonOptions& common) {
                                  effort_of(options),
                                  measure::measure_pace(*scene, frames.front(), slices),
                                  slices,
-                                 renderer::default_sampling(effects_caster(options, *scene)),
+                                 renderer::default_sampling(scene->caster.chosen),
                                  frames};
   write_cost(run(bench, options, common, threads.threads()), folder);
   if (common.quiet) return kExitDone;

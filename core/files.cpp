@@ -2,11 +2,16 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <iterator>
 #include <regex>
 #include <system_error>
 #include <vector>
@@ -24,6 +29,33 @@ namespace fs = std::filesystem;
   throw_input_error(ErrorClass::io, Place{path.string()}, "", reason, expected);
 }
 
+constexpr std::size_t kLongestName_bytes = 255;  // of a file, on any file system in use
+
+// Of another machine nobody can ask whether the owner lives. A film of converged frames may be written
+// to once an hour.
+constexpr std::chrono::hours kForgotten{24};
+
+// Where a process id means the same process: this start of this machine, this container.
+const std::string& process_space() {
+  static const std::string space = [] {
+    std::ifstream start("/proc/sys/kernel/random/boot_id");
+    std::string text{std::istreambuf_iterator<char>(start), std::istreambuf_iterator<char>()};
+    std::error_code unknown;
+    text += fs::read_symlink("/proc/self/ns/pid", unknown).string();
+    std::array<char, 9> digits{};
+    std::snprintf(digits.data(), digits.size(), "%08x",
+                  static_cast<unsigned>(std::hash<std::string>{}(text)));
+    return std::string(digits.data());
+  }();
+  return space;
+}
+
+bool is_forgotten(const fs::path& path) {
+  std::error_code gone;
+  const fs::file_time_type written = fs::last_write_time(path, gone);
+  return !gone && fs::file_time_type::clock::now() - written > kForgotten;
+}
+
 }  // namespace
 
 fs::path default_output_folder(const std::string& name, const std::string& ending) {
@@ -33,10 +65,14 @@ fs::path default_output_folder(const std::string& name, const std::string& endin
 
 fs::path temporary_beside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
-  fs::path name = std::string(".").append(path.stem().string()) + "." + std::to_string(getpid()) +
-                  "." + std::to_string(counter++) + ".tmp";
-  name += path.extension();
-  return path.parent_path() / name;
+  std::string end = "." + process_space();
+  end.append("-").append(std::to_string(getpid()));
+  end.append(".")
+      .append(std::to_string(counter++))
+      .append(".tmp")
+      .append(path.extension().string());
+  const std::size_t room = kLongestName_bytes - std::min(end.size() + 1, kLongestName_bytes);
+  return path.parent_path() / std::string(".").append(path.stem().string(), 0, room).append(end);
 }
 
 std::string read_file(const fs::path& path, std::uint64_t largest_bytes) {
@@ -79,7 +115,8 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 }
 
 void remove_abandoned_temporaries(const fs::path& folder) {
-  static const std::regex kTemporary(R"(\..*\.([0-9]{1,9})\.[0-9]+\.tmp(\..*)?)");
+  static const std::regex kTemporary(
+      R"(\..*\.(?:([0-9a-f]{8})-)?([0-9]{1,9})\.[0-9]+\.tmp(\..*)?)");
   std::error_code status;
   std::vector<fs::path> abandoned;
   for (fs::directory_iterator entry(folder, status), end; !status && entry != end;
@@ -87,7 +124,10 @@ void remove_abandoned_temporaries(const fs::path& folder) {
     const std::string name = entry->path().filename().string();
     std::smatch parts;
     if (!std::regex_match(name, parts, kTemporary)) continue;
-    if (kill(std::stoi(parts[1]), 0) != 0 && errno == ESRCH) abandoned.push_back(entry->path());
+    const bool left = parts[1] == process_space()
+                          ? kill(std::stoi(parts[2]), 0) != 0 && errno == ESRCH
+                          : is_forgotten(entry->path());
+    if (left) abandoned.push_back(entry->path());
   }
   for (const fs::path& path : abandoned) fs::remove_all(path, status);
 }

@@ -29,11 +29,13 @@ std::filesystem::path default_output_folder(const std::string& name,
                                             const std::string& ending = "");
 
 // A name for what is to become `path`, hidden, in its folder and with its extension: this process's
-// alone, and known to remove_abandoned_temporaries.
+// alone, also where several machines share the folder, and known to remove_abandoned_temporaries.
 std::filesystem::path temporary_beside(const std::filesystem::path& path);
 
-// Removes what processes that live no more left in `folder` (not below it) of write_atomically:
-// files that were never finished. Does nothing where it may not, or where there is no such folder.
+// Removes what processes of this machine that live no more left in `folder` (not below it) of
+// write_atomically: files that were never finished. Of other machines, and of this one before it was
+// started anew, what nothing was written to for a day. Does nothing where it may not, or where there
+// is no such folder.
 void remove_abandoned_temporaries(const std::filesystem::path& folder);
 
 // Whether `path` lies in `folder` or is it, symbolic links of both followed. What is not there

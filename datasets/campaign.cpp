@@ -91,9 +91,25 @@ std::vector<std::string> surface_words() {
   return {words.begin(), words.end()};
 }
 
+// A grid takes each value as often as the others, whatever its weight.
+Distribution read_parameter(ConfigTable& table, std::string_view key, const Allowed& allowed,
+                            Campaign::Plan plan) {
+  Distribution distribution = read_distribution(table, key, allowed);
+  if (plan == Campaign::Plan::grid && table.is_table(key)) {
+    ConfigTable form = table.table(key);
+    if (form.has("weights"))
+      form.error(ErrorClass::ref, "weights", "given in the plan \"grid\"",
+                 "none: a grid takes every value equally often; or the plan \"sobol\"");
+  }
+  return distribution;
+}
+
 void read_parameters(ConfigTable table, Campaign& campaign) {
+  const auto read = [&](ConfigTable& part, std::string_view key, const Allowed& allowed) {
+    return read_parameter(part, key, allowed, campaign.plan);
+  };
   if (table.has("scene"))
-    campaign.parameters.push_back({"scene", read_distribution(table, "scene", campaign.scenes)});
+    campaign.parameters.push_back({"scene", read(table, "scene", campaign.scenes)});
   else if (campaign.scenes.size() > 1) {
     Distribution::Choice each;
     for (const std::string& scene : campaign.scenes) each.values.emplace_back(scene);
@@ -101,19 +117,28 @@ void read_parameters(ConfigTable table, Campaign& campaign) {
     campaign.parameters.push_back({"scene", Distribution(each)});
   }
   if (table.has("surface"))
-    campaign.parameters.push_back(
-        {"surface", read_distribution(table, "surface", surface_words())});
+    campaign.parameters.push_back({"surface", read(table, "surface", surface_words())});
   for (const char* name : {"weather", "sensor", "flight"}) {
     ConfigTable part = table.table(name);
     for (const ParameterKind& kind : kParameters)
       if (kind.table == std::string_view(name) && part.has(kind.key))
         campaign.parameters.push_back(
-            {std::string(name) + "." + kind.key, read_distribution(part, kind.key, kind.range)});
+            {std::string(name) + "." + kind.key, read(part, kind.key, kind.range)});
   }
   if (campaign.find("weather.visibility_m") != nullptr &&
       campaign.find("weather.liquid_water_g_per_m3") != nullptr)
     table.error(ErrorClass::ref, "weather", "visibility_m and liquid_water_g_per_m3",
                 "one of the two: the other follows from it");
+}
+
+// 1 in the share of the runs that is told, else 0.
+Distribution presence(ConfigTable& table, Campaign::Plan plan) {
+  const double share = table.number("present", {0.0, 1.0}, 1.0);
+  if (share == 0.0 || share == 1.0) return Distribution(Value{share});
+  if (plan == Campaign::Plan::grid)
+    table.error(ErrorClass::range, "present", core::number_text(share),
+                "0 or 1 in a grid, which draws nothing; or the plan \"sobol\"");
+  return Distribution(Distribution::Choice{{Value{1.0}, Value{0.0}}, {share, 1.0 - share}});
 }
 
 void read_traffic(ConfigTable table, Campaign& campaign) {
@@ -125,17 +150,15 @@ void read_traffic(ConfigTable table, Campaign& campaign) {
   campaign.traffic.push_back(name);
   const auto take = [&](const char* key, const core::NumberRange& range, double otherwise) {
     const std::string whole = "traffic." + name + "." + key;
-    campaign.parameters.push_back({whole, table.has(key) ? read_distribution(table, key, range)
-                                                         : Distribution(Value{otherwise})});
+    campaign.parameters.push_back({whole, table.has(key)
+                                              ? read_parameter(table, key, range, campaign.plan)
+                                              : Distribution(Value{otherwise})});
   };
   take("rcs_m2", {0.0, 1e6}, 10.0);
   take("along_m", {-10'000.0, 10'000.0}, 500.0);
   take("across_m", {-5'000.0, 5'000.0}, 0.0);
   take("height_m", {0.0, 500.0}, 1.0);
-  // Above the share that is told it is not there.
-  const double present = table.number("present", {0.0, 1.0}, 1.0);
-  Distribution::Choice there{{Value{1.0}, Value{0.0}}, {present, 1.0 - present}};
-  campaign.parameters.push_back({"traffic." + name + ".present", Distribution(there)});
+  campaign.parameters.push_back({"traffic." + name + ".present", presence(table, campaign.plan)});
 }
 
 // Of a grid the runs are what its values make.

@@ -35,7 +35,7 @@
 //   rcs_m2 = { log_uniform = [1, 30] }
 //   along_m = { uniform = [100, 900] }
 //   across_m = 0
-//   present = 0.5                      in this share of the runs
+//   present = 0.5                      in this share of the runs, 1 unless given; of a grid 0 or 1
 //
 // kParameters lists all parameters but scene, surface and those of traffic. Every drawn value is a pure function of file and run number.
 #pragma once

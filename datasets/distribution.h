@@ -1,7 +1,8 @@
 // How a parameter varies over the runs of a campaign: a pure function from a number in (0, 1) to a value.
 //
 //   rain_rate_mm_per_h = 4                                        the same in every run
-//   { values = [0, 2, 10], weights = [2, 1, 1] }                  one of these; weights equal unless given
+//   { values = [0, 2, 10], weights = [2, 1, 1] }                  one of these; weights equal unless given;
+//                                                                 none in a grid
 //   { uniform = [100, 2000] }                                     even between two bounds
 //   { log_uniform = [100, 2000] }                                 even in the logarithm; bounds above 0
 //   { normal = [0, 15], within = [-40, 40] }                      mean and standard deviation, cut off:

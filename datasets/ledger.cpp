@@ -10,6 +10,7 @@
 
 #include "core/files.h"
 #include "core/text.h"
+#include "datasets/record_seal.h"
 #include "datasets/run_files.h"
 #include "datasets/run_lock.h"
 #include "datasets/run_makers_private.h"
@@ -22,11 +23,22 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kOtherBytes = ": other bytes than recorded";
+
 std::optional<int> number_in(const std::string& text) {
   int number = 0;
   const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (status != std::errc() || end != text.data() + text.size() || number < 0) return std::nullopt;
   return number;
+}
+
+void check_record(int run, const RunFiles& files, std::vector<Damage>& damages) {
+  bool intact = false;
+  try {
+    intact = is_intact(files.read(kRunRecord, kLargestRecord_bytes));
+  } catch (const core::InputError&) {  // changed meanwhile
+  }
+  if (!intact) damages.push_back({run, std::string(kRunRecord) + kOtherBytes});
 }
 
 void check_files(int run, const RunFiles& files, const Json& record, std::vector<Damage>& damages) {
@@ -41,7 +53,7 @@ void check_files(int run, const RunFiles& files, const Json& record, std::vector
     } catch (const core::InputError&) {  // cut short
     }
     if (!told.is_object() || hash != told.value("sha256", ""))
-      damages.push_back({run, name + ": other bytes than recorded"});
+      damages.push_back({run, name + kOtherBytes});
   }
 }
 
@@ -119,6 +131,7 @@ std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,
       damages.push_back({run, std::string(kRunRecord) + ": no record of a run"});
       continue;
     }
+    check_record(run, *files, damages);
     const std::string wrong = wrong_maker(record, campaign, found.usual_maker);
     if (!wrong.empty()) damages.push_back({run, wrong});
     if (record.value("run", -1) != run) damages.push_back({run, "the record of another run"});

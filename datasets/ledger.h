@@ -26,8 +26,9 @@ struct Damage {
   int run = 0;
   std::string what;  // "missing", "bscope/00600.png: other bytes than recorded", ...
 };
-// Every file of every run that is there against its SHA-256, and every record against the campaign's
-// file, level of instructions and the program and libraries that made most of the runs.
+// Every file of every run that is there against its SHA-256; every record against its own, which those of
+// earlier versions lack, and against the campaign's file, level of instructions and the program and libraries
+// that made most of the runs.
 std::vector<Damage> verify(const Campaign& campaign, const std::filesystem::path& output,
                            const std::vector<int>& runs);
 

@@ -3,23 +3,19 @@
 #include <fmt/format.h>
 
 namespace fanbeam::datasets {
-namespace {
 
-// For a shell.
-std::string quoted(const std::string& text) {
+std::string shell_quoted(const std::string& text) {
   std::string result = "'";
   for (const char letter : text)
     result += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
   return result + "'";
 }
 
-}  // namespace
-
 std::string slurm_script(const Campaign& campaign, const SlurmSettings& settings) {
-  const std::string command = fmt::format("{} campaign", quoted(settings.program.string()));
-  const std::string rest =
-      fmt::format("{} -o {}", quoted(campaign.file.string()), quoted(settings.output.string()));
-  const std::string data = settings.data.empty() ? "" : " --data " + quoted(settings.data);
+  const std::string command = fmt::format("{} campaign", shell_quoted(settings.program.string()));
+  const std::string rest = fmt::format("{} -o {}", shell_quoted(campaign.file.string()),
+                                       shell_quoted(settings.output.string()));
+  const std::string data = settings.data.empty() ? "" : " --data " + shell_quoted(settings.data);
   const std::string processors =
       settings.threads > 0 ? fmt::format(" --cpus-per-task={}", settings.threads) : " --exclusive";
   return fmt::format(R"(#!/bin/bash
@@ -44,14 +40,14 @@ JOB
 verify=$(sbatch --parsable --job-name={name}-verify --dependency=afterany:$merge --ntasks=1 --requeue \
   --output="$log/verify.txt" "$@" <<'JOB'
 #!/bin/bash
-exec {command} verify {rest}
+exec {command} verify {rest}{data}
 JOB
 )
 echo "$array $merge $verify"
 )",
                      fmt::arg("name", campaign.name), fmt::arg("runs", campaign.runs),
                      fmt::arg("tasks", settings.tasks),
-                     fmt::arg("log", quoted((settings.output / "slurm").string())),
+                     fmt::arg("log", shell_quoted((settings.output / "slurm").string())),
                      fmt::arg("processors", processors), fmt::arg("command", command),
                      fmt::arg("rest", rest), fmt::arg("data", data));
 }

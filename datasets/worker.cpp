@@ -10,6 +10,7 @@
 #include "core/image.h"
 #include "core/stop.h"
 #include "datasets/airport_scene.h"
+#include "datasets/record_seal.h"
 #include "datasets/run_conditions.h"
 #include "datasets/run_flight.h"
 #include "datasets/run_lock.h"
@@ -17,6 +18,7 @@
 #include "session/products/frame_output.h"
 #include "session/products/layers_product.h"
 #include "session/products/products.h"
+#include "session/records/conditions_json.h"
 #include "session/records/output_folder.h"
 #include "session/records/record_json.h"
 #include "session/records/run_record.h"
@@ -214,6 +216,8 @@ void Worker::render(const Draw& draw, const fs::path& folder) {
 
   session::RunRecord settings;
   settings.choice.sampling = session.sampling(now);
+  settings.wanted = session::wanted_of(products);
+  settings.set = session::changed_conditions_json(*stage.own, *scene);
   settings.seed = session.seed();
   const session::OutputSettings output{products, session::input_fingerprint(*scene, settings),
                                        settings.choice.sampling, "", labeller.get()};
@@ -275,7 +279,7 @@ std::uint64_t Worker::write_record(const Draw& draw, const Stage& stage, const f
     json["files"][name] = {{"sha256", sha256_of_file(folder / name)}, {"bytes", size}};
     bytes += size;
   }
-  core::write_file_atomically(folder / kRunRecord, json.dump(1) + "\n");
+  core::write_file_atomically(folder / kRunRecord, sealed(json.dump(1)));
   return bytes;
 }
 

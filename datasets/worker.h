@@ -1,8 +1,8 @@
 // Renders runs of a campaign into its folder.
 //
-//   DIR/runs/000123/run.json          what was drawn, what was rendered, SHA-256 of every file; written
-//                  /bscope/00600.png  last, before the folder gets its name: a run is there or is not.
-//                                     Or all of it in one archive, DIR/runs/000123.tar (run_files.h)
+//   DIR/runs/000123/run.json          what was drawn, what was rendered, SHA-256 of every file and of itself
+//                  /bscope/00600.png  (record_seal.h); written last, before the folder gets its name: a
+//                                     run is there or is not. Or all of it in one archive, DIR/runs/000123.tar (run_files.h)
 //   DIR/scenes/edny-24/scene.toml     of the campaign's airports (airport_scene.h)
 //   DIR/failed/000123.json            why a run cannot be: problems, one a line
 //

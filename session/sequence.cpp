@@ -20,6 +20,7 @@
 #include "session/products/frame_writer.h"
 #include "session/products/layers_product.h"
 #include "session/products/preview.h"
+#include "session/records/conditions_json.h"
 #include "session/records/frame_metadata.h"
 #include "session/records/output_folder.h"
 
@@ -70,13 +71,15 @@ void check(const SequenceSettings& settings) {
   problems.throw_if_errors();
 }
 
-RunRecord record_of(const SequenceSettings& settings, const scenes::Scene& scene,
-                    std::uint64_t seed) {
+RunRecord record_of(const SequenceSettings& settings, const Session& session,
+                    const scenes::Scene& scene) {
   RunRecord record;
+  record.wanted = wanted_of(settings.products);
   record.choice =
-      choose_sampling(settings.sampling, scene, seed, wanted_of(settings.products),
+      choose_sampling(settings.sampling, scene, session.seed(), record.wanted,
                       poses_to_time(scene, parse_frames(settings.frames, scene.frame_count())));
-  record.seed = seed;
+  record.set = changed_conditions_json(*session.opened(), scene);
+  record.seed = session.seed();
   record.plan_per_frame = settings.plan_per_frame;
   record.range_unit = settings.range_unit;
   record.threads = core::ThreadLimit::threads();
@@ -91,7 +94,7 @@ class Run {
         session_(session),
         shown_(session.scene()),
         scene_(*shown_),
-        record_(record_of(settings, scene_, session.seed())),
+        record_(record_of(settings, session, scene_)),
         fingerprint_(input_fingerprint(scene_, record_)),
         output_(settings.output.empty() ? core::default_output_folder(scene_.description.name)
                                         : settings.output,
@@ -188,20 +191,21 @@ void Run::take_over_frames() {
 
 void Run::write_records() {
   take_over_frames();
-  if (std::any_of(record_.frames.begin(), record_.frames.end(), has_layers)) {
-    core::write_file_atomically(output_.path() / kLayersFile, layers_json(scene_));
-    record_.films.insert(kLayersFile);
-  }
-  if (std::any_of(record_.frames.begin(), record_.frames.end(), has_labels)) {
-    write_run_labels(output_.path(), record_.frames);
-    record_.films.insert(kRunLabelFiles.begin(), kRunLabelFiles.end());
-  }
+  const bool layers = std::any_of(record_.frames.begin(), record_.frames.end(), has_layers);
+  const bool labels = std::any_of(record_.frames.begin(), record_.frames.end(), has_labels);
+  if (layers) record_.films.insert(kLayersFile);
+  if (labels) record_.films.insert(kRunLabelFiles.begin(), kRunLabelFiles.end());
+  // They do not say what input they are of.
+  if (!record_.films.empty()) output_.begin({}, record_.films);
+  if (layers) core::write_file_atomically(output_.path() / kLayersFile, layers_json(scene_));
+  if (labels) write_run_labels(output_.path(), record_.frames);
   std::set<std::string> files = record_.films;
   for (const FrameRecord& record : record_.frames)
     files.insert(record.files.begin(), record.files.end());
   output_.keep_only(files);
   core::write_file_atomically(output_.path() / "run.json", run_json(scene_, record_));
   core::write_file_atomically(output_.path() / "timing.json", timing_json(record_));
+  output_.end();
 }
 
 // What a killed run was writing.
@@ -213,8 +217,7 @@ void Run::remove_leftovers() const {
 
 FrameOutput Run::render_frame(const core::EffectPlan& plan, FrameRecord& record) const {
   const Clock::time_point begin = Clock::now();
-  renderer::Frame frame =
-      session_.render_flown(record.index, plan, wanted_of(settings_.products));
+  renderer::Frame frame = session_.render_flown(record.index, plan, wanted_of(settings_.products));
   record.frame_ms = 1000.0 * seconds_since(begin);
   return frame_output(scene_,
                       {settings_.products, fingerprint_, record_.choice.sampling,

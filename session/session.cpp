@@ -67,6 +67,12 @@ void check(const renderer::Sampling& sampling, core::ProblemList& problems) {
   within("bounce_share", sampling.bounce_share, 0.01, 100.0);
   within("jittered_passes", sampling.jittered_passes, 0, 4096);
   within("target_grey", sampling.target_grey, 0.0, 100.0);
+  // Jittered rays of all levels are the same ones: their difference tells no error.
+  if (sampling.jittered_passes > 0 && (sampling.estimate_error || sampling.target_grey > 0.0))
+    problems.error(
+        core::ErrorClass::unsupported, {}, "sampling.jittered_passes",
+        std::to_string(sampling.jittered_passes) + " with estimate_error or a target_grey above 0",
+        "0, or neither of the two");
 }
 
 void check(const SamplingWish& wish, core::ProblemList& problems) {
@@ -220,6 +226,8 @@ std::shared_ptr<const scenes::Scene> Session::scene(const Moment& under) const {
 renderer::Sampling Session::sampling(const Moment& under) const { return under->sampling; }
 
 std::shared_ptr<const scenes::Scene> Session::scene() const { return now()->scene; }
+
+std::shared_ptr<const scenes::Scene> Session::opened() const { return inside_->opened; }
 
 renderer::Sampling Session::sampling() const { return now()->sampling; }
 

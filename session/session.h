@@ -96,6 +96,8 @@ class Session {
   // The scene as it is now: plan, facts, sensor, trajectory. It stays as it is when conditions
   // change.
   std::shared_ptr<const scenes::Scene> scene() const;
+  // The scene as it was before anything was set.
+  std::shared_ptr<const scenes::Scene> opened() const;
   renderer::Sampling sampling() const;
   // Of that, as Samples takes them; 0 where every frame is refined to an accuracy.
   double samples() const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <set>
 
@@ -54,7 +55,15 @@ std::string required_line(ConfigTable& table, std::string_view key, std::size_t 
   return text;
 }
 
-Tolerance read_tolerance(ConfigTable table) {
+// A limit of figures that the product's files do not have would limit nothing.
+void keep_to(ConfigTable& table, const char* limit, const std::string& product,
+             std::initializer_list<std::string_view> products) {
+  if (table.has(limit) && std::find(products.begin(), products.end(), product) == products.end())
+    table.error(ErrorClass::ref, limit, "a limit of " + product,
+                fmt::format("a limit of {} alone", fmt::join(products, " and ")));
+}
+
+Tolerance read_tolerance(ConfigTable table, const std::string& product) {
   Tolerance tolerance;
   tolerance.mean = table.optional_number("mean", kLimit);
   tolerance.rms = table.optional_number("rms", kLimit);
@@ -62,6 +71,8 @@ Tolerance read_tolerance(ConfigTable table) {
   tolerance.percent = table.optional_number("percent", kPercent);
   tolerance.changed_percent = table.optional_number("changed_percent", kPercent);
   tolerance.lit_in_one_percent = table.optional_number("lit_in_one_percent", kPercent);
+  keep_to(table, "changed_percent", product, {"layers", "cscope_layers"});
+  keep_to(table, "lit_in_one_percent", product, {"power"});
   const auto given = [&](const char* limit) { return table.has(limit); };
   if (std::ranges::none_of(std::array{"mean", "rms", "largest", "percent", "changed_percent"},
                            given))
@@ -75,7 +86,7 @@ Tolerance read_tolerance(ConfigTable table) {
 void read_tolerances(ConfigTable table, std::map<std::string, Tolerance>& tolerances) {
   for (const std::string& product : picture_products())
     if (const ConfigTable own = table.table(product); own.present())
-      tolerances[product] = read_tolerance(own);
+      tolerances[product] = read_tolerance(own, product);
 }
 
 std::optional<core::InstructionLevel> read_isa(ConfigTable& table,

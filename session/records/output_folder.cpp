@@ -116,7 +116,8 @@ std::set<std::string> frame_files(const std::set<std::string>& products, int ind
 }
 
 bool OutputFolder::Listed::contains(const fs::path& relative) const {
-  if (files.contains(relative.generic_string())) return true;
+  if (files.contains(relative.generic_string()) || begun.contains(relative.generic_string()))
+    return true;
   const std::string name = relative.filename().string();
   return std::distance(relative.begin(), relative.end()) == 2 &&
          products.contains(relative.begin()->string()) &&
@@ -131,14 +132,18 @@ OutputFolder::Listed OutputFolder::listed_in(const fs::path& folder) {
   add_words(record, "files", listed.files);
   if (record.is_object() && record.contains("frames") && record["frames"].is_array())
     for (const nlohmann::json& frame : record["frames"]) add_words(frame, "files", listed.files);
-  add_words(json_in(folder / kUnfinished), "products", listed.products);
+  const nlohmann::json note = json_in(folder / kUnfinished);
+  add_words(note, "products", listed.products);
+  add_words(note, "files", listed.begun);
   return listed;
 }
 
-void OutputFolder::begin(const std::set<std::string>& products) const {
-  std::set<std::string> all = products;
-  all.insert(listed_.products.begin(), listed_.products.end());
-  const nlohmann::json note = {{"products", all}};
+void OutputFolder::begin(const std::set<std::string>& products,
+                         const std::set<std::string>& files) const {
+  Listed all = listed_;
+  all.products.insert(products.begin(), products.end());
+  all.begun.insert(files.begin(), files.end());
+  const nlohmann::json note = {{"products", all.products}, {"files", all.begun}};
   core::write_file_atomically(folder_ / kUnfinished, note.dump() + "\n");
 }
 
@@ -157,8 +162,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
   const bool has_record = !listed_.files.empty();
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
-    const bool record =
-        (name == "run.json" && has_record) || name == "timing.json" || is_of_run(name);
+    const bool record = (name == "run.json" && has_record) || name == "timing.json";
     if (!record && !listed_.contains(relative) && !is_of_this_input(relative))
       others.push_back(name);
     return others.size() <= kMostNamed;

@@ -27,8 +27,9 @@ class OutputFolder {
 
   const std::filesystem::path& path() const { return folder_; }
 
-  // Until `end` frames' files in the folders of `products` are those of a run that has not ended.
-  void begin(const std::set<std::string>& products) const;
+  // Until `end` frames' files in the folders of `products`, and `files` of all frames together, are
+  // those of a run that has not ended.
+  void begin(const std::set<std::string>& products, const std::set<std::string>& files) const;
   // After run.json is written.
   void end() const;
 
@@ -48,7 +49,7 @@ class OutputFolder {
   bool overwrite_;
   struct Listed {
     std::set<std::string> files;
-    std::set<std::string> products;  // of runs that did not end
+    std::set<std::string> products, begun;  // of runs that did not end; files beside frames'
     bool contains(const std::filesystem::path& relative) const;
   };
   static Listed listed_in(const std::filesystem::path& folder);

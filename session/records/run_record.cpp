@@ -20,11 +20,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// `caster` is the scene's, which a reference does not ask.
 Json caster_json(const renderer::CasterChoice& caster, const renderer::Sampling& sampling) {
-  Json json = {{"chosen", renderer::name_of(caster.chosen)},
+  Json json = {{"chosen", renderer::name_of(sampling.caster)},
                {"wish", renderer::name_of(caster.wish)},
-               {"reason", caster.reason}};
-  if (caster.chosen == renderer::CasterKind::rays) {
+               {"reason", sampling.caster == caster.chosen ? caster.reason
+                                                           : "a reference is always made of rays"}};
+  if (sampling.caster == renderer::CasterKind::rays) {
     json["rays_per_cell_and_column"] = rays_per_cell_and_column(sampling);
     return json;
   }
@@ -42,18 +44,29 @@ Json ray_sampling_json(const renderer::Sampling& sampling) {
           {"jittered_passes", sampling.jittered_passes}};
 }
 
+Json refined_pictures_json(const renderer::Products& wanted) {
+  Json json = Json::array({"bscope"});
+  if (wanted.cscope || wanted.cscope_layers) json.push_back("cscope");
+  return json;
+}
+
 // What the caster in use goes by. Slices may leave azimuths to rays, whose settings then stand in
 // an object of their own.
-Json sampling_json(const renderer::CasterChoice& caster, const renderer::Sampling& sampling) {
+Json sampling_json(const scenes::Scene& scene, const RunRecord& record) {
+  const renderer::Sampling& sampling = record.choice.sampling;
   Json json = {{"sub_columns", sampling.sub_columns}};
-  if (sampling.target_grey > 0.0) json["refined_to_grey"] = sampling.target_grey;
+  if (sampling.target_grey > 0.0) {
+    json["refined_to_grey"] = sampling.target_grey;
+    json["refined_pictures"] = refined_pictures_json(record.wanted);
+  }
+  if (sampling.estimate_error) json["error_estimated"] = true;
   if (sampling.bounce_share != 1.0) json["bounce_share"] = sampling.bounce_share;
-  if (caster.chosen == renderer::CasterKind::rays) {
+  if (sampling.caster == renderer::CasterKind::rays) {
     json.update(ray_sampling_json(sampling));
     return json;
   }
   json["slices_per_sub_column"] = sampling.slices_per_sub_column;
-  if (caster.others > 0) json["azimuths_left_to_rays"] = ray_sampling_json(sampling);
+  if (scene.caster.others > 0) json["azimuths_left_to_rays"] = ray_sampling_json(sampling);
   return json;
 }
 
@@ -129,10 +142,11 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   if (const auto limit = core::instruction_limit()) json["isa"] = core::short_name_of(*limit);
   json["caster"] = caster_json(scene.caster, record.choice.sampling);
   json["input"] = Json::parse(resolved_json(scene.description.resolved));
+  if (!record.set.empty()) json["set"] = Json::parse(record.set);
   json["sensor_values"] = sensor_json(scene.description.sensor);
   json["receiver"] = receiver_json(scene);
   json["realisation"] = realisation_of(scene.plan);
-  json["sampling"] = sampling_json(scene.caster, record.choice.sampling);
+  json["sampling"] = sampling_json(scene, record);
   json["plan_per_frame"] = record.plan_per_frame;
   if (!record.range_unit.empty()) json["range_unit"] = record.range_unit;
   json["plan"] = Json::parse(decisions_json(scene.plan));

@@ -13,6 +13,7 @@
 #include "renderer/accuracy/error_estimate.h"
 #include "renderer/accuracy/refinement.h"
 #include "renderer/casting/sampling.h"
+#include "renderer/frame.h"
 #include "scenes/scene.h"
 #include "session/sampling_choice.h"
 
@@ -36,6 +37,8 @@ struct FrameRecord {
 
 struct RunRecord {
   SamplingChoice choice;
+  renderer::Products wanted{};  // of each frame: refinement ends when all pictures are good enough
+  std::string set;              // changed_conditions_json
   bool plan_per_frame = false;
   std::uint64_t seed = 0;
   std::string range_unit;           // asked for of the figure
@@ -55,8 +58,9 @@ std::string caster_text(const renderer::Sampling& sampling);
 std::string run_json(const scenes::Scene& scene, const RunRecord& record);
 std::string timing_json(const RunRecord& record);
 
-// A short text that changes when anything that shapes the pictures does: a setting, the program, or
-// a byte of a file that the scene names or that belongs to one. Stands in every picture.
+// A short text that changes when anything that shapes the pictures does: a setting of the files or
+// of the session, the program, or a byte of a file that the scene names or that belongs to one. An
+// estimate of errors counts as one. Stands in every picture.
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record);
 
 }  // namespace fanbeam::session

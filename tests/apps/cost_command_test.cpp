@@ -61,7 +61,8 @@ std::vector<Row> timeless(std::vector<Row> rows) {
 }
 
 // A shed on a plain in light rain, and a picture of a few columns: references take no time.
-void write_scene(const TemporaryFolder& folder, bool stabilised = true) {
+void write_scene(const TemporaryFolder& folder, bool stabilised = true,
+                 const std::string& more = "") {
   folder.write("few.toml", narrow_sensor(4, stabilised));
   fs::copy_file(FANBEAM_SOURCE_DIR "/scenes/braunschweig-26/truck.gltf",
                 folder.path() / "truck.gltf", fs::copy_options::overwrite_existing);
@@ -75,7 +76,8 @@ void write_scene(const TemporaryFolder& folder, bool stabilised = true) {
       "[[model]]\nfile = \"truck.gltf\"\nat = { latitude_deg = 52.004, longitude_deg = 10.0 }\n"
       "default_material = \"metal\"\n[weather]\nrain_rate_mm_per_h = 5.0\n"
       "[trajectory.fixed]\nat = { latitude_deg = 52.0, longitude_deg = 10.0 }\n"
-      "above_ground_m = 60.0\n");
+      "above_ground_m = 60.0\n" +
+          more);
 }
 
 Result cost(const TemporaryFolder& folder, const std::string& out, const std::string& words) {
@@ -201,6 +203,24 @@ TEST_CASE("fanbeam cost forces on what the plan leaves out and leaves out what i
                                                   {"robust_flag_hits", 1},
                                                   {"sub_columns_rays", 4},
                                                   {"sub_columns_slices", 4}});
+}
+
+TEST_CASE("fanbeam cost --caster goes before the scene's own caster, auto too", "[cost]") {
+  const TemporaryFolder folder;
+  write_scene(folder, true, "[accuracy]\ncaster = \"rays\"\n");
+  const auto cast_by = [&](const std::string& words) {
+    const Result result =
+        cost(folder, "out", "-q --quick --repetitions 1 --parts effects " + words);
+    INFO(result.output);
+    REQUIRE(result.exit_code == 0);
+    const std::string page = bytes_of(folder.path() / "out/cost.md");
+    const std::string before = "frames cast by ";
+    const std::size_t at = page.find(before);
+    REQUIRE(at != std::string::npos);
+    return page.substr(at + before.size(), page.find('.', at) - at - before.size());
+  };
+  CHECK(cast_by("") == "rays");
+  CHECK(cast_by("--caster auto") == "profile");
 }
 
 TEST_CASE("fanbeam cost refuses bad input before it measures", "[cost]") {

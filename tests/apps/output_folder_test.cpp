@@ -1,7 +1,10 @@
 // A folder of pictures holds one input: what render and fmcw replace there, keep, and refuse to mix
 // with.
+#include "session/records/output_folder.h"
+
 #include <algorithm>
 
+#include "core/errors.h"
 #include "core/image.h"
 #include "tests/apps/child.h"
 #include "tests/apps/program.h"
@@ -182,6 +185,48 @@ TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing el
   REQUIRE(fmcw("--frames 3 --products detections").exit_code == 0);
   CHECK(files_in(out) == std::vector<std::string>{"detections/00003.csv", "detections/00003.json",
                                                   "radar.toml", "run.json", "timing.json"});
+}
+
+TEST_CASE("Somebody's file with the name of a run's own is refused, and stays", "[render][fmcw]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  fs::create_directories(out);
+  for (const char* name : {"radar.toml", "coco.json", "labels.json", "lard.csv", "layers.json"}) {
+    std::ofstream(out / name) << "mine";
+    for (const std::string command :
+         {"fmcw street-76ghz --frames 0 --products detections",
+          "render flat-grass --frames 0 --rays-per-cell 1 --products labels,layers"}) {
+      const Result refused = run_fanbeam(command + " -q -o " + quoted(out));
+      INFO(refused.output);
+      CHECK(refused.exit_code == 2);
+      CHECK(refused.output.find(std::string("holds ") + name) != std::string::npos);
+      CHECK(files_in(out) == std::vector<std::string>{name});
+    }
+    CHECK(bytes_of(out / name) == "mine");
+    fs::remove(out / name);
+  }
+  // What is listed is a run's own.
+  must_render(out, "flat-grass --frames 0 --products labels,layers");
+  CHECK(files_told(out) == files_in(out));
+  must_render(out, "flat-grass --frames 0 --products bscope --effects none");
+  CHECK_FALSE(fs::exists(out / "coco.json"));
+}
+
+TEST_CASE("Files of all frames are a killed run's own by its note alone", "[render]") {
+  const TemporaryFolder folder;
+  const auto there = [&] { return session::OutputFolder(folder.path(), "", false); };
+  const session::OutputFolder killed = there();
+  killed.begin({}, {"coco.json"});
+  folder.write("coco.json", "half a run's");
+  CHECK_NOTHROW(there());
+  there().keep_only({});
+  CHECK_FALSE(fs::exists(folder.path() / "coco.json"));
+  folder.write("lard.csv", "mine");
+  CHECK_THROWS_AS(there(), core::InputError);
+  fs::remove(folder.path() / "lard.csv");
+  killed.end();
+  folder.write("coco.json", "mine");
+  CHECK_THROWS_AS(there(), core::InputError);
 }
 
 TEST_CASE("A frame that fmcw refuses leaves no folder", "[fmcw]") {

@@ -269,6 +269,31 @@ TEST_CASE("A suite's faults are told all at once, by line, and nothing is render
   CHECK_FALSE(fs::exists(place.out()));
 }
 
+// A picture that went black passed a limit that only layers are held to.
+TEST_CASE("A limit that a product's figures do not have is refused", "[regress]") {
+  const auto refused = [](const std::string& product, const std::string& limit) {
+    Workplace place;
+    place.write("suite.toml", "name = \"test\"\n[tolerance." + product + "]\n" + limit +
+                                  " = 1\nrms = 1\nreason = \"x\"\n"
+                                  "[[case]]\nname = \"a\"\nscene = \"grass\"\nframes = \"0\"\n");
+    core::ProblemList problems;
+    measure::read_suite(
+        place.suite(), [](const std::string& name) { return fs::path(name); }, problems);
+    const std::string told = problems.has_errors() ? to_string(problems.all().front()) : "";
+    INFO(told);
+    CHECK((told.empty() || told.find("suite.toml:3:1: E-REF tolerance." + product + "." + limit) !=
+                               std::string::npos));
+    return !told.empty();
+  };
+  CHECK(refused("bscope", "changed_percent"));
+  CHECK(refused("power", "changed_percent"));
+  CHECK_FALSE(refused("layers", "changed_percent"));
+  CHECK_FALSE(refused("cscope_layers", "changed_percent"));
+  CHECK(refused("cscope", "lit_in_one_percent"));
+  CHECK(refused("layers", "lit_in_one_percent"));
+  CHECK_FALSE(refused("power", "lit_in_one_percent"));
+}
+
 // A case of labels alone compared nothing and passed.
 TEST_CASE("What holds no picture is no product of a suite", "[regress]") {
   for (const char* product : {"labels", "obstacles", "preview"}) {

@@ -5,6 +5,7 @@
 #include "core/random.h"
 #include "tests/apps/busy_scene.h"
 #include "tests/apps/child.h"
+#include "tests/core/left_temporary.h"
 
 using namespace fanbeam;
 using namespace fanbeam::tests;
@@ -160,18 +161,19 @@ TEST_CASE("--resume removes what a killed run was writing, and nothing else", "[
   pid_t gone = fork();
   if (gone == 0) _exit(0);
   waitpid(gone, nullptr, 0);
-  const auto write = [&](const std::string& name) { std::ofstream(out / name) << "half"; };
-  const std::string dead = std::string(".").append(std::to_string(gone));
-  const std::string alive = std::string(".").append(std::to_string(getpid()));
-  write("bscope/.00000" + dead + ".3.tmp.png");
-  write(".run" + dead + ".9.tmp.json");
-  write("bscope/.00001" + alive + ".4.tmp.png");
+  const auto write = [&](const fs::path& name) {
+    std::ofstream(out / name) << "half";
+    return out / name;
+  };
+  const fs::path picture = write(temporary_of(gone, out / "bscope/00000.png"));
+  const fs::path record = write(temporary_of(gone, out / "run.json"));
+  const fs::path alive = write(core::temporary_beside(out / "bscope/00001.png"));
   write("bscope/.notes");
   write("bscope/mine.tmp.png");
   render(folder.path(), out, " -q --frames 0 --resume --overwrite");
-  CHECK_FALSE(fs::exists(out / ("bscope/.00000" + dead + ".3.tmp.png")));
-  CHECK_FALSE(fs::exists(out / (".run" + dead + ".9.tmp.json")));
-  CHECK(fs::exists(out / ("bscope/.00001" + alive + ".4.tmp.png")));
+  CHECK_FALSE(fs::exists(picture));
+  CHECK_FALSE(fs::exists(record));
+  CHECK(fs::exists(alive));
   CHECK(fs::exists(out / "bscope/.notes"));
   CHECK(fs::exists(out / "bscope/mine.tmp.png"));
 }

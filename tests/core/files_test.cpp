@@ -3,6 +3,7 @@
 #include "core/files.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -10,6 +11,7 @@
 #include <string>
 
 #include "core/errors.h"
+#include "tests/core/left_temporary.h"
 
 using namespace fanbeam::core;
 namespace fs = std::filesystem;
@@ -97,6 +99,34 @@ TEST_CASE("The final name never holds a part of a file", "[files]") {
     CHECK_FALSE(fs::exists(scratch / "run.json"));
   });
   CHECK(fs::exists(scratch / "run.json"));
+}
+
+TEST_CASE(
+    "What another machine writes into a shared folder is not abandoned because this one has no "
+    "such process",
+    "[files]") {
+  const Scratch scratch;
+  constexpr pid_t kNobody = 99999999;
+  const fs::path own = fanbeam::tests::temporary_of(kNobody, scratch / "00000.png");
+  const fs::path other = scratch / ".00001.00c0ffee-99999999.0.tmp.png";
+  const fs::path of_old_version = scratch / ".00002.99999999.0.tmp.png";
+  for (const fs::path& file : {own, other, of_old_version}) std::ofstream(file) << "half";
+  remove_abandoned_temporaries(scratch.folder());
+  CHECK_FALSE(fs::exists(own));
+  CHECK(fs::exists(other));
+  CHECK(fs::exists(of_old_version));
+  for (const fs::path& file : {other, of_old_version})
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(25));
+  remove_abandoned_temporaries(scratch.folder());
+  CHECK(entries(scratch.folder()) == 0);
+}
+
+TEST_CASE("A name as long as a file's may be can be written", "[files]") {
+  const Scratch scratch;
+  const std::string name = std::string(251, 'a') + ".png";
+  write_file_atomically(scratch / name, "x");
+  CHECK(read_file(scratch / name, 1) == "x");
+  CHECK(temporary_beside(scratch / name).filename().string().size() == 255);
 }
 
 TEST_CASE("F17 a place that cannot be written to is told with its path", "[files][F17]") {

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "core/files.h"
+#include "tests/core/left_temporary.h"
 #include "tests/terrain/ascii_grid.h"
 
 using namespace fanbeam;
@@ -58,8 +59,7 @@ TEST_CASE("A folder whose replacement fails half way is what it was", "[files]")
 TEST_CASE("What a killed program left of a replacement is removed with all that is in it",
           "[files]") {
   const tests::TemporaryFolder folder;
-  // Above the largest process id of Linux, 2^22.
-  const fs::path left = folder.path() / ".pictures.99999999.0.tmp";
+  const fs::path left = tests::temporary_of(99999999, folder.path() / "pictures");
   core::write_file_atomically(left / "bscope" / "00000.png", "half");
   core::remove_abandoned_temporaries(folder.path());
   CHECK(names_in(folder.path()).empty());

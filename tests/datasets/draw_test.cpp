@@ -1,11 +1,15 @@
 // Drawn values: distributions in closed form, plans as pure functions of file and run.
+#include "datasets/draw.h"
+
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
+#include <string>
 
 #include "core/config_table.h"
+#include "core/errors.h"
 #include "datasets/campaign.h"
-#include "datasets/draw.h"
+#include "datasets/record_seal.h"
 #include "datasets/run_flight.h"
 #include "datasets/sha256.h"
 #include "tests/terrain/ascii_grid.h"
@@ -44,8 +48,25 @@ TEST_CASE("SHA-256 of the standard's examples", "[draw]") {
   // FIPS 180-4, examples of NIST: "abc" and the empty message.
   CHECK(datasets::sha256("abc") ==
         "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  CHECK(datasets::sha256("") ==
-        "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  CHECK(datasets::sha256("") == "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST_CASE("A sealed record tells of any byte that is not its own", "[draw]") {
+  const std::string body = "{\n \"run\": 3,\n \"isa\": \"v3\"";
+  const std::string record = datasets::sealed(body + "\n}");
+  CHECK(record == body + ",\n \"record_sha256\": \"" + datasets::sha256(body) + "\"\n}\n");
+  CHECK(datasets::is_intact(record));
+  CHECK(datasets::is_intact(body + "\n}\n"));  // as earlier versions wrote them
+  for (std::size_t i = 0; i < record.size(); ++i) {
+    // But of the seal's own name, without which there is none.
+    if (i > body.size() + 2 && i <= body.size() + 17) continue;
+    std::string other = record;
+    other[i] ^= 1;
+    INFO(other);
+    CHECK_FALSE(datasets::is_intact(other));
+  }
+  CHECK_FALSE(datasets::is_intact(record + " "));
+  CHECK_FALSE(datasets::is_intact(record.substr(0, record.size() - 1)));
 }
 
 TEST_CASE("Distributions are the inverse of their law", "[draw]") {
@@ -84,6 +105,39 @@ TEST_CASE("A grid goes through every combination, as often as it is told", "[dra
     for (const double rain : {0.0, 2.0, 10.0}) CHECK(seen.count({surface, rain}) == 2);
 }
 
+TEST_CASE("Traffic that is in every run, or in none, doubles no grid", "[draw]") {
+  for (const char* present : {"", "present = 1\n", "present = 0\n"}) {
+    const Campaign campaign =
+        campaign_of(head("grid", 1) + kThree + "[[traffic]]\nname = \"car\"\n" + present);
+    CHECK(campaign.runs == 6);
+    const bool there = std::string(present) != "present = 0\n";
+    for (int run = 0; run < campaign.runs; ++run)
+      CHECK(*datasets::Drawer(campaign).draw(run).number("traffic.car.present") == (there ? 1 : 0));
+  }
+}
+
+TEST_CASE("What is more or less often than the rest is refused in a grid, by its line", "[draw]") {
+  const std::string uneven =
+      "[parameters]\n"
+      "surface = { values = [\"dry\", \"wet\"], weights = [3, 1] }\n"
+      "[[traffic]]\nname = \"car\"\n"
+      "along_m = { values = [1, 2], weights = [1, 1] }\n"
+      "present = 0.5\n";
+  std::string told;
+  try {
+    campaign_of(head("grid", 1) + uneven);
+  } catch (const core::InputError& error) {
+    told = error.what();
+  }
+  for (const char* problem : {"campaign.toml:7:", "E-REF parameters.surface.weights",
+                              "campaign.toml:10:", "E-REF traffic[0].along_m.weights",
+                              "campaign.toml:11:", "E-RANGE traffic[0].present = 0.5"}) {
+    INFO(told);
+    CHECK(told.find(problem) != std::string::npos);
+  }
+  CHECK(campaign_of(head("sobol", 4) + uneven).runs == 4);
+}
+
 TEST_CASE("A run's values depend on the file and its number alone", "[draw]") {
   for (const char* plan : {"sobol", "random", "grid"}) {
     INFO(plan);
@@ -99,9 +153,10 @@ TEST_CASE("A run's values depend on the file and its number alone", "[draw]") {
 
 TEST_CASE("A Sobol plan fills every dimension evenly, whatever the seed", "[draw]") {
   for (const int seed : {0, 1, 99}) {
-    const Campaign campaign = campaign_of(head("sobol", 256) + "seed = " + std::to_string(seed) +
-                                          "\n[parameters]\nweather.humidity = { uniform = [0, 1] }\n"
-                                          "flight.lateral_m = { uniform = [0, 1] }\n");
+    const Campaign campaign =
+        campaign_of(head("sobol", 256) + "seed = " + std::to_string(seed) +
+                    "\n[parameters]\nweather.humidity = { uniform = [0, 1] }\n"
+                    "flight.lateral_m = { uniform = [0, 1] }\n");
     datasets::Drawer drawer(campaign);
     std::vector<int> squares(256, 0);
     for (int run = 0; run < 256; ++run) {
@@ -121,13 +176,17 @@ TEST_CASE("Runs leave the flight as they are told, and wander as far as they are
   flown.position = {0.9, 0.2, 500.0};
   flown.v_N_mps = {50.0, 0.0, 1.0};  // northwards
   datasets::Draw draw;
-  draw.values = {{"flight.lateral_m", 100.0}, {"flight.vertical_m", -20.0},
-                 {"flight.speed_factor", 2.0}, {"flight.heading_deg", 90.0}};
+  draw.values = {{"flight.lateral_m", 100.0},
+                 {"flight.vertical_m", -20.0},
+                 {"flight.speed_factor", 2.0},
+                 {"flight.heading_deg", 90.0}};
   flown.time_s = 10.0;
   const core::Pose pose = datasets::run_pose(draw, 1, flown);
   // 100 m to the east on the parallel: a / sqrt(1 - e^2 sin^2) cos.
-  const double sine = std::sin(0.9), radius_m = 6378137.0 / std::sqrt(1 - 6.69437999014e-3 * sine * sine);
-  CHECK((pose.position.longitude_rad - 0.2) * radius_m * std::cos(0.9) == Approx(100.0).epsilon(1e-6));
+  const double sine = std::sin(0.9),
+               radius_m = 6378137.0 / std::sqrt(1 - 6.69437999014e-3 * sine * sine);
+  CHECK((pose.position.longitude_rad - 0.2) * radius_m * std::cos(0.9) ==
+        Approx(100.0).epsilon(1e-6));
   CHECK(pose.position.height_m == 480.0);
   CHECK(pose.time_s == 5.0);
   CHECK(pose.v_N_mps.x == 100.0);

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import shlex
 import signal
 import subprocess
 import time
@@ -95,6 +96,43 @@ def test_a_killed_worker_leaves_no_half_run(program, campaign, whole, tmp_path, 
     assert not list(tmp_path.glob("runs/.*"))
 
 
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_a_stopped_pilot_leaves_nothing(program, campaign, tmp_path, how):
+    plan = subprocess.Popen([program, "campaign", "plan", campaign], env={**os.environ, "TMPDIR": str(tmp_path)})
+    while not list(tmp_path.glob("fanbeam-pilot-*/runs")) and plan.poll() is None:
+        time.sleep(0.002)
+    plan.send_signal(how)
+    assert plan.wait() == -how
+    assert not list(tmp_path.iterdir())
+
+
+def test_another_level_of_instructions_than_the_files_is_refused(program, tmp_path):
+    file = tmp_path / "small.toml"
+    file.write_text(CAMPAIGN.replace('isa = "v2"', 'isa = "v3"'), encoding="utf-8")
+    for task in (["plan", file, "--no-pilot"], ["run", file, "-o", tmp_path / "out", "--runs", "0"]):
+        said = told(program, *task, "--isa", "v2", exit_code=2)
+        assert "E-RANGE --isa = v2" in said and "v3" in said
+    assert not (tmp_path / "out").exists()
+    file.write_text(CAMPAIGN, encoding="utf-8")
+    told(program, "plan", file, "--no-pilot", "--isa", "v2")
+
+
+def test_the_command_that_repairs_is_what_a_shell_takes_back(program, tmp_path):
+    folder = tmp_path / "it's $HOME"
+    (folder / "data 1").mkdir(parents=True)
+    file = folder / "small.toml"
+    file.write_text(CAMPAIGN, encoding="utf-8")
+    words = ["-o", folder / "out", "--runs", "0:1"]
+    said = told(program, "verify", file, *words, "--data", folder / "data 1", exit_code=1)
+    command = shlex.split(said.strip().splitlines()[-1])
+    assert command == [
+        *("fanbeam", "campaign", "run", str(file), "-o", str(folder / "out"), "--data", str(folder / "data 1")),
+        *("--runs", "0", "--replace"),
+    ]  # fmt: skip
+    subprocess.run([program, *command[1:], "-q"], check=True, capture_output=True)
+    told(program, "verify", file, *words)
+
+
 def test_verify_finds_damage_and_prints_what_repairs_it(program, campaign, whole, tmp_path):
     told(program, "run", campaign, "-o", tmp_path, "-q")
     assert "every file as recorded" in told(program, "verify", campaign, "-o", tmp_path)
@@ -113,6 +151,22 @@ def test_verify_finds_damage_and_prints_what_repairs_it(program, campaign, whole
     told(program, "verify", campaign, "-o", tmp_path)
     told(program, "merge", campaign, "-o", tmp_path)
     assert bytes_of(tmp_path) == bytes_of(whole)
+
+
+def test_verify_finds_a_changed_record_and_takes_one_of_an_earlier_version(program, campaign, tmp_path):
+    told(program, "run", campaign, "-o", tmp_path, "--runs", "0:2", "-q")
+    record = tmp_path / "runs" / "000001" / "run.json"
+    text = record.read_text(encoding="utf-8")
+    visibility = json.loads(text)["parameters"]["weather.visibility_m"]
+    record.write_text(text.replace(f'"weather.visibility_m": {visibility}', '"weather.visibility_m": 500.0'), encoding="utf-8")
+    said = told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2", exit_code=1)
+    assert "run 1: run.json: other bytes than recorded" in said and "1 of 2 runs" in said
+    # Which had no hash of the record.
+    old = json.loads(text)
+    assert list(old)[-1] == "record_sha256"
+    del old["record_sha256"]
+    record.write_text(json.dumps(old), encoding="utf-8")
+    told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2")
 
 
 def test_mixtures_are_refused(program, campaign, tmp_path):
@@ -271,3 +325,28 @@ def test_merged_labels_name_the_pictures(whole):
         for row in csv.DictReader(table):
             assert (whole / row["bscope"]).is_file() and (whole / row["labels"]).is_file()
     assert os.access(whole / "index.csv", os.R_OK)
+
+
+def test_a_picture_says_where_the_traffic_of_its_run_stands(program, tmp_path):
+    file = tmp_path / "moved.toml"
+    file.write_text(
+        """
+[campaign]
+name = "moved"
+scenes = ["obstacle-field"]
+plan = "grid"
+runs = 2
+frames = { count = 1 }
+products = ["bscope"]
+samples_per_cell = 0.3
+isa = "v2"
+[[traffic]]
+name = "car"
+along_m = { values = [300, 900] }
+""",
+        encoding="utf-8",
+    )
+    told(program, "run", file, "-o", tmp_path / "out", "-q")
+    records = [json.loads(record.read_text(encoding="utf-8")) for record in sorted(tmp_path.glob("out/runs/*/run.json"))]
+    assert len({record["parameters"]["traffic.car.along_m"] for record in records}) == 2
+    assert len({record["input"] for record in records}) == 2

@@ -77,6 +77,37 @@ def test_a_pickle_keeps_the_accuracy_that_stays_for_effects():
     assert sent.render(0).bscope_W.tobytes() == told.render(0).bscope_W.tobytes()
 
 
+@pytest.mark.parametrize("scene", ["flat-grass", "braunschweig-26"])  # without fog, and with a visibility
+@pytest.mark.parametrize("then", [[], [None], [None, 0.2]])
+def test_a_pickle_keeps_which_of_the_two_tells_the_fog(scene, then):
+    told = fanbeam.Scene.open(scene)
+    told.set_weather(liquid_water_g_per_m3=0.1)
+    told.set_weather(visibility_m=500.0)
+    assert pickle.loads(pickle.dumps(told)).weather == told.weather
+    told.set_weather(liquid_water_g_per_m3=0.3)
+    for water in then:
+        told.set_weather(liquid_water_g_per_m3=water)
+    sent = pickle.loads(pickle.dumps(told))
+    assert sent.weather == told.weather
+    assert sent.weather["visibility_m"] is None
+    assert sent.weather["liquid_water_g_per_m3"] == (then or [0.3])[-1]
+
+
+def test_a_pickle_keeps_that_water_took_the_place_of_the_scenes_visibility():
+    told = fanbeam.Scene.open("braunschweig-26")
+    assert told.weather["visibility_m"] == 300.0
+    told.set_weather(liquid_water_g_per_m3=0.3)
+    told.set_weather(liquid_water_g_per_m3=None)
+    assert pickle.loads(pickle.dumps(told)).weather["visibility_m"] is None
+
+
+def test_data_folders_are_the_same_from_another_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("FANBEAM_DATA", "named")
+    told = fanbeam.Scene.open("flat-grass", data="given").__getstate__()
+    assert told.opened["data"][:2] == [tmp_path / "given", tmp_path / "named"]
+
+
 def test_parts_that_threads_set_at_once_are_all_kept():
     scene = fanbeam.Scene.open("flat-grass")
     parts = [{"visibility_m": 800.0}, {"rain_rate_mm_per_h": 3.0}, {"temperature_C": 4.0}, {"humidity": 0.4}]

@@ -20,7 +20,7 @@ def lone_target():
 
 
 def test_a_target_is_detected_where_it_stands(lone_target):
-    numbers = {"bandwidth": 150e6, "ramp": 40e-6, "chirps": 64}
+    numbers = {"bandwidth": 150e6, "ramp": 40e-6, "chirps": 64, "sample_rate": 28e6}
     want = ("beat", "range-doppler", "detections")
     with pytest.warns(fanbeam.FanbeamWarning, match="W-FOLDED"):
         seen = fanbeam.signal.frame(lone_target, 0, want=want, waveform="chirp-sequence", numbers=numbers)
@@ -34,6 +34,16 @@ def test_a_target_is_detected_where_it_stands(lone_target):
     row, column = np.unravel_index(np.argmax(seen.range_doppler_W), seen.range_doppler_W.shape)
     assert abs(seen.range_m[column] - strongest["range_m"]) <= seen.range_m[1]
     assert abs(seen.speed_mps[row]) <= seen.speed_mps[1] - seen.speed_mps[0]
+
+
+def test_axes_are_as_long_as_maps_and_cube_whose_far_cells_are_left_out():
+    road = fanbeam.Scene.open("highway-76ghz")
+    want = ("beat", "cube", "range-doppler", "range-azimuth")
+    seen = fanbeam.signal.frame(road, 0, want=want, numbers={"chirps": 32})
+    assert seen.range_doppler_W.shape == (len(seen.speed_mps), len(seen.range_m))
+    assert seen.range_azimuth_W.shape == (len(seen.azimuth_rad), len(seen.range_m))
+    assert seen.cube.shape == (len(seen.azimuth_rad), len(seen.speed_mps), len(seen.range_m))
+    assert len(seen.range_m) < seen.beats[0].shape[2]
 
 
 def test_the_waveform_tells_its_resolution():

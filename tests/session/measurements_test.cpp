@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/constants.h"
+#include "core/units.h"
 #include "sensors/sensor_file.h"
 
 using namespace fanbeam;
@@ -35,6 +36,21 @@ tracking::RadarMeasurement measured(const session::FmcwRadar& radar) {
   return session::measurements_of(frame, &radar, {}).at(0);
 }
 
+// Of one cluster: two parts of one power at a range.
+std::vector<tracking::RadarMeasurement> of_cluster(double range_m, double first_deg,
+                                                   double second_deg) {
+  session::DetectedFrame frame;
+  for (const double azimuth_deg : {first_deg, second_deg}) {
+    signal::RadarDetection one;
+    one.range_m = range_m;
+    one.azimuth_rad = core::radians(azimuth_deg);
+    one.power_W = 1e-12;
+    frame.detections.push_back(one);
+    frame.clusters.push_back(0);
+  }
+  return session::measurements_of(frame, nullptr, {0.0, 0.0, 0.0});
+}
+
 }  // namespace
 
 TEST_CASE("An array's azimuth error is that of where its elements are, in whatever order",
@@ -63,5 +79,21 @@ TEST_CASE("Elements one above the other, or one alone, tell no azimuth and say s
     const session::FmcwRadar radar = radar_with(places);
     CHECK(measured(radar).azimuth_sigma_rad == 1.0);
     CHECK(session::resolution_of(radar).azimuth_rad == 1.0);
+  }
+}
+
+TEST_CASE("A cluster is as long as its parts are apart, wherever it lies", "[fmcw]") {
+  // 14 m apart far to the side, where R sin azimuth differs by 6.8 m.
+  CHECK(of_cluster(100.0, 57.0, 65.0).size() == 2);
+  CHECK(of_cluster(100.0, -4.0, 4.0).size() == 2);
+  CHECK(of_cluster(100.0, 59.0, 63.0).size() == 1);
+}
+
+TEST_CASE("A cluster behind the radar is measured behind it", "[fmcw]") {
+  for (const double side : {1.0, -1.0}) {
+    const auto found = of_cluster(50.0, side * 179.0, side * -179.0);
+    REQUIRE(found.size() == 1);
+    CHECK(std::abs(found[0].azimuth_rad) == Approx(core::kPi).margin(1e-12));
+    CHECK(found[0].azimuth_systematic_rad == Approx(core::radians(1.0)).epsilon(1e-9));
   }
 }

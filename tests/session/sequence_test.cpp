@@ -2,8 +2,11 @@
 #include "session/sequence.h"
 
 #include <catch2/catch.hpp>
+#include <set>
+#include <span>
 
 #include "core/image.h"
+#include "core/units.h"
 #include "sensors/display/display.h"
 #include "tests/scenes/scene_folder.h"
 
@@ -75,4 +78,100 @@ TEST_CASE("All that a sequence asks for in vain is told at once, and nothing is 
   CHECK(refused({.output = out.path() / "run"}) == 1);
   CHECK(refused({.output = out.path() / "run", .frames = "9999", .products = {"bscope"}}) == 1);
   CHECK_FALSE(std::filesystem::exists(out.path() / "run"));
+}
+
+// They were kept: what a session sets stood in no fingerprint.
+TEST_CASE("Frames of other conditions are not kept, and those of the same are", "[sequence]") {
+  const TemporaryFolder scene, out;
+  const auto session = opened(scene);
+  std::set<std::string> inputs;
+  const auto kept = [&] {
+    const session::Sequence sequence = session::render_sequence(*session,
+                                                                {.output = out.path() / "run",
+                                                                 .frames = "3",
+                                                                 .products = {"bscope", "cscope"},
+                                                                 .sampling = {.rays_per_cell = 2.0},
+                                                                 .resume = true},
+                                                                [](int, int) {});
+    for (const auto& [key, value] : core::read_metadata(out.path() / "run" / "bscope/00003.png"))
+      if (key == "fanbeam:input") inputs.insert(value);
+    return sequence.record.frames.at(0).resumed;
+  };
+  const auto is_new = [&] { return !kept() && kept(); };
+  CHECK(is_new());
+  const atmosphere::Weather own = session->scene()->weather;
+  atmosphere::Weather weather = own;
+  weather.humidity = 0.5;
+  session->set(weather);
+  CHECK(is_new());
+  session->set(session::SensorSettings{.cscope_mode = sensors::Display::CScopeMode::flat_earth});
+  CHECK(is_new());
+  session::TargetState truck{.name = "truck",
+                             .position = {core::radians(52.002), core::radians(10.0), 60.0},
+                             .rcs = materials::ConstantRcs{100.0}};
+  session->set(std::span(&truck, 1));
+  CHECK(is_new());
+  truck.rcs = materials::ConstantRcs{200.0};
+  session->set(std::span(&truck, 1));
+  CHECK(is_new());
+  truck.swerling = core::Swerling::case1;
+  session->set(std::span(&truck, 1));
+  CHECK(is_new());
+  truck.position.latitude_rad = core::radians(52.003);
+  session->set(std::span(&truck, 1));
+  CHECK(is_new());
+  CHECK(inputs.size() == 7);
+  // As the file says again.
+  session->set(own);
+  session->set(session::SensorSettings{});
+  session->set(std::span<const session::TargetState>());
+  CHECK(is_new());
+  CHECK(inputs.size() == 7);
+}
+
+TEST_CASE("A frame with its error estimated is another than one without", "[sequence]") {
+  const TemporaryFolder scene, out;
+  const auto session = opened(scene);
+  const auto frame = [&](bool estimate) {
+    return session::render_sequence(*session,
+                                    {.output = out.path() / "run",
+                                     .frames = "3",
+                                     .products = {"bscope"},
+                                     .sampling = {.rays_per_cell = 2.0, .estimate_error = estimate},
+                                     .resume = true},
+                                    [](int, int) {})
+        .record.frames.at(0);
+  };
+  for (const bool estimate : {false, true, false})
+    for (const bool resumed : {false, true}) {
+      INFO("estimated " << estimate << ", again " << resumed);
+      const session::FrameRecord record = frame(estimate);
+      CHECK(record.resumed == resumed);
+      CHECK(record.error.has_value() == estimate);
+    }
+}
+
+TEST_CASE("Frames refined for a C-scope too are others than those of the B-scope alone",
+          "[sequence]") {
+  const TemporaryFolder scene, out;
+  const auto session = opened(scene);
+  const auto kept = [&](const session::ProductSet& products, session::SamplingRequest sampling) {
+    return session::render_sequence(*session,
+                                    {.output = out.path() / "run",
+                                     .frames = "3",
+                                     .products = products,
+                                     .sampling = sampling,
+                                     .resume = true},
+                                    [](int, int) {})
+        .record.frames.at(0)
+        .resumed;
+  };
+  const session::SamplingRequest refined{.accuracy_grey = 4.0}, fixed{.rays_per_cell = 2.0};
+  CHECK_FALSE(kept({"bscope", "cscope"}, refined));
+  CHECK_FALSE(kept({"bscope"}, refined));
+  CHECK(kept({"bscope"}, refined));
+  CHECK_FALSE(kept({"bscope", "cscope"}, refined));
+  // Else the one picture does not depend on the other.
+  CHECK_FALSE(kept({"bscope", "cscope"}, fixed));
+  CHECK(kept({"bscope"}, fixed));
 }

@@ -203,6 +203,26 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
   CHECK(same(rendered(*session), before));
 }
 
+TEST_CASE("Jittered rays, which tell no error, are refused where one is asked for", "[session]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene);
+  const renderer::Sampling reference = renderer::reference_sampling(1);
+  CHECK_NOTHROW(session->set(reference));
+  renderer::Sampling estimated = reference, refined = reference;
+  estimated.estimate_error = true;
+  refined.target_grey = 0.5;
+  for (const renderer::Sampling& sampling : {estimated, refined}) {
+    try {
+      session->set(sampling);
+      FAIL("taken");
+    } catch (const core::InputError& error) {
+      REQUIRE(error.problems().size() == 1);
+      CHECK(error.problems()[0].code == "E-UNSUPPORTED");
+      CHECK(error.problems()[0].field == "sampling.jittered_passes");
+    }
+  }
+}
+
 TEST_CASE("Frames keep the conditions that they began with, from any number of threads",
           "[session][threads]") {
   const TemporaryFolder folder;

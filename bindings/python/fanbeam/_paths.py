@@ -15,10 +15,13 @@ def shipped() -> Path:
 
 
 def data_folders(first: str | os.PathLike[str] | None) -> list[Path]:
-    """`first`, then what FANBEAM_DATA names, then shared/data beside a source tree."""
-    folders = [Path(first)] if first is not None else []
+    """`first`, then what FANBEAM_DATA names, then shared/data beside a source tree.
+
+    All absolute: a pickled scene may be opened from another folder.
+    """
+    folders = [Path(first).absolute()] if first is not None else []
     if named := os.environ.get("FANBEAM_DATA"):
-        folders.append(Path(named))
+        folders.append(Path(named).absolute())
     beside = shipped().parent / "shared" / "data"
     if beside.is_dir():
         folders.append(beside)

@@ -195,6 +195,7 @@ class Frame:
 
 _KEEP: EllipsisType = ...
 _Wish = float | None | EllipsisType
+_FOG = ("visibility_m", "liquid_water_g_per_m3")  # the two ways of telling how thick it is
 
 
 @dataclass
@@ -321,9 +322,13 @@ class Scene:
     def _change_weather(self, told: Mapping[str, Any]) -> None:
         with self._setting:
             warnings = self._core.set_weather(dict(told))
-            # Each takes the other's place: the last one counts.
-            weather = {name: value for name, value in self._told.weather.items() if name not in told}
-            self._told.weather = weather | dict(told)
+            # Whichever was given takes the other's place, the scene's own too: told again at once,
+            # it must not stand beside the other.
+            weather = self._told.weather | dict(told)
+            for given, replaced in (_FOG, _FOG[::-1]):
+                if told.get(given) is not None:
+                    weather[replaced] = None
+            self._told.weather = weather
         warn(warnings)
 
     @property

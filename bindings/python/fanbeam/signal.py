@@ -103,7 +103,6 @@ def frame(
     made = _signal.frame(scene._core, range(len(scene.trajectory))[index], products, told)
     warn(made.pop("warnings"))
     axes = made.pop("axes")
-    cells = made["beats"][0].shape[2] if made["beats"] else 0
     doppler_Hz = (np.arange(axes["doppler_cells"]) - axes["doppler_cells"] // 2) * axes["doppler_step_Hz"]
     found = made.pop("detections")
     if found is not None:
@@ -115,7 +114,7 @@ def frame(
         range_doppler_W=made.pop("range_doppler_W"),
         range_azimuth_W=made.pop("range_azimuth_W"),
         detections=found,
-        range_m=np.arange(cells) * axes["range_step_m"],
+        range_m=np.arange(axes["range_cells"]) * axes["range_step_m"],
         speed_mps=0.5 * axes["wavelength_m"] * doppler_Hz,
         azimuth_rad=np.array(axes["azimuth_rad"]),
         meta={**made, "waveform": json.loads(made["waveform"])},

@@ -128,6 +128,7 @@ py::dict axes_of(const session::FmcwRadar& radar) {
   py::dict result;
   result["azimuth_rad"] = radar.azimuths_rad;
   result["range_step_m"] = radar.axes.range_step_m;
+  result["range_cells"] = radar.detection.transform.kept_range_cells;  // 0 without maps
   result["doppler_step_Hz"] = radar.axes.doppler_step_Hz;
   result["doppler_cells"] = radar.axes.doppler_cells;
   result["wavelength_m"] = radar.axes.wavelength_m;
