@@ -55,7 +55,8 @@ class RayChain {
 
   // By ray.
   std::vector<double> elevation_rad;
-  std::vector<float> range_m;  // 0 without a hit
+  std::vector<double> offset_rad;  // in azimuth, from the middle of the sub-column
+  std::vector<float> range_m;      // 0 without a hit
   std::vector<float>
       range_slope;  // q: the facet's plane lies at R / (1 + q de) for a ray de higher
   std::vector<float> density_W_per_rad2;  // dP / (de daz)
@@ -66,6 +67,7 @@ class RayChain {
  private:
   void grow(std::size_t size) {
     elevation_rad.resize(size);
+    offset_rad.resize(size);
     range_m.resize(size);
     range_slope.resize(size);
     density_W_per_rad2.resize(size);

@@ -106,6 +106,7 @@ class GroupCaster {
       sender_.cast(batch_);
       scratch_.hit_count +=
           static_cast<std::uint64_t>(echo_.shade(batch_, first + done, scratch_.rays));
+      std::copy_n(batch_.offset_rad, filled, scratch_.rays.offset_rad.data() + first + done);
     }
     scratch_.ray_count += static_cast<std::uint64_t>(count);
   }
@@ -168,8 +169,10 @@ class GroupCaster {
     }
   }
 
-  // A ray in the middle of every gap. Gaps are nearly in order of elevation, so that a packet's
-  // rays stay close together.
+  // A ray in the middle of every gap, in the azimuth of the one below: what differs from there may differ
+  // in azimuth alone, and a ray in an azimuth of its own would take from the share of a narrow thing that
+  // was met, never from one that was missed. Gaps are nearly in order of elevation, so that a packet's rays
+  // stay close together.
   void fill_gaps() {
     RayChain& rays = scratch_.rays;
     const std::vector<RayGap>& gaps = scratch_.gaps;
@@ -180,15 +183,10 @@ class GroupCaster {
         const double elevation_rad = (rays.elevation_rad[static_cast<std::size_t>(gap.below)] +
                                       rays.elevation_rad[static_cast<std::size_t>(gap.above)]) /
                                      2;
-        // Keyed by the elevation itself: the same ray gets the same azimuth whatever was refined
-        // before it.
-        const auto index = static_cast<std::uint32_t>((elevation_rad + core::kPi) * 1e7);
-        const int azimuth = azimuth_of(gap.below);
-        batch_.set_column(lane, columns_[azimuth]);
+        batch_.set_column(lane, columns_[azimuth_of(gap.below)]);
         batch_.elevation_rad[lane] = elevation_rad;
         batch_.gain[lane] = gain_at(elevation_rad);
-        batch_.offset_rad[lane] =
-            columns_[azimuth].offset_rad(frame_.places.azimuth_place(index, sub_column(azimuth)));
+        batch_.offset_rad[lane] = rays.offset_rad[static_cast<std::size_t>(gap.below)];
       }
     });
     for (std::size_t i = 0; i < gaps.size(); ++i)
