@@ -55,7 +55,7 @@ std::set<std::string> chosen_products(const std::string& text, const session::Fm
   return products;
 }
 
-// What none of the products looks at would be ignored in silence.
+// What a B-scope alone, or all but it or the spectrogram, does not look at would be ignored in silence.
 void refuse_idle_options(const FmcwOptions& options, const std::set<std::string>& products) {
   core::ProblemList problems;
   const auto refuse = [&](const std::string& option, const std::string& expected) {

@@ -188,7 +188,7 @@ void keep_given_for_chain(CLI::App& command, FmcwOptions& options) {
   FmcwOptions unused;
   add_radar(declared, unused);
   add_processing(declared, unused);
-  std::set<std::string> names = {"--refuse-folding"};
+  std::set<std::string> names = {"--refuse-folding", "--dynamic-range"};
   for (const CLI::Option* option : declared.get_options()) names.insert(option->get_name());
   for (const char* receiver : {"--line-width", "--adc-bits", "--adc-full-scale", "--help"})
     names.erase(receiver);

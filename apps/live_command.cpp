@@ -12,6 +12,7 @@
 #include "apps/stop_on_signals.h"
 #include "core/parallel.h"
 #include "live/channel.h"
+#include "live/frame_taker.h"
 #include "live/quality.h"
 #include "live/replay.h"
 #include "live/simulator_weather.h"
@@ -64,10 +65,11 @@ class EndWatch {
            double seconds)
       : thread_([this, end = std::move(end), asked = std::move(asked), begin, seconds]() mutable {
           constexpr std::chrono::milliseconds kNap(20);
-          for (; !left_; std::this_thread::sleep_for(kNap))
-            if (asked.reason() != 0 ||
-                (seconds > 0.0 && live::seconds_between(begin, live::Clock::now()) >= seconds))
-              return end.request();
+          for (; !left_; std::this_thread::sleep_for(kNap)) {
+            if (asked.reason() != 0) return end.request(asked.reason());
+            if (seconds > 0.0 && live::seconds_between(begin, live::Clock::now()) >= seconds)
+              return end.request(live::kTimeIsUp);
+          }
         }) {}
   ~EndWatch() {
     left_ = true;

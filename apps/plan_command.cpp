@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "apps/option_lists.h"
 #include "apps/plan_report.h"
 #include "core/parallel.h"
 #include "scenes/frame_plan.h"
@@ -64,6 +65,8 @@ int explain_plan(const PlanOptions& options, const CommonOptions& common) {
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
+  if (!options.products.empty())
+    session::plan_for(products_in(options.products, session::kProducts), build);
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
   const auto scene = session::Session(description, {.build = build}, problems).scene();
   if (!common.quiet) print_problems(problems.all());

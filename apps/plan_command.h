@@ -11,6 +11,7 @@ namespace fanbeam::apps {
 struct PlanOptions : SceneChoice {
   std::string frames;  // as of fanbeam render; those looked at with per_frame and measure
   std::string effects;
+  std::string products;        // that frames are wanted for; empty: B-scope and C-scope
   double accuracy_grey = 0.0;  // 0: the scene's, else the default
   int threads = 0;
   bool json = false;

@@ -20,7 +20,7 @@ scenes::BuildOptions build_options(const RenderOptions& options,
                                    const session::ProductSet& products) {
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
-  build.heights_shown = session::show_heights(session::wanted_of(products));
+  session::plan_for(products, build);
   if (!options.effects.empty()) build.wishes = renderer::parse_effect_wishes(options.effects);
   if (options.reference) {
     build.caster = renderer::CasterWish::rays;

@@ -45,8 +45,9 @@ void print(const core::HighwayScenario& scenario, const session::ScenarioTracks&
         "their range cells, or above {:g} m/s\n",
         tracks.beyond, tracking::SampledRadar::most_speed_mps());
   for (const tracking::Crossing& one : tracks.crossings)
-    fmt::print("     tracks {} and {} parted at {:.2f} s, exchanged with probability {:.2g}\n",
-               one.first, one.second, one.time_s, one.swap_probability);
+    fmt::print("     tracks {} and {} {} at {:.2f} s, exchanged with probability {:.2g}\n",
+               one.first, one.second, one.given_up ? "were one for too long" : "parted", one.time_s,
+               one.swap_probability);
   for (const tracking::Track& track : tracks.tracks_at_end) {
     if (!track.confirmed) continue;
     const int target = session::target_of(score, track.id);

@@ -91,22 +91,35 @@ std::vector<std::string> surface_words() {
   return {words.begin(), words.end()};
 }
 
+struct Reading {
+  Campaign& campaign;
+  ReadFor purpose;
+
+  bool is_grid() const { return campaign.plan == Campaign::Plan::grid; }
+};
+
 // A grid takes each value as often as the others, whatever its weight.
 Distribution read_parameter(ConfigTable& table, std::string_view key, const Allowed& allowed,
-                            Campaign::Plan plan) {
+                            const Reading& reading) {
   Distribution distribution = read_distribution(table, key, allowed);
-  if (plan == Campaign::Plan::grid && table.is_table(key)) {
+  if (reading.is_grid() && table.is_table(key)) {
     ConfigTable form = table.table(key);
-    if (form.has("weights"))
-      form.error(ErrorClass::ref, "weights", "given in the plan \"grid\"",
-                 "none: a grid takes every value equally often; or the plan \"sobol\"");
+    if (form.has("weights")) {
+      const char* const given = "given in the plan \"grid\"";
+      if (reading.purpose == ReadFor::looking)
+        form.warning("NO-WEIGHTS", "weights", given, "a grid took every value equally often");
+      else
+        form.error(ErrorClass::ref, "weights", given,
+                   "none: a grid takes every value equally often; or the plan \"sobol\"");
+    }
   }
   return distribution;
 }
 
-void read_parameters(ConfigTable table, Campaign& campaign) {
+void read_parameters(ConfigTable table, const Reading& reading) {
+  Campaign& campaign = reading.campaign;
   const auto read = [&](ConfigTable& part, std::string_view key, const Allowed& allowed) {
-    return read_parameter(part, key, allowed, campaign.plan);
+    return read_parameter(part, key, allowed, reading);
   };
   if (table.has("scene"))
     campaign.parameters.push_back({"scene", read(table, "scene", campaign.scenes)});
@@ -132,16 +145,20 @@ void read_parameters(ConfigTable table, Campaign& campaign) {
 }
 
 // 1 in the share of the runs that is told, else 0.
-Distribution presence(ConfigTable& table, Campaign::Plan plan) {
+Distribution presence(ConfigTable& table, const Reading& reading) {
   const double share = table.number("present", {0.0, 1.0}, 1.0);
   if (share == 0.0 || share == 1.0) return Distribution(Value{share});
-  if (plan == Campaign::Plan::grid)
+  if (reading.is_grid() && reading.purpose == ReadFor::looking)
+    table.warning("NO-WEIGHTS", "present", core::number_text(share),
+                  "a grid took its traffic in half of the runs");
+  else if (reading.is_grid())
     table.error(ErrorClass::range, "present", core::number_text(share),
                 "0 or 1 in a grid, which draws nothing; or the plan \"sobol\"");
   return Distribution(Distribution::Choice{{Value{1.0}, Value{0.0}}, {share, 1.0 - share}});
 }
 
-void read_traffic(ConfigTable table, Campaign& campaign) {
+void read_traffic(ConfigTable table, const Reading& reading) {
+  Campaign& campaign = reading.campaign;
   const std::string name = table.required_text("name");
   if (!core::is_safe_word(name) ||
       std::find(campaign.traffic.begin(), campaign.traffic.end(), name) != campaign.traffic.end())
@@ -151,14 +168,14 @@ void read_traffic(ConfigTable table, Campaign& campaign) {
   const auto take = [&](const char* key, const core::NumberRange& range, double otherwise) {
     const std::string whole = "traffic." + name + "." + key;
     campaign.parameters.push_back({whole, table.has(key)
-                                              ? read_parameter(table, key, range, campaign.plan)
+                                              ? read_parameter(table, key, range, reading)
                                               : Distribution(Value{otherwise})});
   };
   take("rcs_m2", {0.0, 1e6}, 10.0);
   take("along_m", {-10'000.0, 10'000.0}, 500.0);
   take("across_m", {-5'000.0, 5'000.0}, 0.0);
   take("height_m", {0.0, 500.0}, 1.0);
-  campaign.parameters.push_back({"traffic." + name + ".present", presence(table, campaign.plan)});
+  campaign.parameters.push_back({"traffic." + name + ".present", presence(table, reading)});
 }
 
 // Of a grid the runs are what its values make.
@@ -197,7 +214,7 @@ const Parameter* Campaign::find(std::string_view wanted) const {
 
 fs::path Campaign::folder() const { return fs::absolute(file).parent_path().lexically_normal(); }
 
-Campaign read_campaign(const fs::path& file, core::ProblemList& problems) {
+Campaign read_campaign(const fs::path& file, core::ProblemList& problems, ReadFor purpose) {
   Campaign campaign;
   campaign.file = file;
   ConfigTable root = ConfigTable::from_file(file, problems);
@@ -206,9 +223,10 @@ Campaign read_campaign(const fs::path& file, core::ProblemList& problems) {
   for (ConfigTable& airport : root.tables("airport", 1000))
     campaign.airports.push_back(read_airport_of(airport, campaign.airports));
   read_campaign_table(root.table("campaign"), campaign);
-  read_parameters(root.table("parameters"), campaign);
+  const Reading reading{campaign, purpose};
+  read_parameters(root.table("parameters"), reading);
   for (ConfigTable& traffic : root.tables("traffic", 1000))
-    read_traffic(std::move(traffic), campaign);
+    read_traffic(std::move(traffic), reading);
   settle_plan(root, campaign);
   root.report_unknown_keys();
   return campaign;

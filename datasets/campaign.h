@@ -126,8 +126,13 @@ struct Campaign {
 
 inline constexpr int kMostRuns = 100'000'000;
 
+// What a campaign is read for: earlier versions took weights and shares of runs in a grid, where they mean
+// nothing, and what they made can still be looked at.
+enum class ReadFor { making, looking };
+
 // Every problem of the file is in `problems`, with line and column; with errors there the campaign must
 // not be used.
-Campaign read_campaign(const std::filesystem::path& file, core::ProblemList& problems);
+Campaign read_campaign(const std::filesystem::path& file, core::ProblemList& problems,
+                       ReadFor purpose = ReadFor::making);
 
 }  // namespace fanbeam::datasets

@@ -124,6 +124,7 @@ std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,
     damages.push_back({run, fs::exists(failed_file(output, run)) ? "failed" : "missing"});
   for (const int run : found.damaged)
     damages.push_back({run, std::string(kRunRecord) + ": no record of a run"});
+  Drawer drawer(campaign);
   for (const int run : found.whole) {
     const std::optional<RunFiles> files = RunFiles::of(output, run);
     const Json record = files ? record_in(*files) : Json();
@@ -135,8 +136,13 @@ std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,
     const std::string wrong = wrong_maker(record, campaign, found.usual_maker);
     if (!wrong.empty()) damages.push_back({run, wrong});
     if (record.value("run", -1) != run) damages.push_back({run, "the record of another run"});
+    const std::string other = wrong_values(record, drawer.draw(run));
+    if (wrong.empty() && !other.empty()) damages.push_back({run, other});
     check_files(run, *files, record, damages);
   }
+  if (runs.size() == static_cast<std::size_t>(campaign.runs))
+    for (const int run : runs_beyond(output, campaign.runs))
+      damages.push_back({run, beyond_text(campaign)});
   std::stable_sort(damages.begin(), damages.end(),
                    [](const Damage& a, const Damage& b) { return a.run < b.run; });
   return damages;

@@ -78,7 +78,7 @@ std::string index_rows(const Campaign& campaign, int run, const RunFiles& files,
 class Merger {
  public:
   Merger(const Campaign& campaign, const fs::path& output, std::string usual)
-      : campaign_(campaign), output_(output), usual_(std::move(usual)) {
+      : campaign_(campaign), output_(output), usual_(std::move(usual)), drawer_(campaign) {
     manifest_ = {{"fanbeam_campaign", 1},
                  {"campaign", campaign.name},
                  {"campaign_sha256", campaign.text_hash},
@@ -94,6 +94,10 @@ class Merger {
       if (!wrong.empty())
         problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
                        "one program for all: " + wrong);
+      const std::string other = wrong_values(record, drawer_.draw(run));
+      if (wrong.empty() && !other.empty())
+        problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
+                       kVersion + other);
       index_ += index_rows(campaign_, run, files, record);
       manifest_["runs"][fmt::format("{:06}", run)] =
           sha256(files.read(kRunRecord, kLargestRecord_bytes));
@@ -125,12 +129,15 @@ class Merger {
     return merged_;
   }
 
+  static constexpr const char* kVersion =
+      "runs of this version of fanbeam, which draws as the file says: ";
   static constexpr const char* kWhole = "a record; fanbeam campaign verify tells how to repair it";
 
  private:
   const Campaign& campaign_;
   const fs::path& output_;
   std::string usual_, index_;
+  Drawer drawer_;
   Json manifest_;
   session::RunLabels labels_;
   Merged merged_;
@@ -149,6 +156,9 @@ Merged merge(const Campaign& campaign, const fs::path& output) {
   for (const int run : found.damaged)
     problems.error(core::ErrorClass::parse, core::Place{run_folder(output, run).string()}, "run",
                    "damaged", Merger::kWhole);
+  for (const int run : runs_beyond(output, campaign.runs))
+    problems.error(core::ErrorClass::unsupported, core::Place{run_folder(output, run).string()},
+                   "run", std::to_string(run), "none " + beyond_text(campaign));
   Merger merger(campaign, output, found.usual_maker);
   for (const int run : found.whole)
     if (const std::optional<RunFiles> files = RunFiles::of(output, run))

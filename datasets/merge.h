@@ -18,7 +18,8 @@ struct Merged {
 //   manifest.json  campaign, program, and the SHA-256 of every run's record
 //   coco.json, lard.csv   of all runs, where they have labels; pictures as runs/000123/bscope/00600.png
 // Throws InputError E-UNSUPPORTED for runs that another file, program, library or level of instructions
-// made than the rest, E-PARSE for records that cannot be read, E-IO for a folder without runs.
+// made than the rest, of other values than the file gives and beyond its runs, E-PARSE for records that
+// cannot be read, E-IO for a folder without runs.
 Merged merge(const Campaign& campaign, const std::filesystem::path& output);
 
 }  // namespace fanbeam::datasets

@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <thread>
 #include <utility>
 
 #include "core/errors.h"
@@ -19,25 +21,35 @@ namespace {
                           std::strerror(reason), expected);
 }
 
-// False where another process has it. A file system without locks must not look like that: every
-// run would be somebody else's, and none made. Closes the descriptor when it throws.
-bool take_lock(int descriptor, const std::filesystem::path& file) {
-  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+// 0 with the lock in hand, EWOULDBLOCK where another process has it, else why there is none.
+int take_lock(int descriptor) {
+  constexpr int kTries = 4;  // of a server that has no room for a lock just now
+  constexpr std::chrono::milliseconds kNap(50);
+  for (int tries = 1; ::flock(descriptor, LOCK_EX | LOCK_NB) != 0;) {
     const int reason = errno;
-    if (reason == EWOULDBLOCK) return false;
     if (reason == EINTR) continue;
-    ::close(descriptor);
-    refuse_lock(file, reason, "a file system with locks (flock): some shared ones lack them");
+    if (reason != ENOLCK || tries++ == kTries) return reason;
+    std::this_thread::sleep_for(kNap);
   }
-  return true;
+  return 0;
 }
 
 }  // namespace
 
 RunLock::RunLock(std::filesystem::path file) : file_(std::move(file)) {
-  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  const bool made = descriptor_ >= 0;
+  if (!made) descriptor_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0) refuse_lock(file_, errno, "a folder that can be written to");
-  held_ = take_lock(descriptor_, file_);
+  const int refused = take_lock(descriptor_);
+  // A file system without locks must not look like a lock that another has: every run would be
+  // somebody else's, and none made.
+  if (refused != 0 && refused != EWOULDBLOCK) {
+    if (made) ::unlink(file_.c_str());
+    ::close(descriptor_);
+    refuse_lock(file_, refused, "a file system with locks (flock): some shared ones lack them");
+  }
+  held_ = refused == 0;
   // Another one may have removed the file between the two.
   struct stat mine {
   }, there{};
@@ -53,7 +65,7 @@ RunLock::~RunLock() {
 bool is_locked(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDWR | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool locked = !take_lock(descriptor, file);
+  const bool locked = take_lock(descriptor) == EWOULDBLOCK;
   ::close(descriptor);
   return locked;
 }

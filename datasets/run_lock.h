@@ -8,7 +8,8 @@ namespace fanbeam::datasets {
 
 class RunLock {
  public:
-  // Throws InputError E-IO for a folder that cannot be written to, or whose file system has no locks.
+  // Throws InputError E-IO for a folder that cannot be written to, or whose file system has no locks; then
+  // it leaves no file.
   explicit RunLock(std::filesystem::path file);
   ~RunLock();
   RunLock(const RunLock&) = delete;
@@ -22,7 +23,7 @@ class RunLock {
   bool held_ = false;
 };
 
-// Somebody holds it. Throws InputError E-IO where the file system has no locks.
+// Somebody holds it; nobody can where the file system has no locks.
 bool is_locked(const std::filesystem::path& file);
 
 }  // namespace fanbeam::datasets

@@ -1,6 +1,9 @@
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "core/errors.h"
 #include "datasets/run_makers_private.h"
@@ -10,6 +13,16 @@ namespace fanbeam::datasets {
 using Json = nlohmann::ordered_json;
 
 namespace {
+
+// Drawn by another C library, a value may differ in its last digits.
+bool is_same(const Json& told, const Value& drawn) {
+  constexpr double kShare = 1e-9;
+  if (const auto* word = std::get_if<std::string>(&drawn))
+    return told.is_string() && told.get<std::string>() == *word;
+  const double value = std::get<double>(drawn);
+  return told.is_number() &&
+         std::abs(told.get<double>() - value) <= kShare * std::max(1.0, std::abs(value));
+}
 
 std::string made_by(const Json& record) {
   std::string text;
@@ -48,6 +61,35 @@ Survey survey(const std::filesystem::path& campaign, const std::vector<int>& run
                        [](const auto& a, const auto& b) { return a.second < b.second; });
   if (most != runs_of_maker.end()) found.usual_maker = most->first;
   return found;
+}
+
+std::vector<int> runs_beyond(const std::filesystem::path& campaign, int runs) {
+  std::set<int> beyond;
+  std::error_code none;
+  for (std::filesystem::directory_iterator entry(campaign / "runs", none), end;
+       !none && entry != end; entry.increment(none)) {
+    const std::string name = entry->path().stem().string();
+    int run = 0;
+    const auto [last, status] = std::from_chars(name.data(), name.data() + name.size(), run);
+    if (status == std::errc() && last == name.data() + name.size() && run >= runs &&
+        RunFiles::is_there(campaign, run))
+      beyond.insert(run);
+  }
+  return {beyond.begin(), beyond.end()};
+}
+
+std::string beyond_text(const Campaign& campaign) {
+  return "beyond the " + std::to_string(campaign.runs) + " runs of " +
+         campaign.file.filename().string();
+}
+
+std::string wrong_values(const Json& record, const Draw& draw) {
+  const Json told = record.value("parameters", Json());
+  std::string wrong;
+  for (const auto& [name, value] : draw.values)
+    if (!told.is_object() || !told.contains(name) || !is_same(told[name], value))
+      wrong += (wrong.empty() ? "" : ", ") + name;
+  return wrong.empty() ? "" : "other values than the campaign's file gives: " + wrong;
 }
 
 std::string wrong_maker(const Json& record, const Campaign& campaign, const std::string& usual) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/campaign.h"
+#include "datasets/draw.h"
 #include "datasets/run_files.h"
 
 namespace fanbeam::datasets {
@@ -24,6 +25,13 @@ struct Survey {
   std::string usual_maker;
 };
 Survey survey(const std::filesystem::path& campaign, const std::vector<int>& runs);
+
+// Numbers of runs in the folder that the campaign's file does not have, rising.
+std::vector<int> runs_beyond(const std::filesystem::path& campaign, int runs);
+std::string beyond_text(const Campaign& campaign);
+
+// Empty for a run whose record tells the values that the campaign's file gives it.
+std::string wrong_values(const nlohmann::ordered_json& record, const Draw& draw);
 
 // Empty for a run that goes with the others.
 std::string wrong_maker(const nlohmann::ordered_json& record, const Campaign& campaign,

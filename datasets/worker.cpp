@@ -110,8 +110,7 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
       setup.data_folders.insert(setup.data_folders.begin(), campaign_.folder());
     setup.sample = campaign_.sample;
     setup.seed = campaign_.seed;
-    setup.build.heights_shown = session::show_heights(
-        session::wanted_of({campaign_.products.begin(), campaign_.products.end()}));
+    session::plan_for({campaign_.products.begin(), campaign_.products.end()}, setup.build);
     if (!campaign_.sensor.empty())
       setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor");
     core::ProblemList problems;
@@ -144,10 +143,15 @@ RunEnd Worker::make(int run) {
   const auto there = [&] {
     return !settings_.replace && RunFiles::is_there(settings_.output, run);
   };
-  if (there()) return RunEnd::there;
+  const fs::path lock_file = hidden(settings_.output, run, ".lock");
   std::error_code made;
+  if (there()) {
+    // Of a worker that was killed when its run had its name already.
+    if (fs::exists(lock_file, made) && !is_locked(lock_file)) fs::remove(lock_file, made);
+    return RunEnd::there;
+  }
   fs::create_directories(settings_.output / "runs", made);
-  const RunLock lock(hidden(settings_.output, run, ".lock"));
+  const RunLock lock(lock_file);
   if (!lock.held()) return RunEnd::elsewhere;
   if (there()) return RunEnd::there;
   const fs::path making = making_place(campaign_, settings_.output, run);

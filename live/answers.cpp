@@ -3,6 +3,7 @@
 
 #include "core/units.h"
 #include "live/answers_private.h"
+#include "sensors/display/grey_scale.h"
 
 namespace fanbeam::live {
 
@@ -16,6 +17,7 @@ Json status_json(const Status& status) {
   for (const auto& [reason, count] : status.bad_packets) bad[reason] = count;
   for (const auto& [name, count] : status.unused_packets) unused[name] = count;
   return {
+      {"start", status.start},
       {"scene", status.scene},
       {"source", status.source},
       {"caster", status.caster},
@@ -100,6 +102,7 @@ Json plan_json(const scenes::Scene& scene) {
 
 Json sensor_json(const sensors::Sensor& sensor) {
   const sensors::Display& display = sensor.display;
+  const sensors::GreyScale grey(sensor);
   return {{"name", sensor.name},
           {"columns", sensor.scan.columns},
           {"field_of_view_deg", core::degrees(sensor.scan.field_of_view_rad)},
@@ -110,8 +113,8 @@ Json sensor_json(const sensors::Sensor& sensor) {
           {"cscope_top_deg", core::degrees(display.cscope_top_rad)},
           {"cscope_span_deg", core::degrees(display.cscope_span_rad)},
           {"tilt_deg", core::degrees(sensor.antenna.boresight_elevation_rad)},
-          {"low_dB", display.low_dB},
-          {"high_dB", display.high_dB}};
+          {"low_dB", grey.low_dB()},
+          {"high_dB", grey.high_dB()}};
 }
 
 Json weather_json(const atmosphere::Weather& weather) {

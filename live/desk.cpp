@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "live/answers_private.h"
 #include "live/page.h"
+#include "sensors/display/grey_scale.h"
 
 namespace fanbeam::live {
 namespace {
@@ -100,9 +101,10 @@ void set_sensor(session::Session& session, const core::JsonNode& root) {
   settings.high_dB = root.member("high_dB").number({-400.0, 400.0});
   root.problems().throw_if_errors();
   // Posted back as they are told: those of a display that has no others to set stay.
-  const sensors::Display display = session.scene()->description.sensor.display;
-  if (display.mapping == sensors::Display::Mapping::seed && settings.low_dB == display.low_dB &&
-      settings.high_dB == display.high_dB)
+  const sensors::Sensor sensor = session.scene()->description.sensor;
+  const sensors::GreyScale grey(sensor);
+  if (sensor.display.mapping == sensors::Display::Mapping::seed &&
+      settings.low_dB == grey.low_dB() && settings.high_dB == grey.high_dB())
     settings.low_dB = settings.high_dB = std::nullopt;
   session.set(settings);
 }

@@ -6,6 +6,7 @@
 #include "core/errors.h"
 #include "live/processor_time.h"
 #include "sensors/display/display.h"
+#include "sensors/display/grey_scale.h"
 
 namespace fanbeam::live {
 
@@ -33,6 +34,10 @@ session::Session::Moment FrameMaker::conditions(const Tick& tick) {
   return session_.now();
 }
 
+void FrameMaker::journal_made(bool shown) const {
+  if (settings_.journal != nullptr) settings_.journal->made(shown);
+}
+
 std::shared_ptr<LiveFrame> FrameMaker::rendered(const session::Session::Moment& under,
                                                 const Tick& tick, const core::Pose& pose,
                                                 const core::StopToken& stop) {
@@ -41,8 +46,9 @@ std::shared_ptr<LiveFrame> FrameMaker::rendered(const session::Session::Moment& 
   const auto& scene = frame->scene = session_.scene(under);
   frame->bscope = sensors::bscope_picture(scene->description.sensor, made.bscope_grey);
   frame->cscope = sensors::cscope_picture(scene->description.sensor, made.cscope_grey);
-  frame->low_dB = scene->description.sensor.display.low_dB;
-  frame->high_dB = scene->description.sensor.display.high_dB;
+  const sensors::GreyScale grey(scene->description.sensor);
+  frame->low_dB = grey.low_dB();
+  frame->high_dB = grey.high_dB();
   frame->cscope_top_rad = scene->description.sensor.display.cscope_top_rad;
   if (settings_.keep_received) frame->received_W = made.received_W();
   frame->outside_volume =
@@ -61,12 +67,15 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   try {
     frame = rendered(under, tick, seen.pose, stop);
   } catch (const core::InputError& error) {
+    journal_made(true);
     ++status_.refused;
     status_.refusal = core::to_string(error.problems().front());
     return std::nullopt;
   } catch (const core::Stopped&) {
+    journal_made(false);
     return std::nullopt;
   }
+  journal_made(true);
   const double frame_s = seconds_between(from, Clock::now());
   frame->number = status_.frames = tick.number;
   frame->pose = seen.pose;

@@ -51,8 +51,9 @@ class FrameMaker {
   std::uint64_t next_number() const { return status_.frames + 1; }
 
  private:
-  // What the frame is made under, once that is in the journal.
+  // What the frame is made under, once the journal knows of it.
   session::Session::Moment conditions(const Tick& tick);
+  void journal_made(bool shown) const;
   // Its pictures; throws what Session::render throws.
   std::shared_ptr<LiveFrame> rendered(const session::Session::Moment& under, const Tick& tick,
                                       const core::Pose& pose, const core::StopToken& stop);

@@ -25,9 +25,12 @@ bool FrameTaker::ended() const {
   return ended_;
 }
 
+// In lockstep the sink is called by the channel's own thread.
+bool FrameTaker::ending() const { return core::StopScope::current().reason() != 0 || leaving(); }
+
 bool FrameTaker::leaving() const {
-  // In lockstep the sink is called by the channel's own thread.
-  if (core::StopScope::current().reason() != 0) return true;
+  const int reason = core::StopScope::current().reason();
+  if (reason != 0 && reason != kTimeIsUp) return true;
   const std::lock_guard<std::mutex> lock(mutex_);
   return leaving_;
 }

@@ -13,9 +13,12 @@
 
 namespace fanbeam::live {
 
+// Why a flight is stopped when its time is up: what a sink is about may be finished.
+inline constexpr int kTimeIsUp = -1;
+
 class FrameTaker {
  public:
-  // It asks leaving() now and then, and gives false when the sink takes no more.
+  // It asks ending() before it begins and leaving() now and then, and gives false when the sink takes no more.
   using Put = std::function<bool(const LiveFrame&, const FrameTaker&)>;
   FrameTaker(Put put, bool every_frame);
   ~FrameTaker();  // the sink is called no more
@@ -26,7 +29,9 @@ class FrameTaker {
   void write(const std::shared_ptr<const LiveFrame>& frame);
   // The sink gave false.
   bool ended() const;
-  // Of the sink's thread: nobody waits for what it is about.
+  // Of the sink's thread: nothing new is to begin.
+  bool ending() const;
+  // Of the sink's thread: nobody waits for what it is about. Not where time is up.
   bool leaving() const;
 
  private:

@@ -51,6 +51,7 @@ struct FrameOrigin {
 };
 
 struct Status {
+  std::string start;  // of the hub, another of each: frames of another are numbered anew
   std::string scene, source, caster;
   std::uint64_t frames = 0;
   std::uint64_t late = 0;  // ticks left out, as frames took longer than a period
@@ -117,7 +118,9 @@ class Hub {
   }
   Status status() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return status_;
+    Status status = status_;
+    status.start = start_;
+    return status;
   }
 
   // Called after each frame by the thread that made it: must return at once and not throw.
@@ -145,6 +148,8 @@ class Hub {
     }
   }
 
+  const std::string start_ =
+      std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
   double kept_s_ = 64.0;
   mutable std::mutex mutex_;
   std::shared_ptr<const LiveFrame> newest_;

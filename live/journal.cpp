@@ -44,9 +44,18 @@ void Journal::packet(double arrived_s, std::span<const std::uint8_t> bytes, std:
 }
 
 void Journal::frame(const Tick& tick, double samples) {
-  write(
-      json{{"frame", tick.number}, {"now_s", tick.now_s}, {"at_s", tick.at_s}, {"samples", samples}}
-          .dump());
+  const json line{
+      {"frame", tick.number}, {"now_s", tick.now_s}, {"at_s", tick.at_s}, {"samples", samples}};
+  const std::lock_guard<std::mutex> lock(writing_);
+  frame_ = line.dump() + "\n";
+}
+
+void Journal::made(bool shown) {
+  const std::lock_guard<std::mutex> lock(writing_);
+  const std::string lines = (shown ? frame_ : "") + behind_;
+  frame_.clear();
+  behind_.clear();
+  put(lines);
 }
 
 void Journal::control(const std::string& path, const std::string& body) {
@@ -57,7 +66,14 @@ void Journal::control(const std::string& path, const std::string& body) {
 // Each line at once, so that a channel that is killed leaves all that it did.
 void Journal::write(const std::string& line) {
   const std::lock_guard<std::mutex> lock(writing_);
-  stream_ << line << '\n' << std::flush;
+  if (frame_.empty())
+    put(line + "\n");
+  else
+    behind_ += line + "\n";
+}
+
+void Journal::put(const std::string& text) {
+  stream_ << text << std::flush;
   if (!stream_)
     core::throw_input_error(core::ErrorClass::io, core::Place{file_.string()}, "--record",
                             std::strerror(errno), "a file that can be written, with room");

@@ -4,7 +4,8 @@
 // JSON, a line each: first what was flown, then {"packet": HEX, "s": ARRIVAL}, {"frame": NUMBER,
 // "now_s", "at_s", "samples"} and {"control": PATH, "body": TEXT}, in their order. Times are seconds
 // since the channel began; samples of 0 are the scene's own. Of several sources "from" is a list, and
-// "from" of a packet its place there, from 0 up (0 is left out). live/recording.h reads it. Thread-safe.
+// "from" of a packet its place there, from 0 up (0 is left out). A frame that the end of the channel left
+// unmade is not in it. live/recording.h reads it. Thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -35,12 +36,15 @@ struct Tick {
 
 class Journal {
  public:
-  // Throws InputError E-IO, and does so when a line cannot be written: what stands there is whole up
+  // Throws InputError E-IO, and does so when lines cannot be written: what stands there is whole up
   // to the line before.
   Journal(const std::filesystem::path& file, const FlownBy& flown_by);
 
   void packet(double arrived_s, std::span<const std::uint8_t> bytes, std::size_t source = 0);
+  // Waits for made(), and with it whatever comes after.
   void frame(const Tick& tick, double samples);
+  // The frame is there to be shown, or will never be: then its line is left out.
+  void made(bool shown);
   void control(const std::string& path, const std::string& body);
 
   // While it is held no control comes into force: whoever sets one, or takes the conditions of a
@@ -49,9 +53,11 @@ class Journal {
 
  private:
   void write(const std::string& line);
+  void put(const std::string& text);
 
   std::filesystem::path file_;
   std::mutex conditions_, writing_;
+  std::string frame_, behind_;  // lines of the frame that is being made, and of what came since
   std::ofstream stream_;
 };
 

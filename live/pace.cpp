@@ -60,4 +60,33 @@ double Pace::after(double now_s, double frame_s) {
   return samples();
 }
 
+double PaceByVolume::samples() const {
+  if (!outside_) return inside_.samples();
+  if (on_side_ < kAtBorder) return std::min(inside_.samples(), outside_->samples());
+  return is_outside_ ? outside_->samples() : inside_.samples();
+}
+
+void PaceByVolume::change_side(double now_s, bool outside) {
+  if (on_side_ >= kAtBorder) {
+    inside_.forget();
+    if (outside_) outside_->forget();
+  }
+  if (!outside_) outside_ = inside_;
+  is_outside_ = outside;
+  on_side_ = 0;
+  changed_s_ = now_s;
+}
+
+double PaceByVolume::after(double now_s, double frame_s, bool outside) {
+  const double made_with = samples();
+  if (outside != is_outside_) change_side(now_s, outside);
+  Pace& side = outside ? *outside_ : inside_;
+  // A frame of another sampling tells of this one only that it is too slow as well.
+  if (made_with == side.samples() || (made_with < side.samples() && side.is_late(frame_s)))
+    side.after(now_s, frame_s);
+  on_side_ = std::min(on_side_ + 1, kAtBorder);
+  if (!is_outside_ && now_s - changed_s_ >= Pace::kPatience_s) outside_.reset();
+  return samples();
+}
+
 }  // namespace fanbeam::live

@@ -7,7 +7,7 @@
 // (measured: docs/performance-notes.md). A step that was left because it was too slow is not tried
 // again for ten seconds, so that the picture does not flicker between two.
 // Outside the planned volume every frame is made by a plan of its own, whose cost says nothing of the
-// sampling inside: what is too slow there makes frames coarser there alone.
+// sampling inside: what is too slow there makes frames coarser there alone, and for half a second at the border.
 // Pure: time comes in as an argument.
 #pragma once
 
@@ -32,6 +32,10 @@ class Pace {
   double samples() const { return ladder_[step_]; }
   // Sampling of the next frame, after one that ended at `now_s` and took `frame_s`.
   double after(double now_s, double frame_s);
+  // Whether a frame that took so long takes more than its share.
+  bool is_late(double frame_s) const { return frame_s > kShare * period_s_; }
+  // What frames took so far says nothing of those to come.
+  void forget() { taken_.clear(); }
 
  private:
   struct Taken {
@@ -56,24 +60,27 @@ class Pace {
 };
 
 // Inside and outside the planned volume: out there it begins as it was inside, which goes on as it was.
+// For the first frames after the border each is as coarse as the coarser side needs, as the next may be of
+// either. What was learnt outside is kept for ten seconds inside.
 class PaceByVolume {
  public:
   PaceByVolume(std::vector<double> ladder, double period_s)
       : inside_(std::move(ladder), period_s) {}
 
-  double samples() const { return outside_ ? outside_->samples() : inside_.samples(); }
-  // As Pace::after, of a frame that was `outside` or not.
-  double after(double now_s, double frame_s, bool outside) {
-    if (!outside)
-      outside_.reset();
-    else if (!outside_)
-      outside_ = inside_;
-    return (outside ? *outside_ : inside_).after(now_s, frame_s);
-  }
+  double samples() const;
+  // As Pace::after, of a frame that was `outside` or not, made with samples().
+  double after(double now_s, double frame_s, bool outside);
 
  private:
+  static constexpr int kAtBorder = 8;  // frames
+
+  void change_side(double now_s, bool outside);
+
   Pace inside_;
-  std::optional<Pace> outside_;  // while it is there
+  std::optional<Pace> outside_;
+  bool is_outside_ = false;
+  int on_side_ = kAtBorder;  // frames since the border
+  double changed_s_ = 0.0;
 };
 
 }  // namespace fanbeam::live

@@ -61,23 +61,25 @@ bool RawFrames::refused() {
 }
 
 // Whole, also at the end of the flight, or until the reader is gone; a reader that stands still holds
-// nobody's end up.
+// nobody's end up: not a signal's at all, and that of --seconds for a while.
 bool RawFrames::put(const LiveFrame& frame, const FrameTaker& taker) {
-  constexpr int kNap_ms = 100;
+  constexpr int kNap_ms = 100, kNaps = 20;
   const core::Picture8& picture = scope_ == Scope::bscope ? frame.bscope : frame.cscope;
   while (!has_reader()) {
     if (errno != ENXIO) return refused();
-    if (!every_frame_ || taker.leaving()) return true;
+    if (!every_frame_ || taker.ending()) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(kNap_ms));
   }
   std::size_t done = 0;
+  int naps = 0;  // in a row
   while (done < picture.pixels.size()) {
     pollfd ready{file_, POLLOUT, 0};
     ::poll(&ready, 1, kNap_ms);
     if ((ready.revents & (POLLOUT | POLLERR | POLLHUP)) == 0) {
-      if (taker.leaving()) return true;
+      if (taker.leaving() || (taker.ending() && ++naps >= kNaps)) return true;
       continue;
     }
+    naps = 0;
     // No more than a pipe takes at once: it would wait for its reader.
     const std::size_t part = std::min<std::size_t>(picture.pixels.size() - done, PIPE_BUF);
     const ssize_t count = ::write(file_, picture.pixels.data() + done, part);

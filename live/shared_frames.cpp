@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "core/errors.h"
+#include "sensors/display/grey_scale.h"
 
 namespace fanbeam::live {
 namespace {
@@ -92,11 +93,12 @@ void write_header(std::uint8_t* memory, const sensors::Sensor& sensor, double ra
   whole(Layout::kBScopeAt + 4, static_cast<std::size_t>(sensor.range.cells));
   whole(Layout::kCScopeAt, columns);
   whole(Layout::kCScopeAt + 4, static_cast<std::size_t>(sensor.display.cscope_rows));
+  const sensors::GreyScale grey(sensor);
   std::size_t at = Layout::kAxesAt;
   for (const double value :
        {sensor.range.minimum_m, sensor.range.cell_m, sensor.scan.field_of_view_rad,
-        sensor.display.cscope_top_rad, sensor.display.cscope_span_rad, sensor.display.low_dB,
-        sensor.display.high_dB, rate_Hz}) {
+        sensor.display.cscope_top_rad, sensor.display.cscope_span_rad, grey.low_dB(),
+        grey.high_dB(), rate_Hz}) {
     put(memory + at, value);
     at += sizeof value;
   }

@@ -4,7 +4,8 @@
 // between arrival and the source's clock is taken at its least over the last two seconds: what is
 // left of jitter is that of the quickest packets, and the two clocks may drift (1e-3: 2 ms). A clock
 // that stands is a paused simulator: its packets count as of their arrival. One that is a second
-// behind, or a quarter of a second twice alike, has been paused or begun anew, and counts from there.
+// behind, or a quarter of a second twice alike, has been paused or begun anew, and counts from there; so
+// does one that goes back, which ClockGate lets through when the clock was put back or a stray packet lay ahead.
 // Pure.
 #pragma once
 
@@ -20,7 +21,7 @@ class SourceClock {
   double time_of(double clock_s, double arrived_s) {
     constexpr double kLook_s = 2.0, kLate_s = 0.25, kRestart_s = 1.0, kAlike_s = 0.05;
     const double behind_s = arrived_s - clock_s;
-    if (last_s_ && clock_s == *last_s_) recent_.clear();
+    if (last_s_ && clock_s <= *last_s_) recent_.clear();
     last_s_ = clock_s;
     if (!recent_.empty()) {
       const double late_s = behind_s - recent_.front().behind_s;

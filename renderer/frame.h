@@ -52,7 +52,9 @@ struct Frame {
   std::uint64_t unprojected = 0;       // point targets without a direction; point_targets.h
   std::optional<FrameLayers> layers;   // when asked for; frame_layers.h
   std::optional<ErrorEstimate> error;  // when the sampling asks for it
-  // "below_terrain": the sensor is not above the ground, the picture holds noise alone.
+  // "below_terrain": the sensor is not above the ground, the picture holds noise alone. A C-scope of
+  // the modes shadow and flat_earth, which draw ground below the sensor, is black; beside the ground,
+  // or without any (World), it is told of frames with such a C-scope alone, and the B-scope is whole.
   // "empty_view": nothing was hit.
   std::vector<std::string> events;
 

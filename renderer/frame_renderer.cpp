@@ -142,6 +142,8 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
     display(height_above_ground_m, frame);
     return frame;
   }
+  if (products_.cscope && !shows_elevation() && height_above_ground_m <= 0.0)
+    frame.events.emplace_back("below_terrain");
   // Kept by the calling thread: fresh pages for megabytes of sums would cost a tenth of a frame.
   thread_local FanSums sums;
   const TargetEchoes targets = unobstructed_echoes(world_, antenna, pose.time_s);

@@ -63,6 +63,7 @@ class AirportTable {
   void add_runway(const Airport& airport, const AirportRunway& from, double light_rcs_m2) {
     RunwayDescription runway;
     runway.place = place_;
+    runway.from_airport = true;
     for (const int end : {0, 1}) {
       runway.ends[end].name = from.ends[end].name;
       runway.ends[end].displaced_m = from.ends[end].displaced_m;

@@ -188,6 +188,9 @@ void add_model(const ModelDescription& model, const Ground& ground, const Materi
                        "no triangle of " + model.file.filename().string() + " has this material" +
                            core::names_there_text(name, used));
   }
+  bodies.objects.models.push_back({model.name,
+                                   static_cast<terrain::ObjectId>(bodies.objects.names.size()),
+                                   placed.mesh.part_names.size()});
   for (const std::string& part : placed.mesh.part_names)
     placed.object_of_part.push_back(
         bodies.objects.add(model.name + ": " + part, ObjectKind::model));

@@ -70,6 +70,7 @@ struct RunwayDescription {
   RunwayEndDescription ends[2];
   double width_m = 45.0, shoulder_m = 7.5, strip_half_width_m = 75.0, blend_m = 100.0;
   bool markings = true, edge_lights = true;
+  bool from_airport = false;                 // of [[airport]], which has no key for the strip
   std::vector<std::string> approach_lights;  // names of ends
   double approach_light_slope = 0.0;
   double light_rcs_m2 = 0.0;

@@ -143,7 +143,8 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description,
 }
 
 void Ground::tell_steps() const {
-  constexpr double kTold_m = 0.5;
+  // Files of airports have ends to a foot or a metre, and nothing to be done about it.
+  constexpr double kTold_m = 0.5, kToldOfAirports_m = 2.0;
   const auto name = [&](std::size_t i) {
     const RunwayEndDescription* const ends = scene_.runways[i].ends;
     return ends[0].name + "/" + ends[1].name;
@@ -151,13 +152,16 @@ void Ground::tell_steps() const {
   for (std::size_t i = 1; i < runways_.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const double step_m = terrain::largest_step_m(runways_[k], runways_[i]);
-      if (step_m > kTold_m)
-        problems_.warning("OVERLAP", scene_.runways[i].place, "runway",
-                          name(k) + " and " + name(i) + " differ by " +
-                              core::number_text(std::round(step_m * 10.0) / 10.0) +
-                              " m where their strips overlap",
-                          "blended there: check the ends' elevations, or make strip_half_width_m "
-                          "smaller");
+      const bool airports = scene_.runways[i].from_airport && scene_.runways[k].from_airport;
+      if (step_m > kTold_m && (!airports || step_m >= kToldOfAirports_m))
+        problems_.warning(
+            "OVERLAP", scene_.runways[i].place, "runway",
+            name(k) + " and " + name(i) + " differ by " +
+                core::number_text(std::round(step_m * 10.0) / 10.0) +
+                " m where their strips overlap",
+            "blended between their pavements, and along them where these cross; check "
+            "the ends' elevations; strip_half_width_m of [[runway]] makes a strip "
+            "narrower");
     }
 }
 

@@ -42,7 +42,7 @@ enum class Zone { open, approach, airfield };
 class Ground {
  public:
   // Loads rasters, generates what is to be generated, flattens the runway strips. W-OVERLAP for two
-  // runways whose lines differ by more than 0.5 m where their strips overlap.
+  // runways whose lines differ by more than 0.5 m where their strips overlap, both of [[airport]] by 2 m.
   Ground(const SceneDescription& scene, const terrain::LocalFrame& frame,
          const MaterialNames& names, core::ProblemList& problems);
 

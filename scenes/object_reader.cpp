@@ -221,9 +221,14 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
     scene.buildings.push_back(read_buildings(table, search));
   HighwayPaths highway(search);
   WaypointBudget waypoints;
-  for (ConfigTable& table : root.tables("target"))
-    scene.targets.push_back(
-        read_target(table, objects, highway, waypoints, scene.sensor.waveform.polarisation));
+  std::size_t unnamed = 0;  // what has one name is one object in labels
+  for (ConfigTable& table : root.tables("target")) {
+    if (!table.has("name")) ++unnamed;
+    const std::string usual_name =
+        unnamed > 1 ? "target " + std::to_string(unnamed) : std::string("target");
+    scene.targets.push_back(read_target(table, usual_name, objects, highway, waypoints,
+                                        scene.sensor.waveform.polarisation));
+  }
   for (const std::filesystem::path& file : highway.files()) scene.files.push_back(file);
   for (ConfigTable& table : root.tables("interferer", kMostInterferers)) {
     scene.interferers.push_back(read_interferer(table, scene.sensor.waveform));

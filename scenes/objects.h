@@ -19,6 +19,7 @@ namespace fanbeam::scenes {
 struct Objects {
   std::vector<std::string> names{};
   std::vector<renderer::ObjectKind> kinds{};
+  std::vector<renderer::ModelObjects> models{};
 
   // The id of another one.
   terrain::ObjectId add(const std::string& name, renderer::ObjectKind kind);

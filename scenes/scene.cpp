@@ -68,7 +68,7 @@ std::shared_ptr<const renderer::Geometry> geometry_of(const Ground& ground,
                                           std::move(bodies.meshes), options.instruction_set,
                                           options.robust),
       std::move(bodies.solids), std::move(material_names), std::move(bodies.objects.names),
-      std::move(bodies.objects.kinds)});
+      std::move(bodies.objects.kinds), std::move(bodies.objects.models)});
 }
 
 }  // namespace

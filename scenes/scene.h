@@ -48,6 +48,7 @@ struct BuildOptions {
   bool heights_shown = true;                   // false: neither C-scopes nor obstacles are wanted
   std::string instruction_set;                 // see RayScene
   bool robust = true;                          // see RayScene
+  renderer::Readings read{};                   // what is wanted beside pictures
 };
 
 // A site and what is said of it now. Copies share the site.

@@ -65,6 +65,7 @@ Planned make_plan(const SceneSetting& scene, const std::vector<renderer::PointTa
   planned.all_facts = facts_of(description, *scene.site, scene.volume, scene.weather,
                                volume_echo_of(scene).largest_eta_m2_per_m3(), targets, mirroring);
   planned.all_facts.heights_shown = scene.options.heights_shown;
+  planned.all_facts.read = scene.options.read;
   planned.facts =
       planned_by_flight(scene)
           ? sequence_facts(planned.all_facts, planned.sight, targets, scene.frame_count(),

@@ -107,11 +107,12 @@ double rcs_m2_from(ConfigTable& table, std::string_view key, double fallback_dBs
   return core::power_from_dB(table.number(key, kRcs_dBsm, fallback_dBsm));
 }
 
-TargetDescription read_target(ConfigTable& table, ObjectNames& objects, HighwayPaths& highway,
+TargetDescription read_target(ConfigTable& table, const std::string& usual_name,
+                              ObjectNames& objects, HighwayPaths& highway,
                               WaypointBudget& waypoint_budget, core::Polarisation polarisation) {
   TargetDescription target;
   target.place = table.place("");
-  target.name = table.text("name", "target");
+  target.name = table.text("name", usual_name);
   target.heading_rad = radians(table.number("heading_deg", kHeading_deg, 0.0));
   target.tilt_rad = radians(table.number("tilt_deg", {-90, 90}, 0.0));
   // A wire stands across the boresight.

@@ -64,6 +64,7 @@ std::vector<Picture> pictures(const scenes::Scene& scene, const renderer::FrameP
   } else {  // drawn from the B-scope with its noise
     const double height_m =
         scene.world.surfaces().height_above_ground_m(renderer::antenna_of(sensor, pose).position_m);
+    if (!(height_m > 0.0)) return all;  // no ground below, nothing drawn
     const std::vector<double> noise_W_m3 = sensors::flat_earth_cscope_W_m3(
         sensor, std::vector<double>(frame.bscope_W.size(), noise_W), height_m);
     all.push_back({"C-scope", cscope_levels_dB(sensor, frame.cscope_W_m3, 0.0),

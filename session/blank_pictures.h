@@ -17,7 +17,7 @@ inline constexpr double kContrast_grey = 10.0;  // 4 % of the display
 inline constexpr std::size_t kShowing = 10'000;
 
 // Adds "blank-picture" for each picture that shows nothing, behind what is as bad. A frame with its
-// antenna in the ground is left to the check of that.
+// antenna in the ground, or a C-scope of flat ground without any below, is left to the check of that.
 void add_blank_pictures(const scenes::Scene& scene, scenes::Findings& findings);
 
 }  // namespace fanbeam::session

@@ -156,6 +156,7 @@ void Run::render_frames(const ProgressListener& progress) {
   }
   writer.finish();
   if (preview) {
+    output_.begin({}, {film().filename().string()});  // it does not say what input it is of
     preview->finish();
     record_.films.insert(film().filename().string());
   }

@@ -80,6 +80,19 @@ void paint_markings(const Runway& runway, std::vector<SurfacePatch>& patches) {
   paint.pair(0.0, runway.width_m / 2 - 0.45, landing_m, 0.9);
 }
 
+double paved_half_width_m(const Runway& runway) {
+  return std::min(runway.width_m / 2 + runway.shoulder_m, runway.strip_half_width_m);
+}
+
+// From pavement and shoulders; 0 on them.
+double off_pavement_m(const Runway& runway, glm::dvec2 position_m) {
+  const glm::dvec2 relative = position_m - runway.ends[0].pavement_end_m;
+  const double s_m = glm::dot(relative, runway.along());
+  const double t_m = std::abs(glm::dot(relative, across(runway.along())));
+  return std::hypot(std::max({-s_m, s_m - runway.length_m(), 0.0}),
+                    std::max(t_m - paved_half_width_m(runway), 0.0));
+}
+
 // Of one value exactly that.
 class WeightedMean {
  public:
@@ -92,12 +105,49 @@ class WeightedMean {
     last_ = value;
   }
   bool empty() const { return count_ == 0; }
+  int count() const { return count_; }
   double value() const { return count_ == 1 ? last_ : sum_ / weights_; }
 
  private:
   int count_ = 0;
   double weights_ = 0.0, sum_ = 0.0, last_ = 0.0;
 };
+
+// Whether pavements with their shoulders have a place in common: no axis of either tells them apart.
+bool pavements_meet(const Runway& one, const Runway& other) {
+  const auto centre_m = [](const Runway& runway) {
+    return (runway.ends[0].pavement_end_m + runway.ends[1].pavement_end_m) / 2.0;
+  };
+  const auto reach_m = [](const Runway& runway, const glm::dvec2& axis) {
+    return runway.length_m() / 2 * std::abs(glm::dot(axis, runway.along())) +
+           paved_half_width_m(runway) * std::abs(glm::dot(axis, across(runway.along())));
+  };
+  const glm::dvec2 apart_m = centre_m(other) - centre_m(one);
+  for (const glm::dvec2& along : {one.along(), other.along()})
+    for (const glm::dvec2& axis : {along, across(along)})
+      if (std::abs(glm::dot(apart_m, axis)) > reach_m(one, axis) + reach_m(other, axis))
+        return false;
+  return true;
+}
+
+// Of a place in several strips: the mean by the distances to their borders, and to pavements that do not
+// cross.
+double height_in_strips_m(const std::vector<Runway>& runways, glm::dvec2 position_m) {
+  constexpr double kSmall_m = 1e-9;  // two pavements that touch share the line between them
+  WeightedMean mean;
+  for (const Runway& runway : runways) {
+    const std::optional<StripHeight> strip = strip_height(runway, position_m);
+    if (!strip || strip->natural_share > 0.0) continue;
+    double weight = strip->inside_m;
+    for (const Runway& other : runways) {
+      if (&other == &runway || pavements_meet(runway, other)) continue;
+      const double to_other_m = off_pavement_m(other, position_m) + kSmall_m;
+      weight *= to_other_m / (off_pavement_m(runway, position_m) + kSmall_m + to_other_m);
+    }
+    mean.add(strip->height_m, weight);
+  }
+  return mean.value();
+}
 
 // The largest difference of two lines at samples of the first one's strip that lie in the other's.
 double step_on_strip_m(const Runway& runway, const Runway& other) {
@@ -175,7 +225,9 @@ double flattened_height_m(const std::vector<Runway>& runways, glm::dvec2 positio
       beside.add(strip->height_m, (1.0 - strip->natural_share) / strip->natural_share);
   }
   if (inside.empty() && beside.empty()) return natural_height_m;
-  const double strip_m = inside.empty() ? beside.value() : inside.value();
+  const double strip_m = inside.empty()        ? beside.value()
+                         : inside.count() == 1 ? inside.value()
+                                               : height_in_strips_m(runways, position_m);
   return strip_m * (1.0 - natural_share) + natural_height_m * natural_share;
 }
 

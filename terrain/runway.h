@@ -62,7 +62,9 @@ std::optional<StripHeight> strip_height(const Runway& runway, glm::dvec2 positio
 
 // Ground height near runways: inside a strip the straight line between the published end elevations,
 // outside the natural height, a smooth blend between. Where strips overlap, the mean of their lines
-// weighted by the distances to the strips' borders; where only blends do, by the odds of strip against
+// weighted by the distances to the strips' borders. Pavement and shoulders keep their own line in the strip
+// of a runway whose pavement does not cross theirs: between the two each weighs less by its share of the
+// distances to both pavements. Where only blends overlap, the mean is by the odds of strip against
 // natural ground. Neither depends on the order of the runways but by rounding. Where borders of two strips
 // cross, the one point has both heights, and slopes around it are steep where the lines differ.
 double flattened_height_m(const std::vector<Runway>& runways, glm::dvec2 position_m,

@@ -174,6 +174,8 @@ const std::map<std::string_view, ExitCode>& own_exit_codes() {
       {"render", {"130 or 143", "stopped by Ctrl-C or kill", "whole files only are left"}},
       {"campaign verify",
        {"1", "runs are missing or damaged", "the command that makes them again is printed"}},
+      {"campaign plan",
+       {"130 or 143", "stopped by Ctrl-C or kill", "nothing of the pilot is left"}},
       {"campaign run", {"130 or 143", "stopped by Ctrl-C or kill", "whole runs only are left"}},
       {"fmcw", {"130 or 143", "stopped by Ctrl-C or kill", "whole files only are left"}},
       {"", {"1", "comparison failed", "pictures differ by more than is allowed"}},

@@ -70,7 +70,7 @@ enum { FANBEAM_BSCOPE = 1, FANBEAM_CSCOPE = 2 };
 /* What a frame has to say of itself, as bits. */
 enum {
   FANBEAM_OUTSIDE_VOLUME = 1, /* a pose the plan was not made for: tens of milliseconds more */
-  FANBEAM_BELOW_TERRAIN = 2,  /* the antenna is not above the ground: noise alone */
+  FANBEAM_BELOW_TERRAIN = 2,  /* the antenna is not above the ground: noise alone, or no C-scope */
   FANBEAM_EMPTY_VIEW = 4      /* nothing was hit */
 };
 

@@ -8,6 +8,7 @@
 #include "renderer/casting/sampling.h"
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
+#include "sensors/display/grey_scale.h"
 
 using namespace fanbeam;
 using bindings::Arguments;
@@ -102,8 +103,9 @@ fanbeam_facts facts_of(const scenes::Scene& scene) {
   facts.cscope_top_rad = sensor.display.cscope_top_rad;
   facts.cscope_span_rad = sensor.display.cscope_span_rad;
   facts.frame_rate_Hz = sensor.scan.frame_rate_Hz;
-  facts.low_dB = sensor.display.low_dB;
-  facts.high_dB = sensor.display.high_dB;
+  const sensors::GreyScale grey(sensor);
+  facts.low_dB = grey.low_dB();
+  facts.high_dB = grey.high_dB();
   return facts;
 }
 

@@ -18,6 +18,7 @@
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
 #include "scenes/ground_below.h"
+#include "sensors/display/grey_scale.h"
 #include "session/labels/labels_json.h"
 #include "session/records/run_record.h"
 #include "session/sampling_choice.h"
@@ -215,6 +216,7 @@ py::dict facts(const Scene& scene) {
   const renderer::Geometry& geometry = *now->world.geometry;
   std::vector<std::string> objects = geometry.object_names;
   for (const renderer::PointTarget& target : now->world.targets) objects.push_back(target.name);
+  const sensors::GreyScale grey(sensor);
   py::dict result;
   result["name"] = now->description.name;
   result["sensor"] = sensor.name;
@@ -228,7 +230,7 @@ py::dict facts(const Scene& scene) {
   result["cscope_rows"] = sensor.display.cscope_rows;
   result["cscope_top_rad"] = sensor.display.cscope_top_rad;
   result["cscope_span_rad"] = sensor.display.cscope_span_rad;
-  result["window_dB"] = py::make_tuple(sensor.display.low_dB, sensor.display.high_dB);
+  result["window_dB"] = py::make_tuple(grey.low_dB(), grey.high_dB());
   result["noise_W"] = sensor.noise_power_W();
   result["caster"] = renderer::name_of(now->caster.chosen);
   result["caster_reason"] = now->caster.reason;

@@ -49,16 +49,20 @@ std::vector<double> ColumnError::image(const std::vector<double>& sums, int bins
   return through_antenna(sums, bins, fan, sensor_, static_cast<int>(std::lround(per_column)));
 }
 
+bool ColumnError::raises() const {
+  return drawn_from_m_ > 0.0 && sensor_.display.cscope_mode == sensors::Display::CScopeMode::shadow;
+}
+
 std::vector<double> ColumnError::cscope_grey(const FanSums& fan,
-                                             const std::vector<double>& received_W) const {
+                                             const std::vector<double>& received_W,
+                                             bool raised) const {
   if (!(drawn_from_m_ > 0.0))
     return sensors::cscope_grey(
         sensor_, over(common_W_m3_, noise_W_m3_, image(fan.elevation_W_m3_per_rad, fan.rows, fan)));
-  std::vector<sensors::ShadowObstacle> raised;
-  if (sensor_.display.cscope_mode == sensors::Display::CScopeMode::shadow)
-    raised = sensors::shadow_obstacles(sensor_, received_W, drawn_from_m_);
+  std::vector<sensors::ShadowObstacle> obstacles;
+  if (raised) obstacles = sensors::shadow_obstacles(sensor_, received_W, drawn_from_m_);
   return sensors::cscope_grey(
-      sensor_, sensors::shadow_cscope_W_m3(sensor_, received_W, drawn_from_m_, raised));
+      sensor_, sensors::shadow_cscope_W_m3(sensor_, received_W, drawn_from_m_, obstacles));
 }
 
 ColumnError::Squares ColumnError::between(const FanSums& one, const FanSums& other) const {
@@ -67,11 +71,17 @@ ColumnError::Squares ColumnError::between(const FanSums& one, const FanSums& oth
     return over(common_W_, noise_W_, image(fan.range_W_per_rad, fan.cells, fan));
   };
   const std::vector<double> one_W = received_W(one), other_W = received_W(other);
-  const bool with_cscope = drawn_from_m_ > 0.0 || one.rows > 0;
-  return {mean_squares(sensors::bscope_grey(sensor_, one_W), sensors::bscope_grey(sensor_, other_W),
-                       columns),
-          with_cscope ? mean_squares(cscope_grey(one, one_W), cscope_grey(other, other_W), columns)
-                      : std::vector<double>(columns, 0.0)};
+  const auto cscopes_apart = [&](bool raised) {
+    return mean_squares(cscope_grey(one, one_W, raised), cscope_grey(other, other_W, raised),
+                        columns);
+  };
+  Squares apart{mean_squares(sensors::bscope_grey(sensor_, one_W),
+                             sensors::bscope_grey(sensor_, other_W), columns),
+                std::vector<double>(columns, 0.0), std::vector<double>(columns, 0.0)};
+  if (!(drawn_from_m_ > 0.0) && one.rows == 0) return apart;
+  apart.unraised_grey2 = cscopes_apart(false);
+  apart.cscope_grey2 = raises() ? cscopes_apart(true) : apart.unraised_grey2;
+  return apart;
 }
 
 }  // namespace fanbeam::renderer

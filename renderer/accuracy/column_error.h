@@ -22,12 +22,17 @@ class ColumnError {
   // Mean squares over a column's cells of the difference of unrounded grey, one value per column.
   struct Squares {
     std::vector<double> bscope_grey2, cscope_grey2;  // the latter all 0 without a C-scope
+    // Of the C-scope without the obstacles that mode shadow raises; the same as that in other modes. More
+    // samples make it smaller.
+    std::vector<double> unraised_grey2;
   };
   Squares between(const FanSums& one, const FanSums& other) const;
 
  private:
   std::vector<double> image(const std::vector<double>& sums, int bins, const FanSums& fan) const;
-  std::vector<double> cscope_grey(const FanSums& fan, const std::vector<double>& received_W) const;
+  bool raises() const;
+  std::vector<double> cscope_grey(const FanSums& fan, const std::vector<double>& received_W,
+                                  bool raised) const;
 
   const sensors::Sensor& sensor_;
   double noise_W_, noise_W_m3_, drawn_from_m_;

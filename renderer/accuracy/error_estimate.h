@@ -10,7 +10,8 @@ struct ErrorEstimate {
   double rms_grey = 0.0;         // of the B-scope, the main figure
   double cscope_rms_grey = 0.0;  // 0 without one
   int levels = 1;                // cast, at the column that took most
-  bool reached = true;           // false: the finest level is still coarser than asked for
+  // false: the finest level is still coarser than asked for, or raised obstacles differ (mode shadow)
+  bool reached = true;
 
   double largest_grey() const { return std::max(rms_grey, cscope_rms_grey); }
 };

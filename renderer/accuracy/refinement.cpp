@@ -38,6 +38,11 @@ ErrorEstimate estimate_of(const ColumnError::Squares& squares, double factor, in
   return {factor * rms(squares.bscope_grey2), factor * rms(squares.cscope_grey2), levels, true};
 }
 
+// What more samples are worth: an obstacle is raised or not, whatever they are.
+bool is_fine(const ColumnError::Squares& squares, double factor, double target_grey) {
+  return factor * std::max(rms(squares.bscope_grey2), rms(squares.unraised_grey2)) <= target_grey;
+}
+
 // Of errors that have nothing to do with each other.
 ErrorEstimate together(const ErrorEstimate& one, const ErrorEstimate& other) {
   return {std::hypot(one.rms_grey, other.rms_grey),
@@ -54,7 +59,8 @@ FanSums empty_like(const FanSums& fan) {
 }
 
 ColumnError::Squares none_of(std::size_t columns) {
-  return {std::vector<double>(columns, 0.0), std::vector<double>(columns, 0.0)};
+  const std::vector<double> none(columns, 0.0);
+  return {none, none, none};
 }
 
 // In a sampling of its own: twice the sub-columns too, as far as they go, and then twice the rays in
@@ -85,6 +91,7 @@ void add_scaled(const ColumnError::Squares& more, double factor2, ColumnError::S
   for (std::size_t c = 0; c < squares.bscope_grey2.size(); ++c) {
     squares.bscope_grey2[c] += factor2 * more.bscope_grey2[c];
     squares.cscope_grey2[c] += factor2 * more.cscope_grey2[c];
+    squares.unraised_grey2[c] += factor2 * more.unraised_grey2[c];
   }
 }
 
@@ -114,7 +121,7 @@ class TooCoarse {
     std::vector<std::size_t> found;
     for (std::size_t c = 0; c < error.bscope_grey2.size(); ++c)
       if (too_large(error.bscope_grey2[c], fixed.bscope_grey2[c]) ||
-          too_large(error.cscope_grey2[c], fixed.cscope_grey2[c]))
+          too_large(error.unraised_grey2[c], fixed.unraised_grey2[c]))
         found.push_back(c);
     return found;
   }
@@ -187,6 +194,7 @@ ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with
     for (const std::size_t c : columns) {
       error.bscope_grey2[c] = factor * factor * apart.bscope_grey2[c];
       error.cscope_grey2[c] = factor * factor * apart.cscope_grey2[c];
+      error.unraised_grey2[c] = factor * factor * apart.unraised_grey2[c];
     }
     combine_groups(fresh, factors.share, groups, 1.0 - factors.share, sums);
     add_counts(fresh, sums);
@@ -195,7 +203,7 @@ ErrorEstimate Refinement::refine(const sensors::AntennaFrame& antenna, bool with
     ErrorEstimate reached = estimate_of(both, 1.0, level + 1);
     reached.reached = reached.largest_grey() <= target_grey;
     columns = too_coarse.columns(error, fixed, target_grey);
-    if (reached.reached || level == kFinestLevel || columns.empty()) return reached;
+    if (is_fine(both, 1.0, target_grey) || level == kFinestLevel || columns.empty()) return reached;
     groups = too_coarse.groups(columns);
   }
 }
@@ -250,7 +258,8 @@ ErrorEstimate Refinement::add_bounces(const sensors::AntennaFrame& antenna,
     echoes = std::move(fresh);
     ErrorEstimate reached = estimate_of(apart, kBounces.of_new(level), level + 1);
     reached.reached = reached.largest_grey() <= target_grey;
-    if (!reached.reached && level < kFinestBounces) continue;
+    const bool fine = is_fine(apart, kBounces.of_new(level), target_grey);
+    if (!fine && level < kFinestBounces) continue;
     sums = plus(std::move(sums), echoes);
     return reached;
   }

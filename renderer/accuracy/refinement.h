@@ -32,15 +32,17 @@
 // their own; they are refined in whole fans, and share the target: sqrt(1/2) of it for each.
 //
 // A C-scope of mode flat_earth or shadow is drawn from each of two B-scopes that are compared. In mode
-// shadow an obstacle that one of the two raises and the other does not counts in full; one that tips in
-// columns that are good enough already is not seen.
+// shadow an obstacle that one of the two raises and the other does not counts in full in the estimate, but
+// no column is refined for it: it may tip at any level. One that tips in columns that are good enough
+// already is not seen.
 //
 // Not in the estimate: point targets, which are not sampled at random. The echo of rain is not
 // either, but it fills the cells in which errors would show.
 // Deterministic: depends on the pose and the world alone.
 // Cost: that of level 0 twice with rays and three times with slices, at least, and two pictures per
 // level to compare; in rain its echo once more, so that a frame has the same bytes with an estimate
-// and without. In mode shadow two searches per comparison (sensors/shadow/shadow_obstacles.h).
+// and without. In mode shadow two searches per comparison (sensors/shadow/shadow_obstacles.h), and its
+// C-scopes once more without obstacles.
 #pragma once
 
 #include "renderer/accuracy/column_error.h"

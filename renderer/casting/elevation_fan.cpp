@@ -125,12 +125,11 @@ void ElevationFan::place_both_ways(const sensors::AntennaFrame& frame, double le
   const double from_rad = std::clamp(part.lowest_rad(), lowest_rad_, highest_rad_);
   sensors::AntennaFrame turned_round = frame;
   turned_round.up = -frame.up;
-  std::vector<double> below{-from_rad};
-  climb(turned_round, left_rad, right_rad, Way::from_lowest, -lowest_rad_, below);
-  edges.assign(1, from_rad);
+  edges.assign(1, -from_rad);
+  climb(turned_round, left_rad, right_rad, Way::from_lowest, -lowest_rad_, edges);
+  std::reverse(edges.begin(), edges.end());
+  for (double& edge : edges) edge = -edge;
   climb(frame, left_rad, right_rad, Way::from_lowest, highest_rad_, edges);
-  edges.insert(edges.begin(), below.rbegin(), below.rend() - 1);
-  for (std::size_t i = 0; i + 1 < below.size(); ++i) edges[i] = -edges[i];
   if (edges.size() < 2) edges.clear();
 }
 
@@ -197,7 +196,11 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
   const double below_m = std::abs(world_.surfaces().height_above_ground_m(sensor));
   double drop_m = below_m, lower_m = below_m;  // the second one negative for ground above
   int step = 0;
-  for (double k = -kMarginCells; k <= gate.cells + kMarginCells; k += stride) {
+  // Up from the lowest direction a row goes to the first step, which takes part of it for its own: a step
+  // more keeps that out of the gate.
+  const bool bridge = way == Way::from_lowest && nearest_ == Nearest::first_cell;
+  const double first_k = bridge ? -kMarginCells - 2.0 * stride : -kMarginCells;
+  for (double k = first_k; k <= gate.cells + kMarginCells; k += stride) {
     const double range_m = std::max(gate.minimum_m + gate.cell_m * k, 0.0);
     // A column of a tilted antenna, or a cone, runs over the ground in a curve: follow it.
     if (!level) {
@@ -225,6 +228,8 @@ void ElevationFan::follow_ground(const sensors::AntennaFrame& frame, double azim
     const int parts = static_cast<int>(std::floor(step * rays) - std::floor((step - 1) * rays));
     if (edges.empty()) {
       edges.push_back(std::clamp(elevation_rad, lowest_rad_, end_rad));
+    } else if (bridge && step == 1 && k < -kMarginCells) {
+      add_until(std::min(elevation_rad, end_rad), 1, core::kPi, edges);
     } else {
       add_until(std::min(elevation_rad, end_rad), parts, sampling_.largest_step_rad, edges);
     }

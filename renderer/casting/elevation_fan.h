@@ -9,7 +9,8 @@
 //
 // Of level ground range rises with elevation, above the lowest direction of an azimuth. Where the beam
 // holds that direction (an antenna that looks down, is inverted or on its side), range falls with
-// elevation below it: each part is followed from there outwards.
+// elevation below it: each part is followed from there outwards, where the nearest does not count in one row
+// to just before the first range cell.
 #pragma once
 
 #include <vector>

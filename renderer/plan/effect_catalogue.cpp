@@ -45,6 +45,10 @@ double lever_m(const sensors::Mounting& mounting) {
   return std::hypot(mounting.forward_m, mounting.right_m, mounting.down_m);
 }
 
+double farthest_shown_m(const sensors::Sensor& sensor) {
+  return sensor.range.maximum_m() + kSpreadCells * sensor.range.cell_m;
+}
+
 // The largest loss per kilometre at any height that is seen, all the way to the farthest range that
 // shows in a cell.
 double longest_path_dB(const SceneFacts& facts, core::EffectId effect) {
@@ -54,11 +58,10 @@ double longest_path_dB(const SceneFacts& facts, core::EffectId effect) {
   weather.simulate_rain = effect == core::EffectId::rain;
   weather.simulate_snow = effect == core::EffectId::snow;
   const double frequency_Hz = facts.sensor.waveform.frequency_Hz;
-  const double range_m = facts.sensor.range.maximum_m() + kSpreadCells * facts.sensor.range.cell_m;
+  const double range_m = farthest_shown_m(facts.sensor);
   const atmosphere::PathAttenuation path(weather, frequency_Hz);
-  // Level at the aircraft is tilted against the heights, which count from the origin's level.
   const double lever = lever_m(facts.sensor.mounting);
-  const double margin_m = std::max(kLeastMargin_m, lever + range_m * facts.vertical_turn_rad);
+  const double margin_m = height_margin_m(facts);
   double lowest_m = facts.lowest_m - kTableMargin_m;
   double highest_m = facts.highest_m + margin_m;
   // Over ground an antenna is above it, or sees nothing.
@@ -124,7 +127,7 @@ double fluctuation_dB(const SceneFacts&) { return kLargestFluctuation_dB; }
 
 const std::vector<Effect>& sample_effects() {
   static const std::vector<Effect> kCatalogue = {
-      {core::EffectId::receiver_noise, "noise of each physical receiver in its samples",
+      {core::EffectId::receiver_noise, "noise of the receivers in the samples of every channel",
        "k T0 F fs, IEEE Std 686 noise figure", always, receiver_noise_dB, receiver_noise_cause, ""},
       {core::EffectId::phase_noise, "phase noise of the oscillator", "Budge and Burt 1993",
        has_phase_noise, phase_noise_bound_dB, phase_noise_cause,
@@ -231,6 +234,11 @@ const std::vector<Effect>& picture_effects() {
 }
 
 }  // namespace
+
+double height_margin_m(const SceneFacts& facts) {
+  return std::max(kLeastMargin_m, lever_m(facts.sensor.mounting) +
+                                      farthest_shown_m(facts.sensor) * facts.vertical_turn_rad);
+}
 
 const std::vector<Effect>& effect_catalogue(Touches touched) {
   return touched == Touches::samples ? sample_effects() : picture_effects();

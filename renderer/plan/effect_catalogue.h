@@ -46,4 +46,8 @@ struct Effect {
 
 const std::vector<Effect>& effect_catalogue(Touches touched = Touches::pictures);
 
+// How far above the aircraft the bounds look for what attenuates: what level at the aircraft, tilted
+// against the origin's, rises within range, 300 m at least.
+double height_margin_m(const SceneFacts& facts);
+
 }  // namespace fanbeam::renderer

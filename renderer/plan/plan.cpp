@@ -22,16 +22,26 @@ SceneFacts with_realisation(const SceneFacts& scene, const EffectWishes& wishes)
   return facts;
 }
 
-bool raises_obstacles(const SceneFacts& facts) {
+bool shows_obstacles(const SceneFacts& facts) {
   return facts.heights_shown &&
          facts.sensor.display.cscope_mode == sensors::Display::CScopeMode::shadow;
 }
 
-// A C-scope of mode shadow raises an obstacle or does not, by thresholds; a realisation lets point
-// targets cancel the ground they stand on. There any change can be one of the whole window.
+// Thresholds decide about obstacles and detections; a realisation lets point targets cancel the
+// ground they stand on. There any change can be one of the whole window.
 bool tips_over(const SceneFacts& facts) {
   if (facts.signal) return false;
-  return raises_obstacles(facts) || (facts.sample && facts.has_point_targets);
+  return shows_obstacles(facts) || facts.read.obstacles || facts.read.detections ||
+         (facts.sample && facts.has_point_targets);
+}
+
+// Watts hold the noise, and it crosses thresholds, where no display shows it.
+bool reads_noise(const SceneFacts& facts) { return facts.read.power || facts.read.detections; }
+
+std::string noise_readers_text(const Readings& read) {
+  if (!read.detections) return "asked for by the product power, whose watts hold it";
+  return std::string("asked for by the product") +
+         (read.power ? "s power and detections" : " detections") + ", as it crosses thresholds";
 }
 
 // Greys of the picture that shows the facts' products.
@@ -65,9 +75,12 @@ Open weighed(const Effect& effect, const SceneFacts& facts, const Greys& greys,
 std::string cause_text(const Open& open, const SceneFacts& facts) {
   const std::string text = open.effect->cause(facts, open.own_dB);
   if (!(open.decision->bound_dB > open.own_dB)) return text;
-  return text + (raises_obstacles(facts)
-                     ? ", which in a C-scope of mode shadow can raise or hide a whole obstacle"
-                     : ", which can tip a pixel where a target and the ground cancel");
+  if (shows_obstacles(facts))
+    return text + ", which in a C-scope of mode shadow can raise or hide a whole obstacle";
+  if (facts.read.obstacles)
+    return text + ", which can raise or hide a whole one of the product obstacles";
+  if (facts.read.detections) return text + ", which can make or hide one of the product detections";
+  return text + ", which can tip a pixel where a target and the ground cancel";
 }
 
 // Leaves out what fits into `left_grey`, smallest first.
@@ -78,6 +91,11 @@ void share_budget(std::vector<Open> open, const SceneFacts& facts, double left_g
   for (const Open& each : open) {
     core::EffectDecision& decision = *each.decision;
     decision.on = decision.bound_grey > left_grey;
+    if (!decision.on && decision.effect == core::EffectId::thermal_noise && reads_noise(facts)) {
+      decision.on = true;
+      decision.reason = noise_readers_text(facts.read);
+      continue;
+    }
     decision.reason = cause_text(each, facts) + ": " + grey_text(decision.bound_grey) + ", " +
                       (decision.on ? "more than" : "within") + " the " +
                       figure_text(std::max(left_grey, 0.0)) + " that the budget leaves";
@@ -97,6 +115,7 @@ bool noise_runs(const SceneFacts& facts, double accuracy_grey, const EffectWishe
   if (wishes.forced_off.contains(core::EffectId::thermal_noise)) return false;
   if (wishes.forced_on.contains(core::EffectId::thermal_noise)) return true;
   if (wishes.base != EffectWishes::Base::as_needed) return wishes.base == EffectWishes::Base::all;
+  if (reads_noise(facts)) return true;
   const auto& catalogue = effect_catalogue();
   const auto noise = std::find_if(catalogue.begin(), catalogue.end(), [](const Effect& effect) {
     return effect.id == core::EffectId::thermal_noise;

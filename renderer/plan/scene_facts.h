@@ -9,6 +9,13 @@
 
 namespace fanbeam::renderer {
 
+// What is read out of frames beside their pictures: it counts however dark a display shows it.
+struct Readings {
+  bool power = false;       // watts, noise included
+  bool detections = false;  // what crosses a threshold, noise included
+  bool obstacles = false;   // raised by thresholds, whatever the C-scope's mode
+};
+
 // The sensor, the weather and the heights that rays pass through (above the scene's origin).
 struct SceneFacts {
   atmosphere::Weather weather;
@@ -23,6 +30,7 @@ struct SceneFacts {
   bool ground_reflects = false;  // one of the ground does
   bool sample = false;           // frames show one realisation, not the expected power
   bool heights_shown = true;     // a C-scope, or obstacles: what mode shadow raises
+  Readings read{};
   // Set by plan(): thermal noise runs whatever else does. By signal_plan(): it runs, or is left out
   // because the display's floor hides it.
   bool noise_shown = false;

@@ -48,9 +48,20 @@ double farthest_m(double range_m, double first_m, double cos_turn) {
   return 2.0 * range_m * (range_m - first_m) / (2.0 * range_m - first_m * (1.0 - cos_turn));
 }
 
+// Of a direction at any azimuth, within half a turn of `beside_rad`.
+inline double all_round_azimuth_rad(double forward, double right, double beside_rad) {
+  const double ahead_rad = core::series_arctangent(right, std::abs(forward));
+  const double azimuth_rad =
+      forward < 0.0 ? std::copysign(core::kPi, right) - ahead_rad : ahead_rad;
+  const double apart_rad = azimuth_rad - beside_rad;
+  return azimuth_rad - (apart_rad > core::kPi    ? 2.0 * core::kPi
+                        : apart_rad < -core::kPi ? -2.0 * core::kPi
+                                                 : 0.0);
+}
+
 // Of a way back along `line_m`: angles, their derivative as the line's end moves, and whether a
 // beam in the middle sees it and the first direction.
-template <bool cone>
+template <bool cone, bool all_round>
 inline void measure_return(const BounceView& view, const Axes& axes, const AxisWeights& first,
                            const glm::dvec3& line_m, const glm::dvec3& moves, MirroredRays& ways,
                            int k) {
@@ -74,14 +85,19 @@ inline void measure_return(const BounceView& view, const Axes& axes, const AxisW
   ways.back_m[k] = back_m;
   ways.back_m_per_rad[k] = grows;
   ways.turn[k] = turned / std::max(square, 1e-6);
-  ways.azimuth_rad[k] = core::series_arctangent(right, cone ? flat : forward);
+  if constexpr (all_round) {
+    ways.azimuth_rad[k] = all_round_azimuth_rad(forward, right, ways.angles.azimuth_rad[k]);
+  } else {
+    ways.azimuth_rad[k] = core::series_arctangent(right, cone ? flat : forward);
+  }
   ways.elevation_rad[k] = core::series_arctangent(up, cone ? forward : flat);
   const double along = first.forward * forward + first.right * right;
   const double across = std::abs(first.forward * right - first.right * forward);
-  ways.returns[k] = std::min(forward, cone ? 1.0 : view.beam_tangent * along - across);
+  const double beside = cone ? 1.0 : view.beam_tangent * along - across;
+  ways.returns[k] = all_round ? beside : std::min(forward, beside);
 }
 
-template <bool cone>
+template <bool cone, bool all_round>
 inline void measure_all(const BounceView& view, MirroredRays& ways) {
   const Axes axes(view.antenna);
   const glm::dvec3 antenna_m = view.antenna.position_m;
@@ -101,8 +117,8 @@ inline void measure_all(const BounceView& view, MirroredRays& ways) {
     ways.length_m[k] = length_m;
     ways.m_per_rad[k] = m_per_rad;
     const glm::dvec3 line_m = ways.hits.point_m.at(k) - antenna_m;
-    measure_return<cone>(view, axes, direction_weights(cone, ce, se, ca, sa), line_m, moves, ways,
-                         k);
+    measure_return<cone, all_round>(view, axes, direction_weights(cone, ce, se, ca, sa), line_m,
+                                    moves, ways, k);
     const double inverse = 1.0 / std::max(ways.back_m[k], 1e-30);
     const glm::dvec3 half = (-inverse) * line_m - direction;
     const double half_length = glm::length(half);
@@ -193,9 +209,11 @@ FANBEAM_HOT(void, aim_mirrored_rays, (const BounceView& view, MirroredRays& mirr
 FANBEAM_HOT(void, measure_ways, (const BounceView& view, MirroredRays& mirrored),
             (view, mirrored)) {
   if (view.cone) {
-    measure_all<true>(view, mirrored);
+    measure_all<true, false>(view, mirrored);
+  } else if (view.all_round) {
+    measure_all<false, true>(view, mirrored);
   } else {
-    measure_all<false>(view, mirrored);
+    measure_all<false, false>(view, mirrored);
   }
 }
 

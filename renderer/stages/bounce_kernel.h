@@ -111,6 +111,7 @@ struct BounceView {
   double far_m = 0.0;         // of first rays
   double farthest_m = 0.0;    // range that an echo may have
   double beam_tangent = 0.0;  // of the angle between directions that one beam sees
+  bool all_round = false;     // beams of a plane scan reach behind the antenna
 };
 
 // Fills first.rays from `count` azimuths and elevations.

@@ -122,7 +122,8 @@ std::uint64_t BounceTracer::trace_packets(const sensors::AntennaFrame& antenna,
                  world_.surfaces().in_scene_m(glm::dvec3(0.0)),
                  gate.maximum_m(),
                  gate.maximum_m() + kSpreadCells * gate.cell_m + kMargin_m,
-                 beam_tangent_};
+                 beam_tangent_,
+                 sensors::beams_reach_behind(world_.sensor)};
   std::uint64_t cast = 0;
   while (first < rays.size()) {
     const auto count = static_cast<int>(std::min<std::size_t>(kBounceRays, rays.size() - first));

@@ -10,6 +10,7 @@
 #include "core/parallel.h"
 #include "core/random.h"
 #include "renderer/casting/elevation_fan.h"
+#include "renderer/casting/fan_layout.h"
 #include "renderer/casting/frame_path_loss.h"
 #include "renderer/casting/ray_line.h"
 #include "renderer/stages/fluctuation.h"
@@ -52,9 +53,12 @@ Columns columns_of(const sensors::Sensor& sensor, const FrameEchoSettings& setti
   return {-half * step_rad, step_rad, 2 * half};
 }
 
-void check_work(const sensors::Sensor& sensor, const FrameEchoSettings& settings, int columns) {
+void check_work(const sensors::Sensor& sensor, const FrameEchoSettings& settings,
+                const sensors::AntennaFrame& antenna, int columns) {
+  // Columns of an antenna that is tilted may meet every range twice (elevation_fan.h).
+  const double ways = azimuths_are_upright(antenna, sensor.scan.surface) ? 1.0 : 2.0;
   const double rays =
-      settings.sampling.rays_per_cell * sensor.range.cells * columns * settings.passes;
+      ways * settings.sampling.rays_per_cell * sensor.range.cells * columns * settings.passes;
   if (!(rays <= kMostFrameEchoRays))
     core::throw_input_error(core::ErrorClass::limit, "rays of a frame", rays,
                             "at most 2e7: fewer rays per cell, or fewer azimuths");
@@ -127,7 +131,7 @@ class SurfaceCaster {
       return;
     const glm::dvec3 direction = glm::normalize(
         glm::dvec3(batch.direction_x[lane], batch.direction_y[lane], batch.direction_z[lane]));
-    const auto angles = sensors::angles(antenna_, direction, world_.sensor.scan);
+    const auto angles = sensors::angles(antenna_, direction, world_.sensor);
     if (!angles) return;
     const glm::dvec3 hit_m = antenna_.position_m + echo.range_m * direction;
     echo.azimuth_rad = angles->azimuth_rad;
@@ -178,7 +182,7 @@ FrameEchoes frame_echoes(const World& world, const FramePose& pose,
   check(pose);
   const sensors::AntennaFrame antenna = antenna_of(world.sensor, pose);
   const Columns columns = columns_of(world.sensor, settings);
-  check_work(world.sensor, settings, columns.count);
+  check_work(world.sensor, settings, antenna, columns.count);
   const SurfaceCaster caster(world, antenna, settings, pose.frame_index);
   std::vector<Scatterers> found(static_cast<std::size_t>(columns.count));
   core::parallel_for(found.size(), [&](std::size_t i) {

@@ -35,7 +35,8 @@
 
 namespace fanbeam::renderer {
 
-// Of one frame, by its range cells, sub-columns, rays per cell and passes: an echo takes some 100
+// Of one frame, by its range cells, sub-columns, rays per cell and passes, twice where an antenna is not
+// upright and a column may meet every range twice: an echo takes some 100
 // bytes, and as much again while the sub-columns are put together.
 inline constexpr double kMostFrameEchoRays = 2e7;
 

@@ -106,6 +106,7 @@ class LayerColumns {
   void add(const core::Echo& echo, LayerCells& ranges, LayerCells& rows) const {
     const LayerEcho target{
         .power_W = echo.power_W,
+        .range_m = echo.range_m,
         .elevation_rad = static_cast<float>(echo.elevation_rad),
         .object =
             static_cast<terrain::ObjectId>(world_.geometry->object_names.size()) + echo.object_id};
@@ -113,7 +114,7 @@ class LayerColumns {
     if (cell != sensors::kOutside) ranges.add_target(cell, target);
     const int row = with_cscope_ ? sensors::cscope_row(world_.sensor.display, echo.elevation_rad)
                                  : sensors::kOutside;
-    if (row != sensors::kOutside) rows.add_target(row, target);
+    if (row != sensors::kOutside) rows.add_target(row, target.compensated());
   }
 
   // Between two neighbours on the ground: it has the cover and the paint of its own place.
@@ -166,7 +167,7 @@ class LayerColumns {
       LayerHit hit = one ? between.at(share, row_rad_) : (share < 0.5F ? a : b).within(row_rad_);
       if (!in_gate(hit)) continue;
       if (ground) cover(a, b, hit);
-      rows.add(row, azimuth, hit.echo());
+      rows.add(row, azimuth, hit.echo().compensated());
     }
   }
 
@@ -182,7 +183,7 @@ class LayerColumns {
       const bool shown = in_gate(now.cell);
       if (with_cscope_) {
         if (shown && now.row >= 0 && now.row < row_count)
-          rows.add(now.row, azimuth, now.within(row_rad_).echo());
+          rows.add(now.row, azimuth, now.within(row_rad_).echo().compensated());
         if (last != nullptr) fill_rows(*last, now, azimuth, rows);
       }
       // What a cell of this slope takes of the elevations.

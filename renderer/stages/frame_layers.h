@@ -19,7 +19,7 @@
 //   double_bounce  of the picture's power from surfaces and rain, beam and all, the share that came
 //                  by two or three reflections
 // Means are weighted with the power that surfaces send on the direct way; point targets are not in
-// them.
+// them. Power is that of the picture: in the C-scope, which sums over range, P R^3.
 //
 // The same whichever caster draws the picture, from a pass of its own:
 //   where slices can show the view  one azimuth slice a column, clipped to buildings

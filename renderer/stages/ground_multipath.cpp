@@ -6,6 +6,7 @@
 
 #include "core/constants.h"
 #include "materials/dielectric/specular_surface.h"
+#include "renderer/surfaces/bistatic_nrcs.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 #include "terrain/secondary_origin.h"
@@ -17,6 +18,17 @@ namespace {
 constexpr double kClearance_m = 1.0;
 constexpr int kMostSteps = 8;
 constexpr double kClose_m = 0.01;
+
+// What a surface scatters it does not mirror: as in renderer/surfaces/mirrors.h.
+std::complex<double> reflection(const World& world, terrain::MaterialId material, double sine) {
+  const std::complex<double> whole =
+      materials::specular_reflection(*world.specular[material], world.sensor.waveform.polarisation,
+                                     world.sensor.wavelength_m(), std::asin(sine));
+  const std::vector<BistaticNrcs>& nrcs = world.nrcs.bistatic();
+  const double left = material < nrcs.size() ? 1.0 - nrcs[material].scattered(sine) : 1.0;
+  const double power = std::norm(whole);
+  return power > left ? whole * std::sqrt(std::max(left, 0.0) / power) : whole;
+}
 
 struct Plane {
   glm::dvec3 point_m{0.0};
@@ -80,9 +92,8 @@ std::optional<GroundPath> ground_path(const World& world, const sensors::Antenna
   const double image_m = glm::length(path_m);
   const double direct_m = glm::distance(antenna.position_m, target_m);
   const double sine = std::min((found->sensor_above_m + found->target_above_m) / image_m, 1.0);
-  const sensors::Scan& scan = world.sensor.scan;
-  const auto angles = sensors::angles(antenna, at_m - antenna.position_m, scan);
-  const auto direct = sensors::angles(antenna, target_m - antenna.position_m, scan);
+  const auto angles = sensors::angles(antenna, at_m - antenna.position_m, world.sensor);
+  const auto direct = sensors::angles(antenna, target_m - antenna.position_m, world.sensor);
   if (!angles || !direct || !(direct_m > 0.0)) return std::nullopt;
   const sensors::Antenna& beams = world.sensor.antenna;
   const auto gain = [&](double elevation_rad) {
@@ -92,10 +103,8 @@ std::optional<GroundPath> ground_path(const World& world, const sensors::Antenna
   const double direct_gain = gain(direct->elevation_rad);
   if (!(direct_gain > 0.0)) return std::nullopt;
   GroundPath path;
-  path.amplitude =
-      materials::specular_reflection(*world.specular[material], world.sensor.waveform.polarisation,
-                                     world.sensor.wavelength_m(), std::asin(sine)) *
-      std::sqrt(gain(angles->elevation_rad) / direct_gain) * (direct_m / image_m);
+  path.amplitude = reflection(world, material, sine) *
+                   std::sqrt(gain(angles->elevation_rad) / direct_gain) * (direct_m / image_m);
   path.longer_m = 4.0 * found->sensor_above_m * found->target_above_m / (image_m + direct_m);
   path.elevation_rad = angles->elevation_rad;
   if (path.amplitude == 0.0) return std::nullopt;

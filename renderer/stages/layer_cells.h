@@ -24,11 +24,18 @@ inline AzimuthMask azimuths_in(double left, double share) {
 
 // A part of what is seen in a cell, of one surface.
 struct LayerEcho {
-  double power_W = 0.0;
+  double power_W = 0.0;  // in cells of the C-scope, which sums P R^3: W m^3
   double range_m = 0.0, sin_grazing = 0.0, nrcs = 0.0;  // nrcs: sigma0
   float elevation_rad = 0.0F;
   terrain::ObjectId object = terrain::kTerrainObject;
   terrain::MaterialId material = kNoMaterial;
+
+  // As it counts in the C-scope. Part of the loops that call it: layer_slices.cpp.
+  [[gnu::always_inline]] LayerEcho compensated() const {
+    LayerEcho echo = *this;
+    echo.power_W *= range_m * range_m * range_m;
+    return echo;
+  }
 };
 
 class LayerCells {

@@ -209,7 +209,7 @@ struct PieceInCells {
     if (static_cast<int>(high_row) == static_cast<int>(low_row) && high_row >= 0.0) {
       const double per_m = ends.middle_per_m[i];
       if (per_m > grid.nearest_per_m || per_m <= grid.farthest_per_m) return;
-      put(static_cast<int>(high_row), azimuths, middle(), rows);
+      put(static_cast<int>(high_row), azimuths, middle().compensated(), rows);
       return;
     }
     const int first = static_cast<int>(std::max(high_row, 0.0));
@@ -223,7 +223,7 @@ struct PieceInCells {
       if (per_m > grid.nearest_per_m || per_m <= grid.farthest_per_m) continue;
       LayerEcho echo = part(share, per_m, per_row_W_m2 * (low - high) * per_m * per_m);
       echo.range_m = 1.0 / per_m;
-      put(row, azimuths, echo, rows);
+      put(row, azimuths, echo.compensated(), rows);
     }
   }
 };

@@ -59,7 +59,7 @@ std::optional<View> view_of(const sensors::Sensor& sensor, const PointTarget& ta
   View view;
   view.position_m = target.position_at(time_s);
   const glm::dvec3 path_m = view.position_m - antenna.position_m;
-  const auto angles = sensors::angles(antenna, path_m, sensor.scan);
+  const auto angles = sensors::angles(antenna, path_m, sensor);
   if (!angles) {
     ++unprojected;
     return std::nullopt;

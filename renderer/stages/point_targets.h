@@ -23,7 +23,7 @@ struct TargetEchoes {
   // Sorted as the targets are.
   std::vector<core::Echo> echoes;
   // Targets without a direction in the antenna's frame: at it, and abeam of it or behind it unless
-  // the scan turns by more than half a circle.
+  // beams of a plane scan reach there (sensors::beams_reach_behind).
   std::uint64_t unprojected = 0;
 };
 

@@ -7,7 +7,8 @@
 //
 // Neglected: what lies outside the fan, which ends a beam's cut beyond the field of view. For even
 // ground all round and an extent of 90 deg, HiVision's fan of 43.5 deg holds 22 to 24 % of the
-// power; the level of the lobes is less well known than these 6 dB. Structure of the lobes; the
+// power; the level of the lobes is less well known than these 6 dB. Over the seam of a full-circle scan the
+// side lobes of surfaces end with the fan's margin as well. Structure of the lobes; the
 // narrowing of azimuth away from the horizon (cos of the elevation, 0.3 dB at 20 deg).
 //
 // Bound, dB: side lobes add power, so a pixel changes by at most 10 log10(1 + p / floor)

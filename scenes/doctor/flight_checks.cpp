@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 
 #include "scenes/doctor/parts_private.h"
+#include "sensors/display/grey_scale.h"
 #include "terrain/polygon.h"
 
 namespace fanbeam::scenes {
@@ -108,8 +109,7 @@ void check_flight_height(const DoctorParts& parts, Findings& findings) {
 void check_accuracy(const DoctorParts& parts, Findings& findings) {
   const double asked_grey = parts.scene.accuracy_grey;
   if (!(asked_grey > 0.0) || asked_grey >= kRounding_grey) return;
-  const sensors::Display& display = parts.sensor().display;
-  const double grey_dB = (display.high_dB - display.low_dB) / 255.0;
+  const double grey_dB = sensors::GreyScale(parts.sensor()).dB_per_grey();
   findings.push_back({Severity::delicate, "accuracy-below-grey-step",
                       "the accuracy asked for, " + core::number_text(asked_grey) +
                           " grey levels, is finer than what rounding to whole levels alone changes",

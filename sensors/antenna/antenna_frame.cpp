@@ -81,4 +81,15 @@ std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3&
                                             : angles(frame, from_antenna_m, scan.surface);
 }
 
+bool beams_reach_behind(const Sensor& sensor) {
+  return sensor.scan.surface == ScanSurface::plane &&
+         sensor.scan.field_of_view_rad / 2 + sensor.antenna.azimuth.cut_rad > core::kPi / 2;
+}
+
+std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,
+                                    const Sensor& sensor) {
+  return beams_reach_behind(sensor) ? all_round_angles(frame, from_antenna_m)
+                                    : angles(frame, from_antenna_m, sensor.scan.surface);
+}
+
 }  // namespace fanbeam::sensors

@@ -58,8 +58,16 @@ std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3&
 std::optional<AntennaAngles> all_round_angles(const AntennaFrame& frame,
                                               const glm::dvec3& from_antenna_m);
 
-// Of the two the one that the scan needs: all round where it turns by more than half a circle.
+// Of the two the one that a picture's columns need: all round where they turn by more than half a
+// circle.
 std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,
                                     const Scan& scan);
+
+// Whether the beam of an outer column, up to its azimuth cut, reaches more than 90 deg aside. A cone
+// has no directions there.
+bool beams_reach_behind(const Sensor& sensor);
+// Of the two the one that the beams need: what they light has angles.
+std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,
+                                    const Sensor& sensor);
 
 }  // namespace fanbeam::sensors

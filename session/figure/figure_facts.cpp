@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -88,11 +89,14 @@ FigureFacts figure_facts(const scenes::Scene& scene, const core::Pose& pose, int
   facts.roll = signed_deg(attitude.roll_rad);
   facts.unit = range_unit(unit_wish, sensor.range);
   facts.aircraft = sensor.range.maximum_m() > kShortRange_m;
-  facts.runways = runway_views(scene.runways, sensor, antenna);
   const glm::dvec3 up = -frame_pose.north_east_down[2];
+  facts.runways = runway_views(scene.runways, sensor, antenna, up);
   const double half_rad = 0.5 * sensor.scan.field_of_view_rad;
   facts.horizon_left_rad = horizon_rad(antenna, up, -half_rad, sensor.scan.surface);
   facts.horizon_right_rad = horizon_rad(antenna, up, half_rad, sensor.scan.surface);
+  const glm::dvec3 ahead =
+      sensors::direction(antenna, 0.0, sensor.antenna.boresight_elevation_rad, sensor.scan.surface);
+  facts.boresight_above_level_rad = std::asin(std::clamp(glm::dot(ahead, up), -1.0, 1.0));
   return facts;
 }
 

@@ -35,6 +35,8 @@ struct FigureFacts {
   std::vector<RunwayView> runways;
   // Elevation of the local horizontal in the antenna's frame, at the scan's left and right edge.
   double horizon_left_rad = 0.0, horizon_right_rad = 0.0;
+  // Elevation of the antenna's peak from the local horizontal, straight ahead.
+  double boresight_above_level_rad = 0.0;
 };
 
 FigureFacts figure_facts(const scenes::Scene& scene, const core::Pose& pose, int frame,

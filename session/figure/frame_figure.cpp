@@ -26,6 +26,7 @@ const char* cscope_name(sensors::Display::CScopeMode mode) {
 
 double azimuth_deg(const SeenPoint& point) { return core::degrees(point.azimuth_rad); }
 double elevation_deg(const SeenPoint& point) { return core::degrees(point.elevation_rad); }
+double above_level_deg(const SeenPoint& point) { return core::degrees(point.above_level_rad); }
 
 void mark_bscope(Canvas& canvas, const Box& scope, const FigureScales& scales,
                  const FigureFacts& facts) {
@@ -43,11 +44,14 @@ void mark_bscope(Canvas& canvas, const Box& scope, const FigureScales& scales,
 }
 
 void mark_cscope(Canvas& canvas, const Box& scope, const FigureScales& scales,
-                 const FigureFacts& facts, double boresight_rad) {
+                 const FigureFacts& facts, const sensors::Sensor& sensor) {
+  // A picture drawn from ranges alone knows no tilt of the antenna.
+  const bool level = sensor.display.cscope_mode != sensors::Display::CScopeMode::true_elevation;
   std::vector<Mark> above, right;
   for (const RunwayView& runway : facts.runways) {
     const auto azimuth = runway_mark(runway, scales.azimuth_deg, azimuth_deg);
-    const auto elevation = runway_mark(runway, scales.elevation_deg, elevation_deg);
+    const auto elevation =
+        runway_mark(runway, scales.elevation_deg, level ? above_level_deg : elevation_deg);
     if (!elevation || !azimuth) continue;  // above or below the window
     above.push_back(*azimuth);
     right.push_back(*elevation);
@@ -56,11 +60,13 @@ void mark_cscope(Canvas& canvas, const Box& scope, const FigureScales& scales,
     const int pixel = pixel_of(scales.elevation_deg, core::degrees(angle_rad));
     if (pixel >= 0) right.push_back({pixel, pixel, pixel, text, ink});
   };
-  mark_at(facts.horizon_right_rad, "horizon", kHorizon);
-  mark_at(boresight_rad, "boresight", kInk);
+  mark_at(level ? 0.0 : facts.horizon_right_rad, "horizon", kHorizon);
+  mark_at(level ? facts.boresight_above_level_rad : sensor.antenna.boresight_elevation_rad,
+          "boresight", kInk);
   draw_marks_above(canvas, scope, above);
   draw_marks_right(canvas, scope, right);
-  const int left = pixel_of(scales.elevation_deg, core::degrees(facts.horizon_left_rad));
+  const int left =
+      pixel_of(scales.elevation_deg, level ? 0.0 : core::degrees(facts.horizon_left_rad));
   if (left >= 0) draw_wedge_left(canvas, scope, left, kHorizon);
 }
 
@@ -107,7 +113,7 @@ core::ColourPicture frame_figure(const sensors::Sensor& sensor, const FigureFact
   page.draw_bar(layout.bar, scales.level_dB);
   page.draw_own_ship(layout.bscope, layout.bscope.left + pixel_of(scales.azimuth_deg, 0.0));
   mark_bscope(page.canvas(), layout.bscope, scales, facts);
-  mark_cscope(page.canvas(), layout.cscope, scales, facts, sensor.antenna.boresight_elevation_rad);
+  mark_cscope(page.canvas(), layout.cscope, scales, facts, sensor);
   return page.canvas().picture();
 }
 

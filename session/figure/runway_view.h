@@ -12,6 +12,8 @@ namespace fanbeam::session {
 
 struct SeenPoint {
   double range_m = 0.0, azimuth_rad = 0.0, elevation_rad = 0.0;
+  // Elevation from the local horizontal, as C-scopes of the modes flat_earth and shadow count it.
+  double above_level_rad = 0.0;
 };
 
 struct RunwayView {
@@ -24,8 +26,9 @@ struct RunwayView {
 };
 
 // One per runway, in the scene's order. The centre line is a straight line between the thresholds.
+// `up`: the local vertical, of length 1.
 std::vector<RunwayView> runway_views(const std::vector<scenes::RunwayPlace>& runways,
                                      const sensors::Sensor& sensor,
-                                     const sensors::AntennaFrame& antenna);
+                                     const sensors::AntennaFrame& antenna, const glm::dvec3& up);
 
 }  // namespace fanbeam::session

@@ -22,39 +22,39 @@ namespace {
 
 using renderer::ObjectKind;
 
-// Parts of a model and equal point targets are one thing each.
+// The parts of one model are one thing, and so are point targets of one name.
 std::vector<LabelledThing> things_of(const scenes::Scene& scene) {
   const renderer::Geometry& geometry = *scene.world.geometry;
   std::vector<LabelledThing> things;
-  std::map<std::pair<ObjectGroup, std::string>, std::size_t> known;
-  const auto add = [&](std::string name, ObjectGroup group, std::uint32_t id, bool shared) {
-    const auto at = things.size();
-    const auto [found, fresh] = known.try_emplace({group, name}, at);
-    if (fresh || !shared)
-      things.push_back({std::move(name), group, {id}});
-    else
-      things[found->second].ids.push_back(id);
-  };
   for (std::uint32_t id = 0; id < geometry.object_names.size(); ++id) {
     const std::string& name = geometry.object_names[id];
     switch (geometry.object_kinds[id]) {
       case ObjectKind::box:
-        add(name, ObjectGroup::box, id, false);
+        things.push_back({name, ObjectGroup::box, {id}});
         break;
       case ObjectKind::building:
-        add(name, ObjectGroup::building, id, false);
+        things.push_back({name, ObjectGroup::building, {id}});
         break;
-      case ObjectKind::model:
-        add(name.substr(0, name.find(": ")), ObjectGroup::model, id, true);
-        break;
-      default:  // ground and what is painted on it
+      default:  // models below; ground and what is painted on it
         break;
     }
   }
+  for (const renderer::ModelObjects& model : geometry.models) {
+    if (model.objects == 0) continue;
+    things.push_back({model.name, ObjectGroup::model, {}});
+    for (std::size_t part = 0; part < model.objects; ++part)
+      things.back().ids.push_back(model.first + static_cast<std::uint32_t>(part));
+  }
+  std::map<std::string, std::size_t> known;
   auto id = static_cast<std::uint32_t>(geometry.object_names.size());
-  for (const renderer::PointTarget& target : scene.world.targets)
-    add(target.name, target.name.ends_with(" light") ? ObjectGroup::lights : ObjectGroup::target,
-        id++, true);
+  for (const renderer::PointTarget& target : scene.world.targets) {
+    const auto [found, fresh] = known.try_emplace(target.name, things.size());
+    if (fresh)
+      things.push_back({target.name,
+                        target.name.ends_with(" light") ? ObjectGroup::lights : ObjectGroup::target,
+                        {}});
+    things[found->second].ids.push_back(id++);
+  }
   return things;
 }
 
@@ -175,8 +175,8 @@ RunwayLabel runway_label(const Eye& eye, const scenes::RunwayPlace& runway) {
   const glm::dvec2 along = ground.along();
   label.along_track_m = -glm::dot(glm::dvec2(off_m), along);
   label.cross_track_m = off_m.x * along.y - off_m.y * along.x;
-  label.above_m = scene_height_m(eye, eye.at_m()) -
-                  scene_height_m(eye, runway.ends[near].threshold_m);
+  label.above_m =
+      scene_height_m(eye, eye.at_m()) - scene_height_m(eye, runway.ends[near].threshold_m);
   label.corners = look_at_all(eye, ground.corners(0.0, ground.length_m()));
   label.thresholds = {eye.look_at(runway.ends[near].threshold_m),
                       eye.look_at(runway.ends[1 - near].threshold_m)};
@@ -214,9 +214,9 @@ struct Labeller::Known {
 };
 
 Labeller::Labeller(const scenes::Scene& scene)
-    : known_(std::make_unique<const Known>(
-          Known{things_of(scene), object_shapes(scene.world.surfaces(),
-                                                scene.world.geometry->object_names.size())})) {}
+    : known_(std::make_unique<const Known>(Known{
+          things_of(scene),
+          object_shapes(scene.world.surfaces(), scene.world.geometry->object_names.size())})) {}
 
 Labeller::~Labeller() = default;
 
@@ -235,6 +235,7 @@ ObjectLabel object_label(const Eye& eye, const LabelledThing& thing,
   std::vector<Facet> facets;
   std::vector<glm::dvec3> places_m;  // of points: a fence around a runway is not in its middle
   ShareSum points;
+  double tallest_m = -1e300;  // of points, each over its own ground
   for (const std::uint32_t id : thing.ids) {
     if (id < shapes.size()) {
       box.low = glm::min(box.low, shapes[id].box.low);
@@ -246,12 +247,14 @@ ObjectLabel object_label(const Eye& eye, const LabelledThing& thing,
     box.low = glm::min(box.low, at_m);
     box.high = glm::max(box.high, at_m);
     places_m.push_back(at_m);
+    tallest_m = std::max(tallest_m, at_m.z - ground_m(scene, at_m.x, at_m.y));
     if (thing.group == ObjectGroup::lights) label.points.push_back(eye.look_at(at_m));
     points.add(1.0, eye.sees(at_m), in_view(eye, at_m));
   }
   const glm::dvec3 middle_m = (box.low + box.high) / 2.0;
   label.middle = eye.look_at(middle_m);
-  label.height_m = box.high.z - ground_m(scene, middle_m.x, middle_m.y);
+  label.height_m =
+      places_m.empty() ? box.high.z - ground_m(scene, middle_m.x, middle_m.y) : tallest_m;
   const Shares shares = facets.empty() ? points.shares() : shares_of(eye, facets);
   label.in_sight_share = shares.in_sight;
   label.in_view_share = shares.in_view;
@@ -259,8 +262,8 @@ ObjectLabel object_label(const Eye& eye, const LabelledThing& thing,
   for (const scenes::RunwayPlace& runway : scene.runways) {
     const RunwayGround ground(scene, runway, 0);
     for (const glm::dvec3& at_m : places_m)
-      label.placement = std::min(
-          label.placement, ground.placement_of(glm::dvec2(at_m), runway.strip_half_width_m));
+      label.placement = std::min(label.placement,
+                                 ground.placement_of(glm::dvec2(at_m), runway.strip_half_width_m));
   }
   return label;
 }
@@ -305,8 +308,8 @@ FrameLabels Labeller::labels(const scenes::Scene& scene, const core::Pose& pose,
     result.runways.back().bscope = std::move(masks.bscope[i]);
     result.runways.back().cscope = std::move(masks.cscope[i]);
   }
-  const int reach = static_cast<int>(
-      std::ceil(sensor.antenna.azimuth.cut_rad / sensor.scan.column_width_rad()));
+  const int reach =
+      static_cast<int>(std::ceil(sensor.antenna.azimuth.cut_rad / sensor.scan.column_width_rad()));
   std::vector<ObjectLabel> objects(known_->things.size());
   core::parallel_for(objects.size(), [&](std::size_t i) {
     objects[i] = object_label(eye, known_->things[i], known_->shapes, pose.time_s);

@@ -58,11 +58,13 @@ struct ObjectLabel {
   std::string name;
   ObjectGroup group{};
   Placement placement{};
-  std::vector<std::uint32_t> ids;  // in layers: several of a model's parts and of equal targets
+  std::vector<std::uint32_t> ids;  // in layers: of all parts of a model, of targets of one name
   PlaceLabel middle;               // of the box around it
-  double height_m = 0.0;           // top above the ground below its middle
+  // Top above the ground below its middle; of points, the most that one is above the ground below it.
+  double height_m = 0.0;
   double in_sight_share = 0.0, in_view_share = 0.0;
-  std::optional<double> signal_to_clutter_dB;  // where it sends most of a cell
+  std::optional<double>
+      signal_to_clutter_dB;  // where it sends most of a cell and others surround it
   MaskLabel bscope, cscope;
   std::vector<PlaceLabel> points;  // of lights
 };

@@ -120,6 +120,7 @@ Json moving_pose_json(const core::Pose& pose) {
 Json weather_json(const atmosphere::Weather& weather) {
   return {{"fog", atmosphere::has_fog(weather)},
           {"visibility_m", weather.visibility_m ? Json(*weather.visibility_m) : Json(nullptr)},
+          {"rain", atmosphere::has_rain(weather)},
           {"rain_rate_mm_per_h", weather.rain_rate_mm_per_h},
           {"snow_rate_mm_per_h", weather.snow_rate_mm_per_h}};
 }
@@ -150,14 +151,15 @@ std::vector<std::uint32_t> runs_of(const MaskLabel& mask, std::uint32_t cells) {
 std::string labels_json(const FrameLabels& labels, const scenes::Scene& scene, int frame,
                         const core::Pose& pose, const core::Metadata& metadata) {
   const sensors::Sensor& sensor = scene.description.sensor;
-  Json json = {{"fanbeam_labels", 1},
-               {"scene", scene.description.name},
-               {"frame", frame},
-               {"time_s", pose.time_s},
-               {"pose", moving_pose_json(pose)},
-               {"weather", weather_json(scene.weather)},
-               {"bscope", {{"columns", sensor.scan.columns}, {"rows", sensor.range.cells}}},
-               {"cscope", {{"columns", sensor.scan.columns}, {"rows", sensor.display.cscope_rows}}}};
+  Json json = {
+      {"fanbeam_labels", 1},
+      {"scene", scene.description.name},
+      {"frame", frame},
+      {"time_s", pose.time_s},
+      {"pose", moving_pose_json(pose)},
+      {"weather", weather_json(scene.weather)},
+      {"bscope", {{"columns", sensor.scan.columns}, {"rows", sensor.range.cells}}},
+      {"cscope", {{"columns", sensor.scan.columns}, {"rows", sensor.display.cscope_rows}}}};
   json["runways"] = Json::array();
   for (const RunwayLabel& runway : labels.runways)
     json["runways"].push_back(runway_json(runway, sensor));

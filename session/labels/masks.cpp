@@ -68,7 +68,8 @@ std::optional<double> signal_to_clutter_dB(const MaskLabel& mask, std::span<cons
       clutter_W += power(column, row);
       ++around;
     }
-  const double floor_W = around > 0 ? clutter_W / around + noise_W : noise_W;
+  if (around == 0) return std::nullopt;
+  const double floor_W = clutter_W / around + noise_W;
   if (!(floor_W > 0.0)) return std::nullopt;
   return 10.0 * std::log10(strongest_W / floor_W);
 }

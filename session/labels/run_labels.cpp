@@ -96,7 +96,8 @@ std::string lard_rows(const Json& frame, const std::string& scope, const std::st
 }
 
 const char* weather_word(const Json& weather) {
-  if (weather.at("rain_rate_mm_per_h") > 0.0) return "rain";
+  // Labels of earlier versions say nothing of rain cells.
+  if (weather.value("rain", weather.at("rain_rate_mm_per_h") > 0.0)) return "rain";
   if (weather.at("snow_rate_mm_per_h") > 0.0) return "snow";
   return weather.at("fog").get<bool>() ? "fog" : "";
 }

@@ -1,11 +1,24 @@
 #include "session/products/frame_output.h"
 
+#include <cmath>
+#include <glm/mat3x3.hpp>
+
 #include "session/labels/labels_json.h"
 #include "session/products/detection_product.h"
 #include "session/products/obstacle_product.h"
 #include "session/records/frame_metadata.h"
 
 namespace fanbeam::session {
+namespace {
+
+double antenna_heading_rad(const scenes::Scene& scene, const core::Pose& pose) {
+  const renderer::FramePose at = scene.pose_at(pose);
+  const glm::dvec3 forward =
+      renderer::antenna_of(scene.description.sensor, at).forward * at.north_east_down;
+  return std::atan2(forward.y, forward.x);
+}
+
+}  // namespace
 
 bool want_labels(const ProductSet& products) {
   return products.contains("labels") || products.contains("masks") ||
@@ -20,8 +33,7 @@ FrameOutput frame_output(const scenes::Scene& scene, const OutputSettings& setti
   record.unprojected = frame.unprojected;
   record.events = frame.events;
   record.error = frame.error;
-  FrameOutput output{
-      record.index, core::attitude_from(record.pose.q_NB).heading_rad, std::move(frame), {}};
+  FrameOutput output{record.index, antenna_heading_rad(scene, record.pose), std::move(frame), {}};
   output.metadata = frame_metadata(scene, settings.sampling, record, settings.fingerprint);
   if (settings.products.contains("figure") || settings.products.contains("ppi_figure"))
     output.figure = figure_facts(scene, record.pose, record.index, settings.range_unit);

@@ -135,9 +135,11 @@ void FrameWriter::write_plan_views(const FrameOutput& output) const {
        {std::pair{"ppi", Up::track}, std::pair{"ppi_north", Up::north}}) {
     const bool figure = up == Up::track && products_.contains("ppi_figure");
     if (!products_.contains(product) && !figure) continue;
-    const sensors::PpiView view = sensors::ppi_view(sensor_, up, kPpiSize_px, output.heading_rad);
+    const sensors::PpiView view =
+        sensors::ppi_view(sensor_, up, kPpiSize_px, output.antenna_heading_rad);
     const core::Picture8 picture = sensors::ppi_picture(
-        view, sensors::ppi_grey(sensor_, output.frame.bscope_grey, output.heading_rad, view));
+        view,
+        sensors::ppi_grey(sensor_, output.frame.bscope_grey, output.antenna_heading_rad, view));
     core::Metadata metadata = output.metadata;
     metadata.emplace_back("fanbeam:ppi", fmt::format("{} m per pixel, antenna at column {}, row {}",
                                                      core::number_text(view.metres_per_pixel),

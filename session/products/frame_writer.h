@@ -24,7 +24,7 @@ namespace fanbeam::session {
 // What one frame leaves on disk, and how it is described there.
 struct FrameOutput {
   int index = 0;
-  double heading_rad = 0.0;
+  double antenna_heading_rad = 0.0;  // true, of the antenna's forward axis
   renderer::Frame frame;
   core::Metadata metadata;
   std::string detection_table{};  // of the product "detections"

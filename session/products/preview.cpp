@@ -46,6 +46,22 @@ std::vector<std::string> encoder(const fs::path& output, int columns, int rows,
   return words;
 }
 
+// H.264 as every player takes it has one colour for each square of four pixels, and so even sides.
+int side_of(const fs::path& film, int pixels) {
+  return film.extension() == ".mp4" ? pixels + pixels % 2 : pixels;
+}
+
+// With black columns and rows behind its own.
+core::Picture8 padded(const core::Picture8& picture, int columns, int rows) {
+  core::Picture8 result{columns, rows, {}};
+  result.pixels.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0);
+  for (int row = 0; row < picture.rows; ++row)
+    std::copy_n(picture.pixels.begin() + static_cast<std::ptrdiff_t>(row) * picture.columns,
+                picture.columns,
+                result.pixels.begin() + static_cast<std::ptrdiff_t>(row) * columns);
+  return result;
+}
+
 // Players take a GIF or PNG whose last bytes are missing; the formats do not.
 bool ends_as_its_kind(const fs::path& film) {
   const std::string extension = film.extension().string();
@@ -64,7 +80,9 @@ bool ends_as_its_kind(const fs::path& film) {
 Preview::Preview(fs::path file, int columns, int rows, double frame_rate_Hz)
     : file_(std::move(file)),
       temporary_{temporary_for(file_)},
-      ffmpeg_(encoder(temporary_.path, columns, rows, frame_rate_Hz),
+      columns_(side_of(file_, columns)),
+      rows_(side_of(file_, rows)),
+      ffmpeg_(encoder(temporary_.path, columns_, rows_, frame_rate_Hz),
               core::ChildProcess::Pipe::to_its_input) {
   if (!ffmpeg_.started())
     refuse(file_, "ffmpeg cannot be started", "a working ffmpeg program (Debian package ffmpeg)");
@@ -76,8 +94,9 @@ Preview::Temporary::~Temporary() {
 }
 
 void Preview::add(const core::Picture8& picture) {
-  const auto* bytes = reinterpret_cast<const char*>(picture.pixels.data());
-  if (!ffmpeg_.send({bytes, picture.pixels.size()})) refuse(file_, "ffmpeg stopped reading", kRoom);
+  const core::Picture8 whole = padded(picture, columns_, rows_);
+  const auto* bytes = reinterpret_cast<const char*>(whole.pixels.data());
+  if (!ffmpeg_.send({bytes, whole.pixels.size()})) refuse(file_, "ffmpeg stopped reading", kRoom);
   ++pictures_;
 }
 

@@ -13,7 +13,7 @@ namespace fanbeam::session {
 inline constexpr std::array<std::string_view, 3> kPreviewFormats = {"mp4", "gif", "apng"};
 
 // Feeds pictures of one size to ffmpeg and leaves an MP4 (H.264) or, by extension, an animated GIF
-// or PNG. The film gets its name when it is complete: every picture can be read from it again.
+// or PNG; an MP4 has a black column or row more where a side is odd. The film gets its name when it is complete: every picture can be read from it again.
 class Preview {
  public:
   // Throws InputError E-IO when ffmpeg cannot be started; the message names the package.
@@ -37,6 +37,7 @@ class Preview {
 
   std::filesystem::path file_;
   Temporary temporary_;  // outlives ffmpeg, which could make it anew
+  int columns_, rows_;   // of the film
   int pictures_ = 0;
   core::ChildProcess ffmpeg_;
 };

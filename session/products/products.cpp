@@ -22,4 +22,10 @@ bool show_heights(const renderer::Products& wanted) {
   return wanted.cscope || wanted.obstacles || wanted.cscope_layers;
 }
 
+void plan_for(const ProductSet& products, scenes::BuildOptions& build) {
+  build.heights_shown = show_heights(wanted_of(products));
+  build.read = {products.contains("power"), products.contains("detections"),
+                products.contains("obstacles")};
+}
+
 }  // namespace fanbeam::session

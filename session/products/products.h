@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "renderer/frame.h"
+#include "scenes/scene.h"
 
 namespace fanbeam::session {
 
@@ -39,5 +40,7 @@ using ProductSet = std::set<std::string>;  // names
 renderer::Products wanted_of(const ProductSet& products);
 // Whether a plan must count on heights (BuildOptions::heights_shown).
 bool show_heights(const renderer::Products& wanted);
+// Adds to `build` what a plan must know of them.
+void plan_for(const ProductSet& products, scenes::BuildOptions& build);
 
 }  // namespace fanbeam::session

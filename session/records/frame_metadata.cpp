@@ -7,6 +7,7 @@
 #include "core/effect_plan.h"
 #include "core/files.h"
 #include "core/units.h"
+#include "sensors/display/grey_scale.h"
 #include "session/labels/labels_json.h"
 #include "session/products/frame_table.h"
 #include "session/records/output_folder.h"
@@ -23,6 +24,12 @@ std::string cscope_text(sensors::Display::CScopeMode mode) {
     return "true_elevation: ground truth, a fan beam cannot measure elevation";
   if (mode == Mode::flat_earth) return "flat_earth: elevation from range and height above ground";
   return "shadow: flat_earth with obstacles raised to heights estimated from their shadows";
+}
+
+std::string mapping_text(sensors::Display::Mapping mapping) {
+  using Mapping = sensors::Display::Mapping;
+  if (mapping == Mapping::stc) return "stc";
+  return mapping == Mapping::log ? "log" : "seed";
 }
 
 // As frame_metadata writes it.
@@ -55,6 +62,7 @@ std::string value_of(const core::Metadata& metadata, const std::string& name) {
 core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampling& sampling,
                               const FrameRecord& record, const std::string& fingerprint) {
   const sensors::Sensor& sensor = scene.description.sensor;
+  const sensors::GreyScale grey(sensor);
   const core::Attitude attitude = core::attitude_from(record.pose.q_NB);
   std::string events;
   for (const std::string& event : record.events) events += (events.empty() ? "" : " ") + event;
@@ -77,8 +85,9 @@ core::Metadata frame_metadata(const scenes::Scene& scene, const renderer::Sampli
                    core::number_text(core::degrees(sensor.scan.field_of_view_rad)))},
       {"fanbeam:range", fmt::format("{} m + {} x {} m", core::number_text(sensor.range.minimum_m),
                                     sensor.range.cells, core::number_text(sensor.range.cell_m))},
-      {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(sensor.display.low_dB),
-                                         core::number_text(sensor.display.high_dB))},
+      {"fanbeam:display_mapping", mapping_text(sensor.display.mapping)},
+      {"fanbeam:display_dB", fmt::format("{} to {}", core::number_text(grey.low_dB()),
+                                         core::number_text(grey.high_dB()))},
       {"fanbeam:cscope", cscope_text(sensor.display.cscope_mode)},
       {"fanbeam:realisation", realisation_of(scene.plan)},
       {"fanbeam:noise_W", core::number_text(noise_W(scene, record))},
@@ -111,7 +120,8 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
     core::Metadata metadata;
     try {
       metadata = metadata_of(file);
-      if (file.extension() != ".csv" && file.extension() != ".json") core::read_image(file);  // whole?
+      if (file.extension() != ".csv" && file.extension() != ".json")
+        core::read_image(file);  // whole?
     } catch (const core::InputError&) {
       return false;  // damaged: render it again
     }

@@ -10,6 +10,7 @@
 #include "core/machine.h"
 #include "core/median.h"
 #include "core/units.h"
+#include "sensors/display/grey_scale.h"
 #include "sensors/receiver/receiver_figures.h"
 #include "session/records/fingerprint.h"
 #include "session/records/record_json.h"
@@ -71,6 +72,7 @@ Json sampling_json(const scenes::Scene& scene, const RunRecord& record) {
 }
 
 Json sensor_json(const sensors::Sensor& sensor) {
+  const sensors::GreyScale grey(sensor);
   return {{"name", sensor.name},
           {"frequency_Hz", sensor.waveform.frequency_Hz},
           {"transmit_power_W", sensor.waveform.transmit_power_W},
@@ -90,8 +92,8 @@ Json sensor_json(const sensors::Sensor& sensor) {
           {"range_cell_m", sensor.range.cell_m},
           {"range_cells", sensor.range.cells},
           {"noise_power_W", sensor.noise_power_W()},
-          {"display_low_dB", sensor.display.low_dB},
-          {"display_high_dB", sensor.display.high_dB},
+          {"display_low_dB", grey.low_dB()},
+          {"display_high_dB", grey.high_dB()},
           {"cscope_top_deg", core::degrees(sensor.display.cscope_top_rad)},
           {"cscope_span_deg", core::degrees(sensor.display.cscope_span_rad)},
           {"assumed", sensor.assumed}};

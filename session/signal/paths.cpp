@@ -56,6 +56,8 @@ FmcwPaths fmcw_paths(const scenes::Scene& scene, int frame, const FmcwSettings& 
   result.paths.reserve(all.echoes.size());
   for (std::size_t i = 0; i < all.echoes.size(); ++i) {
     const core::Echo& echo = all.echoes[i];
+    // A linear array cannot tell front from back: neither surfaces nor targets behind it.
+    if (std::abs(echo.azimuth_rad) > core::kPi / 2) continue;
     const double gain = element_gain(sensor, echo.azimuth_rad);
     if (!(gain > 0.0)) continue;
     if (i >= all.first_target) {

@@ -29,7 +29,8 @@ double element_gain(const sensors::Sensor& sensor, double azimuth_rad);
 // turn, as in the echoes' radial speeds.
 std::array<double, 2> own_velocity_mps(const scenes::Scene& scene, int frame);
 
-// Echoes of a frame, weighted with the element's two-way pattern; those of weight 0 are left out.
+// Echoes of a frame, weighted with the element's two-way pattern; those of weight 0 are left out, and
+// surfaces and targets more than 90 deg aside: a linear array cannot tell front from back.
 // The clock's zero of the waveform is the frame's time.
 FmcwPaths fmcw_paths(const scenes::Scene& scene, int frame, const FmcwSettings& options);
 

@@ -180,8 +180,8 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   settings.unfold = options.unfold && slots > 1;
   const auto range_weights = signal::window_weights(settings.transform.range_window, samples);
   const auto doppler_weights = signal::window_weights(settings.transform.doppler_window, chirps);
-  settings.cfar =
-      cfar_of(options, {range_weights, samples, doppler_weights, chirps}, radar.array.channels());
+  settings.cfar = cfar_of(options, {range_weights, samples, doppler_weights, chirps},
+                          std::min(radar.array.channels(), signal::kMostLooks));
   radar.clusters = clusters_of(options, radar.axes, range_weights, doppler_weights);
   radar.noise_cell_W = signal::noise_sample_W(radar.noise_figure, fs_Hz) *
                        signal::noise_gain(range_weights) * signal::noise_gain(doppler_weights);
@@ -237,10 +237,11 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",
                             std::string(signal::name(options.angle_method)),
                             "beamforming, or an array on a line at one pitch");
-  if (!radar.line && !(options.angle_window == ProcessingSettings{}.angle_window))
+  if (!radar.line && options.angle_window.kind != signal::WindowKind::rectangular &&
+      !(options.angle_window == ProcessingSettings{}.angle_window))
     core::throw_input_error(core::ErrorClass::unsupported, "angle window",
                             signal::name(options.angle_window),
-                            "none, or an array on a line at one pitch");
+                            "rectangular, or an array on a line at one pitch");
   if (elements_m.size() < 2 && options.angle_method != signal::AngleMethod::beamforming)
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",
                             std::string(signal::name(options.angle_method)),
@@ -266,6 +267,14 @@ FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor)
                noise_figure_of(options, sensor), sensor.range.maximum_m()});
 }
 
+namespace {
+
+std::string name_without_scene(const FmcwSettings& options) {
+  return options.waveform.empty() ? kAutomotive : options.waveform;
+}
+
+}  // namespace
+
 FmcwRadar fmcw_radar(const FmcwSettings& options) {
   core::ProblemList problems;
   const auto told = [&](const char* option, const char* key) {
@@ -276,15 +285,19 @@ FmcwRadar fmcw_radar(const FmcwSettings& options) {
   Front front;
   front.frequency_Hz = told("--frequency", "waveform.frequency_GHz") * 1e9;
   front.bandwidth_Hz = told("--bandwidth", "waveform.bandwidth_MHz") * 1e6;
-  // No scene tells how far it should reach, and recorded samples had a rate of their own.
-  const std::string name = options.waveform.empty() ? kAutomotive : options.waveform;
-  if (name != kAutomotive && is_sequence(kind_of(name)))
-    told("--sample-rate", "waveform.sample_rate_MHz");
   if (!options.noise_figure_dB)
     problems.error(core::ErrorClass::ref, {}, "receiver.noise_figure_dB", "missing", "a number");
   problems.throw_if_errors();
   front.noise_figure = core::power_from_dB(*options.noise_figure_dB);
-  return made(options, name, front);
+  return made(options, name_without_scene(options), front);
+}
+
+void check_tells_samples(const FmcwSettings& options) {
+  const std::string name = name_without_scene(options);
+  if (name != kAutomotive && is_sequence(kind_of(name)) &&
+      !options.numbers[number_of("--sample-rate")])
+    core::throw_input_error(core::ErrorClass::ref, "waveform.sample_rate_MHz", "missing",
+                            "the rate that the samples were taken at");
 }
 
 }  // namespace fanbeam::session

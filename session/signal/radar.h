@@ -46,4 +46,8 @@ FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor)
 // figure (E-REF where they do not).
 FmcwRadar fmcw_radar(const FmcwSettings& options);
 
+// Recorded samples had a rate of their own, which decides their ranges: E-REF where the settings of a chirp
+// sequence do not tell it.
+void check_tells_samples(const FmcwSettings& options);
+
 }  // namespace fanbeam::session

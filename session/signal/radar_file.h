@@ -23,7 +23,7 @@
 //                 cluster_neighbours, 1 to 100; unfold; most_range_m, above 0 to 1e6
 //
 // All keys are optional; what is missing keeps its default, a scene's sensor's where there is one (without a scene
-// frequency, bandwidth and noise figure have to be told). Unknown keys are errors.
+// frequency, bandwidth and noise figure have to be told, of samples their rate too). Unknown keys are errors.
 #pragma once
 
 #include <filesystem>

@@ -149,7 +149,9 @@ void Writer::top_view() const {
   picture.y = {"forward, m", grid.nearest_m, grid.step_m, grid.rows, {}};
   picture.equal_scales = true;
   for (const signal::RadarDetection& found : frame_.found->detections)
-    picture.marks.emplace_back(right_m(found), forward_m(found));
+    picture.marks.emplace_back(
+        found.range_m * std::sin(found.azimuth_rad),  // slant, as the cells are
+        found.range_m * std::cos(found.azimuth_rad));
   map("top-view", frame_.top_view, radar_.noise_azimuth_W, std::move(picture));
 }
 

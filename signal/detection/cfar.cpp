@@ -55,7 +55,7 @@ class RowDetector {
       : map_(map), settings_(settings), offsets_(offsets), factors_(factors) {
     for (const CfarOffset& offset : offsets) {
       steps_.push_back(static_cast<std::ptrdiff_t>(offset.row) * map.columns + offset.column);
-      all_before_ += offset.after ? 0 : 1;
+      ++(offset.after ? all_after_ : all_before_);
       row_reach_ = std::max(row_reach_, std::abs(offset.row));
       column_reach_ = std::max(column_reach_, std::abs(offset.column));
     }
@@ -107,6 +107,18 @@ class RowDetector {
       cells_.push_back(map_.at(r, c));
       before += offset.after ? 0 : 1;
     }
+    return has_halves(settings_.kind) ? without_remnant(before) : before;
+  }
+
+  // At the end of the map a few cells may be left of a half, which tell too little: the other one alone.
+  int without_remnant(int before) {
+    constexpr int kLeastShare = 4;
+    if (kLeastShare * before < all_before_) {
+      cells_.erase(cells_.begin(), cells_.begin() + before);
+      return 0;
+    }
+    if (kLeastShare * (static_cast<int>(cells_.size()) - before) < all_after_)
+      cells_.resize(static_cast<std::size_t>(before));
     return before;
   }
 
@@ -123,7 +135,7 @@ class RowDetector {
   std::vector<double> cells_;  // the reference cells of the cell under test
   // The window as steps through the map, for cells that it does not leave.
   std::vector<std::ptrdiff_t> steps_;
-  int all_before_ = 0;
+  int all_before_ = 0, all_after_ = 0;
   int row_reach_ = 0;
   int column_reach_ = 0;
 };

@@ -8,8 +8,8 @@
 // cell's own range by their row: a step of clutter in range lies in one of them. A cell is reported when power > factor x estimate, with the factor of
 // signal/detection/cfar_factor.h for the reference cells that exist: at an edge these are fewer, or
 // the window goes on at the other end where the axis wraps (Doppler). The ordered statistic keeps
-// its rank's fraction of N, rounded to the nearest and at least 1. Where one half is missing, the
-// other one alone is averaged. A cell without any reference cell is never reported.
+// its rank's fraction of N, rounded to the nearest and at least 1. Where less than a quarter of one
+// half is left, the other one alone is averaged. A cell without any reference cell is never reported.
 //
 // `design_probability` is that of independent reference cells. Windows and padding correlate cells;
 // with signal/detection/cfar_calibration.h it becomes the one that gives the wanted rate.

@@ -251,7 +251,7 @@ std::complex<double> cell_correlation(const std::vector<double>& weights, int le
 
 CfarCalibration calibrated_cfar(const CfarSettings& settings, const CellCorrelation& correlation,
                                 int looks) {
-  check_count("looks", looks, 1, 256);
+  check_count("looks", looks, 1, kMostLooks);
   const std::vector<CfarOffset> offsets = cfar_offsets(settings);
   if (offsets.size() > 2000)
     refuse("reference cells", static_cast<double>(offsets.size()), "2000 at most");

@@ -69,14 +69,17 @@ core::Picture8 cut_out(const core::ColourPicture& figure, const Box& box, int co
 }
 
 // A straight runway of 2 km to the north, seen from `behind_m` before its threshold.
-std::vector<RunwayView> seen_from(double behind_m, double height_m, double heading_deg) {
+std::vector<RunwayView> seen_from(double behind_m, double height_m, double heading_deg,
+                                  double unstabilised_pitch_deg = 0.0) {
   const scenes::RunwayPlace runway{{{"36", {0.0, 0.0, 0.0}}, {"18", {0.0, 2000.0, 0.0}}}};
   const glm::dmat3 north_east_down{{0, 1, 0}, {1, 0, 0}, {0, 0, -1}};
   const sensors::Sensor sensor = hivision();
-  const sensors::AntennaFrame antenna = sensors::antenna_frame(
-      {0.0, -behind_m, height_m}, north_east_down,
-      core::quaternion_from({.heading_rad = radians(heading_deg)}), sensor.mounting, true);
-  return runway_views({runway}, sensor, antenna);
+  const sensors::AntennaFrame antenna =
+      sensors::antenna_frame({0.0, -behind_m, height_m}, north_east_down,
+                             core::quaternion_from({.pitch_rad = radians(unstabilised_pitch_deg),
+                                                    .heading_rad = radians(heading_deg)}),
+                             sensor.mounting, unstabilised_pitch_deg == 0.0);
+  return runway_views({runway}, sensor, antenna, {0.0, 0.0, 1.0});
 }
 
 }  // namespace
@@ -193,6 +196,45 @@ TEST_CASE("A runway's place in the picture: range, azimuth, elevation of what th
   CHECK_FALSE(view.threshold_ahead);
   CHECK(view.threshold.range_m == Approx(std::hypot(500.0, 50.0)));
   CHECK(view.seen.front().range_m == Approx(200.0).margin(2000.0 / 256.0));
+}
+
+TEST_CASE("Elevations from the local horizontal do not tilt with the antenna", "[figure]") {
+  const RunwayView level = seen_from(1000.0, 100.0, 0.0).at(0),
+                   tilted = seen_from(1000.0, 100.0, 0.0, 5.0).at(0);
+  const double down_rad = -std::atan(0.1);
+  CHECK(level.threshold.above_level_rad == Approx(down_rad));
+  CHECK(tilted.threshold.elevation_rad == Approx(down_rad - radians(5.0)).margin(1e-3));
+  CHECK(tilted.threshold.above_level_rad == Approx(down_rad).margin(1e-3));
+}
+
+TEST_CASE("Marks beside a C-scope drawn from ranges count from the local horizontal", "[figure]") {
+  sensors::Sensor sensor = hivision();
+  const FigureLayout layout = figure_layout(sensor);
+  // The marks of `facts` beside the C-scope, drawn from ranges or not.
+  const auto marks_of = [&](const FigureFacts& facts, sensors::Display::CScopeMode mode) {
+    sensor.display.cscope_mode = mode;
+    const auto picture =
+        frame_figure(sensor, facts, noise(sensor.scan.columns, sensor.range.cells, 1),
+                     noise(sensor.scan.columns, sensor.display.cscope_rows, 2));
+    std::vector<core::Colour> pixels;
+    for (int y = layout.cscope.top; y < layout.cscope.bottom(); ++y)
+      for (int x = layout.cscope.right(); x < layout.bar.left; ++x)
+        pixels.push_back(pixel(picture, x, y));
+    return pixels;
+  };
+  FigureFacts level = some_facts(sensor), tilted = level;
+  for (FigureFacts* facts : {&level, &tilted}) {
+    facts->boresight_above_level_rad = radians(-2.0);
+    for (RunwayView& runway : facts->runways)
+      for (SeenPoint& point : runway.seen) point.above_level_rad = radians(-1.5);
+  }
+  tilted.horizon_left_rad = tilted.horizon_right_rad = radians(-3.0);
+  for (RunwayView& runway : tilted.runways)
+    for (SeenPoint& point : runway.seen) point.elevation_rad -= radians(3.0);
+  using Mode = sensors::Display::CScopeMode;
+  for (const Mode mode : {Mode::flat_earth, Mode::shadow})
+    CHECK((marks_of(level, mode) == marks_of(tilted, mode)));
+  CHECK_FALSE((marks_of(level, Mode::true_elevation) == marks_of(tilted, Mode::true_elevation)));
 }
 
 TEST_CASE("render --products figure holds the bytes of bscope and cscope, in any unit",

@@ -78,7 +78,7 @@ TEST_CASE("A signal ends live while it waits for a frame, or makes one that take
   const TemporaryFolder folder;
   const std::vector<std::vector<std::string>> cases{{"--rate", "0.1"},
                                                     {"--replay", silent_recording(folder)},
-                                                    {"--lockstep", "--rays-per-cell", "10000"}};
+                                                    {"--lockstep", "--rays-per-cell", "1000"}};
   for (const auto& options : cases) {
     INFO(options[0]);
     std::vector<std::string> words{"live", "flat-grass", "--http", "0", "-q"};

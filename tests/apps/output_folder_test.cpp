@@ -72,7 +72,7 @@ TEST_CASE("Frames of the same input stay, and run.json is that of all frames ren
   CHECK((results(out) == results(folder.path() / "whole")));
   CHECK(files_told(out) == files_in(out));
   // A product more of one frame is listed with what is there of it.
-  must_render(out, "obstacle-field --frames 120 --products power");
+  must_render(out, "obstacle-field --frames 120 --products obstacles,detections,power");
   CHECK(files_told(out) == files_in(out));
   CHECK(json_of(out / "run.json")["frames"][1]["files"].size() == 5);
 }

@@ -141,7 +141,7 @@ TEST_CASE("Whose range a spectrogram looks about is not taken without one", "[fm
   CHECK(run.output.find("--products spectrogram") != std::string::npos);
 }
 
-TEST_CASE("What no chosen product looks at is refused, all of it", "[fmcw]") {
+TEST_CASE("What a B-scope alone does not look at is refused, all of it", "[fmcw]") {
   const tests::TemporaryFolder folder;
   const std::string out = " -o " + tests::quoted(folder.path() / "out");
   auto run = tests::run_fanbeam(
@@ -242,7 +242,11 @@ adc_full_scale_dBm = -30
   for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i)
     if (std::string_view(session::kWaveformNumbers[i].option) != "--sample-rate")
       no_rate.numbers[i] = settings.numbers[i];
-  CHECK_THROWS_WITH(session::fmcw_radar(no_rate), Catch::Contains("waveform.sample_rate_MHz"));
+  CHECK_THROWS_WITH(session::check_tells_samples(no_rate),
+                    Catch::Contains("waveform.sample_rate_MHz"));
+  CHECK_NOTHROW(session::check_tells_samples(settings));
+  // Of detections it tells nothing: the resolution is that of the sweep.
+  CHECK(session::fmcw_radar(no_rate).axes.range_step_m == Approx(radar.axes.range_step_m));
   // Off a line no window is laid over the channels; one that is asked for was dropped.
   session::FmcwSettings bent = settings;
   bent.receivers_m[1].y += 1e-4;

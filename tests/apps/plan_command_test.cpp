@@ -33,7 +33,8 @@ TEST_CASE("plan decides as render does", "[plan]") {
   const TemporaryFolder folder;
   write_far_approach(folder);
   for (const std::string& scene : {std::string("flat-grass"), quoted(folder.path())})
-    for (const char* options : {"", "--effects -gas,+speckle", "--effects all,-multipath"}) {
+    for (const char* options : {"", "--effects -gas,+speckle", "--effects all,-multipath",
+                                "--products bscope,power,detections"}) {
       INFO(scene << ' ' << options);
       const Result render = run_fanbeam("render -q --frames 0 -o " + quoted(folder.path() / "out") +
                                         " " + scene + " " + options);
@@ -144,11 +145,11 @@ TEST_CASE("Measured costs are numbers for what can be switched, and missing for 
 }
 
 TEST_CASE("plan refuses what it cannot use, with the exit codes of every command", "[plan]") {
-  for (const char* words :
-       {"plan flat-grass --effects +magic", "plan flat-grass --accuracy -1",
-        "plan flat-grass --accuracy much", "plan flat-grass --frames 0:1",
-        "plan flat-grass --repetitions 3", "plan flat-grass --measure --repetitions 0",
-        "plan flat-grass --per-frame --frames 7", "plan --nope"}) {
+  for (const char* words : {"plan flat-grass --effects +magic", "plan flat-grass --products sounds",
+                            "plan flat-grass --accuracy -1", "plan flat-grass --accuracy much",
+                            "plan flat-grass --frames 0:1", "plan flat-grass --repetitions 3",
+                            "plan flat-grass --measure --repetitions 0",
+                            "plan flat-grass --per-frame --frames 7", "plan --nope"}) {
     INFO("fanbeam " << words);
     const Result result = run_fanbeam(words);
     INFO(result.output);

@@ -5,6 +5,7 @@
 
 #include "bindings/c/fanbeam.h"
 #include "sensors/display/display.h"
+#include "sensors/display/grey_scale.h"
 #include "session/session.h"
 #include "tests/bindings/c_session.h"
 
@@ -63,6 +64,19 @@ TEST_CASE("Facts through C are those of the scene's sensor", "[bindings]") {
   CHECK(facts.frame_rate_Hz == sensor.scan.frame_rate_Hz);
   CHECK(facts.low_dB == sensor.display.low_dB);
   CHECK(facts.high_dB == sensor.display.high_dB);
+}
+
+TEST_CASE("Facts through C tell the seed's own grey window", "[bindings]") {
+  const TemporaryFolder folder;
+  const CSession c =
+      tests::c_opened(folder, tests::kSmallScene + "\n[sensor]\nfile = \"hivision-seed.toml\"\n");
+  const auto session = opened(folder);
+  const auto scene = session->scene();
+  const sensors::GreyScale grey(scene->description.sensor);
+  const fanbeam_facts facts = tests::facts_of(c);
+  CHECK(facts.low_dB == grey.low_dB());
+  CHECK(facts.high_dB == grey.high_dB());
+  CHECK(facts.low_dB != scene->description.sensor.display.low_dB);
 }
 
 TEST_CASE("Frames through C are those of a session, byte for byte", "[bindings]") {

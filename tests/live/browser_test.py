@@ -399,6 +399,12 @@ class AnotherServer(unittest.TestCase):
             wait("state.scene === 'flat-grass' && state.past.length > 5", "frames of the first scene")
             self.assertEqual(page.execute_script("return state.runways"), [])
             first = page.execute_script("return state.past[0].come_ms")
+            # As after a connection that was cut: the same server's frames stay, and what is frozen.
+            page.execute_script("press.freeze()")
+            held = page.execute_script("return state.past.length")
+            page.execute_async_script("const done = arguments[0]; greet().then(() => done(), () => done())")
+            self.assertEqual(page.execute_script("return [state.frozen, state.past.length]"), [True, held])
+            page.execute_script("press.freeze()")
             live.terminate()
             self.assertEqual(live.wait(10), 0)
             live.stdout.close()

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "live/flights.h"
+#include "sensors/display/grey_scale.h"
 #include "tests/live/live_scene.h"
 
 using namespace fanbeam;
@@ -30,6 +31,15 @@ struct Office {
 };
 
 }  // namespace
+
+TEST_CASE("The status tells one start from another", "[desk]") {
+  const Office one, other;
+  const auto start = [](const Office& office) {
+    return json::parse(office.desk.answer(get("/api/status")).body)["start"].get<std::string>();
+  };
+  CHECK(start(one) == start(one));
+  CHECK(start(one) != start(other));
+}
 
 TEST_CASE("The desk answers with the page, the plan and the sensor of the session", "[desk]") {
   const Office office;
@@ -103,6 +113,9 @@ TEST_CASE("The sensor, posted back as it is told, stays as it is with any displa
     live::Hub hub;
     const live::Desk desk(*session, hub);
     const json told = json::parse(desk.answer(get("/api/sensor")).body);
+    const sensors::GreyScale grey(session->scene()->description.sensor);
+    CHECK(told["low_dB"] == grey.low_dB());
+    CHECK(told["high_dB"] == grey.high_dB());
     const json body{{"tilt_deg", -2.0}, {"low_dB", told["low_dB"]}, {"high_dB", told["high_dB"]}};
     const live::Answer answer = desk.answer(post("/api/sensor", body.dump()));
     CHECK(answer.status == 200);

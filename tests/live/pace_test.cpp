@@ -65,19 +65,60 @@ TEST_CASE("Sampling grows at a frame in ten seconds too", "[pace]") {
   CHECK(pace.samples() == 8);
 }
 
+namespace {
+
+// Inside 4 samples have room, outside 2.
+class ByVolume {
+ public:
+  // How many frames were late.
+  int fly(int frames, bool outside) {
+    int late = 0;
+    for (int i = 0; i < frames; ++i) {
+      const double frame_s = outside ? 0.035 * samples() : 0.01 + 0.01 * samples();
+      if (frame_s > Pace::kShare * kPeriod_s) ++late;
+      samples_ = pace_.after(now_s_ += kPeriod_s, frame_s, outside);
+    }
+    return late;
+  }
+  double samples() const { return samples_; }
+
+ private:
+  fanbeam::live::PaceByVolume pace_{kLadder, kPeriod_s};
+  double samples_ = pace_.samples(), now_s_ = 0.0;
+};
+
+}  // namespace
+
 TEST_CASE("What is too slow outside the volume is coarser there alone", "[pace]") {
-  fanbeam::live::PaceByVolume pace(kLadder, kPeriod_s);
-  double now_s = 0.0;
-  const auto next = [&](double frame_s, bool outside) {
-    return pace.after(now_s += kPeriod_s, frame_s, outside);
-  };
-  for (int i = 0; i < 300; ++i) next(0.01 + 0.01 * pace.samples(), false);
-  REQUIRE(pace.samples() == 4);
-  CHECK(next(0.25, true) == 2);
-  CHECK(next(0.25, true) == 1);
-  for (int i = 0; i < 100; ++i) CHECK(next(0.09, true) == 1);
-  CHECK(next(0.05, false) == 4);
-  for (int i = 0; i < 100; ++i) CHECK(next(0.05, false) == 4);
+  ByVolume flight;
+  flight.fly(300, false);
+  REQUIRE(flight.samples() == 4);
+  CHECK(flight.fly(50, true) == 2);
+  CHECK(flight.samples() == 2);
+  // Back inside no frame is late, and half a second later they are as fine as before.
+  CHECK(flight.fly(10, false) == 0);
+  CHECK(flight.samples() == 4);
+  CHECK(flight.fly(40, false) == 0);
+  CHECK(flight.samples() == 4);
+  // What is known of outside holds for a while.
+  CHECK(flight.fly(50, true) == 1);
+  CHECK(flight.fly(150, false) == 0);
+  CHECK(flight.samples() == 4);
+  CHECK(flight.fly(50, true) == 2);
+}
+
+TEST_CASE("Frames in and out of the volume by turns become as coarse as outside needs", "[pace]") {
+  ByVolume flight;
+  flight.fly(300, false);
+  REQUIRE(flight.samples() == 4);
+  int late = 0;
+  for (int i = 0; i < 100; ++i) {
+    late += flight.fly(1, true) + flight.fly(1, false);
+    if (i > 5) CHECK(flight.samples() == 2);
+  }
+  CHECK(late == 2);
+  flight.fly(10, false);
+  CHECK(flight.samples() == 4);
 }
 
 TEST_CASE("A step that was too slow is left alone for ten seconds", "[pace]") {

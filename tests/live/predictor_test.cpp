@@ -13,6 +13,7 @@
 
 #include "core/units.h"
 #include "feeds/native_fdm.h"
+#include "live/clock_gate.h"
 #include "live/pose_source.h"
 #include "tests/shared_data.h"
 
@@ -353,6 +354,24 @@ TEST_CASE("A source's clock counts from its quickest packets, and anew after a p
   live::SourceClock slow;
   for (int i = 0; i < 10000; ++i)
     REQUIRE(slow.time_of(0.05 * 0.999 * i, 0.05 * i) == Approx(0.05 * i).margin(2.1e-3));
+}
+
+// It stayed the quickest for two seconds, and each pose counted as of so much before it was so.
+TEST_CASE("A stray packet from ahead moves no pose once the clock is back", "[predictor]") {
+  constexpr double kPeriod_s = 1.0 / 16.0, kClock_s = 50.0, kAhead_s = 0.2;
+  Predictor predictor(kFrame);
+  live::ClockGate gate;
+  const auto take = [&](double flown_s, double clock_s, double arrived_s) {
+    if (gate.take(clock_s, arrived_s) == feeds::PacketFault::none)
+      predictor.take(turning(flown_s), arrived_s, clock_s);
+  };
+  for (int i = 0; i < 20; ++i) take(kPeriod_s * i, kClock_s + kPeriod_s * i, kPeriod_s * i);
+  take(kPeriod_s * 19 + kAhead_s, kClock_s + kPeriod_s * 19 + kAhead_s, kPeriod_s * 19.5);
+  for (int i = 20; i < 40; ++i) {
+    take(kPeriod_s * i, kClock_s + kPeriod_s * i, kPeriod_s * i);
+    const double at_s = kPeriod_s * (i + 0.5);
+    if (i >= 24) CHECK(apart_m(*predictor.at(at_s), turning(at_s)) < 0.5);
+  }
 }
 
 TEST_CASE("Time in lockstep is that of the packets", "[predictor]") {

@@ -14,6 +14,8 @@
 #include <thread>
 
 #include "core/errors.h"
+#include "core/stop.h"
+#include "live/frame_taker.h"
 #include "live/mailbox.h"
 #include "tests/live/live_scene.h"
 
@@ -91,6 +93,47 @@ TEST_CASE("The end of the flight cuts no picture in a file", "[raw_frames][threa
     while (std::filesystem::file_size(file) == 0) std::this_thread::yield();
   }
   CHECK(std::filesystem::file_size(file) == kSize);
+}
+
+TEST_CASE("Where time is up a slow reader gets the picture to its end; a signal leaves it at once",
+          "[raw_frames][threads]") {
+  const tests::TemporaryFolder folder;
+  constexpr std::size_t kSize = 100'000;  // more than a pipe holds
+  for (const int reason : {live::kTimeIsUp, SIGINT}) {
+    INFO(reason);
+    const auto pipe = (folder.path() / std::to_string(reason)).string();
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+    REQUIRE(reader >= 0);
+    core::StopSource end;
+    std::size_t got = 0;
+    std::thread slow([&] {
+      char bytes[65536];
+      pollfd begun{reader, POLLIN, 0};
+      ::poll(&begun, 1, 10'000);
+      end.request(reason);
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      for (ssize_t count = 1; count != 0;) {
+        count = ::read(reader, bytes, sizeof bytes);
+        if (count > 0)
+          got += static_cast<std::size_t>(count);
+        else if (count < 0)
+          std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }
+    });
+    {
+      const core::StopToken token = end.token();
+      const core::StopScope scope(token);
+      RawFrames raw(RawFrames::Scope::bscope, pipe, true);
+      raw.write(frame_of(1, kSize));
+    }
+    slow.join();
+    ::close(reader);
+    if (reason == SIGINT)
+      CHECK(got < kSize);
+    else
+      CHECK(got == kSize);
+  }
 }
 
 TEST_CASE("A reader that leaves ends the pictures, not the program", "[raw_frames][threads]") {

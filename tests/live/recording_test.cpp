@@ -7,6 +7,7 @@
 
 #include "core/units.h"
 #include "live/channel.h"
+#include "live/frame_maker.h"
 #include "live/replay.h"
 #include "tests/feeds/native_fdm_bytes.h"
 #include "tests/live/live_scene.h"
@@ -257,6 +258,29 @@ TEST_CASE("A flight in lockstep is at each tick, and the same when it is flown a
   CHECK(std::get<live::RecordedFrame>(kept.events.at(0)).samples == 0.0);
   CHECK(frames.at(3)->pose.time_s == 3.5 / 16.0);
   check_equal(replayed(file, 0.5), frames);
+}
+
+TEST_CASE("A frame that the end left unmade is in no recording; what came meanwhile is",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const auto file = folder.path() / "ended.jsonl";
+  live::Hub hub;
+  live::Journal journal(file, {"s", {"circle"}, 16.0, true});
+  live::FrameMaker maker(*session, hub, {.samples = 1.0, .journal = &journal});
+  const core::Pose pose = live::circle(*session->scene())(0.0);
+  core::StopSource stop;
+  REQUIRE(maker.make({1, 0.0, 0.0}, {pose, 0.0}, stop.token()).has_value());
+  stop.request();
+  CHECK_FALSE(maker.make({2, 0.1, 0.1}, {pose, 0.0}, stop.token()).has_value());
+  journal.frame({3, 0.2, 0.2}, 1.0);
+  journal.packet(0.2, std::vector<std::uint8_t>{1, 2});
+  CHECK(live::read_recording(file).events.size() == 1);  // as after a kill
+  journal.made(false);
+  const live::Recording recording = live::read_recording(file);
+  REQUIRE(recording.events.size() == 2);
+  CHECK(std::get<live::RecordedFrame>(recording.events[0]).tick.number == 1);
+  CHECK(std::get<live::RecordedPacket>(recording.events[1]).bytes.size() == 2);
 }
 
 TEST_CASE("What is wrong with a recording is told with its line", "[recording]") {

@@ -1,9 +1,11 @@
 """Campaigns: same bytes in any order, nothing lost by kills, damage found and repaired, labels of all runs."""
 
 import csv
+import hashlib
 import json
 import os
 import shlex
+import shutil
 import signal
 import subprocess
 import time
@@ -167,6 +169,45 @@ def test_verify_finds_a_changed_record_and_takes_one_of_an_earlier_version(progr
     del old["record_sha256"]
     record.write_text(json.dumps(old), encoding="utf-8")
     told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2")
+
+
+def test_runs_of_other_values_and_beyond_the_file_are_damage(program, campaign, tmp_path):
+    """As of a grid that an earlier version made twice as long."""
+    told(program, "run", campaign, "-o", tmp_path, "-q")
+    runs = tmp_path / "runs"
+    record = json.loads((runs / "000001" / "run.json").read_text(encoding="utf-8"))
+    del record["record_sha256"]
+    record["parameters"]["surface"] = "dry" if record["parameters"]["surface"] == "wet" else "wet"
+    (runs / "000001" / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    shutil.copytree(runs / "000002", runs / "000006")
+    said = told(program, "verify", campaign, "-o", tmp_path, exit_code=1)
+    assert "run 1: other values than the campaign's file gives: surface" in said
+    assert "run 6: beyond the 6 runs of small.toml" in said
+    assert said.strip().splitlines()[-1].endswith("--runs 1 --replace")
+    said = told(program, "merge", campaign, "-o", tmp_path, exit_code=3)
+    assert "other values" in said and "beyond the 6 runs" in said and not (tmp_path / "index.csv").exists()
+    told(program, "run", campaign, "-o", tmp_path, "--runs", "1", "--replace", "-q")
+    assert "run 6:" in told(program, "verify", campaign, "-o", tmp_path, exit_code=1)
+    shutil.rmtree(runs / "000006")
+    told(program, "verify", campaign, "-o", tmp_path)
+
+
+def test_a_grid_with_weights_of_an_earlier_version_can_be_looked_at_alone(program, tmp_path):
+    file, output = tmp_path / "small.toml", tmp_path / "out"
+    head = CAMPAIGN.split("[parameters]")[0].replace('plan = "sobol"\nruns = 6', 'plan = "grid"\nruns = 1')
+    even = head + '[parameters]\nscene = "flat-grass"\nsurface = { values = ["dry", "wet"] }\n'
+    file.write_text(even, encoding="utf-8")
+    told(program, "run", file, "-o", output, "-q")
+    file.write_text(even.replace('"wet"] }', '"wet"], weights = [3, 1] }'), encoding="utf-8")
+    for run in (output / "runs").iterdir():
+        record = json.loads((run / "run.json").read_text(encoding="utf-8"))
+        del record["record_sha256"]
+        record["campaign_sha256"] = hashlib.sha256(file.read_bytes()).hexdigest()
+        (run / "run.json").write_text(json.dumps(record), encoding="utf-8")
+    for task in ("status", "merge", "verify"):
+        assert "W-NO-WEIGHTS" in told(program, task, file, "-o", output)
+    for task in (["plan", file, "--no-pilot"], ["run", file, "-o", output], ["slurm", file, "-o", tmp_path / "job.sh"]):
+        assert "E-REF" in told(program, *task, exit_code=3)
 
 
 def test_mixtures_are_refused(program, campaign, tmp_path):

@@ -149,6 +149,44 @@ TEST_CASE("One ray by way of the ground has the range and the power of the close
   }
 }
 
+TEST_CASE("Behind a scan all round a corner returns what it returns ahead", "[bounce]") {
+  constexpr double kUp_m = 7.0;
+  const auto traced = [&](double bearing_deg) {
+    const double bearing_rad = core::radians(bearing_deg);
+    const glm::dvec3 away(std::sin(bearing_rad), std::cos(bearing_rad), 0.0);
+    const glm::dvec3 right(away.y, -away.x, 0.0), up(0.0, 0.0, kWall_m);
+    const glm::dvec3 left_m = kDistance_m * away - 300.0 * right;
+    const glm::dvec3 right_m = kDistance_m * away + 300.0 * right;
+    sensors::Sensor sensor = tests::hivision(12);
+    sensor.scan.surface = sensors::ScanSurface::plane;
+    sensor.scan.field_of_view_rad = 2.0 * core::kPi;
+    renderer::World world =
+        tests::world(sensor, plane(), {kBlack, kRough},
+                     {tests::quad({left_m, right_m, right_m + up, left_m + up}, 1)});
+    world.specular = {kPolished};
+    std::vector<BounceEcho> echoes;
+    BounceTracer(world, false)
+        .trace(antenna_at(kHeight_m),
+               {{bearing_rad, -std::atan((kHeight_m + kUp_m) / kDistance_m)}}, 0,
+               terrain::Packing::alike, echoes);
+    if (echoes.size() == 2 && echoes[0].range_m > echoes[1].range_m)
+      std::swap(echoes[0], echoes[1]);
+    return echoes;
+  };
+  const std::vector<BounceEcho> ahead = traced(0.0);
+  REQUIRE(ahead.size() == 2);
+  for (const double bearing_deg : {60.0, 120.0, -120.0, 180.0}) {
+    const std::vector<BounceEcho> there = traced(bearing_deg);
+    INFO("bearing " << bearing_deg);
+    REQUIRE(there.size() == 2);
+    for (const std::size_t i : {0U, 1U}) {
+      CHECK(there[i].range_m == Approx(ahead[i].range_m).margin(4e-3));
+      CHECK(there[i].azimuth_rad == Approx(core::radians(bearing_deg)).margin(1e-5));
+      CHECK(there[i].density_W_per_rad2 == Approx(ahead[i].density_W_per_rad2).epsilon(2e-3));
+    }
+  }
+}
+
 TEST_CASE("A wall on smooth ground: the corner's cell gains the power of the closed form",
           "[bounce]") {
   const renderer::World world = corner_world();

@@ -71,7 +71,7 @@ TEST_CASE("Estimates and accuracies count the C-scope that is drawn from the B-s
     REQUIRE(frame.error.has_value());
     CHECK(frame.error->cscope_rms_grey > 0.1);
     CHECK(frame_of(world, coarse, {.cscope = false}).error->cscope_rms_grey == 0.0);
-    if (mode == Mode::shadow) continue;  // an obstacle is raised or not
+    if (mode == Mode::shadow) continue;
     const renderer::Frame refined =
         frame_of(world, renderer::refined_sampling(renderer::CasterKind::rays, 1.0));
     CHECK(refined.error->cscope_rms_grey > 0.0);
@@ -81,4 +81,16 @@ TEST_CASE("Estimates and accuracies count the C-scope that is drawn from the B-s
     CHECK(true_grey < 3.0 * frame.error->cscope_rms_grey);
     CHECK(true_grey > frame.error->cscope_rms_grey / 3.0);
   }
+}
+
+TEST_CASE("No column is refined for an obstacle that is raised in one picture alone",
+          "[refinement]") {
+  const renderer::Sampling sampling = renderer::refined_sampling(renderer::CasterKind::rays, 1.0);
+  const auto refined = [&](Mode mode) { return frame_of(city_in(mode), sampling); };
+  const renderer::Frame flat = refined(Mode::flat_earth), raised = refined(Mode::shadow);
+  REQUIRE(flat.error->reached);
+  CHECK(raised.error->levels == flat.error->levels);
+  CHECK(raised.rays == flat.rays);
+  CHECK(raised.bscope_W == flat.bscope_W);
+  CHECK(raised.error->cscope_rms_grey > 0.0);
 }

@@ -50,6 +50,49 @@ TEST_CASE("Added power counts over black, noise that is shown counts as well", "
   }
 }
 
+TEST_CASE("Detections and power ask for noise that no display shows", "[plan]") {
+  renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
+  Display& display = facts.sensor.display;
+  display.mapping = Display::Mapping::log;
+  display.low_dB = 200.0;
+  display.high_dB = 260.0;
+  const auto noise = [&](const char* wishes) {
+    const core::EffectPlan plan = renderer::plan(
+        facts, 0.5,
+        *wishes != 0 ? renderer::parse_effect_wishes(wishes) : renderer::EffectWishes{});
+    for (const core::EffectDecision& decision : plan.decisions)
+      if (decision.effect == core::EffectId::thermal_noise) return decision;
+    return core::EffectDecision{};
+  };
+  CHECK_FALSE(noise("").on);
+  facts.read.power = true;
+  CHECK(noise("").on);
+  CHECK(noise("").reason.find("product power") != std::string::npos);
+  CHECK_FALSE(noise("-thermal-noise").on);
+  CHECK_FALSE(noise("none").on);
+  facts.read = {.detections = true};
+  CHECK(noise("").on);
+  CHECK(noise("").reason.find("product detections") != std::string::npos);
+  facts.read = {.obstacles = true};
+  CHECK(noise("").reason.find("asked for") == std::string::npos);
+}
+
+TEST_CASE("What thresholds decide about counts in full for detections and obstacles", "[plan]") {
+  renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
+  const auto gas = [&] {
+    for (const core::EffectDecision& decision : renderer::plan(facts, 0.5, {}).decisions)
+      if (decision.effect == core::EffectId::gas) return decision;
+    return core::EffectDecision{};
+  };
+  CHECK(gas().bound_grey < 20.0);
+  facts.read.detections = true;
+  CHECK(gas().bound_grey == 255.0);
+  CHECK(gas().reason.find("product detections") != std::string::npos);
+  facts.read = {.obstacles = true};
+  CHECK(gas().bound_grey == 255.0);
+  CHECK(gas().reason.find("product obstacles") != std::string::npos);
+}
+
 TEST_CASE("In a realisation the largest draw lifts added power over black, not over noise",
           "[plan]") {
   renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);

@@ -160,3 +160,37 @@ TEST_CASE("Fans of turned antennas hold the ground on both sides of the lowest d
       CHECK(seen > 5);
     }
 }
+
+// Elevation side lobes of an antenna that looks down reach the ground below, far before the first cell.
+TEST_CASE("What is nearer than the first range cell takes one row on each side of straight below",
+          "[elevation_fan]") {
+  sensors::Sensor sensor = tests::hivision(8);
+  sensor.scan.surface = sensors::ScanSurface::plane;
+  sensor.scan.stabilised = false;
+  sensor.range.minimum_m = 200.0;
+  sensor.antenna.elevation.side_lobe_gain = 0.01;
+  sensor.antenna.elevation.side_lobe_extent_rad = core::radians(90.0);
+  constexpr double kHeight_m = 60.0;
+  for (const double pitch_deg : {-30.0, -90.0}) {
+    INFO("pitch " << pitch_deg);
+    const double pitch_rad = core::radians(pitch_deg);
+    const std::vector<double> edges = edges_of(sensor, kHeight_m, pitch_rad, 0.0);
+    REQUIRE(edges.size() > 100);
+    CHECK(std::is_sorted(edges.begin(), edges.end()));
+    const auto below = [&](double elevation_rad) {
+      return std::lower_bound(edges.begin(), edges.end(), elevation_rad) - edges.begin();
+    };
+    const auto ahead_rad = [&](double range_m) {
+      return -std::asin(kHeight_m / range_m) - pitch_rad;
+    };
+    const double nadir_rad = -core::kPi / 2 - pitch_rad;
+    CHECK(below(ahead_rad(160.0)) - below(nadir_rad - 1e-6) == 1);
+    // Behind, as far down from the nadir.
+    const double behind_rad = 2.0 * nadir_rad - ahead_rad(160.0);
+    if (behind_rad > edges.front()) CHECK(below(nadir_rad - 1e-6) == below(behind_rad));
+    // One ray a cell from the first one on, and before it no wide row that could reach into it.
+    CHECK(below(ahead_rad(200.0 + 10.0 * sensor.range.cell_m)) - below(ahead_rad(200.0)) >= 10);
+    const auto first = static_cast<std::size_t>(below(ahead_rad(160.0)));
+    CHECK(edges[first + 1] - edges[first] < 0.02);
+  }
+}

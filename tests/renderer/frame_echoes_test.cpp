@@ -193,6 +193,19 @@ TEST_CASE("Echoes of a frame do not depend on threads, and differ from frame to 
   CHECK_THROWS_WITH(renderer::frame_echoes(world, pose, other), Catch::Contains("E-LIMIT"));
 }
 
+TEST_CASE("The limit on rays counts both ways of an antenna that looks down", "[frame_echoes]") {
+  renderer::World world = street(8);
+  world.sensor.scan.stabilised = false;
+  renderer::FrameEchoSettings settings = fine(1);
+  settings.half_fan_rad = world.sensor.scan.field_of_view_rad / 2;
+  settings.sampling.rays_per_cell =
+      0.75 * renderer::kMostFrameEchoRays /
+      (world.sensor.range.cells * 8.0 * settings.sampling.sub_columns);
+  world.sensor.mounting.pitch_rad = -core::kPi / 2;
+  CHECK_THROWS_WITH(renderer::frame_echoes(world, tests::level_pose(kHeight_m), settings),
+                    Catch::Contains("E-LIMIT") && Catch::Contains("rays of a frame"));
+}
+
 TEST_CASE("A scan all round has scatterers behind it as many as ahead", "[frame_echoes]") {
   sensors::Sensor sensor = tests::hivision(36);
   sensor.scan.field_of_view_rad = 2.0 * core::kPi;

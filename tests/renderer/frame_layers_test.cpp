@@ -143,6 +143,34 @@ TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_laye
   CHECK(wall > 30);
 }
 
+// In the left half of a column a near wall, in the right half a far one: of less power, but of more
+// where it counts with R^3.
+TEST_CASE("In the C-scope's truth power counts with the cube of the range", "[frame_layers]") {
+  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const double middle_rad = sensors::column_middle_rad(sensor.scan, 3);
+  constexpr double kNear_m = 500.0, kFar_m = 2000.0;
+  std::vector<tests::Body> walls;
+  walls.push_back(tests::box({-200.0, kNear_m, -2.0},
+                             {kNear_m * std::tan(middle_rad), kNear_m + 10.0, 95.0}, 0));
+  walls.push_back(tests::box({-200.0, kFar_m, -2.0}, {200.0, kFar_m + 10.0, 90.0}, 1));
+  for (std::size_t k = 0; k < 2; ++k)
+    walls[k].mesh.object_of_part = {static_cast<terrain::ObjectId>(k + 1)};
+  renderer::World world =
+      tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
+                   {kMeadow, kBright}, walls);
+  if (GENERATE(false, true)) leave_to_rays(world);
+  REQUIRE(kMeadow.sigma0(1.0) / (kNear_m * kNear_m) > kBright.sigma0(1.0) / (kFar_m * kFar_m));
+  const renderer::LayerSet truth = rendered(world, renderer::sampling_for(4.0)).layers->cscope;
+  for (const double elevation_deg : {-2.5, -2.0, -1.5, -1.0}) {
+    INFO(elevation_deg << " deg");
+    const int row = sensors::cscope_row(sensor.display, core::radians(elevation_deg));
+    CHECK(truth.object[at(row)] == 2);
+    CHECK(truth.material[at(row)] == 1);
+    CHECK(truth.range_m[at(row)] > 1900.0F);
+    CHECK(static_cast<double>(truth.nrcs[at(row)]) > 0.9 * kBright.sigma0(1.0));
+  }
+}
+
 TEST_CASE("Roads two cells wide across the view are told in every column", "[frame_layers]") {
   constexpr terrain::ObjectId kRoad = 5;
   constexpr double kWide_m = 14.0;
@@ -258,6 +286,12 @@ TEST_CASE("A point target brighter than the ground gives its number", "[frame_la
     CHECK(frame.layers->bscope.object[at(row, column)] == 4 + k);
     CHECK(frame.layers->bscope.material[at(row, column)] == renderer::kNoMaterial);
     CHECK(frame.layers->bscope.object[at(row, column - 1)] == terrain::kTerrainObject);
+    const int elevation_row =
+        sensors::cscope_row(sensor.display, std::atan2(to_m.z, std::hypot(to_m.x, to_m.y)));
+    // The nearer one lies below the C-scope.
+    CHECK((elevation_row == sensors::kOutside) == (k == 0));
+    if (elevation_row != sensors::kOutside)
+      CHECK(frame.layers->cscope.object[at(elevation_row, column)] == 4 + k);
   }
 }
 

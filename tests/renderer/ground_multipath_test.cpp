@@ -4,6 +4,7 @@
 
 #include "renderer/plan/plan.h"
 #include "renderer/stages/point_targets.h"
+#include "renderer/surfaces/bistatic_nrcs.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "tests/renderer/test_worlds.h"
 
@@ -12,7 +13,8 @@ namespace {
 using namespace fanbeam;
 using renderer::Multipath;
 
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
+// Grass, but 40 dB down: what it scattered it would not mirror.
+const materials::PhongNrcs kGrass(0.0325e-4, 0.136e-4, 1.99);
 // Gamma = -1 in horizontal polarisation to 1e-4.
 const materials::SpecularSurface kMetal{{1.0, 1e9}, 0.0};
 
@@ -287,4 +289,18 @@ TEST_CASE("Behind a scan all round the ground mirrors as it does ahead", "[multi
   CHECK(behind->longer_m == Approx(ahead->longer_m).epsilon(1e-9));
   CHECK(behind->amplitude.real() == Approx(ahead->amplitude.real()).epsilon(1e-9));
   CHECK(behind->elevation_rad == Approx(ahead->elevation_rad).epsilon(1e-9));
+}
+
+// Dry snow scatters almost all that arrives; by its refraction alone it mirrored two thirds besides.
+TEST_CASE("What the ground scatters it does not mirror", "[multipath]") {
+  renderer::World world = flat_world(1000.0, 10.0, kMetal);
+  world.nrcs = std::vector<materials::NrcsCurve>(
+      2, materials::NrcsCurve(materials::PhongNrcs(1.6, 0.0, 1.0)));
+  const auto path = renderer::ground_path(world, antenna_at(60.0), {0.0, 1000.0, 10.0});
+  REQUIRE(path);
+  const double image_m = std::hypot(1000.0, 70.0), direct_m = std::hypot(1000.0, 50.0);
+  const double left = 1.0 - world.nrcs.bistatic()[0].scattered(70.0 / image_m);
+  CHECK(left < 0.5);
+  CHECK(left > 0.01);
+  CHECK(std::norm(path->amplitude) == Approx(left * std::pow(direct_m / image_m, 2)).epsilon(1e-3));
 }

@@ -1,4 +1,5 @@
 // T07, T12, T13: coplanar surfaces, one huge triangle, a sensor in the ground.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
@@ -30,6 +31,30 @@ TEST_CASE("T13 a sensor in or on the ground sees noise alone and is flagged", "[
     for (const double power_W_m3 : frame.cscope_W_m3) CHECK(power_W_m3 == 0.0);
     CHECK(frame.bscope_grey == noise.bscope_grey);
     CHECK(frame.cscope_grey == noise.cscope_grey);
+  }
+}
+
+TEST_CASE("T13 a C-scope of flat ground is black and flagged where no ground is below",
+          "[robust]") {
+  sensors::Sensor sensor = tests::hivision(8);
+  using Mode = sensors::Display::CScopeMode;
+  for (const Mode mode : {Mode::flat_earth, Mode::shadow}) {
+    sensor.display.cscope_mode = mode;
+    const renderer::World nothing = tests::world(sensor, std::nullopt, {kGrass});
+    const renderer::World ground = tests::world(
+        sensor, tests::ground(4000.0, 100.0, [](double, double) { return 0.0; }), {kGrass});
+    for (const renderer::World* world : {&nothing, &ground})
+      for (const double height_m : {0.0, -5.0}) {
+        const renderer::Frame frame = renderer::render_frame(
+            *world, {}, {}, {.thermal_noise = true}, tests::level_pose(height_m));
+        INFO(height_m << " m" << (world == &nothing ? " over nothing" : ""));
+        CHECK(std::count(frame.events.begin(), frame.events.end(), "below_terrain") == 1);
+        for (const double power_W_m3 : frame.cscope_W_m3) CHECK(power_W_m3 == 0.0);
+      }
+    // Whoever asks for no C-scope has all that was asked for.
+    const renderer::Frame bscope = renderer::render_frame(
+        nothing, {}, {.cscope = false}, {.thermal_noise = true}, tests::level_pose(-5.0));
+    CHECK(bscope.events == std::vector<std::string>{"empty_view"});
   }
 }
 

@@ -218,3 +218,31 @@ TEST_CASE("A scan all round shows targets behind it, and one at 179.9 deg on bot
   };
   CHECK(power_W(0) / power_W(359) == Approx(gain(0.6) / gain(0.4)).epsilon(1e-6));
 }
+
+TEST_CASE("A target abeam is seen where the outer columns' beams reach it", "[target]") {
+  sensors::Sensor sensor = tests::hivision(75);
+  sensor.scan.surface = sensors::ScanSurface::plane;
+  sensor.scan.field_of_view_rad = core::radians(150.0);
+  sensor.antenna.azimuth.half_power_width_rad = core::radians(60.0);
+  sensor.antenna.azimuth.cut_rad = core::radians(75.0);
+  sensor.antenna.azimuth.side_lobe_gain = sensor.antenna.azimuth.side_lobe_extent_rad = 0.0;
+  renderer::World world = tests::world(sensor, std::nullopt, {});
+  for (const double bearing_deg : {100.0, 151.0}) {
+    const double bearing_rad = core::radians(bearing_deg);
+    world.targets.push_back(
+        {"sphere",
+         materials::ConstantRcs{1.0},
+         {{0.0, {1000.0 * std::sin(bearing_rad), 1000.0 * std::cos(bearing_rad), 60.0}}},
+         glm::dmat3(1.0)});
+  }
+  const renderer::FramePose pose = tests::level_pose(60.0);
+  const renderer::Frame frame = renderer::render_frame(world, {}, {}, {}, pose);
+  CHECK(frame.unprojected == 0);
+  const auto row = static_cast<std::size_t>(sensors::range_row(sensor.range, 1000.0));
+  CHECK(frame.bscope_W[row * 75 + 74] > 0.0);
+  CHECK(frame.bscope_W[row * 75] == 0.0);
+  const renderer::TargetEchoes found =
+      renderer::unobstructed_echoes(world, renderer::antenna_of(sensor, pose), 0.0);
+  REQUIRE(found.echoes.size() == 1);
+  CHECK(found.echoes[0].azimuth_rad == Approx(core::radians(100.0)));
+}

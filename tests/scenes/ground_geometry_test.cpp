@@ -121,6 +121,19 @@ TEST_CASE("Runways that cross at two heights are told, and blended in either ord
   CHECK(overlaps(tests::build_text(folder,
                                    tests::replaced(flat, "[[box]]", crossing("50.0") + "[[box]]")))
             .empty());
+  // Nobody can change the strips of [[airport]]: told from 2 m on.
+  for (const bool high : {false, true}) {
+    folder.write("scene.toml",
+                 tests::replaced(text, "[[box]]", crossing(high ? "65.0" : "55.0") + "[[box]]"));
+    core::ProblemList problems;
+    scenes::SceneDescription description =
+        scenes::read_scene(folder.path(), {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+    for (scenes::RunwayDescription& each : description.runways) each.from_airport = true;
+    tests::Outcome outcome;
+    outcome.scene = scenes::build_scene(description, {}, problems);
+    outcome.problems = problems.all();
+    CHECK(overlaps(outcome).size() == (high ? 1 : 0));
+  }
 }
 
 TEST_CASE("Elevations above the geoid become ellipsoidal once, and the origin is at height 0",

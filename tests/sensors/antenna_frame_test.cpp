@@ -141,6 +141,24 @@ TEST_CASE("a scan all round sees behind it, with +-180 deg in range", "[antenna_
   CHECK_FALSE(all_round_angles(frame, {0.0, 0.0, 0.0}));
 }
 
+TEST_CASE("beams of a plane scan that reach beyond 90 deg have angles there, those of a cone none",
+          "[antenna_frame]") {
+  const AntennaFrame frame;
+  const glm::dvec3 beside = direction(frame, radians(100.0), 0.0, ScanSurface::plane);
+  Sensor sensor;
+  const auto seen = [&](double field_of_view_deg, double cut_deg) {
+    sensor.scan.field_of_view_rad = radians(field_of_view_deg);
+    sensor.antenna.azimuth.cut_rad = radians(cut_deg);
+    return angles(frame, beside, sensor);
+  };
+  REQUIRE(seen(150.0, 75.0));
+  CHECK(seen(150.0, 75.0)->azimuth_rad == Approx(radians(100.0)).epsilon(1e-12));
+  CHECK(seen(360.0, 1.0));
+  CHECK_FALSE(seen(150.0, 14.0));
+  sensor.scan.surface = ScanSurface::cone;
+  CHECK_FALSE(seen(150.0, 75.0));
+}
+
 TEST_CASE("an attitude that is no rotation is refused", "[antenna_frame]") {
   CHECK_THROWS_AS(antenna_frame({}, kNed, {0.0, 0.0, 0.0, 0.0}, {}, true), core::InputError);
   CHECK_THROWS_AS(antenna_frame({}, kNed, {std::nan(""), 0.0, 0.0, 0.0}, {}, true),

@@ -129,6 +129,24 @@ TEST_CASE("Every frame of a flight is one that its plan was made for", "[flight_
   }
 }
 
+TEST_CASE("A flight's plan does not hold where verticals turn more than its bounds count on",
+          "[flight_volume]") {
+  const TemporaryFolder folder;
+  const auto scene = tests::good_scene(folder, tests::kSmallScene);
+  scene->facts = scene->all_facts;  // all is seen
+  const auto planned = [&](double turn_rad, double counted_on_rad) {
+    renderer::FramePose at = scene->frame_pose(0);
+    at.north_east_down =
+        glm::mat3_cast(glm::angleAxis(turn_rad, glm::dvec3(1.0, 0.0, 0.0))) * at.north_east_down;
+    scene->facts.vertical_turn_rad = counted_on_rad;
+    return scenes::planned_for(*scene, at);
+  };
+  // 1.1 km over 3.7 km of range; 0.04 rad is less than the 300 m that every bound counts on.
+  CHECK(planned(0.3, 0.31));
+  CHECK_FALSE(planned(0.3, 0.0));
+  CHECK(planned(0.04, 0.0));
+}
+
 TEST_CASE("The frames of shipped flights are inside their own volume", "[flight_volume]") {
   for (const char* name : {"flat-grass", "braunschweig-26", "obstacle-field", "rain-94ghz"}) {
     core::ProblemList problems;

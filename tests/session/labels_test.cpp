@@ -50,8 +50,14 @@ TEST_CASE("Signal to clutter is the strongest cell over the cells around it and 
   at(0, 0) = 1e-10;
   CHECK(*session::signal_to_clutter_dB(mask_of({0}), power_W, kColumns, kReach, 0.0) ==
         Approx(20.0).epsilon(1e-12));
-  CHECK_FALSE(session::signal_to_clutter_dB(mask, std::vector<double>(1600, 0.0), kColumns, kReach,
-                                            1e-12));
+  CHECK_FALSE(
+      session::signal_to_clutter_dB(mask, std::vector<double>(1600, 0.0), kColumns, kReach, 1e-12));
+}
+
+TEST_CASE("What fills all around itself stands out of nothing that is known", "[labels]") {
+  const std::vector<double> power_W(9, 1e-9);
+  CHECK_FALSE(
+      session::signal_to_clutter_dB(mask_of({0, 1, 2, 3, 4, 5, 6, 7, 8}), power_W, 3, 1, 1e-12));
 }
 
 TEST_CASE("A frame's labels are the same for any number of threads", "[labels]") {
@@ -62,8 +68,7 @@ TEST_CASE("A frame's labels are the same for any number of threads", "[labels]")
   session::Session session(root / "scenes" / "obstacle-field", setup, problems);
   const auto scene = session.scene();
   const core::Pose pose = scene->trajectory->at(scene->trajectory->frame_time_s(400, 16.0));
-  const renderer::Frame frame =
-      session.render(pose, 400, {.layers = true, .cscope_layers = true});
+  const renderer::Frame frame = session.render(pose, 400, {.layers = true, .cscope_layers = true});
   const session::Labeller labeller(*scene);
   const auto text = [&] {
     return session::labels_json(labeller.labels(*scene, pose, frame), *scene, 400, pose, {});
@@ -83,8 +88,8 @@ TEST_CASE("A frame's labels are the same for any number of threads", "[labels]")
     CHECK(object.middle.bscope->at_px.y < object.bscope.top + object.bscope.rows + 40);
   }
   const core::Metadata metadata = {{"fanbeam:input", "0123"}, {"fanbeam:rays", "7"}};
-  CHECK(session::labels_metadata(
-            session::labels_json(labels, *scene, 400, pose, metadata), "x.json") == metadata);
+  CHECK(session::labels_metadata(session::labels_json(labels, *scene, 400, pose, metadata),
+                                 "x.json") == metadata);
   CHECK_THROWS_AS(session::labels_metadata("{\"metadata\": {\"a\": 1}", "x.json"),
                   core::InputError);
   CHECK_THROWS_AS(session::labels_metadata("[]", "x.json"), core::InputError);

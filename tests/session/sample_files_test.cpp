@@ -30,6 +30,8 @@ TEST_CASE("Files of samples come in the order of their numbers, with zeros in fr
   CHECK(frames_of({"b2-1.npy", "a10.npy", "b2-0.npy", "a9.npy", "99999999999999999999999.npy"}) ==
         std::vector<std::string>{"99999999999999999999999.npy", "a9.npy", "a10.npy", "b2-0.npy",
                                  "b2-1.npy"});
+  const std::vector<std::string> times = {"0.05.npy", "0.1.npy", "0.15.npy", "0.2.npy", "10.1.npy"};
+  CHECK(frames_of({times[3], times[0], times[4], times[2], times[1]}) == times);
 }
 
 TEST_CASE("Only the later stages of a frame that is there are left out", "[track]") {

@@ -2,6 +2,8 @@
 #include "session/sequence.h"
 
 #include <catch2/catch.hpp>
+#include <cstdlib>
+#include <iostream>
 #include <set>
 #include <span>
 
@@ -174,4 +176,29 @@ TEST_CASE("Frames refined for a C-scope too are others than those of the B-scope
   // Else the one picture does not depend on the other.
   CHECK_FALSE(kept({"bscope", "cscope"}, fixed));
   CHECK(kept({"bscope"}, fixed));
+}
+
+TEST_CASE("A film has its name only once its folder knows that it is its own", "[sequence]") {
+  if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) {
+    std::cout << "[skipped] needs the ffmpeg program\n";
+    return;
+  }
+  const TemporaryFolder scene, out;
+  const auto session = opened(scene);
+  const auto folder = out.path() / "run";
+  const auto render = [&] {
+    session::render_sequence(*session,
+                             {.output = folder,
+                              .frames = "3",
+                              .products = {"preview"},
+                              .sampling = {.rays_per_cell = 1.0}},
+                             [](int, int) {});
+  };
+  // What the folder's note cannot replace.
+  std::filesystem::create_directories(folder / ".unfinished.json" / "in-the-way");
+  CHECK_THROWS_AS(render(), core::InputError);
+  CHECK_FALSE(std::filesystem::exists(folder / "preview.mp4"));
+  std::filesystem::remove_all(folder / ".unfinished.json");
+  render();
+  CHECK(std::filesystem::exists(folder / "preview.mp4"));
 }

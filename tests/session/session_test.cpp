@@ -396,3 +396,17 @@ TEST_CASE("Where nobody asks for heights, a shadow C-scope costs a plan nothing"
        {"cscope", "figure", "preview", "obstacles", "cscope_layers", "labels"})
     CHECK(session::show_heights(session::wanted_of({"bscope", product})));
 }
+
+TEST_CASE("A plan is told which products read more than pictures", "[session]") {
+  const auto read_by = [](const session::ProductSet& products) {
+    scenes::BuildOptions build;
+    session::plan_for(products, build);
+    return build;
+  };
+  CHECK_FALSE(read_by({"bscope"}).heights_shown);
+  CHECK(read_by({"bscope", "power"}).read.power);
+  CHECK(read_by({"detections"}).read.detections);
+  CHECK(read_by({"obstacles"}).read.obstacles);
+  const renderer::Readings none = read_by({"bscope", "cscope", "figure"}).read;
+  CHECK_FALSE((none.power || none.detections || none.obstacles));
+}

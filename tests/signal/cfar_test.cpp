@@ -246,9 +246,25 @@ TEST_CASE("greatest of guards a step of clutter in range in two dimensions too",
       if (cell.row == 15 && cell.column == 18) return cell.background_W;
     return -1.0;
   };
-  // Of 88 cells 80 lie farther, 72 of them behind the step; four of the other eight beside the cell count with them.
-  CHECK(background_W(CfarKind::greatest_of) > 80.0);
-  CHECK(background_W(CfarKind::smallest_of) == Approx(1.0).margin(9.0));
+  // Of 82 cells 76 are behind the step.
+  CHECK(background_W(CfarKind::greatest_of) == Approx((6.0 + 7600.0) / 82.0));
+  CHECK(background_W(CfarKind::smallest_of) == Approx(1.0));
+}
+
+// Of the nearer half of the first columns a few cells are left, which alone would ask for 20 dB more.
+TEST_CASE("smallest of two halves finds at the map's first range what it finds within", "[cfar]") {
+  PowerMap map(40, 40);
+  for (double& power : map.values_W) power = 1.0;
+  CfarSettings settings{.kind = CfarKind::smallest_of,
+                        .design_probability = 1e-6,
+                        .along_columns = {2, 4, false},
+                        .along_rows = {2, 2, true}};
+  for (const int column : {0, 1, 2, 20, 39}) {
+    CAPTURE(column);
+    PowerMap lit = map;
+    lit.at(20, column) = 24.0;
+    CHECK(cfar_detections(lit, settings).size() == 1);
+  }
 }
 
 TEST_CASE("a sum over channels is calibrated to a few percent, even for rare alarms",

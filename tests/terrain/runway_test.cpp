@@ -67,6 +67,30 @@ TEST_CASE("Where strips of two runways cross, the ground depends on no order and
   }
 }
 
+TEST_CASE("Pavements of parallel runways keep their own lines in each other's strips", "[runway]") {
+  const Runway beside = level_runway({80.0, -1500.0}, {80.0, 1500.0}, 103.0);
+  for (const std::vector<Runway>& both :
+       {std::vector<Runway>{kNorth, beside}, std::vector<Runway>{beside, kNorth}}) {
+    // 22.5 m of pavement and 7.5 m of shoulder on each side.
+    for (const double x_m : {-30.0, 0.0, 20.0, 30.0}) {
+      CHECK(height_m(both, x_m, 900.0) == near_to(100.0));
+      CHECK(height_m(both, 80.0 + x_m, 900.0) == near_to(103.0));
+    }
+    CHECK(height_m(both, 40.0, 900.0) == near_to(101.5));
+    // No step: 3 m over the 20 m between.
+    double before_m = 100.0;
+    for (double x_m = 5.0; x_m <= 75.0; x_m += 0.5) {
+      const double here_m = height_m(both, x_m, 900.0);
+      CHECK(here_m >= before_m - 1e-9);
+      CHECK(here_m - before_m < 0.2);
+      before_m = here_m;
+    }
+  }
+  // A third that crosses both is their mean with each.
+  const std::vector<Runway> three{kNorth, beside, kEast};
+  CHECK(height_m(three, 0.0, 0.0) == near_to(105.0));
+}
+
 TEST_CASE("The largest step is that of two lines in a place of both strips", "[runway]") {
   CHECK(largest_step_m(kNorth, kEast) == near_to(10.0));
   CHECK(largest_step_m(kEast, kNorth) == near_to(10.0));

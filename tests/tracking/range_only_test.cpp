@@ -65,7 +65,7 @@ Outcome cross(double acceleration_mps2, int run) {
       for (const Track& track : tracker.tracks()) before[track.id] = nearest(track);
     if (tracker.crossings().empty()) continue;
     // Given up: half and half, and which goes on is not yet seen.
-    if (tracker.crossings()[0].swap_probability == 0.5) return {};
+    if (tracker.crossings()[0].given_up) return {};
     outcome.crossed = true;
     outcome.swap = tracker.crossings()[0].swap_probability;
     outcome.kept = true;

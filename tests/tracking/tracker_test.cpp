@@ -224,6 +224,7 @@ TEST_CASE("A pair unresolved for too long is given up, and set aside again at th
   REQUIRE(confirmed(tracker) == 1);
   // Which of the two goes on nobody knows.
   REQUIRE(tracker.crossings().size() == 1);
+  CHECK(tracker.crossings()[0].given_up);
   CHECK(tracker.crossings()[0].swap_probability == 0.5);
   const auto goes_on = std::find_if(tracker.tracks().begin(), tracker.tracks().end(),
                                     [](const Track& one) { return one.confirmed; });
@@ -271,6 +272,49 @@ TEST_CASE("An unresolved pair leaves the measurements of a third car to its trac
     REQUIRE(measured == 1);
   }
   CHECK(tracker.crossings().empty());
+}
+
+// The echo of one pair lies in the swollen gates of the other.
+TEST_CASE("Two unresolved pairs leave each other's echoes alone", "[tracker]") {
+  const TrackerSettings settings = settings_for();
+  Tracker tracker(settings);
+  int frame = 0;
+  const auto step = [&](double apart_m) {
+    std::vector<RadarMeasurement> seen = {at(60.0, 0.0), at(72.0, 0.0, 0.02)};
+    if (apart_m > 0.0) {
+      seen.push_back(at(60.0 + apart_m, -0.8, 0.001));
+      seen.push_back(at(72.0 + apart_m, -0.8, 0.021));
+    }
+    tracker.update(0.05 * frame++, seen);
+  };
+  for (double apart_m = 4.0; apart_m > 1.2; apart_m -= 0.04) step(apart_m);
+  REQUIRE(confirmed(tracker) == 4);
+  for (int i = 0; i < 100; ++i) {
+    step(0.0);
+    REQUIRE(std::count_if(tracker.tracks().begin(), tracker.tracks().end(), [](const Track& one) {
+              return one.confirmed && one.unresolved_with.has_value();
+            }) == 4);
+  }
+  CHECK(tracker.crossings().empty());
+}
+
+// The third takes the one echo; the pair is in it as well, and drives out again.
+TEST_CASE("Of three cars in one cell none is lost", "[tracker]") {
+  const TrackerSettings settings = settings_for();
+  Tracker tracker(settings);
+  int frame = 0;
+  const auto step = [&](double apart_m, bool merged) {
+    std::vector<RadarMeasurement> seen = {at(60.0, 0.0)};
+    if (!merged) {
+      seen.push_back(at(60.0 + apart_m, -0.8, 0.001));
+      seen.push_back(at(60.0 - apart_m, 0.8, -0.001));
+    }
+    tracker.update(0.05 * frame++, seen);
+  };
+  for (double apart_m = 4.0; apart_m > 1.0; apart_m -= 0.04) step(apart_m, false);
+  REQUIRE(confirmed(tracker) == 3);
+  for (int i = 0; i < 40; ++i) step(0.0, true);
+  CHECK(confirmed(tracker) == 3);
 }
 
 TEST_CASE("Frames that are missing end an unresolved pair as they end any track", "[tracker]") {

@@ -29,9 +29,10 @@ struct Track {
 // Two tracks that could not be told apart and then were, or were given up: with this probability they
 // have exchanged their targets.
 struct Crossing {
-  double time_s = 0.0;  // when they parted
+  double time_s = 0.0;  // when they parted, or were given up
   int first = 0, second = 0;
   double swap_probability = 0.0;
+  bool given_up = false;
 };
 
 // Speed over ground is above `least_mps` by two standard deviations of its own uncertainty:

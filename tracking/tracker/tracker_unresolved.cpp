@@ -34,36 +34,44 @@ void set_aside(Track& track, const Track& with) {
 void Tracker::claim(Frame& frame) const {
   if (!frame.claims.empty()) return;
   frame.claims.resize(frame.measurements.size());
-  for (const Track& track : tracks_) {
-    if (!track.confirmed || track.unresolved_with) continue;
-    const QuickGate gate(track.state, measured_, gate_);
+  for (std::size_t i = 0; i < tracks_.size(); ++i) {
+    if (!tracks_[i].confirmed) continue;
+    const QuickGate gate(tracks_[i].state, measured_, gate_);
     for (std::size_t j = 0; j < frame.measurements.size(); ++j) {
       if (!gate.may_hold(frame.measurements[j])) continue;
-      const Update told = innovation(track.state, measured_, frame.measurements[j]);
-      if (!told.applied || told.normalised_innovation_squared > gate_) continue;
-      Claim next{track.id, told.log_likelihood};
-      for (Claim& best : frame.claims[j])
-        if (next.log_likelihood > best.log_likelihood) std::swap(best, next);
+      const Update told = innovation(tracks_[i].state, measured_, frame.measurements[j]);
+      if (told.applied && told.normalised_innovation_squared <= gate_)
+        frame.claims[j].push_back({i, told.log_likelihood});
     }
   }
 }
 
 // Of each measurement, if it is one's of a pair; kNone outside of its gate, for one that is used, and for one that fits a
-// third track better: the gate of a pair that has been set aside for seconds reaches to the cars around it.
+// third track better, set aside or not: the gate of a pair that has been set aside for seconds reaches to the cars
+// around it. A third in the pair's own cell keeps nothing from it: all of them are in that measurement.
 std::vector<double> Tracker::log_likelihoods(const Track& one, const Track& other,
                                              Frame& frame) const {
   claim(frame);
-  const std::vector<RadarMeasurement>& seen = frame.measurements;
-  std::vector<double> result(seen.size(), kNone);
-  const QuickGate gate(one.state, measured_, gate_);
-  const auto third = [&](const Claim& claim) { return claim.id != one.id && claim.id != other.id; };
-  for (std::size_t j = 0; j < seen.size(); ++j) {
-    if (frame.used[j] || !gate.may_hold(seen[j])) continue;
-    const Update told = innovation(one.state, measured_, seen[j]);
-    if (!told.applied || told.normalised_innovation_squared > gate_) continue;
-    const auto best = std::find_if(frame.claims[j].begin(), frame.claims[j].end(), third);
-    if (best == frame.claims[j].end() || told.log_likelihood >= best->log_likelihood)
-      result[j] = told.log_likelihood;
+  const PolarPlace here = polar(one.state), there = polar(other.state);
+  const auto keeps = [&](const Claim& claim, double log_likelihood) {
+    const Track& third = tracks_[claim.track];
+    if (third.id == one.id || third.id == other.id || claim.log_likelihood <= log_likelihood)
+      return false;
+    const PolarPlace place = polar(third.state);
+    return !unresolved(place, here, settings_.resolution) &&
+           !unresolved(place, there, settings_.resolution);
+  };
+  std::vector<double> result(frame.measurements.size(), kNone);
+  for (std::size_t j = 0; j < result.size(); ++j) {
+    if (frame.used[j]) continue;
+    const std::vector<Claim>& claims = frame.claims[j];
+    const auto own = std::find_if(claims.begin(), claims.end(), [&](const Claim& claim) {
+      return tracks_[claim.track].id == one.id;
+    });
+    if (own != claims.end() && std::none_of(claims.begin(), claims.end(), [&](const Claim& claim) {
+          return keeps(claim, own->log_likelihood);
+        }))
+      result[j] = own->log_likelihood;
   }
   return result;
 }
@@ -107,7 +115,7 @@ void Tracker::give_up(double step_s, Frame& frame) {
     track.given_up_with = track.unresolved_with;
     track.identity_probability *= 0.5;
     if (track.id < *track.given_up_with)
-      crossings_.push_back({frame.time_s, track.id, *track.given_up_with, 0.5});
+      crossings_.push_back({frame.time_s, track.id, *track.given_up_with, 0.5, true});
     release(track);
   }
 }
@@ -184,7 +192,7 @@ void Tracker::part(Track& a, Track& b, Frame& frame) {
   frame.used[found->first] = frame.used[found->second] = true;
   a.identity_probability *= kept;
   b.identity_probability *= kept;
-  crossings_.push_back({frame.time_s, a.id, b.id, 1.0 - kept});
+  crossings_.push_back({frame.time_s, a.id, b.id, 1.0 - kept, false});
 }
 
 }  // namespace fanbeam::tracking

@@ -94,11 +94,16 @@ std::string_view number_at(std::string_view text, std::size_t& at) {
   return text.substr(first, at - first);
 }
 
-// "frame_2" comes before "frame_10", as its number does.
+// Behind a point between digits: a decimal, which goes digit by digit.
+bool is_decimal(std::string_view text, std::size_t at) {
+  return at >= 2 && text[at - 1] == '.' && is_digit(text[at - 2]);
+}
+
+// "frame_2" comes before "frame_10", as its number does, and "0.15" before "0.2".
 bool comes_before(std::string_view a, std::string_view b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {
-    if (is_digit(a[i]) && is_digit(b[j])) {
+    if (is_digit(a[i]) && is_digit(b[j]) && !is_decimal(a, i) && !is_decimal(b, j)) {
       const std::string_view left = number_at(a, i), right = number_at(b, j);
       if (left.size() != right.size()) return left.size() < right.size();
       if (left != right) return left < right;
@@ -148,7 +153,11 @@ class SampleSource : public MeasuredSource {
                const SourceSettings& settings)
       : asked_(settings),
         settings_(radar_settings(radar_file)),
-        radar_(radar_in_file(radar_file, [this] { return fmcw_radar(settings_); })),
+        radar_(radar_in_file(radar_file,
+                             [this] {
+                               check_tells_samples(settings_);
+                               return fmcw_radar(settings_);
+                             })),
         files_(files, radar_, settings_.layout) {
     check_values(files);
     name = core::safe_word(fs::absolute(path).lexically_normal().stem().string());

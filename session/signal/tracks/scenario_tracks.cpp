@@ -162,7 +162,8 @@ std::string scenario_tracks_json(const core::HighwayScenario& scenario,
   for (const tracking::Crossing& one : tracks.crossings)
     json["crossings"].push_back({{"time_s", one.time_s},
                                  {"tracks", {one.first, one.second}},
-                                 {"swap_probability", one.swap_probability}});
+                                 {"swap_probability", one.swap_probability},
+                                 {"given_up", one.given_up}});
   json["tracks_at_end"] = json_of_tracks(scenario, tracks);
   json["waveform"] = tracks.scheme;
   json["noise_figure"] = radar.noise_figure;

@@ -1,0 +1,75 @@
+// What is told beside a frame's pictures is true of them.
+#include "session/products/frame_output.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+
+#include "core/units.h"
+#include "sensors/display/seed_signal.h"
+#include "session/records/frame_metadata.h"
+#include "tests/scenes/built_scene.h"
+
+using namespace fanbeam;
+
+TEST_CASE("A plan view north up turns with an antenna that is mounted askance", "[products]") {
+  for (const bool stabilised : {true, false}) {
+    INFO(stabilised);
+    const tests::TemporaryFolder folder;
+    const auto scene = tests::good_scene(
+        folder, tests::standing() +
+                    "heading_deg = 20.0\n\n[sensor]\nyaw_deg = 30.0\nstabilised = " +
+                    (stabilised ? "true\n" : "false\n"));
+    const sensors::Sensor& sensor = scene->description.sensor;
+    const int columns = sensor.scan.columns;
+    renderer::Frame frame;
+    frame.bscope_grey.assign(static_cast<std::size_t>(columns * sensor.range.cells), 0.0);
+    for (std::size_t i = 0; i < frame.bscope_grey.size(); ++i)
+      if (std::abs(static_cast<int>(i) % columns - columns / 2) < 2) frame.bscope_grey[i] = 200.0;
+    session::FrameRecord record;
+    record.pose = scene->trajectory->at(0.0);
+    const session::ProductSet products = {"ppi_north"};
+    session::FrameOutput output =
+        session::frame_output(*scene, {products, "0123"}, std::move(frame), record);
+    CHECK(core::degrees(output.antenna_heading_rad) == Approx(50.0).margin(0.01));
+
+    std::filesystem::create_directories(folder.path() / "ppi_north");
+    session::FrameWriter writer(folder.path(), products, sensor);
+    writer.push(std::move(output));
+    writer.finish();
+    const core::Image image = core::read_image(session::frame_path(folder.path(), "ppi_north", 0));
+    int left = image.columns, right = -1, top = image.rows, bottom = -1;
+    for (int row = 0; row < image.rows; ++row)
+      for (int column = 0; column < image.columns; ++column) {
+        if (image.layers.at(0).values[static_cast<std::size_t>(row * image.columns + column)] < 100)
+          continue;
+        left = std::min(left, column);
+        right = std::max(right, column);
+        top = std::min(top, row);
+        bottom = std::max(bottom, row);
+      }
+    REQUIRE(right > left);
+    CHECK(core::degrees(std::atan2(right - left, bottom - top)) == Approx(50.0).margin(2.0));
+  }
+}
+
+TEST_CASE("Metadata tell the grey window that pictures are drawn with, of the seed's mapping too",
+          "[products]") {
+  const tests::TemporaryFolder folder;
+  const auto scene =
+      tests::good_scene(folder, tests::standing() + "\n[sensor]\nfile = \"hivision-seed.toml\"\n");
+  session::FrameRecord record;
+  record.pose = scene->trajectory->at(0.0);
+  const core::Metadata metadata = session::frame_metadata(*scene, {}, record, "0123");
+  const auto told = [&](const std::string& name) {
+    const auto found = std::find_if(metadata.begin(), metadata.end(),
+                                    [&](const auto& entry) { return entry.first == name; });
+    return found == metadata.end() ? std::string() : found->second;
+  };
+  const sensors::SignalLimits limits = sensors::seed_signal_limits(scene->description.sensor);
+  CHECK(told("fanbeam:display_mapping") == "seed");
+  CHECK(told("fanbeam:display_dB") == core::number_text(10.0 * std::log10(limits.minimum_W)) +
+                                          " to " +
+                                          core::number_text(10.0 * std::log10(limits.maximum_W)));
+}

@@ -1,0 +1,126 @@
+// Which things of a scene are one labelled object, how high point targets stand, and what weather labels
+// tell.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "session/labels/frame_labels.h"
+#include "session/labels/labels_json.h"
+#include "session/labels/run_labels.h"
+#include "session/session.h"
+#include "tests/scenes/doctor_scene.h"
+
+using namespace fanbeam;
+using session::ObjectGroup;
+using session::ObjectLabel;
+
+namespace {
+
+std::string on_runway(const std::string& table, double behind_m, const std::string& keys) {
+  return "\n[[" + table +
+         "]]\nat = { runway = \"36\", behind_threshold_m = " + core::number_text(behind_m) +
+         " }\n" + keys + "\n";
+}
+
+std::string unnamed_target(double behind_m, const std::string& keys = "") {
+  return on_runway(
+      "target", behind_m,
+      "above_ground_m = 2.0\nrcs = { shape = \"constant\", rcs_dBsm = 10.0 }\n" + keys);
+}
+
+// Of a frame of the small scene's approach, with more tables.
+class Labelled {
+ public:
+  Labelled(const tests::TemporaryFolder& folder, const std::string& text) {
+    folder.write("scene.toml", text);
+    core::ProblemList problems;
+    session::Setup setup;
+    setup.shipped = FANBEAM_SOURCE_DIR;
+    session::Session session(folder.path(), setup, problems);
+    session.set(session::Samples{2.0});
+    scene = session.scene();
+    pose = scene->trajectory->at(scene->trajectory->frame_time_s(20, 16.0));
+    const renderer::Frame frame = session.render(pose, 20, {.layers = true, .cscope_layers = true});
+    labels = session::Labeller(*scene).labels(*scene, pose, frame);
+  }
+
+  std::vector<ObjectLabel> of(ObjectGroup group) const {
+    std::vector<ObjectLabel> objects;
+    for (const ObjectLabel& object : labels.objects)
+      if (object.group == group) objects.push_back(object);
+    return objects;
+  }
+  std::string json() const { return session::labels_json(labels, *scene, 20, pose, {}); }
+
+  std::shared_ptr<const scenes::Scene> scene;
+  core::Pose pose;
+  session::FrameLabels labels;
+};
+
+}  // namespace
+
+TEST_CASE("Each model of a scene is one labelled object, whatever it is called", "[labels]") {
+  const tests::TemporaryFolder folder;
+  // A level plate that faces up and down.
+  folder.write("plate.gltf", tests::gltf({-10, 3, -10, 10, 3, -10, 0, 3, 10}, {0, 1, 2, 0, 2, 1}));
+  const std::string file = "file = \"plate.gltf\"";
+  const Labelled labelled(folder, tests::kSmallScene + on_runway("model", 200.0, file) +
+                                      on_runway("model", 500.0, file) +
+                                      on_runway("model", 700.0, file + "\nname = \"hangar: A\"") +
+                                      on_runway("model", 900.0, file + "\nname = \"hangar: B\""));
+  const std::vector<ObjectLabel> models = labelled.of(ObjectGroup::model);
+  REQUIRE(models.size() == 4);
+  const char* names[] = {"plate", "plate", "hangar: A", "hangar: B"};
+  std::set<std::uint32_t> ids;
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    CHECK(models[i].name == names[i]);
+    ids.insert(models[i].ids.begin(), models[i].ids.end());
+    if (i > 0) CHECK(models[i].middle.range_m > models[i - 1].middle.range_m + 100.0);
+  }
+  CHECK(ids.size() == 4);
+}
+
+TEST_CASE("Targets without a name are objects of their own, those of one name are one",
+          "[labels]") {
+  const tests::TemporaryFolder folder;
+  const Labelled labelled(folder,
+                          tests::kSmallScene + unnamed_target(100.0) +
+                              unnamed_target(300.0, "name = \"pair\"") + unnamed_target(500.0) +
+                              unnamed_target(700.0, "name = \"pair\"") + unnamed_target(900.0));
+  std::vector<std::pair<std::string, std::size_t>> named;
+  for (const ObjectLabel& target : labelled.of(ObjectGroup::target))
+    named.emplace_back(target.name, target.ids.size());
+  CHECK(named == std::vector<std::pair<std::string, std::size_t>>{
+                     {"target", 1}, {"pair", 2}, {"target 2", 1}, {"target 3", 1}});
+}
+
+TEST_CASE("Points on a slope are as high as each stands over its own ground", "[labels]") {
+  const tests::TemporaryFolder folder;
+  // The runway rises 10 m from end to end.
+  const Labelled labelled(folder, tests::kSmallScene + unnamed_target(100.0, "name = \"posts\"") +
+                                      unnamed_target(900.0, "name = \"posts\""));
+  const std::vector<ObjectLabel> posts = labelled.of(ObjectGroup::target);
+  REQUIRE(posts.size() == 1);
+  CHECK(posts[0].height_m == Approx(2.0).margin(0.1));
+}
+
+TEST_CASE("Labels of a scene whose only rain is a rain cell tell of rain", "[labels]") {
+  for (const bool cell : {false, true}) {
+    INFO(cell);
+    const tests::TemporaryFolder folder;
+    const std::string rain_cell =
+        "[[weather.rain_cell]]\nat = { runway = \"36\", behind_threshold_m = 500.0 }\n"
+        "radius_m = 400.0\nrain_rate_mm_per_h = 5.0\n\n[trajectory.ils]";
+    const Labelled labelled(
+        folder, cell ? tests::replaced(tests::kSmallScene, "[trajectory.ils]", rain_cell)
+                     : tests::kSmallScene);
+    const std::string text = labelled.json();
+    const auto weather = nlohmann::json::parse(text)["weather"];
+    CHECK(weather["rain"] == cell);
+    CHECK(weather["rain_rate_mm_per_h"] == 0.0);
+    session::RunLabels run;
+    run.add("", {"bscope/00020.png", "labels/00020.json"}, 1,
+            [&](const std::string&) { return text; });
+    CHECK(run.lard().find(cell ? ";rain;" : ";fog;") != std::string::npos);
+  }
+}
