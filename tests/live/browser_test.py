@@ -89,15 +89,15 @@ class Page(unittest.TestCase):
 
     def test_frames_arrive_in_order_whole_and_changing(self):
         self.page.execute_script(
-            "window.seen = []; const before = take; take = buffer => { before(buffer);"
-            " seen.push([state.frame.head.number, state.frame.bscope.length, state.frame.cscope.length,"
+            "window.arrivals = []; const before = take; take = buffer => { before(buffer);"
+            " arrivals.push([state.frame.head.number, state.frame.bscope.length, state.frame.cscope.length,"
             " state.frame.bscope.reduce((a, b) => (a * 31 + b) | 0, 7)]); };")
-        self.wait(lambda: self.js("seen.length") >= 10, "ten frames")
-        seen = self.js("seen")
-        numbers = [one[0] for one in seen]
+        self.wait(lambda: self.js("arrivals.length") >= 10, "ten frames")
+        arrivals = self.js("arrivals")
+        numbers = [one[0] for one in arrivals]
         self.assertEqual(numbers, sorted(set(numbers)))
-        self.assertEqual({(one[1], one[2]) for one in seen}, {(164 * 524, 164 * 524)})
-        self.assertEqual(len({one[3] for one in seen}), len(seen))
+        self.assertEqual({(one[1], one[2]) for one in arrivals}, {(164 * 524, 164 * 524)})
+        self.assertEqual(len({one[3] for one in arrivals}), len(arrivals))
         self.keep("live")
 
     def test_the_cursor_reads_what_is_under_it(self):
