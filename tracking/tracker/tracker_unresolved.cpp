@@ -17,7 +17,7 @@ void release(Track& track) {
   track.coasted = 1;
 }
 
-const Track* track_of(const std::vector<Track>& tracks, int id) {
+Track* track_of(std::vector<Track>& tracks, int id) {
   const auto found =
       std::find_if(tracks.begin(), tracks.end(), [&](const Track& one) { return one.id == id; });
   return found == tracks.end() ? nullptr : &*found;
@@ -48,14 +48,17 @@ void Tracker::claim(Frame& frame) const {
 
 // Of each measurement, if it is one's of a pair; kNone outside of its gate, for one that is used, and for one that fits a
 // third track better, set aside or not: the gate of a pair that has been set aside for seconds reaches to the cars
-// around it. A third in the pair's own cell keeps nothing from it: all of them are in that measurement.
+// around it. A third in the pair's own cell keeps nothing from it: all of them are in that measurement. Nor does one that
+// is no older than the time for which the pair was not measured: it may have begun on the pair's one echo.
 std::vector<double> Tracker::log_likelihoods(const Track& one, const Track& other,
                                              Frame& frame) const {
   claim(frame);
   const PolarPlace here = polar(one.state), there = polar(other.state);
+  const int unmeasured = std::max(one.coasted, other.coasted);
   const auto keeps = [&](const Claim& claim, double log_likelihood) {
     const Track& third = tracks_[claim.track];
-    if (third.id == one.id || third.id == other.id || claim.log_likelihood <= log_likelihood)
+    if (third.id == one.id || third.id == other.id || third.frames <= unmeasured ||
+        claim.log_likelihood <= log_likelihood)
       return false;
     const PolarPlace place = polar(third.state);
     return !unresolved(place, here, settings_.resolution) &&
@@ -148,9 +151,8 @@ void Tracker::find_unresolved(double step_s, Frame& frame) {
 void Tracker::part(Frame& frame) {
   for (Track& a : tracks_) {
     if (!a.unresolved_with) continue;
-    const auto b = std::find_if(tracks_.begin(), tracks_.end(),
-                                [&](const Track& one) { return one.id == *a.unresolved_with; });
-    if (b == tracks_.end() || b->unresolved_with != a.id) {
+    Track* const b = track_of(tracks_, *a.unresolved_with);
+    if (b == nullptr || b->unresolved_with != a.id) {
       release(a);
       continue;
     }
