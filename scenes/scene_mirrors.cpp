@@ -14,18 +14,8 @@ using materials::DielectricMedium;
 
 // The nearest temperature that the medium's model knows (dielectric_medium.h).
 double known_temperature_K(DielectricMedium medium, double temperature_K) {
-  switch (medium) {
-    case DielectricMedium::water:
-      return std::clamp(temperature_K, 253.15, 333.15);
-    case DielectricMedium::ice:
-      return std::clamp(temperature_K, 240.0, 273.15);
-    case DielectricMedium::dry_soil:
-    case DielectricMedium::moist_soil:
-    case DielectricMedium::wet_soil:
-      return std::clamp(temperature_K, 273.15, 313.15);
-    default:
-      return temperature_K;
-  }
+  const auto known_K = materials::valid_temperature_K(medium);
+  return known_K ? std::clamp(temperature_K, known_K->low, known_K->high) : temperature_K;
 }
 
 // The medium of a material that mirrors.

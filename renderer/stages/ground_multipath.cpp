@@ -25,9 +25,9 @@ std::complex<double> reflection(const World& world, terrain::MaterialId material
       materials::specular_reflection(*world.specular[material], world.sensor.waveform.polarisation,
                                      world.sensor.wavelength_m(), std::asin(sine));
   const std::vector<BistaticNrcs>& nrcs = world.nrcs.bistatic();
-  const double left = material < nrcs.size() ? 1.0 - nrcs[material].scattered(sine) : 1.0;
+  const double left = material < nrcs.size() ? nrcs[material].unscattered(sine) : 1.0;
   const double power = std::norm(whole);
-  return power > left ? whole * std::sqrt(std::max(left, 0.0) / power) : whole;
+  return power > left ? whole * std::sqrt(left / power) : whole;
 }
 
 struct Plane {

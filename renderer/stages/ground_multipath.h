@@ -14,8 +14,8 @@
 // h1, h2: heights of antenna and target over the tangent plane of the ground at the reflection,
 // found by iteration (8 steps at most) on planes through the ground's heights two posts apart;
 // R' the distance to the target's image. Gamma of the material there, polarisation as over level
-// ground, |Gamma|^2 at most what the ground does not scatter (renderer/surfaces/mirrors.h). Sources: M. A. Richards et al., Principles of Modern Radar I (2010), section 4.9;
-// M. I. Skolnik, Radar Handbook, 3rd ed. (2008), chapter 26 [recalled].
+// ground, |Gamma|^2 at most what the ground does not scatter (renderer/surfaces/mirrors.h).
+// Sources: M. A. Richards et al., Principles of Modern Radar I (2010), section 4.9; M. I. Skolnik, Radar Handbook, 3rd ed. (2008), chapter 26 [recalled].
 // Inputs: a target seen directly. A blocked leg of the mirrored path leaves the direct echo alone.
 // Neglected: divergence by the Earth's curvature and by hills, more than one reflection point,
 // diffuse reflection, loss in air over d, a change of RCS between the two directions, targets seen

@@ -39,6 +39,11 @@ class BistaticNrcs {
            (position - static_cast<double>(index)) * (share_[index + 1] - share_[index]);
   }
 
+  // What a mirror of the surface may have at most.
+  double unscattered(double sin_in) const noexcept {
+    return std::fmax(1.0 - scattered(sin_in), 0.0);
+  }
+
   // sigma_B / sin(psi_i); 0 when a sine is not positive.
   double sigma0_over_sine(double sin_in, double sin_out, double normal_on_half) const noexcept {
     if (!(sin_in > 0.0 && sin_out > 0.0)) return 0.0;

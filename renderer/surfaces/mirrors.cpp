@@ -19,8 +19,7 @@ Mirrors::Mirrors(const std::vector<std::optional<materials::SpecularSurface>>& s
     for (int i = 0; i <= kSteps; ++i) {
       const double sine = static_cast<double>(i) / kSteps;
       const double grazing_rad = std::asin(sine);
-      // What the surface does not scatter.
-      const double left = material < nrcs.size() ? 1.0 - nrcs[material].scattered(sine) : 1.0;
+      const double left = material < nrcs.size() ? nrcs[material].unscattered(sine) : 1.0;
       const auto power = [&](Polarisation polarisation) {
         return std::min(materials::specular_power_reflection(*specular[material], polarisation,
                                                              wavelength_m, grazing_rad),

@@ -299,7 +299,7 @@ TEST_CASE("What the ground scatters it does not mirror", "[multipath]") {
   const auto path = renderer::ground_path(world, antenna_at(60.0), {0.0, 1000.0, 10.0});
   REQUIRE(path);
   const double image_m = std::hypot(1000.0, 70.0), direct_m = std::hypot(1000.0, 50.0);
-  const double left = 1.0 - world.nrcs.bistatic()[0].scattered(70.0 / image_m);
+  const double left = world.nrcs.bistatic()[0].unscattered(70.0 / image_m);
   CHECK(left < 0.5);
   CHECK(left > 0.01);
   CHECK(std::norm(path->amplitude) == Approx(left * std::pow(direct_m / image_m, 2)).epsilon(1e-3));

@@ -182,12 +182,11 @@ TEST_CASE("A target and a small patch share one azimuth profile under an uneven 
   }
 }
 
-TEST_CASE("A scan all round shows targets behind it, and one at 179.9 deg on both sides of 180",
-          "[target]") {
-  sensors::Sensor sensor = tests::hivision(360);
-  sensor.scan.field_of_view_rad = 2.0 * core::kPi;
-  renderer::World world = tests::world(sensor, std::nullopt, {});
-  for (const double bearing_deg : {90.4, 135.4, 179.9}) {
+namespace {
+
+// Of 1 m2, 1 km away and as high as the antenna.
+void add_spheres(std::initializer_list<double> bearings_deg, renderer::World& world) {
+  for (const double bearing_deg : bearings_deg) {
     const double bearing_rad = core::radians(bearing_deg);
     world.targets.push_back(
         {"sphere",
@@ -195,6 +194,16 @@ TEST_CASE("A scan all round shows targets behind it, and one at 179.9 deg on bot
          {{0.0, {1000.0 * std::sin(bearing_rad), 1000.0 * std::cos(bearing_rad), 60.0}}},
          glm::dmat3(1.0)});
   }
+}
+
+}  // namespace
+
+TEST_CASE("A scan all round shows targets behind it, and one at 179.9 deg on both sides of 180",
+          "[target]") {
+  sensors::Sensor sensor = tests::hivision(360);
+  sensor.scan.field_of_view_rad = 2.0 * core::kPi;
+  renderer::World world = tests::world(sensor, std::nullopt, {});
+  add_spheres({90.4, 135.4, 179.9}, world);
   const renderer::FramePose pose = tests::level_pose(60.0);
   const renderer::TargetEchoes found = renderer::unobstructed_echoes(
       world, sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB, {}, true),
@@ -227,14 +236,7 @@ TEST_CASE("A target abeam is seen where the outer columns' beams reach it", "[ta
   sensor.antenna.azimuth.cut_rad = core::radians(75.0);
   sensor.antenna.azimuth.side_lobe_gain = sensor.antenna.azimuth.side_lobe_extent_rad = 0.0;
   renderer::World world = tests::world(sensor, std::nullopt, {});
-  for (const double bearing_deg : {100.0, 151.0}) {
-    const double bearing_rad = core::radians(bearing_deg);
-    world.targets.push_back(
-        {"sphere",
-         materials::ConstantRcs{1.0},
-         {{0.0, {1000.0 * std::sin(bearing_rad), 1000.0 * std::cos(bearing_rad), 60.0}}},
-         glm::dmat3(1.0)});
-  }
+  add_spheres({100.0, 151.0}, world);
   const renderer::FramePose pose = tests::level_pose(60.0);
   const renderer::Frame frame = renderer::render_frame(world, {}, {}, {}, pose);
   CHECK(frame.unprojected == 0);
