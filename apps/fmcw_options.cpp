@@ -70,6 +70,9 @@ void add_radar(CLI::App& command, FmcwOptions& options) {
   add_elements(command, "--transmitters", options, options.transmitters, "Of the array");
   add_elements(command, "--receivers", options, options.receivers,
                "Of the array, half a wavelength apart");
+}
+
+void add_receiver(CLI::App& command, FmcwOptions& options) {
   command
       .add_option("--line-width", options.line_width_Hz,
                   "Of the oscillator, Hz: phase noise (default 0: none)")
@@ -174,6 +177,16 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
       "in its cell, wrong at times for clutter");
 }
 
+void add_maps(CLI::App& command, FmcwOptions& options) {
+  command.add_flag("--refuse-folding", options.refuse_folding,
+                   "A scatterer beyond the unambiguous spans is an error, not a warning");
+  command
+      .add_option("--dynamic-range", options.dynamic_range_dB,
+                  "Of the pictures' colours, dB from the noise up")
+      ->check(number_from(1.0, 300.0))
+      ->capture_default_str();
+}
+
 void add_plan(CLI::App& command, FmcwOptions& options) {
   add_accuracy_option(
       command, options.accuracy_grey,
@@ -182,21 +195,13 @@ void add_plan(CLI::App& command, FmcwOptions& options) {
   add_effects_option(command, options.effects, renderer::Touches::samples);
 }
 
-// Of waveform, array and processing, the B-scope has its sensor's.
-void keep_given_for_chain(CLI::App& command, FmcwOptions& options) {
-  CLI::App declared;
-  FmcwOptions unused;
-  add_radar(declared, unused);
-  add_processing(declared, unused);
-  std::set<std::string> names = {"--refuse-folding", "--dynamic-range"};
-  for (const CLI::Option* option : declared.get_options()) names.insert(option->get_name());
-  for (const char* receiver : {"--line-width", "--adc-bits", "--adc-full-scale", "--help"})
-    names.erase(receiver);
-  command.parse_complete_callback([&command, &options, names] {
-    for (const CLI::Option* option : command.get_options())
-      if (option->count() > 0 && names.contains(option->get_name()))
-        options.given_for_chain.insert(option->get_name());
-  });
+// The options that `add` declares.
+template <class Add>
+std::vector<const CLI::Option*> declared_by(CLI::App& command, const Add& add) {
+  const auto before = static_cast<std::ptrdiff_t>(command.get_options().size());
+  add();
+  const std::vector<CLI::Option*> all = command.get_options();
+  return {all.begin() + before, all.end()};
 }
 
 }  // namespace
@@ -224,8 +229,13 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
       ->type_name("PRODUCT")
       ->check(offers(names_of(session::kFmcwProducts)));
   add_radar_file(command, options);
-  add_radar(command, options);
-  add_processing(command, options);
+  // A B-scope has what they say of its sensor, or not at all.
+  const std::vector<const CLI::Option*> chain = declared_by(command, [&] {
+    add_radar(command, options);
+    add_processing(command, options);
+    add_maps(command, options);
+  });
+  add_receiver(command, options);
   add_plan(command, options);
   command
       .add_option("--rays-per-cell", options.rays_per_cell,
@@ -239,13 +249,6 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
   command.add_option("--spectrogram-of", options.spectrogram_of,
                      "Name, or its beginning, of targets about whose range the spectrogram looks "
                      "(default: all ranges)");
-  command
-      .add_option("--dynamic-range", options.dynamic_range_dB,
-                  "Of the pictures' colours, dB from the noise up")
-      ->check(number_from(1.0, 300.0))
-      ->capture_default_str();
-  command.add_flag("--refuse-folding", options.refuse_folding,
-                   "A scatterer beyond the unambiguous spans is an error, not a warning");
   command.add_option("--seed", options.seed, "Seed of everything random")
       ->check(any_seed())
       ->capture_default_str();
@@ -255,7 +258,10 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
       "Frequency, sweep and element pattern are those of the scene's sensor. Speeds are positive "
       "receding, azimuths positive right. docs/fmcw.md explains every step and file.");
   add_common_options(command, common);
-  keep_given_for_chain(command, options);
+  command.parse_complete_callback([&options, chain] {
+    for (const CLI::Option* option : chain)
+      if (option->count() > 0) options.given_for_chain.insert(option->get_name());
+  });
   return command;
 }
 

@@ -12,6 +12,7 @@
 #include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -51,8 +52,12 @@ class ConfigTable {
   std::optional<std::string> optional_text(std::string_view key);
   std::string required_text(std::string_view key);
   // The index of the text in `names`; anything else is E-RANGE with the list of names.
-  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> names,
+  std::size_t choice(std::string_view key, std::span<const std::string_view> names,
                      std::size_t fallback);
+  std::size_t choice(std::string_view key, std::initializer_list<std::string_view> names,
+                     std::size_t fallback) {
+    return choice(key, std::span(names.begin(), names.size()), fallback);
+  }
   // An array of numbers with a length in [fewest, most]; empty when the key is missing.
   std::vector<double> numbers(std::string_view key, NumberRange range, std::size_t fewest,
                               std::size_t most);

@@ -135,13 +135,13 @@ std::string ConfigTable::required_text(std::string_view key) {
   return optional_text(key).value_or("");
 }
 
-std::size_t ConfigTable::choice(std::string_view key, std::initializer_list<std::string_view> names,
+std::size_t ConfigTable::choice(std::string_view key, std::span<const std::string_view> names,
                                 std::size_t fallback) {
   const auto* node = static_cast<const toml::node*>(find(key));
   std::size_t index = fallback;
   if (node != nullptr) {
     const std::string value = node->is_string() ? node->as_string()->get() : "";
-    const auto* const found = std::find(names.begin(), names.end(), value);
+    const auto found = std::find(names.begin(), names.end(), value);
     if (found != names.end()) {
       index = static_cast<std::size_t>(found - names.begin());
     } else {

@@ -204,7 +204,7 @@ void read_display(ConfigTable& root, const sensors::RangeGate& range, sensors::D
   ConfigTable table = root.table("display");
   sensors::read_grey_mapping(table, range, display);
   display.cscope_mode = static_cast<sensors::Display::CScopeMode>(
-      table.choice("cscope_mode", {"true_elevation", "flat_earth", "shadow"},
+      table.choice("cscope_mode", sensors::Display::kCScopeModes,
                    static_cast<std::size_t>(display.cscope_mode)));
 }
 

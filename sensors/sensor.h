@@ -6,8 +6,10 @@
 // Ranges of valid values: sensor_file.h.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/polarisation.h"
@@ -114,11 +116,15 @@ struct Mounting {
 
 // How received power becomes grey; see display.h for the mappings.
 struct Display {
+  // With the words of files, in this order.
   enum class Mapping { stc, log, seed };
+  static constexpr std::array<std::string_view, 3> kMappings = {"stc", "log", "seed"};
   Mapping mapping = Mapping::stc;
   double low_dB = -55.0;  // shown as grey 0
   double high_dB = 5.0;   // shown as grey 255
   enum class CScopeMode { true_elevation, flat_earth, shadow };
+  static constexpr std::array<std::string_view, 3> kCScopeModes = {"true_elevation", "flat_earth",
+                                                                   "shadow"};
   CScopeMode cscope_mode = CScopeMode::true_elevation;
   double cscope_top_rad = 0.0;  // upper edge of the C-scope window
   double cscope_span_rad = 0.0;

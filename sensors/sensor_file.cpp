@@ -154,8 +154,8 @@ void read_mounting(ConfigTable table, Mounting& mounting) {
 }
 
 void read_cscope(ConfigTable table, const Sensor& sensor, Display& display) {
-  display.cscope_mode = static_cast<Display::CScopeMode>(
-      table.choice("mode", {"true_elevation", "flat_earth", "shadow"}, 0));
+  display.cscope_mode =
+      static_cast<Display::CScopeMode>(table.choice("mode", Display::kCScopeModes, 0));
   const double beam_deg = core::degrees(sensor.antenna.elevation.half_power_width_rad);
   const double boresight_deg = core::degrees(sensor.antenna.boresight_elevation_rad);
   const double span_deg = table.number("span_deg", above_zero(180.0), beam_deg);

@@ -113,16 +113,12 @@ py::list set_sensor(const Scene& scene, std::optional<double> tilt_deg,
     settings.noise_figure = std::pow(10.0, *noise_figure_dB / 10.0);
   }
   if (cscope_mode) {
-    using Mode = sensors::Display::CScopeMode;
-    if (*cscope_mode == "true_elevation")
-      settings.cscope_mode = Mode::true_elevation;
-    else if (*cscope_mode == "flat_earth")
-      settings.cscope_mode = Mode::flat_earth;
-    else if (*cscope_mode == "shadow")
-      settings.cscope_mode = Mode::shadow;
-    else
+    const auto& modes = sensors::Display::kCScopeModes;
+    const auto* const mode = std::find(modes.begin(), modes.end(), *cscope_mode);
+    if (mode == modes.end())
       core::throw_input_error(core::ErrorClass::ref, "cscope_mode", "\"" + *cscope_mode + "\"",
                               "true_elevation, flat_earth or shadow");
+    settings.cscope_mode = static_cast<sensors::Display::CScopeMode>(mode - modes.begin());
   }
   return problems_list(scene.session().set(settings).all());
 }

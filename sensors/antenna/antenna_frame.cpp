@@ -75,12 +75,6 @@ std::optional<AntennaAngles> all_round_angles(const AntennaFrame& frame,
   return plane_angles(fru);
 }
 
-std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,
-                                    const Scan& scan) {
-  return scan.field_of_view_rad > core::kPi ? all_round_angles(frame, from_antenna_m)
-                                            : angles(frame, from_antenna_m, scan.surface);
-}
-
 bool beams_reach_behind(const Sensor& sensor) {
   return sensor.scan.surface == ScanSurface::plane &&
          sensor.scan.field_of_view_rad / 2 + sensor.antenna.azimuth.cut_rad > core::kPi / 2;

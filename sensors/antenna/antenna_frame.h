@@ -58,11 +58,6 @@ std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3&
 std::optional<AntennaAngles> all_round_angles(const AntennaFrame& frame,
                                               const glm::dvec3& from_antenna_m);
 
-// Of the two the one that a picture's columns need: all round where they turn by more than half a
-// circle.
-std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,
-                                    const Scan& scan);
-
 // Whether the beam of an outer column, up to its azimuth cut, reaches more than 90 deg aside. A cone
 // has no directions there.
 bool beams_reach_behind(const Sensor& sensor);

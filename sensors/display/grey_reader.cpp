@@ -10,7 +10,7 @@ void read_grey_mapping(core::ConfigTable& table, const RangeGate& range, Display
   constexpr core::NumberRange kLevel_dB{-400.0, 400.0};
   const bool was_power = display.mapping == Mapping::log;
   display.mapping = static_cast<Mapping>(
-      table.choice("mapping", {"stc", "log", "seed"}, static_cast<std::size_t>(display.mapping)));
+      table.choice("mapping", Display::kMappings, static_cast<std::size_t>(display.mapping)));
   const bool is_power = display.mapping == Mapping::log;
   const bool own_window = display.mapping != Mapping::seed && is_power != was_power;
   const auto level_dB = [&](const char* key, double usual_dB) {

@@ -12,10 +12,11 @@ namespace {
 
 constexpr int kSteps = 256;  // of a centre line
 
-std::optional<SeenPoint> seen_from(const sensors::AntennaFrame& antenna, const sensors::Scan& scan,
-                                   const glm::dvec3& up, const glm::dvec3& point_m) {
+std::optional<SeenPoint> seen_from(const sensors::AntennaFrame& antenna,
+                                   const sensors::Sensor& sensor, const glm::dvec3& up,
+                                   const glm::dvec3& point_m) {
   const glm::dvec3 away_m = point_m - antenna.position_m;
-  const auto angles = sensors::angles(antenna, away_m, scan);
+  const auto angles = sensors::angles(antenna, away_m, sensor);
   if (!angles) return std::nullopt;
   const double range_m = glm::length(away_m);
   return SeenPoint{range_m, angles->azimuth_rad, angles->elevation_rad,
@@ -30,12 +31,12 @@ RunwayView view_of(const scenes::RunwayPlace& runway, const sensors::Sensor& sen
   const glm::dvec3 to_m = runway.ends[1 - near].threshold_m;
   RunwayView view;
   view.name = runway.ends[near].name;
-  const std::optional<SeenPoint> threshold = seen_from(antenna, sensor.scan, up, from_m);
+  const std::optional<SeenPoint> threshold = seen_from(antenna, sensor, up, from_m);
   view.threshold_ahead = threshold.has_value();
   view.threshold = threshold.value_or(SeenPoint{glm::length(from_m - antenna.position_m)});
   for (int step = 0; step <= kSteps; ++step) {
     const double share = static_cast<double>(step) / kSteps;
-    const auto point = seen_from(antenna, sensor.scan, up, from_m + share * (to_m - from_m));
+    const auto point = seen_from(antenna, sensor, up, from_m + share * (to_m - from_m));
     if (point && sensors::range_row(sensor.range, point->range_m) != sensors::kOutside &&
         sensors::azimuth_column(sensor.scan, point->azimuth_rad) != sensors::kOutside)
       view.seen.push_back(*point);

@@ -11,7 +11,7 @@ Eye::Eye(const scenes::Scene& scene, const core::Pose& pose)
     : scene_(scene), pose_(scene.pose_at(pose)), antenna_(renderer::antenna_of(sensor(), pose_)) {}
 
 std::optional<sensors::AntennaAngles> Eye::angles_of(const glm::dvec3& at_m) const {
-  return sensors::angles(antenna_, at_m - antenna_.position_m, sensor().scan);
+  return sensors::angles(antenna_, at_m - antenna_.position_m, sensor());
 }
 
 PictureSpot Eye::bscope_spot(double azimuth_rad, double range_m) const {

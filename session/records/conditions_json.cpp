@@ -89,13 +89,13 @@ Json weather_set_json(const scenes::Scene& scene) {
 }
 
 Json sensor_set_json(const sensors::Sensor& sensor) {
-  constexpr const char* kCScopeModes[] = {"true_elevation", "flat_earth", "shadow"};
   const sensors::Display& display = sensor.display;
   return {{"boresight_elevation_deg", core::degrees(sensor.antenna.boresight_elevation_rad)},
           {"stabilised", sensor.scan.stabilised},
           {"display_low_dB", display.low_dB},
           {"display_high_dB", display.high_dB},
-          {"cscope_mode", kCScopeModes[static_cast<std::size_t>(display.cscope_mode)]},
+          {"cscope_mode",
+           sensors::Display::kCScopeModes[static_cast<std::size_t>(display.cscope_mode)]},
           {"noise_figure_dB", core::dB_from_power(sensor.receiver.noise_figure, -400.0)}};
 }
 

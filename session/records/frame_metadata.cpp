@@ -27,9 +27,7 @@ std::string cscope_text(sensors::Display::CScopeMode mode) {
 }
 
 std::string mapping_text(sensors::Display::Mapping mapping) {
-  using Mapping = sensors::Display::Mapping;
-  if (mapping == Mapping::stc) return "stc";
-  return mapping == Mapping::log ? "log" : "seed";
+  return std::string(sensors::Display::kMappings[static_cast<std::size_t>(mapping)]);
 }
 
 // As frame_metadata writes it.

@@ -167,21 +167,10 @@ class Table {
   bool told_ = false;
 };
 
-std::optional<std::array<double, 2>> velocity_told(const JsonNode& node) {
-  const auto speed_mps = node.member("radar_speed_mps").number(kSpeeds_mps);
-  const JsonNode both = node.member("radar_velocity_mps");
-  const std::vector<double> told = both.numbers(kSpeeds_mps, 2);
-  if (told.size() == 2) return std::array{told[0], told[1]};
-  if (both.is_array() && both.elements() < 2)
-    both.error(ErrorClass::parse, "two numbers: forward, right");
-  if (!speed_mps) return std::nullopt;
-  return std::array{*speed_mps, 0.0};
-}
-
 DetectedFrame frame_in(const JsonNode& node) {
   DetectedFrame frame;
   frame.time_s = node.required("time_s").number(kTimes_s).value_or(0.0);
-  frame.radar_velocity_mps = velocity_told(node);
+  frame.radar_velocity_mps = radar_velocity_in(node);
   const JsonNode list = node.required("detections");
   const std::size_t count = list.size(kMostDetections);
   for (std::size_t i = 0; i < count; ++i) {

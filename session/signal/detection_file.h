@@ -15,12 +15,12 @@
 // are E-TIME.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
 #include "core/errors.h"
+#include "session/signal/radar_velocity.h"
 #include "signal/detection/detections.h"
 
 namespace fanbeam::session {
@@ -28,8 +28,8 @@ namespace fanbeam::session {
 struct DetectedFrame {
   double time_s = 0.0;
   std::vector<signal::RadarDetection> detections;
-  std::vector<int> clusters;                                  // of each, or signal::kNoCluster
-  std::optional<std::array<double, 2>> radar_velocity_mps{};  // where the file tells it
+  std::vector<int> clusters;                              // of each, or signal::kNoCluster
+  std::optional<RadarVelocity_mps> radar_velocity_mps{};  // where the file tells it
 };
 
 // Of a folder; none where it holds none.

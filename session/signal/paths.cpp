@@ -29,7 +29,7 @@ double element_gain(const sensors::Sensor& sensor, double azimuth_rad) {
   return sensors::one_way_gain_with_side_lobes(sensor.antenna.azimuth, azimuth_rad);
 }
 
-std::array<double, 2> own_velocity_mps(const scenes::Scene& scene, int frame) {
+RadarVelocity_mps own_velocity_mps(const scenes::Scene& scene, int frame) {
   const renderer::FramePose pose = scene.frame_pose(frame);
   const glm::dvec3 velocity_mps = pose.north_east_down * scene.trajectory->at(pose.time_s).v_N_mps;
   const sensors::AntennaFrame antenna = renderer::antenna_of(scene.world.sensor, pose);

@@ -1,13 +1,13 @@
 // From a frame of a scene to what the signal sees of it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/echo.h"
 #include "scenes/scene.h"
 #include "session/signal/fmcw_settings.h"
+#include "session/signal/radar_velocity.h"
 #include "signal/scatter_path.h"
 #include "signal/synthesis/interference.h"
 
@@ -27,7 +27,7 @@ double element_gain(const sensors::Sensor& sensor, double azimuth_rad);
 
 // Of the antenna over ground in a frame, along its own axes: forward, right. Without what its lever arm adds in a
 // turn, as in the echoes' radial speeds.
-std::array<double, 2> own_velocity_mps(const scenes::Scene& scene, int frame);
+RadarVelocity_mps own_velocity_mps(const scenes::Scene& scene, int frame);
 
 // Echoes of a frame, weighted with the element's two-way pattern; those of weight 0 are left out, and
 // surfaces and targets more than 90 deg aside: a linear array cannot tell front from back.

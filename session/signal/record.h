@@ -1,7 +1,6 @@
 // run.json and timing.json of fanbeam fmcw.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <set>
 #include <string>
@@ -9,6 +8,7 @@
 
 #include "scenes/scene.h"
 #include "session/signal/chain.h"
+#include "session/signal/radar_velocity.h"
 
 namespace fanbeam::session {
 
@@ -34,9 +34,9 @@ struct FmcwScanCounts {  // of product bscope
 struct FmcwFrameRecord {
   int index = 0;
   double time_s = 0.0;
-  double radar_speed_mps = 0.0;                // over ground
-  std::array<double, 2> radar_velocity_mps{};  // the same in the antenna's axes: forward, right
-  std::set<std::string> files;                 // relative to the folder
+  double radar_speed_mps = 0.0;  // over ground
+  RadarVelocity_mps radar_velocity_mps{};
+  std::set<std::string> files;  // relative to the folder
   std::optional<FmcwScanCounts> scan;
   bool chain = false;  // what follows is known
   std::uint64_t rays = 0;

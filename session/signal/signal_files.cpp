@@ -31,13 +31,6 @@ std::vector<double> real_parts(const signal::FloatCube& cube) {
   return parts;
 }
 
-double forward_m(const signal::RadarDetection& found) {
-  return found.range_m * signal::direction(found.azimuth_rad, found.elevation_rad).x;
-}
-double right_m(const signal::RadarDetection& found) {
-  return found.range_m * signal::direction(found.azimuth_rad, found.elevation_rad).y;
-}
-
 class Writer {
  public:
   Writer(const fs::path& folder, const FmcwRadar& radar, const FmcwFrame& frame,
@@ -162,20 +155,22 @@ void Writer::detections() const {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < frame_.found->detections.size(); ++i) {
     const signal::RadarDetection& found = frame_.found->detections[i];
+    const glm::dvec3 place_m =
+        found.range_m * signal::direction(found.azimuth_rad, found.elevation_rad);
     const double snr_dB = 10.0 * std::log10(std::max(found.snr, 1e-30));
-    table += fmt::format(
-        "{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4e},{:.2f},{:.3f},{:.3f},{}\n", stamp_.frame,
-        stamp_.time_s, i, found.range_m, found.radial_speed_mps, core::degrees(found.azimuth_rad),
-        core::degrees(found.elevation_rad), found.power_W, snr_dB, forward_m(found), right_m(found),
-        frame_.found->clusters[i]);
+    table +=
+        fmt::format("{},{:.6f},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.4e},{:.2f},{:.3f},{:.3f},{}\n",
+                    stamp_.frame, stamp_.time_s, i, found.range_m, found.radial_speed_mps,
+                    core::degrees(found.azimuth_rad), core::degrees(found.elevation_rad),
+                    found.power_W, snr_dB, place_m.x, place_m.y, frame_.found->clusters[i]);
     list.push_back({{"range_m", found.range_m},
                     {"radial_speed_mps", found.radial_speed_mps},
                     {"azimuth_rad", found.azimuth_rad},
                     {"elevation_rad", found.elevation_rad},
                     {"power_W", found.power_W},
                     {"snr_dB", snr_dB},
-                    {"forward_m", forward_m(found)},
-                    {"right_m", right_m(found)},
+                    {"forward_m", place_m.x},
+                    {"right_m", place_m.y},
                     {"cluster", frame_.found->clusters[i]}});
   }
   core::write_file_atomically(file("detections", ".csv"), table);

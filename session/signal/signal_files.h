@@ -1,12 +1,12 @@
 // What fanbeam fmcw leaves of a frame on disk.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <set>
 #include <string>
 
 #include "session/signal/chain.h"
+#include "session/signal/radar_velocity.h"
 #include "session/signal/spectrogram.h"
 
 namespace fanbeam::session {
@@ -15,9 +15,9 @@ struct FmcwStamp {
   int frame = 0;
   double time_s = 0.0;
   std::string scene;
-  double dynamic_range_dB = 60.0;              // of the pictures' colours, from the noise up
-  double radar_speed_mps = 0.0;                // over ground
-  std::array<double, 2> radar_velocity_mps{};  // the same in the antenna's axes: forward, right
+  double dynamic_range_dB = 60.0;  // of the pictures' colours, from the noise up
+  double radar_speed_mps = 0.0;    // over ground
+  RadarVelocity_mps radar_velocity_mps{};
 };
 
 // Files DIR/<product>/00000.*, of every product that is wanted and that the waveform has. Throws

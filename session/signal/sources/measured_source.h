@@ -9,7 +9,6 @@
 // along the antenna's axis.
 #pragma once
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -20,6 +19,7 @@
 #include "scenes/description.h"
 #include "session/signal/fmcw_settings.h"
 #include "session/signal/measurements.h"
+#include "session/signal/radar_velocity.h"
 #include "tracking/tracker/track_geometry.h"
 
 namespace fanbeam::session {
@@ -28,9 +28,6 @@ struct SeenTarget {
   std::string name;
   double range_m = 0.0, range_rate_mps = 0.0, azimuth_rad = 0.0;
 };
-
-// Over ground, in the antenna's axes, as azimuths are: forward, right.
-using RadarVelocity_mps = std::array<double, 2>;
 
 struct MeasuredFrame {
   double time_s = 0.0;

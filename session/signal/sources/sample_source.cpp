@@ -20,14 +20,6 @@ struct Recorded {
   RadarVelocity_mps radar_velocity_mps{};
 };
 
-// Records of before the velocity had two components tell the speed alone.
-RadarVelocity_mps velocity_in(const core::JsonNode& frame) {
-  constexpr core::NumberRange kSpeeds_mps{-1000.0, 1000.0};
-  const std::vector<double> told = frame.member("radar_velocity_mps").numbers(kSpeeds_mps, 2);
-  if (told.size() == 2) return {told[0], told[1]};
-  return {frame.member("radar_speed_mps").number(kSpeeds_mps).value_or(0.0), 0.0};
-}
-
 // What the run.json of a folder that `fanbeam fmcw` wrote says of its files, by name relative to it.
 std::map<std::string, Recorded> moments_in(const core::JsonNode& record) {
   constexpr core::NumberRange kTimes_s{-1e12, 1e12};
@@ -37,7 +29,7 @@ std::map<std::string, Recorded> moments_in(const core::JsonNode& record) {
     const core::JsonNode frame = frames.element(i);
     const auto time_s = frame.member("time_s").number(kTimes_s);
     if (!time_s) continue;
-    const RadarVelocity_mps velocity_mps = velocity_in(frame);
+    const RadarVelocity_mps velocity_mps = radar_velocity_in(frame).value_or(RadarVelocity_mps{});
     for (const std::string& name : frame.member("files").texts(1000))
       known[name] = {*time_s, velocity_mps};
   }

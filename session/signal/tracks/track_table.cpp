@@ -19,7 +19,7 @@ std::array<double, 4> on_the_road(const tracking::Track& track) {
 }  // namespace
 
 std::string track_cells(double time_s, const tracking::Track& track,
-                        const std::array<double, 2>& radar_velocity_mps) {
+                        const RadarVelocity_mps& radar_velocity_mps) {
   const auto state = on_the_road(track);
   const tracking::PolarPlace place = polar(track.state);
   return fmt::format("{:.9g},{},{},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{},{:.6g}",

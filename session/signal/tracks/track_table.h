@@ -1,9 +1,9 @@
 // Rows of tracks.csv and measurements.csv.
 #pragma once
 
-#include <array>
 #include <string>
 
+#include "session/signal/radar_velocity.h"
 #include "tracking/tracker/track.h"
 
 namespace fanbeam::session {
@@ -21,7 +21,7 @@ inline constexpr const char* kMeasurementColumns =
 
 // Of kTrackColumns. `radar_velocity_mps` forward and right: moving is meant over ground.
 std::string track_cells(double time_s, const tracking::Track& track,
-                        const std::array<double, 2>& radar_velocity_mps);
+                        const RadarVelocity_mps& radar_velocity_mps);
 // Of kCovarianceColumns, a comma before each.
 std::string covariance_cells(const tracking::Gaussian& state);
 std::string measurement_row(double time_s, const tracking::RadarMeasurement& measurement);
