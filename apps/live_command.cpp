@@ -115,6 +115,9 @@ class LiveRun {
     live::Status status;
     status.scene = scene_->description.name;
     status.source = told_sources();
+    status.caster = renderer::name_of(scene_->caster.chosen);
+    status.wanted_Hz = rate_Hz_;
+    status.samples = session_->samples();
     status.frames = continued.frames;
     hub_.tell(status);
     if (recording_ != nullptr && recording_->flown_by.scene != scene_->description.name)

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "core/files.h"
 #include "core/spelling.h"
@@ -57,9 +58,33 @@ std::string escaped(const std::string& key) {
 
 const json& of(const void* value) { return *static_cast<const json*>(value); }
 
+// Which of two members of one name counts is not said (RFC 8259, section 4): neither.
+class DoubledNames {
+ public:
+  bool hear(json::parse_event_t event, const json& value) {
+    if (event == json::parse_event_t::object_start) open_.emplace_back();
+    if (event == json::parse_event_t::object_end) open_.pop_back();
+    if (event == json::parse_event_t::key && !open_.back().insert(value).second && first_.empty())
+      first_ = shown(value);
+    return true;
+  }
+  const std::string& first() const { return first_; }
+
+ private:
+  std::vector<std::set<json>> open_;  // names of the objects that are being read
+  std::string first_;
+};
+
 json parsed(const std::string& text, const std::string& file) {
   try {
-    return json::parse(text);
+    DoubledNames doubled;
+    json root = json::parse(text, [&](int, json::parse_event_t event, json& value) {
+      return doubled.hear(event, value);
+    });
+    if (!doubled.first().empty())
+      throw_input_error(ErrorClass::parse, Place{file}, "JSON text",
+                        doubled.first() + " twice in one object", "every name once");
+    return root;
   } catch (const json::parse_error& error) {
     const std::string words = error.what();
     throw_input_error(ErrorClass::parse, place_of(file, text, error.byte > 0 ? error.byte - 1 : 0),
@@ -125,9 +150,10 @@ JsonNode JsonNode::member(const std::string& key) const {
 
 JsonNode JsonNode::required(const std::string& key) const {
   JsonNode node = member(key);
-  if (is_object() && !node.present() && !problems_->is_full())
-    problems_->error(ErrorClass::ref, place(), node.pointer_, "missing",
-                     "it to be there" + names_there_text(key, keys()));
+  if (!is_object() || node.present() || problems_->is_full()) return node;
+  const bool null = of(value_).contains(key);
+  problems_->error(ErrorClass::ref, place(), node.pointer_, null ? "null" : "missing",
+                   null ? "a value" : "it to be there" + names_there_text(key, keys()));
   return node;
 }
 

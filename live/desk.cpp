@@ -172,7 +172,7 @@ Answer Desk::picture(const std::string& path, const std::string& query) const {
   problems.throw_if_errors();
   const std::shared_ptr<const LiveFrame> frame = hub_.newest();
   if (!frame) return refusal(503, "no frame yet");
-  core::Picture8 shown = bscope ? frame->bscope : frame->cscope;
+  core::Picture8 shown = picture_to_show(*frame, bscope ? Scope::bscope : Scope::cscope);
   if (gain_dB != 0.0) amplify(shown, gain_dB / (frame->high_dB - frame->low_dB));
   return {200, "image/png", core::png_bytes(shown)};
 }
@@ -210,6 +210,7 @@ std::string message_of(const LiveFrame& frame) {
                   {"frame_ms", frame.frame_ms},
                   {"pose_age_ms", frame.pose_age_ms},
                   {"outside_volume", frame.outside_volume},
+                  {"stale", frame.stale},
                   {"low_dB", frame.low_dB},
                   {"high_dB", frame.high_dB},
                   {"cscope_top_deg", core::degrees(frame.cscope_top_rad)}};
@@ -217,6 +218,23 @@ std::string message_of(const LiveFrame& frame) {
   message.append(frame.bscope.pixels.begin(), frame.bscope.pixels.end());
   message.append(frame.cscope.pixels.begin(), frame.cscope.pixels.end());
   return message;
+}
+
+core::Picture8 picture_to_show(const LiveFrame& frame, Scope scope) {
+  core::Picture8 picture = scope == Scope::bscope ? frame.bscope : frame.cscope;
+  if (!frame.stale) return picture;
+  // Two pixels wide at least in either direction, so that a smaller copy shows it too.
+  const int steps = std::max(picture.columns, picture.rows);
+  const auto at = [&](int step, int size) { return step * std::max(size - 1, 1) / steps; };
+  for (int step = 0; step <= steps; ++step)
+    for (int beside = 0; beside < 2; ++beside) {
+      const int row = std::min(at(step, picture.rows) + beside, picture.rows - 1);
+      const int column = std::min(at(step, picture.columns) + beside, picture.columns - 1);
+      for (const int x : {column, picture.columns - 1 - column})
+        picture.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.columns) +
+                       static_cast<std::size_t>(x)] = 255;
+    }
+  return picture;
 }
 
 }  // namespace fanbeam::live

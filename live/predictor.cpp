@@ -20,7 +20,7 @@ double Predictor::flown_s(const Known& now) {
   constexpr double kSlow_mps = 10.0, kLongest_s = 1.0;
   if (heard_) {
     const double waited_s = now.arrived_s - heard_->arrived_s;
-    const glm::dvec3 v_mps = 0.5 * (now.v_mps + heard_->v_mps);
+    const glm::dvec3 v_mps = 0.5 * (now.told_mps + heard_->told_mps);
     const double square = glm::dot(v_mps, v_mps);
     const double step_s =
         square > kSlow_mps * kSlow_mps ? glm::dot(now.at_m - heard_->at_m, v_mps) / square : -1.0;
@@ -33,13 +33,17 @@ double Predictor::flown_s(const Known& now) {
 void Predictor::take(const core::Pose& pose, double arrived_s, const std::optional<double>& clock_s,
                      std::size_t source) {
   if (source != source_) {
+    const std::uint64_t strays = strays_;
     *this = Predictor(frame_);
     source_ = source;
+    strays_ = strays;
   }
   if (heard_ && !(arrived_s > heard_->arrived_s)) return;
   Known now{arrived_s, arrived_s, frame_.to_local_m(pose.position),
             frame_.north_east_down_at(pose.position) * pose.v_N_mps, pose};
   now.time_s = clock_.time_of(clock_s ? *clock_s : flown_s(now), arrived_s);
+  now.told_mps = now.v_mps;
+  now.v_mps *= clock_.rate();
   if (!heard_ || now.at_m != heard_->at_m) there_since_s_ = arrived_s;
   heard_ = now;
   now.stands = arrived_s - there_since_s_ >= kStill_s && glm::length(now.v_mps) > kMoves_mps;
@@ -48,10 +52,13 @@ void Predictor::take(const core::Pose& pose, double arrived_s, const std::option
   if (last != nullptr && !(now.time_s > last->time_s)) return;
   if (!flight_.empty() && !follows(flight_.back(), now)) {
     if (!waiting_ || !follows(*waiting_, now)) {
+      if (waiting_) ++strays_;
       waiting_ = now;
       return;
     }
     flight_ = {*waiting_};
+  } else if (waiting_) {
+    ++strays_;
   }
   flight_.push_back(now);
   if (flight_.size() > kKept) flight_.pop_front();

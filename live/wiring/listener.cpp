@@ -70,6 +70,8 @@ void Listener::tell(Status& status) const {
   status.packets = 0;
   status.bad_packets.clear();
   for (const Source& source : sources_) source.feed.tell(status);
+  if (status.stray_poses > 0)
+    status.bad_packets.emplace_back(feeds::name_of(feeds::PacketFault::step), status.stray_poses);
   const auto leading = mailbox().leading();
   if (!leading) return;
   status.source = sources_[*leading].from.source;

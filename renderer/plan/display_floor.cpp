@@ -33,7 +33,9 @@ double largest_change_dB(const AddedPower& added, const SceneFacts& facts) {
   }
   const double floor_W_m3 = scale.cscope_floor_W_m3() * per_draw;
   double over_cscope = 0.0;
-  if (sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation) {
+  if (!facts.heights_shown) {
+    // No C-scope is wanted.
+  } else if (sensor.display.cscope_mode == sensors::Display::CScopeMode::true_elevation) {
     const double noise_W_m3 = facts.noise_shown ? sensors::cscope_noise_W_m3(sensor) : 0.0;
     over_cscope = added.row_W_m3 / std::max(floor_W_m3, noise_W_m3);
   } else {

@@ -36,12 +36,14 @@ bool tips_over(const SceneFacts& facts) {
 }
 
 // Watts hold the noise, and it crosses thresholds, where no display shows it.
-bool reads_noise(const SceneFacts& facts) { return facts.read.power || facts.read.detections; }
+bool reads_noise(const SceneFacts& facts) {
+  return facts.read.power || facts.read.labels || facts.read.detections;
+}
 
 std::string noise_readers_text(const Readings& read) {
-  if (!read.detections) return "asked for by the product power, whose watts hold it";
-  return std::string("asked for by the product") +
-         (read.power ? "s power and detections" : " detections") + ", as it crosses thresholds";
+  if (read.detections) return "asked for by the product detections, as it crosses thresholds";
+  if (read.power) return "asked for by the product power, whose watts hold it";
+  return "asked for by the product labels, whose signal to clutter counts it";
 }
 
 // Greys of the picture that shows the facts' products.
@@ -180,6 +182,16 @@ std::vector<core::EffectId> known_effects(Touches touched) {
   return known;
 }
 
+bool is_simulated(core::EffectId id, Touches touched) {
+  if (touched == Touches::pictures) return true;
+  const auto has = [&](const std::vector<Effect>& effects, bool all) {
+    return std::ranges::any_of(effects, [&](const Effect& effect) {
+      return effect.id == id && (all || effect.in_echoes);
+    });
+  };
+  return has(effect_catalogue(touched), true) || has(effect_catalogue(), false);
+}
+
 }  // namespace
 
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
@@ -204,6 +216,10 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
       if (found == effects.end() || (word[0] != '+' && word[0] != '-'))
         core::throw_input_error(core::ErrorClass::ref, "--effects", "\"" + word + "\"",
                                 "all, none, or + or - before one of" + known);
+      if (word[0] == '+' && !is_simulated(*found, touched))
+        core::throw_input_error(
+            core::ErrorClass::unsupported, "--effects", "\"" + word + "\"",
+            "an effect that echoes have: the samples of a receiver do not show it");
       (word[0] == '+' ? wishes.forced_on : wishes.forced_off).insert(*found);
     }
   }

@@ -24,8 +24,8 @@ bool show_heights(const renderer::Products& wanted) {
 
 void plan_for(const ProductSet& products, scenes::BuildOptions& build) {
   build.heights_shown = show_heights(wanted_of(products));
-  build.read = {products.contains("power"), products.contains("detections"),
-                products.contains("obstacles")};
+  build.read = {products.contains("power"), products.contains("labels"),
+                products.contains("detections"), products.contains("obstacles")};
 }
 
 }  // namespace fanbeam::session

@@ -267,8 +267,12 @@ std::string timing_json(const RunRecord& record) {
   return json.dump(1) + "\n";
 }
 
+// Of the plan what runs: reasons and bounds hang on what else is asked for, and change no picture.
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record) {
-  return fingerprint_of(header_json(scene, record).dump(), scene.description.files);
+  Json header = header_json(scene, record);
+  for (Json& decision : header["plan"])
+    decision = {{"effect", decision["effect"]}, {"on", decision["on"]}};
+  return fingerprint_of(header.dump(), scene.description.files);
 }
 
 }  // namespace fanbeam::session
