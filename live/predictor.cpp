@@ -41,8 +41,8 @@ void Predictor::take(const core::Pose& pose, double arrived_s, const std::option
   if (heard_ && !(arrived_s > heard_->arrived_s)) return;
   Known now{arrived_s, arrived_s, frame_.to_local_m(pose.position),
             frame_.north_east_down_at(pose.position) * pose.v_N_mps, pose};
-  now.time_s = clock_.time_of(clock_s ? *clock_s : flown_s(now), arrived_s);
   now.told_mps = now.v_mps;
+  now.time_s = clock_.time_of(clock_s ? *clock_s : flown_s(now), arrived_s);
   now.v_mps *= clock_.rate();
   if (!heard_ || now.at_m != heard_->at_m) there_since_s_ = arrived_s;
   heard_ = now;

@@ -56,8 +56,8 @@ class Predictor {
   struct Known {
     double time_s = 0.0, arrived_s = 0.0;
     glm::dvec3 at_m{0.0}, v_mps{0.0};  // of the scene's frame, in our seconds
-    glm::dvec3 told_mps{0.0};          // in the source's
     core::Pose pose;
+    glm::dvec3 told_mps{0.0};  // in the source's seconds
     bool stands = false;
   };
 
