@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/files.h"
+#include "datasets/record_seal.h"
 #include "datasets/run_files.h"
 #include "datasets/run_makers_private.h"
 #include "datasets/sha256.h"
@@ -90,6 +91,10 @@ class Merger {
   void add(int run, const RunFiles& files, const Json& record, core::ProblemList& problems) {
     const core::Place place{files.shown(kRunRecord)};
     try {
+      const std::string text = files.read(kRunRecord, kLargestRecord_bytes);
+      if (!is_intact(text))
+        problems.error(core::ErrorClass::parse, place, "run", "other bytes than were recorded",
+                       kWhole);
       const std::string wrong = wrong_maker(record, campaign_, usual_);
       if (!wrong.empty())
         problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
@@ -99,8 +104,7 @@ class Merger {
         problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
                        kVersion + other);
       index_ += index_rows(campaign_, run, files, record);
-      manifest_["runs"][fmt::format("{:06}", run)] =
-          sha256(files.read(kRunRecord, kLargestRecord_bytes));
+      manifest_["runs"][fmt::format("{:06}", run)] = sha256(text);
       for (const Json& frame : record.at("frames"))
         labels_.add(fmt::format("runs/{:06}/", run), frame.at("files").get<std::set<std::string>>(),
                     record.at("frames").size(), [&](const std::string& name) {

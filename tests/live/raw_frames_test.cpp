@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <thread>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/stop.h"
@@ -99,19 +100,23 @@ TEST_CASE("Where time is up a slow reader gets the picture to its end; a signal 
           "[raw_frames][threads]") {
   const tests::TemporaryFolder folder;
   constexpr std::size_t kSize = 100'000;  // more than a pipe holds
-  for (const int reason : {live::kTimeIsUp, SIGINT}) {
-    INFO(reason);
-    const auto pipe = (folder.path() / std::to_string(reason)).string();
+  for (const auto& [reason, every_frame] : {std::pair{live::kTimeIsUp, true},
+                                            {SIGINT, true},
+                                            {live::kTimeIsUp, false},
+                                            {SIGINT, false}}) {
+    INFO(reason << ", every frame " << every_frame);
+    const auto pipe =
+        (folder.path() / (std::to_string(reason) + std::to_string(every_frame))).string();
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
     REQUIRE(reader >= 0);
     core::StopSource end;
     std::size_t got = 0;
-    std::thread slow([&] {
+    std::thread slow([&, why = reason] {
       char bytes[65536];
       pollfd begun{reader, POLLIN, 0};
       ::poll(&begun, 1, 10'000);
-      end.request(reason);
+      end.request(why);
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
       for (ssize_t count = 1; count != 0;) {
         count = ::read(reader, bytes, sizeof bytes);
@@ -124,8 +129,9 @@ TEST_CASE("Where time is up a slow reader gets the picture to its end; a signal 
     {
       const core::StopToken token = end.token();
       const core::StopScope scope(token);
-      RawFrames raw(RawFrames::Scope::bscope, pipe, true);
+      RawFrames raw(RawFrames::Scope::bscope, pipe, every_frame);
       raw.write(frame_of(1, kSize));
+      while (token.reason() == 0) std::this_thread::yield();  // the picture is under way
     }
     slow.join();
     ::close(reader);

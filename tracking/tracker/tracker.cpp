@@ -150,6 +150,7 @@ void Tracker::start(const Frame& frame) {
     Track track;
     track.id = next_id_++;
     track.hits = track.frames = 1;
+    track.began_on = echo_of_pair(polar(one), places);
     track.state = start_imm(settings_.motion, start_state(one, settings_.motion.axes(),
                                                           settings_.start_tangential_sigma_mps));
     tracks_.push_back(std::move(track));

@@ -22,7 +22,7 @@
 //                 `longest_gap_s`, an unresolved one too, before the next frame is looked at
 //   unresolved    two confirmed tracks predicted closer than the resolution on all axes, of which the
 //                 radar sees but one: no two measurements, one inside each gate, that fit no other
-//                 confirmed track better that is older than the time they were not measured. They are not
+//                 confirmed track better, but for one that began between the two. They are not
 //                 updated until both can be given a measurement of their own again; then the
 //                 likelier of the two ways is taken and its probability
 //                 (tracking/association/crossing.h) goes into both tracks. Without azimuth the
@@ -99,6 +99,8 @@ class Tracker {
   void find_unresolved(double step_s, Frame& frame);
   std::optional<std::pair<std::size_t, std::size_t>> seen_apart(const Track& a, const Track& b,
                                                                 Frame& frame) const;
+  std::optional<int> echo_of_pair(const PolarPlace& place,
+                                  const std::vector<PolarPlace>& places) const;
   void part(Frame& frame);
   void part(Track& a, Track& b, Frame& frame);
   void associate(Frame& frame);

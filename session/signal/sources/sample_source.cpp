@@ -86,8 +86,9 @@ std::string_view number_at(std::string_view text, std::size_t& at) {
   return text.substr(first, at - first);
 }
 
-// Behind a point between digits: a decimal, which goes digit by digit.
+// In a number behind a point between digits: a decimal, which goes digit by digit.
 bool is_decimal(std::string_view text, std::size_t at) {
+  while (at > 0 && is_digit(text[at - 1])) --at;
   return at >= 2 && text[at - 1] == '.' && is_digit(text[at - 2]);
 }
 
