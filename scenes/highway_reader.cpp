@@ -273,7 +273,10 @@ using Waveforms = std::map<std::string, NamedWaveform>;
 
 void take(const NamedWaveform& from, core::HighwayWaveforms& to) {
   const core::HighwayWaveforms& told = from.timing;
-  if (from.type == "triangle") to.triangle_ramp_s = told.triangle_ramp_s;
+  if (from.type == "triangle") {
+    to.triangle_ramp_s = told.triangle_ramp_s;
+    to.triangle_rate_Hz = told.triangle_rate_Hz;
+  }
   if (from.type == "triangle-pair") to.two_slopes_ramp_s = told.two_slopes_ramp_s;
   if (from.type == "two-stage") {
     to.coarse_chirps = told.coarse_chirps;
@@ -308,23 +311,21 @@ void read_two_stages(const JsonNode& node, core::HighwayWaveforms& result) {
   result.fine_rate_Hz = rate_of(fine, result.fine_rate_Hz);
 }
 
-// The rate of a lone triangle and its buffer concern samples
-// that track does not make of it.
+// Of the rates beside the two stages' own, that of a triangle counts: a study makes samples of it. Buffers are for people.
 void read_waveform(const JsonNode& node, NamedWaveform& named) {
   core::HighwayWaveforms& result = named.timing;
   const std::string type = named.type = text(node, "type");
-  std::vector<const char*> known = {"type", "sample_rate_hz", "ramps_per_buffer",
-                                    "complex_baseband"};
+  std::vector<const char*> known = {"type", "complex_baseband"};
   if (type == "two-stage")
     known.insert(known.end(), {"coarse", "fine"});
   else
-    known.push_back("ramp_s");
+    known.insert(known.end(), {"ramp_s", "sample_rate_hz", "ramps_per_buffer"});
   if (type == "up-flat-down") known.insert(known.end(), {"flat_s", "flat_code", "flat_step_hz"});
   check_keys(node, known);
   if (node.member("complex_baseband").flag() == false)
     refuse(node, "complex_baseband", ErrorClass::unsupported, "false", "complex samples");
   node.member("ramps_per_buffer").whole(1, 1'000'000);
-  rate_of(node, 0.0);
+  result.triangle_rate_Hz = rate_of(node, result.triangle_rate_Hz);
   if (type == "triangle") {
     result.triangle_ramp_s = time_of(node, "ramp_s", result.triangle_ramp_s);
   } else if (type == "triangle-pair") {

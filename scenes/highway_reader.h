@@ -7,7 +7,7 @@
 //   {"type": "lane-change",  "t0_s", "t1_s", "lateral_m"}           (to the left)
 // and "circular" has radius_m, azimuth0_rad, angular_rate_rad_s. A scenario may have "radar_overrides", with
 // keys of "radar", and "suppressed_detections", [{"id", "from_s", "to_s"}]: a target that is not measured then.
-// "waveforms" are named: {"type": "triangle", "ramp_s"}, {"type": "triangle-pair", "ramp_s": [a, b]}, {"type":
+// "waveforms" are named: {"type": "triangle", "ramp_s", "sample_rate_hz"}, {"type": "triangle-pair", "ramp_s": [a, b]}, {"type":
 // "two-stage", "coarse": {"chirps", "chirp_s", "sample_rate_hz"}, "fine": {"ramp_s", "sample_rate_hz"}}, {"type":
 // "up-flat-down", "ramp_s", "flat_s", "flat_step_hz", "flat_code"}. Of each type the first name in the order of letters
 // counts, or the first of those that a scenario names in its own "waveforms"; what is missing is 2 ms ramps and so on (HighwayWaveforms).

@@ -63,6 +63,10 @@ CHANGES = {
     "one slope of two": (change(["waveforms"], {"two": {"type": "triangle-pair", "ramp_s": [2e-3]}}), False),
     "a ramp of a coarse stage": (
         change(["waveforms"], {"two": {"type": "two-stage", "coarse": {"ramp_s": 1}, "fine": {}}}), False),
+    "a rate of two stages": (
+        change(["waveforms"], {"two": {"type": "two-stage", "coarse": {}, "fine": {}, "sample_rate_hz": 1e6}}), False),
+    "a buffer of two stages": (
+        change(["waveforms"], {"two": {"type": "two-stage", "coarse": {}, "fine": {}, "ramps_per_buffer": 8}}), False),
     "another code": (change(["waveforms"], {"pn": {"type": "up-flat-down", "flat_code": "gold-127"}}), False),
     "noise below none": (change(["radar", "noise_figure_db"], -1), False),
     "farther than any radar": (change(["radar", "max_range_m"], 1e10), False),

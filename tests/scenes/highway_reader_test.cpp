@@ -320,6 +320,11 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
   check_refused(
       with_waveforms(R"("w": {"type": "two-stage", "ramp_s": 0.002, "coarse": {}, "fine": {}})"),
       core::ErrorClass::ref, "/waveforms/w/ramp_s");
+  // Its stages have rates of their own, and no study averages buffers of it.
+  for (const char* key : {"sample_rate_hz", "ramps_per_buffer"})
+    check_refused(with_waveforms(R"("w": {"type": "two-stage", "coarse": {}, "fine": {}, ")" +
+                                 std::string(key) + "\": 1000}"),
+                  core::ErrorClass::ref, "/waveforms/w/" + std::string(key));
   const std::string circle =
       R"("motion": "circular", "radius_m": 50, "azimuth0_rad": 0, "angular_rate_rad_s": 0.1)";
   check_refused(file_with(circle + R"(, "velocity_mps": [1, 2])"), core::ErrorClass::ref,
@@ -341,10 +346,11 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
                       (lane ? "acceleration_mps2" : "lateral_m"));
   }
   // Members of JSON have no order: of two triangles the first by name counts.
-  const auto radar =
-      scenes::parse_highway(with_waveforms(R"("z": {"type": "triangle", "ramp_s": 0.001},
-                                           "a": {"type": "triangle", "ramp_s": 0.004})"),
-                            "test.json")
-          .radar;
+  const auto radar = scenes::parse_highway(with_waveforms(
+                                               R"("z": {"type": "triangle", "ramp_s": 0.001},
+                 "a": {"type": "triangle", "ramp_s": 0.004, "sample_rate_hz": 2e6})"),
+                                           "test.json")
+                         .radar;
   CHECK(radar.waveforms.triangle_ramp_s == 0.004);
+  CHECK(radar.waveforms.triangle_rate_Hz == 2e6);
 }
