@@ -159,6 +159,7 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
     core::throw_input_error(core::ErrorClass::range, "--chirps", chirps, "2 or more");
   radar.timing = {fs_Hz, segments[0].slope_Hz_per_s, segments[1].start_s - segments[0].start_s,
                   radar.waveform.wavelength_m()};
+  radar.middle_s = signal::middle_s(segments);
   radar.axes = signal::range_doppler_axes(fs_Hz, radar.timing.slope_Hz_per_s,
                                           slots * radar.timing.slot_period_s,
                                           radar.timing.wavelength_m, samples, chirps);

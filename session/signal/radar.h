@@ -23,6 +23,7 @@ struct FmcwRadar {
   // Of the chirp sequence in stage 0; nothing of it is valid where `maps` is false.
   bool maps = false;
   signal::CubeTiming timing;
+  double middle_s = 0.0;  // of its chirps, on the waveform's clock: detections have the range there
   signal::RangeDopplerAxes axes;
   signal::DetectionSettings detection;
   signal::ClusterScales clusters;

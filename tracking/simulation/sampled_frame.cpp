@@ -227,8 +227,7 @@ void SampledRadar::find_directions(std::vector<Beat>& beats) const {
 
 // At the turnaround of the triangle.
 std::vector<signal::RangeSpeed> SampledRadar::folded(const Coarse& one) const {
-  const auto chirps = signal::stage_segments(waveform_, kCoarse);
-  const double middle_s = 0.5 * (chirps.front().middle_s() + chirps.back().middle_s());
+  const double middle_s = signal::middle_s(signal::stage_segments(waveform_, kCoarse));
   std::vector<signal::RangeSpeed> places;
   const double fold_mps = 0.5 * waveform_.wavelength_m() / repetition_s_;
   const int most = static_cast<int>(std::ceil((kMostSpeed_mps + fold_mps) / fold_mps));
