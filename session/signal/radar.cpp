@@ -178,7 +178,7 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   settings.transform.doppler_window = options.doppler_window;
   settings.refinement = signal::Refinement::windowed;
   settings.angle = options.angle_method;
-  settings.unfold = options.unfold && slots > 1;
+  settings.unfold = options.unfold;
   const auto range_weights = signal::window_weights(settings.transform.range_window, samples);
   const auto doppler_weights = signal::window_weights(settings.transform.doppler_window, chirps);
   settings.cfar = cfar_of(options, {range_weights, samples, doppler_weights, chirps},
@@ -243,10 +243,15 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
     core::throw_input_error(core::ErrorClass::unsupported, "angle window",
                             signal::name(options.angle_window),
                             "rectangular, or an array on a line at one pitch");
-  if (elements_m.size() < 2 && options.angle_method != signal::AngleMethod::beamforming)
+  if (elements_m.size() < signal::kFewestElements &&
+      options.angle_method != signal::AngleMethod::beamforming)
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",
                             std::string(signal::name(options.angle_method)),
-                            "an array: one channel has no directions");
+                            "beamforming, or an array of " +
+                                std::to_string(signal::kFewestElements) + " channels or more");
+  if (options.unfold && radar.array.slots() == 1)
+    core::throw_input_error(core::ErrorClass::unsupported, "--unfold", "true",
+                            "two transmitters or more that take turns: their phases tell the fold");
   radar.maps = is_sequence(radar.waveform.kind);
   if (radar.maps) prepare_maps(options, front, radar);
   return radar;
