@@ -298,6 +298,22 @@ FmcwRadar fmcw_radar(const FmcwSettings& options) {
   return made(options, name_without_scene(options), front);
 }
 
+void check_has_maps(const FmcwRadar& radar) {
+  if (!radar.maps)
+    core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar.waveform_name,
+                            "a chirp sequence: the other kinds have no maps and no detections");
+}
+
+void check_detects(const FmcwRadar& radar) {
+  check_has_maps(radar);
+  const signal::CfarReach& reach = radar.detection.cfar.along_rows;
+  const int window = 2 * (reach.guard + reach.reference);
+  if (radar.axes.doppler_cells <= window)
+    core::throw_input_error(core::ErrorClass::range, "--chirps", radar.axes.doppler_cells,
+                            "more than the " + std::to_string(window) +
+                                " Doppler cells over which --cfar-guard and --cfar-training reach");
+}
+
 void check_tells_samples(const FmcwSettings& options) {
   const std::string name = name_without_scene(options);
   if (name != kAutomotive && is_sequence(kind_of(name)) &&

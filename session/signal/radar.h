@@ -47,6 +47,11 @@ FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor)
 // figure (E-REF where they do not).
 FmcwRadar fmcw_radar(const FmcwSettings& options);
 
+// E-UNSUPPORTED for a waveform that has no maps, detections or cells.
+void check_has_maps(const FmcwRadar& radar);
+// Beside that E-RANGE where the detector's window would meet itself around the Doppler cells.
+void check_detects(const FmcwRadar& radar);
+
 // Recorded samples had a rate of their own, which decides their ranges: E-REF where the settings of a chirp
 // sequence do not tell it.
 void check_tells_samples(const FmcwSettings& options);

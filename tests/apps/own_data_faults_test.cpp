@@ -143,6 +143,28 @@ TEST_CASE("What contradicts itself in a radar file is the file's fault", "[track
   CHECK(tests::run_fanbeam(fmcw + " --slots 2").exit_code == 3);
 }
 
+TEST_CASE(
+    "A radar without maps, or with fewer chirps than its detector looks over, is told as such",
+    "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path radar = folder.write("triangle.toml",
+                                      "[waveform]\nkind = \"triangle\"\nfrequency_GHz = 76\n"
+                                      "bandwidth_MHz = 250\n[receiver]\nnoise_figure_dB = 10\n");
+  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
+  INFO(run.output);
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("triangle.toml: E-UNSUPPORTED waveform.kind = ") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+  const std::string fmcw =
+      "fmcw street-76ghz -q --chirps 8 -o " + tests::quoted(folder.path() / "fmcw");
+  const auto few = tests::run_fanbeam(fmcw);
+  INFO(few.output);
+  CHECK(few.exit_code == 2);
+  CHECK(few.output.find("--chirps = 8") != std::string::npos);
+  CHECK(tests::run_fanbeam(fmcw + " --products beat").exit_code == 0);
+}
+
 TEST_CASE("Numbers of elements given as options replace a file's places", "[fmcw]") {
   const tests::TemporaryFolder folder;
   std::string text = kRadar;

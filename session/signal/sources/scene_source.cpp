@@ -23,11 +23,12 @@ class SceneSource : public MeasuredSource {
     scene_ = Session(description, {}, problems).scene();
     warnings = problems.all();
     const sensors::Sensor& sensor = scene_->description.sensor;
-    const auto radar = [&] { return fmcw_radar(settings_, sensor); };
+    const auto radar = [&] {
+      FmcwRadar made = fmcw_radar(settings_, sensor);
+      check_detects(made);
+      return made;
+    };
     radar_ = file.empty() ? radar() : radar_in_file(file, radar);
-    if (!radar_.maps)
-      core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar_.waveform_name,
-                              "a chirp sequence: the other kinds have no detections");
     indices_ = parse_frames(asked_.frames.empty() ? "0:" : asked_.frames, scene_->frame_count());
     name = scene_->description.name;
     kind = "scene";
