@@ -16,6 +16,7 @@
 #include "core/files.h"
 #include "core/json_node.h"
 #include "core/spelling.h"
+#include "core/text.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -131,6 +132,16 @@ void read_segment(const JsonNode& segment, core::HighwayTarget& result) {
     refuse(segment, "type", ErrorClass::unsupported, type, "\"acceleration\" or \"lane-change\"");
 }
 
+// It stands in a table's cell.
+void check_name(const JsonNode& owner, const std::string& name) {
+  const bool fits = std::all_of(name.begin(), name.end(), [](char one) {
+    return one != ',' && one != '"' && static_cast<unsigned char>(one) >= 0x20;
+  });
+  if (!fits || name.empty())
+    refuse(owner, "id", ErrorClass::range, '"' + core::printable_text(name.substr(0, 60)) + '"',
+           "a name without commas, quotes and control characters");
+}
+
 core::HighwayTarget target_of(const JsonNode& target) {
   const std::string motion = text(target, "motion");
   std::vector<const char*> known = {"id", "kind", "rcs_m2", "swerling", "clutter", "motion"};
@@ -139,7 +150,7 @@ core::HighwayTarget target_of(const JsonNode& target) {
   if (motion != "circular") known.insert(known.end(), {"position_m", "velocity_mps", "segments"});
   check_keys(target, known);
   core::HighwayTarget result;
-  result.id = text(target, "id");
+  if (const auto id = target.required("id").text()) check_name(target, result.id = *id);
   result.kind = text(target, "kind");
   result.cross_section_m2 = number(target, "rcs_m2", 0.0, 1e12);
   result.fluctuation =

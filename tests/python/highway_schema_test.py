@@ -56,6 +56,7 @@ CHANGES = {
     "unknown member": (change(["scenarios", 0, "weather"], "rain"), False),
     "unknown radar member": (change(["scenarios", 0, "radar_overrides"], {"noise_figre_db": 12}), False),
     "no duration": (change(["scenarios", 0, "duration_s"], None), False),
+    "a target's name of two cells": (change(["scenarios", 0, "targets", 0, "id"], "A, left"), False),
     "unknown motion": (change(["scenarios", 0, "targets", 0, "motion"], "spiral"), False),
     "three numbers": (change(["scenarios", 0, "targets", 0, "position_m"], [1, 2, 3]), False),
     "waveforms": (change(["waveforms"], {"tri": {"type": "triangle", "ramp_s": 1e-3}}), True),

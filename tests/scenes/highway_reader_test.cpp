@@ -157,6 +157,18 @@ TEST_CASE("Hostile scenario files are refused before they cost anything", "[high
             .has(core::ErrorClass::limit));
 }
 
+TEST_CASE("A target's id fits into a cell of a table", "[highway]") {
+  const auto named = [](const char* id) {
+    return replaced(file_with(kStraight), "\"id\": \"A\"", std::string("\"id\": \"") + id + "\"");
+  };
+  for (const char* id : {"A, left", "A \\\"left\\\"", "A\\nleft", ""}) {
+    INFO(id);
+    check_refused(named(id), core::ErrorClass::range, "/scenarios/0/targets/0/id");
+  }
+  CHECK(scenes::parse_highway(named("Käfer 2 (left)"), "test.json").scenarios[0].targets[0].id ==
+        "Käfer 2 (left)");
+}
+
 TEST_CASE("A lane is not changed in no time, which has no finite rate", "[highway]") {
   check_refused(file_with(R"("motion": "piecewise-acceleration", "position_m": [50, 3],
         "velocity_mps": [22, 1], "segments": [
