@@ -133,7 +133,7 @@ void read_segment(const JsonNode& segment, core::HighwayTarget& result) {
 }
 
 // It stands in a table's cell.
-void check_name(const JsonNode& owner, const std::string& name) {
+void check_target_id(const JsonNode& owner, const std::string& name) {
   const bool fits = std::all_of(name.begin(), name.end(), [](char one) {
     return one != ',' && one != '"' && static_cast<unsigned char>(one) >= 0x20;
   });
@@ -150,7 +150,7 @@ core::HighwayTarget target_of(const JsonNode& target) {
   if (motion != "circular") known.insert(known.end(), {"position_m", "velocity_mps", "segments"});
   check_keys(target, known);
   core::HighwayTarget result;
-  if (const auto id = target.required("id").text()) check_name(target, result.id = *id);
+  if (const auto id = target.required("id").text()) check_target_id(target, result.id = *id);
   result.kind = text(target, "kind");
   result.cross_section_m2 = number(target, "rcs_m2", 0.0, 1e12);
   result.fluctuation =
