@@ -102,6 +102,9 @@ class Run {
                     : fs::path(options.output),
                 "", options.overwrite) {
     refuse_idle_options(options, products_);
+    if (products_.contains(kInterference) && scene.description.interferers.empty())
+      core::throw_input_error(core::ErrorClass::ref, "--products", "\"interference\"",
+                              "a scene with [[interferer]]: this one has no other radar");
     if (!products_.contains(kSpectrogram)) return;
     spectrogram_.emplace(radar_, options.spectrogram_of);
     const auto& targets = scene.world.targets;

@@ -31,6 +31,7 @@ constexpr core::NumberRange kTimes_s{-1e10, 1e10};
 constexpr core::NumberRange kRanges_m{0.0, 1e6, true};
 constexpr core::NumberRange kSpeeds_mps{-1e5, 1e5};
 constexpr core::NumberRange kTurn_rad{-core::kPi, core::kPi};
+constexpr core::NumberRange kRise_rad{-0.5 * core::kPi, 0.5 * core::kPi};
 constexpr core::NumberRange kRatios_dB{-300.0, 300.0};
 constexpr core::NumberRange kPowers_W{0.0, 1e12};
 constexpr core::NumberRange kClusters{-1.0, 1e9};
@@ -41,14 +42,15 @@ struct Column {
   core::NumberRange range;
   bool needed;
 };
-constexpr std::array<Column, 7> kColumns = {{{"time_s", kTimes_s, true},
+constexpr std::array<Column, 8> kColumns = {{{"time_s", kTimes_s, true},
                                              {"range_m", kRanges_m, true},
                                              {"radial_speed_mps", kSpeeds_mps, true},
                                              {"azimuth_deg", {-180.0, 180.0}, true},
                                              {"power_W", kPowers_W, false},
                                              {"snr_dB", kRatios_dB, false},
-                                             {"cluster", kClusters, false}}};
-enum { kTime, kRange, kSpeed, kAzimuth, kPower, kRatio, kCluster };
+                                             {"cluster", kClusters, false},
+                                             {"elevation_deg", {-90.0, 90.0}, false}}};
+enum { kTime, kRange, kSpeed, kAzimuth, kPower, kRatio, kCluster, kElevation };
 
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
@@ -65,6 +67,7 @@ void add(DetectedFrame& frame, const std::array<double, kColumns.size()>& values
   detection.range_m = values[kRange];
   detection.radial_speed_mps = values[kSpeed];
   detection.azimuth_rad = core::radians(values[kAzimuth]);
+  detection.elevation_rad = core::radians(values[kElevation]);
   detection.power_W = values[kPower];
   detection.snr = std::pow(10.0, 0.1 * values[kRatio]);
   frame.detections.push_back(detection);
@@ -179,6 +182,7 @@ DetectedFrame frame_in(const JsonNode& node) {
     values[kRange] = one.required("range_m").number(kRanges_m).value_or(1.0);
     values[kSpeed] = one.required("radial_speed_mps").number(kSpeeds_mps).value_or(0.0);
     values[kAzimuth] = core::degrees(one.required("azimuth_rad").number(kTurn_rad).value_or(0.0));
+    values[kElevation] = core::degrees(one.member("elevation_rad").number(kRise_rad).value_or(0.0));
     values[kPower] = one.member("power_W").number(kPowers_W).value_or(0.0);
     values[kRatio] = one.member("snr_dB").number(kRatios_dB).value_or(kRatios_dB.high);
     values[kCluster] = one.member("cluster").whole(-1, 1'000'000'000).value_or(signal::kNoCluster);

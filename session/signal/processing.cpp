@@ -55,6 +55,7 @@ void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
       wants({"range-doppler", "range-azimuth", "top-view", "detections", "spectrogram"});
   const bool angles = wants({"cube", "range-azimuth", "top-view"});
   if (!radar.maps || !(detections || angles)) return;
+  if (detections) check_detects(radar);
   signal::FloatCube changed;
   const bool mends = settings.mitigation != signal::Mitigation::none;
   if (mends || radar.power_scale != 1.0) changed = frame.beats[0];

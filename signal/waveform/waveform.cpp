@@ -121,6 +121,10 @@ int slots(const std::vector<Segment>& stage) {
   return most + 1;
 }
 
+double middle_s(const std::vector<Segment>& stage) {
+  return 0.5 * (stage.front().middle_s() + stage.back().middle_s());
+}
+
 int samples_per_segment(const Waveform& waveform, int stage) {
   for (const Segment& segment : waveform.segments)
     if (segment.stage == stage)

@@ -71,6 +71,7 @@ struct Waveform {
 // Segments of one stage, in order. One chirp of a cube is `slots` of them.
 std::vector<Segment> stage_segments(const Waveform& waveform, int stage);
 int slots(const std::vector<Segment>& stage);
+double middle_s(const std::vector<Segment>& stage);            // of all its segments, not empty
 int samples_per_segment(const Waveform& waveform, int stage);  // the last partial one is dropped
 
 // Throws InputError for anything a hand-made waveform may get wrong: values that are not finite or

@@ -234,6 +234,16 @@ TEST_CASE("fmcw refuses what it cannot use", "[fmcw]") {
   CHECK(code("--products maps") == 2);
   CHECK(code("--waveform chirp-sequence --slots 2") == 2);
   CHECK(code("--frames 3") == 2);
+  // What would do nothing in silence: no turns that tell a fold, no other radar, too few channels for sub-arrays.
+  CHECK(code("--unfold --slots 1") == 2);
+  CHECK(code("--unfold --transmitters 1") == 2);
+  CHECK(code("--products interference") == 2);
+  for (const char* method : {"capon", "music"}) {
+    const auto few =
+        tests::run_fanbeam(command + "--transmitters 1 --receivers 3 --angle-method " + method);
+    CHECK(few.exit_code == 3);
+    CHECK(few.output.find("4 channels") != std::string::npos);
+  }
   CHECK(code("--pfa nan") == 2);
   // Ranges to 151 m against 75 m of 12.5 MHz / 2.
   CHECK(code("--sample-rate 5 --refuse-folding --products detections") == 3);

@@ -4,7 +4,9 @@
 #include <complex>
 #include <limits>
 
+#include "core/constants.h"
 #include "core/npy.h"
+#include "session/signal/detection_file.h"
 #include "session/signal/radar.h"
 #include "session/signal/radar_file.h"
 #include "tests/apps/program.h"
@@ -73,6 +75,30 @@ TEST_CASE("JSON frames of one time are one frame, and all that go back are told"
   CHECK(run.output.find("frame 2 time_s = 1") != std::string::npos);
 }
 
+TEST_CASE("Elevations are read from tables and from JSON, and lie within a quarter turn",
+          "[track]") {
+  const tests::TemporaryFolder folder;
+  core::ProblemList problems;
+  const fs::path csv = folder.write(
+      "car.csv", "time_s,range_m,radial_speed_mps,azimuth_deg,elevation_deg\n0,50,1,0,30\n");
+  const auto in_table = session::read_detections(csv, problems);
+  REQUIRE(in_table.size() == 1);
+  CHECK(in_table[0].detections.at(0).elevation_rad == Approx(core::kPi / 6.0));
+  const std::string one = R"({"range_m": 50, "radial_speed_mps": 1, "azimuth_rad": 0)";
+  const fs::path json = folder.write("car.json", R"({"time_s": 0, "detections": [)" + one +
+                                                     R"(, "elevation_rad": -0.2}, )" + one + "}]}");
+  const auto in_json = session::read_detections(json, problems);
+  REQUIRE(in_json.size() == 1);
+  CHECK(in_json[0].detections.at(0).elevation_rad == Approx(-0.2));
+  CHECK(in_json[0].detections.at(1).elevation_rad == 0.0);
+  CHECK_FALSE(problems.has_errors());
+  session::read_detections(
+      folder.write("high.csv",
+                   "time_s,range_m,radial_speed_mps,azimuth_deg,elevation_deg\n0,50,1,0,91\n"),
+      problems);
+  CHECK(problems.has_errors());
+}
+
 TEST_CASE("Options of another kind of input are refused by name", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
@@ -115,6 +141,28 @@ TEST_CASE("What contradicts itself in a radar file is the file's fault", "[track
   // An option that mends it, and one that breaks it again.
   CHECK(tests::run_fanbeam(fmcw + " --slots 1").exit_code == 0);
   CHECK(tests::run_fanbeam(fmcw + " --slots 2").exit_code == 3);
+}
+
+TEST_CASE(
+    "A radar without maps, or with fewer chirps than its detector looks over, is told as such",
+    "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path radar = folder.write("triangle.toml",
+                                      "[waveform]\nkind = \"triangle\"\nfrequency_GHz = 76\n"
+                                      "bandwidth_MHz = 250\n[receiver]\nnoise_figure_dB = 10\n");
+  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
+  INFO(run.output);
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("triangle.toml: E-UNSUPPORTED waveform.kind = ") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+  const std::string fmcw =
+      "fmcw street-76ghz -q --chirps 8 -o " + tests::quoted(folder.path() / "fmcw");
+  const auto few = tests::run_fanbeam(fmcw);
+  INFO(few.output);
+  CHECK(few.exit_code == 2);
+  CHECK(few.output.find("--chirps = 8") != std::string::npos);
+  CHECK(tests::run_fanbeam(fmcw + " --products beat").exit_code == 0);
 }
 
 TEST_CASE("Numbers of elements given as options replace a file's places", "[fmcw]") {

@@ -157,6 +157,18 @@ TEST_CASE("Hostile scenario files are refused before they cost anything", "[high
             .has(core::ErrorClass::limit));
 }
 
+TEST_CASE("A target's id fits into a cell of a table", "[highway]") {
+  const auto named = [](const char* id) {
+    return replaced(file_with(kStraight), "\"id\": \"A\"", std::string("\"id\": \"") + id + "\"");
+  };
+  for (const char* id : {"A, left", "A \\\"left\\\"", "A\\nleft", ""}) {
+    INFO(id);
+    check_refused(named(id), core::ErrorClass::range, "/scenarios/0/targets/0/id");
+  }
+  CHECK(scenes::parse_highway(named("Käfer 2 (left)"), "test.json").scenarios[0].targets[0].id ==
+        "Käfer 2 (left)");
+}
+
 TEST_CASE("A lane is not changed in no time, which has no finite rate", "[highway]") {
   check_refused(file_with(R"("motion": "piecewise-acceleration", "position_m": [50, 3],
         "velocity_mps": [22, 1], "segments": [
@@ -320,6 +332,11 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
   check_refused(
       with_waveforms(R"("w": {"type": "two-stage", "ramp_s": 0.002, "coarse": {}, "fine": {}})"),
       core::ErrorClass::ref, "/waveforms/w/ramp_s");
+  // Its stages have rates of their own, and no study averages buffers of it.
+  for (const char* key : {"sample_rate_hz", "ramps_per_buffer"})
+    check_refused(with_waveforms(R"("w": {"type": "two-stage", "coarse": {}, "fine": {}, ")" +
+                                 std::string(key) + "\": 1000}"),
+                  core::ErrorClass::ref, "/waveforms/w/" + std::string(key));
   const std::string circle =
       R"("motion": "circular", "radius_m": 50, "azimuth0_rad": 0, "angular_rate_rad_s": 0.1)";
   check_refused(file_with(circle + R"(, "velocity_mps": [1, 2])"), core::ErrorClass::ref,
@@ -341,10 +358,11 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
                       (lane ? "acceleration_mps2" : "lateral_m"));
   }
   // Members of JSON have no order: of two triangles the first by name counts.
-  const auto radar =
-      scenes::parse_highway(with_waveforms(R"("z": {"type": "triangle", "ramp_s": 0.001},
-                                           "a": {"type": "triangle", "ramp_s": 0.004})"),
-                            "test.json")
-          .radar;
+  const auto radar = scenes::parse_highway(with_waveforms(
+                                               R"("z": {"type": "triangle", "ramp_s": 0.001},
+                 "a": {"type": "triangle", "ramp_s": 0.004, "sample_rate_hz": 2e6})"),
+                                           "test.json")
+                         .radar;
   CHECK(radar.waveforms.triangle_ramp_s == 0.004);
+  CHECK(radar.waveforms.triangle_rate_Hz == 2e6);
 }

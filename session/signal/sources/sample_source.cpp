@@ -149,7 +149,9 @@ class SampleSource : public MeasuredSource {
         radar_(radar_in_file(radar_file,
                              [this] {
                                check_tells_samples(settings_);
-                               return fmcw_radar(settings_);
+                               FmcwRadar radar = fmcw_radar(settings_);
+                               check_detects(radar);
+                               return radar;
                              })),
         files_(files, radar_, settings_.layout) {
     check_values(files);

@@ -54,8 +54,7 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
 int beyond(const tracking::SampledRadar& radar, const tracking::ScenarioFrame& frame) {
   return static_cast<int>(
       std::count_if(frame.truth.begin(), frame.truth.end(), [&](const core::HighwayTruth& one) {
-        return one.in_view && (one.range_m > radar.most_range_m() ||
-                               std::abs(one.range_rate_mps) > radar.most_speed_mps());
+        return one.in_view && !radar.shows(one.range_m, one.range_rate_mps);
       }));
 }
 
