@@ -244,4 +244,13 @@ const std::vector<Effect>& effect_catalogue(Touches touched) {
   return touched == Touches::samples ? sample_effects() : picture_effects();
 }
 
+std::vector<core::EffectId> effects_shown_in(Touches touched) {
+  std::vector<core::EffectId> shown;
+  for (const Effect& effect : picture_effects())
+    if (touched == Touches::pictures || effect.in_echoes) shown.push_back(effect.id);
+  if (touched == Touches::samples)
+    for (const Effect& effect : sample_effects()) shown.push_back(effect.id);
+  return shown;
+}
+
 }  // namespace fanbeam::renderer
