@@ -7,6 +7,7 @@
 #include "session/labels/frame_labels.h"
 #include "session/labels/labels_json.h"
 #include "session/labels/run_labels.h"
+#include "session/products/products.h"
 #include "session/session.h"
 #include "tests/scenes/doctor_scene.h"
 
@@ -31,11 +32,13 @@ std::string unnamed_target(double behind_m, const std::string& keys = "") {
 // Of a frame of the small scene's approach, with more tables.
 class Labelled {
  public:
-  Labelled(const tests::TemporaryFolder& folder, const std::string& text) {
+  Labelled(const tests::TemporaryFolder& folder, const std::string& text,
+           const session::ProductSet& products = {"labels"}) {
     folder.write("scene.toml", text);
     core::ProblemList problems;
     session::Setup setup;
     setup.shipped = FANBEAM_SOURCE_DIR;
+    session::plan_for(products, setup.build);
     session::Session session(folder.path(), setup, problems);
     session.set(session::Samples{2.0});
     scene = session.scene();
@@ -102,6 +105,27 @@ TEST_CASE("Points on a slope are as high as each stands over its own ground", "[
   const std::vector<ObjectLabel> posts = labelled.of(ObjectGroup::target);
   REQUIRE(posts.size() == 1);
   CHECK(posts[0].height_m == Approx(2.0).margin(0.1));
+}
+
+// Noise that the display hides was left out of it unless `power` was asked for beside the labels.
+TEST_CASE("Signal to clutter counts the noise that a display hides", "[labels]") {
+  const tests::TemporaryFolder folder;
+  const std::string text =
+      tests::kSmallScene +
+      on_runway("target", 300.0,
+                "above_ground_m = 2.0\nrcs = { shape = \"constant\", rcs_dBsm = 30.0 }\n") +
+      "\n[display]\nmapping = \"log\"\nlow_dB = -90.0\nhigh_dB = -40.0\n";
+  const auto of_target_dB = [&](const session::ProductSet& products) {
+    const std::vector<ObjectLabel> targets =
+        Labelled(folder, text, products).of(ObjectGroup::target);
+    REQUIRE(targets.size() == 1);
+    REQUIRE(targets[0].signal_to_clutter_dB);
+    return *targets[0].signal_to_clutter_dB;
+  };
+  const double labelled_dB = of_target_dB({"labels"});
+  CHECK(of_target_dB({"labels", "power"}) == labelled_dB);
+  // Where nobody reads it, it is not there.
+  CHECK(of_target_dB({"cscope"}) > labelled_dB + 1e-3);
 }
 
 TEST_CASE("Labels of a scene whose only rain is a rain cell tell of rain", "[labels]") {
