@@ -176,6 +176,10 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
   atmosphere::Weather weather = rain(*session, -1.0);
   weather.rain_top_m = 1e9;
   CHECK(problems_of([&] { session->set(weather); }) == 2);
+  // The plan decides which losses run; these were switched on again in silence.
+  weather = rain(*session, 5.0);
+  weather.simulate_gas = weather.simulate_rain = false;
+  CHECK(problems_of([&] { session->set(weather); }) == 2);
   CHECK(problems_of([&] {
           session->set(session::SensorSettings{.boresight_elevation_rad = 4.0, .low_dB = 50.0});
         }) == 2);
@@ -419,6 +423,24 @@ TEST_CASE("A plan is told which products read more than pictures", "[session]") 
   CHECK(read_by({"obstacles"}).read.obstacles);
   const renderer::Readings none = read_by({"bscope", "cscope", "figure"}).read;
   CHECK_FALSE((none.power || none.labels || none.detections || none.obstacles));
+}
+
+TEST_CASE("A scene that is opened with a loss switched off says what chooses effects",
+          "[session]") {
+  const TemporaryFolder folder;
+  core::ProblemList problems;
+  scenes::SceneDescription description = scenes::read_scene(written(folder, tests::kSmallScene),
+                                                            {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+  description.weather.simulate_fog = false;
+  try {
+    Session(description, {}, problems);
+    FAIL("taken");
+  } catch (const core::InputError& error) {
+    REQUIRE(error.problems().size() == 1);
+    CHECK(error.problems()[0].code == "E-UNSUPPORTED");
+    CHECK(error.problems()[0].field == "simulate_fog");
+    CHECK(error.problems()[0].expected == "true: effects are chosen by BuildOptions::wishes");
+  }
 }
 
 // They came from a plan that had left out what tips thresholds.
