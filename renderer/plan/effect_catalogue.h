@@ -30,7 +30,7 @@ enum class Touches {
 struct Effect {
   core::EffectId id;
   std::string_view what;    // "two-way loss in fog"
-  std::string_view source;  // "ITU-R P.840-8"
+  std::string_view source;  // "ITU-R P.840-8": of the law that is taken by default
   bool (*possible)(const SceneFacts&);
   double (*bound_dB)(const SceneFacts&);
   std::string (*cause)(const SceneFacts&, double bound_dB);  // effect_texts.h
@@ -47,6 +47,9 @@ struct Effect {
 const std::vector<Effect>& effect_catalogue(Touches touched = Touches::pictures);
 // Those that show: in pictures, or in samples with what the scene's echoes have.
 std::vector<core::EffectId> effects_shown_in(Touches touched);
+
+// Of the laws by which a scene with this weather has the effect, else its own.
+std::string source_in(const Effect& effect, const atmosphere::Weather& weather);
 
 // How far above the aircraft the bounds look for what attenuates: what level at the aircraft, tilted
 // against the origin's, rises within range, 300 m at least.

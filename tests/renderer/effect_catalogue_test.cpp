@@ -65,6 +65,44 @@ TEST_CASE("An effect that samples do not show cannot be forced on there, only of
   }
 }
 
+// They named the default laws whatever the weather went by.
+TEST_CASE("An effect's source is that of the laws that the weather goes by", "[effects]") {
+  const auto source = [](core::EffectId id, const atmosphere::Weather& weather) {
+    for (const renderer::Effect& effect : renderer::effect_catalogue())
+      if (effect.id == id) return renderer::source_in(effect, weather);
+    return std::string();
+  };
+  atmosphere::Weather weather;
+  // None is there: as the catalogue has it.
+  CHECK(source(core::EffectId::fog, weather) == "ITU-R P.840-8");
+  CHECK(source(core::EffectId::rain, weather) == "ITU-R P.838-3");
+  weather.liquid_water_g_per_m3 = 0.1;
+  weather.rain_rate_mm_per_h = 5.0;
+  CHECK(source(core::EffectId::fog, weather) == "Recommendation ITU-R P.840-8");
+  CHECK(source(core::EffectId::rain, weather) == "Recommendation ITU-R P.838-3");
+  weather.fog_law = atmosphere::FogLaw::altshuler;
+  weather.rain_law = atmosphere::RainLaw::mie;
+  weather.rain_echo_law = atmosphere::RainEchoLaw::georgia_tech_1975;
+  CHECK(source(core::EffectId::fog, weather) == "Altshuler 1984, IEEE Trans. AP 32, 757");
+  CHECK(source(core::EffectId::rain, weather).find("Mie scattering") == 0);
+  CHECK(source(core::EffectId::rain_echo, weather) == "Georgia Tech 1975, measured (recalled)");
+  // A layer by another law, and what melts.
+  atmosphere::FogLayer cloud;
+  cloud.liquid_water_g_per_m3 = 0.2;
+  cloud.base_m = 300.0;
+  cloud.top_m = 500.0;
+  weather.fog_layers = {cloud, cloud};
+  weather.melting_height_m = 2000.0;
+  CHECK(source(core::EffectId::fog, weather) ==
+        "Altshuler 1984, IEEE Trans. AP 32, 757; Recommendation ITU-R P.840-8");
+  CHECK(source(core::EffectId::rain, weather).find("; Recommendation ITU-R P.530-17") !=
+        std::string::npos);
+  // What is no weather stays what it is.
+  for (const renderer::Effect& effect : renderer::effect_catalogue())
+    if (effect.id == core::EffectId::speckle)
+      CHECK(renderer::source_in(effect, weather) == effect.source);
+}
+
 TEST_CASE("An antenna sees heights as far from its aircraft's as lever and tilted level take it",
           "[effects]") {
   const auto& catalogue = renderer::effect_catalogue();

@@ -1,8 +1,10 @@
 // Which things of a scene are one labelled object, how high point targets stand, and what weather labels
 // tell.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "session/labels/frame_labels.h"
 #include "session/labels/labels_json.h"
@@ -27,6 +29,21 @@ std::string unnamed_target(double behind_m, const std::string& keys = "") {
   return on_runway(
       "target", behind_m,
       "above_ground_m = 2.0\nrcs = { shape = \"constant\", rcs_dBsm = 10.0 }\n" + keys);
+}
+
+// The small scene with a runway to the east, its middle at a longitude.
+std::string eastward(double longitude_deg) {
+  const auto longitude = [&](double aside_deg) {
+    return "longitude_deg = " + core::number_text(std::remainder(longitude_deg + aside_deg, 360.0));
+  };
+  std::string text = tests::replaced(tests::kSmallScene, "longitude_deg = 10.0, height_m",
+                                     longitude(0.0) + ", height_m");
+  text = tests::replaced(text, "\"36\", latitude_deg = 52.0, longitude_deg = 10.0",
+                         "\"09\", latitude_deg = 52.0, " + longitude(-0.007));
+  text = tests::replaced(text, "\"18\", latitude_deg = 52.009, longitude_deg = 10.0",
+                         "\"27\", latitude_deg = 52.0, " + longitude(0.007));
+  text = tests::replaced(text, "runway = \"36\", behind", "runway = \"09\", behind");
+  return tests::replaced(text, "runway = \"36\"\n", "runway = \"09\"\n");
 }
 
 // Of a frame of the small scene's approach, with more tables.
@@ -54,6 +71,12 @@ class Labelled {
     return objects;
   }
   std::string json() const { return session::labels_json(labels, *scene, 20, pose, {}); }
+  std::string lard() const {
+    session::RunLabels run;
+    run.add("", {"bscope/00020.png", "labels/00020.json"}, 1,
+            [&](const std::string&) { return json(); });
+    return run.lard();
+  }
 
   std::shared_ptr<const scenes::Scene> scene;
   core::Pose pose;
@@ -138,13 +161,24 @@ TEST_CASE("Labels of a scene whose only rain is a rain cell tell of rain", "[lab
     const Labelled labelled(
         folder, cell ? tests::replaced(tests::kSmallScene, "[trajectory.ils]", rain_cell)
                      : tests::kSmallScene);
-    const std::string text = labelled.json();
-    const auto weather = nlohmann::json::parse(text)["weather"];
+    const auto weather = nlohmann::json::parse(labelled.json())["weather"];
     CHECK(weather["rain"] == cell);
     CHECK(weather["rain_rate_mm_per_h"] == 0.0);
-    session::RunLabels run;
-    run.add("", {"bscope/00020.png", "labels/00020.json"}, 1,
-            [&](const std::string&) { return text; });
-    CHECK(run.lard().find(cell ? ";rain;" : ";fog;") != std::string::npos);
+    CHECK(labelled.lard().find(cell ? ";rain;" : ";fog;") != std::string::npos);
   }
+}
+
+// Over the date line a runway was taken to point round the Earth, and nobody to approach it.
+TEST_CASE("The time to landing is the same on a runway across the date line", "[labels]") {
+  const tests::TemporaryFolder folder;
+  const auto seconds = [&](double longitude_deg) {
+    const std::string table = Labelled(folder, eastward(longitude_deg)).lard();
+    std::istringstream row(table.substr(table.find('\n') + 1));
+    std::string field;
+    for (int i = 0; i < 9; ++i) std::getline(row, field, ';');  // time_to_landing
+    return field;
+  };
+  const std::string at_10_E = seconds(10.0);
+  CHECK(std::stod(at_10_E) == Approx(20.15).margin(0.05));
+  CHECK(seconds(180.0) == at_10_E);
 }
