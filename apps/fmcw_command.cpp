@@ -29,7 +29,7 @@ namespace fanbeam::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using measure::Clock;
+using Clock = measure::Clock;
 
 // The next stretch begins where this one ends.
 double ms_since(Clock::time_point& begin) {
