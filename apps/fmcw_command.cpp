@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -14,6 +13,7 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/stop.h"
+#include "measure/clock.h"
 #include "scenes/scene.h"
 #include "session/frame_choice.h"
 #include "session/records/output_folder.h"
@@ -29,12 +29,12 @@ namespace fanbeam::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
+using Clock = measure::Clock;
 
+// The next stretch begins where this one ends.
 double ms_since(Clock::time_point& begin) {
-  const Clock::time_point now = Clock::now();
-  const double ms = std::chrono::duration<double, std::milli>(now - begin).count();
-  begin = now;
+  const double ms = measure::milliseconds_since(begin);
+  begin = Clock::now();
   return ms;
 }
 

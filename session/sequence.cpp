@@ -53,7 +53,7 @@ core::EffectSet left_out(const core::EffectPlan& sequence, const core::EffectPla
   return effects;
 }
 
-void check(const SequenceSettings& settings) {
+void check(const SequenceSettings& settings, const scenes::BuildOptions& told) {
   core::ProblemList problems;
   const auto one_of = [&](const char* field, const std::string& value, const auto& known) {
     const std::vector<std::string> names(known.begin(), known.end());
@@ -68,6 +68,9 @@ void check(const SequenceSettings& settings) {
   for (const std::string& product : settings.products) one_of("products", product, known);
   one_of("preview_format", settings.preview_format, kPreviewFormats);
   if (!settings.range_unit.empty()) one_of("range_unit", settings.range_unit, kRangeUnits);
+  scenes::BuildOptions needed;
+  plan_for(settings.products, needed);
+  check_told(needed, told, problems);
   problems.throw_if_errors();
 }
 
@@ -238,7 +241,7 @@ Sequence Run::result() const {
 
 Sequence render_sequence(Session& session, const SequenceSettings& settings,
                          const ProgressListener& progress) {
-  check(settings);
+  check(settings, session.scene()->options);
   Run run(session, settings);
   run.render_frames(progress);
   run.write_records();

@@ -43,7 +43,8 @@ struct Sequence {
 };
 
 // Sets the session's sampling; no `set` may come in between. Throws InputError: E-REF for every name
-// in `settings` that is not known, as parse_frames, as OutputFolder, E-IO.
+// in `settings` that is not known and for products that the session was not opened for (plan_for), as
+// parse_frames, as OutputFolder, E-IO.
 Sequence render_sequence(Session& session, const SequenceSettings& settings,
                          const ProgressListener& progress);
 

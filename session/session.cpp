@@ -119,11 +119,15 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
   return sensor;
 }
 
-// A plan that counts on nobody asking for heights does not hold for whoever does.
+// Of what a frame itself may be asked for; its watts are whoever opened the session's to tell of.
 void check(const renderer::Products& wanted, const scenes::Scene& scene) {
-  if (show_heights(wanted) && !scene.options.heights_shown)
-    core::throw_input_error(core::ErrorClass::ref, "products", "C-scope, its layers or obstacles",
-                            "none of them, as the session was opened without them (heights_shown)");
+  scenes::BuildOptions needed;
+  needed.heights_shown = show_heights(wanted);
+  needed.read.detections = wanted.detections;
+  needed.read.obstacles = wanted.obstacles;
+  core::ProblemList problems;
+  check_told(needed, scene.options, problems);
+  problems.throw_if_errors();
 }
 
 // What a frame is made under.

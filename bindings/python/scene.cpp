@@ -38,6 +38,7 @@ std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
   setup.shipped = shipped;
   setup.data_folders = data;
   setup.sensor = sensor;
+  setup.build.read = {.power = true, .labels = true};  // any frame may be asked for both
   if (!effects.empty()) setup.build.wishes = renderer::parse_effect_wishes(effects);
   if (!caster.empty()) {
     const auto& words = renderer::kCasterWishes;

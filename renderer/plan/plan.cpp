@@ -182,20 +182,17 @@ std::vector<core::EffectId> known_effects(Touches touched) {
   return known;
 }
 
-bool is_simulated(core::EffectId id, Touches touched) {
-  if (touched == Touches::pictures) return true;
-  const auto has = [&](const std::vector<Effect>& effects, bool all) {
-    return std::ranges::any_of(effects, [&](const Effect& effect) {
-      return effect.id == id && (all || effect.in_echoes);
-    });
-  };
-  return has(effect_catalogue(touched), true) || has(effect_catalogue(), false);
+std::string wishes_text(const std::vector<core::EffectId>& effects) {
+  std::string text;
+  for (const core::EffectId effect : effects) text.append(" +").append(name_of(effect));
+  return text;
 }
 
 }  // namespace
 
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
   const std::vector<core::EffectId> effects = known_effects(touched);
+  const std::vector<core::EffectId> shown = effects_shown_in(touched);
   EffectWishes wishes;
   std::size_t from = 0;
   while (from <= text.size()) {
@@ -207,19 +204,16 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
     } else if (word == "none") {
       wishes.base = EffectWishes::Base::none;
     } else {
-      std::string known;
-      for (const core::EffectId effect : effects) known.append(" +").append(name_of(effect));
       const auto found =
           word.empty() ? effects.end()
                        : std::ranges::find(effects, std::string_view(word).substr(1),
                                            [](core::EffectId effect) { return name_of(effect); });
       if (found == effects.end() || (word[0] != '+' && word[0] != '-'))
         core::throw_input_error(core::ErrorClass::ref, "--effects", "\"" + word + "\"",
-                                "all, none, or + or - before one of" + known);
-      if (word[0] == '+' && !is_simulated(*found, touched))
-        core::throw_input_error(
-            core::ErrorClass::unsupported, "--effects", "\"" + word + "\"",
-            "an effect that echoes have: the samples of a receiver do not show it");
+                                "all, none, or + or - before one of" + wishes_text(effects));
+      if (word[0] == '+' && std::ranges::find(shown, *found) == shown.end())
+        core::throw_input_error(core::ErrorClass::unsupported, "--effects", "\"" + word + "\"",
+                                "one that samples show:" + wishes_text(shown));
       (word[0] == '+' ? wishes.forced_on : wishes.forced_off).insert(*found);
     }
   }

@@ -17,8 +17,9 @@ struct EffectWishes {
   core::EffectSet forced_on, forced_off;
 };
 
-// "all", "none", "+rain,-gas", "all,-fog". Throws InputError E-REF for an unknown effect, naming
-// the known ones: those that touch pictures, and for `touched` samples these as well.
+// "all", "none", "+rain,-gas", "all,-fog". Throws InputError: E-REF for an unknown effect, naming
+// the known ones, those that touch pictures and for `touched` samples these as well; E-UNSUPPORTED
+// for one forced on that samples do not show (effects_shown_in).
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched = Touches::pictures);
 
 // That may be asked for, in grey levels.

@@ -267,11 +267,13 @@ std::string timing_json(const RunRecord& record) {
   return json.dump(1) + "\n";
 }
 
-// Of the plan what runs: reasons and bounds hang on what else is asked for, and change no picture.
+// Of the plan what runs: reasons and bounds hang on what else is asked for, and change no picture but
+// of frames with plans of their own.
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record) {
   Json header = header_json(scene, record);
-  for (Json& decision : header["plan"])
-    decision = {{"effect", decision["effect"]}, {"on", decision["on"]}};
+  if (!record.plan_per_frame)
+    for (Json& decision : header["plan"])
+      decision = {{"effect", decision["effect"]}, {"on", decision["on"]}};
   return fingerprint_of(header.dump(), scene.description.files);
 }
 

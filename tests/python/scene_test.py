@@ -149,6 +149,13 @@ def test_watts_follow_the_radar_equation_with_rain(grass):
     assert 10 * np.log10(dry[row] / wet[row]) == pytest.approx(loss_dB, rel=0.01)
 
 
+def test_watts_hold_the_noise_that_a_display_hides():
+    scene = fanbeam.Scene.open("flat-grass")
+    scene.set_sensor(low_dB=100.0, high_dB=150.0)
+    assert scene.plan.runs("thermal-noise")
+    assert scene.render(0, cscope=False).meta["noise_W"] == scene.facts["noise_W"] > 0.0
+
+
 def test_conditions_change_what_they_name_alone(grass):
     scene = fanbeam.Scene.open("flat-grass")
     scene.set_weather(visibility_m=200.0, temperature_C=5.0)

@@ -17,11 +17,13 @@ using namespace fanbeam;
 using tests::TemporaryFolder;
 
 std::unique_ptr<session::Session> opened(const TemporaryFolder& folder,
-                                         const renderer::CasterWish caster) {
+                                         const renderer::CasterWish caster,
+                                         const renderer::Readings& read = {}) {
   folder.write("scene.toml", tests::kSmallScene);
   core::ProblemList problems;
   session::Setup setup{.shipped = FANBEAM_SOURCE_DIR};
   setup.build.caster = caster;
+  setup.build.read = read;
   return std::make_unique<session::Session>(folder.path(), setup, problems);
 }
 
@@ -77,6 +79,20 @@ TEST_CASE("run.json has what was set beside its input, and the fingerprint knows
   CHECK(has(session::run_json(*session->scene(), record),
             " \"set\": {\n  \"weather\": {\n   \"humidity\": 0.5\n  }\n },\n"));
   CHECK(session::input_fingerprint(*session->scene(), record) != before);
+}
+
+TEST_CASE("Bounds of the plan are of the input only where frames decide by them", "[records]") {
+  const TemporaryFolder folder;
+  const auto asked = opened(folder, renderer::CasterWish::automatic, {.detections = true});
+  const auto plain = opened(folder, renderer::CasterWish::automatic);
+  for (const bool per_frame : {false, true}) {
+    INFO(per_frame);
+    session::RunRecord record;
+    record.plan_per_frame = per_frame;
+    const bool same = session::input_fingerprint(*asked->scene(), record) ==
+                      session::input_fingerprint(*plain->scene(), record);
+    CHECK(same == !per_frame);
+  }
 }
 
 // Its caster was that of the scene, slices, and the passes stood nowhere.
