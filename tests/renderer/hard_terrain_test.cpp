@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "renderer/frame_renderer.h"
+#include "renderer/stages/frame_echoes.h"
 #include "tests/renderer/test_worlds.h"
 
 namespace {
@@ -31,6 +32,25 @@ TEST_CASE("T13 a sensor in or on the ground sees noise alone and is flagged", "[
     for (const double power_W_m3 : frame.cscope_W_m3) CHECK(power_W_m3 == 0.0);
     CHECK(frame.bscope_grey == noise.bscope_grey);
     CHECK(frame.cscope_grey == noise.cscope_grey);
+  }
+}
+
+TEST_CASE("T13 echoes for signals of a sensor in or on the ground are none and flagged",
+          "[robust]") {
+  renderer::World world =
+      tests::world(tests::hivision(8),
+                   tests::ground(4000.0, 100.0, [](double, double) { return 0.0; }), {kGrass});
+  renderer::PointTarget above;
+  above.rcs = materials::ConstantRcs{10.0};
+  above.path = {{0.0, {0.0, 1000.0, 20.0}}};
+  world.targets = {above};
+  CHECK(renderer::frame_echoes(world, tests::level_pose(1.0), {}).events.empty());
+  for (const double height_m : {-1.0, 0.0}) {
+    const renderer::FrameEchoes found =
+        renderer::frame_echoes(world, tests::level_pose(height_m), {});
+    CHECK(found.events == std::vector<std::string>{"below_terrain"});
+    CHECK(found.echoes.empty());
+    CHECK(found.rays == 0);
   }
 }
 
