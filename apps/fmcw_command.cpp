@@ -282,7 +282,8 @@ int fmcw(FmcwOptions& options, const CommonOptions& common) {
   build.heights_shown = false;
   if (!options.effects.empty())
     build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::samples);
-  const auto scene = session::Session(description, {.build = build}, problems).scene();
+  const auto scene =
+      session::Session(description, {.build = build, .pictures = false}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
   const StopOnSignals stop_on_signals;
   try {

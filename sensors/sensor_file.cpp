@@ -104,9 +104,6 @@ void read_waveform(ConfigTable table, Waveform& waveform) {
   waveform.doppler_compensated = table.boolean("doppler_compensated", true);
   waveform.polarisation =
       static_cast<core::Polarisation>(table.choice("polarisation", {"HH", "VV"}, 0));
-  if (!waveform.doppler_compensated)
-    table.error(core::ErrorClass::unsupported, "doppler_compensated", "false",
-                "true: the range shift by own-ship Doppler is not simulated");
 }
 
 void check_bandwidth(ConfigTable table, const Waveform& waveform, const RangeGate& gate) {

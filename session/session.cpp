@@ -186,6 +186,10 @@ Session::Session(const scenes::SceneDescription& scene, const Setup& setup,
 void Session::open(scenes::SceneDescription description, const Setup& setup,
                    core::ProblemList& problems) {
   if (setup.build.accuracy_grey != 0.0) check(Accuracy{setup.build.accuracy_grey}, problems);
+  if (setup.pictures && !description.sensor.waveform.doppler_compensated)
+    problems.error(core::ErrorClass::unsupported, {}, "waveform.doppler_compensated", "false",
+                   "true: pictures have no range shift by own-ship Doppler; fanbeam fmcw "
+                   "--products bscope has");
   if (setup.sample) description.sample = *setup.sample;
   inside_->seed = setup.seed;
   inside_->threads = setup.threads;

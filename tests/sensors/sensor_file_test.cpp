@@ -170,6 +170,16 @@ TEST_CASE("range cells finer than the bandwidth resolves are a warning", "[senso
                "W-RESOLUTION", "waveform.bandwidth_MHz");
 }
 
+TEST_CASE("a radar that leaves own-ship Doppler in its ranges can be described", "[sensor_file]") {
+  core::ProblemList problems;
+  const Sensor sensor = read_sensor_text(
+      tests::hivision_text("doppler_compensated = true", "doppler_compensated = false"), "t",
+      problems);
+  CHECK(problems.all().empty());
+  CHECK_FALSE(sensor.waveform.doppler_compensated);
+  CHECK(tests::hivision().waveform.doppler_compensated);
+}
+
 TEST_CASE("columns wider than the beam are a warning", "[sensor_file]") {
   check_single(problems_of(tests::hivision_text("columns = 164", "columns = 41")), "W-COLUMNS",
                "scan.columns");

@@ -203,6 +203,21 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
   CHECK(same(rendered(*session), before));
 }
 
+TEST_CASE("A sensor whose ranges own-ship Doppler shifts has no pictures, but a scene",
+          "[session]") {
+  const TemporaryFolder folder;
+  core::ProblemList problems;
+  scenes::SceneDescription description = scenes::read_scene(written(folder, tests::kSmallScene),
+                                                            {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+  description.sensor.waveform.doppler_compensated = false;
+  CHECK_THROWS_WITH(Session(description, {}, problems),
+                    Catch::Contains("E-UNSUPPORTED waveform.doppler_compensated = false") &&
+                        Catch::Contains("fanbeam fmcw --products bscope"));
+  core::ProblemList others;
+  const Session for_signals(description, {.pictures = false}, others);
+  CHECK_FALSE(for_signals.scene()->world.sensor.waveform.doppler_compensated);
+}
+
 TEST_CASE("Jittered rays, which tell no error, are refused where one is asked for", "[session]") {
   const TemporaryFolder folder;
   const auto session = opened_text(folder, tests::kSmallScene);
