@@ -50,6 +50,7 @@ bool judge(const fs::path& file, const core::LayerDifference& difference,
 // `always` or where there is one.
 bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bool always,
                    const CompareOptions& options, bool quiet) {
+  core::check_same_size(core::image_size(a), core::image_size(b), a.string(), b.string());
   const core::Image image_a = core::read_image(a), image_b = core::read_image(b);
   bool same = true;
   bool equal = true;

@@ -192,18 +192,21 @@ class Run {
     record.index = index;
     record.time_s =
         scene_.trajectory->frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
-    if (products_.contains(kScan)) record.scan = scan(index, record.files);
+    if (products_.contains(kScan)) scan(index, record);
     records_.push_back(std::move(record));
   }
 
-  session::FmcwScanCounts scan(int index, std::set<std::string>& files) const {
+  void scan(int index, session::FmcwFrameRecord& record) const {
     Clock::time_point begin = Clock::now();
     const session::SignalBscope bscope = session::fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
     begin_writing();
-    files.merge(session::write_bscope(output_.path(), scene_.description.sensor, index, bscope));
-    return {bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
-            bscope.plan,  ms};
+    record.files.merge(
+        session::write_bscope(output_.path(), scene_.description.sensor, index, bscope));
+    record.events = bscope.events;
+    record.scan = session::FmcwScanCounts{
+        bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
+        bscope.plan,  ms};
   }
 
   void write_interference(int index, const session::FmcwPaths& paths,
@@ -282,7 +285,8 @@ int fmcw(FmcwOptions& options, const CommonOptions& common) {
   build.heights_shown = false;
   if (!options.effects.empty())
     build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::samples);
-  const auto scene = session::Session(description, {.build = build}, problems).scene();
+  const auto scene =
+      session::Session(description, {.build = build, .pictures = false}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
   const StopOnSignals stop_on_signals;
   try {

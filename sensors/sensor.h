@@ -92,6 +92,8 @@ struct Waveform {
   double frequency_Hz = 0.0;
   double bandwidth_Hz = 0.0;  // of one sweep
   double transmit_power_W = 0.0;
+  // Own-ship Doppler's shift of range is taken off. What leaves it in has no pictures of powers
+  // (session::Setup::pictures), only signals.
   bool doppler_compensated = true;
   core::Polarisation polarisation = core::Polarisation::horizontal;  // sent and received
   Window window = Window::none;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/config_table.h"
 #include "core/constants.h"
@@ -56,7 +57,8 @@ void read_scan(ConfigTable table, Scan& scan) {
   read_sweep(table, scan);
 }
 
-// As many whole cells as fit between the minimum and `maximum_m`.
+// As many whole cells as fit between the minimum and `maximum_m`. A last one that ends beyond it by
+// the rounding of these decimal numbers fits.
 int cells_up_to(ConfigTable& table, const RangeGate& gate, double maximum_m) {
   if (!(maximum_m > gate.minimum_m)) {
     table.error(ErrorClass::range, "maximum_m", number_text(maximum_m),
@@ -64,7 +66,9 @@ int cells_up_to(ConfigTable& table, const RangeGate& gate, double maximum_m) {
     return 1;
   }
   if (!(gate.cell_m > 0.0)) return 1;  // refused already
-  const double cells = std::floor((maximum_m - gate.minimum_m) / gate.cell_m);
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double cells = std::floor((maximum_m - gate.minimum_m + kRounding * maximum_m) /
+                                  gate.cell_m * (1.0 + kRounding));
   if (cells >= 1.0 && cells <= static_cast<double>(kMostRows)) return static_cast<int>(cells);
   table.error(cells < 1.0 ? ErrorClass::range : ErrorClass::limit, "maximum_m",
               number_text(maximum_m) + " (" + number_text(cells) + " cells)",
@@ -100,9 +104,6 @@ void read_waveform(ConfigTable table, Waveform& waveform) {
   waveform.doppler_compensated = table.boolean("doppler_compensated", true);
   waveform.polarisation =
       static_cast<core::Polarisation>(table.choice("polarisation", {"HH", "VV"}, 0));
-  if (!waveform.doppler_compensated)
-    table.error(core::ErrorClass::unsupported, "doppler_compensated", "false",
-                "true: the range shift by own-ship Doppler is not simulated");
 }
 
 void check_bandwidth(ConfigTable table, const Waveform& waveform, const RangeGate& gate) {

@@ -30,7 +30,7 @@
 //                        maximum_m for as many whole cells as fit; columns x cells at most 2^24
 //   [waveform]           frequency_GHz, 0.1 to 300; bandwidth_MHz, above 0 to 1e5, with at
 //                        least one bin of c / 2B in the range window;
-//                        transmit_power_W, above 0 to 1e9; doppler_compensated, true alone;
+//                        transmit_power_W, above 0 to 1e9; doppler_compensated, true;
 //                        window "none" | "rectangular" | "hann" | "hamming" | "taylor", the last
 //                        with taylor_side_lobe_dB, -80 to -15, default -35, and
 //                        taylor_equal_lobes, 2 to 20, default 4; "none" for sweep "whole-scan";

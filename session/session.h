@@ -48,6 +48,9 @@ struct Setup {
   bool keeps_time_budget = false;
   std::uint64_t seed = 0;  // of everything random
   int threads = 0;         // at most so many for a frame; 0: as many as the caller's tasks have
+  // Frames are wanted, not the scene for signals alone. Their powers have no range shift by own-ship
+  // Doppler: a sensor that leaves it in (waveform.doppler_compensated) is refused, E-UNSUPPORTED.
+  bool pictures = true;
 };
 
 class Session {

@@ -91,6 +91,13 @@ double one_way_dB(const PathAttenuation& air, double from_height_m, double to_he
   core::check_range(problems, "to_height_m", to_height_m, {});
   core::check_range(problems, "length_m", length_m, {0.0}, "m");
   problems.throw_if_errors();
+  // A path straight up or down may be as long as the difference but for rounding.
+  constexpr double kRounding = 1e-9;
+  const double apart_m = std::abs(to_height_m - from_height_m);
+  if (length_m * (1.0 + kRounding) < apart_m)
+    core::throw_input_error(
+        core::ErrorClass::range, "length_m", length_m,
+        "at least " + core::number_text(apart_m) + " m, what the two heights are apart");
   return air.one_way_dB(from_height_m, to_height_m, length_m);
 }
 

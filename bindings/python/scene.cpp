@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
@@ -69,10 +70,17 @@ session::TargetState target_of(const py::handle& target) {
                     core::radians(target.attr("longitude_deg").cast<double>()),
                     target.attr("height_m").cast<double>()};
   const auto attitude = target.attr("attitude_deg").cast<std::optional<std::array<double, 3>>>();
-  if (attitude)
+  if (attitude) {
+    core::ProblemList problems;
+    constexpr std::array<const char*, 3> kAngles = {"target.roll_deg", "target.pitch_deg",
+                                                    "target.heading_deg"};
+    for (std::size_t i = 0; i < kAngles.size(); ++i)
+      core::check_range(problems, kAngles[i], (*attitude)[i], {}, "deg");
+    problems.throw_if_errors();
     state.q_NB =
         core::quaternion_from({core::radians((*attitude)[0]), core::radians((*attitude)[1]),
                                core::radians((*attitude)[2])});
+  }
   const auto rcs_m2 = target.attr("rcs_m2").cast<std::optional<double>>();
   if (rcs_m2) {
     core::require_range("target.rcs_m2", *rcs_m2, {0.0, 1.0e9}, "m2");
@@ -163,7 +171,7 @@ py::dict render(const Scene& scene, const PoseNumbers& pose, std::uint64_t frame
     *frame = session.render(now, at, frame_index, wanted, stop);
     if (!labels) return;
     const session::FrameLabels found = scene.labeller(under)->labels(*under, at, *frame);
-    text = session::labels_json(found, *under, static_cast<int>(frame_index), at, {});
+    text = session::labels_json(found, *under, frame_index, at, {});
   });
   wanted.bscope = bscope;
   wanted.layers = layers;

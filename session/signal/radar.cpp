@@ -11,6 +11,7 @@
 #include "signal/detection/cfar_calibration.h"
 #include "signal/fourier/window_figures.h"
 #include "signal/receiver/receiver_noise.h"
+#include "signal/synthesis/frame.h"
 #include "signal/transform/angle_transform.h"
 
 namespace fanbeam::session {
@@ -228,6 +229,7 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
   radar.waveform = waveform_of(options, name, front);
   radar.pitch_m = options.pitch_wavelengths * radar.waveform.wavelength_m();
   radar.array = array_of(options, radar.waveform, radar.pitch_m);
+  signal::check_size(radar.waveform, radar.array);  // before rays are sent for it
   const std::vector<glm::dvec3> elements_m = signal::virtual_elements_m(radar.array);
   radar.line = is_line(elements_m);
   if (!radar.line)

@@ -28,7 +28,6 @@ constexpr std::array kNames = {
 };
 
 constexpr std::size_t kMostSegments = 1000000;
-constexpr double kMostSamples = 1e8;
 
 void check_segment(const Segment& segment) {
   check_positive("segment.duration_s", segment.duration_s);
@@ -154,7 +153,7 @@ void check(const Waveform& waveform) {
            "one rate for every stage");
   double samples = 0.0;
   for (int stage = 0; stage < waveform.stages(); ++stage) samples += check_stage(waveform, stage);
-  if (samples > kMostSamples)
+  if (samples > kMostFrameSamples)
     core::throw_input_error(core::ErrorClass::limit, "samples", samples, "at most 1e8 in a frame");
 }
 

@@ -33,6 +33,9 @@ std::string_view name(WaveformKind kind);
 std::optional<WaveformKind> waveform_kind(std::string_view name);
 const std::vector<WaveformKind>& all_waveform_kinds();
 
+// Of a frame, and of a frame with all its channels.
+inline constexpr double kMostFrameSamples = 1e8;
+
 struct Segment {
   double start_s = 0.0;  // on the waveform's clock, whose zero is that of ScatterPath::range_m
   double duration_s = 0.0;

@@ -251,6 +251,16 @@ TEST_CASE("fmcw refuses what it cannot use", "[fmcw]") {
                                            " --waveform triangle --products cube");
   CHECK(triangle.exit_code == 2);
   CHECK(triangle.output.find("chirp sequence") != std::string::npos);
+  // What no memory holds is told, and told before rays are sent.
+  const std::string bare = "fmcw " + tests::quoted(folder.path()) + " --receivers 64 ";
+  for (const char* words : {"--waveform continuous --duration 1e9",
+                            "--chirps 4000 --transmitters 1 --sample-rate 1200 --products beat"}) {
+    const auto huge = tests::run_fanbeam(bare + words);
+    INFO(huge.output);
+    CHECK(huge.exit_code == 3);
+    CHECK(huge.output.find("E-LIMIT") != std::string::npos);
+    CHECK(huge.output.find("samples x chirps x channels") != std::string::npos);
+  }
   folder.write("scene.toml", std::string(kLoneTarget) + "\n[weather]\nvisibility_m = nan\n");
   CHECK(code("") == 3);
   CHECK(tests::run_fanbeam("fmcw /nowhere").exit_code == 4);

@@ -204,6 +204,19 @@ def test_every_problem_is_told_at_once(grass):
     assert grass.weather["rain_rate_mm_per_h"] == 0.0
     with pytest.raises(fanbeam.InputError, match="E-REF"):
         grass.set_targets([fanbeam.Target("nobody", 52.0, 10.0, 0.0)])
+    nan = float("nan")
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.set_sensor(low_dB=nan, high_dB=500.0)
+    assert [(problem.code, problem.field) for problem in told.value.problems] == [
+        ("E-NONFINITE", "low_dB"),
+        ("E-RANGE", "high_dB"),
+    ]
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.set_targets([fanbeam.Target("new", 52.0, 10.0, 0.0, 1.0, attitude_deg=(nan, 0.0, -nan))])
+    assert [(problem.code, problem.field) for problem in told.value.problems] == [
+        ("E-NONFINITE", "target.roll_deg"),
+        ("E-NONFINITE", "target.heading_deg"),
+    ]
     with pytest.raises(TypeError):
         grass.set_weather(rain=3)
     with pytest.raises(TypeError, match="rain_rate"):
@@ -341,6 +354,10 @@ def test_lookups(root):
         fanbeam.nrcs("short_gras", 0.1)
     with pytest.raises(fanbeam.InputError, match="grazing_rad"):
         fanbeam.nrcs("short_grass", 2.0)
+    air = fanbeam.Atmosphere()
+    with pytest.raises(fanbeam.InputError, match="E-RANGE length_m = 299: expected at least 300 m"):
+        air.one_way_dB(0.0, 300.0, 299.0)
+    assert air.one_way_dB(0.1, 0.4, 0.3) > 0.0  # straight up, but for rounding
     # Recommendation ITU-R P.838-3 at 35 GHz, horizontal: k = 0.3374 , alpha = 0.9047
     assert fanbeam.Atmosphere(35e9, rain_rate_mm_per_h=10.0).one_way_dB_per_km(0.0)["rain"] == pytest.approx(
         0.3374 * 10**0.9047, rel=1e-3

@@ -64,6 +64,8 @@ def test_what_is_wanted_is_checked(lone_target):
     with pytest.raises(fanbeam.InputError) as told:
         fanbeam.signal.frame(lone_target, 0, transmitters=0, adc_bits=99)
     assert {problem.field for problem in told.value.problems} == {"transmitters", "adc_bits"}
+    with pytest.raises(fanbeam.InputError, match="E-LIMIT samples x chirps x channels"):
+        fanbeam.signal.frame(lone_target, 0, waveform="continuous", receivers=64, numbers={"duration": 1000.0})
 
 
 def test_numbers_of_elements_replace_the_places_of_a_radar_file(lone_target, tmp_path):

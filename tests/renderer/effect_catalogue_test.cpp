@@ -9,7 +9,9 @@
 
 #include "core/effect_plan.h"
 #include "core/errors.h"
+#include "renderer/plan/effect_texts.h"
 #include "renderer/plan/plan.h"
+#include "tests/comma_locale.h"
 #include "tests/renderer/test_worlds.h"
 
 using namespace fanbeam;
@@ -25,6 +27,15 @@ TEST_CASE("Every effect has one row of the catalogue, in the order of their name
     CHECK(name_of(rows[i]) == core::kEffectNames[i]);
   }
   CHECK(std::set(core::kEffectNames.begin(), core::kEffectNames.end()).size() == rows.size());
+}
+
+TEST_CASE("F18 figures in the texts of a plan have a point under a decimal comma", "[effects]") {
+  const tests::CommaLocale comma;
+  if (!comma.made()) return;
+  const tests::HeldCommaLocale held(comma);
+  CHECK(renderer::figure_text(7.5) == "7.5");
+  CHECK(renderer::figure_text(0.0312) == "0.031");
+  CHECK(renderer::figure_text(1234.5) == "1234");
 }
 
 TEST_CASE("A wish names every effect by its word, and no other", "[effects]") {

@@ -69,6 +69,27 @@ TEST_CASE("S10 sensor settings that make no sense are refused at load", "[sensor
   });
 }
 
+TEST_CASE("R06 a last cell that ends on maximum_m fits, whatever the decimals round to",
+          "[sensor_file]") {
+  const auto cells = [](double minimum_m, double cell_m, double maximum_m) {
+    std::string text = tests::hivision_text("bandwidth_MHz = 22.473", "bandwidth_MHz = 2000.0");
+    text =
+        tests::replaced(text, "minimum_m = 200.0", "minimum_m = " + core::number_text(minimum_m));
+    text = tests::replaced(text, "cell_m = 6.67", "cell_m = " + core::number_text(cell_m));
+    text = tests::replaced(text, "cells = 524", "maximum_m = " + core::number_text(maximum_m));
+    core::ProblemList problems;
+    const Sensor sensor = read_sensor_text(text, "test.toml", problems);
+    for (const core::Problem& problem : problems.all()) UNSCOPED_INFO(core::to_string(problem));
+    CHECK(problems.all().empty());
+    return sensor.range.cells;
+  };
+  CHECK(cells(200.0, 0.1, 361.4) == 1614);  // a floor of the quotient: 1613
+  CHECK(cells(0.0, 0.1, 62.3) == 623);
+  CHECK(cells(200.0, 0.3, 265.7) == 219);
+  CHECK(cells(200.0, 0.1, 361.399999) == 1613);  // one that does not fit
+  CHECK(cells(200.0, 6.67, 3700.0) == 524);
+}
+
 TEST_CASE("received power has no window of its own: both ends are asked for", "[sensor_file]") {
   const auto problems = problems_of(
       tests::hivision_text("mapping = \"stc\"\nlow_dB = -55.0", "mapping = \"log\"\n# -55.0"));
@@ -147,6 +168,16 @@ TEST_CASE("errors that were there before do not hide those of a sensor file", "[
 TEST_CASE("range cells finer than the bandwidth resolves are a warning", "[sensor_file]") {
   check_single(problems_of(tests::hivision_text("bandwidth_MHz = 22.473", "bandwidth_MHz = 2.0")),
                "W-RESOLUTION", "waveform.bandwidth_MHz");
+}
+
+TEST_CASE("a radar that leaves own-ship Doppler in its ranges can be described", "[sensor_file]") {
+  core::ProblemList problems;
+  const Sensor sensor = read_sensor_text(
+      tests::hivision_text("doppler_compensated = true", "doppler_compensated = false"), "t",
+      problems);
+  CHECK(problems.all().empty());
+  CHECK_FALSE(sensor.waveform.doppler_compensated);
+  CHECK(tests::hivision().waveform.doppler_compensated);
 }
 
 TEST_CASE("columns wider than the beam are a warning", "[sensor_file]") {

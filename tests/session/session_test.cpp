@@ -5,6 +5,8 @@
 #include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 #include <thread>
 
 #include "core/units.h"
@@ -183,6 +185,15 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
   CHECK(problems_of([&] {
           session->set(session::SensorSettings{.boresight_elevation_rad = 4.0, .low_dB = 50.0});
         }) == 2);
+  for (const double level_dB : {std::nan(""), -500.0, std::numeric_limits<double>::infinity()}) {
+    INFO(level_dB);
+    CHECK_THROWS_WITH(
+        session->set(session::SensorSettings{.low_dB = level_dB}),
+        Catch::Contains(std::isfinite(level_dB) ? "E-RANGE low_dB" : "E-NONFINITE low_dB"));
+    CHECK(problems_of([&] {
+            session->set(session::SensorSettings{.low_dB = level_dB, .high_dB = level_dB});
+          }) == 2);
+  }
   CHECK(problems_of([&] { session->set(session::Accuracy{0.0}); }) == 1);
   CHECK(problems_of([&] { session->set(session::Samples{0.01}); }) == 1);
   CHECK(problems_of([&] { session->set(session::TimeBudget{0.0}); }) == 1);
@@ -205,6 +216,21 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
           session->render(pose, 0);
         }) == 1);
   CHECK(same(rendered(*session), before));
+}
+
+TEST_CASE("A sensor whose ranges own-ship Doppler shifts has no pictures, but a scene",
+          "[session]") {
+  const TemporaryFolder folder;
+  core::ProblemList problems;
+  scenes::SceneDescription description = scenes::read_scene(written(folder, tests::kSmallScene),
+                                                            {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+  description.sensor.waveform.doppler_compensated = false;
+  CHECK_THROWS_WITH(Session(description, {}, problems),
+                    Catch::Contains("E-UNSUPPORTED waveform.doppler_compensated = false") &&
+                        Catch::Contains("fanbeam fmcw --products bscope"));
+  core::ProblemList others;
+  const Session for_signals(description, {.pictures = false}, others);
+  CHECK_FALSE(for_signals.scene()->world.sensor.waveform.doppler_compensated);
 }
 
 TEST_CASE("Jittered rays, which tell no error, are refused where one is asked for", "[session]") {

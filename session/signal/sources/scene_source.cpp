@@ -20,7 +20,7 @@ class SceneSource : public MeasuredSource {
     settings_.seed = asked_.seed;
     if (!file.empty()) read_radar_file(file, settings_, problems);
     problems.throw_if_errors();
-    scene_ = Session(description, {}, problems).scene();
+    scene_ = Session(description, {.pictures = false}, problems).scene();
     warnings = problems.all();
     const sensors::Sensor& sensor = scene_->description.sensor;
     const auto radar = [&] {
