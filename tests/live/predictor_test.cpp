@@ -224,14 +224,17 @@ TEST_CASE("F13 one stray pose moves nothing; a reset is followed on its second p
   predictor.take(stray, 0.625);
   CHECK(apart_m(*predictor.at(0.65), turning(0.65)) < 0.1);
   CHECK(*predictor.newest_s() == 0.5625);
+  CHECK(predictor.strays() == 0);
   predictor.take(turning(0.6875), 0.6875);
   CHECK(apart_m(*predictor.at(0.7), turning(0.7)) < 0.1);
+  CHECK(predictor.strays() == 1);
 
   // The simulator is put back to its start, 50 s on.
   predictor.take(turning(-40.0), 0.75);
   CHECK(apart_m(*predictor.at(0.76), turning(0.76)) < 0.1);
   predictor.take(turning(-40.0 + 0.0625), 0.8125);
   CHECK(apart_m(*predictor.at(0.8125), turning(-40.0 + 0.0625)) < 1e-6);
+  CHECK(predictor.strays() == 1);
 
   // Alternating strays never win against each other.
   for (int i = 1; i <= 20; ++i) {
@@ -240,6 +243,7 @@ TEST_CASE("F13 one stray pose moves nothing; a reset is followed on its second p
     predictor.take(far, 0.8125 + 0.01 * i);
   }
   CHECK(apart_m(*predictor.at(1.0), turning(-40.0 + 0.0625 + 0.1875)) < 0.1);
+  CHECK(predictor.strays() == 1 + 19);  // the last one waits
 
   // No pose lies between the two sides of the jump.
   for (double time_s = 0.5; time_s < 1.1; time_s += 0.01)
