@@ -10,7 +10,7 @@
 using namespace fanbeam;
 
 // Who looks at pictures alone took the last one for that of an aircraft that stands.
-TEST_CASE("A second without a pose shows the last picture once more, as out of date",
+TEST_CASE("F13 a second without a pose shows the last picture once more, as out of date",
           "[channel][threads]") {
   const tests::TemporaryFolder folder;
   const auto session = tests::live_session(folder);

@@ -187,6 +187,15 @@ TEST_CASE("Weather and tilt reach the session; what is wrong is told whole and c
   CHECK(office.desk.answer(post("/api/sensor", R"({"tilt_deg": -2})")).status == 200);
   CHECK(office.session->scene()->description.sensor.antenna.boresight_elevation_rad ==
         Approx(-2.0 * core::kPi / 180.0));
+  // Neither of two counts, and what is null is there.
+  CHECK(office.desk
+            .answer(post("/api/weather", R"({"rain_rate_mm_per_h": 1, "rain_rate_mm_per_h": 2})"))
+            .status == 422);
+  const live::Answer null =
+      office.desk.answer(post("/api/weather", R"({"rain_rate_mm_per_h": null})"));
+  CHECK(null.status == 422);
+  CHECK(json::parse(null.body)["problems"][0]["value"] == "null");
+  CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 0.0);
   for (const char* body : {"", "[]", "{", "{\"tilt_deg\": 1e999}", "\xff", "{\"low_dB\": 9}"})
     CHECK(office.desk.answer(post("/api/sensor", body)).status == 422);
   CHECK(office.desk.answer(post("/api/sensor", std::string(60000, '['))).status == 422);
