@@ -36,11 +36,9 @@ std::string weather_body(const feeds::AircraftState& state, const atmosphere::We
   const bool both = rain > 0.0 && snow > 0.0 && (rain_told || snow_told);
   body["rain_rate_mm_per_h"] = both && !rain_counts ? 0.0 : rain;
   body["snow_rate_mm_per_h"] = both && rain_counts ? 0.0 : snow;
-  if (state.visibility_m) {
-    body.erase("visibility_m");
-    if (*state.visibility_m < kFog_m)
-      body["visibility_m"] = std::max(kThickest_m, rounded(*state.visibility_m));
-  }
+  if (state.visibility_m || body["visibility_m"].is_null()) body.erase("visibility_m");
+  if (state.visibility_m && *state.visibility_m < kFog_m)
+    body["visibility_m"] = std::max(kThickest_m, rounded(*state.visibility_m));
   return body.dump();
 }
 
