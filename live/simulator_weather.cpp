@@ -48,7 +48,10 @@ void SimulatorWeather::follow(Clock::time_point now) {
   const std::optional<feeds::AircraftState> state = feed_.newest();
   if (!state || (!state->visibility_m && !state->rain_norm && !state->snow_norm)) return;
   last_ = now;
+  // None told is not the same as nothing told.
   std::string told = weather_body(*state);
+  for (const auto& one : {state->visibility_m, state->rain_norm, state->snow_norm})
+    told += one ? '1' : '0';
   if (told == told_) return;
   told_ = std::move(told);
   refusal_.clear();

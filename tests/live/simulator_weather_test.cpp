@@ -146,11 +146,22 @@ TEST_CASE("A simulator that tells no weather changes none, fog by its water stay
   feed.take(tests::xplane_position(52.0, 10.0, 300.0));
   weather.follow(begin);
   CHECK(session->now() == before);
+  const auto rain = [&] { return session->scene()->weather.rain_rate_mm_per_h; };
   feed.tell_rain(1.0);
   weather.follow(begin + std::chrono::seconds(1));
-  CHECK(session->scene()->weather.rain_rate_mm_per_h == 22.0);
+  CHECK(rain() == 22.0);
   CHECK(atmosphere::fog_liquid_water_g_per_m3(session->scene()->weather) ==
         Approx(0.3).epsilon(1e-9));
+  // What it tells later counts then, also where it is none.
+  live::Feed dry(session->scene(), core::VerticalDatum::scene, feeds::kProtocols[2]);
+  live::SimulatorWeather later(desk, dry);
+  dry.take(tests::xplane_position(52.0, 10.0, 300.0));
+  dry.tell_visibility(5000.0);
+  later.follow(begin);
+  CHECK(rain() == 22.0);
+  dry.tell_rain(0.0);
+  later.follow(begin + std::chrono::seconds(3));
+  CHECK(rain() == 0.0);
 }
 
 TEST_CASE("Rain that is told to fall takes the place of snow that is not told",
