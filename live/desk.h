@@ -69,8 +69,8 @@ class Desk {
 // first.
 std::string message_of(const LiveFrame& frame);
 
-// For who looks at nothing else: crossed out where the frame is stale, as a picture that stands looks like one
-// of an aircraft that does.
-core::Picture8 picture_to_show(const LiveFrame& frame, Scope scope);
+// With so much more gain. For who looks at nothing else: crossed out where the frame is stale, as a picture that
+// stands looks like one of an aircraft that does.
+core::Picture8 picture_to_show(const LiveFrame& frame, Scope scope, double gain_dB = 0.0);
 
 }  // namespace fanbeam::live

@@ -51,7 +51,7 @@ bool FrameTaker::leaving() const {
 void FrameTaker::write(const std::shared_ptr<const LiveFrame>& frame) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!frame || frame->number == taken_ || ended_) return;
+    if (!frame || frame->stale || frame->number == taken_ || ended_) return;
     newest_ = frame;
     if (every_frame_) taken_ = frame->number;
   }

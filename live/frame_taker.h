@@ -26,7 +26,7 @@ class FrameTaker {
   FrameTaker(const FrameTaker&) = delete;
   FrameTaker& operator=(const FrameTaker&) = delete;
 
-  // A frame that was given before is left out.
+  // A frame that was given before is left out, also where it is shown once more as a stale one.
   void write(const std::shared_ptr<const LiveFrame>& frame);
   // The sink gave false.
   bool ended() const;

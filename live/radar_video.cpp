@@ -162,7 +162,6 @@ bool RadarVideo::put(const LiveFrame& frame, const FrameTaker& taker) {
   constexpr std::chrono::seconds kBetweenSummaries(1);
   constexpr std::chrono::milliseconds kShortestNap(1);
   constexpr double kOfPeriod = 0.9;
-  if (frame.stale) return true;
   const Clock::time_point begin = Clock::now();
   if (begin - told_ >= kBetweenSummaries) {
     told_ = begin;

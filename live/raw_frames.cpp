@@ -63,7 +63,6 @@ bool RawFrames::refused() {
 // Whole, also at the end of the flight, or until the reader is gone; a reader that stands still holds
 // nobody's end up: not a signal's at all, and that of --seconds for a while.
 bool RawFrames::put(const LiveFrame& frame, const FrameTaker& taker) {
-  if (frame.stale) return true;
   constexpr int kNap_ms = 100, kNaps = 20;
   const core::Picture8& picture = scope_ == Scope::bscope ? frame.bscope : frame.cscope;
   while (!has_reader()) {

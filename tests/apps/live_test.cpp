@@ -11,6 +11,7 @@
 #include "core/files.h"
 #include "tests/apps/child.h"
 #include "tests/apps/program.h"
+#include "tests/scenes/scene_folder.h"
 
 using namespace fanbeam;
 using namespace fanbeam::tests;
@@ -20,6 +21,26 @@ TEST_CASE("live tells where to look and ends by itself when asked to", "[live]")
   INFO(result.output);
   CHECK(result.exit_code == 0);
   CHECK(result.output.find("look at http://127.0.0.1:") != std::string::npos);
+}
+
+// The thread that heard the first packet found out, and the channel flew on without a pose.
+TEST_CASE("Without the geoid's grid a source that needs it is refused, others are not", "[live]") {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", replaced(kSmallScene, "vertical_datum = \"scene\"",
+                                      "vertical_datum = \"ellipsoid\""));
+  const auto live_from = [&](const std::string& source) {
+    return run_fanbeam("live " + quoted(folder.path()) + " --http 0 --seconds 1 --from " + source,
+                       "PROJ_DATA=/nonexistent");
+  };
+  const Result refused = live_from("native-fdm:0");
+  INFO(refused.output);
+  CHECK(refused.exit_code == 4);
+  CHECK(refused.output.find("E-IO EGM96 geoid grid") != std::string::npos);
+  for (const char* source : {"circle", "native-fdm:0,datum=ellipsoid"}) {
+    const Result flown = live_from(source);
+    INFO(flown.output);
+    CHECK(flown.exit_code == 0);
+  }
 }
 
 TEST_CASE("Shared memory that live made goes with it", "[live]") {

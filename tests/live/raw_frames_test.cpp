@@ -52,6 +52,20 @@ TEST_CASE("Where every frame is wanted, the file holds all pictures one after th
   CHECK(bytes_of(file) == "eeffgg");  // 101, 102, 103
 }
 
+TEST_CASE("A picture that is shown once more as a stale one is written once", "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "stale.raw";
+  {
+    RawFrames raw(RawFrames::Scope::bscope, file.string(), true);
+    for (const std::uint64_t number : {65U, 66U, 67U}) {
+      auto frame = std::make_shared<live::LiveFrame>(*frame_of(number, 2));
+      frame->stale = number == 66;
+      raw.write(frame);
+    }
+  }
+  CHECK(bytes_of(file) == "AACC");
+}
+
 TEST_CASE("F15 a reader that stands still holds nobody up, and gets whole pictures later",
           "[raw_frames][threads]") {
   const tests::TemporaryFolder folder;
