@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <optional>
+
 #include "apps/option_lists.h"
 #include "apps/progress.h"
 #include "apps/render_summary.h"
@@ -52,12 +54,15 @@ int render(const RenderOptions& asked, const CommonOptions& common) {
                             "figure or ppi_figure among --products");
   const core::ThreadLimit threads(asked.threads);
   core::ProblemList problems;
-  scenes::SceneDescription description = read_chosen_scene(asked, problems);
+  const scenes::SceneDescription description = read_chosen_scene(asked, problems);
   RenderOptions options = asked;
   static_cast<session::SamplingRequest&>(options) = session::with_accuracy_of(description, asked);
-  if (!options.realisation.empty()) description.sample = options.realisation == "sample";
+  std::optional<bool> sample;
+  if (!options.realisation.empty()) sample = options.realisation == "sample";
   session::Session session(
-      description, {.build = build_options(options, products), .seed = options.seed}, problems);
+      description,
+      {.build = build_options(options, products), .sample = sample, .seed = options.seed},
+      problems);
   const std::shared_ptr<const scenes::Scene> scene = session.scene();
   if (!common.quiet) print_problems(problems.all());
   if (scene->trajectory && scene->trajectory->attitude_derived)

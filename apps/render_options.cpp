@@ -61,9 +61,10 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
       ->excludes(budget)
       ->excludes(estimate);
   command
-      .add_option("--realisation", options.realisation,
-                  "mean: expected power; sample: one draw with speckle, noise and fluctuating "
-                  "targets (default: the scene's)")
+      .add_option(
+          "--realisation", options.realisation,
+          "mean: expected power, and so without --effects +speckle or +swerling; sample: one "
+          "draw with speckle, noise and fluctuating targets (default: the scene's)")
       ->check(CLI::IsMember({"mean", "sample"}));
   command.add_option("--seed", options.seed, "Seed of everything random")
       ->check(any_seed())

@@ -187,6 +187,7 @@ void Session::open(scenes::SceneDescription description, const Setup& setup,
                    core::ProblemList& problems) {
   if (setup.build.accuracy_grey != 0.0) check(Accuracy{setup.build.accuracy_grey}, problems);
   if (setup.sample) description.sample = *setup.sample;
+  if (setup.sample && !*setup.sample) renderer::refuse_draws(setup.build.wishes);
   inside_->seed = setup.seed;
   inside_->threads = setup.threads;
   inside_->opened = scenes::build_scene(description, setup.build, problems);

@@ -37,7 +37,8 @@ struct Setup {
   std::vector<std::filesystem::path> data_folders{};  // in the order of preference
   std::filesystem::path sensor{};                     // instead of the scene's; empty to keep it
   scenes::BuildOptions build{};                       // wishes about effects, caster, accuracy
-  std::optional<bool> sample{};  // frames show one realisation; else as the scene says
+  // Frames show one realisation; else as the scene says. False refuses wishes for effects of a draw.
+  std::optional<bool> sample{};
   // The scene's time budget is measured when it is opened, where nothing else says how to sample: for
   // a second or some. Else it is for whoever has a clock.
   bool keeps_time_budget = false;

@@ -208,6 +208,8 @@ def test_every_problem_is_told_at_once(grass):
     assert [problem.code for problem in told.value.problems] == ["E-RANGE", "E-NONFINITE", "E-RANGE"]
     with pytest.raises(fanbeam.InputError, match="flat-grass"):
         fanbeam.Scene.open("flat-gras")
+    with pytest.raises(fanbeam.InputError, match="speckle"):
+        fanbeam.Scene.open("flat-grass", effects="+speckle", sample=False)
     with pytest.raises(fanbeam.InputError, match="rain_rate"):
         grass.set_weather(rain_rate_mm_per_h=-1.0)
     assert grass.weather["rain_rate_mm_per_h"] == 0.0
