@@ -43,10 +43,10 @@ Examples pictures() {
 Examples data_sets() {
   return {
       {"campaign",
-       {{"fanbeam campaign plan campaign.toml", "what it comes to, by a pilot of three runs"},
+       {{"fanbeam campaign plan campaign.toml", "what it comes to, by a pilot of a few runs"},
         {"fanbeam campaign run campaign.toml", "all that is not there yet, to out/<its name>"}}},
       {"campaign plan",
-       {{"fanbeam campaign plan campaign.toml", "time and disk by a pilot of three runs"},
+       {{"fanbeam campaign plan campaign.toml", "time and disk by a pilot of a few runs"},
         {"fanbeam campaign plan campaign.toml --no-pilot", "what is drawn alone"}}},
       {"campaign run",
        {{"fanbeam campaign run campaign.toml -o /data/fog", "all that is not there yet"},
