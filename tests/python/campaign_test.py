@@ -249,6 +249,26 @@ def test_mixtures_are_refused(program, campaign, tmp_path):
     assert "another version" in told(program, "verify", other, "-o", folder, "--runs", "0:4", exit_code=1)
 
 
+def test_a_changed_file_is_told_once_and_early(program, campaign, tmp_path):
+    folder, other = tmp_path / "out", tmp_path / "small.toml"
+    told(program, "run", campaign, "-o", folder, "--runs", "0:4", "-q")
+    other.write_text(CAMPAIGN + "# changed\n", encoding="utf-8")
+    assert "W-CHANGED" not in told(program, "status", campaign, "-o", folder)
+    for task in (["status", other, "-o", folder], ["run", other, "-o", folder, "--runs", "0:2"]):
+        assert told(program, *task).count("W-CHANGED") == 1
+    said = told(program, "merge", other, "-o", folder, exit_code=3)
+    assert "changed since 4 of 4 runs were made" in said and said.count("E-UNSUPPORTED") == 1
+    assert "one program for all" not in said
+
+
+def test_a_missing_file_of_a_run_in_a_folder_is_no_archive(program, campaign, tmp_path):
+    told(program, "run", campaign, "-o", tmp_path, "--runs", "0", "-q")
+    gone = next((tmp_path / "runs" / "000000").glob("labels/*.json"))
+    gone.unlink()
+    said = told(program, "merge", campaign, "-o", tmp_path, exit_code=4)
+    assert f"{gone.name}: E-IO file = missing" in said and "archive" not in said
+
+
 def test_what_is_no_campaigns_folder_stays_as_it_is(program, campaign, tmp_path):
     assert "E-IO" in told(program, "merge", campaign, "-o", tmp_path / "none", exit_code=4)
     assert "6 missing" in told(program, "status", campaign, "-o", tmp_path / "none")
