@@ -102,8 +102,10 @@ CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOp
   command.add_flag("--plan-per-frame", options.plan_per_frame,
                    "Leave out of each frame what it can do without, not only what the whole "
                    "sequence can; no pixel changes by more than half the accuracy");
-  command.add_flag("--resume", options.resume,
-                   "Do not render again what an earlier run with the same input has finished");
+  command.add_flag(
+      "--resume", options.resume,
+      "Do not render again what an earlier run with the same input has finished; frames "
+      "of another input are removed at the end");
   command.add_flag("--overwrite", options.overwrite,
                    "Write to a folder that holds other files too: frames of other renders there "
                    "are removed, other files stay (a run's own record is always replaced)");
