@@ -11,6 +11,7 @@
 #include "renderer/plan/plan.h"
 #include "session/figure/figure_facts.h"
 #include "session/products/preview.h"
+#include "session/sequence.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -112,7 +113,7 @@ CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOp
   command.add_option("--preview-format", options.preview_format, "Form of the preview")
       ->check(CLI::IsMember(std::vector<std::string>(session::kPreviewFormats.begin(),
                                                      session::kPreviewFormats.end())))
-      ->capture_default_str();
+      ->default_str(session::SequenceSettings{}.preview_format);
   command
       .add_option("--range-unit", options.range_unit,
                   "Of the range scale of figure and ppi_figure (default: km for sensors that see "
