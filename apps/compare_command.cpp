@@ -17,45 +17,74 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A layer's figures in the unit that it is judged in.
+struct Figures {
+  double rms = 0.0, largest = 0.0, percent = 0.0;
+  std::size_t different = 0;
+  std::size_t only_one_lit = 0;  // of powers: no number of dB
+};
+
+// The limits that it breaks, empty for none.
+std::string broken_limits(const Figures& figures, const CompareOptions& options) {
+  std::string text;
+  const auto broken = [&text](bool is, const std::string& what) {
+    if (is) text += (text.empty() ? "" : ", ") + what;
+  };
+  const auto hold = [&](double value, double most, const char* what) {
+    broken(!(value <= most), what + (" above " + core::number_text(most)));
+  };
+  if (options.exact) {
+    broken(figures.different > 0, "not equal");
+    return text;
+  }
+  const bool no_largest = !(options.largest.value_or(0.0) > 0.0);
+  const bool share_alone = options.percent_different && no_largest && !options.rms;
+  if (options.rms || (no_largest && !options.percent_different))
+    hold(figures.rms, options.rms.value_or(0.0), "RMS");
+  if (!no_largest) hold(figures.largest, *options.largest, "largest");
+  if (options.percent_different) hold(figures.percent, *options.percent_different, "per cent");
+  broken(figures.only_one_lit > 0 && !share_alone, "cells lit in one only");
+  return text;
+}
+
 // Grey pictures are judged in grey levels, powers in dB where both are positive, ground truth in the
-// unit of its layer.
-bool judge(const fs::path& file, const core::LayerDifference& difference,
+// unit of its layer. `name`: of the pair, for people.
+bool judge(const fs::path& file, const std::string& name, const core::LayerDifference& difference,
            const CompareOptions& options, bool quiet) {
   const session::DifferenceUnit unit = session::difference_unit(file, difference.layer);
   const bool in_dB = unit == session::DifferenceUnit::dB;
-  const std::string name = file.filename().string();
   const double rms = in_dB ? difference.rms_dB : difference.rms;
   const double mean = in_dB ? difference.mean_dB : difference.mean;
   const double largest = in_dB ? difference.largest_dB : difference.largest;
   const double percent = 100.0 * static_cast<double>(difference.different) /
                          static_cast<double>(std::max<std::size_t>(difference.cells, 1));
-  const bool ok = options.exact ? difference.different == 0
-                                : rms <= options.rms &&
-                                      (options.largest <= 0.0 || largest <= options.largest) &&
-                                      percent <= options.percent_different &&
-                                      (!in_dB || difference.only_one_positive == 0);
+  const std::string broken = broken_limits({rms, largest, percent, difference.different,
+                                            in_dB ? difference.only_one_positive : std::size_t{0}},
+                                           options);
+  const bool ok = broken.empty();
   if (!quiet || !ok)
     fmt::print(
-        "{} {} {}: mean {:+.4f}, RMS {:.4f}, largest {:.3f} {}, {:.3f} % of {} cells differ{}\n",
+        "{} {} {}: mean {:+.4f}, RMS {:.4f}, largest {:.3f} {}, {:.3f} % of {} cells differ{}{}\n",
         ok ? "same  " : "DIFFER", core::printable_text(name),
         core::printable_text(difference.layer), mean, rms, largest,
         session::unit_text(unit, difference.layer), percent, difference.cells,
         in_dB && difference.only_one_positive > 0
             ? fmt::format(", {} lit in one only", difference.only_one_positive)
-            : "");
+            : "",
+        ok ? "" : ": " + broken);
   return ok;
 }
 
 // `map`: where the heat map goes, empty for nowhere; drawn for a pair that is equal only where
 // `always` or where there is one.
-bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bool always,
-                   const CompareOptions& options, bool quiet) {
+bool compare_files(const fs::path& a, const fs::path& b, const std::string& name,
+                   const fs::path& map, bool always, const CompareOptions& options, bool quiet) {
   const core::Image image_a = core::read_image(a), image_b = core::read_image(b);
   bool same = true;
   bool equal = true;
   for (const core::LayerDifference& difference :
        core::compare_images(image_a, image_b, a.string(), b.string())) {
-    same = judge(a, difference, options, quiet) && same;
+    same = judge(a, name, difference, options, quiet) && same;
     equal = equal && difference.different == 0;
   }
   if (map.empty() || (equal && !always && !fs::exists(map))) return same;
@@ -93,7 +122,7 @@ bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions&
     if (in_b.contains(name)) {
       ++pairs;
       const fs::path map = options.heat_map.empty() ? "" : heat_map_path(options.heat_map, name);
-      same = compare_files(a / name, b / name, map, false, options, quiet) && same;
+      same = compare_files(a / name, b / name, name.string(), map, false, options, quiet) && same;
     } else {
       same = false;
       fmt::print("DIFFER {}: only in {}\n", core::printable_text(name.string()), a.string());
@@ -106,7 +135,10 @@ bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions&
   }
   if (pairs == 0)
     core::throw_input_error(core::ErrorClass::io, core::Place{a.string()}, "images",
-                            "none in both folders", "PNG or EXR images");
+                            in_a.empty() || in_b.empty()
+                                ? "none in " + (in_a.empty() ? a : b).string()
+                                : "no name in both",
+                            "PNG or EXR images, of the same names below both folders");
   if (!quiet || !same)
     fmt::print("{} pairs of images {}\n", pairs, same ? "agree" : "compared, some differ");
   return same;
@@ -137,8 +169,9 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
   const fs::path map = folders ? fs::path(options.heat_map) : single_map(options);
   refuse_map_among(a, map);
   refuse_map_among(b, map);
-  const bool same = folders ? compare_folders(a, b, options, common.quiet)
-                            : compare_files(a, b, map, true, options, common.quiet);
+  const bool same =
+      folders ? compare_folders(a, b, options, common.quiet)
+              : compare_files(a, b, a.filename().string(), map, true, options, common.quiet);
   return same ? kExitDone : kExitCompareFailed;
 }
 
