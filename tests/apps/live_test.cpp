@@ -32,6 +32,7 @@ TEST_CASE("Shared memory that live made goes with it", "[live]") {
 
 TEST_CASE("SIGTERM and SIGINT are the good end of live, while it opens its scene and later",
           "[live]") {
+  CHECK(run_fanbeam("help live").output.find("exit code 0") != std::string::npos);
   for (const int signal : {SIGTERM, SIGINT})
     for (const double after_ms : {0.0, 3000.0}) {
       INFO("signal " << signal << " after " << after_ms << " ms");
