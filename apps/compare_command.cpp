@@ -47,12 +47,19 @@ std::string broken_limits(const Figures& figures, const CompareOptions& options)
   return text;
 }
 
+// Below both folders, or that of the one image.
+std::string name_of_pair(const fs::path& file, const CompareOptions& options) {
+  const fs::path name = file.lexically_relative(options.a);
+  return (name == "." ? file.filename() : name).string();
+}
+
 // Grey pictures are judged in grey levels, powers in dB where both are positive, ground truth in the
-// unit of its layer. `name`: of the pair, for people.
-bool judge(const fs::path& file, const std::string& name, const core::LayerDifference& difference,
+// unit of its layer.
+bool judge(const fs::path& file, const core::LayerDifference& difference,
            const CompareOptions& options, bool quiet) {
   const session::DifferenceUnit unit = session::difference_unit(file, difference.layer);
   const bool in_dB = unit == session::DifferenceUnit::dB;
+  const std::string name = name_of_pair(file, options);
   const double rms = in_dB ? difference.rms_dB : difference.rms;
   const double mean = in_dB ? difference.mean_dB : difference.mean;
   const double largest = in_dB ? difference.largest_dB : difference.largest;
@@ -77,14 +84,14 @@ bool judge(const fs::path& file, const std::string& name, const core::LayerDiffe
 
 // `map`: where the heat map goes, empty for nowhere; drawn for a pair that is equal only where
 // `always` or where there is one.
-bool compare_files(const fs::path& a, const fs::path& b, const std::string& name,
-                   const fs::path& map, bool always, const CompareOptions& options, bool quiet) {
+bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bool always,
+                   const CompareOptions& options, bool quiet) {
   const core::Image image_a = core::read_image(a), image_b = core::read_image(b);
   bool same = true;
   bool equal = true;
   for (const core::LayerDifference& difference :
        core::compare_images(image_a, image_b, a.string(), b.string())) {
-    same = judge(a, name, difference, options, quiet) && same;
+    same = judge(a, difference, options, quiet) && same;
     equal = equal && difference.different == 0;
   }
   if (map.empty() || (equal && !always && !fs::exists(map))) return same;
@@ -122,7 +129,7 @@ bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions&
     if (in_b.contains(name)) {
       ++pairs;
       const fs::path map = options.heat_map.empty() ? "" : heat_map_path(options.heat_map, name);
-      same = compare_files(a / name, b / name, name.string(), map, false, options, quiet) && same;
+      same = compare_files(a / name, b / name, map, false, options, quiet) && same;
     } else {
       same = false;
       fmt::print("DIFFER {}: only in {}\n", core::printable_text(name.string()), a.string());
@@ -169,9 +176,8 @@ int compare(const CompareOptions& options, const CommonOptions& common) {
   const fs::path map = folders ? fs::path(options.heat_map) : single_map(options);
   refuse_map_among(a, map);
   refuse_map_among(b, map);
-  const bool same =
-      folders ? compare_folders(a, b, options, common.quiet)
-              : compare_files(a, b, a.filename().string(), map, true, options, common.quiet);
+  const bool same = folders ? compare_folders(a, b, options, common.quiet)
+                            : compare_files(a, b, map, true, options, common.quiet);
   return same ? kExitDone : kExitCompareFailed;
 }
 

@@ -37,8 +37,7 @@ struct Setup {
   std::vector<std::filesystem::path> data_folders{};  // in the order of preference
   std::filesystem::path sensor{};                     // instead of the scene's; empty to keep it
   scenes::BuildOptions build{};                       // wishes about effects, caster, accuracy
-  // Frames show one realisation; else as the scene says. False refuses wishes for effects of a draw.
-  std::optional<bool> sample{};
+  std::optional<bool> sample{};  // frames show one realisation; else as the scene says
   // The scene's time budget is measured when it is opened, where nothing else says how to sample: for
   // a second or some. Else it is for whoever has a clock.
   bool keeps_time_budget = false;
@@ -49,7 +48,8 @@ struct Setup {
 class Session {
  public:
   // `scene` is a folder with scene.toml, or that file. Warnings stay in `problems`. A scene needs no
-  // [trajectory] (scenes/flight_volume.h).
+  // [trajectory] (scenes/flight_volume.h). E-UNSUPPORTED for wishes for effects of a draw where `sample`
+  // is false.
   Session(const std::filesystem::path& scene, const Setup& setup, core::ProblemList& problems);
   // The same of a scene that was read, and perhaps changed; of `setup` without its folders and
   // sensor.

@@ -109,6 +109,21 @@ def test_data_folders_are_the_same_from_another_folder(tmp_path, monkeypatch):
     assert told.opened["data"][:2] == [tmp_path / "given", tmp_path / "named"]
 
 
+def test_none_takes_every_part_of_the_weather_away(grass):
+    scene = fanbeam.Scene.open("flat-grass")
+    usual = scene.weather
+    other = {
+        "liquid_water_g_per_m3": 0.1, "fog_top_m": 90.0, "rain_rate_mm_per_h": 4.0, "rain_top_m": 900.0,
+        "melting_layer": True, "snow_rate_mm_per_h": 1.0, "snow_top_m": 5000.0, "temperature_C": 5.0,
+        "pressure_hPa": 1000.0, "humidity": 0.5,
+    }
+    scene.set_weather(**other)
+    assert all(scene.weather[name] == value for name, value in other.items())
+    scene.set_weather(**dict.fromkeys(other))
+    assert scene.weather == usual == grass.weather
+    assert pickle.loads(pickle.dumps(scene)).weather == usual
+
+
 def test_parts_that_threads_set_at_once_are_all_kept():
     scene = fanbeam.Scene.open("flat-grass")
     parts = [{"visibility_m": 800.0}, {"rain_rate_mm_per_h": 3.0}, {"temperature_C": 4.0}, {"humidity": 0.4}]
@@ -148,21 +163,6 @@ def test_watts_follow_the_radar_equation_with_rain(grass):
     row = 262
     loss_dB = 2 * air.one_way_dB_per_km(30.0)["rain"] * scene.range_m[row] / 1000
     assert 10 * np.log10(dry[row] / wet[row]) == pytest.approx(loss_dB, rel=0.01)
-
-
-def test_none_takes_every_part_of_the_weather_away(grass):
-    scene = fanbeam.Scene.open("flat-grass")
-    usual = scene.weather
-    other = {
-        "liquid_water_g_per_m3": 0.1, "fog_top_m": 90.0, "rain_rate_mm_per_h": 4.0, "rain_top_m": 900.0,
-        "melting_layer": True, "snow_rate_mm_per_h": 1.0, "snow_top_m": 5000.0, "temperature_C": 5.0,
-        "pressure_hPa": 1000.0, "humidity": 0.5,
-    }
-    scene.set_weather(**other)
-    assert all(scene.weather[name] == value for name, value in other.items())
-    scene.set_weather(**dict.fromkeys(other))
-    assert scene.weather == usual == grass.weather
-    assert pickle.loads(pickle.dumps(scene)).weather == usual
 
 
 def test_conditions_change_what_they_name_alone(grass):

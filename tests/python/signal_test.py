@@ -68,17 +68,20 @@ def test_a_frame_that_the_flight_has_not_is_told(lone_target):
         fanbeam.signal.frame(lone_target, 99999)
 
 
+def test_what_a_radar_cannot_be_is_told_by_arguments(lone_target):
+    with pytest.raises(fanbeam.InputError, match="waveform = .*automotive-76ghz, .*stepped"):
+        fanbeam.signal.frame(lone_target, 0, waveform="chirps")
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.frame(lone_target, 0, numbers={"slots": 2})
+    assert (told.value.problems[0].field, told.value.problems[0].expected) == ("slots", "1, or as many as transmitters")
+
+
 def test_what_is_wanted_is_checked(lone_target):
     with pytest.raises(ValueError, match="beats"):
         fanbeam.signal.frame(lone_target, 0, want=("beats",))
     with pytest.raises(fanbeam.InputError) as told:
         fanbeam.signal.frame(lone_target, 0, transmitters=0, adc_bits=99)
     assert {problem.field for problem in told.value.problems} == {"transmitters", "adc_bits"}
-    with pytest.raises(fanbeam.InputError, match="waveform = .*automotive-76ghz, .*stepped"):
-        fanbeam.signal.frame(lone_target, 0, waveform="chirps")
-    with pytest.raises(fanbeam.InputError) as told:
-        fanbeam.signal.frame(lone_target, 0, numbers={"slots": 2})
-    assert (told.value.problems[0].field, told.value.problems[0].expected) == ("slots", "1, or as many as transmitters")
 
 
 def test_numbers_of_elements_replace_the_places_of_a_radar_file(lone_target, tmp_path):
