@@ -59,16 +59,25 @@ void check_files(int run, const RunFiles& files, const Json& record, std::vector
 
 }  // namespace
 
+bool was_made_by_other_file(const Campaign& campaign, const fs::path& output, int run) {
+  const std::optional<RunFiles> files = RunFiles::of(output, run);
+  const Json record = files ? record_in(*files) : Json();
+  return record.is_object() && is_of_other_file(record, campaign);
+}
+
 Status status_of(const Campaign& campaign, const fs::path& output) {
   Status status;
   status.runs = campaign.runs;
+  int first = campaign.runs;
   std::error_code none;
   for (fs::directory_iterator entry(output / "runs", none), end; !none && entry != end;
        entry.increment(none)) {
     const std::string name = entry->path().filename().string();
     if (!name.starts_with(".")) {
       const auto run = number_in(entry->path().stem().string());
-      if (run && *run < campaign.runs && RunFiles::is_there(output, *run)) ++status.made;
+      if (!run || *run >= campaign.runs || !RunFiles::is_there(output, *run)) continue;
+      ++status.made;
+      first = std::min(first, *run);
     } else if (name.ends_with(".lock") && is_locked(entry->path())) {
       ++status.under_way;
     }
@@ -78,6 +87,7 @@ Status status_of(const Campaign& campaign, const fs::path& output) {
     const auto run = number_in(entry->path().stem().string());
     if (run && *run < campaign.runs && !RunFiles::is_there(output, *run)) ++status.failed;
   }
+  status.changed = status.made > 0 && was_made_by_other_file(campaign, output, first);
   return status;
 }
 

@@ -92,8 +92,12 @@ std::string wrong_values(const Json& record, const Draw& draw) {
   return wrong.empty() ? "" : "other values than the campaign's file gives: " + wrong;
 }
 
+bool is_of_other_file(const Json& record, const Campaign& campaign) {
+  return record.value("campaign_sha256", "") != campaign.text_hash;
+}
+
 std::string wrong_maker(const Json& record, const Campaign& campaign, const std::string& usual) {
-  if (record.value("campaign_sha256", "") != campaign.text_hash)
+  if (is_of_other_file(record, campaign))
     return "made by another version of " + campaign.file.filename().string();
   if (made_by(record) != usual)
     return "made by " + made_by(record) + ", most of the others by " + usual;

@@ -33,6 +33,9 @@ std::string beyond_text(const Campaign& campaign);
 // Empty for a run whose record tells the values that the campaign's file gives it.
 std::string wrong_values(const nlohmann::ordered_json& record, const Draw& draw);
 
+// Made before the campaign's file was changed, or by another.
+bool is_of_other_file(const nlohmann::ordered_json& record, const Campaign& campaign);
+
 // Empty for a run that goes with the others.
 std::string wrong_maker(const nlohmann::ordered_json& record, const Campaign& campaign,
                         const std::string& usual);

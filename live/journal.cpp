@@ -28,13 +28,14 @@ std::string hex(std::span<const std::uint8_t> bytes) {
 
 Journal::Journal(const std::filesystem::path& file, const FlownBy& flown_by)
     : file_(file), stream_(file, std::ios::binary | std::ios::trunc) {
-  write(
-      json{{"fanbeam_live", 1},
-           {"scene", flown_by.scene},
-           {"from", flown_by.from.size() == 1 ? json(flown_by.from.front()) : json(flown_by.from)},
-           {"rate_Hz", flown_by.rate_Hz},
-           {"lockstep", flown_by.lockstep}}
-          .dump());
+  json head{{"fanbeam_live", 1},
+            {"scene", flown_by.scene},
+            {"from", flown_by.from.size() == 1 ? json(flown_by.from.front()) : json(flown_by.from)},
+            {"rate_Hz", flown_by.rate_Hz},
+            {"lockstep", flown_by.lockstep}};
+  if (flown_by.sensor) head["sensor"] = *flown_by.sensor;
+  if (flown_by.effects) head["effects"] = *flown_by.effects;
+  write(head.dump());
 }
 
 void Journal::packet(double arrived_s, std::span<const std::uint8_t> bytes, std::size_t source) {

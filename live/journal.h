@@ -12,13 +12,15 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 namespace fanbeam::live {
 
-// What else the same pictures need: the options that were given beside these have to be the same.
+// What else the same pictures need: the options that were given beside these have to be the same. Of
+// recordings from before they kept sensor and effects, nothing is known of these.
 struct FlownBy {
   static constexpr std::size_t kMostSources = 8;
 
@@ -26,6 +28,8 @@ struct FlownBy {
   std::vector<std::string> from;
   double rate_Hz = 16.0;
   bool lockstep = false;
+  std::optional<std::string> sensor{};   // its name
+  std::optional<std::string> effects{};  // the wishes about them, as they were told
 };
 
 // When a frame was asked for, and for when.

@@ -1,6 +1,8 @@
 #include "scenes/scene_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "core/files.h"
 #include "core/text.h"
@@ -97,6 +99,11 @@ void read_land_cover(ConfigTable& table, const DataSearch& search, TerrainDescri
   }
 }
 
+constexpr const char* kRolling = "generator = \"rolling\"";
+constexpr std::array<std::string_view, 9> kOfRollingGround = {
+    "relief_m", "field_size_m",  "wood_share",        "canopy_m",         "seed",
+    "fields",   "wood_material", "airfield_material", "airfield_beyond_m"};
+
 void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescription& terrain) {
   ConfigTable table = root.table("terrain");
   terrain.place = table.place("");
@@ -117,10 +124,12 @@ void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescriptio
     if (table.optional_text("generator"))
       table.error(core::ErrorClass::range, "generator", "given beside elevation",
                   "either elevation or generator");
+    table.only_with(kOfRollingGround, kRolling);
     return;
   }
+  table.only_with({"voids", "quantisation_step_m"}, "elevation");
   const bool rolling = table.choice("generator", {"plane", "rolling"}, 0) == 1;
-  if (!rolling) return;
+  if (!rolling) return table.only_with(kOfRollingGround, kRolling);
   terrain.source = TerrainDescription::Source::rolling;
   terrain.relief_m = table.number("relief_m", {0.0, 500.0}, terrain.relief_m);
   terrain.field_size_m = table.number("field_size_m", {20.0, 5000.0}, terrain.field_size_m);

@@ -1,6 +1,7 @@
 #include "scenes/weather_reader.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "core/units.h"
 #include "scenes/object_reader.h"
@@ -115,6 +116,31 @@ void read_layers(ConfigTable& table, const SceneDescription& scene, atmosphere::
   weather.snow_top_m = table.number("snow_top_m", kHeight_m, weather.snow_top_m);
 }
 
+// Keys about fog, rain or snow of which the file tells no amount.
+void warn_of_idle_keys(ConfigTable& table) {
+  const auto need = [&table](std::initializer_list<const char*> amounts,
+                             std::initializer_list<const char*> keys, const char* needed) {
+    if (std::any_of(amounts.begin(), amounts.end(),
+                    [&](const char* key) { return table.has(key); }))
+      return;
+    for (const char* key : keys)
+      if (table.has(key))
+        table.warning("UNUSED", key, "given", std::string("nothing comes of it without ") + needed);
+  };
+  need({"visibility_m"}, {"fog_type"}, "visibility_m");
+  need({"visibility_m", "liquid_water_g_per_m3"}, {"fog_law", "fog_top_m"},
+       "visibility_m or liquid_water_g_per_m3");
+  // Beside a melting layer it is an error.
+  need({"rain_rate_mm_per_h", "melting_layer", "melting_height_m"}, {"rain_top_m"},
+       "rain_rate_mm_per_h");
+  need({"rain_rate_mm_per_h", "rain_cell"},
+       {"rain_law", "rain_echo_law", "drop_sizes", "polarisation_tilt_deg"},
+       "rain_rate_mm_per_h or a rain_cell");
+  need({"rain_rate_mm_per_h", "snow_rate_mm_per_h"}, {"melting_layer", "melting_height_m"},
+       "rain_rate_mm_per_h or snow_rate_mm_per_h");
+  need({"snow_rate_mm_per_h"}, {"snow_top_m"}, "snow_rate_mm_per_h");
+}
+
 void read_air(ConfigTable& table, const SceneDescription& scene, atmosphere::Weather& weather) {
   weather.origin_height_m = table.number("origin_height_m", {-500, 6000},
                                          std::clamp(scene.origin.height_m, -500.0, 6000.0));
@@ -143,6 +169,7 @@ void read_weather(ConfigTable& root, SceneDescription& scene) {
   ConfigTable table = root.table("weather");
   atmosphere::Weather& weather = scene.weather;
   read_layers(table, scene, weather);
+  warn_of_idle_keys(table);
   read_air(table, scene, weather);
   ListTables lists = {{"fog_layer", {}}, {"level", {}}, {"rain_cell", {}}};
   weather.fog_layers =

@@ -108,7 +108,7 @@ class Run {
 
   void render_frames(const ProgressListener& progress);
   void write_records();
-  Sequence result() const;
+  Sequence result() const { return result_; }
 
  private:
   core::EffectPlan plan_of(int index) const {
@@ -116,6 +116,7 @@ class Run {
   }
   FrameRecord frame_record(int index, const core::EffectPlan& plan) const;
   void take_over_frames();
+  void fill_result();
   void remove_leftovers() const;
   FrameOutput render_frame(const core::EffectPlan& plan, FrameRecord& record) const;
   fs::path film() const { return output_.path() / ("preview." + settings_.preview_format); }
@@ -128,6 +129,7 @@ class Run {
   std::string fingerprint_;
   OutputFolder output_;
   std::unique_ptr<const Labeller> labeller_{};  // where labels are wanted
+  Sequence result_{};
 };
 
 void Run::render_frames(const ProgressListener& progress) {
@@ -164,6 +166,10 @@ void Run::render_frames(const ProgressListener& progress) {
     record_.films.insert(film().filename().string());
   }
   record_.wall_s = seconds_since(begin);
+  result_.asked = total;
+  result_.resumed =
+      static_cast<int>(std::count_if(record_.frames.begin(), record_.frames.end(),
+                                     [](const FrameRecord& frame) { return frame.resumed; }));
 }
 
 FrameRecord Run::frame_record(int index, const core::EffectPlan& plan) const {
@@ -206,10 +212,11 @@ void Run::write_records() {
   std::set<std::string> files = record_.films;
   for (const FrameRecord& record : record_.frames)
     files.insert(record.files.begin(), record.files.end());
-  output_.keep_only(files);
+  result_.removed = output_.keep_only(files);
   core::write_file_atomically(output_.path() / "run.json", run_json(scene_, record_));
   core::write_file_atomically(output_.path() / "timing.json", timing_json(record_));
   output_.end();
+  fill_result();
 }
 
 // What a killed run was writing.
@@ -229,12 +236,11 @@ FrameOutput Run::render_frame(const core::EffectPlan& plan, FrameRecord& record)
                       std::move(frame), record);
 }
 
-Sequence Run::result() const {
-  Sequence sequence{record_, {}};
+void Run::fill_result() {
+  result_.record = record_;
   for (const std::string& product : settings_.products)
-    sequence.places.push_back({product, product == "preview" ? film() : output_.path() / product});
-  sequence.places.push_back({"record", output_.path() / "run.json"});
-  return sequence;
+    result_.places.push_back({product, product == "preview" ? film() : output_.path() / product});
+  result_.places.push_back({"record", output_.path() / "run.json"});
 }
 
 }  // namespace

@@ -199,6 +199,7 @@ void Session::open(scenes::SceneDescription description, const Setup& setup,
                    "true: pictures have no range shift by own-ship Doppler; fanbeam fmcw "
                    "--products bscope has");
   if (setup.sample) description.sample = *setup.sample;
+  if (setup.sample && !*setup.sample) renderer::refuse_draws(setup.build.wishes);
   inside_->seed = setup.seed;
   inside_->threads = setup.threads;
   inside_->opened = scenes::build_scene(description, setup.build, problems);

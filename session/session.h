@@ -56,7 +56,8 @@ struct Setup {
 class Session {
  public:
   // `scene` is a folder with scene.toml, or that file. Warnings stay in `problems`. A scene needs no
-  // [trajectory] (scenes/flight_volume.h).
+  // [trajectory] (scenes/flight_volume.h). E-UNSUPPORTED for wishes for effects of a draw where `sample`
+  // is false.
   Session(const std::filesystem::path& scene, const Setup& setup, core::ProblemList& problems);
   // The same of a scene that was read, and perhaps changed; of `setup` without its folders and
   // sensor.

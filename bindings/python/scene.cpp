@@ -182,6 +182,18 @@ py::dict render(const Scene& scene, const PoseNumbers& pose, std::uint64_t frame
   return result;
 }
 
+// Of the scene's flight; counted from its end where negative, as Python does.
+int frame_number(const Scene& scene, long long index) {
+  const int frames = scene.session().scene()->frame_count();
+  if (index >= -frames && index < frames)
+    return static_cast<int>(index < 0 ? index + frames : index);
+  const std::string last = std::to_string(frames - 1);
+  core::throw_input_error(core::ErrorClass::range, "frame", std::to_string(index),
+                          frames == 0 ? "a pose: the scene has no flight"
+                                      : "0 to " + last + ", or -1 to -" + std::to_string(frames) +
+                                            " from the end: a frame of the flight");
+}
+
 // A row for each frame of the scene's flight.
 py::array_t<double> trajectory(const Scene& scene) {
   const std::shared_ptr<const scenes::Scene> now = scene.session().scene();
@@ -262,6 +274,7 @@ void add_scene(py::module_& module) {
       .def("set_sampling", &set_sampling, py::arg("kind"), py::arg("value"))
       .def("render", &render, py::arg("pose"), py::arg("frame_index"), py::arg("bscope"),
            py::arg("cscope"), py::arg("layers"), py::arg("cscope_layers"), py::arg("labels"))
+      .def("frame_number", &frame_number, py::arg("index"))
       .def("ground_height_m", &ground_height_m, py::arg("latitude_deg"), py::arg("longitude_deg"))
       .def("trajectory", &trajectory)
       .def("plan", &plan)

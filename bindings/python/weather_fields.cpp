@@ -36,6 +36,7 @@ const Field kFields[] = {{"visibility_m", &Weather::visibility_m},
 }  // namespace
 
 Weather changed_weather(Weather weather, const py::dict& changes) {
+  const Weather usual;
   for (const auto& [key, entry] : changes) {
     const py::handle value = entry;
     const auto name = key.cast<std::string>();
@@ -44,10 +45,10 @@ Weather changed_weather(Weather weather, const py::dict& changes) {
       if (name == field.name) found = &field;
     if (found == nullptr) throw py::type_error("the weather has no \"" + name + "\"");
     try {
-      const auto put = [value](auto& place) {
-        place = value.cast<std::decay_t<decltype(place)>>();
+      const auto put = [value](auto& place, const auto& without) {
+        place = value.is_none() ? without : value.cast<std::decay_t<decltype(place)>>();
       };
-      std::visit([&](auto member) { put(weather.*member); }, found->member);
+      std::visit([&](auto member) { put(weather.*member, usual.*member); }, found->member);
     } catch (const py::cast_error&) {
       throw py::type_error(name + ": expected a number, not " +
                            py::repr(value).cast<std::string>());

@@ -18,7 +18,7 @@ std::string grey_text(double bound_grey) {
 SceneFacts with_realisation(const SceneFacts& scene, const EffectWishes& wishes) {
   SceneFacts facts = scene;
   facts.sample = scene.sample || wishes.forced_on.contains(core::EffectId::speckle) ||
-                 wishes.forced_on.contains(core::EffectId::swerling);
+                 (wishes.forced_on.contains(core::EffectId::swerling) && scene.fluctuating_targets);
   return facts;
 }
 
@@ -218,6 +218,15 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
     }
   }
   return wishes;
+}
+
+void refuse_draws(const EffectWishes& wishes) {
+  for (const core::EffectId draw : {core::EffectId::speckle, core::EffectId::swerling})
+    if (wishes.forced_on.contains(draw))
+      core::throw_input_error(core::ErrorClass::unsupported, "--effects",
+                              "\"+" + std::string(name_of(draw)) + "\"",
+                              "no effect of a draw beside the realisation mean, which is the "
+                              "expectation of all draws");
 }
 
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {

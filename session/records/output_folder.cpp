@@ -206,7 +206,7 @@ std::map<int, std::set<std::string>> OutputFolder::frames(
   return frames;
 }
 
-void OutputFolder::keep_only(const std::set<std::string>& files) const {
+int OutputFolder::keep_only(const std::set<std::string>& files) const {
   std::vector<fs::path> old;
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
@@ -219,6 +219,10 @@ void OutputFolder::keep_only(const std::set<std::string>& files) const {
   for (const fs::path& relative : old) fs::remove(folder_ / relative, ignored);
   for (const fs::path& relative : old)
     if (relative.has_parent_path()) fs::remove(folder_ / relative.parent_path(), ignored);
+  std::set<int> frames;
+  for (const fs::path& relative : old)
+    if (const std::optional<int> index = frame_of(relative)) frames.insert(*index);
+  return static_cast<int>(frames.size());
 }
 
 }  // namespace fanbeam::session

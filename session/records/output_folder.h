@@ -38,8 +38,9 @@ class OutputFolder {
       const std::map<int, std::set<std::string>>& written) const;
 
   // Removes the files of frames and films that an earlier run.json lists, or with `overwrite` any
-  // frame, unless they are among `files` (relative to the folder). Never leaves the folder.
-  void keep_only(const std::set<std::string>& files) const;
+  // frame, unless they are among `files` (relative to the folder). Never leaves the folder. Of how
+  // many frames.
+  int keep_only(const std::set<std::string>& files) const;
 
  private:
   bool is_of_this_input(const std::filesystem::path& relative) const;

@@ -45,7 +45,7 @@ WaveformKind kind_of(const std::string& name) {
   const auto kind = signal::waveform_kind(name);
   if (!kind)
     core::throw_input_error(core::ErrorClass::ref, "--waveform", "\"" + name + "\"",
-                            std::string(kAutomotive) + " or a kind that fanbeam waveform knows");
+                            "one of: " + std::string(kAutomotive) + ", " + waveform_kinds_text());
   return *kind;
 }
 

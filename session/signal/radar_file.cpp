@@ -12,6 +12,7 @@
 #include "core/decibel.h"
 #include "core/units.h"
 #include "session/signal/sample_file.h"
+#include "session/signal/waveform_choice.h"
 #include "signal/waveform/waveform.h"
 
 namespace fanbeam::session {
@@ -29,11 +30,9 @@ constexpr std::array<std::pair<const char*, signal::CfarKind>, 4> kCfarWords = {
 void read_waveform(ConfigTable table, FmcwSettings& settings) {
   if (!table.present()) return;
   if (const auto kind = table.optional_text("kind")) {
-    std::string known = kAutomotive;
-    for (const signal::WaveformKind each : signal::all_waveform_kinds())
-      known += ", " + std::string(signal::name(each));
     if (*kind != kAutomotive && !signal::waveform_kind(*kind))
-      table.error(ErrorClass::ref, "kind", "\"" + *kind + "\"", "one of: " + known);
+      table.error(ErrorClass::ref, "kind", "\"" + *kind + "\"",
+                  "one of: " + std::string(kAutomotive) + ", " + waveform_kinds_text());
     settings.waveform = *kind;
   }
   settings.real = table.boolean("real", settings.real);

@@ -53,6 +53,7 @@ TEST_CASE("Shared memory that live made goes with it", "[live]") {
 
 TEST_CASE("SIGTERM and SIGINT are the good end of live, while it opens its scene and later",
           "[live]") {
+  CHECK(run_fanbeam("help live").output.find("exit code 0") != std::string::npos);
   for (const int signal : {SIGTERM, SIGINT})
     for (const double after_ms : {0.0, 3000.0}) {
       INFO("signal " << signal << " after " << after_ms << " ms");
@@ -194,7 +195,7 @@ TEST_CASE("Lockstep writes the same raw pictures every time, and a recording the
   CHECK(bytes_of("--speed 2 --replay " + record, "paced").size() % (164U * 524U) == 0);
 }
 
-TEST_CASE("A recording belongs to its scene", "[live]") {
+TEST_CASE("A recording belongs to its scene, sensor and effects", "[live]") {
   const TemporaryFolder folder;
   const std::string record = (folder.path() / "flight.jsonl").string();
   CHECK(
@@ -203,6 +204,14 @@ TEST_CASE("A recording belongs to its scene", "[live]") {
   const Result other = run_fanbeam("live obstacle-field --http 0 --replay " + record);
   CHECK(other.exit_code == 3);
   CHECK(other.output.find("E-REF") != std::string::npos);
+  for (const auto& [options, key] :
+       {std::pair{" --effects none", "/effects"}, {" --sensor hivision-94", "/sensor"}}) {
+    const Result changed =
+        run_fanbeam("live flat-grass --http 0 --lockstep --replay " + record + options);
+    INFO(changed.output);
+    CHECK(changed.exit_code == 3);
+    CHECK(changed.output.find(std::string("E-REF ") + key) != std::string::npos);
+  }
   folder.write("wrong.jsonl", "{}\n");
   const Result wrong =
       run_fanbeam("live flat-grass --http 0 --replay " + (folder.path() / "wrong.jsonl").string());

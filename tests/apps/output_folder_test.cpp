@@ -89,6 +89,28 @@ TEST_CASE("Pictures that a stopped run of the same input left are taken over wit
   CHECK(files_told(out) == files_in(out));
 }
 
+TEST_CASE("The summary counts the frames asked for, and tells those that are kept and removed",
+          "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const auto told = [&](const std::string& words) {
+    return run_fanbeam("render obstacle-field --products bscope --rays-per-cell 1 --resume " +
+                       words + " -o " + quoted(out))
+        .output;
+  };
+  told("--frames 100:160:20");
+  const std::string one = told("--frames 200");
+  INFO(one);
+  CHECK(one.find("1 frame in ") != std::string::npos);
+  CHECK(one.find("already there") == std::string::npos);
+  CHECK(one.find("3 frames of the same input there before and kept\n") != std::string::npos);
+  CHECK(one.find("removed") == std::string::npos);
+  const std::string other = told("--frames 100 --effects none");
+  INFO(other);
+  CHECK(other.find("3 frames of another input removed\n") != std::string::npos);
+  CHECK(files_in(out) == std::vector<std::string>{"bscope/00100.png", "run.json", "timing.json"});
+}
+
 TEST_CASE("A folder with other files is refused by their names, and --overwrite leaves them",
           "[render]") {
   const TemporaryFolder folder;

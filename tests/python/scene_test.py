@@ -3,6 +3,7 @@
 import multiprocessing
 import os
 import pickle
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -108,6 +109,21 @@ def test_data_folders_are_the_same_from_another_folder(tmp_path, monkeypatch):
     assert told.opened["data"][:2] == [tmp_path / "given", tmp_path / "named"]
 
 
+def test_none_takes_every_part_of_the_weather_away(grass):
+    scene = fanbeam.Scene.open("flat-grass")
+    usual = scene.weather
+    other = {
+        "liquid_water_g_per_m3": 0.1, "fog_top_m": 90.0, "rain_rate_mm_per_h": 4.0, "rain_top_m": 900.0,
+        "melting_layer": True, "snow_rate_mm_per_h": 1.0, "snow_top_m": 5000.0, "temperature_C": 5.0,
+        "pressure_hPa": 1000.0, "humidity": 0.5,
+    }
+    scene.set_weather(**other)
+    assert all(scene.weather[name] == value for name, value in other.items())
+    scene.set_weather(**dict.fromkeys(other))
+    assert scene.weather == usual == grass.weather
+    assert pickle.loads(pickle.dumps(scene)).weather == usual
+
+
 def test_parts_that_threads_set_at_once_are_all_kept():
     scene = fanbeam.Scene.open("flat-grass")
     parts = [{"visibility_m": 800.0}, {"rain_rate_mm_per_h": 3.0}, {"temperature_C": 4.0}, {"humidity": 0.4}]
@@ -199,6 +215,8 @@ def test_every_problem_is_told_at_once(grass):
     assert [problem.code for problem in told.value.problems] == ["E-RANGE", "E-NONFINITE", "E-RANGE"]
     with pytest.raises(fanbeam.InputError, match="flat-grass"):
         fanbeam.Scene.open("flat-gras")
+    with pytest.raises(fanbeam.InputError, match="speckle"):
+        fanbeam.Scene.open("flat-grass", effects="+speckle", sample=False)
     with pytest.raises(fanbeam.InputError, match="rain_rate"):
         grass.set_weather(rain_rate_mm_per_h=-1.0)
     assert grass.weather["rain_rate_mm_per_h"] == 0.0
@@ -221,8 +239,8 @@ def test_every_problem_is_told_at_once(grass):
         grass.set_weather(rain=3)
     with pytest.raises(TypeError, match="rain_rate"):
         grass.set_weather(rain_rate_mm_per_h="much")
-    with pytest.raises(IndexError):
-        grass.render(7)
+    with pytest.raises(fanbeam.InputError, match="frame = 99999: expected 0 to 0, or -1"):
+        grass.render(99999)
     with pytest.raises(TypeError):
         grass.render("now")
 
@@ -294,6 +312,24 @@ def test_a_scene_travels_to_other_processes_with_its_conditions(method):
     scene.set_samples(2.0)
     with multiprocessing.get_context(method).Pool(1) as pool:
         assert pool.apply(worker_bytes, (scene,)) == worker_bytes(scene)
+
+
+def test_a_task_that_a_forked_worker_cannot_do_fails_instead_of_waiting(grass):
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        with pytest.raises(RuntimeError, match="spawn"):
+            pool.apply_async(worker_bytes, (grass,)).get(timeout=60)
+
+
+def test_what_cannot_be_opened_where_it_is_sent_is_told_by_the_first_call(tmp_path, root):
+    shutil.copytree(root / "scenes" / "flat-grass", tmp_path / "grass")
+    sent = pickle.dumps(fanbeam.Scene.open(tmp_path / "grass"))
+    shutil.rmtree(tmp_path / "grass")
+    arrived = pickle.loads(sent)
+    for _ in range(2):
+        with pytest.raises(fanbeam.InputError, match="E-IO"):
+            arrived.render(0)
+    shutil.copytree(root / "scenes" / "flat-grass", tmp_path / "grass")
+    assert pickle.loads(pickle.dumps(arrived)).render(0).bscope is not None
 
 
 def test_in_a_forked_child_a_scene_says_what_to_do(grass):

@@ -56,6 +56,24 @@ def test_the_waveform_tells_its_resolution():
         fanbeam.signal.waveform("chirp-sequence", band=150e6)
     with pytest.raises(fanbeam.InputError, match="bandwidth"):
         fanbeam.signal.waveform("chirp-sequence", bandwidth=-1.0)
+    with pytest.raises(fanbeam.InputError, match="kind = .*triangle"):
+        fanbeam.signal.waveform("chirps")
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.waveform("triangle", code_degree=7)
+    assert told.value.problems[0].field == "code_degree"
+
+
+def test_a_frame_that_the_flight_has_not_is_told(lone_target):
+    with pytest.raises(fanbeam.InputError, match="frame = 99999"):
+        fanbeam.signal.frame(lone_target, 99999)
+
+
+def test_what_a_radar_cannot_be_is_told_by_arguments(lone_target):
+    with pytest.raises(fanbeam.InputError, match="waveform = .*automotive-76ghz, .*stepped"):
+        fanbeam.signal.frame(lone_target, 0, waveform="chirps")
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.frame(lone_target, 0, numbers={"slots": 2})
+    assert (told.value.problems[0].field, told.value.problems[0].expected) == ("slots", "1, or as many as transmitters")
 
 
 def test_what_is_wanted_is_checked(lone_target):

@@ -3,11 +3,13 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bindings/python/convert.h"
@@ -22,6 +24,38 @@
 
 namespace fanbeam::bindings {
 namespace {
+
+// "--sample-rate" of the program is the argument sample_rate, KIND is kind.
+std::string in_python_words(const std::string& text) {
+  if (text == "KIND") return "kind";
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text.compare(i, 2, "--") != 0) {
+      result += text[i++];
+      continue;
+    }
+    for (i += 2; i < text.size() &&
+                 (std::islower(static_cast<unsigned char>(text[i])) != 0 || text[i] == '-');
+         ++i)
+      result += text[i] == '-' ? '_' : text[i];
+  }
+  return result;
+}
+
+// What `work` refuses by the program's options is told by Python's arguments.
+template <class Work>
+auto told_in_python_words(const Work& work) {
+  try {
+    return work();
+  } catch (const core::InputError& error) {
+    std::vector<core::Problem> problems = error.problems();
+    for (core::Problem& problem : problems) {
+      problem.field = in_python_words(problem.field);
+      problem.expected = in_python_words(problem.expected);
+    }
+    throw core::InputError(std::move(problems));
+  }
+}
 
 // Of kWaveformNumbers by the name of their option, "bandwidth", "sample_rate": in SI, into the units
 // that the options have.
@@ -141,7 +175,7 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   const session::FmcwSettings settings = settings_of(told, now->description.signal_file);
   const sensors::Sensor& sensor = now->description.sensor;
   const auto made = std::make_shared<Made>();
-  made->radar = session::fmcw_radar(settings, sensor);
+  made->radar = told_in_python_words([&] { return session::fmcw_radar(settings, sensor); });
   without_lock([&](const core::StopToken& stop) {
     const core::StopScope scope(stop);
     made->paths = session::fmcw_paths(*now, index, settings);
@@ -177,7 +211,8 @@ std::string waveform(const std::string& kind, const std::map<std::string, double
   settings.real = real;
   settings.down_first = down_first;
   take_numbers(numbers, settings);
-  return session::waveform_json(session::chosen_waveform(settings));
+  return told_in_python_words(
+      [&] { return session::waveform_json(session::chosen_waveform(settings)); });
 }
 
 }  // namespace
