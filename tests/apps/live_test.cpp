@@ -228,6 +228,7 @@ TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") 
   const TemporaryFolder folder;
   folder.write("film.raw", "kept");
   const std::string film = (folder.path() / "film.raw").string();
+  const std::string record = folder.write("flight.jsonl", "kept").string();
   const int other = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in at{};
   at.sin_family = AF_INET;
@@ -237,11 +238,29 @@ TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") 
   REQUIRE(::listen(other, 1) == 0);
   REQUIRE(::getsockname(other, reinterpret_cast<sockaddr*>(&at), &size) == 0);
   const Result taken = run_fanbeam("live flat-grass --http " + std::to_string(ntohs(at.sin_port)) +
-                                   " --frames 1 --to raw-bscope:" + film);
-  ::close(other);
+                                   " --frames 1 --to raw-bscope:" + film + " --record " + record);
   CHECK(taken.exit_code == 4);
   CHECK(taken.output.find("a port that is free") != std::string::npos);
+  // Nor does a sink that cannot be opened, or a source whose port is taken, beside them.
+  for (const std::string& more :
+       {std::string("--to raw-bscope:") + (folder.path() / "no/film.raw").string(),
+        "--from native-fdm:" + std::to_string(ntohs(at.sin_port)),
+        std::string("--to raw-cscope:").append(film)}) {
+    INFO(more);
+    const int datagrams = ::socket(AF_INET, SOCK_DGRAM, 0);
+    REQUIRE(::bind(datagrams, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0);
+    const Result refused =
+        run_fanbeam("live flat-grass --http 0 --frames 1 --to raw-bscope:" + film + " --record " +
+                    record + " " + more);
+    ::close(datagrams);
+    INFO(refused.output);
+    CHECK((refused.exit_code == 4 || refused.exit_code == 2));
+    CHECK(fanbeam::core::read_file(film, 100) == "kept");
+    CHECK(fanbeam::core::read_file(record, 100) == "kept");
+  }
+  ::close(other);
   CHECK(fanbeam::core::read_file(film, 100) == "kept");
+  CHECK(fanbeam::core::read_file(record, 100) == "kept");
 }
 
 TEST_CASE("An option given twice is told as that", "[live]") {
@@ -261,6 +280,12 @@ TEST_CASE("Several simulators may send; what cannot stand beside another source 
   const std::string both = refused("--from ils --from circle");
   CHECK(both.find("\"ils\": expected no other source beside it") != std::string::npos);
   CHECK(both.find("\"circle\": expected no other source beside it") != std::string::npos);
+  CHECK(refused("--from native-fdm:0,datum=egm96,datum=ellipsoid").find("each key once") !=
+        std::string::npos);
+  CHECK(refused("--to cat240:127.0.0.1:8600,bits=8,bits=16").find("each key once") !=
+        std::string::npos);
+  CHECK(refused("--to raw-bscope:- --to raw-cscope:-").find("another file or pipe") !=
+        std::string::npos);
   CHECK(refused("--from native-fdm:0 --from cigi:0").find("no other source") != std::string::npos);
   CHECK(refused("--from native-fdm:0 --from fg-generic:0 --lockstep").find("several sources") !=
         std::string::npos);
