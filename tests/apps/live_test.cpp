@@ -189,6 +189,28 @@ TEST_CASE("A recording belongs to its scene", "[live]") {
   CHECK(wrong.output.find("wrong.jsonl:1") != std::string::npos);
 }
 
+TEST_CASE(
+    "A recording of several sources is flown in lockstep; what it says of them wrongly is its own",
+    "[live]") {
+  const TemporaryFolder folder;
+  const auto replayed = [&](const std::string& from) {
+    const auto record =
+        folder.write("flight.jsonl", R"({"fanbeam_live":1,"scene":"flat-grass","from":)" + from +
+                                         R"(,"rate_Hz":16,"lockstep":false})"
+                                         "\n"
+                                         R"({"frame":1,"now_s":0.1,"at_s":0.1,"samples":1})"
+                                         "\n");
+    return run_fanbeam("live flat-grass --http 0 --lockstep --replay " + record.string());
+  };
+  const Result two = replayed(R"(["native-fdm:0","fg-generic:0"])");
+  INFO(two.output);
+  CHECK(two.exit_code == 0);
+  const Result wrong = replayed(R"("nonsense")");
+  INFO(wrong.output);
+  CHECK(wrong.exit_code == 3);
+  CHECK(wrong.output.find("flight.jsonl:1: E-REF /from") != std::string::npos);
+}
+
 TEST_CASE("A trajectory of one's own flies in live", "[live]") {
   const TemporaryFolder folder;
   const std::string table = (folder.path() / "flight.csv").string();
