@@ -234,7 +234,8 @@ std::vector<fs::path> detection_files(const fs::path& folder) {
   for (const auto& entry :
        fs::directory_iterator(fs::is_directory(below, status) ? below : folder, status)) {
     const fs::path name = entry.path().filename();
-    const bool record = name == "run.json" || name == "timing.json";
+    const bool record = name == "run.json" || name == "timing.json" ||
+                        name.string().starts_with('.');  // a file that was never finished
     if (name.extension() == ".json" && !record && entry.is_regular_file(status))
       files.push_back(entry.path());
   }
