@@ -441,10 +441,10 @@ core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayR
 }
 
 HighwayFile file_of(const JsonNode& root) {
-  const std::string format = text(root, "format");
-  const double version = number(root, "version");
-  if (format != "highway-scenarios" || version != 1.0)
-    refuse(root, "format", ErrorClass::unsupported, format + " " + core::number_text(version),
+  const auto format = root.required("format").text();
+  const auto version = root.required("version").number({-kMost, kMost});
+  if (format && version && (*format != "highway-scenarios" || *version != 1.0))
+    refuse(root, "format", ErrorClass::unsupported, *format + " " + core::number_text(*version),
            "\"highway-scenarios\", version 1");
   root.problems().throw_if_errors();
   check_keys(root, {"format", "version", "radar", "scenarios", "conventions", "waveforms",
@@ -456,6 +456,8 @@ HighwayFile file_of(const JsonNode& root) {
   const JsonNode scenarios = root.required("scenarios");
   std::set<std::string> names;
   const std::size_t count = scenarios.size(kMostEntries);
+  if (scenarios.is_array() && scenarios.elements() == 0)
+    scenarios.error(ErrorClass::range, "one scenario at least");
   for (std::size_t i = 0; i < count; ++i) {
     result.scenarios.push_back(scenario_of(scenarios.element(i), result.radar, waveforms));
     check_unique(scenarios.element(i), result.scenarios.back().id, names);
