@@ -61,17 +61,6 @@ void check_unique(const JsonNode& node, const std::string& id, std::set<std::str
   if (!used.insert(id).second) refuse(node, "id", ErrorClass::ref, id, "a name used once");
 }
 
-// The format's members of an object.
-void check_keys(const JsonNode& node, const std::vector<const char*>& known) {
-  for (const std::string& key : node.keys()) {
-    if (std::find(known.begin(), known.end(), key) != known.end() || node.problems().is_full())
-      continue;
-    node.problems().error(
-        ErrorClass::ref, node.place(), node.pointer() + "/" + key, "unknown",
-        "a member of the format" + core::names_there_text(key, {known.begin(), known.end()}));
-  }
-}
-
 // All of it, or of `base` what it says otherwise.
 core::HighwayRadar radar_of(const JsonNode& radar, const core::HighwayRadar* base) {
   check_keys(radar, {"center_frequency_hz", "sweep_bandwidth_hz", "tx_power_w", "tx_gain_db",
