@@ -179,7 +179,7 @@ class Run {
   }
 
   // What a frame refuses comes before anything is there.
-  void begin_writing() const {
+  void begin_writing() {
     if (!records_.empty()) return;
     std::set<std::string> files;
     if (runs_chain()) files.insert(session::kRadarFile);
@@ -196,7 +196,7 @@ class Run {
     records_.push_back(std::move(record));
   }
 
-  void scan(int index, session::FmcwFrameRecord& record) const {
+  void scan(int index, session::FmcwFrameRecord& record) {
     Clock::time_point begin = Clock::now();
     const session::SignalBscope bscope = session::fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);

@@ -130,6 +130,7 @@ class LiveRun {
     if (listens) listener_.listen(network_);
     live::Sinks& sinks = continued_.sinks;
     sinks.begin(scene_->description, rate_Hz_);
+    if (journal_) journal_->begin();  // last: until here nothing is lost that was there
     network_.start();
     if (!quiet_)
       print_address(scene_->description.name, wiring_.page.address, port,

@@ -200,6 +200,16 @@ std::vector<std::string> JsonNode::keys() const {
   return keys;
 }
 
+void check_keys(const JsonNode& node, const std::vector<const char*>& known) {
+  for (const std::string& key : node.keys()) {
+    if (std::find(known.begin(), known.end(), key) != known.end() || node.problems().is_full())
+      continue;
+    node.problems().error(
+        ErrorClass::ref, node.place(), node.pointer() + "/" + key, "unknown",
+        "a member of the format" + names_there_text(key, {known.begin(), known.end()}));
+  }
+}
+
 std::size_t JsonNode::size(std::size_t most) const {
   if (!present()) return 0;
   if (!of(value_).is_array()) {

@@ -76,4 +76,7 @@ class JsonNode {
   std::string pointer_;
 };
 
+// E-REF for each member of an object that is not among those known, with those like it.
+void check_keys(const JsonNode& node, const std::vector<const char*>& known);
+
 }  // namespace fanbeam::core

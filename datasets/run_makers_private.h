@@ -18,6 +18,9 @@ inline constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 28U;
 // Null where it is damaged.
 nlohmann::ordered_json record_in(const RunFiles& files);
 
+// Version and commit.
+bool is_of_this_program(const nlohmann::ordered_json& record);
+
 // What of a campaign's runs is there, and what made most of it: program, libraries and level of
 // instructions. Holds no records.
 struct Survey {

@@ -61,17 +61,6 @@ void check_unique(const JsonNode& node, const std::string& id, std::set<std::str
   if (!used.insert(id).second) refuse(node, "id", ErrorClass::ref, id, "a name used once");
 }
 
-// The format's members of an object.
-void check_keys(const JsonNode& node, const std::vector<const char*>& known) {
-  for (const std::string& key : node.keys()) {
-    if (std::find(known.begin(), known.end(), key) != known.end() || node.problems().is_full())
-      continue;
-    node.problems().error(
-        ErrorClass::ref, node.place(), node.pointer() + "/" + key, "unknown",
-        "a member of the format" + core::names_there_text(key, {known.begin(), known.end()}));
-  }
-}
-
 // All of it, or of `base` what it says otherwise.
 core::HighwayRadar radar_of(const JsonNode& radar, const core::HighwayRadar* base) {
   check_keys(radar, {"center_frequency_hz", "sweep_bandwidth_hz", "tx_power_w", "tx_gain_db",
@@ -441,10 +430,10 @@ core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayR
 }
 
 HighwayFile file_of(const JsonNode& root) {
-  const std::string format = text(root, "format");
-  const double version = number(root, "version");
-  if (format != "highway-scenarios" || version != 1.0)
-    refuse(root, "format", ErrorClass::unsupported, format + " " + core::number_text(version),
+  const auto format = root.required("format").text();
+  const auto version = root.required("version").number({-kMost, kMost});
+  if (format && version && (*format != "highway-scenarios" || *version != 1.0))
+    refuse(root, "format", ErrorClass::unsupported, *format + " " + core::number_text(*version),
            "\"highway-scenarios\", version 1");
   root.problems().throw_if_errors();
   check_keys(root, {"format", "version", "radar", "scenarios", "conventions", "waveforms",
@@ -456,6 +445,8 @@ HighwayFile file_of(const JsonNode& root) {
   const JsonNode scenarios = root.required("scenarios");
   std::set<std::string> names;
   const std::size_t count = scenarios.size(kMostEntries);
+  if (scenarios.is_array() && scenarios.elements() == 0)
+    scenarios.error(ErrorClass::range, "one scenario at least");
   for (std::size_t i = 0; i < count; ++i) {
     result.scenarios.push_back(scenario_of(scenarios.element(i), result.radar, waveforms));
     check_unique(scenarios.element(i), result.scenarios.back().id, names);

@@ -110,6 +110,14 @@ void add_lookups(py::module_& module) {
   module.def("find_scene", &session::find_scene, py::arg("name"), py::arg("shipped"));
   module.def("find_sensor", &session::find_sensor, py::arg("name"), py::arg("shipped"),
              py::arg("field"));
+  module.def(
+      "check_data_folder",
+      [](const std::string& folder, const std::string& field) {
+        core::ProblemList problems;
+        session::check_data_folder(folder, field, problems);
+        problems.throw_if_errors();
+      },
+      py::arg("folder"), py::arg("field"));
   module.def("materials", &materials_of, py::arg("library"));
   module.def("nrcs", &nrcs, py::arg("library"), py::arg("material"), py::arg("grazing_rad"),
              py::arg("frequency_Hz"), py::arg("polarisation"), py::arg("state"),

@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "bindings/python/convert.h"
 #include "bindings/python/frame.h"
 #include "bindings/python/interruptible.h"
 #include "bindings/python/scene_handle.h"
@@ -65,11 +66,14 @@ std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
 
 session::TargetState target_of(const py::handle& target) {
   session::TargetState state;
-  state.name = target.attr("name").cast<std::string>();
-  state.position = {core::radians(target.attr("latitude_deg").cast<double>()),
-                    core::radians(target.attr("longitude_deg").cast<double>()),
-                    target.attr("height_m").cast<double>()};
-  const auto attitude = target.attr("attitude_deg").cast<std::optional<std::array<double, 3>>>();
+  const auto number = [&](const char* name) {
+    return value_of<double>(target.attr(name), std::string("target.") + name);
+  };
+  state.name = value_of<std::string>(target.attr("name"), "target.name");
+  state.position = {core::radians(number("latitude_deg")), core::radians(number("longitude_deg")),
+                    number("height_m")};
+  const auto attitude = value_of<std::optional<std::array<double, 3>>>(
+      target.attr("attitude_deg"), "target.attitude_deg", "roll, pitch and heading");
   if (attitude) {
     core::ProblemList problems;
     constexpr std::array<const char*, 3> kAngles = {"target.roll_deg", "target.pitch_deg",
@@ -81,7 +85,8 @@ session::TargetState target_of(const py::handle& target) {
         core::quaternion_from({core::radians((*attitude)[0]), core::radians((*attitude)[1]),
                                core::radians((*attitude)[2])});
   }
-  const auto rcs_m2 = target.attr("rcs_m2").cast<std::optional<double>>();
+  const auto rcs_m2 =
+      value_of<std::optional<double>>(target.attr("rcs_m2"), "target.rcs_m2", "a number or None");
   if (rcs_m2) {
     core::require_range("target.rcs_m2", *rcs_m2, {0.0, 1.0e9}, "m2");
     state.rcs = materials::ConstantRcs{*rcs_m2};

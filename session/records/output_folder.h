@@ -5,7 +5,8 @@
 // and are listed again; files that run.json lists of another input are replaced by the new run's;
 // any other file is somebody's, and a run refuses to mix with it unless told to. A run whose files
 // do not say what input they are of leaves a note between `begin` and `end`: killed, it leaves
-// nothing that the next run takes for somebody's.
+// nothing that the next run takes for somebody's. So does one that replaces another input, whose
+// record goes before the first new file is there: the note lists what it listed.
 #pragma once
 
 #include <filesystem>
@@ -27,9 +28,12 @@ class OutputFolder {
 
   const std::filesystem::path& path() const { return folder_; }
 
-  // Until `end` frames' files in the folders of `products`, and `files` of all frames together, are
-  // those of a run that has not ended.
-  void begin(const std::set<std::string>& products, const std::set<std::string>& files) const;
+  // A frame was made and will be written: a record of another input goes, with what is of all its
+  // frames together.
+  void begin_frames();
+  // The same, and until `end` frames' files in the folders of `products`, and `files` of all frames
+  // together, are those of a run that has not ended.
+  void begin(const std::set<std::string>& products, const std::set<std::string>& files);
   // After run.json is written.
   void end() const;
 
@@ -44,6 +48,8 @@ class OutputFolder {
 
  private:
   bool is_of_this_input(const std::filesystem::path& relative) const;
+  bool has_record_of_another() const;
+  void write_note(const std::set<std::string>& products, const std::set<std::string>& files) const;
 
   std::filesystem::path folder_;
   std::string fingerprint_;
@@ -55,7 +61,11 @@ class OutputFolder {
   };
   static Listed listed_in(const std::filesystem::path& folder);
   Listed listed_;  // by the run.json that was there
+  bool begun_ = false;
 };
+
+// Whether a run that writes there has not ended, or was stopped: what is there may be of two.
+bool is_unfinished(const std::filesystem::path& folder);
 
 // Files of one frame, relative to the folder: {"power", 7} is "power/00007.exr".
 std::set<std::string> frame_files(const std::set<std::string>& products, int index);

@@ -170,7 +170,15 @@ class Table {
   bool told_ = false;
 };
 
+// Those that this program writes; of some it makes nothing.
+const std::vector<const char*> kFrameMembers = {"frame", "time_s", "radar_speed_mps",
+                                                "radar_velocity_mps", "detections"};
+const std::vector<const char*> kDetectionMembers = {
+    "range_m", "radial_speed_mps", "azimuth_rad", "elevation_rad", "power_W",
+    "snr_dB",  "forward_m",        "right_m",     "cluster"};
+
 DetectedFrame frame_in(const JsonNode& node) {
+  check_keys(node, kFrameMembers);
   DetectedFrame frame;
   frame.time_s = node.required("time_s").number(kTimes_s).value_or(0.0);
   frame.radar_velocity_mps = radar_velocity_in(node);
@@ -178,6 +186,7 @@ DetectedFrame frame_in(const JsonNode& node) {
   const std::size_t count = list.size(kMostDetections);
   for (std::size_t i = 0; i < count; ++i) {
     const JsonNode one = list.element(i);
+    check_keys(one, kDetectionMembers);
     std::array<double, kColumns.size()> values{};
     values[kRange] = one.required("range_m").number(kRanges_m).value_or(1.0);
     values[kSpeed] = one.required("radial_speed_mps").number(kSpeeds_mps).value_or(0.0);
@@ -200,6 +209,7 @@ void read_json(const fs::path& path, std::vector<DetectedFrame>& frames,
   if (!list.present()) {
     frames.push_back(frame_in(root));
   } else {
+    check_keys(root, {"frames"});
     const std::size_t count = list.size(kMostFrames);
     for (std::size_t i = 0; i < count; ++i) frames.push_back(frame_in(list.element(i)));
   }
@@ -234,7 +244,8 @@ std::vector<fs::path> detection_files(const fs::path& folder) {
   for (const auto& entry :
        fs::directory_iterator(fs::is_directory(below, status) ? below : folder, status)) {
     const fs::path name = entry.path().filename();
-    const bool record = name == "run.json" || name == "timing.json";
+    const bool record = name == "run.json" || name == "timing.json" ||
+                        name.string().starts_with('.');  // a file that was never finished
     if (name.extension() == ".json" && !record && entry.is_regular_file(status))
       files.push_back(entry.path());
   }

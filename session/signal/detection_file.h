@@ -6,7 +6,8 @@
 // of one time are a frame.
 // JSON: {"time_s", "detections": [...]} of one frame, or {"frames": [those]}; a detection has range_m,
 // radial_speed_mps and azimuth_rad, and may have elevation_rad, power_W, snr_dB and cluster; a frame may have
-// radar_velocity_mps, [forward, right] over ground in the antenna's axes, or radar_speed_mps, forward alone.
+// radar_velocity_mps, [forward, right] over ground in the antenna's axes, or radar_speed_mps, forward alone. What
+// `fanbeam fmcw` writes beside these (frame, forward_m, right_m) is passed over, any other member is E-REF.
 // A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
 // order of their names.
 //

@@ -60,6 +60,21 @@ std::vector<glm::dvec3> read_places(ConfigTable& table, const std::string& side)
   return places;
 }
 
+// Of places, the line's figures say nothing: counts may stand beside them where they are the same.
+void refuse_line_beside_places(ConfigTable& table, const FmcwSettings& settings) {
+  const auto check = [&](const char* key, int count, std::size_t places) {
+    if (places > 0 && table.has(key) && static_cast<std::size_t>(count) != places)
+      table.error(ErrorClass::range, key, std::to_string(count),
+                  std::to_string(places) + ", the number of places, or no such key");
+  };
+  check("transmitters", settings.transmitters, settings.transmitters_m.size());
+  check("receivers", settings.receivers, settings.receivers_m.size());
+  if (!settings.receivers_m.empty() && table.has("pitch_wavelengths"))
+    table.error(ErrorClass::unsupported, "pitch_wavelengths",
+                core::number_text(settings.pitch_wavelengths),
+                "a pitch or places of the elements, not both");
+}
+
 void read_array(ConfigTable table, FmcwSettings& settings) {
   if (!table.present()) return;
   settings.transmitters =
@@ -69,6 +84,7 @@ void read_array(ConfigTable table, FmcwSettings& settings) {
       table.number("pitch_wavelengths", {0.0, 1000.0, true}, settings.pitch_wavelengths);
   settings.transmitters_m = read_places(table, "transmitter");
   settings.receivers_m = read_places(table, "receiver");
+  refuse_line_beside_places(table, settings);
   if (settings.transmitters_m.empty() != settings.receivers_m.empty())
     table.error(ErrorClass::ref,
                 settings.transmitters_m.empty() ? "transmitter_right_m" : "receiver_right_m",

@@ -195,7 +195,13 @@ TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing el
   REQUIRE(child.running());
   child.send(SIGKILL);
   child.wait();
-  CHECK(bytes_of(out / "run.json") == record);
+  // The files are other frames' and another radar's than these said.
+  CHECK_FALSE(fs::exists(out / "run.json"));
+  CHECK_FALSE(fs::exists(out / "radar.toml"));
+  const Result tracked =
+      run_fanbeam("track " + quoted(out) + " -o " + quoted(folder.path() / "tracks"));
+  INFO(tracked.output);
+  CHECK(tracked.output.find("W-UNFINISHED") != std::string::npos);
   std::ofstream(out / "notes.txt") << "mine";
   CHECK(fmcw("--frames 3 --products detections").exit_code == 2);
   fs::remove(out / "notes.txt");
@@ -207,6 +213,32 @@ TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing el
   REQUIRE(fmcw("--frames 3 --products detections").exit_code == 0);
   CHECK(files_in(out) == std::vector<std::string>{"detections/00003.csv", "detections/00003.json",
                                                   "radar.toml", "run.json", "timing.json"});
+}
+
+TEST_CASE("A killed run of another input leaves no record of files that it has replaced",
+          "[render][stop]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  must_render(out, "flat-grass --frames 0 --products bscope,labels,layers");
+  const auto before = contents(out);
+  CHECK(render(out, "obstacle-field --frames 0 --products bscope,nonsense").exit_code == 2);
+  CHECK((contents(out) == before));
+  Child child({"render", "obstacle-field", "--rays-per-cell", "1", "-q", "-o", out.string(),
+               "--frames", "0:400", "--products", "bscope"});
+  while (child.running() && bytes_of(out / "bscope/00000.png") == before.at("bscope/00000.png"))
+    wait_ms(5.0);
+  REQUIRE(child.running());
+  child.send(SIGKILL);
+  child.wait();
+  for (const char* gone : {"run.json", "timing.json", "labels.json", "coco.json", "layers.json"}) {
+    INFO(gone);
+    CHECK_FALSE(fs::exists(out / gone));
+  }
+  // What it had listed is a run's own still, and goes.
+  must_render(out, "obstacle-field --frames 0 --products bscope --resume");
+  CHECK_FALSE(fs::exists(out / "labels"));
+  CHECK_FALSE(fs::exists(out / ".unfinished.json"));
+  CHECK(files_told(out) == files_in(out));
 }
 
 TEST_CASE("Somebody's file with the name of a run's own is refused, and stays", "[render][fmcw]") {
@@ -237,7 +269,7 @@ TEST_CASE("Somebody's file with the name of a run's own is refused, and stays", 
 TEST_CASE("Files of all frames are a killed run's own by its note alone", "[render]") {
   const TemporaryFolder folder;
   const auto there = [&] { return session::OutputFolder(folder.path(), "", false); };
-  const session::OutputFolder killed = there();
+  session::OutputFolder killed = there();
   killed.begin({}, {"coco.json"});
   folder.write("coco.json", "half a run's");
   CHECK_NOTHROW(there());

@@ -75,6 +75,33 @@ TEST_CASE("JSON frames of one time are one frame, and all that go back are told"
   CHECK(run.output.find("frame 2 time_s = 1") != std::string::npos);
 }
 
+TEST_CASE("JSON detections have the members of the format alone, and one velocity", "[track]") {
+  const tests::TemporaryFolder folder;
+  const auto problems_of = [&](const std::string& frame) {
+    core::ProblemList problems;
+    session::read_detections(folder.write("one.json", frame), problems);
+    return problems.all();
+  };
+  const std::string tail = R"("time_s": 0, "detections": []})";
+  const auto misspelt = problems_of(R"({"radar_velocty_mps": [20, 0], )" + tail);
+  REQUIRE(misspelt.size() == 1);
+  CHECK(misspelt[0].code == "E-REF");
+  CHECK(misspelt[0].field == "/radar_velocty_mps");
+  CHECK(misspelt[0].expected.find("perhaps radar_velocity_mps") != std::string::npos);
+  CHECK(problems_of(R"({"frames": [], "radar_speed_mps": 20})").size() == 1);
+  CHECK(problems_of(R"({"time_s": 0, "detections": [{"range_m": 50, "radial_speed_mps": 1,
+                        "azimuth_rad": 0, "snr": 20}]})")
+            .size() == 1);
+  // The speed over ground holds what the velocity lacks, and no less than it has.
+  CHECK(problems_of(R"({"radar_velocity_mps": [3, -4], "radar_speed_mps": 5, "frame": 7, )" + tail)
+            .empty());
+  CHECK(problems_of(R"({"radar_velocity_mps": [3, -4], "radar_speed_mps": 9, )" + tail).empty());
+  const auto contrary =
+      problems_of(R"({"radar_velocity_mps": [30, 0], "radar_speed_mps": 3, )" + tail);
+  REQUIRE(contrary.size() == 1);
+  CHECK(contrary[0].field == "/radar_speed_mps");
+}
+
 TEST_CASE("Elevations are read from tables and from JSON, and lie within a quarter turn",
           "[track]") {
   const tests::TemporaryFolder folder;
@@ -163,6 +190,24 @@ TEST_CASE(
   CHECK(few.exit_code == 2);
   CHECK(few.output.find("--chirps = 8") != std::string::npos);
   CHECK(tests::run_fanbeam(fmcw + " --products beat").exit_code == 0);
+}
+
+TEST_CASE("A radar file's line may not contradict the places beside it", "[fmcw]") {
+  const auto fields_of = [](const std::string& line) {
+    session::FmcwSettings settings;
+    core::ProblemList problems;
+    session::read_radar_text(
+        "[array]\ntransmitter_right_m = [0.0]\nreceiver_right_m = [0.0, 0.002]\n" + line,
+        "radar.toml", settings, problems);
+    std::vector<std::string> fields;
+    for (const core::Problem& problem : problems.all()) fields.push_back(problem.field);
+    return fields;
+  };
+  CHECK(fields_of("transmitters = 1\nreceivers = 2\n").empty());
+  CHECK(fields_of("transmitters = 2\nreceivers = 4\n") ==
+        std::vector<std::string>{"array.transmitters", "array.receivers"});
+  CHECK(fields_of("pitch_wavelengths = 0.5\n") ==
+        std::vector<std::string>{"array.pitch_wavelengths"});
 }
 
 TEST_CASE("Numbers of elements given as options replace a file's places", "[fmcw]") {

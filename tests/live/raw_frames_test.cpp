@@ -211,3 +211,21 @@ TEST_CASE("A pipe gets frames from when it has a reader", "[raw_frames]") {
   CHECK(bytes[0] == 2);
   ::close(reader);
 }
+
+TEST_CASE("A file is as it was until its flight begins, and one that was made goes with it",
+          "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto old = folder.write("old.raw", "kept"), made = folder.path() / "new.raw";
+  {
+    RawFrames raw(RawFrames::Scope::bscope, old.string(), true);
+    const RawFrames other(RawFrames::Scope::bscope, made.string(), true);
+    CHECK(std::filesystem::exists(made));
+    // Who writes it has it alone.
+    CHECK_THROWS_AS(RawFrames(RawFrames::Scope::cscope, old.string(), true), core::InputError);
+  }
+  CHECK(bytes_of(old) == "kept");
+  CHECK_FALSE(std::filesystem::exists(made));
+  RawFrames raw(RawFrames::Scope::bscope, old.string(), true);
+  raw.begin();
+  CHECK(bytes_of(old).empty());
+}

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "core/files.h"
 #include "core/units.h"
 #include "live/channel.h"
 #include "live/frame_maker.h"
@@ -281,6 +282,22 @@ TEST_CASE("A frame that the end left unmade is in no recording; what came meanwh
   REQUIRE(recording.events.size() == 2);
   CHECK(std::get<live::RecordedFrame>(recording.events[0]).tick.number == 1);
   CHECK(std::get<live::RecordedPacket>(recording.events[1]).bytes.size() == 2);
+}
+
+TEST_CASE("A recording is as it was until its channel begins, and one channel's alone",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write("flight.jsonl", "kept");
+  const live::FlownBy flown_by{"s", {"circle"}, 16.0, true};
+  { const live::Journal given_up(file, flown_by); }
+  CHECK(core::read_file(file, 100) == "kept");
+  live::Journal journal(file, flown_by);
+  CHECK_THROWS_AS(live::Journal(file, flown_by), core::InputError);
+  journal.begin();
+  journal.control("/api/weather", "{}");
+  const live::Recording recording = live::read_recording(file);
+  CHECK(recording.flown_by.scene == "s");
+  CHECK(recording.events.size() == 1);
 }
 
 TEST_CASE("What is wrong with a recording is told with its line", "[recording]") {

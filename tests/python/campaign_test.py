@@ -186,12 +186,36 @@ def test_verify_finds_a_changed_record_and_takes_one_of_an_earlier_version(progr
     record.write_text(text.replace(f'"weather.visibility_m": {visibility}', '"weather.visibility_m": 500.0'), encoding="utf-8")
     said = told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2", exit_code=1)
     assert "run 1: run.json: other bytes than recorded" in said and "1 of 2 runs" in said
-    # Which had no hash of the record.
     old = json.loads(text)
     assert list(old)[-1] == "record_sha256"
     del old["record_sha256"]
     record.write_text(json.dumps(old), encoding="utf-8")
+    said = told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2", exit_code=1)
+    assert "run 1: run.json: without its seal" in said
+    # An earlier program had none.
+    for run in ("000000", "000001"):
+        file = tmp_path / "runs" / run / "run.json"
+        old = {**json.loads(file.read_text(encoding="utf-8")), "commit": "0123456789ab"}
+        old.pop("record_sha256", None)
+        file.write_text(json.dumps(old), encoding="utf-8")
     told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2")
+
+
+def test_a_record_of_other_types_is_told_and_the_other_runs_are_judged(program, campaign, tmp_path):
+    told(program, "run", campaign, "-o", tmp_path, "--runs", "0:2", "-q")
+    next((tmp_path / "runs" / "000001").glob("labels/*.json")).unlink()
+    record = tmp_path / "runs" / "000000" / "run.json"
+    whole = json.loads(record.read_text(encoding="utf-8"))
+    name = next(iter(whole["files"]))
+    for wrong in (
+        {"run": "0"},
+        {"campaign_sha256": 5},
+        {"files": {**whole["files"], name: {"sha256": None}}},
+        {"files": {**whole["files"], name: {"sha256": 5}}},
+    ):
+        record.write_text(json.dumps({**whole, **wrong}), encoding="utf-8")
+        said = told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2", exit_code=1)
+        assert "run 0: run.json: no record of a run" in said and "run 1: labels/" in said
 
 
 def test_runs_of_other_values_and_beyond_the_file_are_damage(program, campaign, tmp_path):
@@ -225,6 +249,7 @@ def test_a_grid_with_weights_of_an_earlier_version_can_be_looked_at_alone(progra
     for run in (output / "runs").iterdir():
         record = json.loads((run / "run.json").read_text(encoding="utf-8"))
         del record["record_sha256"]
+        record["commit"] = "0123456789ab"
         record["campaign_sha256"] = hashlib.sha256(file.read_bytes()).hexdigest()
         (run / "run.json").write_text(json.dumps(record), encoding="utf-8")
     for task in ("status", "merge", "verify"):

@@ -55,6 +55,7 @@ CHANGES = {
     "not measured": (change(["scenarios", 0, "suppressed_detections"], []), True),
     "unknown member": (change(["scenarios", 0, "weather"], "rain"), False),
     "unknown radar member": (change(["scenarios", 0, "radar_overrides"], {"noise_figre_db": 12}), False),
+    "no scenario": (change(["scenarios"], []), False),
     "no duration": (change(["scenarios", 0, "duration_s"], None), False),
     "a target's name of two cells": (change(["scenarios", 0, "targets", 0, "id"], "A, left"), False),
     "unknown motion": (change(["scenarios", 0, "targets", 0, "motion"], "spiral"), False),

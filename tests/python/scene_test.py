@@ -105,6 +105,7 @@ def test_a_pickle_keeps_that_water_took_the_place_of_the_scenes_visibility():
 def test_data_folders_are_the_same_from_another_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("FANBEAM_DATA", "named")
+    (tmp_path / "given").mkdir()
     told = fanbeam.Scene.open("flat-grass", data="given").__getstate__()
     assert told.opened["data"][:2] == [tmp_path / "given", tmp_path / "named"]
 
@@ -243,6 +244,28 @@ def test_every_problem_is_told_at_once(grass):
         grass.render(99999)
     with pytest.raises(TypeError):
         grass.render("now")
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("name", 5),
+        ("latitude_deg", "52"),
+        ("height_m", None),
+        ("rcs_m2", "bright"),
+        ("attitude_deg", (0.0, 0.0)),
+    ],
+)
+def test_a_value_of_another_type_is_told_with_its_field(grass, field, value):
+    target = {"name": "new", "latitude_deg": 52.0, "longitude_deg": 10.0, "height_m": 50.0, "rcs_m2": 1.0}
+    with pytest.raises(TypeError, match=f"target.{field}: expected "):
+        grass.set_targets([fanbeam.Target(**{**target, field: value})])
+
+
+def test_a_data_folder_that_is_none_is_told(tmp_path):
+    with pytest.raises(fanbeam.InputError, match="E-IO data"):
+        fanbeam.Scene.open("flat-grass", data=tmp_path / "nowhere")
+    assert fanbeam.Scene.open("flat-grass", data=tmp_path).name == "flat-grass"
 
 
 def test_problems_of_files_have_their_line(tmp_path):

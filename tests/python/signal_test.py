@@ -86,6 +86,16 @@ def test_what_is_wanted_is_checked(lone_target):
         fanbeam.signal.frame(lone_target, 0, waveform="continuous", receivers=64, numbers={"duration": 1000.0})
 
 
+def test_a_value_of_another_type_is_told_with_its_field(lone_target):
+    for field, value in (("seed", -1), ("seed", "x"), ("receivers", 1.5), ("real", "yes"), ("waveform", 5)):
+        with pytest.raises(TypeError, match=f"{field}: expected "):
+            fanbeam.signal.frame(lone_target, 0, **{field: value})
+    with pytest.raises(TypeError, match="bandwidth: expected a number, not 'x'"):
+        fanbeam.signal.frame(lone_target, 0, numbers={"bandwidth": "x"})
+    with pytest.raises(TypeError, match="bandwidth: expected a number, not 'x'"):
+        fanbeam.signal.waveform("chirp-sequence", bandwidth="x")
+
+
 def test_numbers_of_elements_replace_the_places_of_a_radar_file(lone_target, tmp_path):
     file = tmp_path / "radar.toml"
     file.write_text("[array]\ntransmitter_right_m = [0.0]\nreceiver_right_m = [0.0, 0.002, 0.004]\n")

@@ -124,6 +124,16 @@ TEST_CASE("All that is wrong with a scenario file is told together, with its pat
   }
 }
 
+TEST_CASE("A file without scenarios is refused, and one without a format told as that alone",
+          "[highway]") {
+  const std::string one = file_with(kStraight);
+  check_refused(one.substr(0, one.find("[{\"id\": \"X\"")) + "[]}", core::ErrorClass::range,
+                "/scenarios");
+  const core::InputError error = refusal("{}");
+  CHECK(error.problems().size() == 2);
+  CHECK_FALSE(error.has(core::ErrorClass::unsupported));
+}
+
 TEST_CASE("A member that is not there is told with those that are", "[highway]") {
   const core::InputError error = refusal(file_with(
       R"("motion": "piecewise-acceleration", "position": [50, 0], "velocity_mps": [22, 0])"));

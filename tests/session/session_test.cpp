@@ -218,6 +218,31 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
   CHECK(same(rendered(*session), before));
 }
 
+TEST_CASE("A target's name is one that can be shown, and those there are told once each",
+          "[session]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene + kMast + kMast);
+  const auto problem_of = [&](const std::string& name, bool bright) {
+    session::TargetState state{.name = name, .position = {core::radians(52.0), 0.17, 50.0}};
+    if (bright) state.rcs = materials::ConstantRcs{10.0};
+    try {
+      session->set(std::span(&state, 1));
+    } catch (const core::InputError& error) {
+      REQUIRE(error.problems().size() == 1);
+      return error.problems()[0];
+    }
+    return core::Problem{};
+  };
+  for (const char* name : {"", "a\nb", "\x1b[2J"}) {
+    CHECK(problem_of(name, true).code == "E-RANGE");
+    CHECK(problem_of(name, true).field == "target[0].name");
+  }
+  const std::string expected = problem_of("lamp", false).expected;
+  CHECK(expected.find("mast") != std::string::npos);
+  CHECK(expected.find("mast") == expected.rfind("mast"));
+  CHECK(problem_of("new", true).code.empty());
+}
+
 TEST_CASE("A sensor whose ranges own-ship Doppler shifts has no pictures, but a scene",
           "[session]") {
   const TemporaryFolder folder;

@@ -267,6 +267,8 @@ class Scene:
         threads  at most, for a frame; 0: all
         """
         shipped = _paths.shipped()
+        if data is not None:
+            _core.check_data_folder(os.fspath(data), "data")
         opened: dict[str, Any] = {
             "scene": Path(_core.find_scene(os.fspath(scene), shipped)).absolute(),
             "shipped": shipped,

@@ -60,9 +60,13 @@ auto told_in_python_words(const Work& work) {
 // Of kWaveformNumbers by the name of their option, "bandwidth", "sample_rate": in SI, into the units
 // that the options have.
 template <class Settings>
-void take_numbers(const std::map<std::string, double>& numbers, Settings& settings) {
+void take_numbers(const py::dict& numbers, Settings& settings) {
   core::ProblemList problems;
-  std::map<std::string, double> rest = numbers;
+  std::map<std::string, double> rest;
+  for (const auto& [key, value] : numbers) {
+    const auto name = value_of<std::string>(key, "numbers", "names that are texts");
+    rest[name] = value_of<double>(value, name);
+  }
   for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i) {
     const session::WaveformNumber& known = session::kWaveformNumbers[i];
     std::string name = std::string(known.option).substr(2);
@@ -86,16 +90,16 @@ void take_numbers(const std::map<std::string, double>& numbers, Settings& settin
 // `own`: the radar file that the scene names, which another one replaces.
 session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::path& own) {
   session::FmcwSettings settings;
-  const auto given = told["radar"].cast<std::string>();
+  const auto given = value_of<std::string>(told["radar"], "radar");
   if (const std::filesystem::path file = given.empty() ? own : std::filesystem::path(given);
       !file.empty())
     settings = session::radar_settings(file);
-  if (const auto kind = told["waveform"].cast<std::string>(); !kind.empty())
+  if (const auto kind = value_of<std::string>(told["waveform"], "waveform"); !kind.empty())
     settings.waveform = kind;
-  take_numbers(told["numbers"].cast<std::map<std::string, double>>(), settings);
+  take_numbers(told["numbers"].cast<py::dict>(), settings);
   // What is missing stays as the file or the default has it.
   const auto take = [&told]<class T>(const char* name, T& value) {
-    if (told.contains(name)) value = told[name].cast<T>();
+    if (told.contains(name)) value = value_of<T>(told[name], name);
   };
   if (told.contains("transmitters") || told.contains("receivers")) settings.put_on_a_line();
   take("real", settings.real);
@@ -204,8 +208,7 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   return result;
 }
 
-std::string waveform(const std::string& kind, const std::map<std::string, double>& numbers,
-                     bool real, bool down_first) {
+std::string waveform(const std::string& kind, const py::dict& numbers, bool real, bool down_first) {
   session::WaveformSettings settings;
   settings.kind = kind;
   settings.real = real;
