@@ -18,6 +18,8 @@ namespace {
 
 using core::ErrorClass;
 
+constexpr double kShortestRunway_m = 100.0;
+
 std::string degrees_text(const core::Geodetic& position) {
   const auto text = [](double angle_rad) {
     return core::number_text(std::round(core::degrees(angle_rad) * 1e6) / 1e6);
@@ -128,9 +130,13 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description,
   runway.materials = {names.id(description.surface, description.place, "runway.surface"),
                       names.id(description.shoulder_material, description.place, "runway.shoulder"),
                       names.id(description.marking_material, description.place, "runway.marking")};
-  if (runway.length_m() < 100.0)
+  if (runway.length_m() < kShortestRunway_m) {
     problems_.error(ErrorClass::range, description.place, "runway length",
                     core::number_text(runway.length_m()) + " m", "ends at least 100 m apart");
+    // What else is wrong is looked for on a runway that has a direction.
+    runway.ends[1].pavement_end_m =
+        runway.ends[0].pavement_end_m + glm::dvec2(0.0, kShortestRunway_m);
+  }
   const RunwayEndDescription* const ends = description.ends;
   check_displaced(ends[0].displaced_m + ends[1].displaced_m, runway.length_m(),
                   ends[ends[1].displaced_m > ends[0].displaced_m ? 1 : 0].displaced_place,
