@@ -118,6 +118,9 @@ std::optional<int> CityReader::epsg() {
   const JsonNode stated = root_.member("metadata").member("referenceSystem");
   const std::string reference = stated.text().value_or(options_.crs);
   const std::optional<int> code = epsg_code(reference);
+  if (code && !options_.crs.empty() && epsg_code(options_.crs) != code)
+    problems_.warning("UNUSED", place_, "crs", "\"" + options_.crs + "\"",
+                      "the file says EPSG:" + std::to_string(*code) + ", which counts");
   if (code) return code;
   if (stated.present())
     stated.error(ErrorClass::ref, "a system of EPSG, https://www.opengis.net/def/crs/EPSG/0/7415");

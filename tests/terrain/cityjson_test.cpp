@@ -209,6 +209,13 @@ TEST_CASE("all that is wrong with a CityJSON file is told at once, each with its
   CHECK(read_text("{\"type\": \"CityJSON\", ").has("E-PARSE", "city.json:1:"));
 }
 
+TEST_CASE("a system that is named beside another one of the file is told to be of no use",
+          "[cityjson]") {
+  CHECK(read(tests::house(), "EPSG:28992")
+            .has("W-UNUSED", "crs = \"EPSG:28992\": the file says EPSG:25832"));
+  CHECK(read(tests::house(), "EPSG:25832").problems.empty());
+}
+
 TEST_CASE("values of another type than CityJSON's are refused, not left out", "[cityjson]") {
   json city = tests::house();
   city["CityObjects"]["house"]["geometry"][0]["semantics"]["values"] = "x";
