@@ -240,8 +240,11 @@ TEST_CASE("faces with too many corners are E-LIMIT, one alone and all together",
     }
     json& geometry = city["CityObjects"]["house"]["geometry"][0];
     geometry.erase("semantics");
-    geometry["boundaries"] = {json::array()};
-    for (int i = 0; i < faces; ++i) geometry["boundaries"][0].push_back({ring});
+    json face = json::array(), shell = json::array();
+    face.push_back(ring);
+    for (int i = 0; i < faces; ++i) shell.push_back(face);
+    geometry["boundaries"] = json::array();
+    geometry["boundaries"].push_back(shell);
     return read(city);
   };
   CHECK(rounds(4001, 1).has("E-LIMIT", "boundaries/0/0 = 4001 corners: expected at most 4000"));
