@@ -8,6 +8,7 @@
 
 #include "core/colour_picture.h"
 #include "core/errors.h"
+#include "core/exr_check.h"
 #include "core/files.h"
 #include "core/picture_bytes.h"
 #include "core/png_check.h"
@@ -66,6 +67,9 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
     if (const std::int64_t side = std::max(claimed.columns, claimed.rows); side > kLongestSide)
       throw_input_error(ErrorClass::limit, place, "image size", std::to_string(side),
                         "at most " + std::to_string(kLongestSide) + " on a side");
+  });
+  check_exr(path, [&](const ClaimedSize& claimed) {
+    check_size(place, claimed.columns, claimed.rows, 1);
   });
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
   if (!input) throw_input_error(ErrorClass::parse, place, "", OIIO::geterror(), "an image file");

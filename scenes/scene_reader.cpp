@@ -94,8 +94,8 @@ void read_land_cover(ConfigTable& table, const DataSearch& search, TerrainDescri
     else if (std::stoi(key) > terrain::kLargestLandCoverClass)
       classes.error(core::ErrorClass::range, key, key,
                     "a class from 0 to " + std::to_string(terrain::kLargestLandCoverClass));
-    else
-      terrain.classes[std::stoi(key)] = material;
+    else if (!terrain.classes.emplace(std::stoi(key), material).second)
+      classes.error(core::ErrorClass::ref, key, key, "each class once");
   }
 }
 

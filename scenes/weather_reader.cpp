@@ -28,13 +28,16 @@ void named(ConfigTable& table, const char* key, const char* fallback, Parse pars
   }
 }
 
+// Every path asks every cell: a frame takes some 10 ms for each.
+constexpr std::size_t kMostRainCells = 256;
+
 // The entries of an array of tables that could be read without an error, and the tables they came
 // from: problems found later are told there.
 template <typename Entry, typename Read>
 std::vector<Entry> read_list(ConfigTable& parent, const char* key, Read read,
-                             std::vector<ConfigTable>& kept) {
+                             std::vector<ConfigTable>& kept, std::size_t most = 10'000) {
   std::vector<Entry> entries;
-  for (ConfigTable& table : parent.tables(key)) {
+  for (ConfigTable& table : parent.tables(key, most)) {
     const std::size_t problems = table.problems().all().size();
     const Entry entry = read(table);
     if (table.problems().all().size() != problems) continue;
@@ -175,8 +178,8 @@ void read_weather(ConfigTable& root, SceneDescription& scene) {
   weather.fog_layers =
       read_list<atmosphere::FogLayer>(table, "fog_layer", read_fog_layer, lists[0].second);
   weather.levels = read_list<atmosphere::AirLevel>(table, "level", read_level, lists[1].second);
-  scene.rain_cells =
-      read_list<RainCellDescription>(table, "rain_cell", read_rain_cell, lists[2].second);
+  scene.rain_cells = read_list<RainCellDescription>(table, "rain_cell", read_rain_cell,
+                                                    lists[2].second, kMostRainCells);
 
   if (!(scene.sensor.waveform.frequency_Hz > 0.0)) return;  // no usable sensor: already reported
   atmosphere::Weather with_cells = weather;

@@ -52,7 +52,7 @@ void read_scan(ConfigTable table, Scan& scan) {
   const double widest_deg = scan.surface == ScanSurface::cone ? 180.0 : 360.0;
   scan.field_of_view_rad = required_angle_rad(table, "field_of_view_deg", above_zero(widest_deg));
   scan.columns = required_whole(table, "columns", kMostColumns);
-  scan.frame_rate_Hz = table.required_number("frame_rate_Hz", above_zero(1000.0));
+  scan.frame_rate_Hz = table.required_number("frame_rate_Hz", {1e-3, 1000.0});
   scan.stabilised = table.boolean("stabilised", true);
   read_sweep(table, scan);
 }
@@ -79,7 +79,7 @@ int cells_up_to(ConfigTable& table, const RangeGate& gate, double maximum_m) {
 // Returns the end of the window as the file states it; the last whole cell may end before.
 double read_range(ConfigTable table, RangeGate& gate, std::int64_t columns) {
   gate.minimum_m = table.required_number("minimum_m", {0.0, 1e6});
-  gate.cell_m = table.required_number("cell_m", above_zero(1e5));
+  gate.cell_m = table.required_number("cell_m", {1e-3, 1e5});
   const auto maximum_m = table.optional_number("maximum_m", above_zero(1e9));
   if (!table.has("maximum_m")) {
     gate.cells = required_whole(table, "cells", kMostRows);

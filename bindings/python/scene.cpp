@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "bindings/python/convert.h"
@@ -24,6 +25,7 @@
 #include "session/labels/labels_json.h"
 #include "session/records/run_record.h"
 #include "session/sampling_choice.h"
+#include "terrain/local_frame.h"
 
 namespace fanbeam::bindings {
 namespace {
@@ -64,31 +66,35 @@ std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
   return opened;
 }
 
-session::TargetState target_of(const py::handle& target) {
+// What is wrong goes to `problems`, below `field`.
+session::TargetState target_of(const py::handle& target, const std::string& field,
+                               core::ProblemList& problems) {
   session::TargetState state;
   const auto number = [&](const char* name) {
-    return value_of<double>(target.attr(name), std::string("target.") + name);
+    return value_of<double>(target.attr(name), field + "." + name);
   };
-  state.name = value_of<std::string>(target.attr("name"), "target.name");
+  state.name = value_of<std::string>(target.attr("name"), field + ".name");
   state.position = {core::radians(number("latitude_deg")), core::radians(number("longitude_deg")),
                     number("height_m")};
+  try {
+    terrain::check_geodetic(state.position, field.c_str());
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+  }
   const auto attitude = value_of<std::optional<std::array<double, 3>>>(
-      target.attr("attitude_deg"), "target.attitude_deg", "roll, pitch and heading");
+      target.attr("attitude_deg"), field + ".attitude_deg", "roll, pitch and heading");
   if (attitude) {
-    core::ProblemList problems;
-    constexpr std::array<const char*, 3> kAngles = {"target.roll_deg", "target.pitch_deg",
-                                                    "target.heading_deg"};
+    constexpr std::array<const char*, 3> kAngles = {".roll_deg", ".pitch_deg", ".heading_deg"};
     for (std::size_t i = 0; i < kAngles.size(); ++i)
-      core::check_range(problems, kAngles[i], (*attitude)[i], {}, "deg");
-    problems.throw_if_errors();
+      core::check_range(problems, field + kAngles[i], (*attitude)[i], {}, "deg");
     state.q_NB =
         core::quaternion_from({core::radians((*attitude)[0]), core::radians((*attitude)[1]),
                                core::radians((*attitude)[2])});
   }
   const auto rcs_m2 =
-      value_of<std::optional<double>>(target.attr("rcs_m2"), "target.rcs_m2", "a number or None");
+      value_of<std::optional<double>>(target.attr("rcs_m2"), field + ".rcs_m2", "a number or None");
   if (rcs_m2) {
-    core::require_range("target.rcs_m2", *rcs_m2, {0.0, 1.0e9}, "m2");
+    core::check_range(problems, field + ".rcs_m2", *rcs_m2, {0.0, 1.0e9}, "m2");
     state.rcs = materials::ConstantRcs{*rcs_m2};
   }
   return state;
@@ -96,7 +102,10 @@ session::TargetState target_of(const py::handle& target) {
 
 py::list set_targets(const Scene& scene, const py::sequence& targets) {
   std::vector<session::TargetState> states;
-  for (const py::handle target : targets) states.push_back(target_of(target));
+  core::ProblemList problems;
+  for (const py::handle target : targets)
+    states.push_back(target_of(target, "target[" + std::to_string(states.size()) + "]", problems));
+  problems.throw_if_errors();
   return problems_list(scene.session().set(std::span<const session::TargetState>(states)).all());
 }
 

@@ -143,7 +143,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["seed"] = record.seed;
   if (const auto limit = core::instruction_limit()) json["isa"] = core::short_name_of(*limit);
   json["caster"] = caster_json(scene.caster, record.choice.sampling);
-  json["input"] = Json::parse(resolved_json(scene.description.resolved));
+  json["input"] = resolved_json<Json>(scene.description.resolved);
   if (!record.set.empty()) json["set"] = Json::parse(record.set);
   json["sensor_values"] = sensor_json(scene.description.sensor);
   json["receiver"] = receiver_json(scene);

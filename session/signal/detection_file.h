@@ -11,7 +11,7 @@
 // A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
 // order of their names.
 //
-// Limits: files of 256 MiB, a million frames, 100 000 detections in a frame; ranges above 0 to 1e6 m, speeds
+// Limits: files of 256 MiB, a million frames, 100 000 detections in a frame (a tracker takes fewer measurements); ranges above 0 to 1e6 m, speeds
 // within 1e5 m/s, azimuths within a half turn, elevations within a quarter. Ranges are slant ones at the middle of
 // the chirps, times those of the waveform's clock at 0 (factories.h: of a chirp sequence its beginning), as `fanbeam fmcw`
 // writes them. What is wrong is told with its place; times that go back

@@ -196,7 +196,7 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwSettings& option
     json["processing"] = processing_json(options, radar);
   }
   if (!frames.empty() && frames.front().scan) json["bscope"] = scan_json(scene.description.sensor);
-  json["input"] = Json::parse(resolved_json(scene.description.resolved));
+  json["input"] = resolved_json<Json>(scene.description.resolved);
   json["accuracy_grey"] = scene.accuracy_grey;
   json["plan"] = Json::parse(decisions_json(plan_of_echoes(scene.plan)));
   json["frames"] = Json::array();

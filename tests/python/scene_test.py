@@ -233,8 +233,15 @@ def test_every_problem_is_told_at_once(grass):
     with pytest.raises(fanbeam.InputError) as told:
         grass.set_targets([fanbeam.Target("new", 52.0, 10.0, 0.0, 1.0, attitude_deg=(nan, 0.0, -nan))])
     assert [(problem.code, problem.field) for problem in told.value.problems] == [
-        ("E-NONFINITE", "target.roll_deg"),
-        ("E-NONFINITE", "target.heading_deg"),
+        ("E-NONFINITE", "target[0].roll_deg"),
+        ("E-NONFINITE", "target[0].heading_deg"),
+    ]
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.set_targets([fanbeam.Target("good", 52.0, 10.0, 0.0, 1.0), fanbeam.Target("bad", 95.0, 10.0, 1e9, -1.0)])
+    assert [(problem.code, problem.field) for problem in told.value.problems] == [
+        ("E-RANGE", "target[1].latitude_deg"),
+        ("E-RANGE", "target[1].height_m"),
+        ("E-RANGE", "target[1].rcs_m2"),
     ]
     with pytest.raises(TypeError):
         grass.set_weather(rain=3)

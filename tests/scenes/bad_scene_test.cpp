@@ -153,6 +153,9 @@ TEST_CASE("Land cover: classes without material, materials that do not exist, no
   check_problems(folder, with_classes("1 = \"forest\", 65536 = \"crops\""),
                  {"@/scene.toml:9:62: E-RANGE terrain.land_cover.classes.65536 = 65536: expected a "
                   "class from 0 to 65535"});
+  check_problems(folder, with_classes("1 = \"forest\", 01 = \"crops\", 7 = \"crops\""),
+                 {"@/scene.toml:9:62: E-REF terrain.land_cover.classes.01 = 01: expected each "
+                  "class once"});
 }
 
 TEST_CASE("Runways off the map, too short, named twice, and ends that do not exist",

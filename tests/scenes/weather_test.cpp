@@ -210,6 +210,15 @@ TEST_CASE("Keys about fog, rain and snow of which the file tells no amount are t
             .empty());
 }
 
+// A thousand took ten seconds a frame, 10 000 eight seconds before the first.
+TEST_CASE("Rain cells beyond what a frame can ask are E-LIMIT", "[weather]") {
+  std::string many;
+  for (int i = 0; i < 257; ++i) many += "[[weather.rain_cell]]\nrain_rate_mm_per_h = 0.0\n";
+  tests::check_problems(kFog, "[weather]\n" + many,
+                        "23:11: E-LIMIT weather.rain_cell = an array of 257: expected at most 256 "
+                        "tables");
+}
+
 TEST_CASE("A rain cell off the terrain is told where it stands", "[weather]") {
   tests::check_problems(
       kFog,

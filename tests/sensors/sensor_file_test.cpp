@@ -51,6 +51,7 @@ TEST_CASE("S10 sensor settings that make no sense are refused at load", "[sensor
   check_each({
       {"cell_m = 6.67", "cell_m = 0", "E-RANGE", "range.cell_m"},
       {"cell_m = 6.67", "cell_m = -6.67", "E-RANGE", "range.cell_m"},
+      {"cell_m = 6.67", "cell_m = 1e-300", "E-RANGE", "range.cell_m"},
       {"cell_m = 6.67", "cell_m = nan", "E-NONFINITE", "range.cell_m"},
       {"cells = 524", "maximum_m = 150.0", "E-RANGE", "range.maximum_m"},
       {"half_power_width_deg = 0.8", "half_power_width_deg = 0", "E-RANGE",
@@ -59,6 +60,7 @@ TEST_CASE("S10 sensor settings that make no sense are refused at load", "[sensor
        "antenna.elevation.half_power_width_deg"},
       {"frequency_GHz = 35.0", "frequency_GHz = 0", "E-RANGE", "waveform.frequency_GHz"},
       {"frame_rate_Hz = 16.0", "frame_rate_Hz = 0", "E-RANGE", "scan.frame_rate_Hz"},
+      {"frame_rate_Hz = 16.0", "frame_rate_Hz = 1e-300", "E-RANGE", "scan.frame_rate_Hz"},
       {"frame_rate_Hz = 16.0", "frame_rate_Hz = 1e9", "E-RANGE", "scan.frame_rate_Hz"},
       {"frame_rate_Hz = 16.0", "frame_rate_Hz = inf", "E-NONFINITE", "scan.frame_rate_Hz"},
       // c / 2B = 3747 m in a window of 3495 m.

@@ -108,6 +108,19 @@ TEST_CASE("K03 K04 a tracker refuses what goes back in time or is no number, unc
   CHECK(tracker.tracks()[0].state == before);
 }
 
+// 40 000 in a frame asked for 12 GB.
+TEST_CASE("A frame with more measurements than can be associated is E-LIMIT, and changes nothing",
+          "[tracker]") {
+  Tracker tracker(settings_for());
+  tracker.update(0.0, {at(50.0, 0.0)});
+  const std::vector<RadarMeasurement> many(kMostMeasurements + 1, at(50.0, 0.0));
+  CHECK_THROWS_WITH(tracker.update(0.25, many),
+                    Catch::Contains("E-LIMIT measurements of the frame at 0.25 s = 2001: "
+                                    "expected at most 2000"));
+  tracker.update(0.05, {at(50.0, 0.0)});
+  CHECK(confirmed(tracker) == 1);
+}
+
 TEST_CASE("Results do not depend on the order of measurements", "[tracker]") {
   for (const Association association : {Association::nearest, Association::joint}) {
     TrackerSettings settings = settings_for();
