@@ -265,7 +265,7 @@ def test_every_problem_is_told_at_once(grass):
 )
 def test_a_value_of_another_type_is_told_with_its_field(grass, field, value):
     target = {"name": "new", "latitude_deg": 52.0, "longitude_deg": 10.0, "height_m": 50.0, "rcs_m2": 1.0}
-    with pytest.raises(TypeError, match=f"target.{field}: expected "):
+    with pytest.raises(TypeError, match=rf"target\[0\]\.{field}: expected "):
         grass.set_targets([fanbeam.Target(**{**target, field: value})])
 
 
