@@ -29,12 +29,11 @@ namespace fanbeam::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = measure::Clock;
 
 // The next stretch begins where this one ends.
-double ms_since(Clock::time_point& begin) {
+double ms_since(measure::Clock::time_point& begin) {
   const double ms = measure::milliseconds_since(begin);
-  begin = Clock::now();
+  begin = measure::Clock::now();
   return ms;
 }
 
@@ -197,7 +196,7 @@ class Run {
   }
 
   void scan(int index, session::FmcwFrameRecord& record) {
-    Clock::time_point begin = Clock::now();
+    measure::Clock::time_point begin = measure::Clock::now();
     const session::SignalBscope bscope = session::fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
     begin_writing();
@@ -234,7 +233,7 @@ class Run {
   }
 
   session::FmcwFrameRecord chain(int index) {
-    Clock::time_point begin = Clock::now();
+    measure::Clock::time_point begin = measure::Clock::now();
     const session::FmcwPaths paths = session::fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
     const session::SignalBudget budget{scene_.plan, scene_.accuracy_grey, scene_.options.wishes};

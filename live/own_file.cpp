@@ -35,7 +35,7 @@ OwnFile::~OwnFile() {
 }
 
 void OwnFile::begin() {
-  begun_ = true;
+  if (std::exchange(begun_, true)) return;
   if (regular_ && ::ftruncate(descriptor_, 0) != 0) refuse(errno);
 }
 

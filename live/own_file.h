@@ -16,7 +16,7 @@ class OwnFile {
   OwnFile(const OwnFile&) = delete;
   OwnFile& operator=(const OwnFile&) = delete;
 
-  // What was in it is gone.
+  // What was in it is gone. Once.
   void begin();
   int descriptor() const { return descriptor_; }
   // Throw InputError E-IO.

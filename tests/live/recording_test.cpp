@@ -333,7 +333,7 @@ TEST_CASE("A recording keeps its sensor and effects; an older one knows nothing 
           "[recording]") {
   const tests::TemporaryFolder folder;
   const auto file = folder.path() / "flight.jsonl";
-  { const live::Journal journal(file, {"s", {"circle"}, 16.0, true, "HiVision", "none,+rain"}); }
+  live::Journal(file, {"s", {"circle"}, 16.0, true, "HiVision", "none,+rain"}).begin();
   const live::FlownBy kept = live::read_recording(file).flown_by;
   CHECK(kept.sensor == std::optional<std::string>("HiVision"));
   CHECK(kept.effects == std::optional<std::string>("none,+rain"));
