@@ -152,10 +152,26 @@ void OutputFolder::begin_frames() {
   if (std::exchange(begun_, true) || !has_record_of_another()) return;
   listed_.begun.insert(listed_.files.begin(), listed_.files.end());
   write_note({}, {});
-  std::error_code ignored;  // what cannot be removed cannot be written anew either
+  std::vector<std::string> record = {"run.json", "timing.json"};
   for (const std::string& name : listed_.files)
-    if (is_of_run(name)) fs::remove(folder_ / name, ignored);
-  for (const char* record : {"run.json", "timing.json"}) fs::remove(folder_ / record, ignored);
+    if (is_of_run(name)) record.push_back(name);
+  std::error_code ignored;  // what cannot be removed cannot be written anew either
+  for (const std::string& name : record) {
+    if (!fs::is_regular_file(folder_ / name, ignored)) continue;
+    taken_[name] = core::read_file(folder_ / name, kLargestRecord_bytes);
+    fs::remove(folder_ / name, ignored);
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  try {
+    const bool untouched = !fingerprint_.empty() &&
+                           std::none_of(listed_.files.begin(), listed_.files.end(),
+                                        [&](const auto& name) { return is_of_this_input(name); });
+    if (!untouched) return;
+    for (const auto& [name, text] : taken_) core::write_file_atomically(folder_ / name, text);
+  } catch (const std::exception&) {  // what kept the run from writing keeps this too
+  }
 }
 
 void OutputFolder::begin(const std::set<std::string>& products,
@@ -173,7 +189,8 @@ void OutputFolder::write_note(const std::set<std::string>& products,
   core::write_file_atomically(folder_ / kUnfinished, note.dump() + "\n");
 }
 
-void OutputFolder::end() const {
+void OutputFolder::end() {
+  taken_.clear();
   std::error_code ignored;
   fs::remove(folder_ / kUnfinished, ignored);
 }

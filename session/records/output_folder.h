@@ -25,6 +25,10 @@ class OutputFolder {
   // files that neither run.json lists nor this input made, unless `overwrite`. Hidden files are
   // nobody's business.
   OutputFolder(std::filesystem::path folder, std::string fingerprint, bool overwrite);
+  // Of a run that failed before a picture of its own took another's place, the record comes back.
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
 
@@ -35,7 +39,7 @@ class OutputFolder {
   // together, are those of a run that has not ended.
   void begin(const std::set<std::string>& products, const std::set<std::string>& files);
   // After run.json is written.
-  void end() const;
+  void end();
 
   // Products of this input that are there, by frame; those of `written` without a look at them.
   std::map<int, std::set<std::string>> frames(
@@ -62,6 +66,7 @@ class OutputFolder {
   static Listed listed_in(const std::filesystem::path& folder);
   Listed listed_;  // by the run.json that was there
   bool begun_ = false;
+  std::map<std::string, std::string> taken_;  // the record of another input, by name
 };
 
 // Whether a run that writes there has not ended, or was stopped: what is there may be of two.
