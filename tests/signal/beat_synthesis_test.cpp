@@ -168,8 +168,9 @@ TEST_CASE("A frame too long for the keystone grid is E-LIMIT before its samples 
   parameters.chirps = 16;
   const Waveform waveform = chirp_sequence(parameters);  // 307 MB of samples
   const std::vector<ScatterPath> paths = paths_between(60, 60.0, 30.0);
+  const Array array = line_array(1, 12, 0.5 * core::kSpeedOfLight_mps / 76e9);
   const tests::PeakMemory memory;
-  CHECK_THROWS_WITH(keystone_beat(waveform, 0, twelve(), paths),
+  CHECK_THROWS_WITH(keystone_beat(waveform, 0, array, paths),
                     Catch::Contains("E-LIMIT grid cells") && Catch::Contains("a shorter frame"));
   CHECK(memory.rise_MiB() < 64.0);
 }
