@@ -60,6 +60,25 @@ TEST_CASE("Another input replaces exactly the pictures that run.json lists", "[r
   CHECK_FALSE(fs::exists(out / "power"));
 }
 
+// It was gone with the first frame that was made, whatever became of that.
+TEST_CASE("A run that could write no picture leaves the one before it whole, its record too",
+          "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  must_render(out, "obstacle-field --frames 100 --products power,layers");
+  const auto before = contents(out);
+  // No file can take its place, whoever asks.
+  fs::create_directories(out / "bscope/00100.png");
+  folder.write("out/bscope/00100.png/.kept", "");
+  const Result failed = render(out, "flat-grass --frames 100 --products bscope");
+  INFO(failed.output);
+  CHECK(failed.exit_code == 4);
+  for (const auto& [name, bytes] : before) {
+    INFO(name);
+    CHECK(contents(out)[name] == bytes);
+  }
+}
+
 TEST_CASE("Frames of the same input stay, and run.json is that of all frames rendered at once",
           "[render]") {
   const TemporaryFolder folder;
