@@ -166,21 +166,13 @@ void write_files(const fs::path& folder, const std::vector<atmosphere::Atmospher
     session::write_plot(plot_of(tables), folder / name);
 }
 
-// What only the rain law itu-p838 knows does nothing beside another.
-void refuse_idle(const WeatherOptions& options, const atmosphere::Weather& weather) {
-  if (weather.rain_law == atmosphere::RainLaw::itu_p838) return;
-  core::ProblemList problems;
-  const auto refuse = [&](bool given, const char* option, const std::string& value) {
-    if (given)
-      problems.error(core::ErrorClass::range, {}, option, value,
-                     "the rain law itu-p838, as " + std::string(name_of(weather.rain_law)) +
-                         " does not know it");
-  };
-  refuse(!options.polarisation.empty(), "--polarisation", options.polarisation);
-  refuse(options.tilt_deg.has_value(), "--tilt", core::number_text(options.tilt_deg.value_or(0)));
-  refuse(options.path_elevation_deg.has_value(), "--path-elevation",
-         core::number_text(options.path_elevation_deg.value_or(0)));
-  problems.throw_if_errors();
+// No point of the other height is nearer than the two are apart.
+void require_rows(const AtmosphereOptions& options) {
+  const double apart_m = std::abs(options.height_m - options.to_height_m);
+  if (options.range_m < apart_m)
+    core::throw_input_error(
+        core::ErrorClass::range, "--range", options.range_m,
+        "at least " + core::number_text(apart_m) + " m, what --height and --to-height are apart");
 }
 
 void answer(const Question& question, const AtmosphereOptions& options,
@@ -190,7 +182,8 @@ void answer(const Question& question, const AtmosphereOptions& options,
                                                   1e9 * options.compare_GHz[1], options.output));
     return;
   }
-  refuse_idle(options.weather, question.weather);
+  refuse_idle(options.weather, question.weather, !question.rain_cells.empty());
+  require_rows(options);
   const atmosphere::AtmospherePath path{options.height_m, options.to_height_m, options.range_m,
                                         options.step_m,
                                         sensors::two_way_width(question.sensor.antenna.elevation)};

@@ -74,13 +74,22 @@ std::vector<int> chosen_runs(const CampaignOptions& options, const Campaign& cam
   return runs;
 }
 
+void warn_of_change(const Campaign& campaign, const CommonOptions& common) {
+  if (common.quiet) return;
+  core::ProblemList problems;
+  problems.warning("CHANGED", core::Place{campaign.file.string()}, "campaign",
+                   "changed since runs were made that are there",
+                   "they stay as they are, and merge takes no mixture: --replace makes them again");
+  print_problems(problems.all());
+}
+
 int run(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
   const core::ThreadLimit threads(options.threads);
   const fs::path output = folder_of(options.output, campaign);
   const std::vector<int> runs = shard_of(chosen_runs(options, campaign), options.shard);
   datasets::Worker worker(campaign,
                           {output, shipped_folder(), data_folders(options.data), options.replace});
-  int made = 0, elsewhere = 0;
+  int made = 0, elsewhere = 0, there = 0;
   std::vector<int> failed;
   const StopOnSignals stop_on_signals;
   try {
@@ -100,6 +109,8 @@ int run(const CampaignOptions& options, const CommonOptions& common, const Campa
                         datasets::failed_file(output, runs[i]).string());
           break;
         case datasets::RunEnd::there:
+          if (there++ == 0 && datasets::was_made_by_other_file(campaign, output, runs[i]))
+            warn_of_change(campaign, common);
           break;
       }
       progress.step(static_cast<int>(i) + 1);
@@ -109,14 +120,14 @@ int run(const CampaignOptions& options, const CommonOptions& common, const Campa
   }
   if (!common.quiet)
     fmt::print("{} of {} runs made, {} there before, {} made by others now, {} failed: {}\n", made,
-               runs.size(),
-               runs.size() - static_cast<std::size_t>(made + elsewhere) - failed.size(), elsewhere,
-               failed.size(), fs::absolute(output).lexically_normal().string());
+               runs.size(), there, elsewhere, failed.size(),
+               fs::absolute(output).lexically_normal().string());
   return failed.empty() ? kExitDone : kExitInvalidInput;
 }
 
-int status(const CampaignOptions& options, const Campaign& campaign) {
+int status(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
   const datasets::Status found = datasets::status_of(campaign, folder_of(options.output, campaign));
+  if (found.changed) warn_of_change(campaign, common);
   if (options.json) {
     const nlohmann::ordered_json json = {
         {"campaign", campaign.name},    {"runs", found.runs},     {"made", found.made},
@@ -195,7 +206,7 @@ int campaign(const CampaignOptions& options, const CommonOptions& common) {
     case CampaignOptions::Task::run:
       return run(options, common, campaign);
     case CampaignOptions::Task::status:
-      return status(options, campaign);
+      return status(options, common, campaign);
     case CampaignOptions::Task::merge:
       return merge(options, common, campaign);
     case CampaignOptions::Task::verify:

@@ -90,8 +90,10 @@ CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options, Comm
   CLI::App& plan =
       add_task(campaign, options, common, Task::plan, "plan",
                "What there is to do: runs, frames, disk, hours, what would be refused");
-  plan.add_flag("--pilot,!--no-pilot", options.pilot,
-                "Render three runs to measure time and disk (the default), or do not");
+  plan.add_flag(
+      "--pilot,!--no-pilot", options.pilot,
+      "Render a few runs of up to four scenes to measure time and disk (the default), or do "
+      "not");
   add_data(plan, options);
   add_threads(plan, options);
   add_run(campaign, options, common);

@@ -1,29 +1,20 @@
 #include "apps/campaign_plan.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
-#include <set>
 
+#include "apps/campaign_pilot.h"
 #include "apps/stop_on_signals.h"
-#include "apps/text_table.h"
-#include "core/files.h"
-#include "core/parallel.h"
 #include "core/stop.h"
 #include "datasets/draw.h"
 #include "datasets/run_conditions.h"
-#include "datasets/worker.h"
 
 namespace fanbeam::apps {
 namespace {
 
-namespace fs = std::filesystem;
 using datasets::Campaign;
-
-constexpr int kPilotRuns = 3;
 
 // What the draws of a parameter come to.
 struct Range {
@@ -40,6 +31,7 @@ struct Refusal {
 struct Drawn {
   std::map<std::string, Range> ranges;
   std::map<std::string, Refusal> refused;  // by what is wrong
+  RunsByScene scenes;
 };
 
 // All runs, without a scene: what its weather would make of them is told by the runs themselves.
@@ -52,6 +44,7 @@ Drawn draw_all(const Campaign& campaign) {
       [](const datasets::Parameter& parameter) { return parameter.name.starts_with("weather."); });
   for (int run = 0; run < campaign.runs; ++run) {
     const datasets::Draw draw = drawer.draw(run);
+    drawn.scenes[draw.word("scene").value_or(campaign.scenes.front())].add(run);
     for (const auto& [name, value] : draw.values) {
       Range& range = drawn.ranges[name];
       if (const auto* number = std::get_if<double>(&value)) {
@@ -87,59 +80,6 @@ void print_ranges(const Campaign& campaign, const Drawn& drawn) {
   }
 }
 
-std::string bytes_text(double bytes) {
-  return bytes >= 1e12  ? fmt::format("{:.2f} TB", bytes / 1e12)
-         : bytes >= 1e9 ? fmt::format("{:.2f} GB", bytes / 1e9)
-                        : fmt::format("{:.1f} MB", bytes / 1e6);
-}
-
-// A folder that goes with it.
-class Scratch {
- public:
-  Scratch() : path_(fs::temp_directory_path() / fmt::format("fanbeam-pilot-{}", ::getpid())) {}
-  ~Scratch() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-  }
-  Scratch(const Scratch&) = delete;
-  Scratch& operator=(const Scratch&) = delete;
-  const fs::path& path() const { return path_; }
-
- private:
-  fs::path path_;
-};
-
-// A few runs spread over all, the first of a scene twice: opening it is no part of what the rest takes.
-void print_pilot(const CampaignOptions& options, const Campaign& campaign) {
-  const core::ThreadLimit threads(options.threads);
-  const Scratch scratch;
-  datasets::Worker worker(campaign,
-                          {scratch.path(), shipped_folder(), data_folders(options.data), true});
-  double seconds = 0.0, bytes = 0.0;
-  int made = 0;
-  for (int i = 0; i < std::min(kPilotRuns, campaign.runs); ++i) {
-    core::throw_if_stopped();
-    const int run =
-        static_cast<int>((2LL * i + 1) * campaign.runs / (2 * kPilotRuns)) % campaign.runs;
-    if (worker.make(run) != datasets::RunEnd::made || worker.make(run) != datasets::RunEnd::made) {
-      fmt::print("  run {} fails: fanbeam campaign run tells why\n", run);
-      continue;
-    }
-    seconds += worker.cost().seconds;
-    bytes += static_cast<double>(worker.cost().bytes);
-    ++made;
-  }
-  if (made == 0) return;
-  const int cores = threads.threads();
-  const double all_s = seconds / made * campaign.runs;
-  fmt::print(
-      "pilot of {} runs on {} cores: {:.2f} s and {} a run; all of it {} and {:.3g} core hours "
-      "({} here)\n",
-      made, cores, seconds / made, bytes_text(bytes / made),
-      bytes_text(bytes / made * campaign.runs), all_s * cores / 3600.0,
-      all_s < 120.0 ? fmt::format("{:.0f} s", all_s) : fmt::format("{:.0f} min", all_s / 60.0));
-}
-
 }  // namespace
 
 int plan_campaign(const CampaignOptions& options, const Campaign& campaign) {
@@ -153,15 +93,16 @@ int plan_campaign(const CampaignOptions& options, const Campaign& campaign) {
   for (const auto& [what, refusal] : drawn.refused)
     fmt::print("would be refused: {} {}, such as run {}: {}\n", refusal.count,
                refusal.count == 1 ? "run" : "runs", refusal.run, refusal.why);
+  bool all_fly = drawn.refused.empty();
   if (options.pilot) {
     const StopOnSignals stop_on_signals;
     try {
-      print_pilot(options, campaign);
+      all_fly = print_pilot(options, campaign, drawn.scenes) && all_fly;
     } catch (const core::Stopped&) {
       return end_by_stop_signal();
     }
   }
-  return drawn.refused.empty() ? kExitDone : kExitInvalidInput;
+  return all_fly ? kExitDone : kExitInvalidInput;
 }
 
 }  // namespace fanbeam::apps

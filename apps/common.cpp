@@ -29,10 +29,7 @@ void set_up_log(const CommonOptions& options) {
 fs::path shipped_folder() { return session::shipped_above(fs::read_symlink("/proc/self/exe")); }
 
 void check_data_folder(const std::string& from_command_line, core::ProblemList& problems) {
-  std::error_code refused;
-  if (!from_command_line.empty() && !fs::is_directory(from_command_line, refused))
-    problems.error(core::ErrorClass::io, {}, "--data", "\"" + from_command_line + "\"",
-                   "a folder that exists, with terrain and flight data");
+  if (!from_command_line.empty()) session::check_data_folder(from_command_line, "--data", problems);
 }
 
 std::vector<fs::path> data_folders(const std::string& from_command_line) {
@@ -48,9 +45,7 @@ std::vector<fs::path> data_folders(const std::string& from_command_line) {
   return folders;
 }
 
-fs::path find_scene(const std::string& name) {
-  return session::find_scene(name, shipped_folder());
-}
+fs::path find_scene(const std::string& name) { return session::find_scene(name, shipped_folder()); }
 
 void print_problems(std::vector<core::Problem> problems) {
   std::stable_sort(

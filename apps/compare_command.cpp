@@ -17,32 +17,68 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// A layer's figures in the unit that it is judged in.
+struct Figures {
+  double rms = 0.0, largest = 0.0, percent = 0.0;
+  std::size_t different = 0;
+  std::size_t only_one_lit = 0;  // of powers: no number of dB
+};
+
+// The limits that it breaks, empty for none.
+std::string broken_limits(const Figures& figures, const CompareOptions& options) {
+  std::string text;
+  const auto broken = [&text](bool is, const std::string& what) {
+    if (is) text += (text.empty() ? "" : ", ") + what;
+  };
+  const auto hold = [&](double value, double most, const char* what) {
+    broken(!(value <= most), what + (" above " + core::number_text(most)));
+  };
+  if (options.exact) {
+    broken(figures.different > 0, "not equal");
+    return text;
+  }
+  const bool no_largest = !(options.largest.value_or(0.0) > 0.0);
+  const bool share_alone = options.percent_different && no_largest && !options.rms;
+  if (options.rms || (no_largest && !options.percent_different))
+    hold(figures.rms, options.rms.value_or(0.0), "RMS");
+  if (!no_largest) hold(figures.largest, *options.largest, "largest");
+  if (options.percent_different) hold(figures.percent, *options.percent_different, "per cent");
+  broken(figures.only_one_lit > 0 && !share_alone, "cells lit in one only");
+  return text;
+}
+
+// Below both folders, or that of the one image.
+std::string name_of_pair(const fs::path& file, const CompareOptions& options) {
+  const fs::path name = file.lexically_relative(options.a);
+  return (name == "." ? file.filename() : name).string();
+}
+
 // Grey pictures are judged in grey levels, powers in dB where both are positive, ground truth in the
 // unit of its layer.
 bool judge(const fs::path& file, const core::LayerDifference& difference,
            const CompareOptions& options, bool quiet) {
   const session::DifferenceUnit unit = session::difference_unit(file, difference.layer);
   const bool in_dB = unit == session::DifferenceUnit::dB;
-  const std::string name = file.filename().string();
+  const std::string name = name_of_pair(file, options);
   const double rms = in_dB ? difference.rms_dB : difference.rms;
   const double mean = in_dB ? difference.mean_dB : difference.mean;
   const double largest = in_dB ? difference.largest_dB : difference.largest;
   const double percent = 100.0 * static_cast<double>(difference.different) /
                          static_cast<double>(std::max<std::size_t>(difference.cells, 1));
-  const bool ok = options.exact ? difference.different == 0
-                                : rms <= options.rms &&
-                                      (options.largest <= 0.0 || largest <= options.largest) &&
-                                      percent <= options.percent_different &&
-                                      (!in_dB || difference.only_one_positive == 0);
+  const std::string broken = broken_limits({rms, largest, percent, difference.different,
+                                            in_dB ? difference.only_one_positive : std::size_t{0}},
+                                           options);
+  const bool ok = broken.empty();
   if (!quiet || !ok)
     fmt::print(
-        "{} {} {}: mean {:+.4f}, RMS {:.4f}, largest {:.3f} {}, {:.3f} % of {} cells differ{}\n",
+        "{} {} {}: mean {:+.4f}, RMS {:.4f}, largest {:.3f} {}, {:.3f} % of {} cells differ{}{}\n",
         ok ? "same  " : "DIFFER", core::printable_text(name),
         core::printable_text(difference.layer), mean, rms, largest,
         session::unit_text(unit, difference.layer), percent, difference.cells,
         in_dB && difference.only_one_positive > 0
             ? fmt::format(", {} lit in one only", difference.only_one_positive)
-            : "");
+            : "",
+        ok ? "" : ": " + broken);
   return ok;
 }
 
@@ -50,6 +86,7 @@ bool judge(const fs::path& file, const core::LayerDifference& difference,
 // `always` or where there is one.
 bool compare_files(const fs::path& a, const fs::path& b, const fs::path& map, bool always,
                    const CompareOptions& options, bool quiet) {
+  core::check_same_size(core::image_size(a), core::image_size(b), a.string(), b.string());
   const core::Image image_a = core::read_image(a), image_b = core::read_image(b);
   bool same = true;
   bool equal = true;
@@ -106,7 +143,10 @@ bool compare_folders(const fs::path& a, const fs::path& b, const CompareOptions&
   }
   if (pairs == 0)
     core::throw_input_error(core::ErrorClass::io, core::Place{a.string()}, "images",
-                            "none in both folders", "PNG or EXR images");
+                            in_a.empty() || in_b.empty()
+                                ? "none in " + (in_a.empty() ? a : b).string()
+                                : "no name in both",
+                            "PNG or EXR images, of the same names below both folders");
   if (!quiet || !same)
     fmt::print("{} pairs of images {}\n", pairs, same ? "agree" : "compared, some differ");
   return same;

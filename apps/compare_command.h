@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "apps/common.h"
@@ -10,10 +11,10 @@ namespace fanbeam::apps {
 
 struct CompareOptions {
   std::string a, b;
-  double rms = 0.0;  // largest allowed RMS difference: grey levels, or dB for power layers
-  double largest =
-      0.0;  // largest allowed single difference, same units; 0: as the RMS limit allows
-  double percent_different = 100.0;
+  // Limits; one that is not given does not bind where another is. Without any an RMS of 0.
+  std::optional<double> rms;      // of all differences: grey levels, or dB for power layers
+  std::optional<double> largest;  // of a single one, same units; 0: none
+  std::optional<double> percent_different;
   bool exact = false;
   // A PNG file for two images; for two folders the folder of one map per pair that is not
   // equal, within the tolerance or not, as heat_map_path names it. Empty: none.

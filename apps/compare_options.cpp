@@ -16,19 +16,17 @@ CLI::App& add_compare_command(CLI::App& program, CompareOptions& options, Common
   command.add_option("B", options.b, "Another of the same kind")->type_name(kFileValue)->required();
   command
       .add_option("--rms", options.rms,
-                  "Largest RMS difference allowed: grey levels for PNG, dB for power layers")
-      ->check(number_from(0.0, 1000.0))
-      ->capture_default_str();
+                  "Largest RMS difference allowed: grey levels for PNG, dB for power layers "
+                  "(default: 0, but none beside another limit)")
+      ->check(number_from(0.0, 1000.0));
   command
       .add_option("--largest", options.largest,
-                  "Largest single difference allowed, same units (0: any)")
-      ->check(number_from(0.0, 1000.0))
-      ->capture_default_str();
+                  "Largest single difference allowed, same units (0 or default: any)")
+      ->check(number_from(0.0, 1000.0));
   command
       .add_option("--percent", options.percent_different,
-                  "Largest share of differing cells allowed, per cent")
-      ->check(number_from(0.0, 100.0))
-      ->capture_default_str();
+                  "Largest share of differing cells allowed, per cent (default: any)")
+      ->check(number_from(0.0, 100.0));
   command.add_flag("--exact", options.exact, "Every value equal");
   command
       .add_option("--heat-map", options.heat_map,

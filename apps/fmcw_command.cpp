@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -14,6 +13,7 @@
 #include "core/files.h"
 #include "core/parallel.h"
 #include "core/stop.h"
+#include "measure/clock.h"
 #include "scenes/scene.h"
 #include "session/frame_choice.h"
 #include "session/records/output_folder.h"
@@ -29,12 +29,11 @@ namespace fanbeam::apps {
 namespace {
 
 namespace fs = std::filesystem;
-using Clock = std::chrono::steady_clock;
 
-double ms_since(Clock::time_point& begin) {
-  const Clock::time_point now = Clock::now();
-  const double ms = std::chrono::duration<double, std::milli>(now - begin).count();
-  begin = now;
+// The next stretch begins where this one ends.
+double ms_since(measure::Clock::time_point& begin) {
+  const double ms = measure::milliseconds_since(begin);
+  begin = measure::Clock::now();
   return ms;
 }
 
@@ -102,6 +101,9 @@ class Run {
                     : fs::path(options.output),
                 "", options.overwrite) {
     refuse_idle_options(options, products_);
+    if (products_.contains(kInterference) && scene.description.interferers.empty())
+      core::throw_input_error(core::ErrorClass::ref, "--products", "\"interference\"",
+                              "a scene with [[interferer]]: this one has no other radar");
     if (!products_.contains(kSpectrogram)) return;
     spectrogram_.emplace(radar_, options.spectrogram_of);
     const auto& targets = scene.world.targets;
@@ -176,7 +178,7 @@ class Run {
   }
 
   // What a frame refuses comes before anything is there.
-  void begin_writing() const {
+  void begin_writing() {
     if (!records_.empty()) return;
     std::set<std::string> files;
     if (runs_chain()) files.insert(session::kRadarFile);
@@ -189,18 +191,21 @@ class Run {
     record.index = index;
     record.time_s =
         scene_.trajectory->frame_time_s(index, scene_.description.sensor.scan.frame_rate_Hz);
-    if (products_.contains(kScan)) record.scan = scan(index, record.files);
+    if (products_.contains(kScan)) scan(index, record);
     records_.push_back(std::move(record));
   }
 
-  session::FmcwScanCounts scan(int index, std::set<std::string>& files) const {
-    Clock::time_point begin = Clock::now();
+  void scan(int index, session::FmcwFrameRecord& record) {
+    measure::Clock::time_point begin = measure::Clock::now();
     const session::SignalBscope bscope = session::fmcw_bscope(scene_, index, options_);
     const double ms = ms_since(begin);
     begin_writing();
-    files.merge(session::write_bscope(output_.path(), scene_.description.sensor, index, bscope));
-    return {bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
-            bscope.plan,  ms};
+    record.files.merge(
+        session::write_bscope(output_.path(), scene_.description.sensor, index, bscope));
+    record.events = bscope.events;
+    record.scan = session::FmcwScanCounts{
+        bscope.looks, bscope.rays, bscope.scatterers, bscope.phase_noise_rad, bscope.clipped,
+        bscope.plan,  ms};
   }
 
   void write_interference(int index, const session::FmcwPaths& paths,
@@ -228,7 +233,7 @@ class Run {
   }
 
   session::FmcwFrameRecord chain(int index) {
-    Clock::time_point begin = Clock::now();
+    measure::Clock::time_point begin = measure::Clock::now();
     const session::FmcwPaths paths = session::fmcw_paths(scene_, index, options_);
     const double echoes_ms = ms_since(begin);
     const session::SignalBudget budget{scene_.plan, scene_.accuracy_grey, scene_.options.wishes};
@@ -279,7 +284,8 @@ int fmcw(FmcwOptions& options, const CommonOptions& common) {
   build.heights_shown = false;
   if (!options.effects.empty())
     build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::samples);
-  const auto scene = session::Session(description, {.build = build}, problems).scene();
+  const auto scene =
+      session::Session(description, {.build = build, .pictures = false}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
   const StopOnSignals stop_on_signals;
   try {

@@ -154,8 +154,10 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
           [&options](const std::string& word) {
             options.angle_method = *signal::angle_method(word);
           },
-          "Directions of a cell: the strongest beam; capon and music tell two inside a beamwidth "
-          "apart, capon sharpens the range-azimuth map too (default beamforming)")
+          "Directions of a cell: the strongest beam; capon and music, of four channels or more, "
+          "tell "
+          "two inside a beamwidth apart, capon sharpens the range-azimuth map too (default "
+          "beamforming)")
       ->check(CLI::IsMember({"beamforming", "capon", "music"}));
   command
       .add_option("--cluster-place", options.cluster_place_m,
@@ -173,8 +175,8 @@ void add_processing(CLI::App& command, FmcwOptions& options) {
       ->capture_default_str();
   command.add_flag(
       "--unfold", options.unfold,
-      "Tell by the array which fold a detection's speed is in: right for what is alone "
-      "in its cell, wrong at times for clutter");
+      "Tell by transmitters that take turns which fold a detection's speed is in: right for what "
+      "is alone in its cell, wrong at times for clutter");
 }
 
 void add_maps(CLI::App& command, FmcwOptions& options) {

@@ -115,12 +115,12 @@ class LiveRun {
     live::Status status;
     status.scene = scene_->description.name;
     status.source = told_sources();
+    status.caster = renderer::name_of(scene_->caster.chosen);
+    status.wanted_Hz = rate_Hz_;
+    status.samples = session_->samples();
     status.frames = continued.frames;
     hub_.tell(status);
-    if (recording_ != nullptr && recording_->flown_by.scene != scene_->description.name)
-      core::throw_input_error(core::ErrorClass::ref, core::Place{options.replay}, "/scene",
-                              "\"" + recording_->flown_by.scene + "\"",
-                              "\"" + scene_->description.name + "\", the scene that is open");
+    if (recording_ != nullptr) check_flown_by(recording_->flown_by);
   }
 
   void fly() {
@@ -130,6 +130,7 @@ class LiveRun {
     if (listens) listener_.listen(network_);
     live::Sinks& sinks = continued_.sinks;
     sinks.begin(scene_->description, rate_Hz_);
+    if (journal_) journal_->begin();  // last: until here nothing is lost that was there
     network_.start();
     if (!quiet_)
       print_address(scene_->description.name, wiring_.page.address, port,
@@ -166,6 +167,21 @@ class LiveRun {
   }
 
  private:
+  // Whatever of these were other would make other pictures.
+  void check_flown_by(const live::FlownBy& recorded) const {
+    core::ProblemList problems;
+    const auto hold = [&](const char* key, const std::optional<std::string>& then,
+                          const std::string& now, const char* what) {
+      if (then && *then != now)
+        problems.error(core::ErrorClass::ref, {options_.replay}, key, "\"" + *then + "\"",
+                       "\"" + now + "\", " + what);
+    };
+    hold("/scene", recorded.scene, scene_->description.name, "the scene that is open");
+    hold("/sensor", recorded.sensor, scene_->description.sensor.name, "the sensor that is open");
+    hold("/effects", recorded.effects, options_.effects, "the --effects that were told");
+    problems.throw_if_errors();
+  }
+
   std::string told_sources() const {
     std::string all;
     for (const live::PosesFrom& from : wiring_.from) all += (all.empty() ? "" : ", ") + from.source;
@@ -212,8 +228,10 @@ class LiveRun {
 
   live::Desk make_desk() {
     if (!options_.record.empty())
-      journal_.emplace(options_.record, live::FlownBy{scene_->description.name, options_.from,
-                                                      rate_Hz_, options_.lockstep});
+      journal_.emplace(
+          options_.record,
+          live::FlownBy{scene_->description.name, options_.from, rate_Hz_, options_.lockstep,
+                        scene_->description.sensor.name, options_.effects});
     return {*session_, hub_, journal_ ? &*journal_ : nullptr, wiring_.access};
   }
 

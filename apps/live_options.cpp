@@ -107,6 +107,7 @@ CLI::App& add_live_command(CLI::App& program, LiveOptions& options, CommonOption
       ->check(whole_number_from(1, 1'000'000'000));
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
       ->check(whole_number_from(0, 1024));
+  command.footer("Ctrl-C and SIGTERM are a good end, as --seconds is: exit code 0.");
   add_common_options(command, common);
   return command;
 }

@@ -15,6 +15,17 @@ live::Access access_of(const LiveOptions& options) {
   return token == nullptr ? live::Access() : live::Access(token, core::Place{kToken});
 }
 
+// Of a recording its first line names the sources, and no option.
+std::vector<core::Problem> of_sources(std::vector<core::Problem> problems,
+                                      const std::string& replay) {
+  if (!replay.empty())
+    for (core::Problem& problem : problems) {
+      problem.place = {replay, 1};
+      problem.field = "/from";
+    }
+  return problems;
+}
+
 void check_one_source(const LiveOptions& options, const Wiring& wiring) {
   if (options.lockstep && wiring.from.size() > 1)
     core::throw_input_error(core::ErrorClass::unsupported, "--lockstep", "with several sources",
@@ -47,23 +58,25 @@ void check_page(const std::string& text, const Wiring& wiring) {
 Wiring wiring_of(const LiveOptions& options) {
   Wiring wiring;
   core::ProblemList problems;
-  const auto collect = [&](const auto& parse) {
+  const auto collect = [&](const auto& parse, const std::string& replay = {}) {
     try {
       parse();
     } catch (const core::InputError& error) {
-      problems.append(error.problems());
+      problems.append(of_sources(error.problems(), replay));
     }
   };
   collect([&] { wiring.page = live::parse_endpoint(options.http, "--http"); });
   for (const std::string& source : options.from)
-    collect([&] { wiring.from.push_back(live::poses_from(source)); });
-  collect([&] { live::check_together(wiring.from); });
+    collect([&] { wiring.from.push_back(live::poses_from(source)); }, options.replay);
+  collect([&] { live::check_together(wiring.from); }, options.replay);
   collect([&] { wiring.access = access_of(options); });
   for (const std::string& sink : options.to) collect([&] { live::add_sink(sink, wiring.to); });
   collect([&] { check_page(options.http, wiring); });
   if (!wiring.from.empty()) collect([&] { check_record(options, wiring); });
-  collect([&] { check_one_source(options, wiring); });
-  if (options.replay.empty()) collect([&] { check_weather(options, wiring); });
+  if (options.replay.empty()) {
+    collect([&] { check_one_source(options, wiring); });
+    collect([&] { check_weather(options, wiring); });
+  }
   problems.throw_if_errors();
   return wiring;
 }

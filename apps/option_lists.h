@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/value_words.h"
+#include "core/effect_plan.h"
 #include "core/errors.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "session/products/products.h"
@@ -56,17 +57,21 @@ std::string products_help(const Products& products) {
 // "ground-clutter, rain, gas".
 inline std::string effect_names(renderer::Touches touched) {
   std::string names;
-  for (const renderer::Effect& effect : renderer::effect_catalogue(touched))
-    names.append(names.empty() ? "" : ", ").append(effect.name());
+  for (const core::EffectId effect : renderer::effects_shown_in(touched))
+    names.append(names.empty() ? "" : ", ").append(core::name_of(effect));
   return names;
 }
 
 // "all", "none", "+gas", "-gas" and so on.
 inline std::vector<std::string> effect_wishes(renderer::Touches touched) {
   std::vector<std::string> wishes = {"all", "none"};
-  const auto add = [&wishes](renderer::Touches kind) {
-    for (const renderer::Effect& effect : renderer::effect_catalogue(kind))
-      for (const char* sign : {"+", "-"}) wishes.push_back(sign + std::string(effect.name()));
+  const std::vector<core::EffectId> shown = renderer::effects_shown_in(touched);
+  const auto add = [&](renderer::Touches kind) {
+    for (const renderer::Effect& effect : renderer::effect_catalogue(kind)) {
+      const bool shows = std::find(shown.begin(), shown.end(), effect.id) != shown.end();
+      if (shows) wishes.push_back("+" + std::string(effect.name()));
+      wishes.push_back("-" + std::string(effect.name()));
+    }
   };
   add(renderer::Touches::pictures);
   if (touched == renderer::Touches::samples) add(touched);
@@ -77,12 +82,11 @@ inline std::vector<std::string> effect_wishes(renderer::Touches touched) {
 inline void add_effects_option(CLI::App& command, std::string& wishes, renderer::Touches touched) {
   const bool samples = touched == renderer::Touches::samples;
   command
-      .add_option("--effects", wishes,
-                  fmt::format("all, none, or a list such as {} of the effects {}{}",
-                              samples ? "+phase-noise,-gas" : "+rain,-gas", effect_names(touched),
-                              samples ? " and those of fanbeam render (default: what the scene "
-                                        "and its samples call for)"
-                                      : " (default: what the scene calls for)"))
+      .add_option(
+          "--effects", wishes,
+          fmt::format("all, none, or a list such as {} of the effects {} (default: what {})",
+                      samples ? "+phase-noise,-gas" : "+rain,-gas", effect_names(touched),
+                      samples ? "the scene and its samples call for" : "the scene calls for"))
       ->type_name("EFFECT")
       ->check(offers(effect_wishes(touched)));
 }

@@ -2,11 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <chrono>
-
 #include "apps/option_lists.h"
 #include "apps/plan_report.h"
 #include "core/parallel.h"
+#include "measure/clock.h"
 #include "scenes/frame_plan.h"
 #include "session/frame_choice.h"
 #include "session/sampling_choice.h"
@@ -24,15 +23,14 @@ bool same_stages(const core::EffectPlan& a, const core::EffectPlan& b) {
 }
 
 void plan_frames(const std::vector<int>& frames, PlanReport& report) {
-  const auto begin = std::chrono::steady_clock::now();
+  const auto begin = measure::Clock::now();
   for (const int frame : frames) {
     core::EffectPlan plan = scenes::frame_plan(report.scene, frame);
     if (report.spans.empty() || !same_stages(report.spans.back().plan, plan))
       report.spans.push_back({frame, frame, std::move(plan)});
     report.spans.back().last = frame;
   }
-  const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - begin;
-  report.frame_plan_ms = time.count() / static_cast<double>(frames.size());
+  report.frame_plan_ms = measure::milliseconds_since(begin) / static_cast<double>(frames.size());
 }
 
 // As fanbeam render takes it when nothing else is asked for.

@@ -22,7 +22,7 @@ Json plan_rows(const PlanReport& report) {
     for (const renderer::Effect& effect : renderer::effect_catalogue())
       if (effect.id == decisions[i].effect) {
         row["what"] = effect.what;
-        row["source"] = effect.source;
+        row["source"] = renderer::source_in(effect, report.scene.weather);
       }
     if (report.measured && report.measured->costs[i]) {
       row["cost_ms"] = report.measured->costs[i]->ms;

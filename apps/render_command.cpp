@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <optional>
+
 #include "apps/option_lists.h"
 #include "apps/progress.h"
 #include "apps/render_summary.h"
@@ -32,32 +34,48 @@ scenes::BuildOptions build_options(const RenderOptions& options,
 
 session::SequenceSettings sequence_of(const RenderOptions& options,
                                       const session::ProductSet& products) {
-  return {.output = options.output,
-          .frames = options.frames,
-          .products = products,
-          .sampling = options,
-          .preview_format = options.preview_format,
-          .range_unit = options.range_unit,
-          .plan_per_frame = options.plan_per_frame,
-          .resume = options.resume,
-          .overwrite = options.overwrite};
+  session::SequenceSettings settings{.output = options.output,
+                                     .frames = options.frames,
+                                     .products = products,
+                                     .sampling = options,
+                                     .range_unit = options.range_unit,
+                                     .plan_per_frame = options.plan_per_frame,
+                                     .resume = options.resume,
+                                     .overwrite = options.overwrite};
+  if (!options.preview_format.empty()) settings.preview_format = options.preview_format;
+  return settings;
+}
+
+// Of products that nobody asked for they would be ignored in silence.
+void refuse_options_without_product(const RenderOptions& options,
+                                    const session::ProductSet& products) {
+  core::ProblemList problems;
+  if (!options.range_unit.empty() && !products.contains("figure") &&
+      !products.contains("ppi_figure"))
+    problems.error(core::ErrorClass::ref, {}, "--range-unit", options.range_unit,
+                   "figure or ppi_figure among --products");
+  if (!options.preview_format.empty() && !products.contains("preview"))
+    problems.error(core::ErrorClass::ref, {}, "--preview-format", options.preview_format,
+                   "preview among --products");
+  problems.throw_if_errors();
 }
 
 }  // namespace
 
 int render(const RenderOptions& asked, const CommonOptions& common) {
   const session::ProductSet products = products_in(asked.products, session::kProducts);
-  if (!asked.range_unit.empty() && !products.contains("figure") && !products.contains("ppi_figure"))
-    core::throw_input_error(core::ErrorClass::ref, "--range-unit", asked.range_unit,
-                            "figure or ppi_figure among --products");
+  refuse_options_without_product(asked, products);
   const core::ThreadLimit threads(asked.threads);
   core::ProblemList problems;
-  scenes::SceneDescription description = read_chosen_scene(asked, problems);
+  const scenes::SceneDescription description = read_chosen_scene(asked, problems);
   RenderOptions options = asked;
   static_cast<session::SamplingRequest&>(options) = session::with_accuracy_of(description, asked);
-  if (!options.realisation.empty()) description.sample = options.realisation == "sample";
+  std::optional<bool> sample;
+  if (!options.realisation.empty()) sample = options.realisation == "sample";
   session::Session session(
-      description, {.build = build_options(options, products), .seed = options.seed}, problems);
+      description,
+      {.build = build_options(options, products), .sample = sample, .seed = options.seed},
+      problems);
   const std::shared_ptr<const scenes::Scene> scene = session.scene();
   if (!common.quiet) print_problems(problems.all());
   if (scene->trajectory && scene->trajectory->attitude_derived)

@@ -15,8 +15,8 @@ struct RenderOptions : SceneChoice, session::SamplingRequest {
   std::string frames;  // "A:B[:STEP]", like a Python slice
   std::string products = "bscope,cscope";
   std::string effects;
-  std::string realisation;  // "mean" or "sample"; empty: the scene's
-  std::string preview_format = "mp4";
+  std::string realisation;     // "mean" or "sample"; empty: the scene's
+  std::string preview_format;  // of kPreviewFormats; empty: mp4
   std::string range_unit;  // of the figure: one of kRangeUnits; empty: by how far the sensor sees
   int threads = 0;
   std::string caster;  // one of kCasterWishes; empty: the scene's

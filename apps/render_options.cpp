@@ -11,6 +11,7 @@
 #include "renderer/plan/plan.h"
 #include "session/figure/figure_facts.h"
 #include "session/products/preview.h"
+#include "session/sequence.h"
 
 namespace fanbeam::apps {
 namespace {
@@ -61,9 +62,10 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
       ->excludes(budget)
       ->excludes(estimate);
   command
-      .add_option("--realisation", options.realisation,
-                  "mean: expected power; sample: one draw with speckle, noise and fluctuating "
-                  "targets (default: the scene's)")
+      .add_option(
+          "--realisation", options.realisation,
+          "mean: expected power, and so without --effects +speckle or +swerling; sample: one "
+          "draw with speckle, noise and fluctuating targets (default: the scene's)")
       ->check(CLI::IsMember({"mean", "sample"}));
   command.add_option("--seed", options.seed, "Seed of everything random")
       ->check(any_seed())
@@ -101,15 +103,17 @@ CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOp
   command.add_flag("--plan-per-frame", options.plan_per_frame,
                    "Leave out of each frame what it can do without, not only what the whole "
                    "sequence can; no pixel changes by more than half the accuracy");
-  command.add_flag("--resume", options.resume,
-                   "Do not render again what an earlier run with the same input has finished");
+  command.add_flag(
+      "--resume", options.resume,
+      "Do not render again what an earlier run with the same input has finished; frames "
+      "of another input are removed at the end");
   command.add_flag("--overwrite", options.overwrite,
                    "Write to a folder that holds other files too: frames of other renders there "
                    "are removed, other files stay (a run's own record is always replaced)");
   command.add_option("--preview-format", options.preview_format, "Form of the preview")
       ->check(CLI::IsMember(std::vector<std::string>(session::kPreviewFormats.begin(),
                                                      session::kPreviewFormats.end())))
-      ->capture_default_str();
+      ->default_str(session::SequenceSettings{}.preview_format);
   command
       .add_option("--range-unit", options.range_unit,
                   "Of the range scale of figure and ppi_figure (default: km for sensors that see "

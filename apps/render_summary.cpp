@@ -11,6 +11,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string frames_text(int count) {
+  return std::to_string(count) + (count == 1 ? " frame" : " frames");
+}
+
 // What was asked for and what was reached, where an accuracy or a time was asked for.
 void print_accuracy(const session::RunRecord& record, double accuracy_grey) {
   const session::SamplingChoice& choice = record.choice;
@@ -44,12 +48,13 @@ void print_accuracy(const session::RunRecord& record, double accuracy_grey) {
 void print_render_summary(const session::Sequence& sequence, const scenes::Scene& scene,
                           double accuracy_grey) {
   const session::RunRecord& record = sequence.record;
-  const auto resumed = std::count_if(record.frames.begin(), record.frames.end(),
-                                     [](const session::FrameRecord& f) { return f.resumed; });
-  fmt::print("{} {} in {:.1f} s", record.frames.size(),
-             record.frames.size() == 1 ? "frame" : "frames", record.wall_s);
-  if (resumed > 0) fmt::print(" ({} already there)", resumed);
+  fmt::print("{} in {:.1f} s", frames_text(sequence.asked), record.wall_s);
+  if (sequence.resumed > 0) fmt::print(" ({} already there)", sequence.resumed);
   fmt::print(", scene built in {:.1f} s\n", record.scene_build_s);
+  if (const int beside = static_cast<int>(record.frames.size()) - sequence.asked; beside > 0)
+    fmt::print("{} of the same input there before and kept\n", frames_text(beside));
+  if (sequence.removed > 0)
+    fmt::print("{} of another input removed\n", frames_text(sequence.removed));
   fmt::print("cast by {}: {}\n", session::caster_text(record.choice.sampling), scene.caster.reason);
   print_accuracy(record, accuracy_grey);
   for (const core::EffectDecision& decision : scene.plan.decisions)

@@ -32,17 +32,23 @@ void check_id(const std::string& id) {
         "1 to 64 letters, digits, '.', '-' and '_', the first a letter or digit");
 }
 
+// Where nothing was measured against a target there is no error, not one of 0.
+std::string rms_text(const tracking::MeanSquare& errors, const char* unit) {
+  return errors.count() > 0 ? fmt::format("{:.4g} {} rms", errors.rms(), unit) : "-";
+}
+
 void print(const core::HighwayScenario& scenario, const session::ScenarioTracks& tracks) {
   const tracking::ScenarioScore& score = tracks.score;
   fmt::print(
-      "{:<4} {:>2} tracks of {} targets, GOSPA {:.3f} m, MOTA {:.4f}, {} switches, "
-      "range {:.4g} m rms, speed {:.4g} m/s rms\n",
+      "{:<4} {:>2} tracks of {} targets, GOSPA {:.3f} m, MOTA {}, {} switches, range {}, speed "
+      "{}\n",
       scenario.id, score.tracks.size(), scenario.targets.size(), score.gospa_m.mean(),
-      score.mot.mota(), score.mot.switches(), score.range_m.rms(), score.range_rate_mps.rms());
+      score.mot.instances() > 0 ? fmt::format("{:.4f}", score.mot.mota()) : "-",
+      score.mot.switches(), rms_text(score.range_m, "m"), rms_text(score.range_rate_mps, "m/s"));
   if (tracks.beyond > 0)
     fmt::print(
         "     W-FOLDED: {} times a target in view is beyond what these samples show: farther than "
-        "their range cells, or above {:g} m/s\n",
+        "their range cells, above {:g} m/s, or of a beat over half the triangle's sample rate\n",
         tracks.beyond, tracking::SampledRadar::most_speed_mps());
   for (const tracking::Crossing& one : tracks.crossings)
     fmt::print("     tracks {} and {} {} at {:.2f} s, exchanged with probability {:.2g}\n",
@@ -123,7 +129,7 @@ std::vector<const core::HighwayScenario*> chosen(const TrackOptions& options,
   }
   if (scenarios.empty())
     core::throw_input_error(core::ErrorClass::ref, "--scenario", "\"" + options.scenario + "\"",
-                            known.empty() ? "a file with scenarios" : "one of: " + known);
+                            "one of: " + known);
   for (const core::HighwayScenario* scenario : scenarios) check_id(scenario->id);
   return scenarios;
 }

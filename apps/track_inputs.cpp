@@ -127,7 +127,9 @@ session::BodyErrors body_errors(const TrackOptions& options) {
   return {options.errors[0], options.errors[1], core::radians(options.errors[2])};
 }
 
-std::unique_ptr<session::MeasuredSource> own_source(const TrackOptions& options) {
+namespace {
+
+std::unique_ptr<session::MeasuredSource> measured_source(const TrackOptions& options) {
   const fs::path input = options.file;
   std::error_code status;
   const bool is_folder = fs::is_directory(input, status);
@@ -149,6 +151,25 @@ std::unique_ptr<session::MeasuredSource> own_source(const TrackOptions& options)
     core::throw_input_error(core::ErrorClass::ref, "--radar", "not given",
                             "the radar file that belongs to the samples");
   return session::sample_source(input, samples, *radar_file, settings_of(options));
+}
+
+// Of the folder that a command writes, or of a product's in it.
+bool is_of_unfinished_run(const fs::path& input) {
+  std::error_code status;
+  return fs::is_directory(input, status) &&
+         (session::is_unfinished(input) || session::is_unfinished(input / ".."));
+}
+
+}  // namespace
+
+std::unique_ptr<session::MeasuredSource> own_source(const TrackOptions& options) {
+  auto source = measured_source(options);
+  if (!is_of_unfinished_run(options.file)) return source;
+  core::ProblemList problems;
+  problems.warning("UNFINISHED", {options.file}, "run.json", "not written",
+                   "its run has not ended: files of another run may lie among them");
+  source->warnings.insert(source->warnings.begin(), problems.all().begin(), problems.all().end());
+  return source;
 }
 
 }  // namespace fanbeam::apps

@@ -3,6 +3,8 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include "atmosphere/air_column.h"
 #include "atmosphere/gas/gases.h"
@@ -49,6 +51,10 @@ void put_rain(const WeatherOptions& options, atmosphere::Weather& weather) {
     weather.rain_echo_law = atmosphere::rain_echo_law_named(options.rain_echo_law);
   if (!options.drop_sizes.empty())
     weather.drop_sizes = atmosphere::drop_sizes_named(options.drop_sizes);
+}
+
+std::string text_of(const std::optional<double>& value) {
+  return value ? core::number_text(*value) : std::string();
 }
 
 // P.676 takes dry pressure and vapour density, Weather total pressure and relative humidity.
@@ -98,6 +104,47 @@ void put_over(const WeatherOptions& options, atmosphere::Weather& weather) {
   if (options.tilt_deg) weather.polarisation_tilt_rad = core::radians(*options.tilt_deg);
   if (options.path_elevation_deg)
     weather.rain_path_elevation_rad = core::radians(*options.path_elevation_deg);
+}
+
+void refuse_idle(const WeatherOptions& options, const atmosphere::Weather& weather,
+                 bool rain_cells) {
+  core::ProblemList problems;
+  const auto need = [&](bool there, const char* option, const std::string& value,
+                        const std::string& what) {
+    if (!there && !value.empty())
+      problems.error(core::ErrorClass::ref, {}, option, value,
+                     what + " beside it, or a scene that has it");
+  };
+  // None of it is an amount too.
+  const bool fog = weather.visibility_m || weather.liquid_water_g_per_m3;
+  const bool rain = options.rain_mm_per_h || weather.rain_rate_mm_per_h > 0.0;
+  const bool snow = options.snow_mm_per_h || weather.snow_rate_mm_per_h > 0.0;
+  need(fog, "--fog-top", text_of(options.fog_top_m), "--fog-visibility or --fog-water");
+  need(weather.visibility_m.has_value(), "--fog-type", options.fog_type, "--fog-visibility");
+  need(fog, "--fog-law", options.fog_law, "--fog-visibility or --fog-water");
+  need(rain, "--rain-top", text_of(options.rain_top_m), "--rain");
+  need(rain || snow, "--melting-layer", options.melting_layer ? "given" : "", "--rain or --snow");
+  need(rain || snow, "--melting-height", text_of(options.melting_height_m), "--rain or --snow");
+  need(snow, "--snow-top", text_of(options.snow_top_m), "--snow");
+  const std::pair<const char*, std::string> of_rain[] = {
+      {"--rain-law", options.rain_law},
+      {"--rain-echo-law", options.rain_echo_law},
+      {"--drop-sizes", options.drop_sizes},
+      {"--polarisation", options.polarisation},
+      {"--tilt", text_of(options.tilt_deg)},
+      {"--path-elevation", text_of(options.path_elevation_deg)}};
+  const bool other_law = weather.rain_law != atmosphere::RainLaw::itu_p838;
+  for (const auto& [option, value] : of_rain) {
+    need(rain || rain_cells, option, value, "--rain");
+    const bool of_itu = std::string_view(option) == "--polarisation" ||
+                        std::string_view(option) == "--tilt" ||
+                        std::string_view(option) == "--path-elevation";
+    if (of_itu && other_law && !value.empty())
+      problems.error(core::ErrorClass::range, {}, option, value,
+                     "the rain law itu-p838, as " + std::string(name_of(weather.rain_law)) +
+                         " does not know it");
+  }
+  problems.throw_if_errors();
 }
 
 std::string option_behind(const WeatherOptions& options, const std::string& field) {

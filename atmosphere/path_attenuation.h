@@ -60,6 +60,11 @@ class PathAttenuation {
   double two_way_power_factor(double from_height_m, double to_height_m,
                               double length_m) const noexcept;
 
+  // No base or top of a layer, and no melting layer's border, lies between these two heights.
+  bool same_layer(double lowest_m, double highest_m) const noexcept {
+    return locate(lowest_m).layer == locate(highest_m).layer;
+  }
+
   // The largest total at any height between these two: what bounds every path there.
   double largest_one_way_dB_per_km(double lowest_m, double highest_m) const noexcept;
 

@@ -28,6 +28,7 @@ class VolumeEcho {
   // Local metres: x east, y north, z above the scene's origin; finite.
   double eta_m2_per_m3(const glm::dvec3& position_m) const noexcept;
 
+  bool has_cells() const noexcept { return !cells_.empty(); }
   // Height alone may not tell what is on a path of that plan: a rain cell stands there.
   bool cells_between(const glm::dvec2& from_m, const glm::dvec2& to_m) const noexcept;
 

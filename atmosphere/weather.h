@@ -64,7 +64,8 @@ struct Weather {
   std::vector<AirLevel> levels;
 
   // Which losses are simulated. A switched-off loss is exactly 0 dB; the air stays as it is. Rain
-  // means rain, melting layer and rain cells.
+  // means rain, melting layer and rain cells. For look-ups: a scene has a plan for it and refuses a
+  // false one.
   bool simulate_gas = true;
   GasPart gas_part = GasPart::whole;  // what of the gas counts: one alone for look-ups
   bool simulate_fog = true;

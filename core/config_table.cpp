@@ -157,6 +157,13 @@ void ConfigTable::warning(std::string_view name, std::string_view key, std::stri
   document_->problems->warning(name, place(key), path(key), std::move(value), std::move(done));
 }
 
+void ConfigTable::only_with(std::span<const std::string_view> keys, const std::string& other) {
+  for (const std::string_view key : keys)
+    if (has(key))
+      error(ErrorClass::ref, key, value_text(*static_cast<const toml::node*>(find(key))),
+            "no such key without " + other);
+}
+
 ProblemList& ConfigTable::problems() { return *document_->problems; }
 
 void ConfigTable::Document::report_unknown(const toml::table& table, const std::string& prefix) {

@@ -80,6 +80,12 @@ class ConfigTable {
   // Reports a problem that only the caller can see, at the place of `key`.
   void error(ErrorClass error_class, std::string_view key, std::string value, std::string expected);
   void warning(std::string_view name, std::string_view key, std::string value, std::string done);
+  // Keys that mean something with another one alone, which is not there: E-REF for those given, not
+  // as unknown keys.
+  void only_with(std::span<const std::string_view> keys, const std::string& other);
+  void only_with(std::initializer_list<std::string_view> keys, const std::string& other) {
+    only_with(std::span(keys.begin(), keys.size()), other);
+  }
   ProblemList& problems();
 
   // Call once everything was asked, on the root: each key never asked for is E-REF, with the

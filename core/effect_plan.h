@@ -31,6 +31,7 @@ enum class EffectId : std::uint8_t {
   phase_noise,
   quantiser,
   interference,
+  count,  // no effect: how many there are
 };
 
 inline constexpr std::array<std::string_view, 17> kEffectNames = {
@@ -38,7 +39,7 @@ inline constexpr std::array<std::string_view, 17> kEffectNames = {
     "double-bounce", "multipath",   "surface-state", "side-lobes",     "range-response",
     "thermal-noise", "speckle",     "swerling",      "receiver-noise", "phase-noise",
     "quantiser",     "interference"};
-static_assert(kEffectNames.size() == static_cast<std::size_t>(EffectId::interference) + 1);
+static_assert(kEffectNames.size() == static_cast<std::size_t>(EffectId::count));
 
 constexpr std::string_view name_of(EffectId effect) {
   return kEffectNames[static_cast<std::size_t>(effect)];

@@ -64,7 +64,7 @@ struct HighwayTruth {
 
 // Timing of the waveforms that a scenario can be measured with.
 struct HighwayWaveforms {
-  double triangle_ramp_s = 2e-3;
+  double triangle_ramp_s = 2e-3, triangle_rate_Hz = 500e3;
   std::array<double, 2> two_slopes_ramp_s{2e-3, 3e-3};
   // Two stages: a chirp sequence, then a triangle.
   int coarse_chirps = 256;

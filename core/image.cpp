@@ -3,10 +3,12 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/colour_picture.h"
 #include "core/errors.h"
+#include "core/exr_check.h"
 #include "core/files.h"
 #include "core/picture_bytes.h"
 #include "core/png_check.h"
@@ -59,8 +61,16 @@ std::unique_ptr<OIIO::ImageInput> open(const std::filesystem::path& path) {
   const Place place{path.string()};
   if (!std::filesystem::is_regular_file(path))
     throw_input_error(ErrorClass::io, place, "", "missing", "an image file");
-  if (const std::optional<ClaimedSize> claimed = check_png(path))
-    check_size(place, claimed->columns, claimed->rows, 1);
+  check_png(path, [&](const ClaimedSize& claimed) {
+    constexpr std::int64_t kLongestSide = 1'000'000;  // of the PNG library
+    check_size(place, claimed.columns, claimed.rows, 1);
+    if (const std::int64_t side = std::max(claimed.columns, claimed.rows); side > kLongestSide)
+      throw_input_error(ErrorClass::limit, place, "image size", std::to_string(side),
+                        "at most " + std::to_string(kLongestSide) + " on a side");
+  });
+  check_exr(path, [&](const ClaimedSize& claimed) {
+    check_size(place, claimed.columns, claimed.rows, 1);
+  });
   std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
   if (!input) throw_input_error(ErrorClass::parse, place, "", OIIO::geterror(), "an image file");
   return input;
@@ -133,6 +143,11 @@ Metadata read_metadata(const std::filesystem::path& path) {
     if (attribute.type() == OIIO::TypeDesc::STRING)
       metadata.emplace_back(attribute.name().string(), attribute.get_string());
   return metadata;
+}
+
+ImageSize image_size(const std::filesystem::path& path) {
+  const std::unique_ptr<OIIO::ImageInput> input = open(path);
+  return {input->spec().width, input->spec().height, input->spec().nchannels};
 }
 
 Image read_image(const std::filesystem::path& path) {

@@ -38,6 +38,15 @@ void write_png(const std::filesystem::path& path, const Picture8& picture,
                const Metadata& metadata);
 void write_exr(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
 
+struct ImageSize {
+  int columns = 0;
+  int rows = 0;
+  int layers = 0;
+  bool operator==(const ImageSize&) const = default;
+};
+// What a file's head says, before any pixel is held. Throws as read_image does.
+ImageSize image_size(const std::filesystem::path& path);
+
 // The texts stored with an image. Throws InputError E-IO or E-PARSE.
 Metadata read_metadata(const std::filesystem::path& path);
 

@@ -60,15 +60,23 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
 
 }  // namespace
 
-std::vector<LayerDifference> compare_images(const Image& a, const Image& b,
-                                            const std::string& name_a, const std::string& name_b) {
-  const auto size_text = [](const Image& image) {
-    return std::to_string(image.columns) + " x " + std::to_string(image.rows) + ", " +
-           std::to_string(image.layers.size()) + " layers";
+void check_same_size(const ImageSize& a, const ImageSize& b, const std::string& name_a,
+                     const std::string& name_b) {
+  const auto size_text = [](const ImageSize& size) {
+    return std::to_string(size.columns) + " x " + std::to_string(size.rows) + ", " +
+           std::to_string(size.layers) + " layers";
   };
-  if (a.columns != b.columns || a.rows != b.rows || a.layers.size() != b.layers.size())
+  if (a != b)
     throw_input_error(ErrorClass::ref, Place{name_b}, "size", size_text(b),
                       size_text(a) + " as in " + name_a);
+}
+
+std::vector<LayerDifference> compare_images(const Image& a, const Image& b,
+                                            const std::string& name_a, const std::string& name_b) {
+  const auto size_of = [](const Image& image) {
+    return ImageSize{image.columns, image.rows, static_cast<int>(image.layers.size())};
+  };
+  check_same_size(size_of(a), size_of(b), name_a, name_b);
   std::vector<LayerDifference> differences;
   for (const Image::Layer& layer : a.layers) {
     const auto other =

@@ -25,6 +25,10 @@ struct LayerDifference {
   int largest_dB_column = 0, largest_dB_row = 0;
 };
 
+// Throws InputError E-REF when they differ.
+void check_same_size(const ImageSize& a, const ImageSize& b, const std::string& name_a,
+                     const std::string& name_b);
+
 // Layer by layer, paired by name. Throws InputError E-REF when sizes or layer names differ.
 std::vector<LayerDifference> compare_images(const Image& a, const Image& b,
                                             const std::string& name_a, const std::string& name_b);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/files.h"
 #include "core/spelling.h"
@@ -57,17 +58,77 @@ std::string escaped(const std::string& key) {
 
 const json& of(const void* value) { return *static_cast<const json*>(value); }
 
-json parsed(const std::string& text, const std::string& file) {
-  try {
-    return json::parse(text);
-  } catch (const json::parse_error& error) {
-    const std::string words = error.what();
-    throw_input_error(ErrorClass::parse, place_of(file, text, error.byte > 0 ? error.byte - 1 : 0),
-                      "JSON text", words.substr(words.find(']') + 2), "well-formed JSON in UTF-8");
-  } catch (const json::exception&) {  // a number that overflows
-    throw_input_error(ErrorClass::nonfinite, Place{file}, "JSON text", "a number out of range",
-                      "numbers that a double holds");
+// The tree of a text, as its parser comes upon the values. Which of two members of one name counts is not said
+// (RFC 8259, section 4): neither does. (A callback of json::parse would tell the names too, but goes through all of
+// a list again for each object in it.)
+class Tree : public json::json_sax_t {
+ public:
+  explicit Tree(std::string file, const std::string& text) : file_(std::move(file)), text_(text) {}
+
+  json& root() { return root_; }
+
+  bool null() override { return put(nullptr); }
+  bool boolean(bool value) override { return put(value); }
+  bool number_integer(json::number_integer_t value) override { return put(value); }
+  bool number_unsigned(json::number_unsigned_t value) override { return put(value); }
+  bool number_float(json::number_float_t value, const std::string&) override { return put(value); }
+  bool string(std::string& value) override { return put(std::move(value)); }
+  bool binary(json::binary_t& value) override { return put(std::move(value)); }
+  bool start_object(std::size_t) override { return open(json::object()); }
+  bool start_array(std::size_t) override { return open(json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+
+  bool key(std::string& name) override {
+    const auto [member, first] = open_.back()->get_ref<json::object_t&>().try_emplace(name);
+    if (!first)
+      throw_input_error(ErrorClass::parse, Place{file_}, "JSON text",
+                        shown(name) + " twice in one object", "every name once");
+    member_ = &member->second;
+    return true;
   }
+
+  bool parse_error(std::size_t, const std::string&, const json::exception& error) override {
+    if (dynamic_cast<const json::parse_error*>(&error) == nullptr)  // a number that overflows
+      throw_input_error(ErrorClass::nonfinite, Place{file_}, "JSON text", "a number out of range",
+                        "numbers that a double holds");
+    const std::size_t byte = static_cast<const json::parse_error&>(error).byte;
+    const std::string words = error.what();
+    throw_input_error(ErrorClass::parse, place_of(file_, text_, byte > 0 ? byte - 1 : 0),
+                      "JSON text", words.substr(words.find(']') + 2), "well-formed JSON in UTF-8");
+  }
+
+ private:
+  bool put(json value) {
+    placed(std::move(value));
+    return true;
+  }
+  bool open(json value) {
+    open_.push_back(placed(std::move(value)));
+    return true;
+  }
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+  json* placed(json value) {
+    if (open_.empty()) return &(root_ = std::move(value));
+    if (open_.back()->is_object()) return &(*member_ = std::move(value));
+    open_.back()->push_back(std::move(value));
+    return &open_.back()->back();
+  }
+
+  std::string file_;
+  const std::string& text_;
+  json root_;
+  std::vector<json*> open_;  // objects and lists around the next value
+  json* member_ = nullptr;   // of an object, whose value comes next
+};
+
+json parsed(const std::string& text, const std::string& file) {
+  Tree tree(file, text);
+  json::sax_parse(text, &tree);
+  return std::move(tree.root());
 }
 
 }  // namespace
@@ -125,9 +186,10 @@ JsonNode JsonNode::member(const std::string& key) const {
 
 JsonNode JsonNode::required(const std::string& key) const {
   JsonNode node = member(key);
-  if (is_object() && !node.present() && !problems_->is_full())
-    problems_->error(ErrorClass::ref, place(), node.pointer_, "missing",
-                     "it to be there" + names_there_text(key, keys()));
+  if (!is_object() || node.present() || problems_->is_full()) return node;
+  const bool null = of(value_).contains(key);
+  problems_->error(ErrorClass::ref, place(), node.pointer_, null ? "null" : "missing",
+                   null ? "a value" : "it to be there" + names_there_text(key, keys()));
   return node;
 }
 
@@ -136,6 +198,16 @@ std::vector<std::string> JsonNode::keys() const {
   if (is_object())
     for (const auto& [key, value] : of(value_).items()) keys.push_back(key);
   return keys;
+}
+
+void check_keys(const JsonNode& node, const std::vector<const char*>& known) {
+  for (const std::string& key : node.keys()) {
+    if (std::find(known.begin(), known.end(), key) != known.end() || node.problems().is_full())
+      continue;
+    node.problems().error(
+        ErrorClass::ref, node.place(), node.pointer() + "/" + key, "unknown",
+        "a member of the format" + names_there_text(key, {known.begin(), known.end()}));
+  }
 }
 
 std::size_t JsonNode::size(std::size_t most) const {

@@ -21,8 +21,8 @@ struct JsonFile {
   std::string name;
 };
 
-// Nothing after reporting: E-LIMIT (levels of nesting, values), E-PARSE with line and column,
-// E-NONFINITE (a number beyond double).
+// Nothing after reporting: E-LIMIT (levels of nesting, values), E-PARSE with line and column, E-PARSE for a name
+// that is twice in one object, E-NONFINITE (a number beyond double).
 std::optional<JsonFile> parse_json(const std::string& text, const std::string& name,
                                    const JsonLimits& limits, ProblemList& problems);
 // The same of a file: also E-IO, and E-LIMIT above `largest_bytes`.
@@ -42,7 +42,7 @@ class JsonNode {
   const std::string& pointer() const { return pointer_; }
   Place place() const { return {file_->name}; }
 
-  // E-PARSE when this is no object; required also E-REF when the member is missing.
+  // E-PARSE when this is no object; required also E-REF when the member is missing, or null, which is told apart.
   JsonNode member(const std::string& key) const;
   JsonNode required(const std::string& key) const;
   std::vector<std::string> keys() const;
@@ -75,5 +75,8 @@ class JsonNode {
   const void* value_;  // of the library that parses, which stays in the source
   std::string pointer_;
 };
+
+// E-REF for each member of an object that is not among those known, with those like it.
+void check_keys(const JsonNode& node, const std::vector<const char*>& known);
 
 }  // namespace fanbeam::core

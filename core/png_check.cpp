@@ -4,14 +4,18 @@
 #include <array>
 #include <fstream>
 #include <string_view>
-#include <vector>
 
 #include "core/errors.h"
+#include "core/png_data_private.h"
 
 namespace fanbeam::core {
 namespace {
 
 constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+constexpr std::uint32_t kHead = 0x49484452U;     // "IHDR"
+constexpr std::uint32_t kPalette = 0x504C5445U;  // "PLTE"
+constexpr std::uint32_t kData = 0x49444154U;     // "IDAT"
+constexpr std::uint32_t kEnd = 0x49454E44U;      // "IEND"
 
 std::array<std::uint32_t, 256> make_crc_table() {
   std::array<std::uint32_t, 256> table{};
@@ -47,17 +51,22 @@ class Reader {
     return value;
   }
 
-  void skip(std::uint32_t count) {
+  // All of so many bytes, a part at a time.
+  void parts(std::uint32_t count, const std::function<void(const char*, std::uint32_t)>& look) {
     std::array<char, 4096> bytes{};
     for (std::uint32_t left = count; left > 0;) {
       const std::uint32_t part = std::min<std::uint32_t>(left, bytes.size());
       take(bytes.data(), part);
+      look(bytes.data(), part);
       left -= part;
     }
   }
 
   void begin_checksum() { crc_ = 0xFFFFFFFFU; }
-  std::uint32_t checksum() const { return ~crc_; }
+  void compare_checksum() {
+    const std::uint32_t checksum = ~crc_;
+    if (number() != checksum) refuse("wrong checksum", "undamaged chunks");
+  }
 
   [[noreturn]] void refuse(const char* found, const char* expected) const {
     Place place{path_.string()};
@@ -81,26 +90,83 @@ class Reader {
   std::uint32_t crc_ = 0;
 };
 
+// In an order that the library takes without a word.
+class ChunkOrder {
+ public:
+  explicit ChunkOrder(bool with_palette) : with_palette_(with_palette) {}
+
+  bool allows(std::uint32_t type, std::uint32_t length) {
+    const bool follows_data = in_data_;
+    in_data_ = type == kData;
+    if (type == kPalette) {
+      if (palette_ || length == 0 || length > 768 || length % 3 != 0) return false;
+      return palette_ = true;
+    }
+    if (type == kData) {
+      if (data_ && !follows_data) return false;  // in one piece
+      data_ = true;
+      return palette_ || !with_palette_;
+    }
+    // Whoever does not know a chunk must not go on where its first letter is a capital.
+    return type == kEnd || (type >> 24U & 0x20U) != 0;
+  }
+
+ private:
+  bool with_palette_;
+  bool palette_ = false, data_ = false, in_data_ = false;
+};
+
+bool is_name(std::uint32_t type) {
+  for (unsigned shift = 0; shift < 32; shift += 8) {
+    const char letter = static_cast<char>((type >> shift & 0xFFU) | 0x20U);
+    if (letter < 'a' || letter > 'z') return false;
+  }
+  return true;
+}
+
+PngHead read_head(Reader& reader, const std::function<void(const ClaimedSize&)>& accept) {
+  if (reader.number() != 13) reader.refuse("no head", "a head of 13 bytes");
+  reader.begin_checksum();
+  if (reader.number() != kHead) reader.refuse("no head", "a head at the beginning");
+  PngHead head;
+  head.columns = reader.number();
+  head.rows = reader.number();
+  for (int* field :
+       {&head.bits, &head.colour_type, &head.compression, &head.filter, &head.interlace})
+    reader.parts(1, [&](const char* byte, std::uint32_t) {
+      *field = static_cast<int>(static_cast<unsigned char>(*byte));
+    });
+  reader.compare_checksum();
+  accept({head.columns, head.rows});
+  if (!head.known()) reader.refuse("a kind of picture that there is not", "a PNG picture");
+  return head;
+}
+
 }  // namespace
 
-std::optional<ClaimedSize> check_png(const std::filesystem::path& path) {
-  constexpr std::uint32_t kHead = 0x49484452U;  // "IHDR"
-  constexpr std::uint32_t kEnd = 0x49454E44U;   // "IEND"
+bool check_png(const std::filesystem::path& path,
+               const std::function<void(const ClaimedSize&)>& accept) {
   Reader reader(path);
-  if (!reader.begins_as_png()) return std::nullopt;
-  ClaimedSize size;
-  for (bool first = true;; first = false) {
+  if (!reader.begins_as_png()) return false;
+  const PngHead head = read_head(reader, accept);
+  PngData data(head);
+  ChunkOrder order(head.with_palette());
+  for (std::uint32_t type = 0; type != kEnd;) {
     const std::uint32_t length = reader.number();
     reader.begin_checksum();
-    const std::uint32_t type = reader.number();
-    if (first != (type == kHead) || (first && length != 13))
-      reader.refuse("chunks out of order", "one head, at the beginning");
-    if (first) size = {reader.number(), reader.number()};
-    reader.skip(first ? length - 8 : length);
-    const std::uint32_t checksum = reader.checksum();
-    if (reader.number() != checksum) reader.refuse("wrong checksum", "undamaged chunks");
-    if (type == kEnd) return size;
+    type = reader.number();
+    if (!is_name(type) || !order.allows(type, length))
+      reader.refuse("chunks out of order",
+                    "a palette where there is one, the picture data in one piece, the end");
+    bool sound = true;
+    reader.parts(length, [&](const char* bytes, std::uint32_t count) {
+      if (type == kData && sound) sound = data.take(bytes, count);
+    });
+    reader.compare_checksum();
+    if (!sound) reader.refuse("damaged picture data", "what the head promises, deflated");
   }
+  if (!data.complete()) reader.refuse("too little picture data", "as many rows as the head says");
+  return true;
 }
 
 }  // namespace fanbeam::core

@@ -13,11 +13,16 @@ constexpr std::size_t kMostListed = 20;
 constexpr std::size_t kMostLookedAt = 1000;
 constexpr std::size_t kLongestListed = 60;
 
+// Two letters lie in many words.
+constexpr std::size_t kShortestInside = 3;
+
 std::size_t unlikeness(std::string_view wanted, std::string_view candidate) {
   if (candidate.empty() || wanted.empty()) return std::max(candidate.size(), wanted.size());
-  const bool one_in_other = candidate.find(wanted) != std::string_view::npos ||
-                            wanted.find(candidate) != std::string_view::npos;
-  return one_in_other ? 0 : edit_distance(wanted, candidate);
+  if (candidate.find(wanted) != std::string_view::npos) return 0;
+  // "lon" for longitude is nearer than altitude, but "radar" for radar_overides no nearer than radar_overrides.
+  if (candidate.size() >= kShortestInside && wanted.find(candidate) != std::string_view::npos)
+    return (wanted.size() - candidate.size() + 2) / 3;
+  return edit_distance(wanted, candidate);
 }
 
 }  // namespace

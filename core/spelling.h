@@ -19,7 +19,8 @@ std::vector<std::string> nearest_names(std::string_view wanted,
 // For messages about a name that a file should have and does not: what it has, in the file's order,
 // and the likely meant one when there is any: "; perhaps height_ft of time_s, latitude_deg,
 // height_ft", "; there are time_s, x and 12 more", "; there are none". A likely one contains the
-// wanted name, lies in it, or differs from it by half of its letters at most. At most a thousand
+// wanted name, lies in it with three letters or more, or differs from it by half of its letters at most; of
+// several the one that contains it or differs least, where three letters around a name count as one. At most a thousand
 // names are looked at; a loop over a hostile file asks only while its problems are still listed.
 std::string names_there_text(std::string_view wanted, const std::vector<std::string>& known);
 

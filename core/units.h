@@ -6,9 +6,8 @@
 
 namespace fanbeam::core {
 
-inline constexpr double kFoot_m = 0.3048;                    // international foot, exact
-inline constexpr double kKnot_mps = 1852.0 / 3600.0;         // international knot, exact
-inline constexpr double kFootPerMinute_mps = 0.3048 / 60.0;  // exact
+inline constexpr double kFoot_m = 0.3048;             // international foot, exact
+inline constexpr double kKnot_mps = 1852.0 / 3600.0;  // international knot, exact
 
 constexpr double radians(double angle_deg) { return angle_deg * (kPi / 180.0); }
 constexpr double degrees(double angle_rad) { return angle_rad * (180.0 / kPi); }

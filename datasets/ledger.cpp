@@ -32,13 +32,18 @@ std::optional<int> number_in(const std::string& text) {
   return number;
 }
 
-void check_record(int run, const RunFiles& files, std::vector<Damage>& damages) {
-  bool intact = false;
+// This program seals what it writes; earlier ones did not.
+void check_record(int run, const RunFiles& files, const Json& record,
+                  std::vector<Damage>& damages) {
+  bool intact = false, whole = true;
   try {
-    intact = is_intact(files.read(kRunRecord, kLargestRecord_bytes));
+    const std::string text = files.read(kRunRecord, kLargestRecord_bytes);
+    intact = is_intact(text);
+    whole = has_seal(text) || !is_of_this_program(record);
   } catch (const core::InputError&) {  // changed meanwhile
   }
   if (!intact) damages.push_back({run, std::string(kRunRecord) + kOtherBytes});
+  if (!whole) damages.push_back({run, std::string(kRunRecord) + ": without its seal"});
 }
 
 void check_files(int run, const RunFiles& files, const Json& record, std::vector<Damage>& damages) {
@@ -52,23 +57,31 @@ void check_files(int run, const RunFiles& files, const Json& record, std::vector
       hash = sha256(files.read(name, kLargestRunFile_bytes));
     } catch (const core::InputError&) {  // cut short
     }
-    if (!told.is_object() || hash != told.value("sha256", ""))
-      damages.push_back({run, name + kOtherBytes});
+    if (hash != told.value("sha256", "")) damages.push_back({run, name + kOtherBytes});
   }
 }
 
 }  // namespace
 
+bool was_made_by_other_file(const Campaign& campaign, const fs::path& output, int run) {
+  const std::optional<RunFiles> files = RunFiles::of(output, run);
+  const Json record = files ? record_in(*files) : Json();
+  return record.is_object() && is_of_other_file(record, campaign);
+}
+
 Status status_of(const Campaign& campaign, const fs::path& output) {
   Status status;
   status.runs = campaign.runs;
+  int first = campaign.runs;
   std::error_code none;
   for (fs::directory_iterator entry(output / "runs", none), end; !none && entry != end;
        entry.increment(none)) {
     const std::string name = entry->path().filename().string();
     if (!name.starts_with(".")) {
       const auto run = number_in(entry->path().stem().string());
-      if (run && *run < campaign.runs && RunFiles::is_there(output, *run)) ++status.made;
+      if (!run || *run >= campaign.runs || !RunFiles::is_there(output, *run)) continue;
+      ++status.made;
+      first = std::min(first, *run);
     } else if (name.ends_with(".lock") && is_locked(entry->path())) {
       ++status.under_way;
     }
@@ -78,6 +91,7 @@ Status status_of(const Campaign& campaign, const fs::path& output) {
     const auto run = number_in(entry->path().stem().string());
     if (run && *run < campaign.runs && !RunFiles::is_there(output, *run)) ++status.failed;
   }
+  status.changed = status.made > 0 && was_made_by_other_file(campaign, output, first);
   return status;
 }
 
@@ -132,7 +146,7 @@ std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,
       damages.push_back({run, std::string(kRunRecord) + ": no record of a run"});
       continue;
     }
-    check_record(run, *files, damages);
+    check_record(run, *files, record, damages);
     const std::string wrong = wrong_maker(record, campaign, found.usual_maker);
     if (!wrong.empty()) damages.push_back({run, wrong});
     if (record.value("run", -1) != run) damages.push_back({run, "the record of another run"});

@@ -12,9 +12,13 @@ namespace fanbeam::datasets {
 struct Status {
   int runs = 0, made = 0, under_way = 0, failed = 0;
   int missing() const { return runs - made - under_way - failed; }
+  bool changed = false;  // the campaign's file, since the first of the runs there was made
 };
-// Reads names alone; others may work meanwhile.
+// Reads names, and the record of one run; others may work meanwhile.
 Status status_of(const Campaign& campaign, const std::filesystem::path& output);
+
+// Whether the run is there and was made before the campaign's file was changed, or by another.
+bool was_made_by_other_file(const Campaign& campaign, const std::filesystem::path& output, int run);
 
 // Numbers as ranges, "3,17,40:42": as runs_in takes them; B of A:B is not meant.
 std::string runs_text(const std::vector<int>& runs);

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/files.h"
+#include "datasets/record_seal.h"
 #include "datasets/run_files.h"
 #include "datasets/run_makers_private.h"
 #include "datasets/sha256.h"
@@ -90,8 +91,14 @@ class Merger {
   void add(int run, const RunFiles& files, const Json& record, core::ProblemList& problems) {
     const core::Place place{files.shown(kRunRecord)};
     try {
+      const std::string text = files.read(kRunRecord, kLargestRecord_bytes);
+      if (!is_intact(text))
+        problems.error(core::ErrorClass::parse, place, "run", "other bytes than were recorded",
+                       kWhole);
+      const bool other_file = is_of_other_file(record, campaign_);
+      if (other_file) ++of_other_file_;
       const std::string wrong = wrong_maker(record, campaign_, usual_);
-      if (!wrong.empty())
+      if (!wrong.empty() && !other_file)
         problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
                        "one program for all: " + wrong);
       const std::string other = wrong_values(record, drawer_.draw(run));
@@ -99,8 +106,7 @@ class Merger {
         problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
                        kVersion + other);
       index_ += index_rows(campaign_, run, files, record);
-      manifest_["runs"][fmt::format("{:06}", run)] =
-          sha256(files.read(kRunRecord, kLargestRecord_bytes));
+      manifest_["runs"][fmt::format("{:06}", run)] = sha256(text);
       for (const Json& frame : record.at("frames"))
         labels_.add(fmt::format("runs/{:06}/", run), frame.at("files").get<std::set<std::string>>(),
                     record.at("frames").size(), [&](const std::string& name) {
@@ -113,6 +119,15 @@ class Merger {
     } catch (const core::InputError& error) {  // files that are gone or cut short
       problems.append(error.problems());
     }
+  }
+
+  // Of all runs at once.
+  void tell_changed_file(core::ProblemList& problems) const {
+    if (of_other_file_ > 0)
+      problems.error(
+          core::ErrorClass::unsupported, core::Place{campaign_.file.string()}, "campaign",
+          fmt::format("changed since {} of {} runs were made", of_other_file_, merged_.runs),
+          "the file as it was, or these runs made anew (fanbeam campaign run --replace)");
   }
 
   Merged write() {
@@ -141,6 +156,7 @@ class Merger {
   Json manifest_;
   session::RunLabels labels_;
   Merged merged_;
+  int of_other_file_ = 0;
 };
 
 }  // namespace
@@ -163,6 +179,7 @@ Merged merge(const Campaign& campaign, const fs::path& output) {
   for (const int run : found.whole)
     if (const std::optional<RunFiles> files = RunFiles::of(output, run))
       merger.add(run, *files, record_in(*files), problems);
+  merger.tell_changed_file(problems);
   problems.throw_if_errors();
   return merger.write();
 }

@@ -18,9 +18,12 @@ std::string sealed(std::string_view object) {
   return with_seal(object.substr(0, object.size() - kEndOfObject.size()));
 }
 
+bool has_seal(std::string_view record) {
+  return record.rfind("\"record_sha256\"") != std::string_view::npos;
+}
+
 bool is_intact(std::string_view record) {
-  const std::size_t seal = record.rfind("\"record_sha256\"");
-  if (seal == std::string_view::npos) return true;
+  if (!has_seal(record)) return true;
   const std::size_t body = record.rfind(kSeal);
   return body != std::string_view::npos && record == with_seal(record.substr(0, body));
 }

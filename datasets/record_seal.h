@@ -14,7 +14,8 @@ namespace fanbeam::datasets {
 
 // The text of a record with its seal. `object`: of JSON, indented, with one entry at least.
 std::string sealed(std::string_view object);
-// Whether the text is as it was sealed; true of one without a seal, as earlier versions wrote them.
+bool has_seal(std::string_view record);
+// Whether the text is as it was sealed; true of one without a seal, as versions before seals wrote them.
 bool is_intact(std::string_view record);
 
 }  // namespace fanbeam::datasets

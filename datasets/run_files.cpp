@@ -87,7 +87,10 @@ std::optional<RunFiles::Where> RunFiles::where(const std::string& name) const {
 
 std::string RunFiles::read(const std::string& name, std::uint64_t most_bytes) const {
   const auto place = where(name);
-  if (!place) throw_io(shown(name), "missing");
+  if (!place)
+    core::throw_input_error(
+        core::ErrorClass::io, core::Place{shown(name)}, "file", "missing",
+        "what the run's record names; fanbeam campaign verify tells how to repair it");
   if (!members_) return core::read_file(campaign_ / place->file, most_bytes);
   if (place->bytes > most_bytes)
     core::throw_input_error(core::ErrorClass::limit, core::Place{shown(name)}, "file",

@@ -7,6 +7,7 @@
 
 #include "core/errors.h"
 #include "datasets/run_makers_private.h"
+#include "session/version.h"
 
 namespace fanbeam::datasets {
 
@@ -31,6 +32,24 @@ std::string made_by(const Json& record) {
   return text;
 }
 
+bool is_text_or_absent(const Json& owner, const char* key) {
+  const auto member = owner.find(key);
+  return member == owner.end() || member->is_string();
+}
+
+// Of what is asked of a record; that values are right is for others.
+bool is_record(const Json& json) {
+  if (!json.is_object() || !json.contains("files") || !json["files"].is_object() ||
+      !json.contains("frames") || !json["frames"].is_array())
+    return false;
+  const auto run = json.find("run");
+  return (run == json.end() || run->is_number_integer()) &&
+         is_text_or_absent(json, "campaign_sha256") &&
+         std::all_of(json["files"].begin(), json["files"].end(), [](const Json& file) {
+           return file.is_object() && is_text_or_absent(file, "sha256");
+         });
+}
+
 }  // namespace
 
 Json record_in(const RunFiles& files) {
@@ -41,10 +60,12 @@ Json record_in(const RunFiles& files) {
     return {};
   }
   Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("files") || !json["files"].is_object() ||
-      !json.contains("frames") || !json["frames"].is_array())
-    return {};
-  return json;
+  return is_record(json) ? json : Json();
+}
+
+bool is_of_this_program(const Json& record) {
+  return record.value("version", Json()) == session::version_text() &&
+         record.value("commit", Json()) == session::commit_text();
 }
 
 Survey survey(const std::filesystem::path& campaign, const std::vector<int>& runs) {
@@ -92,8 +113,12 @@ std::string wrong_values(const Json& record, const Draw& draw) {
   return wrong.empty() ? "" : "other values than the campaign's file gives: " + wrong;
 }
 
+bool is_of_other_file(const Json& record, const Campaign& campaign) {
+  return record.value("campaign_sha256", "") != campaign.text_hash;
+}
+
 std::string wrong_maker(const Json& record, const Campaign& campaign, const std::string& usual) {
-  if (record.value("campaign_sha256", "") != campaign.text_hash)
+  if (is_of_other_file(record, campaign))
     return "made by another version of " + campaign.file.filename().string();
   if (made_by(record) != usual)
     return "made by " + made_by(record) + ", most of the others by " + usual;

@@ -18,6 +18,9 @@ inline constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 28U;
 // Null where it is damaged.
 nlohmann::ordered_json record_in(const RunFiles& files);
 
+// Version and commit.
+bool is_of_this_program(const nlohmann::ordered_json& record);
+
 // What of a campaign's runs is there, and what made most of it: program, libraries and level of
 // instructions. Holds no records.
 struct Survey {
@@ -32,6 +35,9 @@ std::string beyond_text(const Campaign& campaign);
 
 // Empty for a run whose record tells the values that the campaign's file gives it.
 std::string wrong_values(const nlohmann::ordered_json& record, const Draw& draw);
+
+// Made before the campaign's file was changed, or by another.
+bool is_of_other_file(const nlohmann::ordered_json& record, const Campaign& campaign);
 
 // Empty for a run that goes with the others.
 std::string wrong_maker(const nlohmann::ordered_json& record, const Campaign& campaign,

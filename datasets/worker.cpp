@@ -177,6 +177,7 @@ RunEnd Worker::make(int run) {
         (file.starts_with(making.string()) ||
          file.starts_with(hidden(settings_.output, run, "").string())))
       throw;
+    refused_ = problems;
     write_failure(campaign_, settings_.output, run, draw, problems);
     return RunEnd::failed;
   } catch (...) {

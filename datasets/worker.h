@@ -53,6 +53,8 @@ class Worker {
     std::uint64_t bytes = 0;
   };
   const Cost& cost() const { return cost_; }
+  // What was wrong with the last run that failed.
+  const std::vector<core::Problem>& refused() const { return refused_; }
 
  private:
   struct Stage;
@@ -70,6 +72,7 @@ class Worker {
   Drawer drawer_;
   std::map<std::string, std::unique_ptr<Stage>> stages_;  // by scene
   Cost cost_;
+  std::vector<core::Problem> refused_;
 };
 
 }  // namespace fanbeam::datasets

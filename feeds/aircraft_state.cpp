@@ -53,6 +53,8 @@ const char* name_of(PacketFault fault) {
       return "late, or come twice";
     case PacketFault::jump:
       return "a jump of the simulator's clock";
+    case PacketFault::step:
+      return "a step that no aircraft makes";
   }
   return "";
 }

@@ -21,11 +21,23 @@ struct AircraftState {
 };
 
 // Why a datagram is none.
-enum class PacketFault { none, length, version, format, nonfinite, range, late, jump, foreign };
-inline constexpr std::size_t kPacketFaults = 9;  // with none
+enum class PacketFault {
+  none,
+  length,
+  version,
+  format,
+  nonfinite,
+  range,
+  late,
+  jump,
+  step,
+  foreign
+};
+inline constexpr std::size_t kPacketFaults = 10;  // with none
 const char* name_of(PacketFault fault);
 
-// late and jump are of the packets before it (live/clock_gate.h), foreign of who sent it; nonfinite: a
+// late and jump are of the packets before it (live/clock_gate.h), step too: a place that no aircraft reaches from
+// there (live/predictor.h); foreign of who sent it; nonfinite: a
 // number that is not. range: a latitude beyond 90 deg, a longitude beyond 540 deg, a height beyond -20
 // to 1000 km, an angle over 1000 rad, a speed over 10 km/s, or latitude, longitude and altitude that
 // are all exactly 0, as before a simulator has started.

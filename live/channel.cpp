@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 #include "live/pace.h"
 #include "live/source_clock.h"
@@ -62,9 +63,11 @@ class Channel {
     const std::optional<Sighting> seen = source_(tick.now_s, tick.at_s);
     status.waiting = !seen;
     if (!seen) return;
-    status.stale = seen->age_s > kStale_s;
+    status.stray_poses = seen->strays;
+    const bool was_stale = std::exchange(status.stale, seen->age_s > kStale_s);
     if (status.stale) {
       status.pose_age_ms = 1e3 * seen->age_s;
+      if (!was_stale) maker_.show_stale();
       return maker_.look_back();
     }
     const auto made = maker_.make(tick, *seen, stop);

@@ -30,18 +30,18 @@ glm::dvec3 enabled_offset_m(const cigi::ViewControl& view) {
 
 }  // namespace
 
-void CigiEntities::place(const cigi::EntityControl& packet, double time_s,
-                         const terrain::LocalFrame& frame) {
+CigiEntities::Placed CigiEntities::place(const cigi::EntityControl& packet, double time_s,
+                                         const terrain::LocalFrame& frame) {
   constexpr std::uint8_t kActive = 1;
   if (packet.state != kActive) {
     entities_.erase(packet.entity);
-    return;
+    return Placed::yes;
   }
-  const bool possible = feeds::is_on_earth(packet.place.x, packet.place.y, packet.place.z);
+  if (packet.attached) return Placed::yes;  // no aircraft
+  if (!feeds::is_on_earth(packet.place.x, packet.place.y, packet.place.z))
+    return Placed::impossible;
   const auto before = entities_.find(packet.entity);
-  const bool room = before != entities_.end() || entities_.size() < kMostEntities;
-  // What is attached to another entity is no aircraft.
-  if (packet.attached || !possible || !room) return;
+  if (before == entities_.end() && entities_.size() >= kMostEntities) return Placed::too_many;
   Entity now;
   now.time_s = time_s;
   now.pose.position = {packet.place.x, packet.place.y, packet.place.z};
@@ -56,6 +56,7 @@ void CigiEntities::place(const cigi::EntityControl& packet, double time_s,
       now.pose.v_N_mps = moved_m / apart_s * frame.north_east_down_at(now.pose.position);
   }
   entities_[packet.entity] = now;
+  return Placed::yes;
 }
 
 void CigiEntities::move(const cigi::RateControl& packet) {

@@ -16,11 +16,14 @@ class CigiEntities {
   // What altitudes count from.
   explicit CigiEntities(core::VerticalDatum datum) : datum_(datum) {}
 
+  enum class Placed { yes, impossible, too_many };
+
   // An entity that is active; another one is forgotten. What is attached to another entity is left
-  // alone, and so is a place that is not on Earth. `time_s` is that of the host's message: velocity is
-  // what the last two places were apart over it, within a second and below 2 km/s.
-  void place(const feeds::cigi::EntityControl& packet, double time_s,
-             const terrain::LocalFrame& frame);
+  // alone. A place that is not on Earth, and an entity beyond the 4096th, is refused: what was there stays.
+  // `time_s` is that of the host's message: velocity is what the last two places were apart over it,
+  // within a second and below 2 km/s.
+  Placed place(const feeds::cigi::EntityControl& packet, double time_s,
+               const terrain::LocalFrame& frame);
   // The velocity that the host tells counts.
   void move(const feeds::cigi::RateControl& packet);
   void clear() { entities_.clear(); }

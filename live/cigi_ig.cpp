@@ -18,6 +18,11 @@ constexpr std::int8_t kNoDatabase = -128;
 constexpr std::size_t kMostAsked = 1024, kMostPeriodic = 1024;
 constexpr std::size_t kDatagram_bytes = 1400;  // stays whole on any network
 constexpr std::chrono::seconds kPatience(5);   // with a host that is silent
+constexpr double kAnyNumber_s = 1.0;           // of silence, after which any frame number counts
+// A message's number is at most so far ahead of the last one's, or as far as goes with the time since; one that
+// is farther back was not late, its host began anew.
+constexpr double kMostAhead = 60.0, kMostFrames_Hz = 1000.0;
+constexpr std::int64_t kMostLate = 60;
 
 template <class... Each>
 struct Overloaded : Each... {
@@ -30,9 +35,16 @@ void append(std::vector<std::uint8_t>& message, const std::vector<std::uint8_t>&
   message.insert(message.end(), packet.begin(), packet.end());
 }
 
-// Later, in numbers that begin again after the largest.
-bool is_later(std::uint32_t frame, std::uint32_t than) {
-  return static_cast<std::int32_t>(frame - than) > 0;
+// How many frames later, in numbers that begin again after the largest.
+std::int64_t frames_ahead(std::uint32_t frame, std::uint32_t than) {
+  return static_cast<std::int32_t>(frame - than);
+}
+
+// Whether a host sends that number next, so many seconds after the other: it may have left some out.
+bool is_next(std::uint32_t frame, std::uint32_t than, double waited_s) {
+  const std::int64_t frames = frames_ahead(frame, than);
+  return frames > 0 &&
+         static_cast<double>(frames) <= std::max(kMostAhead, kMostFrames_Hz * waited_s);
 }
 
 }  // namespace
@@ -57,52 +69,81 @@ std::string CigiIg::host() const {
   return station_.host;
 }
 
-// Whether a message is of the host and the next one; a host that was silent may begin anywhere.
-bool CigiIg::follows(const cigi::IgControl& control, const std::string& host,
-                     Clock::time_point arrived) {
-  const bool silent = !station_.heard || arrived - *station_.heard > kPatience;
-  if (!silent && host != station_.host) {
-    ++foreign_;
-    return false;
-  }
-  constexpr std::chrono::seconds kRestart(1);
-  if (!silent && !is_later(control.host_frame, station_.control.host_frame) &&
-      arrived - *station_.heard < kRestart) {
-    ++late_;
-    return false;
-  }
-  station_.host = host;
-  station_.heard = arrived;
-  return true;
+// One that was silent leaves its place to any other.
+bool CigiIg::is_of_host(const std::string& host, Clock::time_point arrived) {
+  if (!station_.heard || arrived - *station_.heard > kPatience) station_.host = host;
+  if (host == station_.host) return true;
+  ++foreign_;
+  return false;
 }
 
 void CigiIg::take(std::span<const std::uint8_t> datagram, const std::string& host,
                   Clock::time_point arrived) {
   cigi::MessageFault fault{};
-  const auto message = cigi::decode_host_message(datagram, fault);
-  std::optional<core::Pose> pose;
-  std::optional<double> clock_s;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ++messages_;
-    if (!message) {
-      ++faults_[static_cast<std::size_t>(fault)];
-      return;
-    }
-    if (!follows(message->control, host, arrived)) return;
-    enter(message->control.mode);
-    station_.control = message->control;
-    if (station_.control.database != refused_) refused_ = 0;
-    nonfinite_ += message->nonfinite;
-    for (const std::uint8_t id : message->passed_over) ++passed_over_[id];
-    if (station_.control.timestamp_valid) clock_s = 1e-5 * station_.control.timestamp_10us;
-    const double time_s = clock_s.value_or(seconds_between(station_.begin, arrived));
-    const auto scene = session_.scene();
-    for (const cigi::HostPacket& packet : message->packets) take(packet, time_s, scene->frame);
-    for (const std::string& why : conditions_.settle(*scene)) refuse(why);
-    if (station_.control.mode == cigi::Mode::operate) pose = entities_.pose(view_, scene->frame);
+  auto message = cigi::decode_host_message(datagram, fault);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++messages_;
+  if (!message)
+    ++faults_[static_cast<std::size_t>(fault)];
+  else if (is_of_host(host, arrived))
+    take({std::move(*message), {datagram.begin(), datagram.end()}, arrived});
+}
+
+// The next message, one that waits, or none.
+void CigiIg::take(Heard heard) {
+  const std::uint32_t frame = heard.message.control.host_frame, last = station_.control.host_frame;
+  const double waited_s =
+      station_.heard ? seconds_between(*station_.heard, heard.arrived) : kAnyNumber_s;
+  const bool goes_on = waited_s >= kAnyNumber_s || is_next(frame, last, waited_s);
+  if (!goes_on && frames_ahead(frame, last) <= 0 && frames_ahead(frame, last) >= -kMostLate) {
+    ++late_;
+    return;
   }
-  if (pose) mailbox_.put(*pose, {datagram.begin(), datagram.end()}, arrived, clock_s);
+  const double jumped_for_s =
+      jumped_ ? seconds_between(jumped_->arrived, heard.arrived) : kAnyNumber_s;
+  const bool after_jump = jumped_for_s < kAnyNumber_s &&
+                          is_next(frame, jumped_->message.control.host_frame, jumped_for_s);
+  if (!goes_on && !after_jump) {
+    if (jumped_) ++jumps_;
+    jumped_ = std::move(heard);
+    return;
+  }
+  if (after_jump)
+    heed(*jumped_);
+  else if (jumped_)
+    ++jumps_;
+  jumped_.reset();
+  heed(heard);
+}
+
+void CigiIg::heed(const Heard& heard) {
+  const cigi::HostMessage& message = heard.message;
+  station_.heard = heard.arrived;
+  enter(message.control.mode);
+  station_.control = message.control;
+  if (station_.control.database != refused_) refused_ = 0;
+  nonfinite_ += message.nonfinite;
+  unplaced_ = message.unplaced;
+  for (const std::uint8_t id : message.passed_over) ++passed_over_[id];
+  std::optional<double> clock_s;
+  if (station_.control.timestamp_valid) clock_s = 1e-5 * station_.control.timestamp_10us;
+  const double time_s = clock_s.value_or(seconds_between(station_.begin, heard.arrived));
+  const auto scene = session_.scene();
+  for (const cigi::HostPacket& packet : message.packets) take(packet, time_s, scene->frame);
+  for (const std::string& why : conditions_.settle(*scene)) refuse(why);
+  if (station_.control.mode != cigi::Mode::operate ||
+      std::find(unplaced_.begin(), unplaced_.end(), view_.entity) != unplaced_.end())
+    return;
+  if (const auto pose = entities_.pose(view_, scene->frame))
+    mailbox_.put(*pose, heard.datagram, heard.arrived, clock_s);
+}
+
+void CigiIg::place(const cigi::EntityControl& packet, double time_s,
+                   const terrain::LocalFrame& frame) {
+  const CigiEntities::Placed placed = entities_.place(packet, time_s, frame);
+  if (placed == CigiEntities::Placed::impossible) ++impossible_;
+  if (placed == CigiEntities::Placed::too_many) ++too_many_;
+  if (placed != CigiEntities::Placed::yes) unplaced_.push_back(packet.entity);
 }
 
 // Reset: what the host says from then on counts, in standby too.
@@ -121,7 +162,7 @@ void CigiIg::take(const cigi::HostPacket& packet, double time_s, const terrain::
     if (!means_something) ++passed_over_[id];
   };
   std::visit(Overloaded{
-                 [&](const cigi::EntityControl& one) { entities_.place(one, time_s, frame); },
+                 [&](const cigi::EntityControl& one) { place(one, time_s, frame); },
                  [&](const cigi::RateControl& one) { entities_.move(one); },
                  [&](const cigi::ViewControl& one) { view_ = one; },
                  [&](const cigi::ViewDefinition& one) { conditions_.take(one); },
@@ -290,6 +331,7 @@ void CigiIg::tell(Status& status) const {
     add(cigi::name_of(static_cast<cigi::MessageFault>(i)), faults_[i]);
   add("from no peer, or a second host", foreign_);
   add("late, or come twice", late_);
+  add("a jump of the host's frame number", jumps_);
   status.unused_packets.clear();
   const auto unused = [&](std::string name, std::uint64_t count) {
     if (count > 0) status.unused_packets.emplace_back(std::move(name), count);
@@ -299,6 +341,8 @@ void CigiIg::tell(Status& status) const {
                std::to_string(id) + ")",
            passed_over_[id]);
   unused("with a number that is not finite", nonfinite_);
+  unused("with a position that cannot be", impossible_);
+  unused("entities beyond 4096 at a time", too_many_);
   unused("questions beyond 1024 at a time", unanswered_);
 }
 

@@ -12,8 +12,12 @@
 // what one datagram holds, the others in the frames after. Packets with no meaning here are counted by
 // name.
 //
+// An entity whose place cannot be, or is not finite, gives no pose: what was told of it before is no news.
+//
 // One host at a time: another one is turned away until the first was silent for five seconds. Messages that
-// come twice or late are left out.
+// come twice or late are left out. One whose frame number is far from the last one's waits, and counts when the
+// next follows from it; so no single message, whatever its number, locks out those that follow. After a second
+// of silence any number counts.
 #pragma once
 
 #include <array>
@@ -85,8 +89,16 @@ class CigiIg {
     Question question;
     std::uint32_t host_frame = 0;
   };
-  bool follows(const feeds::cigi::IgControl& control, const std::string& host,
-               Clock::time_point arrived);
+  struct Heard {
+    feeds::cigi::HostMessage message;
+    std::vector<std::uint8_t> datagram;
+    Clock::time_point arrived;
+  };
+  bool is_of_host(const std::string& host, Clock::time_point arrived);
+  void take(Heard heard);
+  void heed(const Heard& heard);
+  void place(const feeds::cigi::EntityControl& packet, double time_s,
+             const terrain::LocalFrame& frame);
   void enter(feeds::cigi::Mode mode);
   void take(const feeds::cigi::HostPacket& packet, double time_s, const terrain::LocalFrame& frame);
   bool set(const feeds::cigi::CelestialControl& packet);
@@ -106,13 +118,16 @@ class CigiIg {
   CigiStation station_;
   CigiEntities entities_;
   feeds::cigi::ViewControl view_{};
+  std::optional<Heard> jumped_;          // waits
+  std::vector<std::uint16_t> unplaced_;  // entities, of the message that is being heeded
   std::deque<Asked> asked_;
   std::map<std::pair<std::size_t, std::uint16_t>, std::pair<Asked, std::uint8_t>> periodic_;
   CigiConditions conditions_;
   std::string host_time_;              // that it says it is there, ISO 8601
   std::int8_t refused_ = 0;            // database that cannot be opened; 0: none
   std::vector<std::string> refusals_;  // to be told
-  std::uint64_t messages_ = 0, foreign_ = 0, late_ = 0, nonfinite_ = 0, unanswered_ = 0;
+  std::uint64_t messages_ = 0, foreign_ = 0, late_ = 0, jumps_ = 0, nonfinite_ = 0;
+  std::uint64_t impossible_ = 0, too_many_ = 0, unanswered_ = 0;
   std::array<std::uint64_t, 6> faults_{};
   std::array<std::uint64_t, 256> passed_over_{};
 };

@@ -71,6 +71,22 @@ void amplify(core::Picture8& picture, double share) {
     grey = static_cast<std::uint8_t>(std::clamp(grey + steps, 0, 255));
 }
 
+// From corner to corner, white beside black: on any ground, and in a smaller copy too.
+void cross_out(core::Picture8& picture) {
+  constexpr int kWide = 4;
+  if (picture.pixels.empty()) return;
+  const int steps = std::max(picture.columns, picture.rows);
+  const auto at = [&](int step, int size) { return step * (size - 1) / steps; };
+  for (int step = 0; step <= steps; ++step)
+    for (int beside = 0; beside < kWide; ++beside) {
+      const int row = at(step, picture.rows), column = at(step, picture.columns) + beside;
+      if (column >= picture.columns) continue;
+      for (const int x : {column, picture.columns - 1 - column})
+        picture.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(picture.columns) +
+                       static_cast<std::size_t>(x)] = 2 * beside < kWide ? 255 : 0;
+    }
+}
+
 void refuse_others(const core::JsonNode& root, std::initializer_list<const char*> known) {
   for (const std::string& key : root.keys())
     if (std::find(known.begin(), known.end(), key) == known.end()) {
@@ -172,9 +188,8 @@ Answer Desk::picture(const std::string& path, const std::string& query) const {
   problems.throw_if_errors();
   const std::shared_ptr<const LiveFrame> frame = hub_.newest();
   if (!frame) return refusal(503, "no frame yet");
-  core::Picture8 shown = bscope ? frame->bscope : frame->cscope;
-  if (gain_dB != 0.0) amplify(shown, gain_dB / (frame->high_dB - frame->low_dB));
-  return {200, "image/png", core::png_bytes(shown)};
+  const Scope scope = bscope ? Scope::bscope : Scope::cscope;
+  return {200, "image/png", core::png_bytes(picture_to_show(*frame, scope, gain_dB))};
 }
 
 void Desk::control(const std::string& path, const std::string& body) const {
@@ -210,6 +225,7 @@ std::string message_of(const LiveFrame& frame) {
                   {"frame_ms", frame.frame_ms},
                   {"pose_age_ms", frame.pose_age_ms},
                   {"outside_volume", frame.outside_volume},
+                  {"stale", frame.stale},
                   {"low_dB", frame.low_dB},
                   {"high_dB", frame.high_dB},
                   {"cscope_top_deg", core::degrees(frame.cscope_top_rad)}};
@@ -217,6 +233,13 @@ std::string message_of(const LiveFrame& frame) {
   message.append(frame.bscope.pixels.begin(), frame.bscope.pixels.end());
   message.append(frame.cscope.pixels.begin(), frame.cscope.pixels.end());
   return message;
+}
+
+core::Picture8 picture_to_show(const LiveFrame& frame, Scope scope, double gain_dB) {
+  core::Picture8 picture = scope == Scope::bscope ? frame.bscope : frame.cscope;
+  if (gain_dB != 0.0) amplify(picture, gain_dB / (frame.high_dB - frame.low_dB));
+  if (frame.stale) cross_out(picture);
+  return picture;
 }
 
 }  // namespace fanbeam::live

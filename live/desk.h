@@ -50,6 +50,7 @@ class Desk {
   Answer answer(const Request& request) const;
   // What a POST with that body does. Throws InputError with all that is wrong, and changes nothing then.
   void control(const std::string& path, const std::string& body) const;
+  atmosphere::Weather weather() const { return session_.scene()->weather; }
 
  private:
   Answer get(const std::string& path, const std::string& query) const;
@@ -67,5 +68,9 @@ class Desk {
 // pictures, pose, times, and of the axes what a control moves, as it was of this frame), a line feed, then the bytes of the B-scope and of the C-scope, top row
 // first.
 std::string message_of(const LiveFrame& frame);
+
+// With so much more gain. For who looks at nothing else: crossed out where the frame is stale, as a picture that
+// stands looks like one of an aircraft that does.
+core::Picture8 picture_to_show(const LiveFrame& frame, Scope scope, double gain_dB = 0.0);
 
 }  // namespace fanbeam::live

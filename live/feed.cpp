@@ -27,7 +27,10 @@ Feed::Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum
       datum_(datum_of(scene_->description, datum)),
       protocol_(protocol),
       mailbox_(std::move(mailbox)),
-      source_(source) {}
+      source_(source) {
+  // Without the grid nothing flies: told here, not by the thread that hears the first packet.
+  (void)terrain::ellipsoidal_height_m({}, datum_);
+}
 
 Feed::Heard Feed::heard(const feeds::AircraftState& state) const {
   core::Pose pose = feeds::pose_of(state);
@@ -100,6 +103,10 @@ void Feed::compare_heights(const core::Pose& pose, double told_m, Clock::time_po
   const auto ground_m = terrain != nullptr ? terrain->height_at(at_m.x, at_m.y) : std::nullopt;
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool elsewhere = last_m_ && glm::distance(*last_m_, at_m) > kElsewhere_m;
+  // One alone is a stray one.
+  const bool stays = apart_m_ && glm::distance(*apart_m_, at_m) <= kElsewhere_m;
+  apart_m_ = elsewhere ? std::optional(at_m) : std::nullopt;
+  if (elsewhere && !stays) return;
   last_m_ = at_m;
   if (elsewhere || gate_.after_jump()) compared_.clear();
   while (!compared_.empty() && seconds_between(compared_.front().arrived, arrived) > kCompared_s)

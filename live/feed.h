@@ -35,7 +35,8 @@ inline core::VerticalDatum datum_of(const scenes::SceneDescription& scene,
 
 class Feed {
  public:
-  // Poses go into `mailbox`, as those of the source of that number.
+  // Poses go into `mailbox`, as those of the source of that number. Throws InputError (E-IO) where the
+  // datum's grid is missing.
   Feed(std::shared_ptr<const scenes::Scene> scene, core::VerticalDatum datum,
        const feeds::Protocol& protocol = feeds::kProtocols[0],
        std::shared_ptr<Mailbox> mailbox = std::make_shared<Mailbox>(), std::size_t source = 0);
@@ -93,6 +94,7 @@ class Feed {
   std::deque<Compared> compared_;
   Clock::time_point compared_since_{};  // without a break
   std::optional<glm::dvec3> last_m_;    // of the scene's frame
+  std::optional<glm::dvec3> apart_m_;   // far from there, and nothing came since
 };
 
 }  // namespace fanbeam::live

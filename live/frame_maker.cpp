@@ -91,6 +91,16 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   return Made{frame_s, outside};
 }
 
+void FrameMaker::show_stale() {
+  const std::shared_ptr<const LiveFrame> newest = hub_.newest();
+  if (!newest) return;
+  auto frame = std::make_shared<LiveFrame>(*newest);
+  frame->number = ++status_.frames;
+  frame->stale = true;
+  frame->pose_age_ms = status_.pose_age_ms;
+  hub_.publish(std::move(frame));
+}
+
 double FrameMaker::processor_s() const {
   const double beside_s = settings_.beside_s ? settings_.beside_s() : 0.0;
   return processor_time_s(CLOCK_PROCESS_CPUTIME_ID) - beside_s;

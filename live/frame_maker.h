@@ -44,6 +44,9 @@ class FrameMaker {
   // `stop` asked.
   std::optional<Made> make(const Tick& tick, const Sighting& seen, const core::StopToken& stop);
 
+  // The newest frame once more, as one whose pose is out of date by now.
+  void show_stale();
+
   Status& status() { return status_; }
   // Of the last two seconds up to now: for whoever makes no frame.
   void look_back();

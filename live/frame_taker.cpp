@@ -5,6 +5,15 @@
 #include "core/stop.h"
 
 namespace fanbeam::live {
+namespace {
+
+// The thread that calls was asked to stop, and not because time is up.
+bool is_hurried() {
+  const int reason = core::StopScope::current().reason();
+  return reason != 0 && reason != kTimeIsUp;
+}
+
+}  // namespace
 
 FrameTaker::FrameTaker(Put put, bool every_frame)
     : put_(std::move(put)), every_frame_(every_frame) {
@@ -14,7 +23,8 @@ FrameTaker::FrameTaker(Put put, bool every_frame)
 FrameTaker::~FrameTaker() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    leaving_ = true;
+    ending_ = true;
+    leaving_ = is_hurried();
   }
   changed_.notify_all();
   if (thread_.joinable()) thread_.join();
@@ -26,11 +36,14 @@ bool FrameTaker::ended() const {
 }
 
 // In lockstep the sink is called by the channel's own thread.
-bool FrameTaker::ending() const { return core::StopScope::current().reason() != 0 || leaving(); }
+bool FrameTaker::ending() const {
+  if (core::StopScope::current().reason() != 0) return true;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return ending_;
+}
 
 bool FrameTaker::leaving() const {
-  const int reason = core::StopScope::current().reason();
-  if (reason != 0 && reason != kTimeIsUp) return true;
+  if (is_hurried()) return true;
   const std::lock_guard<std::mutex> lock(mutex_);
   return leaving_;
 }
@@ -38,7 +51,7 @@ bool FrameTaker::leaving() const {
 void FrameTaker::write(const std::shared_ptr<const LiveFrame>& frame) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!frame || frame->number == taken_ || ended_) return;
+    if (!frame || frame->stale || frame->number == taken_ || ended_) return;
     newest_ = frame;
     if (every_frame_) taken_ = frame->number;
   }
@@ -53,8 +66,8 @@ void FrameTaker::run() {
     std::shared_ptr<const LiveFrame> frame;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock, [&] { return leaving_ || (newest_ && newest_->number != taken_); });
-      if (leaving_) return;
+      changed_.wait(lock, [&] { return ending_ || (newest_ && newest_->number != taken_); });
+      if (ending_) return;
       frame = newest_;
       taken_ = frame->number;
     }

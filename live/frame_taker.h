@@ -21,11 +21,12 @@ class FrameTaker {
   // It asks ending() before it begins and leaving() now and then, and gives false when the sink takes no more.
   using Put = std::function<bool(const LiveFrame&, const FrameTaker&)>;
   FrameTaker(Put put, bool every_frame);
-  ~FrameTaker();  // the sink is called no more
+  // The sink is called no more. What it is about it may finish, unless the thread that ends it was asked to stop.
+  ~FrameTaker();
   FrameTaker(const FrameTaker&) = delete;
   FrameTaker& operator=(const FrameTaker&) = delete;
 
-  // A frame that was given before is left out.
+  // A frame that was given before is left out, also where it is shown once more as a stale one.
   void write(const std::shared_ptr<const LiveFrame>& frame);
   // The sink gave false.
   bool ended() const;
@@ -44,7 +45,7 @@ class FrameTaker {
   std::condition_variable changed_;
   std::shared_ptr<const LiveFrame> newest_;
   std::uint64_t taken_ = 0;  // number of the frame
-  bool ended_ = false, leaving_ = false;
+  bool ended_ = false, ending_ = false, leaving_ = false;
   std::thread thread_;  // unless every frame is wanted
 };
 

@@ -40,6 +40,7 @@ struct LiveFrame {
   double frame_ms = 0.0;
   double pose_age_ms = 0.0;               // between the pose's arrival and the frame's beginning
   bool outside_volume = false;            // made by a plan of its own (session.h)
+  bool stale = false;                     // shown once more, as no pose came for a second
   std::optional<PictureErrors> errors{};  // of its sampling, as far as they were known
 };
 
@@ -72,6 +73,7 @@ struct Status {
   // the median of its height above ground less ours over the last five seconds (live/feed.h).
   std::uint64_t packets = 0;
   std::vector<std::pair<std::string, std::uint64_t>> bad_packets;
+  std::uint64_t stray_poses = 0;  // of packets that were good by themselves (predictor.h)
   // Parts of good packets that mean nothing here, by name (live/cigi_ig.h).
   std::vector<std::pair<std::string, std::uint64_t>> unused_packets;
   std::optional<double> height_offset_m;

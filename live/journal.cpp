@@ -1,12 +1,7 @@
 #include "live/journal.h"
 
-#include <fmt/core.h>
-
-#include <cerrno>
-#include <cstring>
 #include <nlohmann/json.hpp>
-
-#include "core/errors.h"
+#include <utility>
 
 namespace fanbeam::live {
 namespace {
@@ -24,17 +19,26 @@ std::string hex(std::span<const std::uint8_t> bytes) {
   return text;
 }
 
+json head_of(const FlownBy& flown_by) {
+  json head{{"fanbeam_live", 1},
+            {"scene", flown_by.scene},
+            {"from", flown_by.from.size() == 1 ? json(flown_by.from.front()) : json(flown_by.from)},
+            {"rate_Hz", flown_by.rate_Hz},
+            {"lockstep", flown_by.lockstep}};
+  if (flown_by.sensor) head["sensor"] = *flown_by.sensor;
+  if (flown_by.effects) head["effects"] = *flown_by.effects;
+  return head;
+}
+
 }  // namespace
 
 Journal::Journal(const std::filesystem::path& file, const FlownBy& flown_by)
-    : file_(file), stream_(file, std::ios::binary | std::ios::trunc) {
-  write(
-      json{{"fanbeam_live", 1},
-           {"scene", flown_by.scene},
-           {"from", flown_by.from.size() == 1 ? json(flown_by.from.front()) : json(flown_by.from)},
-           {"rate_Hz", flown_by.rate_Hz},
-           {"lockstep", flown_by.lockstep}}
-          .dump());
+    : file_(file, "--record", "a file that can be written, with room, and that nobody else writes"),
+      head_(head_of(flown_by).dump() + "\n") {}
+
+void Journal::begin() {
+  const std::lock_guard<std::mutex> lock(writing_);
+  put("");
 }
 
 void Journal::packet(double arrived_s, std::span<const std::uint8_t> bytes, std::size_t source) {
@@ -73,10 +77,11 @@ void Journal::write(const std::string& line) {
 }
 
 void Journal::put(const std::string& text) {
-  stream_ << text << std::flush;
-  if (!stream_)
-    core::throw_input_error(core::ErrorClass::io, core::Place{file_.string()}, "--record",
-                            std::strerror(errno), "a file that can be written, with room");
+  if (!head_.empty()) {
+    file_.begin();
+    file_.write(std::exchange(head_, ""));
+  }
+  file_.write(text);
 }
 
 }  // namespace fanbeam::live

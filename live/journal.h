@@ -10,15 +10,18 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "live/own_file.h"
+
 namespace fanbeam::live {
 
-// What else the same pictures need: the options that were given beside these have to be the same.
+// What else the same pictures need: the options that were given beside these have to be the same. Of
+// recordings from before they kept sensor and effects, nothing is known of these.
 struct FlownBy {
   static constexpr std::size_t kMostSources = 8;
 
@@ -26,6 +29,8 @@ struct FlownBy {
   std::vector<std::string> from;
   double rate_Hz = 16.0;
   bool lockstep = false;
+  std::optional<std::string> sensor{};   // its name
+  std::optional<std::string> effects{};  // the wishes about them, as they were told
 };
 
 // When a frame was asked for, and for when.
@@ -36,9 +41,12 @@ struct Tick {
 
 class Journal {
  public:
-  // Throws InputError E-IO, and does so when lines cannot be written: what stands there is whole up
-  // to the line before.
+  // Throws InputError E-IO, also where another process records there, and does so when lines cannot be
+  // written: what stands there is whole up to the line before.
   Journal(const std::filesystem::path& file, const FlownBy& flown_by);
+
+  // The channel flies: what was in the file is gone. The first line that is written does so too.
+  void begin();
 
   void packet(double arrived_s, std::span<const std::uint8_t> bytes, std::size_t source = 0);
   // Waits for made(), and with it whatever comes after.
@@ -55,10 +63,10 @@ class Journal {
   void write(const std::string& line);
   void put(const std::string& text);
 
-  std::filesystem::path file_;
+  OwnFile file_;
+  std::string head_;  // until it is written
   std::mutex conditions_, writing_;
   std::string frame_, behind_;  // lines of the frame that is being made, and of what came since
-  std::ofstream stream_;
 };
 
 }  // namespace fanbeam::live

@@ -1,7 +1,8 @@
 // The newest poses of where the aircraft is told from: a few, so that whoever looks once a frame sees how
 // they move; what arrives pushes out the oldest, nothing queues. Who wants each of them (lockstep) has a
 // larger one. Of several sources the one named first leads: another one's poses count while those before
-// it have been silent for half a second. Thread-safe.
+// it have been silent for half a second. Where another leads, one counts from its second packet within that time,
+// so that no single packet takes the lead. Thread-safe.
 #pragma once
 
 #include <chrono>
@@ -45,9 +46,14 @@ class Mailbox {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (heard_.size() <= source) heard_.resize(source + 1);
-      heard_[source] = arrived;
+      Heard& heard = heard_[source];
+      const bool other_leads = !letters_.empty() && letters_.back().source != source &&
+                               is_heard(letters_.back().source, arrived);
+      heard.steady = is_heard(source, arrived) || !other_leads;
+      heard.last = arrived;
+      if (!heard.steady) return;
       for (std::size_t before = 0; before < source; ++before)
-        if (heard_[before] && seconds_between(*heard_[before], arrived) < kSilent_s) return;
+        if (heard_[before].steady && is_heard(before, arrived)) return;
       letters_.push_back({pose, std::move(packet), arrived, clock_s, source, ++count_});
       if (letters_.size() > kept_) letters_.pop_front();
     }
@@ -76,11 +82,20 @@ class Mailbox {
   }
 
  private:
+  struct Heard {
+    std::optional<Clock::time_point> last;
+    bool steady = false;  // may lead
+  };
+
+  bool is_heard(std::size_t source, Clock::time_point now) const {
+    return heard_[source].last && seconds_between(*heard_[source].last, now) < kSilent_s;
+  }
+
   std::size_t kept_;
   mutable std::mutex mutex_;
   mutable std::condition_variable came_;
   std::deque<Letter> letters_;
-  std::vector<std::optional<Clock::time_point>> heard_;  // by source, last
+  std::vector<Heard> heard_;  // by source
   std::uint64_t count_ = 0;
 };
 

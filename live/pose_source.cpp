@@ -9,7 +9,7 @@ namespace fanbeam::live {
 
 PoseSource source_of(Flight flight) {
   return [flight = std::move(flight)](double, double at_s) {
-    return std::optional(Sighting{flight(std::max(0.0, at_s)), 0.0});
+    return std::optional(Sighting{flight(std::max(0.0, at_s))});
   };
 }
 
@@ -25,7 +25,7 @@ PoseSource source_of(const Mailbox& mailbox, const terrain::LocalFrame& frame,
     }
     const auto pose = predictor.at(at_s);
     if (!pose) return std::nullopt;
-    return Sighting{*pose, std::max(0.0, now_s - *predictor.newest_s())};
+    return Sighting{*pose, std::max(0.0, now_s - *predictor.newest_s()), predictor.strays()};
   };
 }
 

@@ -1,6 +1,7 @@
 // Where the aircraft is, for whoever asks once a frame.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 
@@ -15,6 +16,7 @@ namespace fanbeam::live {
 struct Sighting {
   core::Pose pose;
   double age_s = 0.0;
+  std::uint64_t strays = 0;  // so far, of the poses told: predictor.h
 };
 // Where the aircraft is at `at_s`, as far as it is known at `now_s`, both seconds since the channel
 // began; nothing before anything is known.

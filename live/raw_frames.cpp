@@ -11,22 +11,29 @@
 #include <climits>
 #include <cstring>
 #include <thread>
+#include <utility>
 
 #include "core/errors.h"
 
 namespace fanbeam::live {
+namespace {
+
+constexpr const char* kRawOption = "--to";
+constexpr const char* kRawExpected =
+    "a file or pipe that can be written, and that nobody else writes";
+
+}  // namespace
 
 RawFrames::RawFrames(Scope scope, const std::string& file, bool every_frame)
     : scope_(scope), name_(file), every_frame_(every_frame) {
   struct stat facts {};
   if (file != "-" && ::stat(file.c_str(), &facts) == 0 && S_ISFIFO(facts.st_mode))
     pipe_ = file;
+  else if (file == "-")
+    file_ = ::dup(STDOUT_FILENO);
   else
-    file_ = file == "-" ? ::dup(STDOUT_FILENO)
-                        : ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file_ < 0 && pipe_.empty())
-    core::throw_input_error(core::ErrorClass::io, core::Place{file}, "--to", std::strerror(errno),
-                            "a file or pipe that can be written");
+    file_ = own_.emplace(file, kRawOption, kRawExpected).descriptor();
+  if (file_ < 0 && pipe_.empty()) refuse(errno);
   taker_.emplace(
       [this](const LiveFrame& frame, const FrameTaker& taker) { return put(frame, taker); },
       every_frame);
@@ -34,17 +41,21 @@ RawFrames::RawFrames(Scope scope, const std::string& file, bool every_frame)
 
 RawFrames::~RawFrames() {
   taker_.reset();
-  if (file_ >= 0) ::close(file_);
+  if (file_ >= 0 && !own_) ::close(file_);
 }
 
 // Some file systems refuse only here.
 void RawFrames::close() {
   taker_.reset();
-  if (file_ >= 0 && ::close(file_) != 0 && fault_ == 0) fault_ = errno;
-  file_ = -1;
-  if (fault_ != 0 && fault_ != EPIPE)
-    core::throw_input_error(core::ErrorClass::io, core::Place{name_}, "--to", std::strerror(fault_),
-                            "a file or pipe that can be written");
+  const int file = std::exchange(file_, -1);
+  if (file >= 0 && !own_ && ::close(file) != 0 && fault_ == 0) fault_ = errno;
+  if (fault_ != 0 && fault_ != EPIPE) refuse(fault_);
+  if (own_) own_->close();
+}
+
+void RawFrames::refuse(int reason) const {
+  core::throw_input_error(core::ErrorClass::io, core::Place{name_}, kRawOption,
+                          std::strerror(reason), kRawExpected);
 }
 
 // Opening a pipe that nobody reads would wait, whoever asks to stop.

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "live/frame_taker.h"
+#include "live/own_file.h"
 
 namespace fanbeam::live {
 
@@ -15,14 +16,18 @@ class RawFrames {
   enum class Scope { bscope, cscope };
 
   // `file` is created, or a named pipe, which gets frames from when it has a reader; "-" is the standard
-  // output.
-  // Throws InputError E-IO.
+  // output. Throws InputError E-IO, also where another process or sink writes the file.
   RawFrames(Scope scope, const std::string& file, bool every_frame);
   ~RawFrames();  // as close(), but tells nobody
   RawFrames(const RawFrames&) = delete;
   RawFrames& operator=(const RawFrames&) = delete;
 
+  // Frames will come: what was in the file is gone. The first frame does so too.
+  void begin() {
+    if (own_) own_->begin();
+  }
   void write(const std::shared_ptr<const LiveFrame>& frame) {
+    begin();
     if (taker_) taker_->write(frame);
   }
   // The reader is gone, or the disk is full.
@@ -35,11 +40,13 @@ class RawFrames {
   bool put(const LiveFrame& frame, const FrameTaker& taker);
   bool has_reader();
   bool refused();
+  [[noreturn]] void refuse(int reason) const;
 
   Scope scope_;
   std::string name_;
   std::string pipe_{};  // that waits for its reader
   bool every_frame_;
+  std::optional<OwnFile> own_;  // neither a pipe nor the standard output
   int file_ = -1;
   int fault_ = 0;  // errno of what was refused, of the taker's thread
   std::optional<FrameTaker> taker_;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kMost_bytes = 2ULL << 30U;
 constexpr std::size_t kMostProblems = 20, kMostPacket_bytes = 2000;
-constexpr core::JsonLimits kLineLimits{4, 16};
+constexpr core::JsonLimits kLineLimits{4, 32};
 constexpr core::NumberRange kSeconds{0.0, 1e9};
 
 std::optional<std::vector<std::uint8_t>> bytes_of(const std::string& hex) {
@@ -38,19 +38,29 @@ class Lines {
   Lines(Recording& recording, core::ProblemList& problems)
       : recording_(recording), problems_(problems) {}
 
+  // Whether it is of a recording, as far as one can tell.
+  bool take_head(const std::string& text, const std::string& name) {
+    core::ProblemList why_not;
+    const auto file = core::parse_json(text, name, kLineLimits, why_not);
+    const bool known = file && core::JsonNode(*file, why_not).member("fanbeam_live").present();
+    if (known)
+      head({*file, problems_});
+    else
+      problems_.error(core::ErrorClass::ref, {name}, "", "no recording",
+                      "what fanbeam live --record writes");
+    return known;
+  }
+
   void take(const std::string& text, const std::string& name) {
     const auto file = core::parse_json(text, name, kLineLimits, problems_);
     if (!file) return;
     const core::JsonNode line(*file, problems_);
-    if (first_)
-      head(line);
-    else if (line.member("packet").present())
+    if (line.member("packet").present())
       packet(line);
     else if (line.member("frame").present())
       frame(line);
     else
       control(line);
-    first_ = false;
   }
 
  private:
@@ -65,6 +75,10 @@ class Lines {
                                     : std::vector<std::string>{from.text().value_or("")};
     flown_by.rate_Hz = line.required("rate_Hz").number({0.1, 1000.0}).value_or(16.0);
     flown_by.lockstep = line.required("lockstep").flag().value_or(false);
+    if (const auto sensor = line.member("sensor"); sensor.present())
+      flown_by.sensor = sensor.text();
+    if (const auto effects = line.member("effects"); effects.present())
+      flown_by.effects = effects.text();
   }
 
   void packet(const core::JsonNode& line) {
@@ -95,7 +109,6 @@ class Lines {
 
   Recording& recording_;
   core::ProblemList& problems_;
-  bool first_ = true;
 };
 
 }  // namespace
@@ -115,7 +128,9 @@ Recording read_recording(const std::filesystem::path& file) {
   Lines lines(recording, problems);
   std::string text;
   for (int number = 1; std::getline(stream, text) && !stream.eof(); ++number) {
-    lines.take(text, fmt::format("{}:{}", file.string(), number));
+    const std::string name = fmt::format("{}:{}", file.string(), number);
+    if (number == 1 && !lines.take_head(text, name)) break;
+    if (number > 1) lines.take(text, name);
     if (problems.all().size() >= kMostProblems) break;
   }
   if (recording.flown_by.from.empty() && problems.all().empty())

@@ -32,7 +32,7 @@ struct Recording {
 };
 
 // Throws InputError with every problem (the first 20 lines that have one): E-IO, E-LIMIT above 2 GiB,
-// E-PARSE and E-RANGE with the line, E-REF for a file that begins otherwise. A last line without its
+// E-PARSE and E-RANGE with the line, E-REF alone for a file that begins otherwise. A last line without its
 // end, of a channel that was killed, is left out.
 Recording read_recording(const std::filesystem::path& file);
 

@@ -7,20 +7,23 @@
 // n beyond 0 to 1 counts as its end. So a rate is good to its class, a factor of two or more.
 // Fog is there below 1000 m of visibility (WMO's definition), with the water that the scene's fog
 // model gives it; haze and what rain takes of the view is none. Where both fall, what falls more
-// counts: dry snow has no rain beside it (atmosphere/weather.h).
+// counts: dry snow has no rain beside it (atmosphere/weather.h). What a protocol does not tell stays as it is, but
+// for rain or snow beside what it tells to fall.
 #pragma once
 
 #include <optional>
 #include <string>
 
+#include "atmosphere/weather.h"
 #include "feeds/aircraft_state.h"
 #include "live/desk.h"
 #include "live/feed.h"
 
 namespace fanbeam::live {
 
-// The body of a POST to /api/weather, numbers to two digits: what changes less changes no picture.
-std::string weather_body(const feeds::AircraftState& state);
+// The body of a POST to /api/weather, numbers to two digits: what changes less changes no picture. What
+// the state does not tell is as in `now`, or nothing.
+std::string weather_body(const feeds::AircraftState& state, const atmosphere::Weather& now = {});
 
 // Sets what `feed` says through `desk`, as often as a person would: at most every two seconds, and
 // only what the simulator changed, so that what is set by hand stands until then. The scene's own
@@ -35,7 +38,7 @@ class SimulatorWeather {
  private:
   const Desk& desk_;
   const Feed& feed_;
-  std::string set_, refusal_;
+  std::string told_, refusal_;
   std::optional<Clock::time_point> last_;
 };
 

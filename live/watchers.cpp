@@ -84,11 +84,15 @@ struct StreamKind {
 
 constexpr std::string_view kMixed = "multipart/x-mixed-replace; boundary=frame";
 constexpr std::array kStreams{
-    StreamKind{"/stream", kMixed, [](const LiveFrame& frame) { return jpeg_part(frame.bscope); }},
-    StreamKind{"/stream/bscope", kMixed,
-               [](const LiveFrame& frame) { return jpeg_part(frame.bscope); }},
-    StreamKind{"/stream/cscope", kMixed,
-               [](const LiveFrame& frame) { return jpeg_part(frame.cscope); }},
+    StreamKind{
+        "/stream", kMixed,
+        [](const LiveFrame& frame) { return jpeg_part(picture_to_show(frame, Scope::bscope)); }},
+    StreamKind{
+        "/stream/bscope", kMixed,
+        [](const LiveFrame& frame) { return jpeg_part(picture_to_show(frame, Scope::bscope)); }},
+    StreamKind{
+        "/stream/cscope", kMixed,
+        [](const LiveFrame& frame) { return jpeg_part(picture_to_show(frame, Scope::cscope)); }},
     StreamKind{"/frames", "application/octet-stream",
                [](const LiveFrame& frame) { return sized(message_of(frame)); }}};
 

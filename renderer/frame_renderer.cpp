@@ -132,10 +132,7 @@ Frame FrameRenderer::Stages::render(const FramePose& pose) const {
     frame.cscope_W_m3.assign(columns * static_cast<std::size_t>(sensor.display.cscope_rows), 0.0);
 
   const double height_above_ground_m = world_.surfaces().height_above_ground_m(antenna.position_m);
-  const terrain::HeightField* ground = world_.surfaces().terrain();
-  const bool over_ground =
-      ground != nullptr && ground->height_at(antenna.position_m.x, antenna.position_m.y);
-  if (over_ground && height_above_ground_m <= 0.0) {
+  if (world_.surfaces().in_ground(antenna.position_m)) {
     frame.events.emplace_back("below_terrain");
     if (wants_layers()) frame.layers = empty_layers(sensor, products_.cscope_layers);
     receive({}, pose.frame_index, frame);

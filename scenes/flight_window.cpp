@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "scenes/scene_pose.h"
+
 namespace fanbeam::scenes {
 namespace {
 
@@ -77,10 +79,11 @@ void check_flight(const SceneDescription& scene, const terrain::LocalFrame& fram
   BadFrames outside, below;
   UsableFrames usable;
   for (int k = 0; k < frames; ++k) {
-    const double time_s = trajectory.frame_time_s(k, rate_Hz);
-    const glm::dvec3 at_m = frame.to_local_m(trajectory.at(time_s).position);
+    const renderer::FramePose pose = frame_pose(frame, trajectory, scene.sensor, k);
+    const glm::dvec3 at_m = renderer::antenna_of(scene.sensor, pose).position_m;
     const auto ground_m = ground.height_at(at_m.x, at_m.y);
-    const std::string when = "frame " + std::to_string(k) + " at " + number_text(time_s) + " s: ";
+    const std::string when =
+        "frame " + std::to_string(k) + " at " + number_text(pose.time_s) + " s: ";
     if (!ground_m)
       outside.add(when + place_text(at_m));
     else if (at_m.z <= *ground_m)
@@ -99,8 +102,8 @@ void check_flight(const SceneDescription& scene, const terrain::LocalFrame& fram
                        std::to_string(outside.count) + ")" + window);
   if (below.count > 0)
     problems.error(ErrorClass::range, place, "trajectory", below.first,
-                   "a sensor above the ground; check vertical_datum (this is the first such frame "
-                   "of " +
+                   "an antenna above the ground; check vertical_datum and the sensor's mounting "
+                   "(this is the first such frame of " +
                        std::to_string(below.count) + ")" + window);
 }
 

@@ -10,6 +10,7 @@
 #include "renderer/plan/largest_echo.h"
 #include "renderer/stages/point_targets.h"
 #include "sensors/antenna/beam_pattern.h"
+#include "sensors/antenna/column_place.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -27,11 +28,16 @@ std::vector<RainCell> those(const std::vector<RainCell>& cells, const May& may) 
   return result;
 }
 
-// Whether anything is seen past the fan: by mirrored rays, or a target in the antenna's side lobes.
+// Whether anything is seen past the fan: by mirrored rays, or a target in the antenna's side lobes, or
+// so steeply above or below that its beam reaches far aside.
 bool sees_beside(const renderer::SceneFacts& facts) {
-  const sensors::BeamCut& azimuth = facts.sensor.antenna.azimuth;
+  const sensors::Antenna& antenna = facts.sensor.antenna;
+  const double steepest_rad =
+      std::min(std::abs(antenna.boresight_elevation_rad) + sensors::reach_rad(antenna.elevation),
+               core::kPi / 2);
   return renderer::has_mirrored_echo(facts) ||
-         (facts.has_point_targets && sensors::reach_rad(azimuth) > azimuth.cut_rad);
+         (facts.has_point_targets &&
+          sensors::azimuth_reach_rad(facts.sensor, steepest_rad) > fan_margin_rad(facts.sensor));
 }
 
 // Whether rays of the fan, and with `beside` others as well, may pass the cell.
@@ -42,21 +48,11 @@ bool may_pass(const RainCell& cell, const SightMap& map, const sensors::Sensor& 
   return beside || map.fan_may_meet(antenna, sensor, cell.centre_m, reach_m(cell));
 }
 
-// Between the lowest and the highest place that the beam reaches. Level at the aircraft is not level
-// at the scene's origin, and an antenna that is not stabilised is not level at all.
 double largest_eta_m2_per_m3(const atmosphere::Weather& weather, const sensors::Sensor& sensor,
                              const sensors::AntennaFrame& antenna) {
-  const double turn_rad = std::acos(std::clamp(antenna.up.z, -1.0, 1.0));
-  const double reach_rad = sensors::reach_rad(sensor.antenna.elevation) + turn_rad;
-  const double boresight_rad = sensor.antenna.boresight_elevation_rad;
-  const double range_m = sensor.range.maximum_m();
-  const auto height_m = [&](double elevation_rad) {
-    return antenna.position_m.z +
-           range_m * std::sin(std::clamp(elevation_rad, -core::kPi / 2.0, core::kPi / 2.0));
-  };
+  const sensors::HeightSpan beam = sensors::heights_in_beam(antenna, sensor);
   return atmosphere::VolumeEcho(weather, sensor.waveform.frequency_Hz)
-      .largest_eta_m2_per_m3(std::min(antenna.position_m.z, height_m(boresight_rad - reach_rad)),
-                             std::max(antenna.position_m.z, height_m(boresight_rad + reach_rad)));
+      .largest_eta_m2_per_m3(beam.lowest_m, beam.highest_m);
 }
 
 // Adds what one frame sees of mirrors; the heights are its own.

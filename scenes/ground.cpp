@@ -1,6 +1,7 @@
 #include "scenes/ground.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <mutex>
@@ -17,6 +18,8 @@ namespace fanbeam::scenes {
 namespace {
 
 using core::ErrorClass;
+
+constexpr double kShortestRunway_m = 100.0;
 
 std::string degrees_text(const core::Geodetic& position) {
   const auto text = [](double angle_rad) {
@@ -128,9 +131,13 @@ terrain::Runway Ground::place_runway(const RunwayDescription& description,
   runway.materials = {names.id(description.surface, description.place, "runway.surface"),
                       names.id(description.shoulder_material, description.place, "runway.shoulder"),
                       names.id(description.marking_material, description.place, "runway.marking")};
-  if (runway.length_m() < 100.0)
+  if (runway.length_m() < kShortestRunway_m) {
     problems_.error(ErrorClass::range, description.place, "runway length",
                     core::number_text(runway.length_m()) + " m", "ends at least 100 m apart");
+    // What else is wrong is looked for on a runway that has a direction.
+    runway.ends[1].pavement_end_m =
+        runway.ends[0].pavement_end_m + glm::dvec2(0.0, kShortestRunway_m);
+  }
   const RunwayEndDescription* const ends = description.ends;
   check_displaced(ends[0].displaced_m + ends[1].displaced_m, runway.length_m(),
                   ends[ends[1].displaced_m > ends[0].displaced_m ? 1 : 0].displaced_place,
@@ -184,6 +191,7 @@ Zone Ground::zone(glm::dvec2 position_m) const {
 void Ground::shape(const NaturalGround& natural) {
   std::mutex guard;
   std::size_t outside = 0, in_holes = 0;
+  std::atomic<bool> covered{!natural.has_land_cover()};
   std::pair<std::size_t, std::string> first_outside{field_.height_m.size(), ""};  // post, position
   core::parallel_for(static_cast<std::size_t>(field_.rows), [&](std::size_t row) {
     const int j = static_cast<int>(row);
@@ -203,10 +211,15 @@ void Ground::shape(const NaturalGround& natural) {
       field_.height_m[field_.post(i, j)] = *up_m;
       if (i + 1 == field_.columns || j + 1 == field_.rows) continue;
       const glm::dvec2 middle = p + glm::dvec2(field_.spacing_m / 2);
-      field_.cell_material[field_.cell(i, j)] =
-          natural.material(frame_.to_geodetic({middle, *up_m}), middle, zone(middle));
+      const core::Geodetic at = frame_.to_geodetic({middle, *up_m});
+      field_.cell_material[field_.cell(i, j)] = natural.material(at, middle, zone(middle));
+      if (!covered && natural.is_covered(at)) covered = true;
     }
   });
+  if (!covered)
+    problems_.warning("OUTSIDE", scene_.terrain.land_cover_place, "terrain.land_cover.file",
+                      scene_.terrain.land_cover.filename().string(),
+                      "no ground of the scene lies on it: all is terrain.material");
   if (natural.elevation() != nullptr)
     tell_used_voids(scene_.terrain, *natural.elevation(), field_, frame_, problems_);
   if (outside == 0) return;

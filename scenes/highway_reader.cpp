@@ -16,6 +16,7 @@
 #include "core/files.h"
 #include "core/json_node.h"
 #include "core/spelling.h"
+#include "core/text.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -58,17 +59,6 @@ std::array<double, 2> forward_right(const JsonNode& owner, const char* key) {
 // The names that a list gives are used once each.
 void check_unique(const JsonNode& node, const std::string& id, std::set<std::string>& used) {
   if (!used.insert(id).second) refuse(node, "id", ErrorClass::ref, id, "a name used once");
-}
-
-// The format's members of an object.
-void check_keys(const JsonNode& node, const std::vector<const char*>& known) {
-  for (const std::string& key : node.keys()) {
-    if (std::find(known.begin(), known.end(), key) != known.end() || node.problems().is_full())
-      continue;
-    node.problems().error(
-        ErrorClass::ref, node.place(), node.pointer() + "/" + key, "unknown",
-        "a member of the format" + core::names_there_text(key, {known.begin(), known.end()}));
-  }
 }
 
 // All of it, or of `base` what it says otherwise.
@@ -131,6 +121,16 @@ void read_segment(const JsonNode& segment, core::HighwayTarget& result) {
     refuse(segment, "type", ErrorClass::unsupported, type, "\"acceleration\" or \"lane-change\"");
 }
 
+// It stands in a table's cell.
+void check_target_id(const JsonNode& owner, const std::string& name) {
+  const bool fits = std::all_of(name.begin(), name.end(), [](char one) {
+    return one != ',' && one != '"' && static_cast<unsigned char>(one) >= 0x20;
+  });
+  if (!fits || name.empty())
+    refuse(owner, "id", ErrorClass::range, '"' + core::printable_text(name.substr(0, 60)) + '"',
+           "a name without commas, quotes and control characters");
+}
+
 core::HighwayTarget target_of(const JsonNode& target) {
   const std::string motion = text(target, "motion");
   std::vector<const char*> known = {"id", "kind", "rcs_m2", "swerling", "clutter", "motion"};
@@ -139,7 +139,7 @@ core::HighwayTarget target_of(const JsonNode& target) {
   if (motion != "circular") known.insert(known.end(), {"position_m", "velocity_mps", "segments"});
   check_keys(target, known);
   core::HighwayTarget result;
-  result.id = text(target, "id");
+  if (const auto id = target.required("id").text()) check_target_id(target, result.id = *id);
   result.kind = text(target, "kind");
   result.cross_section_m2 = number(target, "rcs_m2", 0.0, 1e12);
   result.fluctuation =
@@ -273,7 +273,10 @@ using Waveforms = std::map<std::string, NamedWaveform>;
 
 void take(const NamedWaveform& from, core::HighwayWaveforms& to) {
   const core::HighwayWaveforms& told = from.timing;
-  if (from.type == "triangle") to.triangle_ramp_s = told.triangle_ramp_s;
+  if (from.type == "triangle") {
+    to.triangle_ramp_s = told.triangle_ramp_s;
+    to.triangle_rate_Hz = told.triangle_rate_Hz;
+  }
   if (from.type == "triangle-pair") to.two_slopes_ramp_s = told.two_slopes_ramp_s;
   if (from.type == "two-stage") {
     to.coarse_chirps = told.coarse_chirps;
@@ -308,23 +311,21 @@ void read_two_stages(const JsonNode& node, core::HighwayWaveforms& result) {
   result.fine_rate_Hz = rate_of(fine, result.fine_rate_Hz);
 }
 
-// The rate of a lone triangle and its buffer concern samples
-// that track does not make of it.
+// Of the rates beside the two stages' own, that of a triangle counts: a study makes samples of it. Buffers are for people.
 void read_waveform(const JsonNode& node, NamedWaveform& named) {
   core::HighwayWaveforms& result = named.timing;
   const std::string type = named.type = text(node, "type");
-  std::vector<const char*> known = {"type", "sample_rate_hz", "ramps_per_buffer",
-                                    "complex_baseband"};
+  std::vector<const char*> known = {"type", "complex_baseband"};
   if (type == "two-stage")
     known.insert(known.end(), {"coarse", "fine"});
   else
-    known.push_back("ramp_s");
+    known.insert(known.end(), {"ramp_s", "sample_rate_hz", "ramps_per_buffer"});
   if (type == "up-flat-down") known.insert(known.end(), {"flat_s", "flat_code", "flat_step_hz"});
   check_keys(node, known);
   if (node.member("complex_baseband").flag() == false)
     refuse(node, "complex_baseband", ErrorClass::unsupported, "false", "complex samples");
   node.member("ramps_per_buffer").whole(1, 1'000'000);
-  rate_of(node, 0.0);
+  result.triangle_rate_Hz = rate_of(node, result.triangle_rate_Hz);
   if (type == "triangle") {
     result.triangle_ramp_s = time_of(node, "ramp_s", result.triangle_ramp_s);
   } else if (type == "triangle-pair") {
@@ -429,10 +430,10 @@ core::HighwayScenario scenario_of(const JsonNode& scenario, const core::HighwayR
 }
 
 HighwayFile file_of(const JsonNode& root) {
-  const std::string format = text(root, "format");
-  const double version = number(root, "version");
-  if (format != "highway-scenarios" || version != 1.0)
-    refuse(root, "format", ErrorClass::unsupported, format + " " + core::number_text(version),
+  const auto format = root.required("format").text();
+  const auto version = root.required("version").number({-kMost, kMost});
+  if (format && version && (*format != "highway-scenarios" || *version != 1.0))
+    refuse(root, "format", ErrorClass::unsupported, *format + " " + core::number_text(*version),
            "\"highway-scenarios\", version 1");
   root.problems().throw_if_errors();
   check_keys(root, {"format", "version", "radar", "scenarios", "conventions", "waveforms",
@@ -444,6 +445,8 @@ HighwayFile file_of(const JsonNode& root) {
   const JsonNode scenarios = root.required("scenarios");
   std::set<std::string> names;
   const std::size_t count = scenarios.size(kMostEntries);
+  if (scenarios.is_array() && scenarios.elements() == 0)
+    scenarios.error(ErrorClass::range, "one scenario at least");
   for (std::size_t i = 0; i < count; ++i) {
     result.scenarios.push_back(scenario_of(scenarios.element(i), result.radar, waveforms));
     check_unique(scenarios.element(i), result.scenarios.back().id, names);

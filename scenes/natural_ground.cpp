@@ -63,6 +63,10 @@ std::optional<double> NaturalGround::height_m(const core::Geodetic& position,
   return landscape_ ? level_m_ + landscape_->ground_m(position_m) : level_m_;
 }
 
+bool NaturalGround::is_covered(const core::Geodetic& position) const {
+  return cover_ && cover_->class_at(position.latitude_rad, position.longitude_rad) >= 0;
+}
+
 double NaturalGround::canopy_m(glm::dvec2 position_m, Zone zone) const {
   return landscape_ && zone == Zone::open ? landscape_->canopy_m(position_m) : 0.0;
 }

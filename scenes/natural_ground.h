@@ -27,7 +27,9 @@ class NaturalGround {
   // Null where the ground comes from no raster. Voids are filled in it, whether the scene allows
   // that or not.
   const terrain::ElevationRaster* elevation() const { return elevation_ ? &*elevation_ : nullptr; }
-  // In the scene's datum, without trees; nothing where the elevation data end. All three are safe
+  bool has_land_cover() const { return cover_.has_value(); }
+  bool is_covered(const core::Geodetic& position) const;
+  // In the scene's datum, without trees; nothing where the elevation data end. All of these are safe
   // to call from many threads.
   std::optional<double> height_m(const core::Geodetic& position, glm::dvec2 position_m) const;
   double canopy_m(glm::dvec2 position_m, Zone zone) const;

@@ -6,6 +6,7 @@
 
 #include "core/decibel.h"
 #include "core/files.h"
+#include "core/spelling.h"
 #include "core/units.h"
 #include "scenes/airport_objects.h"
 #include "scenes/target_reader.h"
@@ -230,13 +231,15 @@ void read_objects(ConfigTable& root, const DataSearch& search, ObjectNames& obje
                                         scene.sensor.waveform.polarisation));
   }
   for (const std::filesystem::path& file : highway.files()) scene.files.push_back(file);
+  std::vector<std::string> names;
+  for (const TargetDescription& target : scene.targets) names.push_back(target.name);
   for (ConfigTable& table : root.tables("interferer", kMostInterferers)) {
     scene.interferers.push_back(read_interferer(table, scene.sensor.waveform));
     const std::string& carrier = scene.interferers.back().target;
-    if (std::none_of(scene.targets.begin(), scene.targets.end(),
-                     [&](const TargetDescription& target) { return target.name == carrier; }))
-      table.error(core::ErrorClass::ref, "target", "\"" + carrier + "\"",
-                  "the name of a [[target]] that carries it");
+    if (std::find(names.begin(), names.end(), carrier) == names.end() && !root.problems().is_full())
+      table.error(
+          core::ErrorClass::ref, "target", "\"" + carrier + "\"",
+          "the name of a [[target]] that carries it" + core::names_there_text(carrier, names));
   }
   for (ConfigTable& table : root.tables("line")) scene.lines.push_back(read_line(table, objects));
 }

@@ -93,6 +93,7 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
       build_bodies(description, ground, names, model_materials, std::move(objects), problems);
   std::vector<renderer::PointTarget> targets = build_targets(description, ground, problems).points;
   setting.weather = placed_weather(description, ground);
+  check_losses(setting.weather, problems);
   // An approach says nothing of itself where its runway is wrong.
   const bool on_runway = description.trajectory.kind == TrajectoryDescription::Kind::ils;
   if (!problems.has_errors() || (!on_runway && !ground.field().height_m.empty()))

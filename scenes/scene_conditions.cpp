@@ -10,6 +10,7 @@
 #include "scenes/scene_caster.h"
 #include "scenes/scene_mirrors.h"
 #include "scenes/scene_pose.h"
+#include "scenes/weather_placement.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -106,8 +107,10 @@ void check(const Scene& scene, const Conditions& conditions, core::ProblemList& 
                             conditions.sensor->waveform.polarisation != waveform.polarisation))
     problems.error(core::ErrorClass::unsupported, {}, "sensor", "another carrier or polarisation",
                    "those that the scene was opened with: open it with that sensor");
-  if (conditions.weather)
+  if (conditions.weather) {
     problems.append(atmosphere::problems_in(*conditions.weather, waveform.frequency_Hz).all());
+    check_losses(*conditions.weather, problems);
+  }
   if (conditions.accuracy_grey)
     core::check_range(problems, "accuracy_grey", *conditions.accuracy_grey,
                       renderer::kAccuracies_grey, "grey levels");

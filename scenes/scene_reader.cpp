@@ -1,6 +1,8 @@
 #include "scenes/scene_reader.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "core/files.h"
 #include "core/text.h"
@@ -13,6 +15,7 @@
 #include "scenes/trajectory/trajectory_reader.h"
 #include "scenes/weather_reader.h"
 #include "sensors/display/grey_reader.h"
+#include "sensors/display/grey_scale.h"
 #include "sensors/sensor_file.h"
 #include "terrain/raster/land_cover_raster.h"
 
@@ -91,10 +94,15 @@ void read_land_cover(ConfigTable& table, const DataSearch& search, TerrainDescri
     else if (std::stoi(key) > terrain::kLargestLandCoverClass)
       classes.error(core::ErrorClass::range, key, key,
                     "a class from 0 to " + std::to_string(terrain::kLargestLandCoverClass));
-    else
-      terrain.classes[std::stoi(key)] = material;
+    else if (!terrain.classes.emplace(std::stoi(key), material).second)
+      classes.error(core::ErrorClass::ref, key, key, "each class once");
   }
 }
+
+constexpr const char* kRolling = "generator = \"rolling\"";
+constexpr std::array<std::string_view, 9> kOfRollingGround = {
+    "relief_m", "field_size_m",  "wood_share",        "canopy_m",         "seed",
+    "fields",   "wood_material", "airfield_material", "airfield_beyond_m"};
 
 void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescription& terrain) {
   ConfigTable table = root.table("terrain");
@@ -116,10 +124,12 @@ void read_terrain(ConfigTable& root, const DataSearch& search, TerrainDescriptio
     if (table.optional_text("generator"))
       table.error(core::ErrorClass::range, "generator", "given beside elevation",
                   "either elevation or generator");
+    table.only_with(kOfRollingGround, kRolling);
     return;
   }
+  table.only_with({"voids", "quantisation_step_m"}, "elevation");
   const bool rolling = table.choice("generator", {"plane", "rolling"}, 0) == 1;
-  if (!rolling) return;
+  if (!rolling) return table.only_with(kOfRollingGround, kRolling);
   terrain.source = TerrainDescription::Source::rolling;
   terrain.relief_m = table.number("relief_m", {0.0, 500.0}, terrain.relief_m);
   terrain.field_size_m = table.number("field_size_m", {20.0, 5000.0}, terrain.field_size_m);
@@ -208,14 +218,30 @@ void read_display(ConfigTable& root, const sensors::RangeGate& range, sensors::D
                    static_cast<std::size_t>(display.cscope_mode)));
 }
 
+// The error allowed, in grey levels: stated so, or in dB of the power that the sensor's display
+// shows. 0 when the scene does not say.
+double read_accuracy_grey(ConfigTable& accuracy, const sensors::Sensor& sensor) {
+  const auto grey = accuracy.optional_number("grey_levels", renderer::kAccuracies_grey);
+  if (accuracy.has("power_dB") && accuracy.has("grey_levels"))
+    accuracy.error(core::ErrorClass::ref, "power_dB", "beside grey_levels", "one of the two");
+  core::NumberRange range_dB{0.0, 400.0, true};
+  double dB_per_grey = 1.0;
+  if (!accuracy.problems().has_errors()) {  // else the sensor may have no display
+    dB_per_grey = sensors::GreyScale(sensor).dB_per_grey();
+    range_dB = {renderer::kAccuracies_grey.low * dB_per_grey,
+                renderer::kAccuracies_grey.high * dB_per_grey};
+  }
+  const auto power_dB = accuracy.optional_number("power_dB", range_dB);
+  return power_dB ? *power_dB / dB_per_grey : grey.value_or(0.0);
+}
+
 void read_accuracy(ConfigTable accuracy, SceneDescription& scene) {
   scene.rays_per_cell =
       accuracy.number("rays_per_cell", {0.0, renderer::kSamplesPerCell.high}, 0.0);
   if (scene.rays_per_cell > 0.0 && scene.rays_per_cell < renderer::kFewestRaysPerCell)
     accuracy.error(core::ErrorClass::range, "rays_per_cell", core::number_text(scene.rays_per_cell),
                    "0 or at least " + core::number_text(renderer::kFewestRaysPerCell));
-  scene.accuracy_grey =
-      accuracy.optional_number("grey_levels", renderer::kAccuracies_grey).value_or(0.0);
+  scene.accuracy_grey = read_accuracy_grey(accuracy, scene.sensor);
   scene.time_budget_ms =
       accuracy.optional_number("time_budget_ms", renderer::kTimeBudgets_ms).value_or(0.0);
   if (scene.time_budget_ms > 0.0 && scene.rays_per_cell > 0.0)

@@ -41,8 +41,7 @@ class Fan {
   // `wider_rad` on both sides.
   Fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor, double wider_rad = 0.0)
       : antenna_(antenna), cone_(sensor.scan.surface == sensors::ScanSurface::cone) {
-    const double half_rad = sensor.scan.field_of_view_rad / 2 + sensor.antenna.azimuth.cut_rad +
-                            kMarginColumns * sensor.scan.column_width_rad() + wider_rad;
+    const double half_rad = sensor.scan.field_of_view_rad / 2 + fan_margin_rad(sensor) + wider_rad;
     all_round_ = half_rad >= core::kPi / 2;
     sine_ = std::sin(std::min(half_rad, core::kPi / 2));
     cosine_ = std::cos(std::min(half_rad, core::kPi / 2));
@@ -89,6 +88,10 @@ double largest_turn_rad(const sensors::AntennaFrame& antenna, const sensors::Sen
 }
 
 }  // namespace
+
+double fan_margin_rad(const sensors::Sensor& sensor) {
+  return sensor.antenna.azimuth.cut_rad + kMarginColumns * sensor.scan.column_width_rad();
+}
 
 class SightMap::Tiles {
  public:

@@ -33,6 +33,10 @@
 
 namespace fanbeam::scenes {
 
+// How far beside the field of view the fan may reach: its beam's cut, and what whole groups of
+// sub-columns are more.
+double fan_margin_rad(const sensors::Sensor& sensor);
+
 class SightMap {
  public:
   // Nothing in it mirrors yet.

@@ -184,9 +184,11 @@ LineDescription read_line(ConfigTable& table, ObjectNames& objects) {
     line.wire->coherence_length_m = table.number("coherence_length_m", {0.0, 100.0}, 0.0);
     if (const auto across_deg = table.optional_number("polarisation_deg", kAcrossWire_deg))
       line.wire->polarisation_rad = radians(*across_deg);
+    table.only_with({"rcs_dBsm_per_m"}, "model = \"even\"");
   } else {
     line.rcs_m2_per_m = rcs_m2_from(table, "rcs_dBsm_per_m", -10.0);
     line.spacing_m = table.number("spacing_m", kSpacing_m, 1.0);
+    table.only_with({"radius_m", "coherence_length_m", "polarisation_deg"}, "model = \"wire\"");
   }
   return line;
 }

@@ -13,6 +13,8 @@ namespace {
 using renderer::PointTarget;
 
 constexpr int kMostLinePoints = 100'000;
+// Signals take 1e5 m/s, between a target and a radar that moves as well.
+constexpr double kFastestLeg_mps = 5e4;
 
 // Boresight `heading_rad` clockwise from north and `tilt_rad` up; y to the left of it, z up.
 glm::dmat3 target_axes(double heading_rad, double tilt_rad) {
@@ -99,7 +101,24 @@ std::vector<PointTarget::Waypoint> swung(const std::vector<PointTarget::Waypoint
   return result;
 }
 
-void add_target(const TargetDescription& description, const Ground& ground, PointTargets& targets) {
+// Tells the first leg that is too fast.
+void check_speed(const PointTarget& target, const core::Place& place, core::ProblemList& problems) {
+  for (std::size_t i = 1; i < target.path.size(); ++i) {
+    const PointTarget::Waypoint &from = target.path[i - 1], &to = target.path[i];
+    const double duration_s = to.time_s - from.time_s;
+    if (!(duration_s > 0.0)) continue;  // told already
+    const double speed_mps = glm::length(to.position_m - from.position_m) / duration_s;
+    if (speed_mps <= kFastestLeg_mps) continue;
+    problems.error(core::ErrorClass::range, place, "target",
+                   "\"" + target.name + "\" at " + core::number_text(std::round(speed_mps)) +
+                       " m/s from waypoint " + std::to_string(i - 1) + " to " + std::to_string(i),
+                   "at most " + core::number_text(kFastestLeg_mps) + " m/s");
+    return;
+  }
+}
+
+void add_target(const TargetDescription& description, const Ground& ground,
+                core::ProblemList& problems, PointTargets& targets) {
   PointTarget target{description.name,
                      description.rcs,
                      {},
@@ -112,6 +131,7 @@ void add_target(const TargetDescription& description, const Ground& ground, Poin
   // A waypoint that is nowhere has been told; what swings needs all of its way.
   const bool whole = target.path.size() == description.path.size();
   if (target.path.empty() || (description.swing && !whole)) return;
+  if (whole) check_speed(target, description.place, problems);
   if (description.swing) target.path = swung(target.path, *description.swing);
   targets.points.push_back(std::move(target));
   close_group(description.name, description.place, targets);
@@ -153,7 +173,7 @@ PointTargets build_targets(const SceneDescription& scene, const Ground& ground,
   }
   for (const TargetDescription& target : scene.targets) {
     near_field.look_at(target.rcs, target.name, target.place);
-    add_target(target, ground, targets);
+    add_target(target, ground, problems, targets);
     if (full(target.place, "target")) return targets;
   }
   near_field.report(problems);

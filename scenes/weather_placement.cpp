@@ -13,4 +13,16 @@ atmosphere::Weather placed_weather(const SceneDescription& scene, const Ground& 
   return weather;
 }
 
+void check_losses(const atmosphere::Weather& weather, core::ProblemList& problems) {
+  const auto check = [&](const char* field, bool simulated) {
+    if (!simulated)
+      problems.error(core::ErrorClass::unsupported, {}, field, "false",
+                     "true: effects are chosen by BuildOptions::wishes");
+  };
+  check("simulate_gas", weather.simulate_gas);
+  check("simulate_fog", weather.simulate_fog);
+  check("simulate_rain", weather.simulate_rain);
+  check("simulate_snow", weather.simulate_snow);
+}
+
 }  // namespace fanbeam::scenes

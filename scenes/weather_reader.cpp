@@ -1,6 +1,7 @@
 #include "scenes/weather_reader.h"
 
 #include <algorithm>
+#include <initializer_list>
 
 #include "core/units.h"
 #include "scenes/object_reader.h"
@@ -27,13 +28,16 @@ void named(ConfigTable& table, const char* key, const char* fallback, Parse pars
   }
 }
 
+// Every path asks every cell: a frame takes some 10 ms for each.
+constexpr std::size_t kMostRainCells = 256;
+
 // The entries of an array of tables that could be read without an error, and the tables they came
 // from: problems found later are told there.
 template <typename Entry, typename Read>
 std::vector<Entry> read_list(ConfigTable& parent, const char* key, Read read,
-                             std::vector<ConfigTable>& kept) {
+                             std::vector<ConfigTable>& kept, std::size_t most = 10'000) {
   std::vector<Entry> entries;
-  for (ConfigTable& table : parent.tables(key)) {
+  for (ConfigTable& table : parent.tables(key, most)) {
     const std::size_t problems = table.problems().all().size();
     const Entry entry = read(table);
     if (table.problems().all().size() != problems) continue;
@@ -115,6 +119,31 @@ void read_layers(ConfigTable& table, const SceneDescription& scene, atmosphere::
   weather.snow_top_m = table.number("snow_top_m", kHeight_m, weather.snow_top_m);
 }
 
+// Keys about fog, rain or snow of which the file tells no amount.
+void warn_of_idle_keys(ConfigTable& table) {
+  const auto need = [&table](std::initializer_list<const char*> amounts,
+                             std::initializer_list<const char*> keys, const char* needed) {
+    if (std::any_of(amounts.begin(), amounts.end(),
+                    [&](const char* key) { return table.has(key); }))
+      return;
+    for (const char* key : keys)
+      if (table.has(key))
+        table.warning("UNUSED", key, "given", std::string("nothing comes of it without ") + needed);
+  };
+  need({"visibility_m"}, {"fog_type"}, "visibility_m");
+  need({"visibility_m", "liquid_water_g_per_m3"}, {"fog_law", "fog_top_m"},
+       "visibility_m or liquid_water_g_per_m3");
+  // Beside a melting layer it is an error.
+  need({"rain_rate_mm_per_h", "melting_layer", "melting_height_m"}, {"rain_top_m"},
+       "rain_rate_mm_per_h");
+  need({"rain_rate_mm_per_h", "rain_cell"},
+       {"rain_law", "rain_echo_law", "drop_sizes", "polarisation_tilt_deg"},
+       "rain_rate_mm_per_h or a rain_cell");
+  need({"rain_rate_mm_per_h", "snow_rate_mm_per_h"}, {"melting_layer", "melting_height_m"},
+       "rain_rate_mm_per_h or snow_rate_mm_per_h");
+  need({"snow_rate_mm_per_h"}, {"snow_top_m"}, "snow_rate_mm_per_h");
+}
+
 void read_air(ConfigTable& table, const SceneDescription& scene, atmosphere::Weather& weather) {
   weather.origin_height_m = table.number("origin_height_m", {-500, 6000},
                                          std::clamp(scene.origin.height_m, -500.0, 6000.0));
@@ -143,13 +172,14 @@ void read_weather(ConfigTable& root, SceneDescription& scene) {
   ConfigTable table = root.table("weather");
   atmosphere::Weather& weather = scene.weather;
   read_layers(table, scene, weather);
+  warn_of_idle_keys(table);
   read_air(table, scene, weather);
   ListTables lists = {{"fog_layer", {}}, {"level", {}}, {"rain_cell", {}}};
   weather.fog_layers =
       read_list<atmosphere::FogLayer>(table, "fog_layer", read_fog_layer, lists[0].second);
   weather.levels = read_list<atmosphere::AirLevel>(table, "level", read_level, lists[1].second);
-  scene.rain_cells =
-      read_list<RainCellDescription>(table, "rain_cell", read_rain_cell, lists[2].second);
+  scene.rain_cells = read_list<RainCellDescription>(table, "rain_cell", read_rain_cell,
+                                                    lists[2].second, kMostRainCells);
 
   if (!(scene.sensor.waveform.frequency_Hz > 0.0)) return;  // no usable sensor: already reported
   atmosphere::Weather with_cells = weather;

@@ -92,6 +92,8 @@ struct Waveform {
   double frequency_Hz = 0.0;
   double bandwidth_Hz = 0.0;  // of one sweep
   double transmit_power_W = 0.0;
+  // Own-ship Doppler's shift of range is taken off. What leaves it in has no pictures of powers
+  // (session::Setup::pictures), only signals.
   bool doppler_compensated = true;
   core::Polarisation polarisation = core::Polarisation::horizontal;  // sent and received
   Window window = Window::none;
@@ -158,7 +160,8 @@ struct Sensor {
   double wavelength_m() const;
   // Pt G0^2 lambda^2 / (4 pi)^3 / loss, in W m^2: received power is this times sigma g^2 L / R^4.
   double radar_constant_W_m2() const;
-  // Integral of the two-way azimuth pattern; with the seed's convention, its azimuth patch.
+  // Of the mapping seed: integral of the two-way azimuth pattern; with the seed's convention, its
+  // azimuth patch.
   double azimuth_patch_rad() const;
   // k T0 F / dwell: mean noise power per range cell, the bandwidth being that of a range FFT bin of
   // one look. Averaging looks leaves it.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/config_table.h"
 #include "core/constants.h"
@@ -51,12 +52,13 @@ void read_scan(ConfigTable table, Scan& scan) {
   const double widest_deg = scan.surface == ScanSurface::cone ? 180.0 : 360.0;
   scan.field_of_view_rad = required_angle_rad(table, "field_of_view_deg", above_zero(widest_deg));
   scan.columns = required_whole(table, "columns", kMostColumns);
-  scan.frame_rate_Hz = table.required_number("frame_rate_Hz", above_zero(1000.0));
+  scan.frame_rate_Hz = table.required_number("frame_rate_Hz", {1e-3, 1000.0});
   scan.stabilised = table.boolean("stabilised", true);
   read_sweep(table, scan);
 }
 
-// As many whole cells as fit between the minimum and `maximum_m`.
+// As many whole cells as fit between the minimum and `maximum_m`. A last one that ends beyond it by
+// the rounding of these decimal numbers fits.
 int cells_up_to(ConfigTable& table, const RangeGate& gate, double maximum_m) {
   if (!(maximum_m > gate.minimum_m)) {
     table.error(ErrorClass::range, "maximum_m", number_text(maximum_m),
@@ -64,7 +66,9 @@ int cells_up_to(ConfigTable& table, const RangeGate& gate, double maximum_m) {
     return 1;
   }
   if (!(gate.cell_m > 0.0)) return 1;  // refused already
-  const double cells = std::floor((maximum_m - gate.minimum_m) / gate.cell_m);
+  constexpr double kRounding = 4.0 * std::numeric_limits<double>::epsilon();
+  const double cells = std::floor((maximum_m - gate.minimum_m + kRounding * maximum_m) /
+                                  gate.cell_m * (1.0 + kRounding));
   if (cells >= 1.0 && cells <= static_cast<double>(kMostRows)) return static_cast<int>(cells);
   table.error(cells < 1.0 ? ErrorClass::range : ErrorClass::limit, "maximum_m",
               number_text(maximum_m) + " (" + number_text(cells) + " cells)",
@@ -75,7 +79,7 @@ int cells_up_to(ConfigTable& table, const RangeGate& gate, double maximum_m) {
 // Returns the end of the window as the file states it; the last whole cell may end before.
 double read_range(ConfigTable table, RangeGate& gate, std::int64_t columns) {
   gate.minimum_m = table.required_number("minimum_m", {0.0, 1e6});
-  gate.cell_m = table.required_number("cell_m", above_zero(1e5));
+  gate.cell_m = table.required_number("cell_m", {1e-3, 1e5});
   const auto maximum_m = table.optional_number("maximum_m", above_zero(1e9));
   if (!table.has("maximum_m")) {
     gate.cells = required_whole(table, "cells", kMostRows);
@@ -100,9 +104,6 @@ void read_waveform(ConfigTable table, Waveform& waveform) {
   waveform.doppler_compensated = table.boolean("doppler_compensated", true);
   waveform.polarisation =
       static_cast<core::Polarisation>(table.choice("polarisation", {"HH", "VV"}, 0));
-  if (!waveform.doppler_compensated)
-    table.error(core::ErrorClass::unsupported, "doppler_compensated", "false",
-                "true: the range shift by own-ship Doppler is not simulated");
 }
 
 void check_bandwidth(ConfigTable table, const Waveform& waveform, const RangeGate& gate) {

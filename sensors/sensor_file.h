@@ -19,18 +19,18 @@
 //                        side_lobe_level_dB, one-way over the peak, -200 to -3, none by default,
 //                        from the cut to side_lobe_extent_deg, up to 180, default 90
 //   [scan]               surface "plane" | "cone"; field_of_view_deg, above 0 to 360 (cone: 180);
-//                        columns, 1 to 4096; frame_rate_Hz, above 0 to 1000; stabilised;
+//                        columns, 1 to 4096; frame_rate_Hz, 0.001 to 1000; stabilised;
 //                        sweep "per-column" | "whole-scan"; steering "mechanical" | "frequency"
 //   [scan.frequency_scan]  for steering "frequency", see antenna/frequency_scan.h:
 //                        law "feed_line": line_length_per_spacing, 1 to 1000; cutoff_GHz, 0 to
 //                        1000; spacing_mm, 0.1 to 100; mode, 0 to 1000;
 //                        law "table": table_frequency_GHz, above 0 to 1000, and
 //                        table_azimuth_deg, +-90, 2 to 4096 values, both increasing
-//   [range]              minimum_m, 0 to 1e6; cell_m, above 0 to 1e5; cells, 1 to 16384, or
+//   [range]              minimum_m, 0 to 1e6; cell_m, 0.001 to 1e5; cells, 1 to 16384, or
 //                        maximum_m for as many whole cells as fit; columns x cells at most 2^24
 //   [waveform]           frequency_GHz, 0.1 to 300; bandwidth_MHz, above 0 to 1e5, with at
 //                        least one bin of c / 2B in the range window;
-//                        transmit_power_W, above 0 to 1e9; doppler_compensated, true alone;
+//                        transmit_power_W, above 0 to 1e9; doppler_compensated, true;
 //                        window "none" | "rectangular" | "hann" | "hamming" | "taylor", the last
 //                        with taylor_side_lobe_dB, -80 to -15, default -35, and
 //                        taylor_equal_lobes, 2 to 20, default 4; "none" for sweep "whole-scan";

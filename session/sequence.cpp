@@ -53,7 +53,7 @@ core::EffectSet left_out(const core::EffectPlan& sequence, const core::EffectPla
   return effects;
 }
 
-void check(const SequenceSettings& settings) {
+void check(const SequenceSettings& settings, const scenes::BuildOptions& told) {
   core::ProblemList problems;
   const auto one_of = [&](const char* field, const std::string& value, const auto& known) {
     const std::vector<std::string> names(known.begin(), known.end());
@@ -68,6 +68,9 @@ void check(const SequenceSettings& settings) {
   for (const std::string& product : settings.products) one_of("products", product, known);
   one_of("preview_format", settings.preview_format, kPreviewFormats);
   if (!settings.range_unit.empty()) one_of("range_unit", settings.range_unit, kRangeUnits);
+  scenes::BuildOptions needed;
+  plan_for(settings.products, needed);
+  check_told(needed, told, problems);
   problems.throw_if_errors();
 }
 
@@ -105,7 +108,7 @@ class Run {
 
   void render_frames(const ProgressListener& progress);
   void write_records();
-  Sequence result() const;
+  Sequence result() const { return result_; }
 
  private:
   core::EffectPlan plan_of(int index) const {
@@ -113,6 +116,7 @@ class Run {
   }
   FrameRecord frame_record(int index, const core::EffectPlan& plan) const;
   void take_over_frames();
+  void fill_result();
   void remove_leftovers() const;
   FrameOutput render_frame(const core::EffectPlan& plan, FrameRecord& record) const;
   fs::path film() const { return output_.path() / ("preview." + settings_.preview_format); }
@@ -125,6 +129,7 @@ class Run {
   std::string fingerprint_;
   OutputFolder output_;
   std::unique_ptr<const Labeller> labeller_{};  // where labels are wanted
+  Sequence result_{};
 };
 
 void Run::render_frames(const ProgressListener& progress) {
@@ -146,6 +151,7 @@ void Run::render_frames(const ProgressListener& progress) {
     FrameRecord record = frame_record(index, plan);
     if (!settings_.resume || !take_over(output_.path(), settings_.products, fingerprint_, record)) {
       FrameOutput output = render_frame(plan, record);
+      output_.begin_frames();
       if (preview)
         preview->add(side_by_side(sensors::bscope_picture(sensor, output.frame.bscope_grey),
                                   sensors::cscope_picture(sensor, output.frame.cscope_grey)));
@@ -161,6 +167,10 @@ void Run::render_frames(const ProgressListener& progress) {
     record_.films.insert(film().filename().string());
   }
   record_.wall_s = seconds_since(begin);
+  result_.asked = total;
+  result_.resumed =
+      static_cast<int>(std::count_if(record_.frames.begin(), record_.frames.end(),
+                                     [](const FrameRecord& frame) { return frame.resumed; }));
 }
 
 FrameRecord Run::frame_record(int index, const core::EffectPlan& plan) const {
@@ -203,10 +213,11 @@ void Run::write_records() {
   std::set<std::string> files = record_.films;
   for (const FrameRecord& record : record_.frames)
     files.insert(record.files.begin(), record.files.end());
-  output_.keep_only(files);
+  result_.removed = output_.keep_only(files);
   core::write_file_atomically(output_.path() / "run.json", run_json(scene_, record_));
   core::write_file_atomically(output_.path() / "timing.json", timing_json(record_));
   output_.end();
+  fill_result();
 }
 
 // What a killed run was writing.
@@ -226,19 +237,18 @@ FrameOutput Run::render_frame(const core::EffectPlan& plan, FrameRecord& record)
                       std::move(frame), record);
 }
 
-Sequence Run::result() const {
-  Sequence sequence{record_, {}};
+void Run::fill_result() {
+  result_.record = record_;
   for (const std::string& product : settings_.products)
-    sequence.places.push_back({product, product == "preview" ? film() : output_.path() / product});
-  sequence.places.push_back({"record", output_.path() / "run.json"});
-  return sequence;
+    result_.places.push_back({product, product == "preview" ? film() : output_.path() / product});
+  result_.places.push_back({"record", output_.path() / "run.json"});
 }
 
 }  // namespace
 
 Sequence render_sequence(Session& session, const SequenceSettings& settings,
                          const ProgressListener& progress) {
-  check(settings);
+  check(settings, session.scene()->options);
   Run run(session, settings);
   run.render_frames(progress);
   run.write_records();

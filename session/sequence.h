@@ -40,10 +40,14 @@ struct ProductPlace {
 struct Sequence {
   RunRecord record;
   std::vector<ProductPlace> places;  // of the products, and of the record at the end
+  int asked = 0;    // frames asked for: the record has those too that were there beside them
+  int resumed = 0;  // of these, not rendered again
+  int removed = 0;  // frames of another input that were there
 };
 
 // Sets the session's sampling; no `set` may come in between. Throws InputError: E-REF for every name
-// in `settings` that is not known, as parse_frames, as OutputFolder, E-IO.
+// in `settings` that is not known and for products that the session was not opened for (plan_for), as
+// parse_frames, as OutputFolder, E-IO.
 Sequence render_sequence(Session& session, const SequenceSettings& settings,
                          const ProgressListener& progress);
 

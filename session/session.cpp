@@ -110,20 +110,28 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
   if ((settings.low_dB || settings.high_dB) && display.mapping == sensors::Display::Mapping::seed)
     problems.error(core::ErrorClass::unsupported, {}, "low_dB, high_dB", "with mapping \"seed\"",
                    "mapping \"stc\" or \"log\"; \"seed\" has a window of its own");
+  constexpr core::NumberRange kLevels_dB{-400.0, 400.0};
+  if (settings.low_dB) core::check_range(problems, "low_dB", *settings.low_dB, kLevels_dB, "dB");
+  if (settings.high_dB) core::check_range(problems, "high_dB", *settings.high_dB, kLevels_dB, "dB");
   display.low_dB = settings.low_dB.value_or(display.low_dB);
   display.high_dB = settings.high_dB.value_or(display.high_dB);
-  if (!(display.low_dB >= -400.0 && display.high_dB <= 400.0 && display.low_dB < display.high_dB))
+  if (kLevels_dB.holds(display.low_dB) && kLevels_dB.holds(display.high_dB) &&
+      !(display.low_dB < display.high_dB))
     problems.error(core::ErrorClass::range, {}, "low_dB, high_dB",
                    core::number_text(display.low_dB) + ", " + core::number_text(display.high_dB),
-                   "-400 to 400, low_dB below high_dB");
+                   "low_dB below high_dB");
   return sensor;
 }
 
-// A plan that counts on nobody asking for heights does not hold for whoever does.
+// Of what a frame itself may be asked for; its watts are whoever opened the session's to tell of.
 void check(const renderer::Products& wanted, const scenes::Scene& scene) {
-  if (show_heights(wanted) && !scene.options.heights_shown)
-    core::throw_input_error(core::ErrorClass::ref, "products", "C-scope, its layers or obstacles",
-                            "none of them, as the session was opened without them (heights_shown)");
+  scenes::BuildOptions needed;
+  needed.heights_shown = show_heights(wanted);
+  needed.read.detections = wanted.detections;
+  needed.read.obstacles = wanted.obstacles;
+  core::ProblemList problems;
+  check_told(needed, scene.options, problems);
+  problems.throw_if_errors();
 }
 
 // What a frame is made under.
@@ -186,7 +194,12 @@ Session::Session(const scenes::SceneDescription& scene, const Setup& setup,
 void Session::open(scenes::SceneDescription description, const Setup& setup,
                    core::ProblemList& problems) {
   if (setup.build.accuracy_grey != 0.0) check(Accuracy{setup.build.accuracy_grey}, problems);
+  if (setup.pictures && !description.sensor.waveform.doppler_compensated)
+    problems.error(core::ErrorClass::unsupported, {}, "waveform.doppler_compensated", "false",
+                   "true: pictures have no range shift by own-ship Doppler; fanbeam fmcw "
+                   "--products bscope has");
   if (setup.sample) description.sample = *setup.sample;
+  if (setup.sample && !*setup.sample) renderer::refuse_draws(setup.build.wishes);
   inside_->seed = setup.seed;
   inside_->threads = setup.threads;
   inside_->opened = scenes::build_scene(description, setup.build, problems);

@@ -4,15 +4,18 @@
 //   core::ProblemList problems;
 //   session::Session session(scene_folder, {.shipped = share}, problems);   // seconds
 //   session.set(weather);                                                   // milliseconds
-//   const renderer::Frame frame = session.render(pose, 0);                  // pictures and watts
+//   const renderer::Frame frame = session.render(pose, 0);                  // pictures
 //
+// Who reads watts opens with Setup::build.read.power: else noise that the display hides may be left
+// out of them.
 // Thread-safe throughout: any number of threads, or tasks of the caller's own oneTBB, render and set
 // at once. A `set` publishes new conditions; frames under way keep those that they began with, and
 // a frame depends on its conditions, pose and number alone: the bytes are those of a serial run.
 // Nothing here prints, reads the environment, or limits other loops of the process.
 //
-// Errors: InputError with every problem, and then nothing has changed; core::Stopped when a token
-// asks. What is neglected: docs/effects.md.
+// Errors: InputError with every problem, and then nothing has changed; E-REF for detections, obstacles
+// and heights that the session was not opened for; core::Stopped when a token asks. What is
+// neglected: docs/effects.md.
 #pragma once
 
 #include <cstdint>
@@ -36,19 +39,25 @@ struct Setup {
   std::filesystem::path shipped{};                    // holds scenes/, sensors/ and materials/
   std::vector<std::filesystem::path> data_folders{};  // in the order of preference
   std::filesystem::path sensor{};                     // instead of the scene's; empty to keep it
-  scenes::BuildOptions build{};                       // wishes about effects, caster, accuracy
+  // Wishes about effects, caster, accuracy; and what is read of frames beside their pictures, which
+  // the plan must know: watts, labels, detections, obstacles (plan_for in products/products.h).
+  scenes::BuildOptions build{};
   std::optional<bool> sample{};  // frames show one realisation; else as the scene says
   // The scene's time budget is measured when it is opened, where nothing else says how to sample: for
   // a second or some. Else it is for whoever has a clock.
   bool keeps_time_budget = false;
   std::uint64_t seed = 0;  // of everything random
   int threads = 0;         // at most so many for a frame; 0: as many as the caller's tasks have
+  // Frames are wanted, not the scene for signals alone. Their powers have no range shift by own-ship
+  // Doppler: a sensor that leaves it in (waveform.doppler_compensated) is refused, E-UNSUPPORTED.
+  bool pictures = true;
 };
 
 class Session {
  public:
   // `scene` is a folder with scene.toml, or that file. Warnings stay in `problems`. A scene needs no
-  // [trajectory] (scenes/flight_volume.h).
+  // [trajectory] (scenes/flight_volume.h). E-UNSUPPORTED for wishes for effects of a draw where `sample`
+  // is false.
   Session(const std::filesystem::path& scene, const Setup& setup, core::ProblemList& problems);
   // The same of a scene that was read, and perhaps changed; of `setup` without its folders and
   // sensor.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <system_error>
 
-#include "core/errors.h"
 #include "core/spelling.h"
 
 namespace fanbeam::session {
@@ -70,6 +69,14 @@ fs::path find_sensor(const std::string& name, const fs::path& shipped, const std
   core::throw_input_error(core::ErrorClass::io, field, "\"" + name + "\" not found",
                           "a sensor file, or one of the shipped sensors:" +
                               nearest_first(name, shipped_sensors(shipped)));
+}
+
+void check_data_folder(const std::string& folder, const std::string& field,
+                       core::ProblemList& problems) {
+  std::error_code refused;
+  if (!fs::is_directory(folder, refused))
+    problems.error(core::ErrorClass::io, {}, field, "\"" + folder + "\"",
+                   "a folder that exists, with terrain and flight data");
 }
 
 }  // namespace fanbeam::session

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "core/errors.h"
+
 namespace fanbeam::session {
 
 // The folder with scenes/, sensors/ and materials/: share/fanbeam beside what is installed, the
@@ -24,5 +26,9 @@ std::filesystem::path find_scene(const std::string& name, const std::filesystem:
 // `field`.
 std::filesystem::path find_sensor(const std::string& name, const std::filesystem::path& shipped,
                                   const std::string& field);
+
+// Whose data is looked at first. E-IO, about `field`, where it is no folder.
+void check_data_folder(const std::string& folder, const std::string& field,
+                       core::ProblemList& problems);
 
 }  // namespace fanbeam::session

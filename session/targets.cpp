@@ -5,6 +5,7 @@
 #include <string>
 
 #include "core/spelling.h"
+#include "core/text.h"
 #include "scenes/objects.h"
 #include "terrain/local_frame.h"
 
@@ -66,6 +67,10 @@ std::vector<PointTarget> placed_targets(const scenes::Scene& scene,
   for (std::size_t i = 0; i < states.size(); ++i) {
     const TargetState& state = states[i];
     const std::string field = "target[" + std::to_string(i) + "]";
+    // It stands in tables and on terminals.
+    if (state.name.empty() || !core::is_printable_text(state.name))
+      problems.error(core::ErrorClass::range, {}, field + ".name", "\"" + state.name + "\"",
+                     "a name without control characters");
     if (!named.insert(state.name).second)
       problems.error(core::ErrorClass::ref, {}, field + ".name", "\"" + state.name + "\" again",
                      "every target once");
@@ -78,8 +83,10 @@ std::vector<PointTarget> placed_targets(const scenes::Scene& scene,
     }
     if (found) continue;
     if (!state.rcs) {
-      std::vector<std::string> known;
-      for (const PointTarget& target : scene.world.targets) known.push_back(target.name);
+      std::vector<std::string> known;  // each once, in the scene's order
+      std::set<std::string> told;
+      for (const PointTarget& target : scene.world.targets)
+        if (told.insert(target.name).second) known.push_back(target.name);
       problems.error(core::ErrorClass::ref, {}, field + ".name", "\"" + state.name + "\"",
                      "a target of the scene, or an rcs for a new one" +
                          core::names_there_text(state.name, known));

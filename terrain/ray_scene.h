@@ -152,6 +152,11 @@ class RayScene {
   double height_above_ground_m(const glm::dvec3& at_m) const {
     return has_terrain_ ? at_m.z - terrain_.nearest_height(at_m.x, at_m.y) : at_m.z;
   }
+  // On the ground or below it; false where there is none.
+  bool in_ground(const glm::dvec3& at_m) const {
+    const auto ground_m = has_terrain_ ? terrain_.height_at(at_m.x, at_m.y) : std::nullopt;
+    return ground_m && at_m.z <= *ground_m;
+  }
   const SurfaceMap* surface_map() const { return surface_map_.get(); }
   bool empty() const { return triangle_count_ == 0; }
   bool has_meshes() const { return has_meshes_; }

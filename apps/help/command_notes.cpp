@@ -15,8 +15,8 @@ Examples pictures() {
          "B-scope as PNG and power in watts as EXR"},
         {"fanbeam render braunschweig-26 --frames 0:160:16 --accuracy 0.5",
          "a frame a second for ten seconds, to half a grey level"},
-        {"fanbeam render --frames 40 --sensor hivision-seed --effects +multipath,-fog",
-         "one frame with the radar as its published table has it, without fog"},
+        {"fanbeam render rain-94ghz --frames 40 --sensor hivision --effects +multipath,-gas",
+         "one frame with a radar at 35 GHz instead, without the loss in gas"},
         {"fanbeam render my-scene --data ~/terrain --resume",
          "a scene of your own with its terrain elsewhere, taken up where it was stopped"}}},
       {"plan",
@@ -43,10 +43,10 @@ Examples pictures() {
 Examples data_sets() {
   return {
       {"campaign",
-       {{"fanbeam campaign plan campaign.toml", "what it comes to, by a pilot of three runs"},
+       {{"fanbeam campaign plan campaign.toml", "what it comes to, by a pilot of a few runs"},
         {"fanbeam campaign run campaign.toml", "all that is not there yet, to out/<its name>"}}},
       {"campaign plan",
-       {{"fanbeam campaign plan campaign.toml", "time and disk by a pilot of three runs"},
+       {{"fanbeam campaign plan campaign.toml", "time and disk by a pilot of a few runs"},
         {"fanbeam campaign plan campaign.toml --no-pilot", "what is drawn alone"}}},
       {"campaign run",
        {{"fanbeam campaign run campaign.toml -o /data/fog", "all that is not there yet"},

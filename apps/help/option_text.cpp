@@ -40,6 +40,7 @@ std::string value_word(const CLI::Option& option, const Declared& found) {
       {"FLOAT", "NUMBER"}, {"INT", "N"}, {"UINT", "N"}};
   const auto word = words.find(found.type);
   std::string one = word == words.end() ? found.type : word->second;
+  if (one.find(',') != std::string::npos) return one;  // says itself how many
   if (one == "TEXT" && !found.choices.empty()) one = "WORD";
   const int most = option.get_items_expected_max();
   const bool list = option.get_delimiter() != '\0';

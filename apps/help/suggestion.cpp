@@ -58,16 +58,26 @@ std::string unknown_words(const CLI::App& program) {
                                       : no_such_command(command, word);
 }
 
-// Fewer values than the option takes, or more: given more than once.
+// "takes 1 or 2 values, N[,N]: 3 given"
+std::string count_text(const CLI::Option& option, const std::string& value) {
+  const int least = option.get_items_expected_min(), most = option.get_items_expected_max();
+  return " takes " + (least == most ? "" : std::to_string(least) + " or ") + std::to_string(most) +
+         " values, " + value + ": " + std::to_string(option.results().size()) + " given";
+}
+
+// Fewer values than the option takes, or more; of one value more: given more than once.
 std::string wrong_count(const CLI::App& command, const CLI::ParseError& error) {
   const std::string what = error.what();
   const std::string name = what.substr(0, what.find(':'));
   const CLI::Option* const given = command.get_option_no_throw(name);
-  const bool twice = given != nullptr && given->results().size() > 1;
-  for (const OptionText& option : options_of(command))
-    if (std::find(option.names.begin(), option.names.end(), name) != option.names.end())
-      return twice ? name + " is given more than once: one " + option.value
-                   : name + " needs " + option.value + ": " + option.sentence;
+  const std::size_t count = given == nullptr ? 0 : given->results().size();
+  for (const OptionText& option : options_of(command)) {
+    if (std::find(option.names.begin(), option.names.end(), name) == option.names.end()) continue;
+    if (count > 0 && given->get_items_expected_max() > 1)
+      return name + count_text(*given, option.value);
+    return count > 1 ? name + " is given more than once: one " + option.value
+                     : name + " needs " + option.value + ": " + option.sentence;
+  }
   return what;
 }
 

@@ -266,11 +266,12 @@ typedef struct fanbeam_frame {
   double age_s;      /* from its end to this call */
 } fanbeam_frame;
 
-/* Copies the newest frame of the session's thread. Takes no lock, allocates nothing and waits for
- * nobody, and what it copies is whole; `frame` and buffers stay untouched unless it returns FANBEAM_OK. NULL is a picture
- * that is not wanted; counts as above. FANBEAM_NOTHING_NEW: the newest frame has the number
- * frame->number, or there is none yet. A pose that could not be rendered counts as a frame without
- * pictures: its refusal is returned, once, and frame->number alone moves on. */
+/* Copies the newest frame of the session's thread. Takes no lock and waits for nobody, allocates
+ * nothing but the words of a refusal, and what it copies is whole; `frame` and buffers stay untouched
+ * unless it returns FANBEAM_OK. NULL is a picture that is not wanted; counts as above.
+ * FANBEAM_NOTHING_NEW: the newest frame has the number frame->number, or there is none yet. A pose
+ * that could not be rendered counts as a frame without pictures: its refusal is returned, once, and
+ * frame->number alone moves on. */
 FANBEAM_API fanbeam_status fanbeam_latest_frame(fanbeam_session* session, fanbeam_frame* frame,
                                                 uint8_t* bscope, size_t bscope_count,
                                                 uint8_t* cscope,

@@ -71,6 +71,7 @@ session::Setup settings_of(const fanbeam_setup& setup, Arguments& arguments) {
     settings.shipped = setup.shipped_folder;
   settings.data_folders = folders_of(setup, arguments);
   settings.sensor = bindings::text_of(setup.sensor_file);
+  settings.build.read.power = true;  // bscope_W and cscope_W_m3 of any frame
   take_caster(bindings::text_of(setup.caster), arguments, settings);
   take_effects(bindings::text_of(setup.effects), arguments, settings);
   if (setup.realisation != FANBEAM_AS_SCENE) settings.sample = setup.realisation == FANBEAM_SAMPLE;

@@ -8,6 +8,7 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "core/errors.h"
@@ -23,6 +24,27 @@ using PoseNumbers = std::array<double, 10>;
 // Throws InputError E-NONFINITE and E-RANGE, every problem; heights -20 to 1000 km.
 core::Pose pose_of(const PoseNumbers& numbers);
 PoseNumbers numbers_of(const core::Pose& pose);
+
+// What a value of this type is called in messages.
+template <class T>
+constexpr const char* words_for() {
+  if constexpr (std::is_same_v<T, bool>) return "True or False";
+  if constexpr (std::is_integral_v<T>) return "a whole number in its range";
+  if constexpr (std::is_same_v<T, std::string>) return "a text";
+  return "a number";
+}
+
+// What Python told as `field`. Throws TypeError, which names it, for another type.
+template <class T>
+T value_of(const py::handle& value, const std::string& field,
+           const char* expected = words_for<T>()) {
+  try {
+    return value.cast<T>();
+  } catch (const py::cast_error&) {
+    throw py::type_error(field + ": expected " + expected + ", not " +
+                         py::repr(value).cast<std::string>());
+  }
+}
 
 // fanbeam.Problem of each.
 py::list problems_list(const std::vector<core::Problem>& problems);

@@ -91,6 +91,13 @@ double one_way_dB(const PathAttenuation& air, double from_height_m, double to_he
   core::check_range(problems, "to_height_m", to_height_m, {});
   core::check_range(problems, "length_m", length_m, {0.0}, "m");
   problems.throw_if_errors();
+  // A path straight up or down may be as long as the difference but for rounding.
+  constexpr double kRounding = 1e-9;
+  const double apart_m = std::abs(to_height_m - from_height_m);
+  if (length_m * (1.0 + kRounding) < apart_m)
+    core::throw_input_error(
+        core::ErrorClass::range, "length_m", length_m,
+        "at least " + core::number_text(apart_m) + " m, what the two heights are apart");
   return air.one_way_dB(from_height_m, to_height_m, length_m);
 }
 
@@ -103,6 +110,14 @@ void add_lookups(py::module_& module) {
   module.def("find_scene", &session::find_scene, py::arg("name"), py::arg("shipped"));
   module.def("find_sensor", &session::find_sensor, py::arg("name"), py::arg("shipped"),
              py::arg("field"));
+  module.def(
+      "check_data_folder",
+      [](const std::string& folder, const std::string& field) {
+        core::ProblemList problems;
+        session::check_data_folder(folder, field, problems);
+        problems.throw_if_errors();
+      },
+      py::arg("folder"), py::arg("field"));
   module.def("materials", &materials_of, py::arg("library"));
   module.def("nrcs", &nrcs, py::arg("library"), py::arg("material"), py::arg("grazing_rad"),
              py::arg("frequency_Hz"), py::arg("polarisation"), py::arg("state"),

@@ -4,11 +4,14 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
+#include "bindings/python/convert.h"
 #include "bindings/python/frame.h"
 #include "bindings/python/interruptible.h"
 #include "bindings/python/scene_handle.h"
@@ -22,6 +25,7 @@
 #include "session/labels/labels_json.h"
 #include "session/records/run_record.h"
 #include "session/sampling_choice.h"
+#include "terrain/local_frame.h"
 
 namespace fanbeam::bindings {
 namespace {
@@ -38,6 +42,7 @@ std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
   setup.shipped = shipped;
   setup.data_folders = data;
   setup.sensor = sensor;
+  setup.build.read = {.power = true, .labels = true};  // any frame may be asked for both
   if (!effects.empty()) setup.build.wishes = renderer::parse_effect_wishes(effects);
   if (!caster.empty()) {
     const auto& words = renderer::kCasterWishes;
@@ -61,20 +66,35 @@ std::unique_ptr<Scene> open(const fs::path& scene, const fs::path& shipped,
   return opened;
 }
 
-session::TargetState target_of(const py::handle& target) {
+// What is wrong goes to `problems`, below `field`.
+session::TargetState target_of(const py::handle& target, const std::string& field,
+                               core::ProblemList& problems) {
   session::TargetState state;
-  state.name = target.attr("name").cast<std::string>();
-  state.position = {core::radians(target.attr("latitude_deg").cast<double>()),
-                    core::radians(target.attr("longitude_deg").cast<double>()),
-                    target.attr("height_m").cast<double>()};
-  const auto attitude = target.attr("attitude_deg").cast<std::optional<std::array<double, 3>>>();
-  if (attitude)
+  const auto number = [&](const char* name) {
+    return value_of<double>(target.attr(name), field + "." + name);
+  };
+  state.name = value_of<std::string>(target.attr("name"), field + ".name");
+  state.position = {core::radians(number("latitude_deg")), core::radians(number("longitude_deg")),
+                    number("height_m")};
+  try {
+    terrain::check_geodetic(state.position, field.c_str());
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
+  }
+  const auto attitude = value_of<std::optional<std::array<double, 3>>>(
+      target.attr("attitude_deg"), field + ".attitude_deg", "roll, pitch and heading");
+  if (attitude) {
+    constexpr std::array<const char*, 3> kAngles = {".roll_deg", ".pitch_deg", ".heading_deg"};
+    for (std::size_t i = 0; i < kAngles.size(); ++i)
+      core::check_range(problems, field + kAngles[i], (*attitude)[i], {}, "deg");
     state.q_NB =
         core::quaternion_from({core::radians((*attitude)[0]), core::radians((*attitude)[1]),
                                core::radians((*attitude)[2])});
-  const auto rcs_m2 = target.attr("rcs_m2").cast<std::optional<double>>();
+  }
+  const auto rcs_m2 =
+      value_of<std::optional<double>>(target.attr("rcs_m2"), field + ".rcs_m2", "a number or None");
   if (rcs_m2) {
-    core::require_range("target.rcs_m2", *rcs_m2, {0.0, 1.0e9}, "m2");
+    core::check_range(problems, field + ".rcs_m2", *rcs_m2, {0.0, 1.0e9}, "m2");
     state.rcs = materials::ConstantRcs{*rcs_m2};
   }
   return state;
@@ -82,7 +102,10 @@ session::TargetState target_of(const py::handle& target) {
 
 py::list set_targets(const Scene& scene, const py::sequence& targets) {
   std::vector<session::TargetState> states;
-  for (const py::handle target : targets) states.push_back(target_of(target));
+  core::ProblemList problems;
+  for (const py::handle target : targets)
+    states.push_back(target_of(target, "target[" + std::to_string(states.size()) + "]", problems));
+  problems.throw_if_errors();
   return problems_list(scene.session().set(std::span<const session::TargetState>(states)).all());
 }
 
@@ -162,7 +185,7 @@ py::dict render(const Scene& scene, const PoseNumbers& pose, std::uint64_t frame
     *frame = session.render(now, at, frame_index, wanted, stop);
     if (!labels) return;
     const session::FrameLabels found = scene.labeller(under)->labels(*under, at, *frame);
-    text = session::labels_json(found, *under, static_cast<int>(frame_index), at, {});
+    text = session::labels_json(found, *under, frame_index, at, {});
   });
   wanted.bscope = bscope;
   wanted.layers = layers;
@@ -171,6 +194,18 @@ py::dict render(const Scene& scene, const PoseNumbers& pose, std::uint64_t frame
   result["labels"] = labels ? py::object(py::str(text)) : py::object(py::none());
   result["sampling"] = session::caster_text(session.sampling(now));
   return result;
+}
+
+// Of the scene's flight; counted from its end where negative, as Python does.
+int frame_number(const Scene& scene, long long index) {
+  const int frames = scene.session().scene()->frame_count();
+  if (index >= -frames && index < frames)
+    return static_cast<int>(index < 0 ? index + frames : index);
+  const std::string last = std::to_string(frames - 1);
+  core::throw_input_error(core::ErrorClass::range, "frame", std::to_string(index),
+                          frames == 0 ? "a pose: the scene has no flight"
+                                      : "0 to " + last + ", or -1 to -" + std::to_string(frames) +
+                                            " from the end: a frame of the flight");
 }
 
 // A row for each frame of the scene's flight.
@@ -253,6 +288,7 @@ void add_scene(py::module_& module) {
       .def("set_sampling", &set_sampling, py::arg("kind"), py::arg("value"))
       .def("render", &render, py::arg("pose"), py::arg("frame_index"), py::arg("bscope"),
            py::arg("cscope"), py::arg("layers"), py::arg("cscope_layers"), py::arg("labels"))
+      .def("frame_number", &frame_number, py::arg("index"))
       .def("ground_height_m", &ground_height_m, py::arg("latitude_deg"), py::arg("longitude_deg"))
       .def("trajectory", &trajectory)
       .def("plan", &plan)

@@ -6,6 +6,7 @@
 #include <string>
 #include <variant>
 
+#include "bindings/python/convert.h"
 #include "core/errors.h"
 
 namespace fanbeam::bindings {
@@ -36,6 +37,7 @@ const Field kFields[] = {{"visibility_m", &Weather::visibility_m},
 }  // namespace
 
 Weather changed_weather(Weather weather, const py::dict& changes) {
+  const Weather usual;
   for (const auto& [key, entry] : changes) {
     const py::handle value = entry;
     const auto name = key.cast<std::string>();
@@ -43,15 +45,10 @@ Weather changed_weather(Weather weather, const py::dict& changes) {
     for (const Field& field : kFields)
       if (name == field.name) found = &field;
     if (found == nullptr) throw py::type_error("the weather has no \"" + name + "\"");
-    try {
-      const auto put = [value](auto& place) {
-        place = value.cast<std::decay_t<decltype(place)>>();
-      };
-      std::visit([&](auto member) { put(weather.*member); }, found->member);
-    } catch (const py::cast_error&) {
-      throw py::type_error(name + ": expected a number, not " +
-                           py::repr(value).cast<std::string>());
-    }
+    const auto put = [&](auto& place, const auto& without) {
+      place = value.is_none() ? without : value_of<std::decay_t<decltype(place)>>(value, name);
+    };
+    std::visit([&](auto member) { put(weather.*member, usual.*member); }, found->member);
   }
   // One of the two replaces the other; both at once contradict each other, as in a scene's file.
   const auto given = [&](const char* name) {

@@ -255,10 +255,13 @@ bool take_packet(std::span<const std::uint8_t> packet, bool swap, HostMessage& m
   if (packet.size() != kind->size) return false;
   Fields fields(packet, swap);
   HostPacket decoded = kind->decode(fields);
-  if (fields.all_finite())
+  if (fields.all_finite()) {
     message.packets.push_back(decoded);
-  else
-    ++message.nonfinite;
+    return true;
+  }
+  ++message.nonfinite;
+  if (const auto* control = std::get_if<EntityControl>(&decoded))
+    message.unplaced.push_back(control->entity);
   return true;
 }
 

@@ -145,6 +145,7 @@ struct HostMessage {
   std::vector<HostPacket> packets;        // in their order
   std::vector<std::uint8_t> passed_over;  // ids of packets that mean nothing here
   std::size_t nonfinite = 0;              // packets left out
+  std::vector<std::uint16_t> unplaced;    // entities whose Entity Control is one of them
 };
 
 // Nothing, and why: length (under 24 bytes, over 64 KiB), version (major other than 3), order (no

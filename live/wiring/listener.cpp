@@ -8,8 +8,9 @@ namespace fanbeam::live {
 Listener::Source::Source(const PosesFrom& told, const session::Session& session,
                          std::shared_ptr<Mailbox> mailbox, std::size_t number)
     : from(told),
-      feed(session.scene(), told.datum, told.protocol ? *told.protocol : feeds::kProtocols[0],
-           std::move(mailbox), number) {}
+      // A flight that is built in or read from a file needs no grid here.
+      feed(session.scene(), told.listens() ? told.datum : core::VerticalDatum::scene,
+           told.protocol ? *told.protocol : feeds::kProtocols[0], std::move(mailbox), number) {}
 
 Listener::Listener(const std::vector<PosesFrom>& from, session::Session& session, double rate_Hz,
                    std::size_t kept, const CigiStation& station) {
@@ -66,10 +67,15 @@ void Listener::hear(Source& source, std::span<const std::uint8_t> datagram, cons
 }
 
 void Listener::tell(Status& status) const {
-  if (ig_) return ig_->tell(status);
   status.packets = 0;
   status.bad_packets.clear();
-  for (const Source& source : sources_) source.feed.tell(status);
+  if (ig_)
+    ig_->tell(status);
+  else
+    for (const Source& source : sources_) source.feed.tell(status);
+  if (status.stray_poses > 0)
+    status.bad_packets.emplace_back(feeds::name_of(feeds::PacketFault::step), status.stray_poses);
+  if (ig_) return;
   const auto leading = mailbox().leading();
   if (!leading) return;
   status.source = sources_[*leading].from.source;

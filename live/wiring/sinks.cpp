@@ -71,6 +71,7 @@ RadarVideoSettings video_to(const std::string& text) {
   video.to = parse_endpoint(words.head.substr(kVideo.size()), "--to");
   if (video.to.port == 0)
     core::throw_input_error(core::ErrorClass::range, "--to", "\"" + text + "\"", "a port from 1");
+  if (words.repeats()) refuse_sink(text, "each key once");
   for (const auto& [key, value] : words.options) take_video_option(key, value, video);
   const bool six = video.to.address.find(':') != std::string::npos ||
                    video.interface.find(':') != std::string::npos;
@@ -78,6 +79,14 @@ RadarVideoSettings video_to(const std::string& text) {
     core::throw_input_error(core::ErrorClass::unsupported, "--to", "\"" + text + "\"",
                             "interface= of IPv4 alone");
   return video;
+}
+
+// One file of two pictures in turns would be neither's.
+void add_raw(const std::string& text, const RawSink& sink, FramesTo& to) {
+  if (std::any_of(to.raw.begin(), to.raw.end(),
+                  [&](const RawSink& other) { return other.file == sink.file; }))
+    refuse_sink(text, "another file or pipe than the sink before it");
+  to.raw.push_back(sink);
 }
 
 }  // namespace
@@ -95,9 +104,9 @@ void add_sink(const std::string& text, FramesTo& to) {
   if (text.starts_with(kShared))
     to.shared.push_back(text.substr(kShared.size()));
   else if (text.starts_with(kRawBscope))
-    to.raw.push_back({RawFrames::Scope::bscope, text.substr(kRawBscope.size())});
+    add_raw(text, {RawFrames::Scope::bscope, text.substr(kRawBscope.size())}, to);
   else if (text.starts_with(kRawCscope))
-    to.raw.push_back({RawFrames::Scope::cscope, text.substr(kRawCscope.size())});
+    add_raw(text, {RawFrames::Scope::cscope, text.substr(kRawCscope.size())}, to);
   else if (text.starts_with(kVideo))
     to.video.push_back(video_to(text));
   else
@@ -112,10 +121,11 @@ void Sinks::begin(const scenes::SceneDescription& scene, double rate_Hz) {
   for (const RadarVideoSettings& video : to_.video)
     video_.push_back(
         std::make_unique<RadarVideo>(video, scene.sensor, scene.name, rate_Hz, every_frame_));
-  // Last, as it empties files that are there.
-  if (raw_.empty())
-    for (const RawSink& sink : to_.raw)
-      raw_.push_back(std::make_unique<RawFrames>(sink.scope, sink.file, every_frame_));
+  // Last, as it empties files that are there, and all of them or none.
+  if (raw_.size() == to_.raw.size()) return;
+  for (const RawSink& sink : to_.raw)
+    raw_.push_back(std::make_unique<RawFrames>(sink.scope, sink.file, every_frame_));
+  for (const auto& raw : raw_) raw->begin();
 }
 
 void Sinks::write(const std::shared_ptr<const LiveFrame>& frame) {

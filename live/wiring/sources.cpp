@@ -64,6 +64,7 @@ PosesFrom poses_from(const std::string& source) {
   PosesFrom from;
   from.source = source;
   const Worded words = worded(source, kSourceKeys);
+  if (words.repeats(kPeer)) refuse_source(source, "each key once; ,peer= for each that may send");
   for (const auto& [key, value] : words.options) take_option(key, value, source, from);
   const std::string& text = words.head;
   from.circle = text == "circle";

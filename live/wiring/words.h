@@ -1,6 +1,8 @@
 // Words of an option's value with ",key=value" behind it, in any order.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +14,16 @@ namespace fanbeam::live {
 struct Worded {
   std::string head;
   std::vector<std::pair<std::string_view, std::string>> options;  // key without comma and sign
+
+  // Whether a key but `several` stands there twice.
+  bool repeats(std::string_view several = {}) const {
+    for (auto one = options.begin(); one != options.end(); ++one)
+      if (one->first != several &&
+          std::any_of(std::next(one), options.end(),
+                      [&](const auto& other) { return other.first == one->first; }))
+        return true;
+    return false;
+  }
 };
 
 // Of the text's end: what is no ",key=value" of one of the keys stays in the head, commas and all.

@@ -43,8 +43,4 @@ double kulemin_sigma0(KuleminTerrain terrain, double frequency_Hz, double grazin
          std::pow(frequency_Hz / 10e9, row.a3_dB / 10.0);
 }
 
-double kulemin_frequency_exponent(KuleminTerrain terrain) {
-  return coefficients(terrain).a3_dB / 10.0;
-}
-
 }  // namespace fanbeam::materials

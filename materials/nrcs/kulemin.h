@@ -42,7 +42,4 @@ inline constexpr double kKuleminHighest_Hz = 100e9;
 // Zero at grazing angles of zero and below. Frequency 3 to 100 GHz, else InputError E-RANGE.
 double kulemin_sigma0(KuleminTerrain terrain, double frequency_Hz, double grazing_rad);
 
-// A3 / 10: sigma0 grows with this power of the frequency.
-double kulemin_frequency_exponent(KuleminTerrain terrain);
-
 }  // namespace fanbeam::materials

@@ -67,7 +67,7 @@ std::string results_json(const Suite& suite, const std::vector<CaseResult>& resu
                {"differs", verdict.differs},
                {"unapproved", verdict.unapproved},
                {"failed", verdict.failed},
-               {"input", Json::parse(session::resolved_json(suite.resolved))},
+               {"input", session::resolved_json<Json>(suite.resolved)},
                {"cases", Json::array()}};
   for (const CaseResult& result : results) json["cases"].push_back(case_json(result));
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -13,8 +13,9 @@
 // facet where that is steep and at a silhouette, never across one.
 //
 // How it samples: elevations follow the visible range cells (elevation_fan.h), in each sub-column
-// at another place between their borders; each ray has its own azimuth inside its sub-column
-// (golden-ratio sequence), because regular azimuths hit or miss oblique walls; neighbours that are
+// at another place between their borders; each ray of the fan has its own azimuth inside its sub-column,
+// by the golden-ratio sequence, because regular azimuths hit or miss oblique walls (one put between two
+// has that of the lower one); neighbours that are
 // more than a cell apart or hit different surfaces are refined by halving.
 //
 // Neglected: secondary bounces, refraction, diffraction. Accuracy over sampling:

@@ -14,7 +14,8 @@
 //   C-scope of mode shadow  an obstacle is raised or not: the whole window, plan.cpp
 // In one realisation of speckle (fluctuation.h) one draw s <= 22.88 multiplies all of a cell: the
 // change is 10 log10(1 + p / max(f / s, N)).
-// The bound is that of the worse picture of the sensor's C-scope mode, at most the window.
+// The bound is that of the worse of the pictures that are shown, the B-scope and, where heights are
+// (SceneFacts), the C-scope of the sensor's mode; at most the window.
 // docs/effects.md has the derivation.
 #pragma once
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "atmosphere/loss_table.h"
 #include "atmosphere/path_attenuation.h"
 #include "atmosphere/precipitation/rain_cells.h"
 #include "core/constants.h"
@@ -125,6 +126,24 @@ bool targets_fluctuate(const SceneFacts& facts) {
 // Downwards from the mean to the smallest draw, whatever the looks; upwards 13.6 dB.
 double fluctuation_dB(const SceneFacts&) { return kLargestFluctuation_dB; }
 
+// Whether a model of atmosphere_models() is one of the effect.
+bool causes(core::EffectId effect, std::string_view cause) {
+  switch (effect) {
+    case core::EffectId::gas:
+      return cause == "gas";
+    case core::EffectId::fog:
+      return cause == "fog";
+    case core::EffectId::rain:
+      return cause == "rain" || cause == "melting";
+    case core::EffectId::snow:
+      return cause == "snow";
+    case core::EffectId::rain_echo:
+      return cause == "rain echo" || cause == "snow echo";
+    default:
+      return false;
+  }
+}
+
 const std::vector<Effect>& sample_effects() {
   static const std::vector<Effect> kCatalogue = {
       {core::EffectId::receiver_noise, "noise of the receivers in the samples of every channel",
@@ -242,6 +261,26 @@ double height_margin_m(const SceneFacts& facts) {
 
 const std::vector<Effect>& effect_catalogue(Touches touched) {
   return touched == Touches::samples ? sample_effects() : picture_effects();
+}
+
+std::string source_in(const Effect& effect, const atmosphere::Weather& weather) {
+  std::vector<std::string> sources;
+  for (const atmosphere::AtmosphereModel& model : atmosphere::atmosphere_models(weather))
+    if (causes(effect.id, model.cause) &&
+        std::find(sources.begin(), sources.end(), model.source) == sources.end())
+      sources.push_back(model.source);
+  std::string text;
+  for (const std::string& source : sources) text += (text.empty() ? "" : "; ") + source;
+  return text.empty() ? std::string(effect.source) : text;
+}
+
+std::vector<core::EffectId> effects_shown_in(Touches touched) {
+  std::vector<core::EffectId> shown;
+  for (const Effect& effect : picture_effects())
+    if (touched == Touches::pictures || effect.in_echoes) shown.push_back(effect.id);
+  if (touched == Touches::samples)
+    for (const Effect& effect : sample_effects()) shown.push_back(effect.id);
+  return shown;
 }
 
 }  // namespace fanbeam::renderer

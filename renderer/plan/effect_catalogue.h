@@ -4,12 +4,12 @@
 // Bounds are the largest change of displayed grey that leaving the effect out can cause anywhere:
 //   a multiplicative effect of x dB changes x / (dB per grey level);
 //   an additive power p over a local floor f changes 10 log10(1 + p / f) dB (display_floor.h).
-// They hold for the B-scope and for the C-scope of the sensor's mode. Where a small change can
-// decide over a large one plan.cpp takes the whole window instead.
+// They hold for the B-scope and, where heights are shown, for the C-scope of the sensor's mode. Where
+// a small change can decide over a large one plan.cpp takes the whole window instead.
 // What touches pictures is planned once for a sequence, from the scene. What touches samples alone
 // is planned for each set of them, from their power (signal_effects.h).
-// New effects are new rows, of a new core::EffectId: nothing else lists them but switch_of (effects.h), of
-// those that are a stage.
+// New effects are new rows, of a new core::EffectId: nothing else lists them but their names beside
+// it and switch_of (effects.h), of those that are a stage.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ enum class Touches {
 struct Effect {
   core::EffectId id;
   std::string_view what;    // "two-way loss in fog"
-  std::string_view source;  // "ITU-R P.840-8"
+  std::string_view source;  // "ITU-R P.840-8": of the law that is taken by default
   bool (*possible)(const SceneFacts&);
   double (*bound_dB)(const SceneFacts&);
   std::string (*cause)(const SceneFacts&, double bound_dB);  // effect_texts.h
@@ -45,6 +45,11 @@ struct Effect {
 };
 
 const std::vector<Effect>& effect_catalogue(Touches touched = Touches::pictures);
+// Those that show: in pictures, or in samples with what the scene's echoes have.
+std::vector<core::EffectId> effects_shown_in(Touches touched);
+
+// Of the laws by which a scene with this weather has the effect, else its own.
+std::string source_in(const Effect& effect, const atmosphere::Weather& weather);
 
 // How far above the aircraft the bounds look for what attenuates: what level at the aircraft, tilted
 // against the origin's, rises within range, 300 m at least.

@@ -1,8 +1,9 @@
 #include "renderer/plan/effect_texts.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
 
 #include "atmosphere/fog/fog_water.h"
 #include "renderer/plan/largest_echo.h"
@@ -11,15 +12,26 @@
 namespace fanbeam::renderer {
 namespace {
 
-std::string printed(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
+// As printf does with %.<precision>f or g in the locale "C", under any locale.
+std::string printed(double value, std::chars_format format, int precision) {
+  std::array<char, 400> text;  // holds the largest double
+  const auto result =
+      std::to_chars(text.data(), text.data() + text.size(), value, format, precision);
+  return {text.data(), result.ptr};
+}
+
+std::string with_decimals(double value, int decimals) {
+  return printed(value, std::chars_format::fixed, decimals);
+}
+
+std::string with_digits(double value, int digits) {
+  return printed(value, std::chars_format::general, digits);
 }
 
 std::string range_text(const SceneFacts& facts) {
   const double range_m = facts.sensor.range.maximum_m();
-  return range_m < 1000.0 ? printed("%.0f m", range_m) : printed("%.1f km", range_m / 1000.0);
+  return range_m < 1000.0 ? with_decimals(range_m, 0) + " m"
+                          : with_decimals(range_m / 1000.0, 1) + " km";
 }
 
 std::string dB_text(double value_dB) { return figure_text(value_dB) + " dB"; }
@@ -61,9 +73,9 @@ std::string snow_text(const atmosphere::Weather& weather) {
 
 std::string figure_text(double value) {
   if (value > 0.0 && value < 0.001) return "under 0.001";
-  if (value >= 9.95) return printed("%.0f", value);
-  if (value >= 0.995) return printed("%.1f", value);
-  return printed("%.2g", value);
+  if (value >= 9.95) return with_decimals(value, 0);
+  if (value >= 0.995) return with_decimals(value, 1);
+  return with_digits(value, 2);
 }
 
 std::string gas_cause(const SceneFacts& facts, double bound_dB) {
@@ -126,7 +138,7 @@ std::string side_lobe_cause(const SceneFacts& facts, double bound_dB) {
 
 std::string range_response_cause(const SceneFacts& facts, double bound_dB) {
   const sensors::PointResponse ahead(facts.sensor, facts.sensor.scan.columns / 2);
-  const std::string width = printed("%.3g m", ahead.half_power_width_m()) + " (half power)";
+  const std::string width = with_digits(ahead.half_power_width_m(), 3) + " m (half power)";
   if (bound_dB >= window_dB(facts.sensor))
     return "the sweep spreads an echo over " + width + " of range, a bright one through " +
            window_text(facts);
@@ -136,7 +148,8 @@ std::string range_response_cause(const SceneFacts& facts, double bound_dB) {
 
 std::string noise_cause(const SceneFacts& facts, double bound_dB) {
   const double noise_dBm = 10.0 * std::log10(facts.sensor.noise_power_W()) + 30.0;
-  return lift_text("the receiver's noise of " + printed("%.0f dBm", noise_dBm), facts, bound_dB);
+  return lift_text("the receiver's noise of " + with_decimals(noise_dBm, 0) + " dBm", facts,
+                   bound_dB);
 }
 
 std::string speckle_cause(const SceneFacts&, double bound_dB) {

@@ -18,7 +18,7 @@ std::string grey_text(double bound_grey) {
 SceneFacts with_realisation(const SceneFacts& scene, const EffectWishes& wishes) {
   SceneFacts facts = scene;
   facts.sample = scene.sample || wishes.forced_on.contains(core::EffectId::speckle) ||
-                 wishes.forced_on.contains(core::EffectId::swerling);
+                 (wishes.forced_on.contains(core::EffectId::swerling) && scene.fluctuating_targets);
   return facts;
 }
 
@@ -36,12 +36,14 @@ bool tips_over(const SceneFacts& facts) {
 }
 
 // Watts hold the noise, and it crosses thresholds, where no display shows it.
-bool reads_noise(const SceneFacts& facts) { return facts.read.power || facts.read.detections; }
+bool reads_noise(const SceneFacts& facts) {
+  return facts.read.power || facts.read.labels || facts.read.detections;
+}
 
 std::string noise_readers_text(const Readings& read) {
-  if (!read.detections) return "asked for by the product power, whose watts hold it";
-  return std::string("asked for by the product") +
-         (read.power ? "s power and detections" : " detections") + ", as it crosses thresholds";
+  if (read.detections) return "asked for by the product detections, as it crosses thresholds";
+  if (read.power) return "asked for by the product power, whose watts hold it";
+  return "asked for by the product labels, whose signal to clutter counts it";
 }
 
 // Greys of the picture that shows the facts' products.
@@ -180,10 +182,17 @@ std::vector<core::EffectId> known_effects(Touches touched) {
   return known;
 }
 
+std::string wishes_text(const std::vector<core::EffectId>& effects) {
+  std::string text;
+  for (const core::EffectId effect : effects) text.append(" +").append(name_of(effect));
+  return text;
+}
+
 }  // namespace
 
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
   const std::vector<core::EffectId> effects = known_effects(touched);
+  const std::vector<core::EffectId> shown = effects_shown_in(touched);
   EffectWishes wishes;
   std::size_t from = 0;
   while (from <= text.size()) {
@@ -195,19 +204,29 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
     } else if (word == "none") {
       wishes.base = EffectWishes::Base::none;
     } else {
-      std::string known;
-      for (const core::EffectId effect : effects) known.append(" +").append(name_of(effect));
       const auto found =
           word.empty() ? effects.end()
                        : std::ranges::find(effects, std::string_view(word).substr(1),
                                            [](core::EffectId effect) { return name_of(effect); });
       if (found == effects.end() || (word[0] != '+' && word[0] != '-'))
         core::throw_input_error(core::ErrorClass::ref, "--effects", "\"" + word + "\"",
-                                "all, none, or + or - before one of" + known);
+                                "all, none, or + or - before one of" + wishes_text(effects));
+      if (word[0] == '+' && std::ranges::find(shown, *found) == shown.end())
+        core::throw_input_error(core::ErrorClass::unsupported, "--effects", "\"" + word + "\"",
+                                "one that samples show:" + wishes_text(shown));
       (word[0] == '+' ? wishes.forced_on : wishes.forced_off).insert(*found);
     }
   }
   return wishes;
+}
+
+void refuse_draws(const EffectWishes& wishes) {
+  for (const core::EffectId draw : {core::EffectId::speckle, core::EffectId::swerling})
+    if (wishes.forced_on.contains(draw))
+      core::throw_input_error(core::ErrorClass::unsupported, "--effects",
+                              "\"+" + std::string(name_of(draw)) + "\"",
+                              "no effect of a draw beside the realisation mean, which is the "
+                              "expectation of all draws");
 }
 
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {

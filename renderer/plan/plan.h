@@ -17,9 +17,14 @@ struct EffectWishes {
   core::EffectSet forced_on, forced_off;
 };
 
-// "all", "none", "+rain,-gas", "all,-fog". Throws InputError E-REF for an unknown effect, naming
-// the known ones: those that touch pictures, and for `touched` samples these as well.
+// "all", "none", "+rain,-gas", "all,-fog". Throws InputError: E-REF for an unknown effect, naming
+// the known ones, those that touch pictures and for `touched` samples these as well; E-UNSUPPORTED
+// for one forced on that samples do not show (effects_shown_in).
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched = Touches::pictures);
+
+// Throws InputError E-UNSUPPORTED where they force speckle or fluctuating targets on: for whoever asks
+// for the expected power, realisation mean.
+void refuse_draws(const EffectWishes& wishes);
 
 // That may be asked for, in grey levels.
 inline constexpr core::NumberRange kAccuracies_grey{0.01, 100.0};
@@ -34,7 +39,8 @@ constexpr double sampling_share_grey(double accuracy_grey) {
 
 // Half of `accuracy_grey` is for effects left out: an effect that is possible and not forced runs
 // unless its bound, added to the bounds of those already left out (smallest first), stays within
-// that half. Speckle or fluctuating targets forced on ask for a realisation where the scene does not.
+// that half. Speckle forced on asks for a realisation where the scene does not, and so do fluctuating
+// targets where there is one.
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes);
 // Of a scene of which the frames together see only `seen` (seen_facts() of it): decided by that.
 core::EffectPlan plan(const SceneFacts& scene, const SceneFacts& seen, double accuracy_grey,

@@ -183,6 +183,11 @@ FrameEchoes frame_echoes(const World& world, const FramePose& pose,
   const sensors::AntennaFrame antenna = antenna_of(world.sensor, pose);
   const Columns columns = columns_of(world.sensor, settings);
   check_work(world.sensor, settings, antenna, columns.count);
+  if (world.surfaces().in_ground(antenna.position_m)) {
+    FrameEchoes nothing;
+    nothing.events.emplace_back("below_terrain");
+    return nothing;
+  }
   const SurfaceCaster caster(world, antenna, settings, pose.frame_index);
   std::vector<Scatterers> found(static_cast<std::size_t>(columns.count));
   core::parallel_for(found.size(), [&](std::size_t i) {

@@ -25,6 +25,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 #include "core/echo.h"
@@ -58,6 +59,8 @@ struct FrameEchoes {
   std::vector<double> phase_rad;  // of each, in [0, 2 pi)
   std::size_t first_target = 0;   // the echoes from here on are point targets
   std::uint64_t rays = 0;
+  // "below_terrain": the antenna is not above the ground, and there are no echoes. As in frame.h.
+  std::vector<std::string> events;
 };
 
 // Echoes inside the sensor's range gate with power above 0. Throws InputError: E-NONFINITE for a

@@ -13,8 +13,8 @@
 //   object         that sends more than half of the cell's power; where none does, one that is seen
 //                  there. A point target where it sends more than all surfaces of the cell, with number
 //                  Geometry::object_names.size() plus its index
-//   material       of that object, the one that sends more than half of its power, where one does;
-//                  kNoMaterial of a point target
+//   material       of that object: the one that sends more than half of what it sent since it was found
+//                  to lead, where one does; kNoMaterial of a point target
 //   elevation_rad  of a strong part of that object, or of that target (B-scope alone)
 //   double_bounce  of the picture's power from surfaces and rain, beam and all, the share that came
 //                  by two or three reflections

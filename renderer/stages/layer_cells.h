@@ -80,7 +80,7 @@ class LayerCells {
     AzimuthMask azimuths = 0;
   };
   // The object that sends more than half of the cell's power is left in the end, and of it the material
-  // that sends more than half (the majority vote of Boyer and Moore, with weights).
+  // that sends more than half since it took the lead (the majority vote of Boyer and Moore, with weights).
   static void elect(Cell& cell, float weight, const LayerEcho& echo) {
     if (cell.object != echo.object) {
       cell.lead_W -= weight;

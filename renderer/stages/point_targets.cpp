@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "renderer/stages/echo_shares.h"
 #include "sensors/antenna/beam_pattern.h"
+#include "sensors/antenna/column_place.h"
 #include "sensors/cells.h"
 
 namespace fanbeam::renderer {
@@ -67,8 +68,7 @@ std::optional<View> view_of(const sensors::Sensor& sensor, const PointTarget& ta
   view.angles = *angles;
   view.range_m = glm::length(path_m);
   if (!in_gate(sensor.range, view.range_m)) return std::nullopt;
-  const double reach_rad = sensor.scan.field_of_view_rad / 2 + sensors::reach_rad(beams.azimuth);
-  if (std::abs(angles->azimuth_rad) > reach_rad) return std::nullopt;
+  if (!sensors::in_columns(sensor, angles->azimuth_rad, angles->elevation_rad)) return std::nullopt;
   view.elevation_gain = sensors::two_way_gain_with_side_lobes(
       beams.elevation, angles->elevation_rad - beams.boresight_elevation_rad);
   const glm::dvec3 direction = path_m / view.range_m;

@@ -1,6 +1,7 @@
 #include "renderer/stages/rain_echo.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -26,6 +27,10 @@ constexpr int kCellsPerStep = 8;
 // where one does.
 constexpr double kSmoothStep_rad = 2.0 * core::kPi / 180.0;
 constexpr double kLayeredStep_rad = 0.1 * core::kPi / 180.0;
+// Up to this tilt azimuths share their profiles where the beam holds no border of any layer. Heights are
+// then off by the tilt times the range at most, which changes the loss by gas by under 1 % of it over
+// 41 deg of azimuth, 2 % all round: 0.006 dB at 35 GHz and 3.7 km, 0.03 dB at 94 GHz.
+constexpr double kSharedTiltCosine = 1.0 - 2e-4;  // 0.02 rad
 // The loss between these is a straight line in dB. The border of a rain cell is sharp in eta; its
 // loss is off by at most half a step, 0.1 dB in a shower of 40 mm/h at 94 GHz.
 constexpr int kCellsPerLoss = 4;
@@ -92,8 +97,7 @@ class Echo {
         antenna_(antenna),
         subs_(sub_columns_per_column),
         sums_(sums),
-        borders_(elevation_borders(sensor_, height_above_ground_m())),
-        upright_(azimuths_are_upright(antenna, sensor_.scan.surface)) {
+        borders_(elevation_borders(sensor_, height_above_ground_m())) {
     const sensors::BeamCut& cut = sensor_.antenna.elevation;
     const double boresight_rad = sensor_.antenna.boresight_elevation_rad;
     for (std::size_t i = 0; i + 1 < borders_.size(); ++i) {
@@ -105,32 +109,36 @@ class Echo {
                               : sensors::two_way_gain_with_side_lobes(cut, middle_rad) *
                                     (to_rad - from_rad));
     }
+    const sensors::HeightSpan beam = sensors::heights_in_beam(antenna, sensor_);
+    const bool one_layer = world.volume_echo->same_at_all_heights(beam.lowest_m, beam.highest_m);
+    shared_ = azimuths_are_upright(antenna, sensor_.scan.surface) ||
+              (one_layer && leans_little() &&
+               world.attenuation.same_layer(beam.lowest_m, beam.highest_m));
     const double span_rad = borders_.back() - borders_.front();
-    const double step_rad = one_layer_in_beam() ? kSmoothStep_rad : kLayeredStep_rad;
+    const double step_rad = one_layer ? kSmoothStep_rad : kLayeredStep_rad;
     nodes_ = 1 + static_cast<int>(std::ceil(span_rad / step_rad));
     node_step_rad_ = span_rad / (nodes_ - 1);
   }
 
-  void run() {
+  // Gives the number of profiles.
+  std::size_t run() {
     const int blocks = (sums_.sub_columns + subs_ - 1) / subs_;
     for (int block = 0; block < blocks && beside_cells_.empty(); ++block)
-      if (upright_ && !cells_in(azimuth_rad(block))) profiles(0.0, false, beside_cells_);
+      if (shared_ && !cells_in(azimuth_rad(block))) profiles(0.0, false, beside_cells_);
     free_m_.resize(static_cast<std::size_t>(blocks) + 1);
     core::parallel_for(free_m_.size(), [&](std::size_t border) {
       free_distances_m(fan_azimuth_rad(first_of(static_cast<int>(border))), free_m_[border]);
     });
     core::parallel_for(static_cast<std::size_t>(blocks),
                        [&](std::size_t block) { add_block(static_cast<int>(block)); });
+    return beside_cells_.size() + own_profiles_;
   }
 
  private:
-  bool one_layer_in_beam() const {
-    const bool level = antenna_.up.z > kLevelCosine;
-    const double reach_m = sensor_.range.maximum_m();
-    const double down_m = reach_m * (level ? std::sin(borders_.front()) : -1.0);
-    const double up_m = reach_m * (level ? std::sin(borders_.back()) : 1.0);
-    return world_.volume_echo->same_at_all_heights(antenna_.position_m.z + down_m,
-                                                   antenna_.position_m.z + up_m);
+  // Rain cells are looked for in vertical half-planes, which azimuths then are not quite.
+  bool leans_little() const {
+    return sensor_.scan.surface == sensors::ScanSurface::plane &&
+           antenna_.up.z > kSharedTiltCosine && !world_.volume_echo->has_cells();
   }
 
   double height_above_ground_m() const {
@@ -263,9 +271,10 @@ class Echo {
   std::vector<double> gain_rad_;  // per interval
   int nodes_ = 0;
   double node_step_rad_ = 0.0;
-  bool upright_;
-  std::vector<std::vector<double>> free_m_;  // [border between blocks][border of elevations]
-  std::vector<Profile> beside_cells_;        // of every azimuth without one, of an upright fan
+  bool shared_ = false;  // what is worked out beside rain cells, by all azimuths
+  std::atomic<std::size_t> own_profiles_{0};  // of azimuths that share none
+  std::vector<std::vector<double>> free_m_;   // [border between blocks][border of elevations]
+  std::vector<Profile> beside_cells_;         // of every azimuth without one, where they share
 };
 
 // Adds one interval: free up to the nearer of the two distances, half way between them by half.
@@ -317,8 +326,11 @@ void Echo::add_block(int block) {
   thread_local std::vector<std::size_t> borders, intervals;  // that a silhouette cuts
   range_W.assign(static_cast<std::size_t>(sums_.cells), 0.0);
   row_W_m3.assign(static_cast<std::size_t>(sums_.rows), 0.0);
-  const bool common = upright_ && !cells_in(middle_rad);
-  if (!common) profiles(middle_rad, true, own);
+  const bool common = shared_ && !cells_in(middle_rad);
+  if (!common) {
+    profiles(middle_rad, true, own);
+    own_profiles_ += own.size();
+  }
   const std::vector<Profile>& nodes = common ? beside_cells_ : own;
   borders.clear();
   intervals.clear();
@@ -358,9 +370,9 @@ void Echo::add_block(int block) {
 
 }  // namespace
 
-void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
-                   int sub_columns_per_column, FanSums& sums) {
-  Echo(world, antenna, sub_columns_per_column, sums).run();
+std::size_t add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
+                          int sub_columns_per_column, FanSums& sums) {
+  return Echo(world, antenna, sub_columns_per_column, sums).run();
 }
 
 double rain_echo_bound_dB(const SceneFacts& facts) {

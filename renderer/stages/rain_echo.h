@@ -12,7 +12,9 @@
 // its sub-columns; between two elevations the free share of an interval falls linearly with range.
 // Inside a range cell eta is that of the middle and the loss decays exponentially; over elevation
 // both are interpolated between values 0.1 deg apart, or 2 deg where no top, base or melting layer
-// lies within the beam.
+// lies within the beam. Azimuths of a plane scan share them beside rain cells: those of a level
+// antenna, and where no border of a layer lies within the beam of one that leans up to 0.02 rad, as
+// level at the aircraft does 127 km from the scene's origin.
 //
 // Neglected: depolarisation, multiple scattering, echo that reaches the antenna by way of the ground.
 // Accuracy: 0.02 dB over level ground against the closed form; where a silhouette cuts the beam, half
@@ -20,15 +22,18 @@
 // Cost: docs/physics/rain-echo.md.
 #pragma once
 
+#include <cstddef>
+
 #include "renderer/casting/caster.h"
 #include "renderer/plan/scene_facts.h"
 #include "renderer/world.h"
 
 namespace fanbeam::renderer {
 
-// Adds to `sums` what `world.volume_echo` returns. `sub_columns_per_column` as in the sampling.
-void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
-                   int sub_columns_per_column, FanSums& sums);
+// Adds to `sums` what `world.volume_echo` returns. `sub_columns_per_column` as in the sampling. Gives
+// the number of directions along which echo and loss were worked out.
+std::size_t add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
+                          int sub_columns_per_column, FanSums& sums);
 
 // Upper bound of the change of a pixel by the echo, in dB: the largest eta filling the whole beam,
 // side lobes included, without loss (largest_echo.h), spread by the range response, over the floor

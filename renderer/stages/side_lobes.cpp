@@ -50,8 +50,9 @@ double largest_lobe(const sensors::BeamCut& cut) {
 // A display of mapping stc counts in beam widths, and lobes inside the cut are part of the beam.
 double scale_change_dB(const sensors::Sensor& sensor) {
   if (sensor.display.mapping != sensors::Display::Mapping::stc) return 0.0;
-  return 10.0 *
-         std::log10(sensor.azimuth_patch_rad() / without_side_lobes(sensor).azimuth_patch_rad());
+  const sensors::BeamCut& azimuth = sensor.antenna.azimuth;
+  return 10.0 * std::log10(sensors::two_way_width(azimuth) /
+                           sensors::two_way_width(sensors::main_beam(azimuth)));
 }
 
 // What the whole beam has beyond the main beams.

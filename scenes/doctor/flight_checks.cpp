@@ -81,24 +81,16 @@ void check_flight_height(const DoctorParts& parts, Findings& findings) {
   const auto lowest = std::min_element(
       parts.flight.begin(), parts.flight.end(),
       [](const Sight& a, const Sight& b) { return a.above_ground_m < b.above_ground_m; });
-  const auto below = std::count_if(parts.flight.begin(), parts.flight.end(),
-                                   [](const Sight& sight) { return sight.above_ground_m <= 0.0; });
   const double low_m = kLowSine * parts.sensor().range.minimum_m;
-  const std::string where = place_text(parts.scene.description.trajectory.place) +
-                            ", trajectory, frame " + std::to_string(lowest->frame) + ", " +
-                            place_text(parts.scene, lowest->antenna.position_m);
-  if (below > 0)
-    findings.push_back({Severity::wrong, "antenna-below-ground",
-                        "the antenna is in the ground in " + std::to_string(below) +
-                            " frames, in the worst by this much",
-                        where, -lowest->above_ground_m, "m",
-                        "Such a frame holds noise alone, and is flagged below_terrain.",
-                        "Check the trajectory's vertical datum and the sensor's mounting offset."});
-  else if (lowest->above_ground_m < low_m)
+  // In the ground it cannot be: such a flight is refused when the scene is built.
+  if (lowest->above_ground_m < low_m)
     findings.push_back(
         {Severity::delicate, "antenna-near-ground",
-         "the antenna comes down to this height over the ground", where, lowest->above_ground_m,
-         "m",
+         "the antenna comes down to this height over the ground",
+         place_text(parts.scene.description.trajectory.place) + ", trajectory, frame " +
+             std::to_string(lowest->frame) + ", " +
+             place_text(parts.scene, lowest->antenna.position_m),
+         lowest->above_ground_m, "m",
          "Below " + core::number_text(low_m) +
              " m an error of the terrain's height moves even the nearest cell's ground a hundred "
              "times as far.",

@@ -1,11 +1,13 @@
 #include "sensors/antenna/antenna_frame.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
 #include "core/errors.h"
 #include "core/pose.h"
+#include "sensors/antenna/beam_pattern.h"
 
 namespace fanbeam::sensors {
 namespace {
@@ -73,6 +75,19 @@ std::optional<AntennaAngles> all_round_angles(const AntennaFrame& frame,
   const glm::dvec3 fru = components(frame, from_antenna_m);
   if (!finite(fru) || fru == glm::dvec3(0.0)) return std::nullopt;
   return plane_angles(fru);
+}
+
+HeightSpan heights_in_beam(const AntennaFrame& frame, const Sensor& sensor) {
+  const double tilt_rad = std::acos(std::clamp(frame.up.z, -1.0, 1.0));
+  const double aside_rad = reach_rad(sensor.antenna.elevation) + tilt_rad;
+  const double boresight_rad = sensor.antenna.boresight_elevation_rad;
+  const auto farthest_m = [&](double elevation_rad) {
+    return frame.position_m.z +
+           sensor.range.maximum_m() *
+               std::sin(std::clamp(elevation_rad, -core::kPi / 2, core::kPi / 2));
+  };
+  return {std::min(frame.position_m.z, farthest_m(boresight_rad - aside_rad)),
+          std::max(frame.position_m.z, farthest_m(boresight_rad + aside_rad))};
 }
 
 bool beams_reach_behind(const Sensor& sensor) {

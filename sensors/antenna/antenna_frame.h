@@ -58,6 +58,13 @@ std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3&
 std::optional<AntennaAngles> all_round_angles(const AntennaFrame& frame,
                                               const glm::dvec3& from_antenna_m);
 
+struct HeightSpan {
+  double lowest_m = 0.0, highest_m = 0.0;
+};
+// Of the antenna and of all that its beam, side lobes included, may reach within the range gate, along
+// the scene's vertical: the elevations of the beam, wider by the antenna's tilt against it.
+HeightSpan heights_in_beam(const AntennaFrame& frame, const Sensor& sensor);
+
 // Whether the beam of an outer column, up to its azimuth cut, reaches more than 90 deg aside. A cone
 // has no directions there.
 bool beams_reach_behind(const Sensor& sensor);

@@ -32,13 +32,25 @@ struct ColumnPlace {
   }
 };
 
+// How far aside of its azimuth, as columns count it, a beam of that elevation reaches.
+inline double azimuth_reach_rad(const Sensor& sensor, double elevation_rad) {
+  const double sky = sensor.scan.surface == ScanSurface::plane ? std::cos(elevation_rad) : 1.0;
+  return reach_rad(sensor.antenna.azimuth) / std::max(sky, 0.01);
+}
+
+// Whether the beam of any azimuth within the scan reaches that direction.
+inline bool in_columns(const Sensor& sensor, double azimuth_rad, double elevation_rad) {
+  return std::abs(azimuth_rad) <=
+         sensor.scan.field_of_view_rad / 2 + azimuth_reach_rad(sensor, elevation_rad);
+}
+
 inline ColumnPlace column_place(const Sensor& sensor, double azimuth_rad, double elevation_rad) {
   const Scan& scan = sensor.scan;
   const double width_rad = scan.column_width_rad();
   ColumnPlace place;
   place.sky = scan.surface == ScanSurface::plane ? std::cos(elevation_rad) : 1.0;
   place.position = (azimuth_rad + scan.field_of_view_rad / 2) / width_rad - 0.5;
-  place.reach = reach_rad(sensor.antenna.azimuth) / (width_rad * std::max(place.sky, 0.01));
+  place.reach = azimuth_reach_rad(sensor, elevation_rad) / width_rad;
   const double circle = 2.0 * core::kPi / width_rad;
   const int last_column = scan.columns - 1;
   if (place.position + circle - place.reach <= last_column ||

@@ -78,6 +78,7 @@ class Lines {
   }
 
   bool failed() const { return failed_; }
+  bool full() const { return problems_.is_full(); }
 
  private:
   std::string_view text_;
@@ -94,7 +95,7 @@ std::pair<std::string_view, std::string_view> split(std::string_view line, const
   return {line.substr(0, end), core::trimmed(line.substr(std::min(end + 1, line.size())))};
 }
 
-// Stops at the first bad row: a file of another kind would be wrong in every one.
+// False where no further row is worth a look.
 bool add_row(Lines& lines, std::string_view line, const char* separators, Range angles, Range gains,
              std::vector<Row>& rows) {
   if (rows.size() == kMostRows) {
@@ -105,13 +106,15 @@ bool add_row(Lines& lines, std::string_view line, const char* separators, Range 
   const auto [first, second] = split(line, separators);
   const auto angle_deg = lines.number(first, "angle", angles);
   const auto gain_dB = lines.number(second, "gain", gains);
-  if (!angle_deg || !gain_dB) return false;
-  if (!rows.empty() && !(*angle_deg > rows.back().angle_deg)) {
+  if (!angle_deg || !gain_dB) return !lines.full();
+  if (!rows.empty() && !(*angle_deg > rows.back().angle_deg))
     lines.error(ErrorClass::range, "angle", core::number_text(*angle_deg), "angles that increase");
-    return false;
-  }
   rows.push_back({*angle_deg, *gain_dB});
-  return true;
+  return !lines.full();
+}
+
+bool is_number(std::string_view text) {
+  return core::parse_number(text).error != core::NumberError::not_a_number;
 }
 
 void read_gain(Lines& lines, std::string_view value, PatternCut& cut) {
@@ -121,7 +124,12 @@ void read_gain(Lines& lines, std::string_view value, PatternCut& cut) {
   const std::string name = upper(unit);
   if (!name.empty() && name != "DBI" && name != "DBD")
     lines.error(ErrorClass::parse, "GAIN", in_quotes(unit), "dBi, dBd or nothing for dBd");
-  if (gain_dB) cut.peak_gain = core::power_from_dB(*gain_dB + (name == "DBI" ? 0 : kDipoleGain_dB));
+  if (!gain_dB) return;
+  const double gain = core::power_from_dB(*gain_dB + (name == "DBI" ? 0 : kDipoleGain_dB));
+  if (cut.peak_gain && *cut.peak_gain != gain)
+    lines.error(ErrorClass::parse, "GAIN", in_quotes(value),
+                "the gain of the line before, or one line");
+  cut.peak_gain = gain;
 }
 
 // The rows behind "HORIZONTAL n"; false when they are unusable.
@@ -130,16 +138,16 @@ bool read_block(Lines& lines, const std::string& keyword, std::string_view count
   const auto wanted = lines.number(count, keyword, {2.0, 36000.0, "2 to 36000 rows"});
   if (!wanted) return false;
   const auto number = static_cast<std::size_t>(*wanted);
-  while (rows.size() < number) {
+  for (std::size_t read = 0; read < number; ++read) {
     const auto line = lines.next();
     if (!line) {
-      lines.error(ErrorClass::parse, keyword, std::to_string(rows.size()) + " rows",
+      lines.error(ErrorClass::parse, keyword, std::to_string(read) + " rows",
                   std::to_string(number) + ", as announced");
       return false;
     }
-    if (!add_row(lines, *line, " \t", {0.0, 359.999999, "0 to below 360 deg"},
-                 {0.0, 400.0, "an attenuation, 0 to 400 dB"}, rows))
-      return false;
+    const bool go_on = add_row(lines, *line, " \t", {0.0, 359.999999, "0 to below 360 deg"},
+                               {0.0, 400.0, "an attenuation, 0 to 400 dB"}, rows);
+    if (!go_on || !is_number(split(*line, " \t").first)) return false;  // perhaps the next block
   }
   for (Row& row : rows) row.gain_dB = -row.gain_dB;
   return true;
@@ -167,6 +175,10 @@ std::vector<Row> read_msi(Lines& lines, PatternPlane plane, PatternCut& cut) {
     const auto [word, value] = split(*line, " \t");
     const std::string keyword = upper(word);
     if (keyword == "GAIN") read_gain(lines, value, cut);
+    if (is_number(word)) {
+      lines.error(ErrorClass::parse, "row", in_quotes(*line), "as many rows as announced");
+      return {};
+    }
     std::vector<Row>* const rows = keyword == "HORIZONTAL" ? &horizontal
                                    : keyword == "VERTICAL" ? &vertical
                                                            : nullptr;
@@ -178,7 +190,7 @@ std::vector<Row> read_msi(Lines& lines, PatternPlane plane, PatternCut& cut) {
     if (!read_block(lines, keyword, value, *rows)) return {};
   }
   const std::vector<Row>& found = plane == PatternPlane::azimuth ? horizontal : vertical;
-  if (found.empty())
+  if (found.empty() && !lines.failed())
     lines.error(ErrorClass::parse, wanted, "missing", wanted + " and its number of rows");
   return unrolled(found, plane);
 }
@@ -194,7 +206,7 @@ std::vector<Row> read_csv(Lines& lines) {
     if (!add_row(lines, *line, ",", {-180.0, 180.0, "-180 to 180 deg"},
                  {-400.0, 0.0, "a gain relative to the peak, -400 to 0 dB"}, rows))
       return rows;
-  if (rows.size() < 2)
+  if (rows.size() < 2 && !lines.failed())
     lines.error(ErrorClass::parse, "rows", std::to_string(rows.size()), "at least 2");
   return rows;
 }

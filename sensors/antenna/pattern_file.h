@@ -12,7 +12,8 @@
 // Both are normalised to the cut's own peak, which must be stated as 0 within 0.5 dB.
 //
 // Limits: 4 MiB, 36001 rows a cut (E-LIMIT). Refused with file and line: no number E-PARSE, NaN and
-// infinity E-NONFINITE, out of range or order E-RANGE, missing rows E-PARSE.
+// infinity E-NONFINITE, out of range or order E-RANGE, missing rows, rows behind those announced and a second
+// GAIN that is another one E-PARSE; all bad rows together.
 #pragma once
 
 #include <filesystem>

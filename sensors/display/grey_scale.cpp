@@ -8,6 +8,7 @@
 #include "core/dispatch.h"
 #include "core/errors.h"
 #include "core/series.h"
+#include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 #include "sensors/display/seed_signal.h"
 
@@ -70,7 +71,7 @@ GreyScale::GreyScale(const Sensor& sensor)
   level_per_power_per_W_.assign(static_cast<std::size_t>(gate.cells), 1.0);
   if (sensor.display.mapping == Display::Mapping::stc) {
     const double flat_ground_W_m3 =
-        sensor.radar_constant_W_m2() * sensor.azimuth_patch_rad() * gate.cell_m;
+        sensor.radar_constant_W_m2() * two_way_width(sensor.antenna.azimuth) * gate.cell_m;
     for (int row = 0; row < gate.cells; ++row)
       level_per_power_per_W_[static_cast<std::size_t>(row)] =
           cubed(range_middle_m(gate, row)) / flat_ground_W_m3;

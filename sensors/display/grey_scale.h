@@ -2,8 +2,8 @@
 //
 // grey = 255 (level - low) / (high - low), clamped to 0..255, with the level in dB by mapping:
 //   stc   10 log10(P (4 pi)^3 R^3 L / (Pt G0^2 lambda^2 phi c)): the NRCS of flat ground that would
-//         return P at full beam (sensitivity-time control); phi is the sensor's azimuth patch, c
-//         its range cell
+//         return P at full beam (sensitivity-time control); phi is the integral of the two-way
+//         azimuth pattern, c the range cell
 //   log   10 log10(P / 1 W): received power in dBW, low and high in dBW
 //   seed  10 log10(P / 1 W) between the seed's minimum and maximum signal (seed_signal.h); the
 //         sensor's low_dB and high_dB are not used. Real ground clips, because

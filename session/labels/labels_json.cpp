@@ -148,7 +148,7 @@ std::vector<std::uint32_t> runs_of(const MaskLabel& mask, std::uint32_t cells) {
   return runs;
 }
 
-std::string labels_json(const FrameLabels& labels, const scenes::Scene& scene, int frame,
+std::string labels_json(const FrameLabels& labels, const scenes::Scene& scene, std::uint64_t frame,
                         const core::Pose& pose, const core::Metadata& metadata) {
   const sensors::Sensor& sensor = scene.description.sensor;
   Json json = {

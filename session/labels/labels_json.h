@@ -2,6 +2,7 @@
 // schema. Degrees and metres; pixels as in place.h; masks as runs.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace fanbeam::session {
 std::vector<std::uint32_t> runs_of(const MaskLabel& mask, std::uint32_t cells);
 
 // `metadata` is the frame's (frame_metadata.h).
-std::string labels_json(const FrameLabels& labels, const scenes::Scene& scene, int frame,
+std::string labels_json(const FrameLabels& labels, const scenes::Scene& scene, std::uint64_t frame,
                         const core::Pose& pose, const core::Metadata& metadata);
 
 // What labels_json said of metadata. Throws InputError E-PARSE for text that is no such file.

@@ -54,10 +54,14 @@ std::optional<std::string> lard_corners(const Json& runway, const std::string& s
 
 std::string seconds_to_landing(const Json& frame, const Json& runway, double along_m) {
   const Json &near = runway.at("thresholds").at("near"), &far = runway.at("thresholds").at("far");
+  const auto degrees_on = [&](const char* angle) {
+    return far.at(angle).get<double>() - near.at(angle).get<double>();
+  };
+  // The shorter way round: a runway may lie across the date line.
+  const double east_deg = std::remainder(degrees_on("longitude_deg"), 360.0);
   const double bearing_rad =
-      std::atan2((far.at("longitude_deg").get<double>() - near.at("longitude_deg").get<double>()) *
-                     std::cos(core::radians(near.at("latitude_deg").get<double>())),
-                 far.at("latitude_deg").get<double>() - near.at("latitude_deg").get<double>());
+      std::atan2(east_deg * std::cos(core::radians(near.at("latitude_deg").get<double>())),
+                 degrees_on("latitude_deg"));
   const double closing_mps =
       frame.at("pose").at("north_mps").get<double>() * std::cos(bearing_rad) +
       frame.at("pose").at("east_mps").get<double>() * std::sin(bearing_rad);

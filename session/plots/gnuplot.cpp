@@ -95,7 +95,7 @@ void check_complete(const fs::path& picture, const fs::path& file) {
       const std::string text = core::read_file(picture, 1ULL << 30U);
       complete = core::trimmed(text).ends_with("</svg>");
     } else {
-      complete = core::check_png(picture).has_value();
+      complete = core::check_png(picture, [](const core::ClaimedSize&) {});
     }
   } catch (const core::InputError&) {
     complete = false;

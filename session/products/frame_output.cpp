@@ -40,8 +40,8 @@ FrameOutput frame_output(const scenes::Scene& scene, const OutputSettings& setti
   if (settings.labeller != nullptr)
     output.labels = settings.labeller->labels(scene, record.pose, output.frame);
   if (settings.products.contains("labels"))
-    output.labels_text =
-        labels_json(output.labels, scene, record.index, record.pose, output.metadata);
+    output.labels_text = labels_json(output.labels, scene, static_cast<std::uint64_t>(record.index),
+                                     record.pose, output.metadata);
   if (settings.products.contains("obstacles"))
     output.obstacle_table = obstacle_table(output.frame.obstacles, output.metadata);
   if (settings.products.contains("detections"))

@@ -38,7 +38,8 @@ const std::vector<FileLayer>& file_layers() {
        [](const LayerSet& set, std::size_t i) {
          return core::degrees(static_cast<double>(set.elevation_rad[i]));
        }},
-      {"grazing_deg", "mean local grazing angle, weighted with the echo's power", true, true,
+      {"grazing_deg",
+       "local grazing angle whose sine is the mean one, weighted with the echo's power", true, true,
        [](const LayerSet& set, std::size_t i) {
          return core::degrees(static_cast<double>(set.grazing_rad[i]));
        }},

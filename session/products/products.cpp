@@ -1,5 +1,7 @@
 #include "session/products/products.h"
 
+#include <string>
+
 namespace fanbeam::session {
 
 renderer::Products wanted_of(const ProductSet& products) {
@@ -24,8 +26,24 @@ bool show_heights(const renderer::Products& wanted) {
 
 void plan_for(const ProductSet& products, scenes::BuildOptions& build) {
   build.heights_shown = show_heights(wanted_of(products));
-  build.read = {products.contains("power"), products.contains("detections"),
-                products.contains("obstacles")};
+  build.read = {products.contains("power"), products.contains("labels"),
+                products.contains("detections"), products.contains("obstacles")};
+}
+
+void check_told(const scenes::BuildOptions& needed, const scenes::BuildOptions& told,
+                core::ProblemList& problems) {
+  const auto check = [&](bool needs, bool knows, const char* what, const std::string& option) {
+    if (needs && !knows)
+      problems.error(core::ErrorClass::ref, {}, "products", what,
+                     "none of it, as the session was opened without BuildOptions::" + option);
+  };
+  const renderer::Readings &needs = needed.read, &knows = told.read;
+  check(needed.heights_shown, told.heights_shown, "C-scope, its layers or obstacles",
+        "heights_shown");
+  check(needs.power, knows.power, "power", "read.power");
+  check(needs.labels, knows.labels, "labels", "read.labels");
+  check(needs.detections, knows.detections, "detections", "read.detections");
+  check(needs.obstacles, knows.obstacles, "obstacles", "read.obstacles");
 }
 
 }  // namespace fanbeam::session

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/errors.h"
 #include "renderer/frame.h"
 #include "scenes/scene.h"
 
@@ -42,5 +43,9 @@ renderer::Products wanted_of(const ProductSet& products);
 bool show_heights(const renderer::Products& wanted);
 // Adds to `build` what a plan must know of them.
 void plan_for(const ProductSet& products, scenes::BuildOptions& build);
+// E-REF for what a plan must know by `needed` and was not told by `told`: it may have left out what
+// decides about it.
+void check_told(const scenes::BuildOptions& needed, const scenes::BuildOptions& told,
+                core::ProblemList& problems);
 
 }  // namespace fanbeam::session

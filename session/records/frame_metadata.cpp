@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "core/effect_plan.h"
 #include "core/files.h"
+#include "core/text.h"
 #include "core/units.h"
 #include "sensors/display/grey_scale.h"
 #include "session/labels/labels_json.h"
@@ -30,15 +33,31 @@ std::string mapping_text(sensors::Display::Mapping mapping) {
   return std::string(sensors::Display::kMappings[static_cast<std::size_t>(mapping)]);
 }
 
-// As frame_metadata writes it.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t blank = std::min(text.find(' ', from), text.size());
+    words.push_back(text.substr(from, blank - from));
+    from = blank + 1;
+  }
+  return words;
+}
+
+// As frame_metadata writes it: "0.3 cscope 0.2 levels 4", and "missed" behind it or not.
 std::optional<renderer::ErrorEstimate> error_of(const std::string& text) {
-  if (text.empty()) return std::nullopt;
+  const std::vector<std::string> words = words_of(text);
+  if (words.size() < 5 || words[1] != "cscope" || words[3] != "levels") return std::nullopt;
+  const core::ParsedNumber rms = core::parse_number(words[0]);
+  const core::ParsedNumber cscope_rms = core::parse_number(words[2]);
+  const core::ParsedNumber levels = core::parse_number(words[4]);
+  for (const core::ParsedNumber& number : {rms, cscope_rms, levels})
+    if (number.error != core::NumberError::none) return std::nullopt;
+  if (!(levels.value >= 0.0 && levels.value <= 1e6)) return std::nullopt;
   renderer::ErrorEstimate error;
-  char missed[8] = "";
-  if (std::sscanf(text.c_str(), "%lf cscope %lf levels %d %6s", &error.rms_grey,
-                  &error.cscope_rms_grey, &error.levels, missed) < 3)
-    return std::nullopt;
-  error.reached = missed[0] == '\0';
+  error.rms_grey = rms.value;
+  error.cscope_rms_grey = cscope_rms.value;
+  error.levels = static_cast<int>(levels.value);
+  error.reached = words.size() == 5;
   return error;
 }
 
@@ -129,13 +148,7 @@ bool take_over(const fs::path& folder, const ProductSet& products, const std::st
     record.blanked = std::stoull("0" + value_of(metadata, "fanbeam:blanked"));
     record.unprojected = std::stoull("0" + value_of(metadata, "fanbeam:unprojected"));
     record.error = error_of(value_of(metadata, "fanbeam:estimated_error_grey"));
-    record.events.clear();
-    const std::string events = value_of(metadata, "fanbeam:events");
-    for (std::size_t from = 0; from < events.size();) {
-      const std::size_t blank = std::min(events.find(' ', from), events.size());
-      record.events.push_back(events.substr(from, blank - from));
-      from = blank + 1;
-    }
+    record.events = words_of(value_of(metadata, "fanbeam:events"));
   }
   record.resumed = true;
   return true;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/files.h"
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostNamed = 8;
 constexpr std::uint64_t kLargestRecord_bytes = 1ULL << 30U;
-// The note of a run that has not ended. Hidden: what run.json says of the run before stays true.
+// The note of a run that has not ended. Hidden: it is no result.
 constexpr const char* kUnfinished = ".unfinished.json";
 // With which the names of a frame's files begin, and what they are called where all frames have one.
 constexpr int kDigits = 5;
@@ -138,8 +139,49 @@ OutputFolder::Listed OutputFolder::listed_in(const fs::path& folder) {
   return listed;
 }
 
+bool OutputFolder::has_record_of_another() const {
+  if (listed_.files.empty()) return false;
+  return fingerprint_.empty() ||
+         std::any_of(listed_.files.begin(), listed_.files.end(), [&](const std::string& name) {
+           std::error_code none;
+           return frame_of(name) && fs::exists(folder_ / name, none) && !is_of_this_input(name);
+         });
+}
+
+void OutputFolder::begin_frames() {
+  if (std::exchange(begun_, true) || !has_record_of_another()) return;
+  listed_.begun.insert(listed_.files.begin(), listed_.files.end());
+  write_note({}, {});
+  std::vector<std::string> record = {"run.json", "timing.json"};
+  for (const std::string& name : listed_.files)
+    if (is_of_run(name)) record.push_back(name);
+  std::error_code ignored;  // what cannot be removed cannot be written anew either
+  for (const std::string& name : record) {
+    if (!fs::is_regular_file(folder_ / name, ignored)) continue;
+    taken_[name] = core::read_file(folder_ / name, kLargestRecord_bytes);
+    fs::remove(folder_ / name, ignored);
+  }
+}
+
+OutputFolder::~OutputFolder() {
+  try {
+    const bool untouched = !fingerprint_.empty() &&
+                           std::none_of(listed_.files.begin(), listed_.files.end(),
+                                        [&](const auto& name) { return is_of_this_input(name); });
+    if (!untouched) return;
+    for (const auto& [name, text] : taken_) core::write_file_atomically(folder_ / name, text);
+  } catch (const std::exception&) {  // what kept the run from writing keeps this too
+  }
+}
+
 void OutputFolder::begin(const std::set<std::string>& products,
-                         const std::set<std::string>& files) const {
+                         const std::set<std::string>& files) {
+  begin_frames();
+  write_note(products, files);
+}
+
+void OutputFolder::write_note(const std::set<std::string>& products,
+                              const std::set<std::string>& files) const {
   Listed all = listed_;
   all.products.insert(products.begin(), products.end());
   all.begun.insert(files.begin(), files.end());
@@ -147,9 +189,15 @@ void OutputFolder::begin(const std::set<std::string>& products,
   core::write_file_atomically(folder_ / kUnfinished, note.dump() + "\n");
 }
 
-void OutputFolder::end() const {
+void OutputFolder::end() {
+  taken_.clear();
   std::error_code ignored;
   fs::remove(folder_ / kUnfinished, ignored);
+}
+
+bool is_unfinished(const fs::path& folder) {
+  std::error_code none;
+  return fs::is_regular_file(folder / kUnfinished, none);
 }
 
 OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwrite)
@@ -206,7 +254,7 @@ std::map<int, std::set<std::string>> OutputFolder::frames(
   return frames;
 }
 
-void OutputFolder::keep_only(const std::set<std::string>& files) const {
+int OutputFolder::keep_only(const std::set<std::string>& files) const {
   std::vector<fs::path> old;
   each_file(folder_, [&](const fs::path& relative) {
     const std::string name = relative.generic_string();
@@ -219,6 +267,10 @@ void OutputFolder::keep_only(const std::set<std::string>& files) const {
   for (const fs::path& relative : old) fs::remove(folder_ / relative, ignored);
   for (const fs::path& relative : old)
     if (relative.has_parent_path()) fs::remove(folder_ / relative.parent_path(), ignored);
+  std::set<int> frames;
+  for (const fs::path& relative : old)
+    if (const std::optional<int> index = frame_of(relative)) frames.insert(*index);
+  return static_cast<int>(frames.size());
 }
 
 }  // namespace fanbeam::session

@@ -5,7 +5,8 @@
 // and are listed again; files that run.json lists of another input are replaced by the new run's;
 // any other file is somebody's, and a run refuses to mix with it unless told to. A run whose files
 // do not say what input they are of leaves a note between `begin` and `end`: killed, it leaves
-// nothing that the next run takes for somebody's.
+// nothing that the next run takes for somebody's. So does one that replaces another input, whose
+// record goes before the first new file is there: the note lists what it listed.
 #pragma once
 
 #include <filesystem>
@@ -24,25 +25,35 @@ class OutputFolder {
   // files that neither run.json lists nor this input made, unless `overwrite`. Hidden files are
   // nobody's business.
   OutputFolder(std::filesystem::path folder, std::string fingerprint, bool overwrite);
+  // Of a run that failed before a picture of its own took another's place, the record comes back.
+  ~OutputFolder();
+  OutputFolder(const OutputFolder&) = delete;
+  OutputFolder& operator=(const OutputFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
 
-  // Until `end` frames' files in the folders of `products`, and `files` of all frames together, are
-  // those of a run that has not ended.
-  void begin(const std::set<std::string>& products, const std::set<std::string>& files) const;
+  // A frame was made and will be written: a record of another input goes, with what is of all its
+  // frames together.
+  void begin_frames();
+  // The same, and until `end` frames' files in the folders of `products`, and `files` of all frames
+  // together, are those of a run that has not ended.
+  void begin(const std::set<std::string>& products, const std::set<std::string>& files);
   // After run.json is written.
-  void end() const;
+  void end();
 
   // Products of this input that are there, by frame; those of `written` without a look at them.
   std::map<int, std::set<std::string>> frames(
       const std::map<int, std::set<std::string>>& written) const;
 
   // Removes the files of frames and films that an earlier run.json lists, or with `overwrite` any
-  // frame, unless they are among `files` (relative to the folder). Never leaves the folder.
-  void keep_only(const std::set<std::string>& files) const;
+  // frame, unless they are among `files` (relative to the folder). Never leaves the folder. Of how
+  // many frames.
+  int keep_only(const std::set<std::string>& files) const;
 
  private:
   bool is_of_this_input(const std::filesystem::path& relative) const;
+  bool has_record_of_another() const;
+  void write_note(const std::set<std::string>& products, const std::set<std::string>& files) const;
 
   std::filesystem::path folder_;
   std::string fingerprint_;
@@ -54,7 +65,12 @@ class OutputFolder {
   };
   static Listed listed_in(const std::filesystem::path& folder);
   Listed listed_;  // by the run.json that was there
+  bool begun_ = false;
+  std::map<std::string, std::string> taken_;  // the record of another input, by name
 };
+
+// Whether a run that writes there has not ended, or was stopped: what is there may be of two.
+bool is_unfinished(const std::filesystem::path& folder);
 
 // Files of one frame, relative to the folder: {"power", 7} is "power/00007.exr".
 std::set<std::string> frame_files(const std::set<std::string>& products, int index);

@@ -1,7 +1,6 @@
 #include "session/records/record_json.h"
 
 #include <nlohmann/json.hpp>
-#include <variant>
 
 #include "core/units.h"
 
@@ -27,13 +26,6 @@ std::string pose_json(const core::Pose& pose) {
                      {"roll_deg", core::degrees(attitude.roll_rad)},
                      {"pitch_deg", core::degrees(attitude.pitch_rad)},
                      {"heading_deg", core::degrees(attitude.heading_rad)}};
-  return json.dump();
-}
-
-std::string resolved_json(const core::ResolvedConfig& resolved) {
-  Json json = Json::object();
-  for (const auto& [path, value] : resolved)
-    std::visit([&, &key = path](const auto& v) { json[key] = v; }, value);
   return json.dump();
 }
 

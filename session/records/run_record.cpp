@@ -143,7 +143,7 @@ Json header_json(const scenes::Scene& scene, const RunRecord& record) {
   json["seed"] = record.seed;
   if (const auto limit = core::instruction_limit()) json["isa"] = core::short_name_of(*limit);
   json["caster"] = caster_json(scene.caster, record.choice.sampling);
-  json["input"] = Json::parse(resolved_json(scene.description.resolved));
+  json["input"] = resolved_json<Json>(scene.description.resolved);
   if (!record.set.empty()) json["set"] = Json::parse(record.set);
   json["sensor_values"] = sensor_json(scene.description.sensor);
   json["receiver"] = receiver_json(scene);
@@ -267,8 +267,14 @@ std::string timing_json(const RunRecord& record) {
   return json.dump(1) + "\n";
 }
 
+// Of the plan what runs: reasons and bounds hang on what else is asked for, and change no picture but
+// of frames with plans of their own.
 std::string input_fingerprint(const scenes::Scene& scene, const RunRecord& record) {
-  return fingerprint_of(header_json(scene, record).dump(), scene.description.files);
+  Json header = header_json(scene, record);
+  if (!record.plan_per_frame)
+    for (Json& decision : header["plan"])
+      decision = {{"effect", decision["effect"]}, {"on", decision["on"]}};
+  return fingerprint_of(header.dump(), scene.description.files);
 }
 
 }  // namespace fanbeam::session

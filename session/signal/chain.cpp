@@ -71,6 +71,14 @@ void apply_channel_errors(const ArraySettings& array, signal::FloatCube& beat) {
   }
 }
 
+// Of the channel that has most, in power.
+double largest_gain(const ArraySettings& array, int channels) {
+  double largest = 0.0;
+  for (const auto& factor : channel_factors(array.gain_errors_dB, {}, channels))
+    largest = std::max(largest, std::norm(factor));
+  return largest;
+}
+
 // What other radars' chirps add to samples of `shape`, channel errors included; empty without any.
 signal::FloatCube interference_in(const FmcwRadar& radar, int stage, const FmcwSettings& options,
                                   const std::vector<signal::Interferer>& interferers,
@@ -115,6 +123,7 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
   const std::vector<double> delays = delays_s(paths);
   for (int stage = 0; stage < radar.waveform.stages(); ++stage) {
     signal::FloatCube beat = synthesise(radar, stage, paths, frame);
+    apply_channel_errors(options, beat);
     FmcwReceiver receiver = fmcw_receiver(
         options, radar.noise_figure, radar.waveform.sample_rate_Hz[static_cast<std::size_t>(stage)],
         !options.real);
@@ -123,8 +132,9 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
     std::size_t crossed = 0;
     const signal::FloatCube interference =
         interference_in(radar, stage, options, interferers, beat.shape, crossed);
+    const double strongest_W = echo_W * largest_gain(options, beat.shape.channels);
     const core::EffectPlan plan =
-        receiver_plan(budget, shown, sensor, receiver, echo_W, beat, interference);
+        receiver_plan(budget, shown, sensor, receiver, strongest_W, beat, interference);
     keep_larger(plan, frame.plan);
     // A stage more is another stretch of time: draws of its own.
     const core::RandomKey key{options.seed, 0,
@@ -142,10 +152,10 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                                 for (const std::size_t i : members) some.push_back(paths[i]);
                                 return synthesise(radar, stage, some, frame);
                               });
+      apply_channel_errors(options, beat);
       frame.phase_noise_rad =
           std::max(frame.phase_noise_rad, phase_noise_rad(receiver, beat.shape.samples));
     }
-    apply_channel_errors(options, beat);
     if (plan.runs(core::EffectId::interference)) {
       frame.crossed += crossed;
       for (std::size_t i = 0; i < beat.values.size(); ++i) beat.values[i] += interference.values[i];

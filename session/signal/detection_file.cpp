@@ -31,6 +31,7 @@ constexpr core::NumberRange kTimes_s{-1e10, 1e10};
 constexpr core::NumberRange kRanges_m{0.0, 1e6, true};
 constexpr core::NumberRange kSpeeds_mps{-1e5, 1e5};
 constexpr core::NumberRange kTurn_rad{-core::kPi, core::kPi};
+constexpr core::NumberRange kRise_rad{-0.5 * core::kPi, 0.5 * core::kPi};
 constexpr core::NumberRange kRatios_dB{-300.0, 300.0};
 constexpr core::NumberRange kPowers_W{0.0, 1e12};
 constexpr core::NumberRange kClusters{-1.0, 1e9};
@@ -41,14 +42,15 @@ struct Column {
   core::NumberRange range;
   bool needed;
 };
-constexpr std::array<Column, 7> kColumns = {{{"time_s", kTimes_s, true},
+constexpr std::array<Column, 8> kColumns = {{{"time_s", kTimes_s, true},
                                              {"range_m", kRanges_m, true},
                                              {"radial_speed_mps", kSpeeds_mps, true},
                                              {"azimuth_deg", {-180.0, 180.0}, true},
                                              {"power_W", kPowers_W, false},
                                              {"snr_dB", kRatios_dB, false},
-                                             {"cluster", kClusters, false}}};
-enum { kTime, kRange, kSpeed, kAzimuth, kPower, kRatio, kCluster };
+                                             {"cluster", kClusters, false},
+                                             {"elevation_deg", {-90.0, 90.0}, false}}};
+enum { kTime, kRange, kSpeed, kAzimuth, kPower, kRatio, kCluster, kElevation };
 
 std::vector<std::string_view> cells_of(std::string_view line) {
   std::vector<std::string_view> cells;
@@ -65,6 +67,7 @@ void add(DetectedFrame& frame, const std::array<double, kColumns.size()>& values
   detection.range_m = values[kRange];
   detection.radial_speed_mps = values[kSpeed];
   detection.azimuth_rad = core::radians(values[kAzimuth]);
+  detection.elevation_rad = core::radians(values[kElevation]);
   detection.power_W = values[kPower];
   detection.snr = std::pow(10.0, 0.1 * values[kRatio]);
   frame.detections.push_back(detection);
@@ -167,7 +170,15 @@ class Table {
   bool told_ = false;
 };
 
+// Those that this program writes; of some it makes nothing.
+const std::vector<const char*> kFrameMembers = {"frame", "time_s", "radar_speed_mps",
+                                                "radar_velocity_mps", "detections"};
+const std::vector<const char*> kDetectionMembers = {
+    "range_m", "radial_speed_mps", "azimuth_rad", "elevation_rad", "power_W",
+    "snr_dB",  "forward_m",        "right_m",     "cluster"};
+
 DetectedFrame frame_in(const JsonNode& node) {
+  check_keys(node, kFrameMembers);
   DetectedFrame frame;
   frame.time_s = node.required("time_s").number(kTimes_s).value_or(0.0);
   frame.radar_velocity_mps = radar_velocity_in(node);
@@ -175,10 +186,12 @@ DetectedFrame frame_in(const JsonNode& node) {
   const std::size_t count = list.size(kMostDetections);
   for (std::size_t i = 0; i < count; ++i) {
     const JsonNode one = list.element(i);
+    check_keys(one, kDetectionMembers);
     std::array<double, kColumns.size()> values{};
     values[kRange] = one.required("range_m").number(kRanges_m).value_or(1.0);
     values[kSpeed] = one.required("radial_speed_mps").number(kSpeeds_mps).value_or(0.0);
     values[kAzimuth] = core::degrees(one.required("azimuth_rad").number(kTurn_rad).value_or(0.0));
+    values[kElevation] = core::degrees(one.member("elevation_rad").number(kRise_rad).value_or(0.0));
     values[kPower] = one.member("power_W").number(kPowers_W).value_or(0.0);
     values[kRatio] = one.member("snr_dB").number(kRatios_dB).value_or(kRatios_dB.high);
     values[kCluster] = one.member("cluster").whole(-1, 1'000'000'000).value_or(signal::kNoCluster);
@@ -196,6 +209,7 @@ void read_json(const fs::path& path, std::vector<DetectedFrame>& frames,
   if (!list.present()) {
     frames.push_back(frame_in(root));
   } else {
+    check_keys(root, {"frames"});
     const std::size_t count = list.size(kMostFrames);
     for (std::size_t i = 0; i < count; ++i) frames.push_back(frame_in(list.element(i)));
   }
@@ -230,7 +244,8 @@ std::vector<fs::path> detection_files(const fs::path& folder) {
   for (const auto& entry :
        fs::directory_iterator(fs::is_directory(below, status) ? below : folder, status)) {
     const fs::path name = entry.path().filename();
-    const bool record = name == "run.json" || name == "timing.json";
+    const bool record = name == "run.json" || name == "timing.json" ||
+                        name.string().starts_with('.');  // a file that was never finished
     if (name.extension() == ".json" && !record && entry.is_regular_file(status))
       files.push_back(entry.path());
   }

@@ -53,6 +53,7 @@ FmcwPaths fmcw_paths(const scenes::Scene& scene, int frame, const FmcwSettings& 
   const renderer::FrameEchoes all = renderer::frame_echoes(scene.world, frame_pose, settings);
   FmcwPaths result;
   result.rays = all.rays;
+  result.events = all.events;
   result.paths.reserve(all.echoes.size());
   for (std::size_t i = 0; i < all.echoes.size(); ++i) {
     const core::Echo& echo = all.echoes[i];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "core/echo.h"
@@ -18,6 +19,7 @@ struct FmcwPaths {
   std::vector<core::Echo> targets;  // the echoes of point targets among the paths
   std::vector<signal::ScatterPath> paths;
   std::vector<signal::Interferer> interferers;  // that the frame hears (interferers.h)
+  std::vector<std::string> events;              // of renderer::FrameEchoes
 };
 
 // One-way power of an array's element towards an azimuth, relative to its peak: the sensor's

@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <utility>
 
+#include "core/errors.h"
 #include "session/signal/chain.h"
 #include "signal/detection/clusters.h"
 #include "signal/fourier/window.h"
@@ -23,9 +24,16 @@ signal::TopViewGrid grid_of(const FmcwRadar& radar) {
   return grid;
 }
 
+constexpr double kMostBeamCells = 1e9;  // 8 GB
+
 // Beams even in the sine of azimuth, at elevation 0.
 void form_beams(const FmcwRadar& radar, const ProcessingSettings& settings,
                 const signal::FloatCube& range_speed, signal::FloatCube& cube) {
+  const double cells = static_cast<double>(range_speed.shape.samples) * range_speed.shape.chirps *
+                       static_cast<double>(radar.azimuths_rad.size());
+  if (cells > kMostBeamCells)
+    core::throw_input_error(core::ErrorClass::limit, "azimuths x speeds x ranges", cells,
+                            "at most 1e9: fewer samples or chirps, or no product with azimuths");
   if (radar.line) {
     signal::angle_transform(range_speed, settings.angle_window,
                             static_cast<int>(radar.azimuths_rad.size()), cube);
@@ -55,6 +63,7 @@ void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
       wants({"range-doppler", "range-azimuth", "top-view", "detections", "spectrogram"});
   const bool angles = wants({"cube", "range-azimuth", "top-view"});
   if (!radar.maps || !(detections || angles)) return;
+  if (detections) check_detects(radar);
   signal::FloatCube changed;
   const bool mends = settings.mitigation != signal::Mitigation::none;
   if (mends || radar.power_scale != 1.0) changed = frame.beats[0];

@@ -34,7 +34,7 @@ struct ProcessingSettings {
   std::optional<double> cluster_place_m;    // above 0 to 1000
   std::optional<double> cluster_speed_mps;  // above 0 to 1000
   int cluster_neighbours = 2;  // a detection with as many, itself included, is a core; 1 to 100
-  bool unfold = false;         // speeds of detections, by time division
+  bool unfold = false;         // speeds of detections, by transmitters that take turns
   std::optional<double> most_range_m;  // of the maps; missing: the sensor's, or all there is
 };
 

@@ -11,6 +11,7 @@
 #include "signal/detection/cfar_calibration.h"
 #include "signal/fourier/window_figures.h"
 #include "signal/receiver/receiver_noise.h"
+#include "signal/synthesis/frame.h"
 #include "signal/transform/angle_transform.h"
 
 namespace fanbeam::session {
@@ -44,7 +45,7 @@ WaveformKind kind_of(const std::string& name) {
   const auto kind = signal::waveform_kind(name);
   if (!kind)
     core::throw_input_error(core::ErrorClass::ref, "--waveform", "\"" + name + "\"",
-                            std::string(kAutomotive) + " or a kind that fanbeam waveform knows");
+                            "one of: " + std::string(kAutomotive) + ", " + waveform_kinds_text());
   return *kind;
 }
 
@@ -159,6 +160,7 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
     core::throw_input_error(core::ErrorClass::range, "--chirps", chirps, "2 or more");
   radar.timing = {fs_Hz, segments[0].slope_Hz_per_s, segments[1].start_s - segments[0].start_s,
                   radar.waveform.wavelength_m()};
+  radar.middle_s = signal::middle_s(segments);
   radar.axes = signal::range_doppler_axes(fs_Hz, radar.timing.slope_Hz_per_s,
                                           slots * radar.timing.slot_period_s,
                                           radar.timing.wavelength_m, samples, chirps);
@@ -177,7 +179,7 @@ void prepare_maps(const FmcwSettings& options, const Front& front, FmcwRadar& ra
   settings.transform.doppler_window = options.doppler_window;
   settings.refinement = signal::Refinement::windowed;
   settings.angle = options.angle_method;
-  settings.unfold = options.unfold && slots > 1;
+  settings.unfold = options.unfold;
   const auto range_weights = signal::window_weights(settings.transform.range_window, samples);
   const auto doppler_weights = signal::window_weights(settings.transform.doppler_window, chirps);
   settings.cfar = cfar_of(options, {range_weights, samples, doppler_weights, chirps},
@@ -227,6 +229,7 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
   radar.waveform = waveform_of(options, name, front);
   radar.pitch_m = options.pitch_wavelengths * radar.waveform.wavelength_m();
   radar.array = array_of(options, radar.waveform, radar.pitch_m);
+  signal::check_size(radar.waveform, radar.array);  // before rays are sent for it
   const std::vector<glm::dvec3> elements_m = signal::virtual_elements_m(radar.array);
   radar.line = is_line(elements_m);
   if (!radar.line)
@@ -242,10 +245,15 @@ FmcwRadar made(const FmcwSettings& options, const std::string& name, const Front
     core::throw_input_error(core::ErrorClass::unsupported, "angle window",
                             signal::name(options.angle_window),
                             "rectangular, or an array on a line at one pitch");
-  if (elements_m.size() < 2 && options.angle_method != signal::AngleMethod::beamforming)
+  if (elements_m.size() < signal::kFewestElements &&
+      options.angle_method != signal::AngleMethod::beamforming)
     core::throw_input_error(core::ErrorClass::unsupported, "angle method",
                             std::string(signal::name(options.angle_method)),
-                            "an array: one channel has no directions");
+                            "beamforming, or an array of " +
+                                std::to_string(signal::kFewestElements) + " channels or more");
+  if (options.unfold && radar.array.slots() == 1)
+    core::throw_input_error(core::ErrorClass::unsupported, "--unfold", "true",
+                            "two transmitters or more that take turns: their phases tell the fold");
   radar.maps = is_sequence(radar.waveform.kind);
   if (radar.maps) prepare_maps(options, front, radar);
   return radar;
@@ -290,6 +298,22 @@ FmcwRadar fmcw_radar(const FmcwSettings& options) {
   problems.throw_if_errors();
   front.noise_figure = core::power_from_dB(*options.noise_figure_dB);
   return made(options, name_without_scene(options), front);
+}
+
+void check_has_maps(const FmcwRadar& radar) {
+  if (!radar.maps)
+    core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar.waveform_name,
+                            "a chirp sequence: the other kinds have no maps and no detections");
+}
+
+void check_detects(const FmcwRadar& radar) {
+  check_has_maps(radar);
+  const signal::CfarReach& reach = radar.detection.cfar.along_rows;
+  const int window = 2 * (reach.guard + reach.reference);
+  if (radar.axes.doppler_cells <= window)
+    core::throw_input_error(core::ErrorClass::range, "--chirps", radar.axes.doppler_cells,
+                            "more than the " + std::to_string(window) +
+                                " Doppler cells over which --cfar-guard and --cfar-training reach");
 }
 
 void check_tells_samples(const FmcwSettings& options) {

@@ -23,6 +23,7 @@ struct FmcwRadar {
   // Of the chirp sequence in stage 0; nothing of it is valid where `maps` is false.
   bool maps = false;
   signal::CubeTiming timing;
+  double middle_s = 0.0;  // of its chirps, on the waveform's clock: detections have the range there
   signal::RangeDopplerAxes axes;
   signal::DetectionSettings detection;
   signal::ClusterScales clusters;
@@ -45,6 +46,11 @@ FmcwRadar fmcw_radar(const FmcwSettings& options, const sensors::Sensor& sensor)
 // The same of a radar that no sensor file describes: its settings say frequency, sweep and noise
 // figure (E-REF where they do not).
 FmcwRadar fmcw_radar(const FmcwSettings& options);
+
+// E-UNSUPPORTED for a waveform that has no maps, detections or cells.
+void check_has_maps(const FmcwRadar& radar);
+// Beside that E-RANGE where the detector's window would meet itself around the Doppler cells.
+void check_detects(const FmcwRadar& radar);
 
 // Recorded samples had a rate of their own, which decides their ranges: E-REF where the settings of a chirp
 // sequence do not tell it.

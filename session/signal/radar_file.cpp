@@ -12,6 +12,7 @@
 #include "core/decibel.h"
 #include "core/units.h"
 #include "session/signal/sample_file.h"
+#include "session/signal/waveform_choice.h"
 #include "signal/waveform/waveform.h"
 
 namespace fanbeam::session {
@@ -29,11 +30,9 @@ constexpr std::array<std::pair<const char*, signal::CfarKind>, 4> kCfarWords = {
 void read_waveform(ConfigTable table, FmcwSettings& settings) {
   if (!table.present()) return;
   if (const auto kind = table.optional_text("kind")) {
-    std::string known = kAutomotive;
-    for (const signal::WaveformKind each : signal::all_waveform_kinds())
-      known += ", " + std::string(signal::name(each));
     if (*kind != kAutomotive && !signal::waveform_kind(*kind))
-      table.error(ErrorClass::ref, "kind", "\"" + *kind + "\"", "one of: " + known);
+      table.error(ErrorClass::ref, "kind", "\"" + *kind + "\"",
+                  "one of: " + std::string(kAutomotive) + ", " + waveform_kinds_text());
     settings.waveform = *kind;
   }
   settings.real = table.boolean("real", settings.real);
@@ -61,6 +60,21 @@ std::vector<glm::dvec3> read_places(ConfigTable& table, const std::string& side)
   return places;
 }
 
+// Of places, the line's figures say nothing: counts may stand beside them where they are the same.
+void refuse_line_beside_places(ConfigTable& table, const FmcwSettings& settings) {
+  const auto check = [&](const char* key, int count, std::size_t places) {
+    if (places > 0 && table.has(key) && static_cast<std::size_t>(count) != places)
+      table.error(ErrorClass::range, key, std::to_string(count),
+                  std::to_string(places) + ", the number of places, or no such key");
+  };
+  check("transmitters", settings.transmitters, settings.transmitters_m.size());
+  check("receivers", settings.receivers, settings.receivers_m.size());
+  if (!settings.receivers_m.empty() && table.has("pitch_wavelengths"))
+    table.error(ErrorClass::unsupported, "pitch_wavelengths",
+                core::number_text(settings.pitch_wavelengths),
+                "a pitch or places of the elements, not both");
+}
+
 void read_array(ConfigTable table, FmcwSettings& settings) {
   if (!table.present()) return;
   settings.transmitters =
@@ -70,6 +84,7 @@ void read_array(ConfigTable table, FmcwSettings& settings) {
       table.number("pitch_wavelengths", {0.0, 1000.0, true}, settings.pitch_wavelengths);
   settings.transmitters_m = read_places(table, "transmitter");
   settings.receivers_m = read_places(table, "receiver");
+  refuse_line_beside_places(table, settings);
   if (settings.transmitters_m.empty() != settings.receivers_m.empty())
     table.error(ErrorClass::ref,
                 settings.transmitters_m.empty() ? "transmitter_right_m" : "receiver_right_m",

@@ -5,7 +5,8 @@
 //                 numbers of kWaveformNumbers by their keys: frequency_GHz, bandwidth_MHz, ramp_us, ...
 //   [array]       transmitters, receivers, 1 to 64, on a line pitch_wavelengths apart (default 0.5);
 //                 or at places within 10 m: transmitter_right_m and receiver_right_m, 1 to 64 numbers each,
-//                 with transmitter_forward_m, transmitter_up_m and so on, 0 where missing;
+//                 with transmitter_forward_m, transmitter_up_m and so on, 0 where missing (no pitch beside them, and
+//                 counts only where they are theirs);
 //                 gain_errors_dB, +-60, and phase_errors_deg, +-360, one for every channel: of samples that
 //                 are made; those recorded have theirs
 //   [receiver]    noise_figure_dB, 0 to 60; line_width_Hz, 0 to 1e6, or

@@ -12,8 +12,8 @@ namespace fanbeam::session {
 using RadarVelocity_mps = std::array<double, 2>;
 
 // Of a member `radar_velocity_mps`, else of `radar_speed_mps` alone, which is one along the antenna's axis: files
-// of before the velocity had two components. Nothing without either. E-RANGE beyond 1e5 m/s, E-PARSE for
-// another number of components.
+// of before the velocity had two components. Nothing without either. E-RANGE beyond 1e5 m/s and
+// for a speed below the velocity beside it, E-PARSE for another number of components.
 std::optional<RadarVelocity_mps> radar_velocity_in(const core::JsonNode& node);
 
 }  // namespace fanbeam::session

@@ -56,6 +56,7 @@ core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& s
   renderer::SceneFacts facts;
   facts.sensor = sensor;
   facts.sample = true;
+  facts.heights_shown = false;  // of samples a B-scope is made
   facts.signal = signal;
   return renderer::signal_plan(budget.sequence, facts, budget.accuracy_grey, budget.wishes);
 }

@@ -92,7 +92,10 @@ Json scan_json(const FmcwScanCounts& scan) {
 
 Json frame_json(const FmcwFrameRecord& frame) {
   if (!frame.chain)
-    return {{"index", frame.index}, {"time_s", frame.time_s}, {"bscope", scan_json(*frame.scan)}};
+    return {{"index", frame.index},
+            {"time_s", frame.time_s},
+            {"events", frame.events},
+            {"bscope", scan_json(*frame.scan)}};
   Json targets = Json::array(), warnings = Json::array();
   for (const FmcwTruth& truth : frame.targets)
     targets.push_back({{"name", truth.name},
@@ -106,6 +109,7 @@ Json frame_json(const FmcwFrameRecord& frame) {
                {"time_s", frame.time_s},
                {"radar_speed_mps", frame.radar_speed_mps},
                {"radar_velocity_mps", frame.radar_velocity_mps},
+               {"events", frame.events},
                {"rays", frame.rays},
                {"paths", frame.paths},
                {"received_W", frame.received_W},
@@ -138,6 +142,7 @@ FmcwFrameRecord fmcw_record(const scenes::Scene& scene, int index, const FmcwPat
       scene.trajectory->frame_time_s(index, scene.description.sensor.scan.frame_rate_Hz);
   record.radar_speed_mps = glm::length(scene.trajectory->at(record.time_s).v_N_mps);
   record.radar_velocity_mps = own_velocity_mps(scene, index);
+  record.events = paths.events;
   record.rays = paths.rays;
   record.paths = paths.paths.size();
   for (const signal::ScatterPath& path : paths.paths)
@@ -191,7 +196,7 @@ std::string fmcw_run_json(const scenes::Scene& scene, const FmcwSettings& option
     json["processing"] = processing_json(options, radar);
   }
   if (!frames.empty() && frames.front().scan) json["bscope"] = scan_json(scene.description.sensor);
-  json["input"] = Json::parse(resolved_json(scene.description.resolved));
+  json["input"] = resolved_json<Json>(scene.description.resolved);
   json["accuracy_grey"] = scene.accuracy_grey;
   json["plan"] = Json::parse(decisions_json(plan_of_echoes(scene.plan)));
   json["frames"] = Json::array();

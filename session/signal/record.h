@@ -36,7 +36,8 @@ struct FmcwFrameRecord {
   double time_s = 0.0;
   double radar_speed_mps = 0.0;  // over ground
   RadarVelocity_mps radar_velocity_mps{};
-  std::set<std::string> files;  // relative to the folder
+  std::set<std::string> files;      // relative to the folder
+  std::vector<std::string> events;  // of renderer::FrameEchoes
   std::optional<FmcwScanCounts> scan;
   bool chain = false;  // what follows is known
   std::uint64_t rays = 0;

@@ -62,9 +62,7 @@ std::optional<std::vector<std::string>> sample_axes(const std::string& text) {
 SampleFiles::SampleFiles(std::vector<std::filesystem::path> files, const FmcwRadar& radar,
                          SampleLayout layout)
     : layout_(std::move(layout)) {
-  if (!radar.maps)
-    core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar.waveform_name,
-                            "a chirp sequence: the other kinds have no maps");
+  check_has_maps(radar);
   const auto chirps = signal::stage_segments(radar.waveform, 0).size() /
                       static_cast<std::size_t>(radar.array.slots());
   shape_ = {signal::samples_per_segment(radar.waveform, 0), static_cast<int>(chirps),

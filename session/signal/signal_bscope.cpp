@@ -83,6 +83,7 @@ SignalBscope signal_bscope(const renderer::World& world, const renderer::FramePo
         renderer::frame_echoes(world, pose, echo_settings(settings, seed));
     result.rays += found.rays;
     result.scatterers += found.echoes.size();
+    result.events = found.events;  // of every look the same
     signal::FloatCube beat = signal::scan_beat(sensor, found.echoes, found.phase_rad);
     const std::vector<double> delays = delays_s(found.echoes);
     receiver.longest_delay_s =

@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <string>
 #include <vector>
 
 #include "renderer/frame_pose.h"
@@ -42,6 +43,7 @@ struct SignalBscope {
   core::EffectPlan plan{};       // of the receiver, the largest bounds of all looks
   double phase_noise_rad = 0.0;  // largest of the looks in which it runs
   std::size_t clipped = 0;
+  std::vector<std::string> events{};  // of renderer::FrameEchoes
 };
 
 // The sensor with a sweep that can be received: where its range cells are ideal (Window::none) it

@@ -154,10 +154,18 @@ signal::Waveform ramped_waveform(WaveformKind kind, Given& given) {
 
 }  // namespace
 
+std::string waveform_kinds_text() {
+  std::string text;
+  for (const WaveformKind kind : signal::all_waveform_kinds())
+    text.append(text.empty() ? "" : ", ").append(signal::name(kind));
+  return text;
+}
+
 signal::Waveform chosen_waveform(const WaveformSettings& options) {
   const std::optional<WaveformKind> kind = signal::waveform_kind(options.kind);
   if (!kind)
-    core::throw_input_error(core::ErrorClass::ref, "KIND", options.kind, "a kind of waveform");
+    core::throw_input_error(core::ErrorClass::ref, "KIND", "\"" + options.kind + "\"",
+                            "one of: " + waveform_kinds_text());
   Given given(options);
   const bool is_flat = *kind == WaveformKind::continuous || *kind == WaveformKind::pulsed ||
                        *kind == WaveformKind::sinusoidal || *kind == WaveformKind::stepped;

@@ -14,7 +14,6 @@
 namespace fanbeam::signal {
 namespace {
 
-constexpr int kFewestElements = 4;
 constexpr double kLeastShare = 0.01;
 constexpr double kLeastBeams = 0.2;  // between two directions
 constexpr double kBeamwidth = 0.8859;

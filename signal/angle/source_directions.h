@@ -19,6 +19,7 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
 #include <glm/vec3.hpp>
 #include <optional>
 #include <string_view>
@@ -39,6 +40,7 @@ struct SourceDirection {
 };
 
 inline constexpr double kLeastOverNoise = 16.0;
+inline constexpr std::size_t kFewestElements = 4;  // of capon and music
 
 // The strongest first; never empty.
 std::vector<SourceDirection> source_directions(const std::vector<std::complex<double>>& snapshot,

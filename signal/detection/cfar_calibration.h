@@ -17,7 +17,10 @@
 //                             number of threads. `relative_error` estimates its standard error.
 //
 // The factor found is told as the design probability that gives it for independent cells, so that
-// edges with fewer reference cells follow (there to about 20 % in the rate).
+// edges with fewer reference cells follow: the mean rate of a short line of one look is kept to about 20 %. Its
+// single cells are not: simulated at 1e-3 with 12 looks, Chebyshev windows of 60 dB and the window of fanbeam fmcw, the
+// first and last three range cells have it 1.9 to 2.3 times with smaller-of, 0.4 to 0.8 with greater-of and
+// up to 1.3 with cell averaging; the first and last six 1.2 to 1.9 times with the ordered statistic.
 // `looks`: cells are sums of this many independent channels, as `range_doppler_map` with
 // Projection::sum makes. A map by Projection::max has another law and is not covered.
 // Source of the method: own derivation; quadratic forms after G. Turin, Biometrika 47, 1960.

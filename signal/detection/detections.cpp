@@ -117,8 +117,11 @@ std::vector<RadarDetection> detect(const Cube<Real>& beat, const PowerMap& map, 
     const Directions directions =
         directions_of(place.snapshot, axes.doppler_Hz(place.doppler_cell),
                       peak.cell.background_W / array.channels(), array, timing, settings);
+    double all_W = 0.0;
+    for (const SourceDirection& wave : directions.waves) all_W += wave.power_W;
     for (const SourceDirection& wave : directions.waves) {
-      RadarDetection detection = measured(place, directions.doppler_Hz, snr, axes, timing);
+      const double share = directions.waves.size() > 1 ? wave.power_W / all_W : 1.0;
+      RadarDetection detection = measured(place, directions.doppler_Hz, share * snr, axes, timing);
       // A peak in the first cell may be refined to the other side of the radar.
       if (!(detection.range_m > 0.0)) continue;
       detection.azimuth_rad = wave.azimuth_rad;

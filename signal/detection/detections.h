@@ -31,8 +31,9 @@ struct RadarDetection {
   double radial_speed_mps = 0.0;
   double azimuth_rad = 0.0;
   double elevation_rad = 0.0;
-  double power_W = 0.0;     // at one receiver's port, of the fitted direction
-  double snr = 0.0;         // of the map's cell: power over background, less 1
+  double power_W = 0.0;  // at one receiver's port, of the fitted direction
+  // Of the map's cell: power over background, less 1; of several waves in it each has its share by power.
+  double snr = 0.0;
   double range_cell = 0.0;  // of the transformed cube, fractional
   double doppler_cell = 0.0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <string>
 
 #include "core/constants.h"
@@ -16,11 +17,12 @@ namespace {
 constexpr double kMostSamples = 3e7;
 constexpr double kSweepsOfRate = 9.0;  // samples a second of the product over the sweep
 constexpr double kStop_dB = 100.0;
+// What the low pass reaches to either side, times what it takes to fall.
+constexpr double kReach = 0.5 * (kStop_dB - 8.0) / (2.285 * 2.0 * core::kPi);
 
 // Kaiser, "Nonrecursive digital filter design using the I0-sinh window function", 1974.
 std::vector<double> low_pass(double pass_Hz, double stop_Hz, double rate_Hz) {
-  const double width = 2.0 * core::kPi * (stop_Hz - pass_Hz) / rate_Hz;
-  const int half = static_cast<int>(std::ceil(0.5 * (kStop_dB - 8.0) / (2.285 * width)));
+  const int half = static_cast<int>(std::ceil(kReach * rate_Hz / (stop_Hz - pass_Hz)));
   const double beta = 0.1102 * (kStop_dB - 8.7), cut = (pass_Hz + stop_Hz) / rate_Hz;
   std::vector<double> taps;
   double sum = 0.0;
@@ -34,7 +36,62 @@ std::vector<double> low_pass(double pass_Hz, double stop_Hz, double rate_Hz) {
   return taps;
 }
 
+// Where the low pass has to have fallen from `pass_Hz`: below the sum, whose lowest frequency this is, by what the sum sweeps
+// at twice the slope within its reach; nothing where there is no such place.
+std::optional<double> end_of_fall_Hz(double pass_Hz, double sum_Hz, double slope_Hz_per_s) {
+  const double room_Hz = sum_Hz - pass_Hz;
+  const double square = room_Hz * room_Hz - 8.0 * kReach * std::abs(slope_Hz_per_s);
+  if (!(room_Hz > 0.1 * pass_Hz && square >= 0.0)) return std::nullopt;
+  return pass_Hz + 0.5 * (room_Hz + std::sqrt(square));
+}
+
 double turned(double turns) { return std::cos(2.0 * core::kPi * (turns - std::floor(turns))); }
+
+// Phases over one segment, in turns.
+class Ramp {
+ public:
+  Ramp(const Waveform& waveform, const ScatterPath& echo, double carrier_Hz)
+      : waveform_(waveform),
+        segment_(stage_segments(waveform, 0).front()),
+        geometry_(echo, {}, {}),
+        shown_Hz_(segment_.start_frequency_Hz - waveform.centre_frequency_Hz + carrier_Hz) {}
+
+  double sent(double in_s) const {
+    return shown_Hz_ * in_s + 0.5 * segment_.slope_Hz_per_s * in_s * in_s;
+  }
+  double beat(double in_s) const {
+    const double length_m = geometry_.at(segment_.start_s + in_s).length_m;
+    return beat_turns(waveform_, segment_, in_s, length_m / core::kSpeedOfLight_mps);
+  }
+  // Twice what is transmitted less the beat: lowest at one of the ends.
+  double lowest_sum_Hz(double step_s) const {
+    const auto sum_Hz = [&](double in_s) {
+      return 2.0 * (shown_Hz_ + segment_.slope_Hz_per_s * in_s) -
+             (beat(in_s + step_s) - beat(in_s)) / step_s;
+    };
+    return std::min(sum_Hz(0.0), sum_Hz(segment_.duration_s));
+  }
+  double slope_Hz_per_s() const { return segment_.slope_Hz_per_s; }
+
+ private:
+  const Waveform& waveform_;
+  Segment segment_;
+  PathGeometry geometry_;
+  double shown_Hz_;
+};
+
+// Falls from half the trace's rate to the sum.
+std::vector<double> filter_below_sum(const Ramp& ramp, double bandwidth_Hz, double rate_Hz,
+                                     double fine_Hz) {
+  const double sum_Hz = ramp.lowest_sum_Hz(1.0 / fine_Hz);
+  const auto stop = end_of_fall_Hz(0.5 * rate_Hz, sum_Hz, ramp.slope_Hz_per_s());
+  if (!stop)
+    core::throw_input_error(core::ErrorClass::range, "waveform.bandwidth_Hz", bandwidth_Hz,
+                            "more: the sum begins at " + core::number_text(sum_Hz) +
+                                " Hz, too near the " + core::number_text(0.5 * rate_Hz) +
+                                " Hz up to which samples hold beats");
+  return low_pass(0.5 * rate_Hz, *stop, fine_Hz);
+}
 
 }  // namespace
 
@@ -45,12 +102,11 @@ MixerTrace mixer_trace(const Waveform& waveform, const ScatterPath& echo) {
       !(waveform.bandwidth_Hz > 0.0))
     core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind",
                             std::string(name(waveform.kind)), "a waveform of ramps or steps");
-  const Segment segment = stage_segments(waveform, 0).front();
   // Real samples show beats up to half their rate, complex ones, which the trace is the real part of, all of it.
   const int twice = waveform.complex_baseband ? 2 : 1;
   const int samples = twice * samples_per_segment(waveform, 0);
   const double rate_Hz = twice * waveform.sample_rate_Hz[0];
-  // The low pass falls from half the trace's rate to twice the sweep.
+  // Whatever the echo: of the highest beat too the sum lies above the beats.
   if (!(waveform.bandwidth_Hz >= 0.5 * rate_Hz))
     core::throw_input_error(
         core::ErrorClass::range, "waveform.bandwidth_Hz", waveform.bandwidth_Hz,
@@ -67,20 +123,14 @@ MixerTrace mixer_trace(const Waveform& waveform, const ScatterPath& echo) {
   trace.carrier_Hz = 1.5 * waveform.bandwidth_Hz;
   trace.step_s = 1.0 / fine_Hz;
   trace.sample_s = 1.0 / rate_Hz;
-  const double shown_Hz =
-      segment.start_frequency_Hz - waveform.centre_frequency_Hz + trace.carrier_Hz;
-  // Half a sweep of warning before the sum at twice the lowest frequency.
-  const std::vector<double> taps = low_pass(0.5 * rate_Hz, 2.0 * waveform.bandwidth_Hz, fine_Hz);
+  const Ramp ramp(waveform, echo, trace.carrier_Hz);
+  const std::vector<double> taps = filter_below_sum(ramp, waveform.bandwidth_Hz, rate_Hz, fine_Hz);
   const int reach = static_cast<int>(taps.size()) / 2;
-  const PathGeometry geometry(echo, {}, {});
   std::vector<std::complex<double>> product;
   // The filter needs what comes before and after the segment: the ramp goes on.
   for (int n = -reach; n < static_cast<int>(count) + reach; ++n) {
-    const double in_s = n * trace.step_s;
-    const double delay_s = geometry.at(segment.start_s + in_s).length_m / core::kSpeedOfLight_mps;
-    const double sent = shown_Hz * in_s + 0.5 * segment.slope_Hz_per_s * in_s * in_s;
-    const double beat = beat_turns(waveform, segment, in_s, delay_s);
-    const double s = turned(sent), r = turned(sent - beat);
+    const double in_s = n * trace.step_s, sent = ramp.sent(in_s);
+    const double s = turned(sent), r = turned(sent - ramp.beat(in_s));
     product.emplace_back(s * r);
     if (n < 0 || n >= static_cast<int>(count)) continue;
     trace.transmitted.push_back(s);

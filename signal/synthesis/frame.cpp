@@ -27,9 +27,23 @@ bool is_uniform(const Frame& frame) {
 
 }  // namespace
 
+void check_size(const Waveform& waveform, const Array& array) {
+  double samples = 0.0;
+  for (int stage = 0; stage < waveform.stages(); ++stage) {
+    const std::vector<Segment> segments = stage_segments(waveform, stage);
+    const std::size_t chirps = segments.size() / static_cast<std::size_t>(slots(segments));
+    samples += static_cast<double>(samples_per_segment(waveform, stage)) *
+               static_cast<double>(chirps) * array.channels();
+  }
+  if (samples > kMostFrameSamples)
+    core::throw_input_error(core::ErrorClass::limit, "samples x chirps x channels", samples,
+                            "at most 1e8 in a frame: fewer samples, transmitters or receivers");
+}
+
 Frame make_frame(const Waveform& waveform, int stage, const Array& array) {
   check(waveform);
   check(array);
+  check_size(waveform, array);
   Frame frame;
   frame.waveform = waveform;
   frame.array = array;

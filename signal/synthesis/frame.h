@@ -26,7 +26,11 @@ struct Frame {
   }
 };
 
-// Checks both parts. E-UNSUPPORTED where an array in time division has another number of
+// Throws E-LIMIT where the samples of a frame, those of all chirps and channels, are more than
+// kMostFrameSamples (0.8 GB of them). Both parts are to be valid.
+void check_size(const Waveform& waveform, const Array& array);
+
+// Checks both parts and the size of both together. E-UNSUPPORTED where an array in time division has another number of
 // transmitters than the stage has slots.
 Frame make_frame(const Waveform& waveform, int stage, const Array& array);
 

@@ -81,8 +81,11 @@ void add_row(const Frame& frame, const ElementRow& row, const std::vector<Scatte
   const KeystoneAxes axes = keystone_axes(frame, seen, kernel.width(), mid_frame_s(frame));
   const double cells = static_cast<double>(axes.rate.cells) * axes.sine_s_per_m.cells * axes.delays;
   if (cells > kMostCells)
-    core::throw_input_error(core::ErrorClass::limit, "grid cells", cells,
-                            "at most 4e8: a narrower span of speeds, or synthesise_beat");
+    core::throw_input_error(
+        core::ErrorClass::limit, "grid cells", cells,
+        "at most 4e8: a shorter frame, a narrower span of speeds, or synthesise_beat");
+  // Not before: what is refused takes no memory.
+  if (beat.cube.values.empty()) beat.cube = FloatCube(frame.shape);
   beat.estimated_error = std::max(beat.estimated_error, error_of(seen, kernel));
   WaveGrid grid(kernel, axes.rate.cells, axes.sine_s_per_m.cells, axes.delays);
   grid.spread(points_of(axes, seen));
@@ -101,8 +104,10 @@ KeystoneBeat keystone_beat(const Waveform& waveform, int stage, const Array& arr
   check_frame(frame);
   check(waveform, paths);
   KeystoneBeat beat;
-  beat.cube = FloatCube(frame.shape);
-  if (paths.empty()) return beat;
+  if (paths.empty()) {
+    beat.cube = FloatCube(frame.shape);
+    return beat;
+  }
 
   const SpreadingKernel kernel(std::min(8, kernel_width(options.kernel_error)));
   for (const ElementRow& row : element_rows(frame)) add_row(frame, row, paths, kernel, beat);

@@ -28,7 +28,6 @@ constexpr std::array kNames = {
 };
 
 constexpr std::size_t kMostSegments = 1000000;
-constexpr double kMostSamples = 1e8;
 
 void check_segment(const Segment& segment) {
   check_positive("segment.duration_s", segment.duration_s);
@@ -121,6 +120,10 @@ int slots(const std::vector<Segment>& stage) {
   return most + 1;
 }
 
+double middle_s(const std::vector<Segment>& stage) {
+  return 0.5 * (stage.front().middle_s() + stage.back().middle_s());
+}
+
 int samples_per_segment(const Waveform& waveform, int stage) {
   for (const Segment& segment : waveform.segments)
     if (segment.stage == stage)
@@ -150,7 +153,7 @@ void check(const Waveform& waveform) {
            "one rate for every stage");
   double samples = 0.0;
   for (int stage = 0; stage < waveform.stages(); ++stage) samples += check_stage(waveform, stage);
-  if (samples > kMostSamples)
+  if (samples > kMostFrameSamples)
     core::throw_input_error(core::ErrorClass::limit, "samples", samples, "at most 1e8 in a frame");
 }
 

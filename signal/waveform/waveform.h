@@ -33,6 +33,9 @@ std::string_view name(WaveformKind kind);
 std::optional<WaveformKind> waveform_kind(std::string_view name);
 const std::vector<WaveformKind>& all_waveform_kinds();
 
+// Of a frame, and of a frame with all its channels.
+inline constexpr double kMostFrameSamples = 1e8;
+
 struct Segment {
   double start_s = 0.0;  // on the waveform's clock, whose zero is that of ScatterPath::range_m
   double duration_s = 0.0;
@@ -71,6 +74,7 @@ struct Waveform {
 // Segments of one stage, in order. One chirp of a cube is `slots` of them.
 std::vector<Segment> stage_segments(const Waveform& waveform, int stage);
 int slots(const std::vector<Segment>& stage);
+double middle_s(const std::vector<Segment>& stage);            // of all its segments, not empty
 int samples_per_segment(const Waveform& waveform, int stage);  // the last partial one is dropped
 
 // Throws InputError for anything a hand-made waveform may get wrong: values that are not finite or

@@ -11,6 +11,7 @@
 #include "core/json_node.h"
 #include "core/text.h"
 #include "terrain/buildings/city_reference.h"
+#include "terrain/buildings/corner_budget.h"
 #include "terrain/buildings/face_triangles.h"
 #include "terrain/buildings/geos_private.h"
 
@@ -67,6 +68,8 @@ class CityReader {
   void read_faces(const JsonNode& boundary, const JsonNode& values, int levels,
                   const std::vector<std::string>& semantics, CityBuilding& building);
   void read_face(const JsonNode& face, const std::string& semantic, CityBuilding& building);
+  // An error and false for one with too many corners.
+  bool check_corners(const JsonNode& face, const FaceRings& rings);
   std::optional<FaceRings> rings_of(const JsonNode& face, CityBuilding& building);
   std::uint32_t corner(std::uint32_t vertex, CityBuilding& building);
   std::uint32_t surface(const std::string& name);
@@ -78,6 +81,7 @@ class CityReader {
   core::ProblemList errors_;
   JsonNode root_;
   Geos geos_;
+  CornerBudget corners_;
   std::vector<std::optional<core::Geodetic>> vertices_;
   // Which building met a vertex last, and the place it has there.
   std::vector<std::pair<const CityBuilding*, std::uint32_t>> met_;
@@ -114,6 +118,9 @@ std::optional<int> CityReader::epsg() {
   const JsonNode stated = root_.member("metadata").member("referenceSystem");
   const std::string reference = stated.text().value_or(options_.crs);
   const std::optional<int> code = epsg_code(reference);
+  if (code && !options_.crs.empty() && epsg_code(options_.crs) != code)
+    problems_.warning("UNUSED", place_, "crs", "\"" + options_.crs + "\"",
+                      "the file says EPSG:" + std::to_string(*code) + ", which counts");
   if (code) return code;
   if (stated.present())
     stated.error(ErrorClass::ref, "a system of EPSG, https://www.opengis.net/def/crs/EPSG/0/7415");
@@ -153,6 +160,7 @@ void CityReader::read_vertices(int epsg) {
 
 void CityReader::read_objects() {
   const JsonNode objects = root_.required("CityObjects");
+  if (objects.present() && !objects.is_object()) objects.error(ErrorClass::parse, "an object");
   for (const std::string& id : objects.keys()) {
     if (errors_.is_full()) return;
     const JsonNode object = objects.member(id);
@@ -193,7 +201,8 @@ std::optional<JsonNode> CityReader::best_geometry(const JsonNode& object) const 
   const JsonNode list = object.member("geometry");
   std::optional<JsonNode> best;
   double best_lod = 0.0;
-  for (std::size_t i = 0; i < list.elements(); ++i) {
+  const std::size_t count = list.size(kMostCityValues);
+  for (std::size_t i = 0; i < count; ++i) {
     const JsonNode geometry = list.element(i);
     const std::string type = geometry.required("type").text().value_or("");
     if (!levels_around_faces(type)) continue;
@@ -214,7 +223,8 @@ void CityReader::read_geometry(const JsonNode& geometry, CityBuilding& building)
   const JsonNode semantics = geometry.member("semantics");
   const JsonNode surfaces = semantics.member("surfaces");
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < surfaces.elements(); ++i)
+  const std::size_t kinds = surfaces.size(kMostCityValues);
+  for (std::size_t i = 0; i < kinds; ++i)
     names.push_back(surfaces.element(i).required("type").text().value_or(""));
   read_faces(geometry.required("boundaries"), semantics.member("values"), levels, names, building);
 }
@@ -222,6 +232,7 @@ void CityReader::read_geometry(const JsonNode& geometry, CityBuilding& building)
 void CityReader::read_faces(const JsonNode& boundary, const JsonNode& values, int levels,
                             const std::vector<std::string>& semantics, CityBuilding& building) {
   const std::size_t count = boundary.size(kMostCityValues);
+  if (values.present() && !values.is_array()) values.error(ErrorClass::parse, "an array");
   for (std::size_t i = 0; i < count && !errors_.is_full(); ++i) {
     if (levels == 1 && i > 0) return;  // a cavity
     const JsonNode value = values.element(i);
@@ -240,7 +251,7 @@ void CityReader::read_faces(const JsonNode& boundary, const JsonNode& values, in
 void CityReader::read_face(const JsonNode& face, const std::string& semantic,
                            CityBuilding& building) {
   const std::optional<FaceRings> rings = rings_of(face, building);
-  if (!rings) return;
+  if (!rings || !check_corners(face, *rings)) return;
   const glm::dvec3 normal_m2 = face_normal_m2(building.vertices_m, rings->front());
   const double up = normal_m2.z / std::max(glm::length(normal_m2), 1e-300);
   std::string name = semantic;
@@ -256,6 +267,15 @@ void CityReader::read_face(const JsonNode& face, const std::string& semantic,
   degenerate_ += triangles->empty() ? 1 : 0;
   building.triangles.insert(building.triangles.end(), triangles->begin(), triangles->end());
   building.triangle_surface.resize(building.triangles.size(), surface(name));
+}
+
+bool CityReader::check_corners(const JsonNode& face, const FaceRings& rings) {
+  std::size_t corners = 0;
+  for (const auto& ring : rings) corners += ring.size();
+  if (corners_.take(corners)) return true;
+  errors_.error(ErrorClass::limit, place_, face.pointer(), std::to_string(corners) + " corners",
+                CornerBudget::expected());
+  return false;
 }
 
 std::optional<FaceRings> CityReader::rings_of(const JsonNode& face, CityBuilding& building) {

@@ -14,6 +14,7 @@
 #include "core/spelling.h"
 #include "core/text.h"
 #include "core/units.h"
+#include "terrain/buildings/corner_budget.h"
 #include "terrain/buildings/crossings_private.h"
 #include "terrain/crs_definition.h"
 #include "terrain/crs_limit.h"
@@ -71,6 +72,8 @@ class FootprintReader {
   void read_layer(OGRLayer& layer);
   void read_feature(OGRFeature& feature);
   void add_polygon(const OGRPolygon& polygon, double min_height_m, double height_m);
+  // An error and false for one with too many corners.
+  bool check_corners(const OGRPolygon& polygon);
   void add_valid_polygon(const OGRPolygon& polygon, double min_height_m, double height_m);
   // Nothing, and an error, when the property is there but no height.
   std::optional<double> height_of(const OGRFeature& feature, const std::string& property,
@@ -88,6 +91,7 @@ class FootprintReader {
   std::unique_ptr<OGRCoordinateTransformation> to_wgs84_;
   std::set<std::string> properties_;  // that any feature has
   std::size_t feature_ = 0;
+  CornerBudget corners_;
   std::size_t crossings_left_ = kMostFileCrossings;
   std::size_t repaired_ = 0;
   std::size_t without_height_ = 0;
@@ -193,6 +197,7 @@ void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m
   if (!all_points(polygon, is_on_earth))
     return refuse_feature("coordinates", "beyond the Earth",
                           "longitude -540 to 540, latitude -90 to 90 deg");
+  if (!check_corners(polygon)) return;
   if (polygon.IsValid()) return add_valid_polygon(polygon, min_height_m, height_m);
   const std::size_t most = std::min(kMostPolygonCrossings, crossings_left_) + 1;
   const std::size_t found = crossings(polygon, most);
@@ -211,7 +216,19 @@ void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m
     return;
   }
   ++repaired_;
-  for (const OGRPolygon* part : parts) add_valid_polygon(*part, min_height_m, height_m);
+  for (const OGRPolygon* part : parts)
+    if (check_corners(*part)) add_valid_polygon(*part, min_height_m, height_m);
+}
+
+bool FootprintReader::check_corners(const OGRPolygon& polygon) {
+  std::size_t corners = 0;
+  for (const OGRLinearRing* ring : polygon)
+    corners += static_cast<std::size_t>(std::max(ring->getNumPoints() - 1, 0));
+  if (corners_.take(corners)) return true;
+  errors_.error(core::ErrorClass::limit, core::Place{file_},
+                "feature " + std::to_string(feature_) + " corners", std::to_string(corners),
+                CornerBudget::expected());
+  return false;
 }
 
 void FootprintReader::add_valid_polygon(const OGRPolygon& polygon, double min_height_m,
@@ -237,6 +254,13 @@ std::optional<double> FootprintReader::height_of(const OGRFeature& feature,
   if (index < 0 || !feature.IsFieldSetAndNotNull(index)) {
     ++defaults;
     return otherwise_m;
+  }
+  if (feature.GetFieldDefnRef(index)->GetSubType() == OFSTBoolean) {
+    errors_.error(core::ErrorClass::parse, core::Place{file_},
+                  "feature " + std::to_string(feature_) + " " + property,
+                  feature.GetFieldAsInteger(index) != 0 ? "true" : "false",
+                  "a height of 0 to 1000 m");
+    return std::nullopt;
   }
   // Through text, so that "12 m" is no number instead of 12.
   const std::string text = feature.GetFieldAsString(index);

@@ -46,7 +46,7 @@ inline constexpr std::size_t kMostPolygonCrossings = 1000;
 inline constexpr std::size_t kMostFileCrossings = 10'000;
 
 // Throws InputError: E-IO, E-LIMIT (larger than kLargestFootprintFile_bytes, more crossings than
-// above), E-PARSE (no GeoJSON, or damaged), E-REF (a "crs" that is not on the Earth), E-RANGE
+// above, more corners than corner_budget.h allows), E-PARSE (no GeoJSON, or damaged), E-REF (a "crs" that is not on the Earth), E-RANGE
 // (coordinates outside the Earth; heights that are no numbers or outside 0 to 1000 m), all features
 // together. Warnings, with counts: W-REPAIRED rings, W-DEFAULT heights, W-SKIPPED features that are
 // no polygons, W-DEGENERATE footprints without area or height.

@@ -256,6 +256,18 @@ TEST_CASE("Air that there is not, and options that do nothing, are refused in th
       {"--rain 5 --rain-law mie --tilt 45 --path-elevation 10",
        "E-RANGE --tilt = 45: expected the rain law itu-p838, as mie does not know it\n"
        "E-RANGE --path-elevation = 10"},
+      {"--fog-top 50 --fog-type kunkel",
+       "E-REF --fog-top = 50: expected --fog-visibility or --fog-water beside it, or a scene that "
+       "has it\nE-REF --fog-type = kunkel: expected --fog-visibility beside it"},
+      {"--fog-water 0.1 --fog-type kunkel", "E-REF --fog-type = kunkel: expected --fog-visibility"},
+      {"--rain-top 50", "E-REF --rain-top = 50: expected --rain beside it"},
+      {"--rain-law mie --drop-sizes joss-drizzle",
+       "E-REF --rain-law = mie: expected --rain beside it, or a scene that has it\n"
+       "E-REF --drop-sizes = joss-drizzle"},
+      {"--snow-top 50", "E-REF --snow-top = 50: expected --snow beside it"},
+      {"--melting-layer", "E-REF --melting-layer = given: expected --rain or --snow beside it"},
+      {"--height 500 --range 400",
+       "E-RANGE --range = 400: expected at least 500 m, what --height and --to-height are apart"},
       {"--fog-water 0.1 --fog-law centimetre --frequency 16",
        "E-RANGE --frequency = 16 GHz: expected 3 to 15 GHz for the fog law centimetre\n"},
       {"--fog-water 0.1 --fog-law centimetre",
@@ -276,6 +288,10 @@ TEST_CASE("Air that there is not, and options that do nothing, are refused in th
     INFO(words);
     CHECK(tests::run_fanbeam(std::string("atmosphere ") + words).exit_code == 2);
   }
-  CHECK(tests::run_fanbeam("atmosphere --fog-water 0.1 --fog-law centimetre --frequency 15")
-            .exit_code == 0);
+  for (const char* words :
+       {"--fog-water 0.1 --fog-law centimetre --frequency 15", "--rain 0 --rain-top 500",
+        "braunschweig-26 --fog-top 50", "rain-94ghz --rain-law mie", "--height 500 --range 500"}) {
+    INFO(words);
+    CHECK(tests::run_fanbeam(std::string("atmosphere ") + words).exit_code == 0);
+  }
 }

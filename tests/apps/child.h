@@ -51,6 +51,8 @@ class Child {
   Child& operator=(const Child&) = delete;
 
   void send(int signal) const { kill(process_, signal); }
+  // Ctrl-C on its terminal, which strikes every process of the group in the foreground.
+  void interrupt() const { REQUIRE(::write(terminal_, "\x03", 1) == 1); }
 
   bool running() {
     if (process_ > 0 && waitpid(process_, &status_, WNOHANG) == process_) process_ = 0;

@@ -213,6 +213,34 @@ TEST_CASE("compare: exit code 0 when equal, 1 when not, 3 for what is no picture
   CHECK(run_fanbeam("compare --rms 255 " + a + "/bscope/00000.png " + a + "/cscope/00000.png")
             .exit_code == 0);
 
+  fs::create_directories(folder.path() / "c/bscope");
+  fs::copy(folder.path() / "a/cscope/00000.png", folder.path() / "c/bscope/00000.png");
+  const std::string c = quoted(folder.path() / "c");
+  fs::create_directories(folder.path() / "d/bscope");
+  fs::copy(folder.path() / "a/bscope/00000.png", folder.path() / "d/bscope/00000.png");
+  const std::string pair = quoted(folder.path() / "d") + " " + c;
+  // A limit that is not given does not bind.
+  for (const char* wide : {"--rms 255", "--largest 255", "--percent 100"})
+    CHECK(run_fanbeam("compare " + std::string(wide) + " " + pair).exit_code == 0);
+  const std::pair<const char*, const char*> tight[] = {
+      {"", "cells differ: RMS above 0\n"},
+      {"--largest 1", "cells differ: largest above 1\n"},
+      {"--percent 0.5", "cells differ: per cent above 0.5\n"},
+      {"--rms 0.5 --largest 255", "cells differ: RMS above 0.5\n"},
+      {"--rms 0.5 --largest 1", "cells differ: RMS above 0.5, largest above 1\n"},
+      {"--exact", "cells differ: not equal\n"}};
+  for (const auto& [limits, broken] : tight) {
+    const Result told = run_fanbeam("compare " + std::string(limits) + " " + pair);
+    INFO(told.output);
+    CHECK(told.exit_code == 1);
+    CHECK(told.output.find("DIFFER bscope/00000.png ") != std::string::npos);
+    CHECK(told.output.find(broken) != std::string::npos);
+  }
+  fs::rename(folder.path() / "c/bscope", folder.path() / "c/cscope");
+  const Result apart = run_fanbeam("compare " + pair);
+  CHECK(apart.exit_code == 4);
+  CHECK(apart.output.find("no name in both") != std::string::npos);
+
   fs::remove(folder.path() / "b/cscope/00000.png");
   const Result missing = run_fanbeam("compare " + a + " " + b);
   CHECK(missing.exit_code == 1);

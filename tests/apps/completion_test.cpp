@@ -86,6 +86,11 @@ TEST_CASE("bash completes values of options, also behind an equals sign and in l
   CHECK((bash.offered("fanbeam plan --effects ''") == wishes));
   CHECK((bash.offered("fanbeam render --effects +rain,-gas,-dou") ==
          Words{"+rain,-gas,-double-bounce"}));
+  // Of fanbeam fmcw the samples show no echo of rain: it can be left out alone.
+  CHECK((bash.offered("fanbeam fmcw --effects +rai") == Words{"+rain"}));
+  CHECK(
+      (bash.offered("fanbeam fmcw --effects +gas,-rai") == Words{"+gas,-rain", "+gas,-rain-echo"}));
+  CHECK((bash.offered("fanbeam fmcw --effects +phase") == Words{"+phase-noise"}));
   CHECK((bash.offered("fanbeam cost --parts ladder,eff") == Words{"ladder,effects"}));
   CHECK(bash.offered("fanbeam render --seed ''").empty());
   CHECK((bash.offered("fanbeam waveform tri") == Words{"triangle"}));

@@ -145,6 +145,39 @@ TEST_CASE("A fixed full scale saturates, and is free of samples below it", "[fmc
   CHECK(largest == Approx(full_scale).epsilon(1e-6));
 }
 
+TEST_CASE("What a channel's gain lets clip, or lifts over the noise, is not pruned", "[fmcw]") {
+  const sensors::Sensor sensor = automotive();
+  FmcwSettings options;
+  options.numbers[11] = 16.0;
+  options.adc_bits = 14;
+  options.adc_full_scale_dBm = -55.0;  // 35 dB over the echo
+  options.line_width_Hz = 1e-4;
+  const FmcwRadar radar = fmcw_radar(options, sensor);
+  signal::ScatterPath path;
+  path.range_m = 40.0;
+  path.amplitude_sqrtW = 1e-6;
+  const auto made = [&] {
+    return fmcw_frame(radar, sensor, {path}, 0, options, {"range-doppler"});
+  };
+  const FmcwFrame even = made();
+  CHECK_FALSE(even.plan.runs(core::EffectId::quantiser));
+  CHECK(even.clipped == 0);
+  options.gain_errors_dB.assign(12, 0.0);
+  options.gain_errors_dB[0] = 40.0;
+  const FmcwFrame uneven = made();
+  CHECK(uneven.plan.runs(core::EffectId::quantiser));
+  CHECK(uneven.clipped > 0);
+  // The pedestal's bound goes with the power while both are small.
+  const auto bound_dB = [](const FmcwFrame& frame) {
+    for (const core::EffectDecision& one : frame.plan.decisions)
+      if (one.effect == core::EffectId::phase_noise) return one.bound_dB;
+    return 0.0;
+  };
+  REQUIRE(bound_dB(even) > 0.0);
+  REQUIRE(bound_dB(uneven) < 0.1);
+  CHECK(bound_dB(uneven) == Approx(1e4 * bound_dB(even)).epsilon(0.02));
+}
+
 TEST_CASE("Errors of channels are in the samples and bend the beam", "[fmcw]") {
   const sensors::Sensor sensor = automotive();
   FmcwSettings options;

@@ -234,6 +234,16 @@ TEST_CASE("fmcw refuses what it cannot use", "[fmcw]") {
   CHECK(code("--products maps") == 2);
   CHECK(code("--waveform chirp-sequence --slots 2") == 2);
   CHECK(code("--frames 3") == 2);
+  // What would do nothing in silence: no turns that tell a fold, no other radar, too few channels for sub-arrays.
+  CHECK(code("--unfold --slots 1") == 2);
+  CHECK(code("--unfold --transmitters 1") == 2);
+  CHECK(code("--products interference") == 2);
+  for (const char* method : {"capon", "music"}) {
+    const auto few =
+        tests::run_fanbeam(command + "--transmitters 1 --receivers 3 --angle-method " + method);
+    CHECK(few.exit_code == 3);
+    CHECK(few.output.find("4 channels") != std::string::npos);
+  }
   CHECK(code("--pfa nan") == 2);
   // Ranges to 151 m against 75 m of 12.5 MHz / 2.
   CHECK(code("--sample-rate 5 --refuse-folding --products detections") == 3);
@@ -241,6 +251,16 @@ TEST_CASE("fmcw refuses what it cannot use", "[fmcw]") {
                                            " --waveform triangle --products cube");
   CHECK(triangle.exit_code == 2);
   CHECK(triangle.output.find("chirp sequence") != std::string::npos);
+  // What no memory holds is told, and told before rays are sent.
+  const std::string bare = "fmcw " + tests::quoted(folder.path()) + " --receivers 64 ";
+  for (const char* words : {"--waveform continuous --duration 1e9",
+                            "--chirps 4000 --transmitters 1 --sample-rate 1200 --products beat"}) {
+    const auto huge = tests::run_fanbeam(bare + words);
+    INFO(huge.output);
+    CHECK(huge.exit_code == 3);
+    CHECK(huge.output.find("E-LIMIT") != std::string::npos);
+    CHECK(huge.output.find("samples x chirps x channels") != std::string::npos);
+  }
   folder.write("scene.toml", std::string(kLoneTarget) + "\n[weather]\nvisibility_m = nan\n");
   CHECK(code("") == 3);
   CHECK(tests::run_fanbeam("fmcw /nowhere").exit_code == 4);

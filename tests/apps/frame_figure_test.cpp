@@ -273,4 +273,9 @@ TEST_CASE("render --products figure holds the bytes of bscope and cscope, in any
   CHECK(bytes_of(folder.path() / "out/figure/00000.png") != before);
   CHECK(run_fanbeam("render flat-grass --range-unit NM --products bscope").exit_code == 2);
   CHECK(run_fanbeam("render flat-grass --range-unit ly --products figure").exit_code == 2);
+  const Result idle = run_fanbeam("render flat-grass --preview-format gif --range-unit NM");
+  CHECK(idle.exit_code == 2);
+  CHECK(idle.output.find("E-REF --range-unit = NM") != std::string::npos);
+  CHECK(idle.output.find("E-REF --preview-format = gif: expected preview among --products") !=
+        std::string::npos);
 }

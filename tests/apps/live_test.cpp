@@ -11,6 +11,7 @@
 #include "core/files.h"
 #include "tests/apps/child.h"
 #include "tests/apps/program.h"
+#include "tests/scenes/scene_folder.h"
 
 using namespace fanbeam;
 using namespace fanbeam::tests;
@@ -20,6 +21,26 @@ TEST_CASE("live tells where to look and ends by itself when asked to", "[live]")
   INFO(result.output);
   CHECK(result.exit_code == 0);
   CHECK(result.output.find("look at http://127.0.0.1:") != std::string::npos);
+}
+
+// The thread that heard the first packet found out, and the channel flew on without a pose.
+TEST_CASE("Without the geoid's grid a source that needs it is refused, others are not", "[live]") {
+  const TemporaryFolder folder;
+  folder.write("scene.toml", replaced(kSmallScene, "vertical_datum = \"scene\"",
+                                      "vertical_datum = \"ellipsoid\""));
+  const auto live_from = [&](const std::string& source) {
+    return run_fanbeam("live " + quoted(folder.path()) + " --http 0 --seconds 1 --from " + source,
+                       "PROJ_DATA=/nonexistent");
+  };
+  const Result refused = live_from("native-fdm:0");
+  INFO(refused.output);
+  CHECK(refused.exit_code == 4);
+  CHECK(refused.output.find("E-IO EGM96 geoid grid") != std::string::npos);
+  for (const char* source : {"circle", "native-fdm:0,datum=ellipsoid"}) {
+    const Result flown = live_from(source);
+    INFO(flown.output);
+    CHECK(flown.exit_code == 0);
+  }
 }
 
 TEST_CASE("Shared memory that live made goes with it", "[live]") {
@@ -32,6 +53,7 @@ TEST_CASE("Shared memory that live made goes with it", "[live]") {
 
 TEST_CASE("SIGTERM and SIGINT are the good end of live, while it opens its scene and later",
           "[live]") {
+  CHECK(run_fanbeam("help live").output.find("exit code 0") != std::string::npos);
   for (const int signal : {SIGTERM, SIGINT})
     for (const double after_ms : {0.0, 3000.0}) {
       INFO("signal " << signal << " after " << after_ms << " ms");
@@ -173,7 +195,7 @@ TEST_CASE("Lockstep writes the same raw pictures every time, and a recording the
   CHECK(bytes_of("--speed 2 --replay " + record, "paced").size() % (164U * 524U) == 0);
 }
 
-TEST_CASE("A recording belongs to its scene", "[live]") {
+TEST_CASE("A recording belongs to its scene, sensor and effects", "[live]") {
   const TemporaryFolder folder;
   const std::string record = (folder.path() / "flight.jsonl").string();
   CHECK(
@@ -182,11 +204,41 @@ TEST_CASE("A recording belongs to its scene", "[live]") {
   const Result other = run_fanbeam("live obstacle-field --http 0 --replay " + record);
   CHECK(other.exit_code == 3);
   CHECK(other.output.find("E-REF") != std::string::npos);
+  for (const auto& [options, key] :
+       {std::pair{" --effects none", "/effects"}, {" --sensor hivision-94", "/sensor"}}) {
+    const Result changed =
+        run_fanbeam("live flat-grass --http 0 --lockstep --replay " + record + options);
+    INFO(changed.output);
+    CHECK(changed.exit_code == 3);
+    CHECK(changed.output.find(std::string("E-REF ") + key) != std::string::npos);
+  }
   folder.write("wrong.jsonl", "{}\n");
   const Result wrong =
       run_fanbeam("live flat-grass --http 0 --replay " + (folder.path() / "wrong.jsonl").string());
   CHECK(wrong.exit_code == 3);
   CHECK(wrong.output.find("wrong.jsonl:1") != std::string::npos);
+}
+
+TEST_CASE(
+    "A recording of several sources is flown in lockstep; what it says of them wrongly is its own",
+    "[live]") {
+  const TemporaryFolder folder;
+  const auto replayed = [&](const std::string& from) {
+    const auto record =
+        folder.write("flight.jsonl", R"({"fanbeam_live":1,"scene":"flat-grass","from":)" + from +
+                                         R"(,"rate_Hz":16,"lockstep":false})"
+                                         "\n"
+                                         R"({"frame":1,"now_s":0.1,"at_s":0.1,"samples":1})"
+                                         "\n");
+    return run_fanbeam("live flat-grass --http 0 --lockstep --replay " + record.string());
+  };
+  const Result two = replayed(R"(["native-fdm:0","fg-generic:0"])");
+  INFO(two.output);
+  CHECK(two.exit_code == 0);
+  const Result wrong = replayed(R"("nonsense")");
+  INFO(wrong.output);
+  CHECK(wrong.exit_code == 3);
+  CHECK(wrong.output.find("flight.jsonl:1: E-REF /from") != std::string::npos);
 }
 
 TEST_CASE("A trajectory of one's own flies in live", "[live]") {
@@ -228,6 +280,7 @@ TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") 
   const TemporaryFolder folder;
   folder.write("film.raw", "kept");
   const std::string film = (folder.path() / "film.raw").string();
+  const std::string record = folder.write("flight.jsonl", "kept").string();
   const int other = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in at{};
   at.sin_family = AF_INET;
@@ -237,11 +290,29 @@ TEST_CASE("A page's port that somebody has leaves files as they are", "[live]") 
   REQUIRE(::listen(other, 1) == 0);
   REQUIRE(::getsockname(other, reinterpret_cast<sockaddr*>(&at), &size) == 0);
   const Result taken = run_fanbeam("live flat-grass --http " + std::to_string(ntohs(at.sin_port)) +
-                                   " --frames 1 --to raw-bscope:" + film);
-  ::close(other);
+                                   " --frames 1 --to raw-bscope:" + film + " --record " + record);
   CHECK(taken.exit_code == 4);
   CHECK(taken.output.find("a port that is free") != std::string::npos);
+  // Nor does a sink that cannot be opened, or a source whose port is taken, beside them.
+  for (const std::string& more :
+       {std::string("--to raw-bscope:") + (folder.path() / "no/film.raw").string(),
+        "--from native-fdm:" + std::to_string(ntohs(at.sin_port)),
+        std::string("--to raw-cscope:").append(film)}) {
+    INFO(more);
+    const int datagrams = ::socket(AF_INET, SOCK_DGRAM, 0);
+    REQUIRE(::bind(datagrams, reinterpret_cast<sockaddr*>(&at), sizeof at) == 0);
+    const Result refused =
+        run_fanbeam("live flat-grass --http 0 --frames 1 --to raw-bscope:" + film + " --record " +
+                    record + " " + more);
+    ::close(datagrams);
+    INFO(refused.output);
+    CHECK((refused.exit_code == 4 || refused.exit_code == 2));
+    CHECK(fanbeam::core::read_file(film, 100) == "kept");
+    CHECK(fanbeam::core::read_file(record, 100) == "kept");
+  }
+  ::close(other);
   CHECK(fanbeam::core::read_file(film, 100) == "kept");
+  CHECK(fanbeam::core::read_file(record, 100) == "kept");
 }
 
 TEST_CASE("An option given twice is told as that", "[live]") {
@@ -261,6 +332,12 @@ TEST_CASE("Several simulators may send; what cannot stand beside another source 
   const std::string both = refused("--from ils --from circle");
   CHECK(both.find("\"ils\": expected no other source beside it") != std::string::npos);
   CHECK(both.find("\"circle\": expected no other source beside it") != std::string::npos);
+  CHECK(refused("--from native-fdm:0,datum=egm96,datum=ellipsoid").find("each key once") !=
+        std::string::npos);
+  CHECK(refused("--to cat240:127.0.0.1:8600,bits=8,bits=16").find("each key once") !=
+        std::string::npos);
+  CHECK(refused("--to raw-bscope:- --to raw-cscope:-").find("another file or pipe") !=
+        std::string::npos);
   CHECK(refused("--from native-fdm:0 --from cigi:0").find("no other source") != std::string::npos);
   CHECK(refused("--from native-fdm:0 --from fg-generic:0 --lockstep").find("several sources") !=
         std::string::npos);

@@ -76,14 +76,15 @@ void check_frames(const std::string& effects, int count) {
   constexpr int kLoop = 200;
   const int warm = std::max(kLoop, count / 20);  // every pose has been seen
   Held early;
-  std::vector<double> first_W;
+  std::vector<std::vector<double>> loop_W;  // of the first one
   for (int i = 0; i < count; ++i) {
     const renderer::Frame frame = frames.render(scene->frame_pose(i % kLoop));
-    if (i == 0) first_W = frame.bscope_W;
-    if (i % kLoop == 0) REQUIRE(frame.bscope_W == first_W);  // of every loop
+    if (i < kLoop) loop_W.push_back(frame.bscope_W);
+    REQUIRE(frame.bscope_W == loop_W[static_cast<std::size_t>(i % kLoop)]);
     if (i == warm) early = held_by_this_process();
   }
-  CHECK(first_W.size() == 400);
+  CHECK(loop_W.front().size() == 400);
+  CHECK(loop_W.front() != loop_W.back());
   check_flat(early, held_by_this_process());
 }
 

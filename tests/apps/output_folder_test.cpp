@@ -60,6 +60,25 @@ TEST_CASE("Another input replaces exactly the pictures that run.json lists", "[r
   CHECK_FALSE(fs::exists(out / "power"));
 }
 
+// It was gone with the first frame that was made, whatever became of that.
+TEST_CASE("A run that could write no picture leaves the one before it whole, its record too",
+          "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  must_render(out, "obstacle-field --frames 100 --products power,layers");
+  const auto before = contents(out);
+  // No file can take its place, whoever asks.
+  fs::create_directories(out / "bscope/00100.png");
+  folder.write("out/bscope/00100.png/.kept", "");
+  const Result failed = render(out, "obstacle-field --frames 100 --products bscope --seed 5");
+  INFO(failed.output);
+  CHECK(failed.exit_code == 4);
+  for (const auto& [name, bytes] : before) {
+    INFO(name);
+    CHECK(contents(out)[name] == bytes);
+  }
+}
+
 TEST_CASE("Frames of the same input stay, and run.json is that of all frames rendered at once",
           "[render]") {
   const TemporaryFolder folder;
@@ -87,6 +106,28 @@ TEST_CASE("Pictures that a stopped run of the same input left are taken over wit
   must_render(out, scene + "--frames 200");
   CHECK(json_of(out / "run.json")["frames"].size() == 4);
   CHECK(files_told(out) == files_in(out));
+}
+
+TEST_CASE("The summary counts the frames asked for, and tells those that are kept and removed",
+          "[render]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const auto told = [&](const std::string& words) {
+    return run_fanbeam("render obstacle-field --products bscope --rays-per-cell 1 --resume " +
+                       words + " -o " + quoted(out))
+        .output;
+  };
+  told("--frames 100:160:20");
+  const std::string one = told("--frames 200");
+  INFO(one);
+  CHECK(one.find("1 frame in ") != std::string::npos);
+  CHECK(one.find("already there") == std::string::npos);
+  CHECK(one.find("3 frames of the same input there before and kept\n") != std::string::npos);
+  CHECK(one.find("removed") == std::string::npos);
+  const std::string other = told("--frames 100 --effects none");
+  INFO(other);
+  CHECK(other.find("3 frames of another input removed\n") != std::string::npos);
+  CHECK(files_in(out) == std::vector<std::string>{"bscope/00100.png", "run.json", "timing.json"});
 }
 
 TEST_CASE("A folder with other files is refused by their names, and --overwrite leaves them",
@@ -173,7 +214,13 @@ TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing el
   REQUIRE(child.running());
   child.send(SIGKILL);
   child.wait();
-  CHECK(bytes_of(out / "run.json") == record);
+  // The files are other frames' and another radar's than these said.
+  CHECK_FALSE(fs::exists(out / "run.json"));
+  CHECK_FALSE(fs::exists(out / "radar.toml"));
+  const Result tracked =
+      run_fanbeam("track " + quoted(out) + " -o " + quoted(folder.path() / "tracks"));
+  INFO(tracked.output);
+  CHECK(tracked.output.find("W-UNFINISHED") != std::string::npos);
   std::ofstream(out / "notes.txt") << "mine";
   CHECK(fmcw("--frames 3 --products detections").exit_code == 2);
   fs::remove(out / "notes.txt");
@@ -185,6 +232,32 @@ TEST_CASE("What a killed fmcw leaves is replaced by the next run, and nothing el
   REQUIRE(fmcw("--frames 3 --products detections").exit_code == 0);
   CHECK(files_in(out) == std::vector<std::string>{"detections/00003.csv", "detections/00003.json",
                                                   "radar.toml", "run.json", "timing.json"});
+}
+
+TEST_CASE("A killed run of another input leaves no record of files that it has replaced",
+          "[render][stop]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  must_render(out, "flat-grass --frames 0 --products bscope,labels,layers");
+  const auto before = contents(out);
+  CHECK(render(out, "obstacle-field --frames 0 --products bscope,nonsense").exit_code == 2);
+  CHECK((contents(out) == before));
+  Child child({"render", "obstacle-field", "--rays-per-cell", "1", "-q", "-o", out.string(),
+               "--frames", "0:400", "--products", "bscope"});
+  while (child.running() && bytes_of(out / "bscope/00000.png") == before.at("bscope/00000.png"))
+    wait_ms(5.0);
+  REQUIRE(child.running());
+  child.send(SIGKILL);
+  child.wait();
+  for (const char* gone : {"run.json", "timing.json", "labels.json", "coco.json", "layers.json"}) {
+    INFO(gone);
+    CHECK_FALSE(fs::exists(out / gone));
+  }
+  // What it had listed is a run's own still, and goes.
+  must_render(out, "obstacle-field --frames 0 --products bscope --resume");
+  CHECK_FALSE(fs::exists(out / "labels"));
+  CHECK_FALSE(fs::exists(out / ".unfinished.json"));
+  CHECK(files_told(out) == files_in(out));
 }
 
 TEST_CASE("Somebody's file with the name of a run's own is refused, and stays", "[render][fmcw]") {
@@ -215,7 +288,7 @@ TEST_CASE("Somebody's file with the name of a run's own is refused, and stays", 
 TEST_CASE("Files of all frames are a killed run's own by its note alone", "[render]") {
   const TemporaryFolder folder;
   const auto there = [&] { return session::OutputFolder(folder.path(), "", false); };
-  const session::OutputFolder killed = there();
+  session::OutputFolder killed = there();
   killed.begin({}, {"coco.json"});
   folder.write("coco.json", "half a run's");
   CHECK_NOTHROW(there());

@@ -4,7 +4,9 @@
 #include <complex>
 #include <limits>
 
+#include "core/constants.h"
 #include "core/npy.h"
+#include "session/signal/detection_file.h"
 #include "session/signal/radar.h"
 #include "session/signal/radar_file.h"
 #include "tests/apps/program.h"
@@ -73,6 +75,57 @@ TEST_CASE("JSON frames of one time are one frame, and all that go back are told"
   CHECK(run.output.find("frame 2 time_s = 1") != std::string::npos);
 }
 
+TEST_CASE("JSON detections have the members of the format alone, and one velocity", "[track]") {
+  const tests::TemporaryFolder folder;
+  const auto problems_of = [&](const std::string& frame) {
+    core::ProblemList problems;
+    session::read_detections(folder.write("one.json", frame), problems);
+    return problems.all();
+  };
+  const std::string tail = R"("time_s": 0, "detections": []})";
+  const auto misspelt = problems_of(R"({"radar_velocty_mps": [20, 0], )" + tail);
+  REQUIRE(misspelt.size() == 1);
+  CHECK(misspelt[0].code == "E-REF");
+  CHECK(misspelt[0].field == "/radar_velocty_mps");
+  CHECK(misspelt[0].expected.find("perhaps radar_velocity_mps") != std::string::npos);
+  CHECK(problems_of(R"({"frames": [], "radar_speed_mps": 20})").size() == 1);
+  CHECK(problems_of(R"({"time_s": 0, "detections": [{"range_m": 50, "radial_speed_mps": 1,
+                        "azimuth_rad": 0, "snr": 20}]})")
+            .size() == 1);
+  // The speed over ground holds what the velocity lacks, and no less than it has.
+  CHECK(problems_of(R"({"radar_velocity_mps": [3, -4], "radar_speed_mps": 5, "frame": 7, )" + tail)
+            .empty());
+  CHECK(problems_of(R"({"radar_velocity_mps": [3, -4], "radar_speed_mps": 9, )" + tail).empty());
+  const auto contrary =
+      problems_of(R"({"radar_velocity_mps": [30, 0], "radar_speed_mps": 3, )" + tail);
+  REQUIRE(contrary.size() == 1);
+  CHECK(contrary[0].field == "/radar_speed_mps");
+}
+
+TEST_CASE("Elevations are read from tables and from JSON, and lie within a quarter turn",
+          "[track]") {
+  const tests::TemporaryFolder folder;
+  core::ProblemList problems;
+  const fs::path csv = folder.write(
+      "car.csv", "time_s,range_m,radial_speed_mps,azimuth_deg,elevation_deg\n0,50,1,0,30\n");
+  const auto in_table = session::read_detections(csv, problems);
+  REQUIRE(in_table.size() == 1);
+  CHECK(in_table[0].detections.at(0).elevation_rad == Approx(core::kPi / 6.0));
+  const std::string one = R"({"range_m": 50, "radial_speed_mps": 1, "azimuth_rad": 0)";
+  const fs::path json = folder.write("car.json", R"({"time_s": 0, "detections": [)" + one +
+                                                     R"(, "elevation_rad": -0.2}, )" + one + "}]}");
+  const auto in_json = session::read_detections(json, problems);
+  REQUIRE(in_json.size() == 1);
+  CHECK(in_json[0].detections.at(0).elevation_rad == Approx(-0.2));
+  CHECK(in_json[0].detections.at(1).elevation_rad == 0.0);
+  CHECK_FALSE(problems.has_errors());
+  session::read_detections(
+      folder.write("high.csv",
+                   "time_s,range_m,radial_speed_mps,azimuth_deg,elevation_deg\n0,50,1,0,91\n"),
+      problems);
+  CHECK(problems.has_errors());
+}
+
 TEST_CASE("Options of another kind of input are refused by name", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
@@ -115,6 +168,46 @@ TEST_CASE("What contradicts itself in a radar file is the file's fault", "[track
   // An option that mends it, and one that breaks it again.
   CHECK(tests::run_fanbeam(fmcw + " --slots 1").exit_code == 0);
   CHECK(tests::run_fanbeam(fmcw + " --slots 2").exit_code == 3);
+}
+
+TEST_CASE(
+    "A radar without maps, or with fewer chirps than its detector looks over, is told as such",
+    "[track]") {
+  const tests::TemporaryFolder folder;
+  const fs::path radar = folder.write("triangle.toml",
+                                      "[waveform]\nkind = \"triangle\"\nfrequency_GHz = 76\n"
+                                      "bandwidth_MHz = 250\n[receiver]\nnoise_figure_dB = 10\n");
+  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
+  INFO(run.output);
+  CHECK(run.exit_code == 3);
+  CHECK(run.output.find("triangle.toml: E-UNSUPPORTED waveform.kind = ") != std::string::npos);
+  CHECK_FALSE(fs::exists(folder.path() / "out"));
+  const std::string fmcw =
+      "fmcw street-76ghz -q --chirps 8 -o " + tests::quoted(folder.path() / "fmcw");
+  const auto few = tests::run_fanbeam(fmcw);
+  INFO(few.output);
+  CHECK(few.exit_code == 2);
+  CHECK(few.output.find("--chirps = 8") != std::string::npos);
+  CHECK(tests::run_fanbeam(fmcw + " --products beat").exit_code == 0);
+}
+
+TEST_CASE("A radar file's line may not contradict the places beside it", "[fmcw]") {
+  const auto fields_of = [](const std::string& line) {
+    session::FmcwSettings settings;
+    core::ProblemList problems;
+    session::read_radar_text(
+        "[array]\ntransmitter_right_m = [0.0]\nreceiver_right_m = [0.0, 0.002]\n" + line,
+        "radar.toml", settings, problems);
+    std::vector<std::string> fields;
+    for (const core::Problem& problem : problems.all()) fields.push_back(problem.field);
+    return fields;
+  };
+  CHECK(fields_of("transmitters = 1\nreceivers = 2\n").empty());
+  CHECK(fields_of("transmitters = 2\nreceivers = 4\n") ==
+        std::vector<std::string>{"array.transmitters", "array.receivers"});
+  CHECK(fields_of("pitch_wavelengths = 0.5\n") ==
+        std::vector<std::string>{"array.pitch_wavelengths"});
 }
 
 TEST_CASE("Numbers of elements given as options replace a file's places", "[fmcw]") {

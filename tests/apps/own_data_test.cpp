@@ -443,7 +443,8 @@ TEST_CASE("A car's radar in a scene raises the floor, and mending recovers detec
   add("\n[[interferer]]\ntarget = \"nobody\"\neirp_dBm = 35\ninterval_us = 3\n");
   run = tests::run_fanbeam("validate " + tests::quoted(folder.path() / "street"));
   CHECK(run.exit_code == 3);
-  CHECK(run.output.find("interferer[1].target = \"nobody\"") != std::string::npos);
+  CHECK(run.output.find("interferer[1].target = \"nobody\": expected the name of a [[target]] that "
+                        "carries it; there are ") != std::string::npos);
   CHECK(run.output.find("interval_us") != std::string::npos);
 }
 

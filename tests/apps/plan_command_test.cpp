@@ -3,6 +3,7 @@
 
 #include "renderer/plan/effect_catalogue.h"
 #include "scenes/frame_plan.h"
+#include "tests/apps/plain_scene.h"
 #include "tests/apps/program.h"
 #include "tests/scenes/far_approach.h"
 
@@ -51,6 +52,16 @@ TEST_CASE("plan decides as render does", "[plan]") {
       CHECK(planned["sensor"] == rendered["sensor"]);
       CHECK(planned["caster"]["reason"] == rendered["caster"]["reason"]);
     }
+}
+
+TEST_CASE("plan --json names where the law comes from that the weather goes by", "[plan]") {
+  const TemporaryFolder folder;
+  folder.write("scene.toml",
+               kPlainOverGrass + "[weather]\nrain_rate_mm_per_h = 5.0\nrain_law = \"mie\"\n");
+  const Json plan = json_plan(quoted(folder.path()));
+  for (const Json& row : plan["plan"])
+    if (row["effect"] == "rain")
+      CHECK(row["source"] == "Mie scattering of water spheres (Bohren and Huffman 1983)");
 }
 
 TEST_CASE("The table fits 100 columns and names every effect with its reason", "[plan]") {

@@ -69,6 +69,18 @@ TEST_CASE("By default frames show the expected power, whatever the seed", "[rend
         Approx(20.813).epsilon(1e-3));
 }
 
+TEST_CASE("The expected power is refused beside effects of a draw, which would show one",
+          "[render]") {
+  const TemporaryFolder folder;
+  for (const std::string effect : {"+speckle", "+swerling"}) {
+    const Result result = run_fanbeam(kFrames + "--realisation mean --effects " + effect + " -o " +
+                                      quoted(folder.path() / "out"));
+    INFO(result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(result.output.find("E-UNSUPPORTED --effects = \"" + effect + "\"") != std::string::npos);
+  }
+}
+
 TEST_CASE("The power EXR holds what the display shows: the echoes' watts and the mean noise",
           "[render]") {
   const TemporaryFolder folder;

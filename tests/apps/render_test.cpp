@@ -6,6 +6,7 @@
 
 #include "core/image.h"
 #include "tests/apps/program.h"
+#include "tests/comma_locale.h"
 
 using namespace fanbeam;
 using namespace fanbeam::tests;
@@ -27,22 +28,6 @@ std::vector<std::string> keys_of(const nlohmann::json& json) {
   for (const auto& [key, value] : json.items()) keys.push_back(key);
   std::sort(keys.begin(), keys.end());
   return keys;
-}
-
-// Words for the shell that set a locale whose decimal sign is a comma. Made here, as few machines
-// have one installed; where that fails, de_DE is asked for.
-std::string comma_locale(const TemporaryFolder& folder) {
-  folder.write("numbers",
-               "comment_char %\nescape_char /\nLC_NUMERIC\ndecimal_point \",\"\n"
-               "thousands_sep \".\"\ngrouping 3;3\nEND LC_NUMERIC\n");
-  const std::string path = folder.path().string();
-  std::system(("localedef --no-archive -c -i " + path + "/numbers -f ANSI_X3.4-1968 " + path +
-               "/comma >/dev/null 2>&1")
-                  .c_str());
-  if (run_shell("LOCPATH=" + path + " LC_ALL=comma /usr/bin/printf %.1f 1,5 2>&1").output == "1,5")
-    return "LOCPATH=" + path + " LC_ALL=comma";
-  std::cout << "[not made] a locale with a decimal comma: de_DE is used if it is installed\n";
-  return "LC_ALL=de_DE.UTF-8";
 }
 
 void check_has(const nlohmann::json& json, const std::vector<std::string>& keys) {
@@ -249,8 +234,9 @@ TEST_CASE("F18 the same bytes from another working directory, time zone, locale 
 TEST_CASE(
     "F18 the same bytes of a scene in a folder with blanks and umlauts, under a decimal comma",
     "[render]") {
+  const CommaLocale comma;
+  if (!comma.made()) return;
   const TemporaryFolder folder;
-  const std::string locale = comma_locale(folder);
   const auto write_scene = [&](const std::string& name) {
     fs::create_directories(folder.path() / name);
     folder.write(name + "/scene.toml",
@@ -278,7 +264,8 @@ TEST_CASE(
   };
   const auto plain = render_in("plain", "a", "TZ=UTC LC_ALL=C");
   CHECK(plain.size() >= 5);
-  CHECK((render_in("Anflug Zürich 14 – 東", "b", "TZ=Asia/Kathmandu " + locale) == plain));
+  CHECK((render_in("Anflug Zürich 14 – 東", "b", "TZ=Asia/Kathmandu " + comma.environment()) ==
+         plain));
 }
 
 TEST_CASE(

@@ -168,3 +168,31 @@ TEST_CASE("fanbeam fmcw writes the B-scope, the same for any number of threads",
                            tests::quoted(FANBEAM_SOURCE_DIR "/sensors/hivision-seed.toml"))
             .exit_code == 3);
 }
+
+TEST_CASE("A sensor file may leave own-ship Doppler in: fmcw has the shift, pictures refuse it",
+          "[scan]") {
+  const tests::TemporaryFolder folder;
+  std::string sensor = tests::narrow_sensor(1);
+  folder.write("taken_off.toml", sensor);
+  const std::string key = "doppler_compensated = true";
+  REQUIRE(sensor.find(key) != std::string::npos);
+  folder.write("left_in.toml",
+               sensor.replace(sensor.find(key), key.size(), "doppler_compensated = false"));
+  const auto run = [&](const std::string& command, const std::string& name) {
+    return tests::run_fanbeam(command + " braunschweig-26 --frames 400 --quiet --sensor " +
+                              tests::quoted(folder.path() / (name + ".toml")) + " -o " +
+                              tests::quoted(folder.path() / name));
+  };
+  for (const char* name : {"taken_off", "left_in"}) {
+    const auto scan = run("fmcw --products bscope", name);
+    INFO(scan.output);
+    REQUIRE(scan.exit_code == 0);
+    CHECK(tests::json_of(folder.path() / name / "run.json")["bscope"]["doppler_compensated"] ==
+          (std::string(name) == "taken_off"));
+  }
+  CHECK(tests::bytes_of(folder.path() / "taken_off" / "bscope" / "00400.exr") !=
+        tests::bytes_of(folder.path() / "left_in" / "bscope" / "00400.exr"));
+  const auto refused = run("render --overwrite", "left_in");
+  CHECK(refused.exit_code == 3);
+  CHECK(refused.output.find("E-UNSUPPORTED waveform.doppler_compensated") != std::string::npos);
+}

@@ -127,6 +127,29 @@ TEST_CASE("A stopped render ends the line of its progress bar", "[stop]") {
   CHECK(text.ends_with("\n"));
 }
 
+TEST_CASE("Ctrl-C on a terminal stops a command and not gnuplot beside it, which would have failed",
+          "[stop]") {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out", begun = folder.path() / "begun";
+  fs::create_directories(folder.path() / "bin");
+  folder.write("bin/gnuplot", "#!/bin/sh\ntouch " + quoted(begun) + "\nexec sleep 60\n");
+  fs::permissions(folder.path() / "bin/gnuplot", fs::perms::owner_all);
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", ((folder.path() / "bin").string() + ":" + path).c_str(), 1);
+  Child child({"fmcw", "street-76ghz", "--frames", "0", "--chirps", "64", "--products",
+               "range-doppler", "-o", out.string()},
+              true);
+  setenv("PATH", path.c_str(), 1);
+  while (child.running() && !fs::exists(begun)) wait_ms(1.0);
+  child.interrupt();
+  const int status = child.wait();
+  INFO(child.written());
+  CHECK(WIFSIGNALED(status));
+  CHECK(WTERMSIG(status) == SIGINT);
+  CHECK(child.written().find("gnuplot") == std::string::npos);
+  for (const auto& [name, bytes] : contents(out)) CHECK(name.find(".tmp") == std::string::npos);
+}
+
 TEST_CASE("A render killed at any moment leaves whole files, and --resume completes them",
           "[stop]") {
   const TemporaryFolder folder;

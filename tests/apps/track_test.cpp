@@ -59,6 +59,22 @@ TEST_CASE("track writes tables and metrics, the same bytes again", "[track]") {
             .count("X1/tracks.csv") == 1);
 }
 
+TEST_CASE("A scenario without targets has no figures of them", "[track]") {
+  const tests::TemporaryFolder folder;
+  std::string empty = kScenario;
+  empty.replace(empty.find("\"targets\": ["), std::string::npos, "\"targets\": []}]}");
+  folder.write("empty.json", empty);
+  const fs::path out = folder.path() / "out";
+  const auto result = tests::run_fanbeam("track " + tests::quoted(folder.path() / "empty.json") +
+                                         " -o " + tests::quoted(out));
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("MOTA -, 0 switches, range -, speed -") != std::string::npos);
+  const auto scenario = tests::json_of(out / "run.json")["scenarios"][0];
+  for (const char* figure : {"mota", "range_rmse_m", "range_rate_rmse_mps"})
+    CHECK(scenario[figure].is_null());
+}
+
 TEST_CASE("track refuses what it cannot use", "[track]") {
   const tests::TemporaryFolder folder;
   folder.write("two.json", kScenario);

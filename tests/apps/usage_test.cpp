@@ -146,6 +146,25 @@ TEST_CASE("A misspelt command or option is answered with the nearest one", "[cli
   }
 }
 
+TEST_CASE("Of a list with too few or too many values it is told how many it takes", "[cli]") {
+  const std::pair<const char*, const char*> counts[] = {
+      {"track x.json --body-errors 0.1,0.1", "--body-errors takes 3 values, M,MPS,DEG: 2 given\n"},
+      {"track x.json --body-errors 1,2,3,4", "--body-errors takes 3 values, M,MPS,DEG: 4 given\n"},
+      {"fmcw --cfar-guard 1,2,3", "--cfar-guard takes 1 or 2 values, N[,N]: 3 given\n"},
+      {"fmcw --seed 1 --seed 2", "--seed is given more than once: one N\n"}};
+  for (const auto& [words, answer] : counts) {
+    const Result result = run_fanbeam(words);
+    INFO("fanbeam " << words << ": " << result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(result.output.find(answer) != std::string::npos);
+  }
+  const std::string help = run_fanbeam("help track").output + run_fanbeam("help fmcw").output;
+  for (const std::string value : {"--body-errors M,MPS,DEG", "--cfar-guard N[,N]"}) {
+    CHECK(help.find(value) != std::string::npos);
+    CHECK(help.find(value + ",") == std::string::npos);
+  }
+}
+
 TEST_CASE("Nothing is suggested for what looks like nothing, but where to look is told", "[cli]") {
   const Result command = run_fanbeam("quux");
   CHECK(command.exit_code == 2);

@@ -23,6 +23,7 @@ std::unique_ptr<session::Session> opened(const TemporaryFolder& folder,
                                          const session::Setup& other = {}) {
   session::Setup setup = other;
   setup.shipped = FANBEAM_SOURCE_DIR;
+  setup.build.read.power = true;
   setup.seed = 7;
   core::ProblemList problems;
   auto session = std::make_unique<session::Session>(folder.path(), setup, problems);
@@ -100,6 +101,18 @@ TEST_CASE("Frames through C are those of a session, byte for byte", "[bindings]"
   CHECK((buffers.cscope_W_m3 == frame.cscope_W_m3));
   CHECK(output.noise_W == frame.noise_W);
   CHECK(output.truth == nullptr);
+}
+
+TEST_CASE("Watts through C hold the noise that a display hides", "[bindings]") {
+  const TemporaryFolder folder;
+  const CSession c = tests::c_opened(
+      folder,
+      tests::kSmallScene + "\n[display]\nmapping = \"log\"\nlow_dB = -90.0\nhigh_dB = -40.0\n");
+  const fanbeam_pose pose = tests::flown(c);
+  Buffers buffers(tests::facts_of(c));
+  fanbeam_output output = buffers.output();
+  REQUIRE(fanbeam_render(c.get(), &pose, 3, &output) == FANBEAM_OK);
+  CHECK(output.noise_W > 0.0);
 }
 
 TEST_CASE("The scene's own flight comes out in degrees of freedom that lead back to it",

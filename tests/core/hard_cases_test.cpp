@@ -46,15 +46,19 @@ std::map<std::string, Row> documented_cases() {
   return rows;
 }
 
-// By case: the files, relative to the root, with a TEST_CASE whose name holds it.
+// By case: the files, relative to the root, with a TEST_CASE whose name holds it; of Python's, whose
+// functions are named in words, those with a comment that does, beside what is asserted.
 std::map<std::string, std::set<std::string>> tested_cases() {
   std::map<std::string, std::set<std::string>> files;
   const std::regex test_case("TEST_CASE\\(\\s*\"([^\"]*)");
+  const std::regex comment("# ([^\n]*)");
   const std::regex name("\\b[A-Z][0-9]{2}\\b");
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests")) {
-    if (entry.path().extension() != ".cpp") continue;
+    const bool python = entry.path().filename().string().ends_with("_test.py");
+    if (!python && entry.path().extension() != ".cpp") continue;
     const std::string text = text_of(entry.path());
-    for (std::sregex_iterator it(text.begin(), text.end(), test_case), end; it != end; ++it) {
+    for (std::sregex_iterator it(text.begin(), text.end(), python ? comment : test_case), end;
+         it != end; ++it) {
       const std::string title = (*it)[1];
       for (std::sregex_iterator id(title.begin(), title.end(), name); id != end; ++id)
         files[id->str()].insert(entry.path().lexically_relative(kRoot).string());
@@ -72,7 +76,7 @@ TEST_CASE("Every case of docs/hard-cases.md has a test of its name in the file t
     INFO(name << ": " << row.test_cell);
     REQUIRE(tests.count(name) == 1);
     const std::set<std::string>& files = tests.at(name);
-    const std::regex quoted("`(tests/[a-z0-9_/]+\\.cpp)`");
+    const std::regex quoted("`(tests/[a-z0-9_/]+\\.(?:cpp|py))`");
     std::size_t named = 0;
     for (std::sregex_iterator it(row.test_cell.begin(), row.test_cell.end(), quoted), end;
          it != end; ++it, ++named) {

@@ -26,6 +26,15 @@ TEST_CASE("A missing name is told with those there and the likely one", "[core][
         200);
 }
 
+TEST_CASE("A short name that lies in a misspelt one is not what was meant", "[core][spelling]") {
+  CHECK(names_there_text("radar_overides", {"id", "title", "radar_overrides"})
+            .starts_with("; perhaps radar_overrides of "));
+  CHECK(names_there_text("radar_overides", {"radar", "radar_overrides"})
+            .starts_with("; perhaps radar_overrides of "));
+  CHECK(names_there_text("radar_overides", {"id", "title"}) == "; there are id, title");
+  CHECK(names_there_text("longitude", {"alt", "lon", "altitude"}).starts_with("; perhaps lon of "));
+}
+
 TEST_CASE("Nearest names come nearest first and stay in order where equal", "[core][spelling]") {
   const std::vector<std::string> known = {"water", "brick", "roof", "root"};
   REQUIRE(nearest_names("roop", known, 2) == std::vector<std::string>{"roof", "root"});

@@ -207,6 +207,7 @@ TEST_CASE("F14 a packet with a number that is none is left out, the others count
                          entity(false, std::numeric_limits<double>::infinity())}));
   CHECK(message.packets.size() == 1);
   CHECK(message.nonfinite == 2);
+  CHECK(message.unplaced.size() == 2);
 }
 
 TEST_CASE("F11 messages that are none are refused with their reason", "[cigi]") {

@@ -257,6 +257,12 @@ class Page(unittest.TestCase):
         self.page.find_element("id", "freeze").click()
         time.sleep(0.3)
         outlined = self.bright("planview")
+        # Told on the other side of the date line: nothing but its digits changes.
+        self.js("state.runways.forEach(runway => runway.corners.forEach(corner => { corner[1] -= 360; })), show()")
+        time.sleep(0.3)
+        self.assertAlmostEqual(self.bright("planview"), outlined, delta=1e-3)
+        self.assertAlmostEqual(self.js("east_deg(-179.99, 179.98)"), 0.03, 6)
+        self.assertAlmostEqual(self.js("east_deg(179.98, -179.99)"), -0.03, 6)
         self.page.find_element("id", "rings").click()
         time.sleep(0.3)
         self.assertNotEqual(self.bright("planview"), outlined)

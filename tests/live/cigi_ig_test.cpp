@@ -155,6 +155,66 @@ TEST_CASE("F13 messages that come twice, late or from a second host are left out
   CHECK(all_of(bad) == 4);
 }
 
+// A second of good ones was late by its number.
+TEST_CASE("F12 a message whose number is far from the last one's costs no other, a restart none",
+          "[cigi]") {
+  Station station;
+  std::uint64_t sent = 0;
+  const auto fly = [&](std::uint32_t frame) {
+    station.hear(message(frame, {entity(52.0, 10.0, 300.0)}));
+    ++sent;
+  };
+  const auto poses = [&] { return station.ig.mailbox().after(0).back().number; };
+  for (std::uint32_t frame = 1; frame <= 20; ++frame) fly(frame);
+  for (const std::uint32_t stray : {1'000'021U, 0x80000000U, 5'000U}) fly(stray);
+  for (std::uint32_t frame = 21; frame <= 60; ++frame) {
+    fly(frame);
+    CHECK(poses() == sent - 3);
+  }
+  CHECK(station.told().bad_packets == std::vector<std::pair<std::string, std::uint64_t>>{
+                                          {"a jump of the host's frame number", 3}});
+  // Numbers that were lost, a host that goes on elsewhere, or begins again, at once: from its second message, both.
+  for (const std::uint32_t frame : {100U, 7'000U, 7'001U, 7'002U, 1U, 2U, 4U}) fly(frame);
+  CHECK(poses() == sent - 3);
+  // What waits is all there: also its mode, and what it asks for.
+  station.hear(message(9'000, {height_request(1, 52.0, 10.0, 120.0, 0)}));
+  station.hear(message(9'001, {}));
+  CHECK(packets_in(station.ig.begin_frame()).size() == 2);
+  // After the largest number comes 0.
+  station.now += std::chrono::seconds(2);
+  const std::uint64_t before = poses();
+  for (const std::uint32_t frame : {0xfffffffeU, 0xffffffffU, 0U, 1U}) fly(frame);
+  CHECK(poses() == before + 4);
+  CHECK(all_of(station.told().bad_packets) == 3);
+}
+
+// It counted as a fresh pose, at the old place.
+TEST_CASE("F14 an entity whose place cannot be gives no pose and is counted by its reason",
+          "[cigi]") {
+  Station station;
+  std::uint32_t frame = 0;
+  const auto poses_after = [&](const std::vector<Bytes>& packets) {
+    station.hear(message(++frame, packets));
+    return station.ig.mailbox().after(0).back().number;
+  };
+  const Bytes good = entity(52.0, 10.0, 300.0);
+  CHECK(poses_after({good}) == 1);
+  CHECK(poses_after({entity(91.0, 10.0, 300.0)}) == 1);
+  CHECK(poses_after({entity(52.0, 10.0, 1e9)}) == 1);
+  CHECK(poses_after({entity(52.0, std::nan(""), 300.0)}) == 1);
+  CHECK(poses_after({good}) == 2);
+  // Another one's place is not the radar's.
+  CHECK(poses_after({good, entity(91.0, 10.0, 300.0, 0.0F, false, 5)}) == 3);
+  CHECK(poses_after({entity(52.0, std::nan(""), 300.0, 0.0F, false, 5), good}) == 4);
+  // Nor does an entity that is not told stand anywhere else than it did.
+  CHECK(poses_after({}) == 5);
+  CHECK(core::degrees(station.pose().position.latitude_rad) == Approx(52.0));
+  CHECK(station.told().bad_packets.empty());
+  CHECK(station.told().unused_packets ==
+        std::vector<std::pair<std::string, std::uint64_t>>{{"with a number that is not finite", 2},
+                                                           {"with a position that cannot be", 3}});
+}
+
 TEST_CASE("Weather and wet ground of a host come into force with the next frame", "[cigi]") {
   Station station;
   const Bytes wet = Packet(15, 8, false).put<std::uint16_t>(4, 1).put<std::uint8_t>(6, 1).bytes();

@@ -103,6 +103,50 @@ TEST_CASE("A frame is the PNG of its picture", "[desk]") {
         std::vector<double>{30.0 + 51.0, 40.0 + 51.0});
 }
 
+TEST_CASE("A picture that is out of date is crossed out where nothing else tells so", "[desk]") {
+  Office office;
+  auto frame = std::make_shared<live::LiveFrame>();
+  frame->number = 8;
+  frame->stale = true;
+  frame->low_dB = -40.0;
+  frame->high_dB = 10.0;
+  frame->cscope = {40, 30, std::vector<std::uint8_t>(40 * 30, 255)};
+  frame->bscope = {30, 40, std::vector<std::uint8_t>(30 * 40, 0)};
+  office.hub.publish(frame);
+  // White and black, on white, on black and with any gain, from each corner; the middles of the edges stay.
+  for (const char* asked :
+       {"bscope.png", "cscope.png", "bscope.png?gain_dB=-60", "cscope.png?gain_dB=60"}) {
+    INFO(asked);
+    office.folder.write("shown.png", office.desk.answer(get("/frame/" + std::string(asked))).body);
+    const core::Image image = core::read_image(office.folder.path() / "shown.png");
+    const auto& values = image.layers.at(0).values;
+    const int columns = image.columns, rows = image.rows;
+    const auto at = [&](int row, int column) {
+      return values[static_cast<std::size_t>(row * columns + column)];
+    };
+    for (const int row : {0, rows - 1})
+      for (const int column : {0, columns - 1}) CHECK(at(row, column) == 255.0);
+    CHECK(at(0, 3) == 0.0);
+    const double ground = at(0, columns / 2);
+    CHECK((ground == 0.0 || ground == 255.0));
+    CHECK(at(rows / 2, 0) == ground);
+    CHECK(at(rows - 1, columns / 2) == ground);
+  }
+  // What programs read is as it was.
+  const std::string message = live::message_of(*frame);
+  const std::size_t end = message.find('\n');
+  CHECK(json::parse(message.substr(0, end))["stale"] == true);
+  CHECK(message.substr(end + 1) == std::string(30 * 40, '\0') + std::string(40 * 30, '\xff'));
+  for (const auto& [columns, rows] : {std::pair{0, 0}, {1, 1}, {1, 9}, {9, 1}, {3, 2}}) {
+    frame->bscope = {columns, rows,
+                     std::vector<std::uint8_t>(static_cast<std::size_t>(columns * rows), 7)};
+    CHECK(live::picture_to_show(*frame, live::Scope::bscope).pixels.size() ==
+          static_cast<std::size_t>(columns * rows));
+  }
+  frame->stale = false;
+  CHECK(live::picture_to_show(*frame, live::Scope::bscope).pixels == frame->bscope.pixels);
+}
+
 // The tilt of the page goes with the levels in force.
 TEST_CASE("The sensor, posted back as it is told, stays as it is with any display", "[desk]") {
   for (const char* file : {"hivision.toml", "hivision-seed.toml"}) {
@@ -143,6 +187,15 @@ TEST_CASE("Weather and tilt reach the session; what is wrong is told whole and c
   CHECK(office.desk.answer(post("/api/sensor", R"({"tilt_deg": -2})")).status == 200);
   CHECK(office.session->scene()->description.sensor.antenna.boresight_elevation_rad ==
         Approx(-2.0 * core::kPi / 180.0));
+  // Neither of two counts, and what is null is there.
+  CHECK(office.desk
+            .answer(post("/api/weather", R"({"rain_rate_mm_per_h": 1, "rain_rate_mm_per_h": 2})"))
+            .status == 422);
+  const live::Answer null =
+      office.desk.answer(post("/api/weather", R"({"rain_rate_mm_per_h": null})"));
+  CHECK(null.status == 422);
+  CHECK(json::parse(null.body)["problems"][0]["value"] == "null");
+  CHECK(office.session->scene()->weather.rain_rate_mm_per_h == 0.0);
   for (const char* body : {"", "[]", "{", "{\"tilt_deg\": 1e999}", "\xff", "{\"low_dB\": 9}"})
     CHECK(office.desk.answer(post("/api/sensor", body)).status == 422);
   CHECK(office.desk.answer(post("/api/sensor", std::string(60000, '['))).status == 422);

@@ -7,7 +7,9 @@
 #include <string>
 
 #include "core/units.h"
+#include "live/pose_source.h"
 #include "live/predictor.h"
+#include "live/wiring/listener.h"
 #include "session/session.h"
 #include "tests/feeds/native_fdm_bytes.h"
 #include "tests/live/live_scene.h"
@@ -109,17 +111,32 @@ TEST_CASE("Of several sources the one named first leads, another while it is sil
   };
   CHECK_FALSE(mailbox.leading());
   CHECK(put(0.0, 1));
-  CHECK(put(0.1, 0));
-  CHECK_FALSE(put(0.2, 1));
-  CHECK_FALSE(put(0.59, 2));
+  CHECK_FALSE(put(0.1, 0));  // perhaps a stray one
+  CHECK(put(0.15, 1));
+  CHECK(put(0.2, 0));
+  CHECK_FALSE(put(0.3, 1));
+  CHECK_FALSE(put(0.69, 2));
   CHECK(mailbox.leading() == 0U);
-  CHECK(put(0.61, 1));
+  CHECK(put(0.71, 1));
   CHECK(mailbox.leading() == 1U);
-  CHECK_FALSE(put(1.1, 2));
-  CHECK(put(1.12, 2));
-  CHECK(put(1.2, 0));
-  CHECK_FALSE(put(1.3, 2));
+  CHECK_FALSE(put(1.2, 2));
+  CHECK(put(1.22, 2));
+  CHECK_FALSE(put(1.3, 0));
+  CHECK(put(1.4, 0));
+  CHECK_FALSE(put(1.45, 2));
   CHECK(mailbox.leading() == 0U);
+}
+
+TEST_CASE("F13 single packets of a source that is silent else take no lead from another",
+          "[feed]") {
+  live::Mailbox mailbox;
+  const auto begin = live::Clock::now();
+  for (int i = 0; i < 80; ++i) {
+    const auto now = begin + std::chrono::milliseconds(125 * i);
+    if (i % 8 == 3) mailbox.put({}, {}, now - std::chrono::milliseconds(20), {}, 0);
+    mailbox.put({}, {}, now, {}, 1);
+    CHECK(mailbox.leading() == 1U);
+  }
 }
 
 TEST_CASE("Packets of several sources are told together", "[feed]") {
@@ -348,6 +365,42 @@ TEST_CASE("F13 a simulator that begins anew elsewhere is followed on its second 
   feed.tell(status);
   CHECK(looked == 42);
   CHECK(status.bad_packets.empty());
+}
+
+// They were good packets, and of a flight that never was.
+TEST_CASE(
+    "F13 packets from a place that no aircraft reaches are counted and told, and move nothing",
+    "[feed]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const std::vector<live::PosesFrom> from{live::poses_from("native-fdm:5501")};
+  live::Listener listener(from, *session, 16.0, live::Mailbox::kKept, {});
+  const auto mailbox = std::make_shared<live::Mailbox>();
+  live::Feed feed(session->scene(), core::VerticalDatum::egm96, feeds::kProtocols[0], mailbox);
+  const auto begin = live::Clock::now();
+  const auto where = live::source_of(*mailbox, session->scene()->frame, begin);
+  live::Status status;
+  for (int i = 0; i < 200; ++i) {
+    const double now_s = i / 16.0, east_rad = core::radians(9.985 + 2.774e-5 * i);
+    const bool stray = i % 10 == 9;
+    feed.take(tests::native_fdm_bytes(core::radians(stray ? 53.0 : 51.99), east_rad),
+              begin + std::chrono::microseconds(static_cast<std::int64_t>(1e6 * now_s)));
+    const auto seen = where(now_s, now_s);
+    REQUIRE(seen);
+    CHECK(core::degrees(seen->pose.position.latitude_rad) ==
+          Approx(51.99).epsilon(0.0).margin(1e-4));
+    status.stray_poses = seen->strays;
+  }
+  CHECK(status.stray_poses == 19);  // whether the last one leads somewhere is not known yet
+  // Nor do they begin the comparison of heights anew.
+  CHECK(feed.height_offset_m());
+  listener.tell(status);
+  CHECK(status.bad_packets ==
+        std::vector<std::pair<std::string, std::uint64_t>>{{"a step that no aircraft makes", 19}});
+  // A CIGI host's too.
+  const std::vector<live::PosesFrom> host{live::poses_from("cigi:8000")};
+  live::Listener(host, *session, 16.0, live::Mailbox::kKept, {}).tell(status);
+  CHECK(status.bad_packets.size() == 1);
 }
 
 TEST_CASE("A simulator that draws less than once a second is followed packet by packet", "[feed]") {

@@ -136,6 +136,7 @@ TEST_CASE("Where another source takes over, and back, the aircraft flies by that
     const auto seen = where(now_s + 2e-3, now_s);
     REQUIRE(seen);
     if (now_s >= 3.0 && now_s < 3.6) continue;  // silent for half a second, then the other leads
+    if (now_s >= 5.0 && now_s < 5.1) continue;  // one packet may be a stray one
     const double expected_m = kSpeed_mps * (now_s - kLag_s[first ? 0 : 1]);
     INFO(now_s);
     CHECK(kFrame.to_local_m(seen->pose.position).y == Approx(expected_m).margin(0.3));
@@ -223,14 +224,17 @@ TEST_CASE("F13 one stray pose moves nothing; a reset is followed on its second p
   predictor.take(stray, 0.625);
   CHECK(apart_m(*predictor.at(0.65), turning(0.65)) < 0.1);
   CHECK(*predictor.newest_s() == 0.5625);
+  CHECK(predictor.strays() == 0);
   predictor.take(turning(0.6875), 0.6875);
   CHECK(apart_m(*predictor.at(0.7), turning(0.7)) < 0.1);
+  CHECK(predictor.strays() == 1);
 
   // The simulator is put back to its start, 50 s on.
   predictor.take(turning(-40.0), 0.75);
   CHECK(apart_m(*predictor.at(0.76), turning(0.76)) < 0.1);
   predictor.take(turning(-40.0 + 0.0625), 0.8125);
   CHECK(apart_m(*predictor.at(0.8125), turning(-40.0 + 0.0625)) < 1e-6);
+  CHECK(predictor.strays() == 1);
 
   // Alternating strays never win against each other.
   for (int i = 1; i <= 20; ++i) {
@@ -239,6 +243,7 @@ TEST_CASE("F13 one stray pose moves nothing; a reset is followed on its second p
     predictor.take(far, 0.8125 + 0.01 * i);
   }
   CHECK(apart_m(*predictor.at(1.0), turning(-40.0 + 0.0625 + 0.1875)) < 0.1);
+  CHECK(predictor.strays() == 1 + 19);  // the last one waits
 
   // No pose lies between the two sides of the jump.
   for (double time_s = 0.5; time_s < 1.1; time_s += 0.01)
@@ -335,6 +340,70 @@ TEST_CASE("Packets that are held back or bunched move the aircraft by no more th
     CHECK(worst_of(stalls, tells_clock).position_m < 0.1);
     CHECK(worst_of(stalls, tells_clock).attitude_deg < 0.05);
   }
+}
+
+namespace {
+
+// Along a straight flight at 70 m/s of a simulator that runs `rate` times as fast as time: metres between one
+// frame and the next, from two seconds on. Packets and frames at 16 Hz, packets `late_s` late.
+std::vector<double> steps_m(
+    double rate, bool tells_clock,
+    const std::function<double(int)>& late_s = [](int) { return 0.0; }) {
+  constexpr double kPeriod_s = 1.0 / 16.0, kSpeed_mps = 70.0;
+  Predictor predictor(kFrame);
+  std::vector<double> places_m, steps_m;
+  int next = 0;
+  for (int frame = 0; frame < 320; ++frame) {
+    const double begin_s = (frame + 0.3) * kPeriod_s;
+    for (; next * kPeriod_s + late_s(next) <= begin_s; ++next) {
+      const double flown_s = rate * next * kPeriod_s;
+      core::Pose pose;
+      pose.position = kFrame.to_geodetic({0.0, kSpeed_mps * flown_s, 500.0});
+      pose.v_N_mps = {kSpeed_mps, 0.0, 0.0};
+      predictor.take(pose, next * kPeriod_s + late_s(next),
+                     tells_clock ? std::optional(1000.0 + flown_s) : std::nullopt);
+    }
+    places_m.push_back(kFrame.to_local_m(predictor.at(begin_s + kPeriod_s / 2)->position).y);
+    if (frame > 32) steps_m.push_back(places_m.back() - places_m[places_m.size() - 2]);
+  }
+  return steps_m;
+}
+
+}  // namespace
+
+// It went back a quarter of a second's flight every eight frames.
+TEST_CASE("A simulator that runs slower than time, or faster, moves on evenly at its own pace",
+          "[predictor]") {
+  for (const double rate : {0.3, 0.5, 0.8, 1.0, 1.5, 4.0})
+    for (const bool tells_clock : {true, false}) {
+      INFO("rate " << rate << ", clock " << tells_clock);
+      const double step_m = 70.0 * rate / 16.0;
+      const std::vector<double> steps = steps_m(rate, tells_clock);
+      const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+      CHECK(*least > 0.8 * step_m);
+      CHECK(*most < 1.2 * step_m);
+      // As fast as time: to the millimetre.
+      if (rate == 1.0) CHECK(*most - *least < 1e-3);
+    }
+}
+
+TEST_CASE("Packets that are held back change no pace", "[predictor]") {
+  const auto held_back = [](int i) { return i % 8 == 3 ? 1.0 / 16.0 - 0.0005 : 0.0; };
+  // Nothing for 0.19 s, then three within a millisecond.
+  const auto bunched = [](int i) {
+    return i % 40 >= 38 ? (40 - i % 40) * (1.0 / 16.0 - 0.0002) : 0.0;
+  };
+  for (const double rate : {0.5, 0.8, 1.0})
+    for (const bool tells_clock : {true, false})
+      for (const auto& late_s :
+           {std::function<double(int)>(held_back), std::function<double(int)>(bunched)}) {
+        INFO("rate " << rate << ", clock " << tells_clock);
+        const double step_m = 70.0 * rate / 16.0;
+        const std::vector<double> steps = steps_m(rate, tells_clock, late_s);
+        const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+        CHECK(*least > 0.8 * step_m);
+        CHECK(*most < 1.2 * step_m);
+      }
 }
 
 TEST_CASE("A source's clock counts from its quickest packets, and anew after a pause or a restart",

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <iterator>
 #include <thread>
+#include <utility>
 
 #include "core/errors.h"
 #include "core/stop.h"
@@ -49,6 +50,20 @@ TEST_CASE("Where every frame is wanted, the file holds all pictures one after th
     CHECK_FALSE(raw.ended());
   }
   CHECK(bytes_of(file) == "eeffgg");  // 101, 102, 103
+}
+
+TEST_CASE("A picture that is shown once more as a stale one is written once", "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "stale.raw";
+  {
+    RawFrames raw(RawFrames::Scope::bscope, file.string(), true);
+    for (const std::uint64_t number : {65U, 66U, 67U}) {
+      auto frame = std::make_shared<live::LiveFrame>(*frame_of(number, 2));
+      frame->stale = number == 66;
+      raw.write(frame);
+    }
+  }
+  CHECK(bytes_of(file) == "AACC");
 }
 
 TEST_CASE("F15 a reader that stands still holds nobody up, and gets whole pictures later",
@@ -99,19 +114,23 @@ TEST_CASE("Where time is up a slow reader gets the picture to its end; a signal 
           "[raw_frames][threads]") {
   const tests::TemporaryFolder folder;
   constexpr std::size_t kSize = 100'000;  // more than a pipe holds
-  for (const int reason : {live::kTimeIsUp, SIGINT}) {
-    INFO(reason);
-    const auto pipe = (folder.path() / std::to_string(reason)).string();
+  for (const auto& [reason, every_frame] : {std::pair{live::kTimeIsUp, true},
+                                            {SIGINT, true},
+                                            {live::kTimeIsUp, false},
+                                            {SIGINT, false}}) {
+    INFO(reason << ", every frame " << every_frame);
+    const auto pipe =
+        (folder.path() / (std::to_string(reason) + std::to_string(every_frame))).string();
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
     REQUIRE(reader >= 0);
     core::StopSource end;
     std::size_t got = 0;
-    std::thread slow([&] {
+    std::thread slow([&, why = reason] {
       char bytes[65536];
       pollfd begun{reader, POLLIN, 0};
       ::poll(&begun, 1, 10'000);
-      end.request(reason);
+      end.request(why);
       std::this_thread::sleep_for(std::chrono::milliseconds(500));
       for (ssize_t count = 1; count != 0;) {
         count = ::read(reader, bytes, sizeof bytes);
@@ -124,8 +143,9 @@ TEST_CASE("Where time is up a slow reader gets the picture to its end; a signal 
     {
       const core::StopToken token = end.token();
       const core::StopScope scope(token);
-      RawFrames raw(RawFrames::Scope::bscope, pipe, true);
+      RawFrames raw(RawFrames::Scope::bscope, pipe, every_frame);
       raw.write(frame_of(1, kSize));
+      while (token.reason() == 0) std::this_thread::yield();  // the picture is under way
     }
     slow.join();
     ::close(reader);
@@ -190,4 +210,22 @@ TEST_CASE("A pipe gets frames from when it has a reader", "[raw_frames]") {
   CHECK(::read(reader, bytes, sizeof bytes) == 4);
   CHECK(bytes[0] == 2);
   ::close(reader);
+}
+
+TEST_CASE("A file is as it was until its flight begins, and one that was made goes with it",
+          "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto old = folder.write("old.raw", "kept"), made = folder.path() / "new.raw";
+  {
+    RawFrames raw(RawFrames::Scope::bscope, old.string(), true);
+    const RawFrames other(RawFrames::Scope::bscope, made.string(), true);
+    CHECK(std::filesystem::exists(made));
+    // Who writes it has it alone.
+    CHECK_THROWS_AS(RawFrames(RawFrames::Scope::cscope, old.string(), true), core::InputError);
+  }
+  CHECK(bytes_of(old) == "kept");
+  CHECK_FALSE(std::filesystem::exists(made));
+  RawFrames raw(RawFrames::Scope::bscope, old.string(), true);
+  raw.begin();
+  CHECK(bytes_of(old).empty());
 }

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <thread>
 
+#include "core/files.h"
 #include "core/units.h"
 #include "live/channel.h"
 #include "live/frame_maker.h"
@@ -283,6 +284,22 @@ TEST_CASE("A frame that the end left unmade is in no recording; what came meanwh
   CHECK(std::get<live::RecordedPacket>(recording.events[1]).bytes.size() == 2);
 }
 
+TEST_CASE("A recording is as it was until its channel begins, and one channel's alone",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write("flight.jsonl", "kept");
+  const live::FlownBy flown_by{"s", {"circle"}, 16.0, true};
+  { const live::Journal given_up(file, flown_by); }
+  CHECK(core::read_file(file, 100) == "kept");
+  live::Journal journal(file, flown_by);
+  CHECK_THROWS_AS(live::Journal(file, flown_by), core::InputError);
+  journal.begin();
+  journal.control("/api/weather", "{}");
+  const live::Recording recording = live::read_recording(file);
+  CHECK(recording.flown_by.scene == "s");
+  CHECK(recording.events.size() == 1);
+}
+
 TEST_CASE("What is wrong with a recording is told with its line", "[recording]") {
   const tests::TemporaryFolder folder;
   const auto wrong = [&](const std::string& text) {
@@ -290,7 +307,7 @@ TEST_CASE("What is wrong with a recording is told with its line", "[recording]")
   };
   CHECK(problems_of(folder.path() / "none.jsonl").at(0).code == "E-IO");
   CHECK(wrong("").at(0).code == "E-PARSE");
-  CHECK(wrong("{}\n").size() >= 5);
+  CHECK(wrong("{\"fanbeam_live\":1}\n").size() == 4);
   const auto several =
       wrong(std::string(kHead) +
             "\n{\"packet\":\"0g\",\"s\":1}\n"
@@ -299,6 +316,31 @@ TEST_CASE("What is wrong with a recording is told with its line", "[recording]")
   CHECK(several.size() >= 6);
   CHECK(several.at(0).place.file.find(":2") != std::string::npos);
   CHECK(several.at(1).place.file.find(":3") != std::string::npos);
+}
+
+TEST_CASE("A file that is no recording is told once, not by each of its lines", "[recording]") {
+  const tests::TemporaryFolder folder;
+  std::string table = "airport,runway,length_m\n";
+  for (int i = 0; i < 50; ++i) table += "EDVE,26," + std::to_string(i) + "\n";
+  for (const std::string& text : {table, std::string("{}\n{}\n"), std::string("[1]\n2\n")}) {
+    const auto problems = problems_of(folder.write("runways.csv", text));
+    REQUIRE(problems.size() == 1);
+    CHECK(problems[0].value == "no recording");
+  }
+}
+
+TEST_CASE("A recording keeps its sensor and effects; an older one knows nothing of them",
+          "[recording]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.path() / "flight.jsonl";
+  live::Journal(file, {"s", {"circle"}, 16.0, true, "HiVision", "none,+rain"}).begin();
+  const live::FlownBy kept = live::read_recording(file).flown_by;
+  CHECK(kept.sensor == std::optional<std::string>("HiVision"));
+  CHECK(kept.effects == std::optional<std::string>("none,+rain"));
+  const live::FlownBy older =
+      live::read_recording(folder.write("older.jsonl", std::string(kHead) + "\n")).flown_by;
+  CHECK_FALSE(older.sensor.has_value());
+  CHECK_FALSE(older.effects.has_value());
 }
 
 TEST_CASE("The last line of a channel that was killed is left out", "[recording]") {

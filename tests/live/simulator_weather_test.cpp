@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "tests/feeds/native_fdm_bytes.h"
+#include "tests/feeds/xplane_bytes.h"
 #include "tests/live/live_scene.h"
 
 using namespace fanbeam;
@@ -97,6 +99,91 @@ TEST_CASE("What the simulator changes is set, and what a person sets stands unti
   after(9);
   CHECK(rain() == 0.0);
   CHECK_FALSE(session->scene()->weather.visibility_m.has_value());
+}
+
+// Each change of the visibility took the rain away.
+TEST_CASE("What a protocol does not tell stays as it was set", "[simulator_weather]") {
+  tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  const live::Desk desk(*session, hub);
+  live::Feed feed(session->scene(), core::VerticalDatum::scene);  // native-fdm: visibility alone
+  live::SimulatorWeather weather(desk, feed);
+  const auto begin = live::Clock::now();
+  const auto tell = [&](float visibility_m, int after_s) {
+    auto packet = tests::native_fdm_bytes(0.9, 0.2);
+    tests::put(packet, 364, visibility_m);
+    feed.take(packet);
+    weather.follow(begin + std::chrono::seconds(after_s));
+  };
+  const auto now = [&] { return session->scene()->weather; };
+  desk.control("/api/weather", R"({"rain_rate_mm_per_h": 5, "visibility_m": 400})");
+  tell(5000.0F, 0);
+  CHECK(now().rain_rate_mm_per_h == 5.0);
+  CHECK_FALSE(now().visibility_m.has_value());
+  desk.control("/api/weather", R"({"rain_rate_mm_per_h": 0, "snow_rate_mm_per_h": 2})");
+  tell(300.0F, 3);
+  CHECK(now().rain_rate_mm_per_h == 0.0);
+  CHECK(now().snow_rate_mm_per_h == 2.0);
+  CHECK(now().visibility_m == 300.0);
+}
+
+// X-Plane tells visibility and rain, and each only once it was asked.
+TEST_CASE("A simulator that tells no weather changes none, fog by its water stays",
+          "[simulator_weather]") {
+  tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  atmosphere::Weather foggy = session->scene()->weather;
+  foggy.visibility_m.reset();
+  foggy.liquid_water_g_per_m3 = 0.3;
+  session->set(foggy);
+  live::Hub hub;
+  const live::Desk desk(*session, hub);
+  live::Feed feed(session->scene(), core::VerticalDatum::scene, feeds::kProtocols[2]);
+  live::SimulatorWeather weather(desk, feed);
+  const auto begin = live::Clock::now();
+  const auto before = session->now();
+  feed.take(tests::xplane_position(52.0, 10.0, 300.0));
+  weather.follow(begin);
+  CHECK(session->now() == before);
+  const auto rain = [&] { return session->scene()->weather.rain_rate_mm_per_h; };
+  feed.tell_rain(1.0);
+  weather.follow(begin + std::chrono::seconds(1));
+  CHECK(rain() == 22.0);
+  CHECK(atmosphere::fog_liquid_water_g_per_m3(session->scene()->weather) ==
+        Approx(0.3).epsilon(1e-9));
+  // What it tells later counts then, also where it is none.
+  live::Feed dry(session->scene(), core::VerticalDatum::scene, feeds::kProtocols[2]);
+  live::SimulatorWeather later(desk, dry);
+  dry.take(tests::xplane_position(52.0, 10.0, 300.0));
+  dry.tell_visibility(5000.0);
+  later.follow(begin);
+  CHECK(rain() == 22.0);
+  dry.tell_rain(0.0);
+  later.follow(begin + std::chrono::seconds(3));
+  CHECK(rain() == 0.0);
+}
+
+TEST_CASE("Rain that is told to fall takes the place of snow that is not told",
+          "[simulator_weather]") {
+  atmosphere::Weather snowing;
+  snowing.snow_rate_mm_per_h = 4.0;
+  const auto body = [&](const feeds::AircraftState& state) {
+    return json::parse(live::weather_body(state, snowing));
+  };
+  feeds::AircraftState state;
+  state.rain_norm = 0.3;
+  CHECK(body(state)["rain_rate_mm_per_h"] > 0.0);
+  CHECK(body(state)["snow_rate_mm_per_h"] == 0.0);
+  state.rain_norm = 0.0;
+  CHECK(body(state)["rain_rate_mm_per_h"] == 0.0);
+  CHECK(body(state)["snow_rate_mm_per_h"] == 4.0);
+  // Below a melting layer both may fall: whoever tells neither changes neither.
+  snowing.rain_rate_mm_per_h = 3.0;
+  state.rain_norm.reset();
+  state.visibility_m = 5000.0;
+  CHECK(body(state)["rain_rate_mm_per_h"] == 3.0);
+  CHECK(body(state)["snow_rate_mm_per_h"] == 4.0);
 }
 
 // It ended the channel.

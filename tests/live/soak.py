@@ -4,9 +4,13 @@
 usage: soak.py FANBEAM DATA FOLDER [MINUTES [HOURS]]   0 leaves a part out
 
 First part: every planned effect, packets 50 to 83 ms apart, two viewers, a reader of shared memory.
-Second part: that many hours of packets, one in twenty of them garbage, impossible, late, from the far
-future or a jump (hard cases F11 to F14), replayed as fast as frames are made. Says whether what
-docs/live.md promises held, and ends with 1 where it did not. FOLDER gets soak.json.
+Second part: that many hours of a recording, one in 24 of its packets garbage, not finite, of another time,
+a jump ahead or back, and one in 120 missing, replayed as fast as frames are made: hours of decoding, of the
+predictor, of rendering and of answers. A recording is of packets that counted, so a replay has neither the
+gate of the simulator's clock nor the counts by reason: those are in the first part without faults, and with
+faults (hard cases F11 to F14) in minute_test.py. The frames' bytes are not compared: a frame's noise goes by
+its number. tests/apps/long_run_test.cpp compares those of a loop.
+Says whether what docs/live.md promises held, and ends with 1 where it did not. FOLDER gets soak.json.
 """
 import json
 import math
@@ -132,7 +136,7 @@ def benchmark(minutes):
 
 
 def write_hours(file, hours, approach, draw):
-    """A recording of that many hours with faults, as live/journal.h has it."""
+    """A recording of that many hours, as live/journal.h has it, with packets that no channel would keep."""
     def packet(at_s, data):
         file.write(json.dumps({"packet": data.hex(), "s": at_s}) + "\n")
     file.write(json.dumps({"fanbeam_live": 1, "scene": "flat-grass", "from": "fg-generic:0", "rate_Hz": RATE_Hz,

@@ -98,6 +98,29 @@ def test_a_killed_worker_leaves_no_half_run(program, campaign, whole, tmp_path, 
     assert not list(tmp_path.glob("runs/.*"))
 
 
+def test_a_pilot_counts_each_scene_by_its_share_of_the_runs(program, tmp_path):
+    file = tmp_path / "shares.toml"
+    # Half of the runs have five frames, half have one, of a scene that stands still.
+    text = CAMPAIGN.replace('plan = "sobol"\nruns = 6', 'plan = "grid"\nruns = 4').split("[parameters]")[0]
+    text = text.replace("count = 2", "count = 5").replace('["bscope", "power", "labels"]', '["power"]')
+    file.write_text(text + '[parameters]\nsurface = { values = ["dry", "wet"] }\n', encoding="utf-8")
+    said = told(program, "plan", file)
+    pilot = next(line for line in said.splitlines() if line.startswith("pilot of "))
+    assert pilot.startswith("pilot of 4 runs of 2 scenes on ") and " s to open a scene; " in pilot
+    told(program, "run", file, "-o", tmp_path / "out", "-q")
+    size = sum(len(data) for name, data in bytes_of(tmp_path / "out" / "runs").items() if not name.endswith("run.json"))
+    assert float(pilot.split("all of it ")[1].split(" MB")[0]) == pytest.approx(size / 1e6, rel=0.1, abs=0.06)
+
+
+def test_a_plan_tells_why_runs_of_its_pilot_would_be_refused(program, tmp_path):
+    file = tmp_path / "nowhere.toml"
+    file.write_text(CAMPAIGN.replace("flat-grass", "flat-gras"), encoding="utf-8")
+    said = told(program, "plan", file, exit_code=3)
+    assert "would be refused: run " in said and " of flat-gras: " in said
+    assert "one of the shipped scenes" in said and said.count("would be refused") == 1
+    assert " of 1 scene on " in said
+
+
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
 def test_a_stopped_pilot_leaves_nothing(program, campaign, tmp_path, how):
     plan = subprocess.Popen([program, "campaign", "plan", campaign], env={**os.environ, "TMPDIR": str(tmp_path)})
@@ -163,12 +186,36 @@ def test_verify_finds_a_changed_record_and_takes_one_of_an_earlier_version(progr
     record.write_text(text.replace(f'"weather.visibility_m": {visibility}', '"weather.visibility_m": 500.0'), encoding="utf-8")
     said = told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2", exit_code=1)
     assert "run 1: run.json: other bytes than recorded" in said and "1 of 2 runs" in said
-    # Which had no hash of the record.
     old = json.loads(text)
     assert list(old)[-1] == "record_sha256"
     del old["record_sha256"]
     record.write_text(json.dumps(old), encoding="utf-8")
+    said = told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2", exit_code=1)
+    assert "run 1: run.json: without its seal" in said
+    # An earlier program had none.
+    for run in ("000000", "000001"):
+        file = tmp_path / "runs" / run / "run.json"
+        old = {**json.loads(file.read_text(encoding="utf-8")), "commit": "0123456789ab"}
+        old.pop("record_sha256", None)
+        file.write_text(json.dumps(old), encoding="utf-8")
     told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2")
+
+
+def test_a_record_of_other_types_is_told_and_the_other_runs_are_judged(program, campaign, tmp_path):
+    told(program, "run", campaign, "-o", tmp_path, "--runs", "0:2", "-q")
+    next((tmp_path / "runs" / "000001").glob("labels/*.json")).unlink()
+    record = tmp_path / "runs" / "000000" / "run.json"
+    whole = json.loads(record.read_text(encoding="utf-8"))
+    name = next(iter(whole["files"]))
+    for wrong in (
+        {"run": "0"},
+        {"campaign_sha256": 5},
+        {"files": {**whole["files"], name: {"sha256": None}}},
+        {"files": {**whole["files"], name: {"sha256": 5}}},
+    ):
+        record.write_text(json.dumps({**whole, **wrong}), encoding="utf-8")
+        said = told(program, "verify", campaign, "-o", tmp_path, "--runs", "0:2", exit_code=1)
+        assert "run 0: run.json: no record of a run" in said and "run 1: labels/" in said
 
 
 def test_runs_of_other_values_and_beyond_the_file_are_damage(program, campaign, tmp_path):
@@ -202,6 +249,7 @@ def test_a_grid_with_weights_of_an_earlier_version_can_be_looked_at_alone(progra
     for run in (output / "runs").iterdir():
         record = json.loads((run / "run.json").read_text(encoding="utf-8"))
         del record["record_sha256"]
+        record["commit"] = "0123456789ab"
         record["campaign_sha256"] = hashlib.sha256(file.read_bytes()).hexdigest()
         (run / "run.json").write_text(json.dumps(record), encoding="utf-8")
     for task in ("status", "merge", "verify"):
@@ -224,6 +272,26 @@ def test_mixtures_are_refused(program, campaign, tmp_path):
     other = tmp_path / "small.toml"
     other.write_text(CAMPAIGN.replace("seed = 7", "seed = 8"), encoding="utf-8")
     assert "another version" in told(program, "verify", other, "-o", folder, "--runs", "0:4", exit_code=1)
+
+
+def test_a_changed_file_is_told_once_and_early(program, campaign, tmp_path):
+    folder, other = tmp_path / "out", tmp_path / "small.toml"
+    told(program, "run", campaign, "-o", folder, "--runs", "0:4", "-q")
+    other.write_text(CAMPAIGN + "# changed\n", encoding="utf-8")
+    assert "W-CHANGED" not in told(program, "status", campaign, "-o", folder)
+    for task in (["status", other, "-o", folder], ["run", other, "-o", folder, "--runs", "0:2"]):
+        assert told(program, *task).count("W-CHANGED") == 1
+    said = told(program, "merge", other, "-o", folder, exit_code=3)
+    assert "changed since 4 of 4 runs were made" in said and said.count("E-UNSUPPORTED") == 1
+    assert "one program for all" not in said
+
+
+def test_a_missing_file_of_a_run_in_a_folder_is_no_archive(program, campaign, tmp_path):
+    told(program, "run", campaign, "-o", tmp_path, "--runs", "0", "-q")
+    gone = next((tmp_path / "runs" / "000000").glob("labels/*.json"))
+    gone.unlink()
+    said = told(program, "merge", campaign, "-o", tmp_path, exit_code=4)
+    assert f"{gone.name}: E-IO file = missing" in said and "archive" not in said
 
 
 def test_what_is_no_campaigns_folder_stays_as_it_is(program, campaign, tmp_path):

@@ -55,7 +55,9 @@ CHANGES = {
     "not measured": (change(["scenarios", 0, "suppressed_detections"], []), True),
     "unknown member": (change(["scenarios", 0, "weather"], "rain"), False),
     "unknown radar member": (change(["scenarios", 0, "radar_overrides"], {"noise_figre_db": 12}), False),
+    "no scenario": (change(["scenarios"], []), False),
     "no duration": (change(["scenarios", 0, "duration_s"], None), False),
+    "a target's name of two cells": (change(["scenarios", 0, "targets", 0, "id"], "A, left"), False),
     "unknown motion": (change(["scenarios", 0, "targets", 0, "motion"], "spiral"), False),
     "three numbers": (change(["scenarios", 0, "targets", 0, "position_m"], [1, 2, 3]), False),
     "waveforms": (change(["waveforms"], {"tri": {"type": "triangle", "ramp_s": 1e-3}}), True),
@@ -63,6 +65,10 @@ CHANGES = {
     "one slope of two": (change(["waveforms"], {"two": {"type": "triangle-pair", "ramp_s": [2e-3]}}), False),
     "a ramp of a coarse stage": (
         change(["waveforms"], {"two": {"type": "two-stage", "coarse": {"ramp_s": 1}, "fine": {}}}), False),
+    "a rate of two stages": (
+        change(["waveforms"], {"two": {"type": "two-stage", "coarse": {}, "fine": {}, "sample_rate_hz": 1e6}}), False),
+    "a buffer of two stages": (
+        change(["waveforms"], {"two": {"type": "two-stage", "coarse": {}, "fine": {}, "ramps_per_buffer": 8}}), False),
     "another code": (change(["waveforms"], {"pn": {"type": "up-flat-down", "flat_code": "gold-127"}}), False),
     "noise below none": (change(["radar", "noise_figure_db"], -1), False),
     "farther than any radar": (change(["radar", "max_range_m"], 1e10), False),

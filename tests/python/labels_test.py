@@ -288,3 +288,9 @@ def test_a_run_that_goes_on_labels_all_of_its_frames(program, approach, tmp_path
     # Pictures without labels take their place: nothing of them stays.
     subprocess.run([program, "render", "braunschweig-26", "--frames", "700", "--effects", "none", "-q", "-o", tmp_path], check=True)
     assert not (tmp_path / "coco.json").exists() and not (tmp_path / "labels").exists()
+
+
+def test_labels_have_the_number_of_their_frame_however_long_a_session_runs(scene):
+    number = 2**31 + 5
+    frame = scene.render(700, frame_index=number, bscope=False, cscope=False, labels=True)
+    assert frame.labels["frame"] == number

@@ -3,6 +3,7 @@
 import multiprocessing
 import os
 import pickle
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -104,8 +105,24 @@ def test_a_pickle_keeps_that_water_took_the_place_of_the_scenes_visibility():
 def test_data_folders_are_the_same_from_another_folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("FANBEAM_DATA", "named")
+    (tmp_path / "given").mkdir()
     told = fanbeam.Scene.open("flat-grass", data="given").__getstate__()
     assert told.opened["data"][:2] == [tmp_path / "given", tmp_path / "named"]
+
+
+def test_none_takes_every_part_of_the_weather_away(grass):
+    scene = fanbeam.Scene.open("flat-grass")
+    usual = scene.weather
+    other = {
+        "liquid_water_g_per_m3": 0.1, "fog_top_m": 90.0, "rain_rate_mm_per_h": 4.0, "rain_top_m": 900.0,
+        "melting_layer": True, "snow_rate_mm_per_h": 1.0, "snow_top_m": 5000.0, "temperature_C": 5.0,
+        "pressure_hPa": 1000.0, "humidity": 0.5,
+    }
+    scene.set_weather(**other)
+    assert all(scene.weather[name] == value for name, value in other.items())
+    scene.set_weather(**dict.fromkeys(other))
+    assert scene.weather == usual == grass.weather
+    assert pickle.loads(pickle.dumps(scene)).weather == usual
 
 
 def test_parts_that_threads_set_at_once_are_all_kept():
@@ -147,6 +164,13 @@ def test_watts_follow_the_radar_equation_with_rain(grass):
     row = 262
     loss_dB = 2 * air.one_way_dB_per_km(30.0)["rain"] * scene.range_m[row] / 1000
     assert 10 * np.log10(dry[row] / wet[row]) == pytest.approx(loss_dB, rel=0.01)
+
+
+def test_watts_hold_the_noise_that_a_display_hides():
+    scene = fanbeam.Scene.open("flat-grass")
+    scene.set_sensor(low_dB=100.0, high_dB=150.0)
+    assert scene.plan.runs("thermal-noise")
+    assert scene.render(0, cscope=False).meta["noise_W"] == scene.facts["noise_W"] > 0.0
 
 
 def test_conditions_change_what_they_name_alone(grass):
@@ -192,19 +216,63 @@ def test_every_problem_is_told_at_once(grass):
     assert [problem.code for problem in told.value.problems] == ["E-RANGE", "E-NONFINITE", "E-RANGE"]
     with pytest.raises(fanbeam.InputError, match="flat-grass"):
         fanbeam.Scene.open("flat-gras")
+    with pytest.raises(fanbeam.InputError, match="speckle"):
+        fanbeam.Scene.open("flat-grass", effects="+speckle", sample=False)
     with pytest.raises(fanbeam.InputError, match="rain_rate"):
         grass.set_weather(rain_rate_mm_per_h=-1.0)
     assert grass.weather["rain_rate_mm_per_h"] == 0.0
     with pytest.raises(fanbeam.InputError, match="E-REF"):
         grass.set_targets([fanbeam.Target("nobody", 52.0, 10.0, 0.0)])
+    nan = float("nan")
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.set_sensor(low_dB=nan, high_dB=500.0)
+    assert [(problem.code, problem.field) for problem in told.value.problems] == [
+        ("E-NONFINITE", "low_dB"),
+        ("E-RANGE", "high_dB"),
+    ]
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.set_targets([fanbeam.Target("new", 52.0, 10.0, 0.0, 1.0, attitude_deg=(nan, 0.0, -nan))])
+    assert [(problem.code, problem.field) for problem in told.value.problems] == [
+        ("E-NONFINITE", "target[0].roll_deg"),
+        ("E-NONFINITE", "target[0].heading_deg"),
+    ]
+    with pytest.raises(fanbeam.InputError) as told:
+        grass.set_targets([fanbeam.Target("good", 52.0, 10.0, 0.0, 1.0), fanbeam.Target("bad", 95.0, 10.0, 1e9, -1.0)])
+    assert [(problem.code, problem.field) for problem in told.value.problems] == [
+        ("E-RANGE", "target[1].latitude_deg"),
+        ("E-RANGE", "target[1].height_m"),
+        ("E-RANGE", "target[1].rcs_m2"),
+    ]
     with pytest.raises(TypeError):
         grass.set_weather(rain=3)
     with pytest.raises(TypeError, match="rain_rate"):
         grass.set_weather(rain_rate_mm_per_h="much")
-    with pytest.raises(IndexError):
-        grass.render(7)
+    with pytest.raises(fanbeam.InputError, match="frame = 99999: expected 0 to 0, or -1"):
+        grass.render(99999)
     with pytest.raises(TypeError):
         grass.render("now")
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("name", 5),
+        ("latitude_deg", "52"),
+        ("height_m", None),
+        ("rcs_m2", "bright"),
+        ("attitude_deg", (0.0, 0.0)),
+    ],
+)
+def test_a_value_of_another_type_is_told_with_its_field(grass, field, value):
+    target = {"name": "new", "latitude_deg": 52.0, "longitude_deg": 10.0, "height_m": 50.0, "rcs_m2": 1.0}
+    with pytest.raises(TypeError, match=rf"target\[0\]\.{field}: expected "):
+        grass.set_targets([fanbeam.Target(**{**target, field: value})])
+
+
+def test_a_data_folder_that_is_none_is_told(tmp_path):
+    with pytest.raises(fanbeam.InputError, match="E-IO data"):
+        fanbeam.Scene.open("flat-grass", data=tmp_path / "nowhere")
+    assert fanbeam.Scene.open("flat-grass", data=tmp_path).name == "flat-grass"
 
 
 def test_problems_of_files_have_their_line(tmp_path):
@@ -276,6 +344,24 @@ def test_a_scene_travels_to_other_processes_with_its_conditions(method):
         assert pool.apply(worker_bytes, (scene,)) == worker_bytes(scene)
 
 
+def test_a_task_that_a_forked_worker_cannot_do_fails_instead_of_waiting(grass):
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        with pytest.raises(RuntimeError, match="spawn"):
+            pool.apply_async(worker_bytes, (grass,)).get(timeout=60)
+
+
+def test_what_cannot_be_opened_where_it_is_sent_is_told_by_the_first_call(tmp_path, root):
+    shutil.copytree(root / "scenes" / "flat-grass", tmp_path / "grass")
+    sent = pickle.dumps(fanbeam.Scene.open(tmp_path / "grass"))
+    shutil.rmtree(tmp_path / "grass")
+    arrived = pickle.loads(sent)
+    for _ in range(2):
+        with pytest.raises(fanbeam.InputError, match="E-IO"):
+            arrived.render(0)
+    shutil.copytree(root / "scenes" / "flat-grass", tmp_path / "grass")
+    assert pickle.loads(pickle.dumps(arrived)).render(0).bscope is not None
+
+
 def test_in_a_forked_child_a_scene_says_what_to_do(grass):
     read, write = os.pipe()
     child = os.fork()
@@ -334,6 +420,10 @@ def test_lookups(root):
         fanbeam.nrcs("short_gras", 0.1)
     with pytest.raises(fanbeam.InputError, match="grazing_rad"):
         fanbeam.nrcs("short_grass", 2.0)
+    air = fanbeam.Atmosphere()
+    with pytest.raises(fanbeam.InputError, match="E-RANGE length_m = 299: expected at least 300 m"):
+        air.one_way_dB(0.0, 300.0, 299.0)
+    assert air.one_way_dB(0.1, 0.4, 0.3) > 0.0  # straight up, but for rounding
     # Recommendation ITU-R P.838-3 at 35 GHz, horizontal: k = 0.3374 , alpha = 0.9047
     assert fanbeam.Atmosphere(35e9, rain_rate_mm_per_h=10.0).one_way_dB_per_km(0.0)["rain"] == pytest.approx(
         0.3374 * 10**0.9047, rel=1e-3

@@ -56,6 +56,24 @@ def test_the_waveform_tells_its_resolution():
         fanbeam.signal.waveform("chirp-sequence", band=150e6)
     with pytest.raises(fanbeam.InputError, match="bandwidth"):
         fanbeam.signal.waveform("chirp-sequence", bandwidth=-1.0)
+    with pytest.raises(fanbeam.InputError, match="kind = .*triangle"):
+        fanbeam.signal.waveform("chirps")
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.waveform("triangle", code_degree=7)
+    assert told.value.problems[0].field == "code_degree"
+
+
+def test_a_frame_that_the_flight_has_not_is_told(lone_target):
+    with pytest.raises(fanbeam.InputError, match="frame = 99999"):
+        fanbeam.signal.frame(lone_target, 99999)
+
+
+def test_what_a_radar_cannot_be_is_told_by_arguments(lone_target):
+    with pytest.raises(fanbeam.InputError, match="waveform = .*automotive-76ghz, .*stepped"):
+        fanbeam.signal.frame(lone_target, 0, waveform="chirps")
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.frame(lone_target, 0, numbers={"slots": 2})
+    assert (told.value.problems[0].field, told.value.problems[0].expected) == ("slots", "1, or as many as transmitters")
 
 
 def test_what_is_wanted_is_checked(lone_target):
@@ -64,6 +82,18 @@ def test_what_is_wanted_is_checked(lone_target):
     with pytest.raises(fanbeam.InputError) as told:
         fanbeam.signal.frame(lone_target, 0, transmitters=0, adc_bits=99)
     assert {problem.field for problem in told.value.problems} == {"transmitters", "adc_bits"}
+    with pytest.raises(fanbeam.InputError, match="E-LIMIT samples x chirps x channels"):
+        fanbeam.signal.frame(lone_target, 0, waveform="continuous", receivers=64, numbers={"duration": 1000.0})
+
+
+def test_a_value_of_another_type_is_told_with_its_field(lone_target):
+    for field, value in (("seed", -1), ("seed", "x"), ("receivers", 1.5), ("real", "yes"), ("waveform", 5)):
+        with pytest.raises(TypeError, match=f"{field}: expected "):
+            fanbeam.signal.frame(lone_target, 0, **{field: value})
+    with pytest.raises(TypeError, match="bandwidth: expected a number, not 'x'"):
+        fanbeam.signal.frame(lone_target, 0, numbers={"bandwidth": "x"})
+    with pytest.raises(TypeError, match="bandwidth: expected a number, not 'x'"):
+        fanbeam.signal.waveform("chirp-sequence", bandwidth="x")
 
 
 def test_numbers_of_elements_replace_the_places_of_a_radar_file(lone_target, tmp_path):

@@ -4,10 +4,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "core/effect_plan.h"
+#include "core/errors.h"
+#include "renderer/plan/effect_texts.h"
 #include "renderer/plan/plan.h"
+#include "tests/comma_locale.h"
 #include "tests/renderer/test_worlds.h"
 
 using namespace fanbeam;
@@ -25,19 +29,89 @@ TEST_CASE("Every effect has one row of the catalogue, in the order of their name
   CHECK(std::set(core::kEffectNames.begin(), core::kEffectNames.end()).size() == rows.size());
 }
 
+TEST_CASE("F18 figures in the texts of a plan have a point under a decimal comma", "[effects]") {
+  const tests::CommaLocale comma;
+  if (!comma.made()) return;
+  const tests::HeldCommaLocale held(comma);
+  CHECK(renderer::figure_text(7.5) == "7.5");
+  CHECK(renderer::figure_text(0.0312) == "0.031");
+  CHECK(renderer::figure_text(1234.5) == "1234");
+}
+
 TEST_CASE("A wish names every effect by its word, and no other", "[effects]") {
-  for (std::size_t i = 0; i < core::kEffectNames.size(); ++i) {
-    const auto effect = static_cast<core::EffectId>(i);
-    const renderer::EffectWishes wishes = renderer::parse_effect_wishes(
-        "+" + std::string(name_of(effect)), renderer::Touches::samples);
-    core::EffectSet alone;
-    alone.insert(effect);
-    CHECK(wishes.forced_on == alone);
-    CHECK(wishes.forced_on.names() == std::vector{name_of(effect)});
-    CHECK(wishes.forced_off == core::EffectSet{});
-  }
+  for (const auto touched : {renderer::Touches::pictures, renderer::Touches::samples})
+    for (const core::EffectId effect : renderer::effects_shown_in(touched)) {
+      const renderer::EffectWishes wishes =
+          renderer::parse_effect_wishes("+" + std::string(name_of(effect)), touched);
+      core::EffectSet alone;
+      alone.insert(effect);
+      CHECK(wishes.forced_on == alone);
+      CHECK(wishes.forced_on.names() == std::vector{name_of(effect)});
+      CHECK(wishes.forced_off == core::EffectSet{});
+    }
   for (const char* refused : {"+", "-", "gas", "+gass", "", "+ga", "*gas"})
     CHECK_THROWS_AS(renderer::parse_effect_wishes(refused), core::InputError);
+}
+
+// They were taken, and nothing came of them.
+TEST_CASE("An effect that samples do not show cannot be forced on there, only off", "[effects]") {
+  using enum core::EffectId;
+  for (const core::EffectId effect :
+       {rain_echo, double_bounce, range_response, thermal_noise, speckle}) {
+    const std::string name(name_of(effect));
+    INFO(name);
+    try {
+      renderer::parse_effect_wishes("-gas,+" + name, renderer::Touches::samples);
+      FAIL("taken");
+    } catch (const core::InputError& error) {
+      REQUIRE(error.problems().size() == 1);
+      CHECK(error.problems()[0].code == "E-UNSUPPORTED");
+      CHECK(error.problems()[0].value == "\"+" + name + "\"");
+      CHECK(error.problems()[0].expected.find(" +multipath") != std::string::npos);
+      CHECK(error.problems()[0].expected.find(" +" + name) == std::string::npos);
+    }
+    CHECK_NOTHROW(renderer::parse_effect_wishes("+" + name));
+    CHECK(renderer::parse_effect_wishes("-" + name, renderer::Touches::samples)
+              .forced_off.contains(effect));
+  }
+}
+
+// They named the default laws whatever the weather went by.
+TEST_CASE("An effect's source is that of the laws that the weather goes by", "[effects]") {
+  const auto source = [](core::EffectId id, const atmosphere::Weather& weather) {
+    for (const renderer::Effect& effect : renderer::effect_catalogue())
+      if (effect.id == id) return renderer::source_in(effect, weather);
+    return std::string();
+  };
+  atmosphere::Weather weather;
+  // None is there: as the catalogue has it.
+  CHECK(source(core::EffectId::fog, weather) == "ITU-R P.840-8");
+  CHECK(source(core::EffectId::rain, weather) == "ITU-R P.838-3");
+  weather.liquid_water_g_per_m3 = 0.1;
+  weather.rain_rate_mm_per_h = 5.0;
+  CHECK(source(core::EffectId::fog, weather) == "Recommendation ITU-R P.840-8");
+  CHECK(source(core::EffectId::rain, weather) == "Recommendation ITU-R P.838-3");
+  weather.fog_law = atmosphere::FogLaw::altshuler;
+  weather.rain_law = atmosphere::RainLaw::mie;
+  weather.rain_echo_law = atmosphere::RainEchoLaw::georgia_tech_1975;
+  CHECK(source(core::EffectId::fog, weather) == "Altshuler 1984, IEEE Trans. AP 32, 757");
+  CHECK(source(core::EffectId::rain, weather).find("Mie scattering") == 0);
+  CHECK(source(core::EffectId::rain_echo, weather) == "Georgia Tech 1975, measured (recalled)");
+  // A layer by another law, and what melts.
+  atmosphere::FogLayer cloud;
+  cloud.liquid_water_g_per_m3 = 0.2;
+  cloud.base_m = 300.0;
+  cloud.top_m = 500.0;
+  weather.fog_layers = {cloud, cloud};
+  weather.melting_height_m = 2000.0;
+  CHECK(source(core::EffectId::fog, weather) ==
+        "Altshuler 1984, IEEE Trans. AP 32, 757; Recommendation ITU-R P.840-8");
+  CHECK(source(core::EffectId::rain, weather).find("; Recommendation ITU-R P.530-17") !=
+        std::string::npos);
+  // What is no weather stays what it is.
+  for (const renderer::Effect& effect : renderer::effect_catalogue())
+    if (effect.id == core::EffectId::speckle)
+      CHECK(renderer::source_in(effect, weather) == effect.source);
 }
 
 TEST_CASE("An antenna sees heights as far from its aircraft's as lever and tilted level take it",

@@ -2,6 +2,7 @@
 // realisation, and in each picture.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <utility>
 
 #include "core/effect_plan.h"
 #include "renderer/plan/largest_echo.h"
@@ -50,7 +51,7 @@ TEST_CASE("Added power counts over black, noise that is shown counts as well", "
   }
 }
 
-TEST_CASE("Detections and power ask for noise that no display shows", "[plan]") {
+TEST_CASE("Detections, power and labels ask for noise that no display shows", "[plan]") {
   renderer::SceneFacts facts = facts_with(Display::CScopeMode::true_elevation);
   Display& display = facts.sensor.display;
   display.mapping = Display::Mapping::log;
@@ -73,6 +74,9 @@ TEST_CASE("Detections and power ask for noise that no display shows", "[plan]") 
   facts.read = {.detections = true};
   CHECK(noise("").on);
   CHECK(noise("").reason.find("product detections") != std::string::npos);
+  facts.read = {.labels = true};
+  CHECK(noise("").on);
+  CHECK(noise("").reason.find("product labels") != std::string::npos);
   facts.read = {.obstacles = true};
   CHECK(noise("").reason.find("asked for") == std::string::npos);
 }
@@ -130,6 +134,27 @@ TEST_CASE("A row of the true C-scope has its own floor and noise", "[plan]") {
   facts.noise_shown = true;
   CHECK(renderer::largest_change_dB(added, facts) ==
         Approx(change_dB(added.row_W_m3 / sensors::cscope_noise_W_m3(facts.sensor))));
+}
+
+// A B-scope alone paid for the C-scope that nobody saw.
+TEST_CASE("Where no heights are shown, the floor of a C-scope counts for nothing", "[plan]") {
+  const auto changes_dB = [](Display::CScopeMode mode) {
+    renderer::SceneFacts facts = facts_with(mode);
+    const sensors::GreyScale scale(facts.sensor);
+    renderer::AddedPower added = in_cell(facts.sensor, 0, 0.0);
+    for (int row = 0; row < facts.sensor.range.cells; ++row)
+      added.cell_W[static_cast<std::size_t>(row)] = 0.01 * scale.bscope_floor_W(row);
+    added.row_W_m3 = scale.cscope_floor_W_m3();
+    const double shown_dB = renderer::largest_change_dB(added, facts);
+    facts.heights_shown = false;
+    return std::pair(shown_dB, renderer::largest_change_dB(added, facts));
+  };
+  const auto [row_dB, beside_row_dB] = changes_dB(Display::CScopeMode::true_elevation);
+  CHECK(row_dB == Approx(change_dB(1.0)).epsilon(1e-9));
+  CHECK(beside_row_dB == Approx(change_dB(0.01)).epsilon(1e-9));
+  const auto [all_cells_dB, one_cell_dB] = changes_dB(Display::CScopeMode::flat_earth);
+  CHECK(all_cells_dB == Approx(change_dB(0.01 * 524)).epsilon(1e-9));
+  CHECK(one_cell_dB == Approx(change_dB(0.01)).epsilon(1e-9));
 }
 
 TEST_CASE("No change is larger than the display's window", "[plan]") {

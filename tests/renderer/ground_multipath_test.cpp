@@ -1,5 +1,7 @@
 // Point targets over reflecting ground against the textbook's two-ray pattern.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstring>
 
 #include "renderer/plan/plan.h"
@@ -30,8 +32,9 @@ renderer::World flat_world(double distance_m, double height_m,
   sensors::Sensor sensor = tests::hivision(8);
   sensor.antenna.elevation.half_power_width_rad = 100.0;
   sensor.antenna.elevation.cut_rad = 1.5;
+  const double half_extent_m = std::max(4000.0, distance_m + 1000.0);
   renderer::World world =
-      tests::world(sensor, tests::ground(4000.0, 250.0, [](double, double) { return 0.0; }),
+      tests::world(sensor, tests::ground(half_extent_m, 250.0, [](double, double) { return 0.0; }),
                    {kGrass, kGrass}, std::move(bodies));
   world.specular = {ground};
   world.targets = {
@@ -86,6 +89,17 @@ TEST_CASE("G02 the ground path is longer by 0.0799839870383 m", "[multipath]") {
   CHECK(path->longer_m == Approx(0.0799839870383).epsilon(0.0).margin(1e-12));
   CHECK(path->amplitude.real() == Approx(-1.0).margin(1e-3));
   CHECK(path->elevation_rad == Approx(-std::atan(62.0 / 3000.0)).epsilon(0.0).margin(1e-9));
+}
+
+// Of lengths near 37 km, whose double steps are 7e-12 m, the difference of two square roots is off by
+// 3.1e-12 m: 4.7e-8 of what is asked for (by 50 digits).
+TEST_CASE("G02 at 37 km the ground path to a stone of 2 cm is longer by 64.86 um", "[multipath]") {
+  const renderer::World world = flat_world(37000.0, 0.02, kMetal);
+  const auto path = renderer::ground_path(world, antenna_at(60.0), {0.0, 37000.0, 0.02});
+  REQUIRE(path);
+  CHECK(path->longer_m == Approx(6.4864779578860878e-5).epsilon(1e-12).margin(0.0));
+  const double by_roots_m = std::hypot(37000.0, 60.02) - std::hypot(37000.0, 59.98);
+  CHECK(std::abs(by_roots_m / 6.4864779578860878e-5 - 1.0) > 1e-8);
 }
 
 TEST_CASE("Over a perfect mirror the echo follows 16 sin^4(2 pi h1 h2 / (lambda R))",

@@ -248,3 +248,38 @@ TEST_CASE("A target abeam is seen where the outer columns' beams reach it", "[ta
   REQUIRE(found.echoes.size() == 1);
   CHECK(found.echoes[0].azimuth_rad == Approx(core::radians(100.0)));
 }
+
+// It vanished where its azimuth, not its angle on the sky, left the beam.
+TEST_CASE("Steeply below, a target that leaves the outermost column fades with the beam",
+          "[target]") {
+  sensors::Sensor sensor = tests::hivision();
+  sensor.antenna.boresight_elevation_rad = core::radians(-60.0);
+  const double outermost_rad =
+      sensors::column_middle_rad(sensor.scan, sensor.scan.columns - 1);  // 20.375 deg
+  renderer::World world = tests::world(sensor, std::nullopt, {});
+  const auto power_W = [&](double azimuth_deg) {
+    const double azimuth_rad = core::radians(azimuth_deg);
+    const glm::dvec3 along(0.5 * std::sin(azimuth_rad), 0.5 * std::cos(azimuth_rad),
+                           -std::sqrt(0.75));
+    world.targets = {{"sphere",
+                      materials::ConstantRcs{1.0},
+                      {{0.0, glm::dvec3(0.0, 0.0, 3000.0) + 2000.0 * along}},
+                      glm::dmat3(1.0)}};
+    const renderer::Frame frame =
+        renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(3000.0));
+    return frame.bscope_W[static_cast<std::size_t>(
+        (sensors::range_row(sensor.range, 2000.0) + 1) * sensor.scan.columns - 1)];
+  };
+  const auto gain = [&](double azimuth_deg) {
+    return sensors::two_way_gain(sensor.antenna.azimuth,
+                                 0.5 * (core::radians(azimuth_deg) - outermost_rad));
+  };
+  const double inside_W = power_W(20.375);
+  REQUIRE(inside_W > 0.0);
+  // The cut of 1.25 deg is reached at 22.875 deg.
+  for (const double azimuth_deg : {21.74, 21.76, 22.86}) {
+    INFO(azimuth_deg);
+    CHECK(power_W(azimuth_deg) / inside_W == Approx(gain(azimuth_deg)).epsilon(1e-6));
+  }
+  CHECK(power_W(22.89) == 0.0);
+}

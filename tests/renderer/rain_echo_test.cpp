@@ -6,6 +6,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/pose.h"
+#include "renderer/casting/fan_layout.h"
 #include "renderer/plan/plan.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
@@ -134,6 +136,57 @@ TEST_CASE("Rain dims its own echo", "[rain_echo]") {
   const renderer::World world = rainy_world(tests::hivision(4), false, weather);
   // P.838-3 at 35 GHz, 25 mm/h, horizontal: 6.2067 dB/km (case A01), 45 dB at the far end.
   check_cells(world, false, 6.2067, 0.01);
+}
+
+// From 6 km beside the origin on, where level is a milliradian off, every azimuth had profiles of its own
+// every 0.1 deg: fifty times the time.
+TEST_CASE("A leaning antenna hears uniform rain as a level one does, by as many profiles",
+          "[rain_echo]") {
+  atmosphere::Weather weather = rain(10.0);
+  weather.simulate_rain = weather.simulate_gas = true;
+  const renderer::World world = rainy_world(tests::hivision(), false, weather);
+  const auto leaning = [](double roll_rad, double pitch_rad) {
+    renderer::FramePose pose = tests::level_pose(kHeight_m);
+    pose.north_east_down =
+        pose.north_east_down * glm::mat3_cast(core::quaternion_from({roll_rad, pitch_rad, 0.0}));
+    return pose;
+  };
+  const auto frame_from = [&](const renderer::FramePose& pose) {
+    return renderer::render_frame(world, renderer::sampling_for(2.0), {true, false},
+                                  {.rain_echo = true}, pose);
+  };
+  const renderer::Frame level = frame_from(leaning(0.0, 0.0)),
+                        leant = frame_from(leaning(0.004, 0.003));  // 5 mrad
+  double largest_dB = 0.0;
+  for (std::size_t i = 0; i < level.bscope_W.size(); ++i)
+    largest_dB =
+        std::max(largest_dB, std::abs(10.0 * std::log10(leant.bscope_W[i] / level.bscope_W[i])));
+  CHECK(largest_dB < 0.01);
+  CHECK(largest_dB > 0.0);
+
+  renderer::FanSums sums;
+  const int subs = renderer::sampling_for(2.0).sub_columns;
+  const auto profiles = [&](const renderer::World& of, const renderer::FramePose& pose) {
+    renderer::lay_out_fan(of, renderer::sampling_for(2.0), false, sums);
+    return renderer::add_rain_echo(of, renderer::antenna_of(of.sensor, pose), subs, sums);
+  };
+  const std::size_t shared = profiles(world, leaning(0.0, 0.0));
+  CHECK(shared < 20);
+  CHECK(profiles(world, leaning(0.004, 0.003)) == shared);
+  // A banked one, and one that leans where fog ends within the beam, see no two azimuths alike; the
+  // rain is uniform all the same.
+  const auto azimuths = static_cast<std::size_t>((sums.sub_columns + subs - 1) / subs);
+  CHECK(profiles(world, leaning(0.3, 0.0)) == azimuths * shared);
+  weather.simulate_fog = true;
+  weather.liquid_water_g_per_m3 = 0.5;
+  weather.fog_top_m = 100.0;
+  const renderer::World foggy = rainy_world(tests::hivision(), false, weather);
+  CHECK(profiles(foggy, leaning(0.0, 0.0)) == shared);
+  CHECK(profiles(foggy, leaning(0.004, 0.003)) == azimuths * shared);
+  // A rain top within the beam is looked at closely.
+  weather.rain_top_m = 100.0;
+  const renderer::World low = rainy_world(tests::hivision(), false, weather);
+  CHECK(profiles(low, leaning(0.0, 0.0)) > 10 * shared);
 }
 
 TEST_CASE("Rain echo in the C-scope holds the power of the B-scope", "[rain_echo]") {

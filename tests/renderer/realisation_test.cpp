@@ -80,6 +80,8 @@ TEST_CASE("Speckle and Swerling run when a realisation is asked for, and say why
 
   CHECK(decision(facts(false, false), core::EffectId::speckle, "+speckle").on);
   CHECK(decision(facts(false, true), core::EffectId::swerling, "+speckle").on);
+  CHECK(decision(facts(false, true), core::EffectId::speckle, "+swerling").on);
+  CHECK_FALSE(decision(facts(false, false), core::EffectId::speckle, "+swerling").on);
   CHECK_FALSE(decision(facts(true, true), core::EffectId::speckle, "-speckle").on);
   CHECK(decision(facts(true, true), core::EffectId::swerling, "-speckle").on);
 }

@@ -153,6 +153,23 @@ TEST_CASE("An airport of apt.dat is one line of a scene: runway, apron with its 
   CHECK(std::count(names.begin(), names.end(), "pavement 1") == 1);
 }
 
+// The rest of the scene was then placed along no direction: "flight_volume = -nan to -nan".
+TEST_CASE("A runway whose ends are one place is told as such, and nothing beside it as no number",
+          "[airport][bad_scene]") {
+  const TemporaryFolder folder;
+  folder.write("apt.dat", tests::replaced(kAirport, "18 52.01800000", "18 52.00000000"));
+  const tests::Outcome outcome = tests::build_text(folder, scene_with(""));
+  CHECK(outcome.scene == nullptr);
+  bool told = false;
+  for (const core::Problem& problem : outcome.problems) {
+    const std::string text = core::to_string(problem);
+    INFO(text);
+    CHECK(text.find("nan") == std::string::npos);
+    told = told || text.find("E-RANGE runway length = 0 m") != std::string::npos;
+  }
+  CHECK(told);
+}
+
 TEST_CASE("An end without an elevation lies on the line that the elevation data come nearest to",
           "[airport]") {
   const TemporaryFolder folder;

@@ -42,11 +42,28 @@ TEST_CASE("Wrong keys and wrong unit suffixes name the key that was meant", "[ba
                  "17:51: E-REF box[0].at.right_m = unknown key: expected a key of this table, such "
                  "as \"left_m\", \"runway\", "
                  "\"behind_threshold_m\"");
-  check_problems("spacing_m = 50.0",
-                 "spacing_m = 50.0\nrelief_m = 5.0",  // of the rolling generator only
-                 "9:1: E-REF terrain.relief_m = unknown key: expected a key of this table, such as "
-                 "\"east_m\", \"west_m\", "
-                 "\"north_m\", \"south_m\", \"spacing_m\"");
+  check_problems(
+      "spacing_m = 50.0", "spacing_m = 50.0\nrelieve_m = 5.0",
+      "9:1: E-REF terrain.relieve_m = unknown key: expected a key of this table, such as "
+      "\"east_m\", \"west_m\", "
+      "\"north_m\", \"south_m\", \"spacing_m\"");
+}
+
+TEST_CASE("A key that needs another one is told with that, not as unknown", "[bad_input]") {
+  check_problems("spacing_m = 50.0", "spacing_m = 50.0\nrelief_m = 5.0",
+                 "9:1: E-REF terrain.relief_m = 5: expected no such key without generator = "
+                 "\"rolling\"");
+  check_problems("spacing_m = 50.0", "spacing_m = 50.0\nvoids = \"fill\"",
+                 "9:1: E-REF terrain.voids = \"fill\": expected no such key without elevation");
+  const std::string line =
+      "[[line]]\nfrom = { runway = \"36\", behind_threshold_m = 0.0 }\n"
+      "to = { runway = \"36\", behind_threshold_m = 50.0 }\n";
+  check_problems("[[box]]", line + "radius_m = 0.01\n[[box]]",
+                 "18:1: E-REF line[0].radius_m = 0.01: expected no such key without model = "
+                 "\"wire\"");
+  check_problems("[[box]]", line + "model = \"wire\"\nrcs_dBsm_per_m = -10.0\n[[box]]",
+                 "19:1: E-REF line[0].rcs_dBsm_per_m = -10: expected no such key without model = "
+                 "\"even\"");
 }
 
 TEST_CASE("Wrong types and syntax errors have a line and a column", "[bad_input]") {

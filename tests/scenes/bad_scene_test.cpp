@@ -9,6 +9,7 @@
 #include <string>
 
 #include "tests/processor_time.h"
+#include "tests/scenes/built_scene.h"
 #include "tests/scenes/problem_checks.h"
 
 using namespace fanbeam;
@@ -152,6 +153,9 @@ TEST_CASE("Land cover: classes without material, materials that do not exist, no
   check_problems(folder, with_classes("1 = \"forest\", 65536 = \"crops\""),
                  {"@/scene.toml:9:62: E-RANGE terrain.land_cover.classes.65536 = 65536: expected a "
                   "class from 0 to 65535"});
+  check_problems(folder, with_classes("1 = \"forest\", 01 = \"crops\", 7 = \"crops\""),
+                 {"@/scene.toml:9:62: E-REF terrain.land_cover.classes.01 = 01: expected each "
+                  "class once"});
 }
 
 TEST_CASE("Runways off the map, too short, named twice, and ends that do not exist",
@@ -236,6 +240,28 @@ TEST_CASE("A trajectory outside the terrain, and a sensor inside the ground", "[
   CHECK(inside.problems[0].place.line == 25);
   CHECK(inside.problems[0].value.find("m inside the ground") != std::string::npos);
   CHECK(inside.problems[0].expected.find("vertical_datum") != std::string::npos);
+}
+
+TEST_CASE("T13 what must be above the ground is the antenna, not the aircraft", "[bad_scene]") {
+  const auto outcome = [](const std::string& above_m, const std::string& down_m) {
+    const TemporaryFolder folder;
+    return tests::build_text(
+        folder,
+        tests::replaced(tests::standing(), "above_ground_m = 60.0", "above_ground_m = " + above_m) +
+            "[sensor]\nfile = \"hivision.toml\"\ndown_m = " + down_m + "\n");
+  };
+  CHECK(outcome("0.0", "-0.5").scene != nullptr);  // wheels on the ground, the antenna on the nose
+  CHECK(outcome("-0.2", "-0.5").scene != nullptr);
+  for (const auto& [above_m, down_m] :
+       {std::pair<const char*, const char*>{"0.5", "1.0"}, {"1.0", "1.25"}}) {
+    INFO(above_m << " m up, the antenna " << down_m << " m below");
+    const std::vector<core::Problem> found = outcome(above_m, down_m).problems;
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].code == "E-RANGE");
+    CHECK(found[0].field == "trajectory");
+    CHECK(found[0].value.find("m inside the ground") != std::string::npos);
+    CHECK(found[0].expected.find("mounting") != std::string::npos);
+  }
 }
 
 // 118.6 m on 1001 m, 11.85 %, as at Lukla.

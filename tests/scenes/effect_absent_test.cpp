@@ -46,6 +46,43 @@ TEST_CASE("Weather and surfaces of no consequence: forced on equals off, byte fo
   });
 }
 
+TEST_CASE(
+    "R19 rain, side lobes and mirror images switched off are never having been, byte for byte",
+    "[effects]") {
+  // `make` puts into a scene what `wishes` then switches off again.
+  const auto check = [](const Set& make, const std::string& wishes) {
+    INFO(wishes);
+    EffectScene never, there;
+    for (EffectScene* scene : {&never, &there}) {
+      scene->description.terrain.material = "pool";
+      add_target(*scene, 1500.0, -2.2, 1.0);
+    }
+    make(never, 0.0);
+    make(there, 1.0);
+    const Shown without = shown(never, "all"), off = shown(there, "all," + wishes);
+    CHECK(same_pictures(off.frame, without.frame));
+    CHECK_FALSE(same_pictures(shown(there, "all").frame, off.frame));
+  };
+  check([](EffectScene& s, double x) { s.weather().rain_rate_mm_per_h = 5.0 * x; },
+        "-rain,-rain-echo");
+  check(
+      [](EffectScene& s, double x) {
+        if (x == 0.0) return;
+        s.sensor().antenna.azimuth.side_lobe_gain = 1e-3;
+        s.sensor().antenna.azimuth.side_lobe_extent_rad = core::radians(90.0);
+      },
+      "-side-lobes");
+  check(
+      [](EffectScene& s, double x) {
+        std::string materials = effect_materials();
+        const std::string mirror = "\ndielectric = \"water\"";
+        REQUIRE(materials.find(mirror) != std::string::npos);
+        if (x == 0.0) materials.resize(materials.find(mirror));
+        s.folder.write("library.toml", materials);
+      },
+      "-multipath");
+}
+
 TEST_CASE("Cloud out of every path's way runs through the shipped kernels without a trace",
           "[effects]") {
   EffectScene scene;

@@ -1,4 +1,5 @@
 // The ground of built scenes: its curvature, its datum, its rasters, the strip of the runway.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -197,6 +198,26 @@ TEST_CASE("Land cover classes give their materials at their places, the base mat
         "forest");  // 67 m past the border
   CHECK(seen_from_above(*scene, local_m(*scene, 52.0094, 10.01)).material == "water_calm");
   CHECK(seen_from_above(*scene, local_m(*scene, 52.0, 9.98)).material == "gravel");
+}
+
+// All ground became the base material without a word.
+TEST_CASE("Land cover that lies elsewhere on the Earth is told", "[ground_geometry]") {
+  const TemporaryFolder folder;
+  const auto outside = [&](double west_deg) {
+    AsciiGrid{30, 40, west_deg, 51.97, 0.002}.write(folder, "cover", [](int, int) { return "1"; });
+    const tests::Outcome outcome = tests::build_text(
+        folder,
+        tests::replaced(standing(), "material = \"short_grass\"",
+                        "land_cover = { file = \"cover.asc\", classes = { 1 = \"forest\" } }"));
+    REQUIRE(outcome.scene != nullptr);
+    return std::count_if(
+        outcome.problems.begin(), outcome.problems.end(), [](const core::Problem& problem) {
+          return problem.code == "W-OUTSIDE" && problem.field == "terrain.land_cover.file" &&
+                 problem.place.line > 0 && problem.value == "cover.asc";
+        });
+  };
+  CHECK(outside(10.0) == 0);
+  CHECK(outside(30.0) == 1);
 }
 
 TEST_CASE("Runway, shoulder and apron lie on the ground with their materials",

@@ -124,6 +124,16 @@ TEST_CASE("All that is wrong with a scenario file is told together, with its pat
   }
 }
 
+TEST_CASE("A file without scenarios is refused, and one without a format told as that alone",
+          "[highway]") {
+  const std::string one = file_with(kStraight);
+  check_refused(one.substr(0, one.find("[{\"id\": \"X\"")) + "[]}", core::ErrorClass::range,
+                "/scenarios");
+  const core::InputError error = refusal("{}");
+  CHECK(error.problems().size() == 2);
+  CHECK_FALSE(error.has(core::ErrorClass::unsupported));
+}
+
 TEST_CASE("A member that is not there is told with those that are", "[highway]") {
   const core::InputError error = refusal(file_with(
       R"("motion": "piecewise-acceleration", "position": [50, 0], "velocity_mps": [22, 0])"));
@@ -155,6 +165,18 @@ TEST_CASE("Hostile scenario files are refused before they cost anything", "[high
   CHECK(refusal(file_with(R"("motion": "piecewise-acceleration", "position_m": [)" + many +
                           R"(], "velocity_mps": [1, 1], "segments": [])"))
             .has(core::ErrorClass::limit));
+}
+
+TEST_CASE("A target's id fits into a cell of a table", "[highway]") {
+  const auto named = [](const char* id) {
+    return replaced(file_with(kStraight), "\"id\": \"A\"", std::string("\"id\": \"") + id + "\"");
+  };
+  for (const char* id : {"A, left", "A \\\"left\\\"", "A\\nleft", ""}) {
+    INFO(id);
+    check_refused(named(id), core::ErrorClass::range, "/scenarios/0/targets/0/id");
+  }
+  CHECK(scenes::parse_highway(named("Käfer 2 (left)"), "test.json").scenarios[0].targets[0].id ==
+        "Käfer 2 (left)");
 }
 
 TEST_CASE("A lane is not changed in no time, which has no finite rate", "[highway]") {
@@ -320,6 +342,11 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
   check_refused(
       with_waveforms(R"("w": {"type": "two-stage", "ramp_s": 0.002, "coarse": {}, "fine": {}})"),
       core::ErrorClass::ref, "/waveforms/w/ramp_s");
+  // Its stages have rates of their own, and no study averages buffers of it.
+  for (const char* key : {"sample_rate_hz", "ramps_per_buffer"})
+    check_refused(with_waveforms(R"("w": {"type": "two-stage", "coarse": {}, "fine": {}, ")" +
+                                 std::string(key) + "\": 1000}"),
+                  core::ErrorClass::ref, "/waveforms/w/" + std::string(key));
   const std::string circle =
       R"("motion": "circular", "radius_m": 50, "azimuth0_rad": 0, "angular_rate_rad_s": 0.1)";
   check_refused(file_with(circle + R"(, "velocity_mps": [1, 2])"), core::ErrorClass::ref,
@@ -341,10 +368,11 @@ TEST_CASE("What another kind of waveform or motion has is refused, not passed ov
                       (lane ? "acceleration_mps2" : "lateral_m"));
   }
   // Members of JSON have no order: of two triangles the first by name counts.
-  const auto radar =
-      scenes::parse_highway(with_waveforms(R"("z": {"type": "triangle", "ramp_s": 0.001},
-                                           "a": {"type": "triangle", "ramp_s": 0.004})"),
-                            "test.json")
-          .radar;
+  const auto radar = scenes::parse_highway(with_waveforms(
+                                               R"("z": {"type": "triangle", "ramp_s": 0.001},
+                 "a": {"type": "triangle", "ramp_s": 0.004, "sample_rate_hz": 2e6})"),
+                                           "test.json")
+                         .radar;
   CHECK(radar.waveforms.triangle_ramp_s == 0.004);
+  CHECK(radar.waveforms.triangle_rate_Hz == 2e6);
 }

@@ -232,6 +232,23 @@ TEST_CASE("A bad waypoint of a target that swings is told with its line", "[targ
   CHECK(told("\"09\", behind_threshold_m = 100.0") == "E-REF runway");
 }
 
+// Signals refused it later, without the target and its line.
+TEST_CASE("A target faster than signals take is told with its line", "[targets][bad_scene]") {
+  const TemporaryFolder folder;
+  const auto text = [](const std::string& later_s) {
+    return kSmallScene + "\n[[target]]\nname = \"comet\"\nrcs = { rcs_dBsm = 10.0 }\n" +
+           "[[target.waypoint]]\ntime_s = 0.0\n" + kAt +
+           "[[target.waypoint]]\ntime_s = " + later_s +
+           "\nat = { runway = \"36\", behind_threshold_m = 300.0 }\n";
+  };
+  const tests::Outcome outcome = tests::build_text(folder, text("0.002"));
+  REQUIRE(outcome.problems.size() == 1);
+  CHECK_THAT(core::to_string(outcome.problems[0]),
+             Catch::Contains("scene.toml:29:1: E-RANGE target = \"comet\" at 1000") &&
+                 Catch::Contains(" m/s from waypoint 0 to 1: expected at most 50000 m/s"));
+  CHECK(tests::build_text(folder, text("0.0041")).scene != nullptr);
+}
+
 TEST_CASE("A scene may bring objects of its own", "[targets]") {
   const TemporaryFolder folder;
   folder.write("mine.toml", R"([windsock]

@@ -1,11 +1,13 @@
 // A scene means the same wherever it lies and whatever the machine's locale (F18), and finds its
 // files in a fixed order.
 #include <catch2/catch.hpp>
-#include <clocale>
+#include <cstdlib>
 #include <fstream>
 #include <locale>
+#include <optional>
 #include <sstream>
 
+#include "tests/comma_locale.h"
 #include "tests/scenes/full_scene.h"
 
 using namespace fanbeam;
@@ -84,16 +86,17 @@ TEST_CASE("F18 a locale with a decimal comma changes nothing", "[scene_places]")
   const std::unique_ptr<Scene> plain_scene = tests::build(braunschweig).scene;
   REQUIRE(plain_scene != nullptr);
 
-  const std::string c_before = std::setlocale(LC_ALL, nullptr);
-  for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "pt_BR.UTF-8"})
-    if (std::setlocale(LC_ALL, name) != nullptr) break;
+  const tests::CommaLocale made;
+  std::optional<tests::HeldCommaLocale> held;  // for C; the other one is for C++
+  if (made.made()) held.emplace(made);
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new Comma));
   std::ostringstream proof;
   proof << 1234.5;
   const SceneDescription comma = read(folder.path());
   const std::unique_ptr<Scene> comma_scene = tests::build(braunschweig).scene;
+  if (held) CHECK(std::strtod("1,5", nullptr) == 1.5);
   std::locale::global(before);
-  std::setlocale(LC_ALL, c_before.c_str());
+  held.reset();
 
   CHECK(proof.str() == "1.234,5");
   CHECK((comma.resolved == plain.resolved));

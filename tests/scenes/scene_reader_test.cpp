@@ -5,6 +5,7 @@
 #include <map>
 
 #include "core/decibel.h"
+#include "core/files.h"
 #include "core/units.h"
 #include "tests/scenes/full_scene.h"
 
@@ -48,6 +49,43 @@ TEST_CASE("Scene, terrain and runway arrive in SI", "[scene_reader]") {
   CHECK(runway.light_rcs_m2 == Approx(0.01));
   CHECK(runway.fence_beyond_m == 80.0);
   CHECK(runway.fence_post_rcs_m2 == Approx(core::power_from_dB(-3.0)));
+}
+
+TEST_CASE("An accuracy in dB is in the grey levels of the sensor in use", "[scene_reader]") {
+  const TemporaryFolder folder;
+  folder.write(
+      "wide.toml",
+      tests::replaced(core::read_file(FANBEAM_SOURCE_DIR "/sensors/hivision.toml", 1U << 20U),
+                      "high_dB = 5.0", "high_dB = 35.0"));
+  core::ProblemList problems;
+  const auto accuracy_grey = [&](const std::string& keys,
+                                 const std::filesystem::path& sensor = {}) {
+    folder.write("scene.toml", tests::kSmallScene + keys);
+    problems = {};
+    return read_scene(folder.path(), {FANBEAM_SOURCE_DIR, {}, sensor}, problems).accuracy_grey;
+  };
+  const std::string one_dB = "[accuracy]\npower_dB = 1.0\n";
+  CHECK(accuracy_grey(one_dB) == Approx(255.0 / 60.0));  // HiVision: -55 to 5 dB
+  CHECK(accuracy_grey(one_dB, folder.path() / "wide.toml") == Approx(255.0 / 90.0));
+  CHECK(accuracy_grey(one_dB + "[display]\nlow_dB = -25.0\n") == Approx(255.0 / 30.0));
+  CHECK(problems.all().empty());
+  CHECK(accuracy_grey("[accuracy]\ngrey_levels = 2.0\n") == 2.0);
+  CHECK(accuracy_grey("") == 0.0);
+  CHECK(problems.all().empty());
+
+  accuracy_grey("[accuracy]\npower_dB = 1.0\ngrey_levels = 2.0\n");
+  REQUIRE(problems.all().size() == 1);
+  CHECK(problems.all()[0].code == "E-REF");
+  CHECK(problems.all()[0].field == "accuracy.power_dB");
+  for (const char* beyond : {"0.0", "24.0", "-1.0"}) {  // 0.01 to 100 grey levels
+    INFO(beyond);
+    accuracy_grey("[accuracy]\npower_dB = " + std::string(beyond) + "\n");
+    REQUIRE(problems.all().size() == 1);
+    CHECK(problems.all()[0].code == "E-RANGE");
+  }
+  accuracy_grey("[accuracy]\npower_dB = nan\n");
+  REQUIRE(problems.all().size() == 1);
+  CHECK(problems.all()[0].code == "E-NONFINITE");
 }
 
 TEST_CASE("Objects, weather, sensor and display arrive in SI", "[scene_reader]") {

@@ -4,6 +4,7 @@
 #include "core/effect_plan.h"
 #include "renderer/plan/largest_echo.h"
 #include "renderer/planned_frames.h"
+#include "scenes/frame_sight.h"
 #include "sensors/sensor_file.h"
 #include "tests/scenes/effect_scene.h"
 #include "tests/scenes/far_approach.h"
@@ -116,6 +117,44 @@ TEST_CASE("Rain does not take the bound of gas under a ground that fills the bea
   // Over the rim of a small terrain it does go down.
   const Change small = {"half_extent_m = 9000.0", "half_extent_m = 7000.0"};
   CHECK(decision_of(*approach({small}), core::EffectId::gas).bound_dB > 1.1 * dry_dB);
+}
+
+// The shower took nothing by the plan, and 100 m of it from the target.
+TEST_CASE("Steeply below, a target past the fan is seen through a shower past the fan",
+          "[scenes][frame_plan]") {
+  core::ProblemList problems;
+  renderer::SceneFacts facts;
+  facts.sensor =
+      sensors::read_sensor(std::string(FANBEAM_SOURCE_DIR) + "/sensors/hivision.toml", problems);
+  facts.has_point_targets = true;
+  const scenes::SightMap map(terrain::make_height_field(-1000.0, -1000.0, 1000.0, 1000.0, 50.0), {},
+                             {});
+  sensors::AntennaFrame antenna;
+  antenna.position_m.z = 3000.0;
+  const auto sight_of = [&](double boresight_deg, double azimuth_deg) {
+    const double elevation_rad = core::radians(boresight_deg);
+    facts.sensor.antenna.boresight_elevation_rad = elevation_rad;
+    const glm::dvec3 along = 2000.0 * sensors::direction(antenna, core::radians(azimuth_deg),
+                                                         elevation_rad, facts.sensor.scan.surface);
+    atmosphere::RainCell shower;
+    shower.centre_m = glm::dvec2(along) / 2.0;
+    shower.radius_m = 3.0;
+    shower.rain_rate_mm_per_h = 10.0;
+    facts.weather.rain_cells = {shower};
+    const std::vector<renderer::PointTarget> targets = {{"sphere",
+                                                         materials::ConstantRcs{1.0},
+                                                         {{0.0, antenna.position_m + along}},
+                                                         glm::dmat3(1.0)}};
+    return scenes::frame_sight(facts, map, targets, antenna, 0.0);
+  };
+  // The fan ends at 23 deg, and the beam of the last column at 20.4 + 1.25 / cos 75 deg = 25.2 deg.
+  const renderer::FrameSight steep = sight_of(-75.0, 24.5);
+  CHECK(steep.point_targets);
+  CHECK(steep.rain_cells.size() == 1);
+  // Ahead nobody sees what stands there.
+  const renderer::FrameSight ahead = sight_of(-3.8, 24.5);
+  CHECK_FALSE(ahead.point_targets);
+  CHECK(ahead.rain_cells.empty());
 }
 
 TEST_CASE(

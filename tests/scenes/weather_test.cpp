@@ -191,6 +191,34 @@ radius = 3.0
        "expected a key of this table, perhaps \"radius_m\""});
 }
 
+TEST_CASE("Keys about fog, rain and snow of which the file tells no amount are told", "[weather]") {
+  const TemporaryFolder folder;
+  const auto unused = [&](const std::string& weather) {
+    std::string keys;
+    for (const core::Problem& problem : tests::build_text(folder, with_weather(weather)).problems)
+      if (problem.code == "W-UNUSED") keys += problem.field.substr(8) + " ";
+    return keys;
+  };
+  CHECK(unused("fog_top_m = 50.0\nfog_type = \"kunkel\"\nrain_top_m = 900.0\nrain_law = \"mie\"\n"
+               "snow_top_m = 900.0\n") == "fog_type fog_top_m rain_top_m rain_law snow_top_m ");
+  CHECK(unused("melting_height_m = 900.0\n") == "melting_height_m ");
+  CHECK(unused("liquid_water_g_per_m3 = 0.1\nfog_type = \"kunkel\"\nfog_top_m = 50.0\n") ==
+        "fog_type ");
+  // None of it is an amount too: the rest is for conditions that change.
+  CHECK(unused("rain_rate_mm_per_h = 0.0\nrain_top_m = 900.0\nsnow_rate_mm_per_h = 0.0\n"
+               "snow_top_m = 900.0\nvisibility_m = 900.0\nfog_top_m = 50.0\n")
+            .empty());
+}
+
+// A thousand took ten seconds a frame, 10 000 eight seconds before the first.
+TEST_CASE("Rain cells beyond what a frame can ask are E-LIMIT", "[weather]") {
+  std::string many;
+  for (int i = 0; i < 257; ++i) many += "[[weather.rain_cell]]\nrain_rate_mm_per_h = 0.0\n";
+  tests::check_problems(kFog, "[weather]\n" + many,
+                        "23:11: E-LIMIT weather.rain_cell = an array of 257: expected at most 256 "
+                        "tables");
+}
+
 TEST_CASE("A rain cell off the terrain is told where it stands", "[weather]") {
   tests::check_problems(
       kFog,

@@ -159,6 +159,30 @@ TEST_CASE("beams of a plane scan that reach beyond 90 deg have angles there, tho
   CHECK_FALSE(seen(150.0, 75.0));
 }
 
+TEST_CASE("a beam spans the heights of its elevations, wider by the antenna's tilt, and its own",
+          "[antenna_frame]") {
+  Sensor sensor;
+  sensor.range = {0.0, 10.0, 100};  // to 1 km
+  sensor.antenna.elevation.half_power_width_rad = radians(10.0);
+  sensor.antenna.elevation.cut_rad = radians(15.0);
+  const auto check = [&](double boresight_deg, double tilt_deg, double low_deg, double high_deg) {
+    sensor.antenna.boresight_elevation_rad = radians(boresight_deg);
+    for (const bool banked : {false, true}) {
+      const double roll_deg = banked ? tilt_deg : 0.0, pitch_deg = banked ? 0.0 : tilt_deg;
+      const HeightSpan span = heights_in_beam(
+          antenna_frame({0.0, 0.0, 50.0}, kNed, attitude_deg(roll_deg, pitch_deg, 30), {}, false),
+          sensor);
+      CHECK(span.lowest_m == Approx(50.0 + 1000.0 * std::sin(radians(low_deg))));
+      CHECK(span.highest_m == Approx(50.0 + 1000.0 * std::sin(radians(high_deg))));
+    }
+  };
+  check(-4.0, 0.0, -19.0, 11.0);
+  check(-4.0, 20.0, -39.0, 31.0);
+  check(40.0, 0.0, 0.0, 55.0);  // from the antenna up
+  check(-40.0, 0.0, -55.0, 0.0);
+  check(-4.0, 80.0, -90.0, 90.0);
+}
+
 TEST_CASE("an attitude that is no rotation is refused", "[antenna_frame]") {
   CHECK_THROWS_AS(antenna_frame({}, kNed, {0.0, 0.0, 0.0, 0.0}, {}, true), core::InputError);
   CHECK_THROWS_AS(antenna_frame({}, kNed, {std::nan(""), 0.0, 0.0, 0.0}, {}, true),

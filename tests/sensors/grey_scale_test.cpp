@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "sensors/antenna/beam_pattern.h"
 #include "sensors/display/display.h"
 #include "sensors/display/seed_signal.h"
 #include "tests/sensors/shipped_sensor.h"
@@ -88,18 +89,24 @@ TEST_CASE("S07 grey never decreases as the level rises", "[grey_scale]") {
 
 TEST_CASE("stc shows flat ground of any NRCS at the same grey over the whole range",
           "[grey_scale]") {
-  const Sensor sensor = tests::hivision();
-  const GreyScale scale(sensor);
-  const double nrcs_dB = -25.0;
-  for (const int row : {0, 100, 523}) {
-    const double range_m = 200.0 + (row + 0.5) * 6.67;
-    // Radar equation on a patch R phi dR: three powers of R remain.
-    const double power_W = sensor.radar_constant_W_m2() * std::pow(10.0, nrcs_dB / 10.0) *
-                           sensor.azimuth_patch_rad() * 6.67 / std::pow(range_m, 3);
-    CHECK(scale.level_dB(power_W, row) == Approx(nrcs_dB).epsilon(1e-12));
-    CHECK(scale.bscope_grey(power_W, row) == Approx(255.0 * 30.0 / 60.0).epsilon(1e-12));
-    CHECK(scale.cscope_grey(power_W * std::pow(range_m, 3)) ==
-          Approx(255.0 * 30.0 / 60.0).epsilon(1e-12));
+  // The published table's convention is for the mapping seed alone.
+  for (const char* file : {"hivision.toml", "hivision-seed.toml"}) {
+    Sensor sensor = tests::shipped_sensor(file);
+    sensor.display.mapping = Display::Mapping::stc;
+    sensor.display.low_dB = -55.0;
+    sensor.display.high_dB = 5.0;
+    const GreyScale scale(sensor);
+    const double nrcs_dB = -25.0;
+    for (const int row : {0, 100, 523}) {
+      const double range_m = 200.0 + (row + 0.5) * 6.67;
+      // Radar equation on a patch R phi dR: three powers of R remain.
+      const double power_W = sensor.radar_constant_W_m2() * std::pow(10.0, nrcs_dB / 10.0) *
+                             two_way_width(sensor.antenna.azimuth) * 6.67 / std::pow(range_m, 3);
+      CHECK(scale.level_dB(power_W, row) == Approx(nrcs_dB).epsilon(1e-12));
+      CHECK(scale.bscope_grey(power_W, row) == Approx(255.0 * 30.0 / 60.0).epsilon(1e-12));
+      CHECK(scale.cscope_grey(power_W * std::pow(range_m, 3)) ==
+            Approx(255.0 * 30.0 / 60.0).epsilon(1e-12));
+    }
   }
 }
 

@@ -147,6 +147,8 @@ TEST_CASE("hostile pattern files are refused with class, file and line", "[patte
       {"a.msi", "HORIZONTAL 2\n0 0\n360 1\n", "E-RANGE", 3},
       {"a.msi", "HORIZONTAL 2\n0 0\n1 -1\n", "E-RANGE", 3},
       {"a.msi", "HORIZONTAL 2\n0 0\n1 1\nHORIZONTAL 2\n0 0\n1 1\n", "E-PARSE", 4},
+      {"a.msi", "HORIZONTAL 2\n0 0\n1 1\n2 2\nVERTICAL 2\n0 0\n1 1\n", "E-PARSE", 4},
+      {"a.msi", "GAIN 3 dBi\nGAIN 4 dBi\nHORIZONTAL 2\n0 0\n1 1\n", "E-PARSE", 2},
       {"a.msi", "GAIN nan\nHORIZONTAL 2\n0 0\n1 1\n", "E-NONFINITE", 1},
       {"a.msi", "GAIN 3 dBx\nHORIZONTAL 2\n0 0\n1 1\n", "E-PARSE", 1},
   };
@@ -161,6 +163,27 @@ TEST_CASE("hostile pattern files are refused with class, file and line", "[patte
     CHECK(problems[0].place.line == bad.line);
   }
   CHECK(problems_of("no/such.msi", PatternPlane::azimuth).at(0).code == "E-IO");
+}
+
+TEST_CASE("all bad rows of a pattern file are told at once, up to the list's end",
+          "[pattern_file]") {
+  const Folder folder;
+  const auto lines_of = [&](const char* name, const std::string& text) {
+    std::vector<int> lines;
+    for (const core::Problem& problem :
+         problems_of(folder.write(name, text), PatternPlane::azimuth))
+      lines.push_back(problem.place.line);
+    return lines;
+  };
+  CHECK(lines_of("a.csv", "angle_deg,gain_dB\n0,0\n1,x\n2,3\n3,-1\n2,-1\n4,nan\n5,-1\n") ==
+        std::vector<int>{3, 4, 6, 7});
+  CHECK(lines_of("a.msi", "HORIZONTAL 4\n0 0\n1 -1\n2 x\n3 1\nVERTICAL 2\n0 0\n400 1\n") ==
+        std::vector<int>{3, 4, 8});
+  // What stands where a row should does not make all that follows one.
+  CHECK(lines_of("a.msi", "HORIZONTAL 3\n0 0\n1 1\nVERTICAL 2\n0 0\n1 1\n").size() <= 2);
+  std::string many = "angle_deg,gain_dB\n";
+  for (int i = 0; i < 1000; ++i) many += "x,0\n";
+  CHECK(lines_of("a.csv", many).size() == core::ProblemList::kMost);
 }
 
 TEST_CASE("a sensor file takes a cut, and the gain only when it says so, from a file beside it",

@@ -51,6 +51,7 @@ TEST_CASE("S10 sensor settings that make no sense are refused at load", "[sensor
   check_each({
       {"cell_m = 6.67", "cell_m = 0", "E-RANGE", "range.cell_m"},
       {"cell_m = 6.67", "cell_m = -6.67", "E-RANGE", "range.cell_m"},
+      {"cell_m = 6.67", "cell_m = 1e-300", "E-RANGE", "range.cell_m"},
       {"cell_m = 6.67", "cell_m = nan", "E-NONFINITE", "range.cell_m"},
       {"cells = 524", "maximum_m = 150.0", "E-RANGE", "range.maximum_m"},
       {"half_power_width_deg = 0.8", "half_power_width_deg = 0", "E-RANGE",
@@ -59,6 +60,7 @@ TEST_CASE("S10 sensor settings that make no sense are refused at load", "[sensor
        "antenna.elevation.half_power_width_deg"},
       {"frequency_GHz = 35.0", "frequency_GHz = 0", "E-RANGE", "waveform.frequency_GHz"},
       {"frame_rate_Hz = 16.0", "frame_rate_Hz = 0", "E-RANGE", "scan.frame_rate_Hz"},
+      {"frame_rate_Hz = 16.0", "frame_rate_Hz = 1e-300", "E-RANGE", "scan.frame_rate_Hz"},
       {"frame_rate_Hz = 16.0", "frame_rate_Hz = 1e9", "E-RANGE", "scan.frame_rate_Hz"},
       {"frame_rate_Hz = 16.0", "frame_rate_Hz = inf", "E-NONFINITE", "scan.frame_rate_Hz"},
       // c / 2B = 3747 m in a window of 3495 m.
@@ -67,6 +69,27 @@ TEST_CASE("S10 sensor settings that make no sense are refused at load", "[sensor
       {"peak_gain = 3250.0", "peak_gain = 5000.0", "E-RANGE", "antenna.peak_gain"},
       {"efficiency = 0.714", "efficiency = 0.8", "E-RANGE", "antenna.efficiency"},
   });
+}
+
+TEST_CASE("R06 a last cell that ends on maximum_m fits, whatever the decimals round to",
+          "[sensor_file]") {
+  const auto cells = [](double minimum_m, double cell_m, double maximum_m) {
+    std::string text = tests::hivision_text("bandwidth_MHz = 22.473", "bandwidth_MHz = 2000.0");
+    text =
+        tests::replaced(text, "minimum_m = 200.0", "minimum_m = " + core::number_text(minimum_m));
+    text = tests::replaced(text, "cell_m = 6.67", "cell_m = " + core::number_text(cell_m));
+    text = tests::replaced(text, "cells = 524", "maximum_m = " + core::number_text(maximum_m));
+    core::ProblemList problems;
+    const Sensor sensor = read_sensor_text(text, "test.toml", problems);
+    for (const core::Problem& problem : problems.all()) UNSCOPED_INFO(core::to_string(problem));
+    CHECK(problems.all().empty());
+    return sensor.range.cells;
+  };
+  CHECK(cells(200.0, 0.1, 361.4) == 1614);  // a floor of the quotient: 1613
+  CHECK(cells(0.0, 0.1, 62.3) == 623);
+  CHECK(cells(200.0, 0.3, 265.7) == 219);
+  CHECK(cells(200.0, 0.1, 361.399999) == 1613);  // one that does not fit
+  CHECK(cells(200.0, 6.67, 3700.0) == 524);
 }
 
 TEST_CASE("received power has no window of its own: both ends are asked for", "[sensor_file]") {
@@ -147,6 +170,16 @@ TEST_CASE("errors that were there before do not hide those of a sensor file", "[
 TEST_CASE("range cells finer than the bandwidth resolves are a warning", "[sensor_file]") {
   check_single(problems_of(tests::hivision_text("bandwidth_MHz = 22.473", "bandwidth_MHz = 2.0")),
                "W-RESOLUTION", "waveform.bandwidth_MHz");
+}
+
+TEST_CASE("a radar that leaves own-ship Doppler in its ranges can be described", "[sensor_file]") {
+  core::ProblemList problems;
+  const Sensor sensor = read_sensor_text(
+      tests::hivision_text("doppler_compensated = true", "doppler_compensated = false"), "t",
+      problems);
+  CHECK(problems.all().empty());
+  CHECK_FALSE(sensor.waveform.doppler_compensated);
+  CHECK(tests::hivision().waveform.doppler_compensated);
 }
 
 TEST_CASE("columns wider than the beam are a warning", "[sensor_file]") {

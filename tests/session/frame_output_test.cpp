@@ -9,6 +9,7 @@
 #include "core/units.h"
 #include "sensors/display/seed_signal.h"
 #include "session/records/frame_metadata.h"
+#include "tests/comma_locale.h"
 #include "tests/scenes/built_scene.h"
 
 using namespace fanbeam;
@@ -72,4 +73,32 @@ TEST_CASE("Metadata tell the grey window that pictures are drawn with, of the se
   CHECK(told("fanbeam:display_dB") == core::number_text(10.0 * std::log10(limits.minimum_W)) +
                                           " to " +
                                           core::number_text(10.0 * std::log10(limits.maximum_W)));
+}
+
+TEST_CASE("F18 what a picture says of its error is read back under a decimal comma", "[products]") {
+  const tests::CommaLocale comma;
+  if (!comma.made()) return;
+  const tests::TemporaryFolder folder;
+  const auto scene = tests::good_scene(folder, tests::standing());
+  session::FrameRecord record;
+  record.pose = scene->trajectory->at(0.0);
+  record.rays = 1234;
+  record.events = {"empty_view", "outside_volume"};
+  std::filesystem::create_directories(folder.path() / "power");
+  for (const bool reached : {true, false}) {
+    INFO(reached);
+    record.error = renderer::ErrorEstimate{0.75, 1.25, 3, reached};
+    core::write_exr(session::frame_path(folder.path(), "power", 0), {1, 1, {{"power_W", {0.0}}}},
+                    session::frame_metadata(*scene, {}, record, "0123"));
+    const tests::HeldCommaLocale held(comma);
+    session::FrameRecord again;
+    REQUIRE(session::take_over(folder.path(), {"power"}, "0123", again));
+    CHECK(again.rays == 1234);
+    CHECK(again.events == record.events);
+    REQUIRE(again.error);
+    CHECK(again.error->rms_grey == 0.75);
+    CHECK(again.error->cscope_rms_grey == 1.25);
+    CHECK(again.error->levels == 3);
+    CHECK(again.error->reached == reached);
+  }
 }

@@ -1,12 +1,15 @@
 // Which things of a scene are one labelled object, how high point targets stand, and what weather labels
 // tell.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 
 #include "session/labels/frame_labels.h"
 #include "session/labels/labels_json.h"
 #include "session/labels/run_labels.h"
+#include "session/products/products.h"
 #include "session/session.h"
 #include "tests/scenes/doctor_scene.h"
 
@@ -28,14 +31,31 @@ std::string unnamed_target(double behind_m, const std::string& keys = "") {
       "above_ground_m = 2.0\nrcs = { shape = \"constant\", rcs_dBsm = 10.0 }\n" + keys);
 }
 
+// The small scene with a runway to the east, its middle at a longitude.
+std::string eastward(double longitude_deg) {
+  const auto longitude = [&](double aside_deg) {
+    return "longitude_deg = " + core::number_text(std::remainder(longitude_deg + aside_deg, 360.0));
+  };
+  std::string text = tests::replaced(tests::kSmallScene, "longitude_deg = 10.0, height_m",
+                                     longitude(0.0) + ", height_m");
+  text = tests::replaced(text, "\"36\", latitude_deg = 52.0, longitude_deg = 10.0",
+                         "\"09\", latitude_deg = 52.0, " + longitude(-0.007));
+  text = tests::replaced(text, "\"18\", latitude_deg = 52.009, longitude_deg = 10.0",
+                         "\"27\", latitude_deg = 52.0, " + longitude(0.007));
+  text = tests::replaced(text, "runway = \"36\", behind", "runway = \"09\", behind");
+  return tests::replaced(text, "runway = \"36\"\n", "runway = \"09\"\n");
+}
+
 // Of a frame of the small scene's approach, with more tables.
 class Labelled {
  public:
-  Labelled(const tests::TemporaryFolder& folder, const std::string& text) {
+  Labelled(const tests::TemporaryFolder& folder, const std::string& text,
+           const session::ProductSet& products = {"labels"}) {
     folder.write("scene.toml", text);
     core::ProblemList problems;
     session::Setup setup;
     setup.shipped = FANBEAM_SOURCE_DIR;
+    session::plan_for(products, setup.build);
     session::Session session(folder.path(), setup, problems);
     session.set(session::Samples{2.0});
     scene = session.scene();
@@ -51,6 +71,12 @@ class Labelled {
     return objects;
   }
   std::string json() const { return session::labels_json(labels, *scene, 20, pose, {}); }
+  std::string lard() const {
+    session::RunLabels run;
+    run.add("", {"bscope/00020.png", "labels/00020.json"}, 1,
+            [&](const std::string&) { return json(); });
+    return run.lard();
+  }
 
   std::shared_ptr<const scenes::Scene> scene;
   core::Pose pose;
@@ -104,6 +130,27 @@ TEST_CASE("Points on a slope are as high as each stands over its own ground", "[
   CHECK(posts[0].height_m == Approx(2.0).margin(0.1));
 }
 
+// Noise that the display hides was left out of it unless `power` was asked for beside the labels.
+TEST_CASE("Signal to clutter counts the noise that a display hides", "[labels]") {
+  const tests::TemporaryFolder folder;
+  const std::string text =
+      tests::kSmallScene +
+      on_runway("target", 300.0,
+                "above_ground_m = 2.0\nrcs = { shape = \"constant\", rcs_dBsm = 30.0 }\n") +
+      "\n[display]\nmapping = \"log\"\nlow_dB = -90.0\nhigh_dB = -40.0\n";
+  const auto of_target_dB = [&](const session::ProductSet& products) {
+    const std::vector<ObjectLabel> targets =
+        Labelled(folder, text, products).of(ObjectGroup::target);
+    REQUIRE(targets.size() == 1);
+    REQUIRE(targets[0].signal_to_clutter_dB);
+    return *targets[0].signal_to_clutter_dB;
+  };
+  const double labelled_dB = of_target_dB({"labels"});
+  CHECK(of_target_dB({"labels", "power"}) == labelled_dB);
+  // Where nobody reads it, it is not there.
+  CHECK(of_target_dB({"cscope"}) > labelled_dB + 1e-3);
+}
+
 TEST_CASE("Labels of a scene whose only rain is a rain cell tell of rain", "[labels]") {
   for (const bool cell : {false, true}) {
     INFO(cell);
@@ -114,13 +161,24 @@ TEST_CASE("Labels of a scene whose only rain is a rain cell tell of rain", "[lab
     const Labelled labelled(
         folder, cell ? tests::replaced(tests::kSmallScene, "[trajectory.ils]", rain_cell)
                      : tests::kSmallScene);
-    const std::string text = labelled.json();
-    const auto weather = nlohmann::json::parse(text)["weather"];
+    const auto weather = nlohmann::json::parse(labelled.json())["weather"];
     CHECK(weather["rain"] == cell);
     CHECK(weather["rain_rate_mm_per_h"] == 0.0);
-    session::RunLabels run;
-    run.add("", {"bscope/00020.png", "labels/00020.json"}, 1,
-            [&](const std::string&) { return text; });
-    CHECK(run.lard().find(cell ? ";rain;" : ";fog;") != std::string::npos);
+    CHECK(labelled.lard().find(cell ? ";rain;" : ";fog;") != std::string::npos);
   }
+}
+
+// Over the date line a runway was taken to point round the Earth, and nobody to approach it.
+TEST_CASE("The time to landing is the same on a runway across the date line", "[labels]") {
+  const tests::TemporaryFolder folder;
+  const auto seconds = [&](double longitude_deg) {
+    const std::string table = Labelled(folder, eastward(longitude_deg)).lard();
+    std::istringstream row(table.substr(table.find('\n') + 1));
+    std::string field;
+    for (int i = 0; i < 9; ++i) std::getline(row, field, ';');  // time_to_landing
+    return field;
+  };
+  const std::string at_10_E = seconds(10.0);
+  CHECK(std::stod(at_10_E) == Approx(20.15).margin(0.05));
+  CHECK(seconds(180.0) == at_10_E);
 }

@@ -32,6 +32,9 @@ TEST_CASE("Files of samples come in the order of their numbers, with zeros in fr
                                  "b2-1.npy"});
   const std::vector<std::string> times = {"0.05.npy", "0.1.npy", "0.15.npy", "0.2.npy", "10.1.npy"};
   CHECK(frames_of({times[3], times[0], times[4], times[2], times[1]}) == times);
+  const std::vector<std::string> finer = {"0.1.npy", "0.105.npy", "0.11.npy", "0.125.npy",
+                                          "0.15.npy"};
+  CHECK(frames_of({finer[4], finer[3], finer[2], finer[1], finer[0]}) == finer);
 }
 
 TEST_CASE("Only the later stages of a frame that is there are left out", "[track]") {

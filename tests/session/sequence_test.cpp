@@ -17,11 +17,14 @@ namespace {
 using namespace fanbeam;
 using tests::TemporaryFolder;
 
-std::unique_ptr<session::Session> opened(const TemporaryFolder& folder) {
+std::unique_ptr<session::Session> opened(const TemporaryFolder& folder,
+                                         const session::ProductSet& products = {"bscope",
+                                                                                "cscope"}) {
   folder.write("scene.toml", tests::kSmallScene);
   core::ProblemList problems;
-  return std::make_unique<session::Session>(
-      folder.path(), session::Setup{.shipped = FANBEAM_SOURCE_DIR, .seed = 7}, problems);
+  session::Setup setup{.shipped = FANBEAM_SOURCE_DIR, .seed = 7};
+  session::plan_for(products, setup.build);
+  return std::make_unique<session::Session>(folder.path(), setup, problems);
 }
 
 std::vector<double> grey(const core::Picture8& picture) {
@@ -80,6 +83,48 @@ TEST_CASE("All that a sequence asks for in vain is told at once, and nothing is 
   CHECK(refused({.output = out.path() / "run"}) == 1);
   CHECK(refused({.output = out.path() / "run", .frames = "9999", .products = {"bscope"}}) == 1);
   CHECK_FALSE(std::filesystem::exists(out.path() / "run"));
+}
+
+TEST_CASE("A sequence is refused products that the plan of its session was not told of",
+          "[sequence]") {
+  const TemporaryFolder scene, out;
+  const auto session = opened(scene);
+  for (const char* product : {"power", "labels", "detections", "obstacles"}) {
+    INFO(product);
+    try {
+      session::render_sequence(
+          *session, {.output = out.path() / "run", .frames = "3", .products = {"bscope", product}},
+          [](int, int) {});
+      FAIL("taken");
+    } catch (const core::InputError& error) {
+      REQUIRE(error.problems().size() == 1);
+      CHECK(error.problems()[0].code == "E-REF");
+      CHECK(error.problems()[0].value == product);
+    }
+  }
+  CHECK_FALSE(std::filesystem::exists(out.path() / "run"));
+}
+
+// They were taken for those of another input and removed: the plan gave other reasons and bounds.
+TEST_CASE("A run of other products keeps the pictures of the run before", "[sequence]") {
+  const TemporaryFolder scene, out;
+  const auto folder = out.path() / "run";
+  std::set<std::string> listed;
+  for (const char* product : {"bscope", "detections", "cscope"}) {
+    const auto session = opened(scene, {product});
+    const session::Sequence sequence =
+        session::render_sequence(*session,
+                                 {.output = folder,
+                                  .frames = "3",
+                                  .products = {product},
+                                  .sampling = {.rays_per_cell = 2.0}},
+                                 [](int, int) {});
+    REQUIRE(sequence.record.frames.size() == 1);
+    listed = sequence.record.frames[0].files;
+  }
+  CHECK(listed == std::set<std::string>{"bscope/00003.png", "cscope/00003.png",
+                                        "detections/00003.csv", "detections/00003.png"});
+  for (const std::string& file : listed) CHECK(std::filesystem::exists(folder / file));
 }
 
 // They were kept: what a session sets stood in no fingerprint.

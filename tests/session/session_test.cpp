@@ -5,6 +5,8 @@
 #include <array>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
 #include <thread>
 
 #include "core/units.h"
@@ -176,9 +178,22 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
   atmosphere::Weather weather = rain(*session, -1.0);
   weather.rain_top_m = 1e9;
   CHECK(problems_of([&] { session->set(weather); }) == 2);
+  // The plan decides which losses run; these were switched on again in silence.
+  weather = rain(*session, 5.0);
+  weather.simulate_gas = weather.simulate_rain = false;
+  CHECK(problems_of([&] { session->set(weather); }) == 2);
   CHECK(problems_of([&] {
           session->set(session::SensorSettings{.boresight_elevation_rad = 4.0, .low_dB = 50.0});
         }) == 2);
+  for (const double level_dB : {std::nan(""), -500.0, std::numeric_limits<double>::infinity()}) {
+    INFO(level_dB);
+    CHECK_THROWS_WITH(
+        session->set(session::SensorSettings{.low_dB = level_dB}),
+        Catch::Contains(std::isfinite(level_dB) ? "E-RANGE low_dB" : "E-NONFINITE low_dB"));
+    CHECK(problems_of([&] {
+            session->set(session::SensorSettings{.low_dB = level_dB, .high_dB = level_dB});
+          }) == 2);
+  }
   CHECK(problems_of([&] { session->set(session::Accuracy{0.0}); }) == 1);
   CHECK(problems_of([&] { session->set(session::Samples{0.01}); }) == 1);
   CHECK(problems_of([&] { session->set(session::TimeBudget{0.0}); }) == 1);
@@ -201,6 +216,46 @@ TEST_CASE("What is wrong is told at once and changes nothing", "[session]") {
           session->render(pose, 0);
         }) == 1);
   CHECK(same(rendered(*session), before));
+}
+
+TEST_CASE("A target's name is one that can be shown, and those there are told once each",
+          "[session]") {
+  const TemporaryFolder folder;
+  const auto session = opened_text(folder, tests::kSmallScene + kMast + kMast);
+  const auto problem_of = [&](const std::string& name, bool bright) {
+    session::TargetState state{.name = name, .position = {core::radians(52.0), 0.17, 50.0}};
+    if (bright) state.rcs = materials::ConstantRcs{10.0};
+    try {
+      session->set(std::span(&state, 1));
+    } catch (const core::InputError& error) {
+      REQUIRE(error.problems().size() == 1);
+      return error.problems()[0];
+    }
+    return core::Problem{};
+  };
+  for (const char* name : {"", "a\nb", "\x1b[2J"}) {
+    CHECK(problem_of(name, true).code == "E-RANGE");
+    CHECK(problem_of(name, true).field == "target[0].name");
+  }
+  const std::string expected = problem_of("lamp", false).expected;
+  CHECK(expected.find("mast") != std::string::npos);
+  CHECK(expected.find("mast") == expected.rfind("mast"));
+  CHECK(problem_of("new", true).code.empty());
+}
+
+TEST_CASE("A sensor whose ranges own-ship Doppler shifts has no pictures, but a scene",
+          "[session]") {
+  const TemporaryFolder folder;
+  core::ProblemList problems;
+  scenes::SceneDescription description = scenes::read_scene(written(folder, tests::kSmallScene),
+                                                            {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+  description.sensor.waveform.doppler_compensated = false;
+  CHECK_THROWS_WITH(Session(description, {}, problems),
+                    Catch::Contains("E-UNSUPPORTED waveform.doppler_compensated = false") &&
+                        Catch::Contains("fanbeam fmcw --products bscope"));
+  core::ProblemList others;
+  const Session for_signals(description, {.pictures = false}, others);
+  CHECK_FALSE(for_signals.scene()->world.sensor.waveform.doppler_compensated);
 }
 
 TEST_CASE("Jittered rays, which tell no error, are refused where one is asked for", "[session]") {
@@ -374,21 +429,30 @@ TEST_CASE("The frame number moves speckle, and nothing else", "[session]") {
   CHECK_FALSE(same(one, two));
 }
 
-TEST_CASE("Where nobody asks for heights, a shadow C-scope costs a plan nothing", "[session]") {
+TEST_CASE("Where nobody asks for heights, no C-scope costs a plan anything", "[session]") {
   const TemporaryFolder folder;
-  const std::string text = tests::kSmallScene + "\n[display]\ncscope_mode = \"shadow\"\n";
-  const auto bound_grey = [&](bool heights_shown) {
+  const auto bound_grey = [&](const char* mode, core::EffectId effect, bool heights_shown) {
+    const std::string text =
+        tests::replaced(tests::kSmallScene, "[weather]", "[weather]\nrain_rate_mm_per_h = 10.0") +
+        "\n[display]\ncscope_mode = \"" + mode + "\"\n";
     session::Setup setup;
     setup.build.heights_shown = heights_shown;
     const auto scene = opened_text(folder, text, setup)->scene();
     for (const core::EffectDecision& decision : scene->plan.decisions)
-      if (decision.effect == core::EffectId::gas) return decision.bound_grey;
-    FAIL("no gas");
+      if (decision.effect == effect) return decision.bound_grey;
+    FAIL("no " << effect);
     return 0.0;
   };
-  CHECK(bound_grey(true) == 255.0);  // a little loss may raise or hide a whole obstacle
-  CHECK(bound_grey(false) > 0.0);
-  CHECK(bound_grey(false) < 10.0);
+  // A little loss may raise or hide a whole obstacle.
+  CHECK(bound_grey("shadow", core::EffectId::gas, true) == 255.0);
+  CHECK(bound_grey("shadow", core::EffectId::gas, false) > 0.0);
+  CHECK(bound_grey("shadow", core::EffectId::gas, false) < 20.0);
+  // A row near the ground holds the echoes of all cells. In the B-scope rain is brightest over the
+  // larger of black and noise where the two meet: eta, Omega and the window of hivision.toml make
+  // 42.6 of its 60 dB, and 58.5 over noise in the nearest cell.
+  CHECK(bound_grey("flat_earth", core::EffectId::rain_echo, true) > 215.0);
+  CHECK(bound_grey("flat_earth", core::EffectId::rain_echo, false) < 200.0);
+  CHECK(bound_grey("shadow", core::EffectId::rain_echo, false) < 200.0);
   // So with products of the B-scope alone.
   CHECK_FALSE(
       session::show_heights(session::wanted_of({"bscope", "layers", "masks", "detections"})));
@@ -405,8 +469,50 @@ TEST_CASE("A plan is told which products read more than pictures", "[session]") 
   };
   CHECK_FALSE(read_by({"bscope"}).heights_shown);
   CHECK(read_by({"bscope", "power"}).read.power);
+  CHECK(read_by({"labels"}).read.labels);
   CHECK(read_by({"detections"}).read.detections);
   CHECK(read_by({"obstacles"}).read.obstacles);
   const renderer::Readings none = read_by({"bscope", "cscope", "figure"}).read;
-  CHECK_FALSE((none.power || none.detections || none.obstacles));
+  CHECK_FALSE((none.power || none.labels || none.detections || none.obstacles));
+}
+
+TEST_CASE("A scene that is opened with a loss switched off says what chooses effects",
+          "[session]") {
+  const TemporaryFolder folder;
+  core::ProblemList problems;
+  scenes::SceneDescription description = scenes::read_scene(written(folder, tests::kSmallScene),
+                                                            {FANBEAM_SOURCE_DIR, {}, {}}, problems);
+  description.weather.simulate_fog = false;
+  try {
+    Session(description, {}, problems);
+    FAIL("taken");
+  } catch (const core::InputError& error) {
+    REQUIRE(error.problems().size() == 1);
+    CHECK(error.problems()[0].code == "E-UNSUPPORTED");
+    CHECK(error.problems()[0].field == "simulate_fog");
+    CHECK(error.problems()[0].expected == "true: effects are chosen by BuildOptions::wishes");
+  }
+}
+
+// They came from a plan that had left out what tips thresholds.
+TEST_CASE("Detections and obstacles are refused where the plan was not told of them", "[session]") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const renderer::Readings& told, const renderer::Products& wanted) {
+    session::Setup setup;
+    setup.build.read = told;
+    const auto session = opened_text(folder, tests::kSmallScene, setup);
+    try {
+      session->render(frame_pose(*session, 40), 40, wanted);
+    } catch (const core::InputError& error) {
+      REQUIRE(error.problems().size() == 1);
+      CHECK(error.problems()[0].code == "E-REF");
+      return error.problems()[0].value;
+    }
+    return std::string();
+  };
+  CHECK(refused({}, {.detections = true}) == "detections");
+  CHECK(refused({}, {.obstacles = true}) == "obstacles");
+  CHECK(refused({.obstacles = true}, {.detections = true}) == "detections");
+  CHECK(refused({.detections = true}, {.detections = true}).empty());
+  CHECK(refused({.obstacles = true}, {.obstacles = true}).empty());
 }

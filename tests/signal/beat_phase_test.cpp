@@ -7,6 +7,7 @@
 #include "core/constants.h"
 #include "core/errors.h"
 #include "signal/pairing/triangle.h"
+#include "signal/synthesis/frame.h"
 #include "signal/synthesis/reference.h"
 #include "signal/waveform/factories.h"
 #include "signal/waveform/figures.h"
@@ -186,6 +187,19 @@ TEST_CASE("Paths that are no numbers or reach the array are refused", "[beat]") 
   CHECK_THROWS_AS(reference_beat(waveform, 0, {}, {path_at(0.1, -60.0)}), core::InputError);
   CHECK_THROWS_AS(reference_beat(waveform, 0, {}, {path_at(10.0, 1e6)}), core::InputError);
   CHECK_THROWS_AS(reference_beat(waveform, 0, line_array(3, 4, 2e-3), {}), core::InputError);
+}
+
+TEST_CASE("Samples of all channels together are limited before anything holds them", "[beat]") {
+  ContinuousParameters parameters;
+  parameters.duration_s = 250.0;  // 2.5e7 samples
+  const Waveform waveform = continuous(parameters);
+  Array array = line_array(1, 4, 2e-3);
+  CHECK_NOTHROW(check_size(waveform, array));
+  CHECK(make_frame(waveform, 0, array).shape.count() == 100'000'000);
+  array = line_array(1, 5, 2e-3);
+  CHECK_THROWS_WITH(check_size(waveform, array), Catch::Contains("E-LIMIT"));
+  CHECK_THROWS_WITH(make_frame(waveform, 0, array), Catch::Contains("E-LIMIT"));
+  CHECK_THROWS_WITH(reference_beat(waveform, 0, array, {}), Catch::Contains("E-LIMIT"));
 }
 
 TEST_CASE("A pulse's echo from beyond the interval comes in the next one, as in a radar",

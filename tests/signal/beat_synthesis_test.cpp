@@ -12,6 +12,7 @@
 #include "signal/synthesis/reference.h"
 #include "signal/synthesis/spreading_kernel.h"
 #include "signal/waveform/factories.h"
+#include "tests/peak_memory.h"
 #include "tests/signal/default_waveform.h"
 
 using namespace fanbeam;
@@ -158,6 +159,20 @@ TEST_CASE("The keystone grid keeps the error it states", "[synthesis]") {
     }
   }
   CHECK_THROWS_AS(keystone_beat(triangle({}), 0, {}, {}), core::InputError);
+}
+
+TEST_CASE("A frame too long for the keystone grid is E-LIMIT before its samples take memory",
+          "[synthesis]") {
+  ChirpSequenceParameters parameters;
+  parameters.ramp_s = parameters.interval_s = 0.01;
+  parameters.chirps = 16;
+  const Waveform waveform = chirp_sequence(parameters);  // 307 MB of samples
+  const std::vector<ScatterPath> paths = paths_between(60, 60.0, 30.0);
+  const Array array = line_array(1, 12, 0.5 * core::kSpeedOfLight_mps / 76e9);
+  const tests::PeakMemory memory;
+  CHECK_THROWS_WITH(keystone_beat(waveform, 0, array, paths),
+                    Catch::Contains("E-LIMIT grid cells") && Catch::Contains("a shorter frame"));
+  CHECK(memory.rise_MiB() < 64.0);
 }
 
 TEST_CASE("Elements above and before each other keep the keystone grid's error", "[synthesis]") {

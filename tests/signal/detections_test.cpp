@@ -119,6 +119,23 @@ TEST_CASE("synthesised paths come out as detections at their place", "[detection
     CHECK(again[i].range_m == Approx(found[i].range_m).margin(1e-4).epsilon(0.0));
 }
 
+TEST_CASE("Two waves of a cell have the signal to noise of their own powers", "[detections]") {
+  const Radar radar;
+  DoubleCube beat = reference_beat(radar.waveform, 0, radar.array,
+                                   {path(60.0, 0.0, -20.0, 1.0), path(60.0, 0.0, 20.0, 0.1)});
+  tests::add_noise(beat, 10.0, 33);  // 32 and 22 dB per channel
+  DetectionSettings settings = settings_for(beat.shape);
+  settings.unfold = false;
+  const auto one = detect(beat, radar.array, radar.timing, settings);
+  REQUIRE(one.size() == 1);
+  settings.angle = AngleMethod::music;
+  const auto two = detect(beat, radar.array, radar.timing, settings);
+  REQUIRE(two.size() == 2);
+  CHECK(two[0].snr + two[1].snr == Approx(one[0].snr).epsilon(1e-12));
+  CHECK(two[1].snr / two[0].snr == Approx(two[1].power_W / two[0].power_W).epsilon(1e-12));
+  CHECK(two[1].snr / two[0].snr == Approx(0.1).epsilon(0.25));
+}
+
 TEST_CASE("compensation leaves less than 0.02 deg at 100 km/h without noise",
           "[detections][slots]") {
   const Radar radar;

@@ -160,11 +160,14 @@ TEST_CASE("The quantiser rounds to its steps, clips and counts", "[receiver]") {
 
 TEST_CASE("Behind the low pass the mixer's product is the difference alone", "[receiver]") {
   // 100 km/h closing: images and sum at least 80 dB down. At 200 m the beat of the ramps lies above half the rate of their
-  // complex samples.
-  for (const auto& [kind, range_m] :
-       {std::pair(WaveformKind::chirp_sequence, 100.0),
-        std::pair(WaveformKind::chirp_sequence, 200.0), std::pair(WaveformKind::triangle, 100.0)}) {
-    const Waveform waveform = tests::default_waveform(kind);
+  // complex samples. With a sweep of 40 MHz the beat of 1100 m takes the sum from 80 down to 65 MHz.
+  ChirpSequenceParameters slow;
+  slow.bandwidth_Hz = 40e6;
+  for (const auto& [waveform, range_m] :
+       {std::pair(tests::default_waveform(WaveformKind::chirp_sequence), 100.0),
+        std::pair(tests::default_waveform(WaveformKind::chirp_sequence), 200.0),
+        std::pair(tests::default_waveform(WaveformKind::triangle), 100.0),
+        std::pair(chirp_sequence(slow), 1100.0)}) {
     ScatterPath echo;
     echo.range_m = range_m;
     echo.radial_speed_mps = -27.7778;
@@ -181,7 +184,7 @@ TEST_CASE("Behind the low pass the mixer's product is the difference alone", "[r
           std::abs(trace.beat[n] - 0.5 * std::cos(2.0 * core::kPi * (turns - std::floor(turns)))));
     }
     for (const double value : trace.product) product += value * value;
-    INFO(name(kind));
+    INFO(name(waveform.kind) << " at " << range_m << " m");
     CHECK(worst < 0.5e-4);
     // The sum is there before: half of the product's power of 1/4.
     CHECK(product / static_cast<double>(trace.product.size()) == Approx(0.25).epsilon(0.01));
@@ -193,6 +196,8 @@ TEST_CASE("Behind the low pass the mixer's product is the difference alone", "[r
   narrow.bandwidth_Hz = 0.99 * narrow.sample_rate_Hz;
   CHECK_THROWS_AS(mixer_trace(chirp_sequence(narrow), ScatterPath{100.0}), core::InputError);
   narrow.bandwidth_Hz = narrow.sample_rate_Hz;
+  // A beat of 19.6 MHz, and the sum from 20.4 MHz on.
+  CHECK_THROWS_AS(mixer_trace(chirp_sequence(narrow), ScatterPath{2940.0}), core::InputError);
   for (const double value : mixer_trace(chirp_sequence(narrow), ScatterPath{100.0}).beat)
     CHECK(std::abs(value) < 0.501);
 }

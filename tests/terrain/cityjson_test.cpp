@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "core/constants.h"
 #include "core/units.h"
 #include "terrain/buildings/city_reference.h"
 #include "terrain/local_frame.h"
@@ -206,6 +207,49 @@ TEST_CASE("all that is wrong with a CityJSON file is told at once, each with its
   far["vertices"][1] = {1e11, 0, 0};
   CHECK(read(far).has("E-RANGE", "a place on the Earth"));
   CHECK(read_text("{\"type\": \"CityJSON\", ").has("E-PARSE", "city.json:1:"));
+}
+
+TEST_CASE("a system that is named beside another one of the file is told to be of no use",
+          "[cityjson]") {
+  CHECK(read(tests::house(), "EPSG:28992")
+            .has("W-UNUSED", "crs = \"EPSG:28992\": the file says EPSG:25832"));
+  CHECK(read(tests::house(), "EPSG:25832").problems.empty());
+}
+
+TEST_CASE("values of another type than CityJSON's are refused, not left out", "[cityjson]") {
+  json city = tests::house();
+  city["CityObjects"]["house"]["geometry"][0]["semantics"]["values"] = "x";
+  CHECK(read(city).has("E-PARSE", "semantics/values = \"x\""));
+  city = tests::house();
+  city["CityObjects"]["house"]["geometry"] = "none";
+  CHECK(read(city).has("E-PARSE", "/CityObjects/house/geometry"));
+  city = tests::house();
+  city["CityObjects"] = json::array();
+  CHECK(read(city).has("E-PARSE", "/CityObjects"));
+}
+
+TEST_CASE("faces with too many corners are E-LIMIT, one alone and all together", "[cityjson]") {
+  const auto rounds = [](int corners, int faces) {
+    json city = tests::house();
+    json ring = json::array();
+    for (int i = 0; i < corners; ++i) {
+      const double angle_rad = 2.0 * core::kPi * i / corners;
+      ring.push_back(city["vertices"].size());
+      city["vertices"].push_back(
+          {std::lround(1e5 * std::cos(angle_rad)), std::lround(1e5 * std::sin(angle_rad)), 9000});
+    }
+    json& geometry = city["CityObjects"]["house"]["geometry"][0];
+    geometry.erase("semantics");
+    json face = json::array(), shell = json::array();
+    face.push_back(ring);
+    for (int i = 0; i < faces; ++i) shell.push_back(face);
+    geometry["boundaries"] = json::array();
+    geometry["boundaries"].push_back(shell);
+    return read(city);
+  };
+  CHECK(rounds(4001, 1).has("E-LIMIT", "boundaries/0/0 = 4001 corners: expected at most 4000"));
+  CHECK(rounds(4000, 1).city.buildings.size() == 1);
+  CHECK(rounds(4000, 2).has("E-LIMIT", "boundaries/0/1 = 4000 corners"));
 }
 
 TEST_CASE("faces without area or across themselves cost a warning, not the building",

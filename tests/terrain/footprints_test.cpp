@@ -143,6 +143,25 @@ TEST_CASE("An outline tangled beyond use is E-LIMIT at once", "[footprints]") {
   CHECK(refusal_of(star(21)) == "accepted");
 }
 
+// A spiral of 20 000 corners kept the roof's triangulation busy for minutes.
+TEST_CASE("Outlines with too many corners are E-LIMIT, one alone and all together",
+          "[footprints]") {
+  const auto round = [](int points) {
+    std::string ring;
+    for (int i = 0; i <= points; ++i) {
+      const double angle_rad = 2.0 * core::kPi * (i % points) / points;
+      ring += (i > 0 ? ",[" : "[") + std::to_string(11.0 + 0.1 * std::cos(angle_rad)) + "," +
+              std::to_string(47.0 + 0.1 * std::sin(angle_rad)) + "]";
+    }
+    return feature(R"("render_height":5)", "Polygon", "[[" + ring + "]]");
+  };
+  CHECK_THAT(refusal_of(collection(round(4001))),
+             Contains("E-LIMIT feature 0 corners = 4001: expected at most 4000"));
+  CHECK(refusal_of(collection(round(4000))) == "accepted");
+  CHECK_THAT(refusal_of(collection(round(4000) + "," + round(4000))),
+             Contains("E-LIMIT feature 1 corners = 4000"));
+}
+
 TEST_CASE("Missing heights, other shapes and empty footprints are counted", "[footprints]") {
   const std::string line = R"([[11,47],[11.1,47.1]])";
   const std::string flat = "[[[11,47],[11.001,47],[11.002,47],[11,47]]]";
@@ -189,6 +208,8 @@ TEST_CASE("Every bad height and coordinate is reported at once", "[footprints]")
                        Contains("E-RANGE feature 1 render_height = -3") &&
                        Contains("E-RANGE feature 2 coordinates") &&
                        Contains("E-RANGE feature 3 coordinates"));
+  CHECK_THAT(refusal_of(collection(feature(R"("render_height":true)", "Polygon", kSquare))),
+             Contains("E-PARSE feature 0 render_height = true"));
 }
 
 TEST_CASE("Coordinates of another system are converted", "[footprints]") {

@@ -55,6 +55,23 @@ TEST_CASE("From samples, a speed is found in whatever fold it lies", "[sampled]"
   }
 }
 
+// At 500 kHz ramps of half a millisecond show beats up to 75 m: what a car at 100 m has folds and fits none of its cells.
+TEST_CASE("From samples, what folds in the fine triangle is not shown, and told so", "[sampled]") {
+  core::HighwayRadar steep = highway_radar();
+  core::HighwayScenario scenario = one_stopped_car();
+  scenario.targets = {car("A", 100.0, 0.0, kRoadSpeed_mps)};
+  const SampledRadar before(steep);
+  CHECK(before.shows(100.0, 0.0));
+  CHECK(before.measure(scenario, 3, 0, 0).size() == 1);
+  steep.waveforms.fine_ramp_s = 0.5e-3;
+  const SampledRadar radar(steep);
+  CHECK(radar.measure(scenario, 3, 0, 0).empty());
+  CHECK_FALSE(radar.shows(100.0, 0.0));
+  CHECK(radar.shows(70.0, 0.0));
+  // Closing at 60 m/s moves both beats by 30 kHz down, which is 9 m of them.
+  CHECK_FALSE(radar.shows(70.0, -60.0));
+}
+
 // The bound told goes with the root of the power: of a steady car the same in every frame, of a Swerling 1
 // car with the draws that the level of frequencies has.
 TEST_CASE("From samples, a target fluctuates as it does from frequencies",

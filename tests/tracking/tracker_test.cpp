@@ -108,6 +108,19 @@ TEST_CASE("K03 K04 a tracker refuses what goes back in time or is no number, unc
   CHECK(tracker.tracks()[0].state == before);
 }
 
+// 40 000 in a frame asked for 12 GB.
+TEST_CASE("A frame with more measurements than can be associated is E-LIMIT, and changes nothing",
+          "[tracker]") {
+  Tracker tracker(settings_for());
+  tracker.update(0.0, {at(50.0, 0.0)});
+  const std::vector<RadarMeasurement> many(kMostMeasurements + 1, at(50.0, 0.0));
+  CHECK_THROWS_WITH(tracker.update(0.25, many),
+                    Catch::Contains("E-LIMIT measurements of the frame at 0.25 s = 2001: "
+                                    "expected at most 2000"));
+  tracker.update(0.05, {at(50.0, 0.0)});
+  CHECK(confirmed(tracker) == 1);
+}
+
 TEST_CASE("Results do not depend on the order of measurements", "[tracker]") {
   for (const Association association : {Association::nearest, Association::joint}) {
     TrackerSettings settings = settings_for();
@@ -272,6 +285,31 @@ TEST_CASE("An unresolved pair leaves the measurements of a third car to its trac
     REQUIRE(measured == 1);
   }
   CHECK(tracker.crossings().empty());
+}
+
+// It was taken for one that had begun on the pair's own echo: the pair parted, and one of it ran 12 m to the third car.
+TEST_CASE("A third car that appears beside an unresolved pair keeps its measurements",
+          "[tracker]") {
+  for (const double third_m : {72.0, 85.0}) {
+    INFO(third_m);
+    const TrackerSettings settings = settings_for();
+    Tracker tracker(settings);
+    int frame = 0;
+    const auto step = [&](double apart_m, bool third) {
+      std::vector<RadarMeasurement> seen = {at(60.0, 0.0)};
+      if (third) seen.push_back(at(third_m, 0.0, 0.02));
+      if (apart_m > 0.0) seen.push_back(at(60.0 + apart_m, -0.8, 0.001));
+      tracker.update(0.05 * frame++, seen);
+    };
+    for (double apart_m = 4.0; apart_m > 1.2; apart_m -= 0.04) step(apart_m, false);
+    REQUIRE(confirmed(tracker) == 2);
+    for (int i = 0; i < 20; ++i) step(0.0, false);
+    for (int i = 0; i < 80; ++i) step(0.0, true);
+    CHECK(confirmed(tracker) == 3);
+    CHECK(tracker.crossings().empty());
+    CHECK(std::count_if(tracker.tracks().begin(), tracker.tracks().end(),
+                        [](const Track& one) { return one.unresolved_with.has_value(); }) == 2);
+  }
 }
 
 // The echo of one pair lies in the swollen gates of the other.

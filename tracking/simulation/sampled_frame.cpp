@@ -90,6 +90,7 @@ SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
   waveform_ = signal::two_stage(parameters);
   array_ = signal::line_array(1, radar.array_elements,
                               radar.array_pitch_wavelengths * waveform_.wavelength_m());
+  fine_ = signal::triangle_model(waveform_, kFine);
   const auto chirps = signal::stage_segments(waveform_, kCoarse);
   const int samples = signal::samples_per_segment(waveform_, kCoarse);
   slope_Hz_per_s_ = chirps[0].slope_Hz_per_s;
@@ -107,8 +108,12 @@ SampledRadar::SampledRadar(const core::HighwayRadar& radar) : radar_(radar) {
            .along_columns = {3, 6, false}};
 }
 
-double SampledRadar::most_range_m() const {
-  return axes_.range_step_m * transform_.kept_range_cells;
+bool SampledRadar::shows(double range_m, double radial_speed_mps) const {
+  const signal::BeatPair beats = predict(fine_, {range_m, radial_speed_mps});
+  return range_m <= axes_.range_step_m * transform_.kept_range_cells &&
+         std::abs(radial_speed_mps) <= kMostSpeed_mps &&
+         std::max(std::abs(beats.up_Hz), std::abs(beats.down_Hz)) <
+             0.5 * waveform_.sample_rate_Hz[kFine];
 }
 
 double SampledRadar::most_speed_mps() { return kMostSpeed_mps; }
@@ -164,7 +169,7 @@ std::vector<RadarMeasurement> SampledRadar::measure(const core::HighwayScenario&
         array_, {signal::noise_sample_W(radar_.noise_figure, rate_Hz), true, own}, samples);
     return samples;
   };
-  const signal::TriangleModel model = signal::triangle_model(waveform_, kFine);
+  const signal::TriangleModel& model = fine_;
   const double fine_rate_Hz = waveform_.sample_rate_Hz[kFine];
   const std::vector<Coarse> detections = coarse_of(received(kCoarse));
   std::vector<std::vector<signal::RangeSpeed>> places;  // of each, one for every fold
@@ -222,8 +227,7 @@ void SampledRadar::find_directions(std::vector<Beat>& beats) const {
 
 // At the turnaround of the triangle.
 std::vector<signal::RangeSpeed> SampledRadar::folded(const Coarse& one) const {
-  const auto chirps = signal::stage_segments(waveform_, kCoarse);
-  const double middle_s = 0.5 * (chirps.front().middle_s() + chirps.back().middle_s());
+  const double middle_s = signal::middle_s(signal::stage_segments(waveform_, kCoarse));
   std::vector<signal::RangeSpeed> places;
   const double fold_mps = 0.5 * waveform_.wavelength_m() / repetition_s_;
   const int most = static_cast<int>(std::ceil((kMostSpeed_mps + fold_mps) / fold_mps));

@@ -53,8 +53,9 @@ class SampledRadar {
 
   std::vector<RadarMeasurement> measure(const core::HighwayScenario& scenario, std::uint64_t seed,
                                         std::uint32_t run, int frame) const;
-  // Beyond either a target is not measured: cells of range and the folds of speed end there.
-  double most_range_m() const;
+  // Where not, a target is not measured: it is beyond the cells of range or the speed up to which folds are sought, or a
+  // beat of it beyond half the triangle's sample rate.
+  bool shows(double range_m, double radial_speed_mps) const;
   static double most_speed_mps();
 
  private:
@@ -107,6 +108,7 @@ class SampledRadar {
   signal::Waveform waveform_;
   signal::Array array_;
   double slope_Hz_per_s_ = 0.0, repetition_s_ = 0.0;  // of the chirps
+  signal::TriangleModel fine_;
   signal::RangeDopplerAxes axes_;
   signal::RangeDopplerSettings transform_;
   signal::CfarSettings cfar_;

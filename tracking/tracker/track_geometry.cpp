@@ -28,6 +28,19 @@ bool unresolved(const PolarPlace& a, const PolarPlace& b, const Resolution& reso
          std::abs(signal::fold(a.azimuth_rad - b.azimuth_rad, core::kPi)) < resolution.azimuth_rad;
 }
 
+bool between(const PolarPlace& place, const PolarPlace& a, const PolarPlace& b,
+             const Resolution& resolution) {
+  const auto within = [](double value, double one, double other, double beyond) {
+    return value > std::min(one, other) - beyond && value < std::max(one, other) + beyond;
+  };
+  const double to_b_rad = signal::fold(b.azimuth_rad - a.azimuth_rad, core::kPi);
+  const double to_place_rad = signal::fold(place.azimuth_rad - a.azimuth_rad, core::kPi);
+  return within(place.range_m, a.range_m, b.range_m, resolution.range_m) &&
+         within(place.range_rate_mps, a.range_rate_mps, b.range_rate_mps,
+                resolution.range_rate_mps) &&
+         within(to_place_rad, 0.0, to_b_rad, resolution.azimuth_rad);
+}
+
 Gaussian start_state(const RadarMeasurement& measurement, int axes, double tangential_sigma_mps) {
   Gaussian state;
   const double along[] = {measurement.range_sigma_m, measurement.range_rate_sigma_mps};

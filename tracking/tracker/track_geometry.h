@@ -18,6 +18,9 @@ struct Resolution {
 
 // Closer than the resolution on all axes.
 bool unresolved(const PolarPlace& a, const PolarPlace& b, const Resolution& resolution);
+// On every axis between the two, or within the resolution of one of them.
+bool between(const PolarPlace& place, const PolarPlace& a, const PolarPlace& b,
+             const Resolution& resolution);
 
 // Position and velocity of a target seen once. Along the line of sight as uncertain as measured,
 // across it (on two axes) R sigma_azimuth in position and `tangential_sigma_mps` about 0 in

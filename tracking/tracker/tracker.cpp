@@ -57,6 +57,10 @@ void Tracker::update(double time_s, const std::vector<RadarMeasurement>& measure
     core::throw_input_error(core::ErrorClass::nonfinite, "time_s", time_s, "a finite time");
   if (time_s_ && time_s < *time_s_)
     core::throw_input_error(core::ErrorClass::time, "time_s", time_s, "not before the last one");
+  if (measurements.size() > kMostMeasurements)
+    core::throw_input_error(
+        core::ErrorClass::limit, "measurements of the frame at " + core::number_text(time_s) + " s",
+        std::to_string(measurements.size()), "at most " + std::to_string(kMostMeasurements));
   Frame frame;
   frame.time_s = time_s;
   for (const RadarMeasurement& one : measurements) {
@@ -150,6 +154,7 @@ void Tracker::start(const Frame& frame) {
     Track track;
     track.id = next_id_++;
     track.hits = track.frames = 1;
+    track.began_on = echo_of_pair(polar(one), places);
     track.state = start_imm(settings_.motion, start_state(one, settings_.motion.axes(),
                                                           settings_.start_tangential_sigma_mps));
     tracks_.push_back(std::move(track));

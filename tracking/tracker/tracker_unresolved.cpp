@@ -48,17 +48,16 @@ void Tracker::claim(Frame& frame) const {
 
 // Of each measurement, if it is one's of a pair; kNone outside of its gate, for one that is used, and for one that fits a
 // third track better, set aside or not: the gate of a pair that has been set aside for seconds reaches to the cars
-// around it. A third in the pair's own cell keeps nothing from it: all of them are in that measurement. Nor does one that
-// is no older than the time for which the pair was not measured: it may have begun on the pair's one echo.
+// around it. A third in the pair's own cell keeps nothing from it: all of them are in that measurement. Nor does one
+// that may have begun on the pair's one echo.
 std::vector<double> Tracker::log_likelihoods(const Track& one, const Track& other,
                                              Frame& frame) const {
   claim(frame);
   const PolarPlace here = polar(one.state), there = polar(other.state);
-  const int unmeasured = std::max(one.coasted, other.coasted);
   const auto keeps = [&](const Claim& claim, double log_likelihood) {
     const Track& third = tracks_[claim.track];
-    if (third.id == one.id || third.id == other.id || third.frames <= unmeasured ||
-        claim.log_likelihood <= log_likelihood)
+    if (third.id == one.id || third.id == other.id || third.began_on == one.id ||
+        third.began_on == other.id || claim.log_likelihood <= log_likelihood)
       return false;
     const PolarPlace place = polar(third.state);
     return !unresolved(place, here, settings_.resolution) &&
@@ -107,6 +106,17 @@ void Tracker::coast_unresolved(double step_s, Frame& frame) {
                              settings_.detection.gate_probability);
     }
   }
+}
+
+// Either one of a pair that is set aside, about whose places, or between them, that one lies.
+std::optional<int> Tracker::echo_of_pair(const PolarPlace& place,
+                                         const std::vector<PolarPlace>& places) const {
+  for (std::size_t i = 0; i < tracks_.size(); ++i)
+    for (std::size_t j = i + 1; j < tracks_.size(); ++j)
+      if (tracks_[i].unresolved_with == tracks_[j].id &&
+          between(place, places[i], places[j], settings_.resolution))
+        return tracks_[i].id;
+  return std::nullopt;
 }
 
 // Pairs that have been one for too long. Whichever of them goes on, nothing tells which of the two it is.

@@ -81,5 +81,5 @@ class Atmosphere:
         return self._air.one_way_dB_per_km(height_m)
 
     def one_way_dB(self, from_height_m: float, to_height_m: float, length_m: float) -> float:
-        """Loss of a straight path of `length_m` between two heights."""
+        """Loss of a straight path of `length_m`, at least what the two heights are apart, between them."""
         return self._air.one_way_dB(from_height_m, to_height_m, length_m)

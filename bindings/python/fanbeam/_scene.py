@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from pathlib import Path
 from types import EllipsisType
-from typing import Any, NamedTuple, TypedDict, overload
+from typing import Any, NamedTuple, TypedDict, cast, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -178,7 +178,9 @@ class Frame:
     cscope: Grey | None
     bscope_grey: Values | None  # the same before rounding, 0 to 255
     cscope_grey: Values | None
-    bscope_W: Values | None  # expected power of the echoes; of a sample, with its noise
+    # Expected power of the echoes, without the receiver's noise: add meta["noise_W"]. Of a sample, with
+    # the noise that was drawn.
+    bscope_W: Values | None
     cscope_W_m3: Values | None  # the same times R^3, summed over range
     # Truth by cell of the B-scope: visibility, grazing_rad, nrcs (linear), elevation_rad,
     # double_bounce (share of the power), material and object (indices of Scene.materials, .objects)
@@ -211,6 +213,16 @@ class _Settings:
     sampling: tuple[str, float] | None = None
 
 
+class _NotOpened:
+    """In the place of a scene that could not be opened where it was sent: every call raises why."""
+
+    def __init__(self, why: Exception):
+        self._why = why
+
+    def __getattr__(self, name: str) -> Any:
+        raise self._why
+
+
 class Scene:
     """A scene held open: terrain, buildings, runway, targets, a sensor, and usually a flight.
 
@@ -218,9 +230,10 @@ class Scene:
     number of threads may render and set at once, Python's lock is released meanwhile, and the bytes
     of a frame depend on its conditions, pose and number alone.
 
-    Scenes pickle: what travels is what they were told, and the other side opens them anew. A process
-    forked from one that used fanbeam has none of its threads: there every call raises RuntimeError;
-    start processes by "spawn" or "forkserver".
+    Scenes pickle: what travels is what they were told, and the other side opens them anew; what is
+    wrong with that is raised by the first call there. A process forked from one that used fanbeam has
+    none of its threads: there every call raises RuntimeError; start processes by "spawn" or
+    "forkserver".
     """
 
     def __init__(self, settings: _Settings):
@@ -254,6 +267,8 @@ class Scene:
         threads  at most, for a frame; 0: all
         """
         shipped = _paths.shipped()
+        if data is not None:
+            _core.check_data_folder(os.fspath(data), "data")
         opened: dict[str, Any] = {
             "scene": Path(_core.find_scene(os.fspath(scene), shipped)).absolute(),
             "shipped": shipped,
@@ -273,6 +288,14 @@ class Scene:
         return self._told
 
     def __setstate__(self, told: _Settings) -> None:
+        # Raised in here, it would end a worker of a pool, which then waits for its answer for ever.
+        try:
+            self._open_again(told)
+        except Exception as error:
+            self._told = told
+            self._core = cast(Any, _NotOpened(error))
+
+    def _open_again(self, told: _Settings) -> None:
         self.__init__(_Settings(told.opened))  # type: ignore[misc]
         if told.weather:
             self._change_weather(told.weather)
@@ -297,13 +320,13 @@ class Scene:
         *,
         visibility_m: _Wish = _KEEP,
         liquid_water_g_per_m3: _Wish = _KEEP,
-        fog_top_m: float | EllipsisType = _KEEP,
-        rain_rate_mm_per_h: float | EllipsisType = _KEEP,
-        rain_top_m: float | EllipsisType = _KEEP,
-        melting_layer: bool | EllipsisType = _KEEP,
+        fog_top_m: _Wish = _KEEP,
+        rain_rate_mm_per_h: _Wish = _KEEP,
+        rain_top_m: _Wish = _KEEP,
+        melting_layer: bool | None | EllipsisType = _KEEP,
         melting_height_m: _Wish = _KEEP,
-        snow_rate_mm_per_h: float | EllipsisType = _KEEP,
-        snow_top_m: float | EllipsisType = _KEEP,
+        snow_rate_mm_per_h: _Wish = _KEEP,
+        snow_top_m: _Wish = _KEEP,
         temperature_C: _Wish = _KEEP,
         pressure_hPa: _Wish = _KEEP,
         humidity: _Wish = _KEEP,
@@ -314,6 +337,7 @@ class Scene:
         rain_rate_mm_per_h 0 to 300, everywhere below rain_top_m or a melting layer.
         snow_rate_mm_per_h 0 to 50, water equivalent. temperature_C -60 to 50, pressure_hPa 300 to 1100,
         humidity 0 to 1, of the air at the origin; None: of the reference atmosphere.
+        None of the rest: no rain, no snow, no melting layer, tops as without a scene (150, 3000, 6000 m).
         Layers of fog and cells of rain that the scene has stay.
         """
         told = {name: value for name, value in locals().items() if name != "self" and value is not _KEEP}
@@ -422,7 +446,7 @@ class Scene:
     ) -> Frame:
         """What the radar sees from a Pose, or in a frame of the scene's flight.
 
-        What is not wanted is not computed. `frame_index` keys what is random: that of the flight, or 0,
+        Frames below 0 are counted from the end. What is not wanted is not computed. `frame_index` keys what is random: that of the flight, or 0,
         unless given. A pose the scene's plan was not made for takes tens of milliseconds more and has
         the event "outside_volume".
         """
@@ -430,9 +454,8 @@ class Scene:
         if isinstance(at, Pose):
             pose = at
         else:
-            flight = self.trajectory
-            number = range(len(flight))[operator.index(at)]
-            pose = flight[number]
+            number = self._core.frame_number(operator.index(at))
+            pose = self.trajectory[number]
         if frame_index is None:
             frame_index = number
         made = self._core.render(pose._numbers(), frame_index, bscope, cscope, layers, cscope_layers, labels)

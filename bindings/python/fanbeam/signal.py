@@ -14,6 +14,7 @@ port. docs/fmcw.md tells what is modelled.
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -100,7 +101,7 @@ def frame(
         "numbers": dict(numbers or {}),
     }
     told = {name: value for name, value in told.items() if value is not None}
-    made = _signal.frame(scene._core, range(len(scene.trajectory))[index], products, told)
+    made = _signal.frame(scene._core, scene._core.frame_number(operator.index(index)), products, told)
     warn(made.pop("warnings"))
     axes = made.pop("axes")
     doppler_Hz = (np.arange(axes["doppler_cells"]) - axes["doppler_cells"] // 2) * axes["doppler_step_Hz"]

@@ -3,11 +3,13 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bindings/python/convert.h"
@@ -23,12 +25,48 @@
 namespace fanbeam::bindings {
 namespace {
 
+// "--sample-rate" of the program is the argument sample_rate, KIND is kind.
+std::string in_python_words(const std::string& text) {
+  if (text == "KIND") return "kind";
+  std::string result;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text.compare(i, 2, "--") != 0) {
+      result += text[i++];
+      continue;
+    }
+    for (i += 2; i < text.size() &&
+                 (std::islower(static_cast<unsigned char>(text[i])) != 0 || text[i] == '-');
+         ++i)
+      result += text[i] == '-' ? '_' : text[i];
+  }
+  return result;
+}
+
+// What `work` refuses by the program's options is told by Python's arguments.
+template <class Work>
+auto told_in_python_words(const Work& work) {
+  try {
+    return work();
+  } catch (const core::InputError& error) {
+    std::vector<core::Problem> problems = error.problems();
+    for (core::Problem& problem : problems) {
+      problem.field = in_python_words(problem.field);
+      problem.expected = in_python_words(problem.expected);
+    }
+    throw core::InputError(std::move(problems));
+  }
+}
+
 // Of kWaveformNumbers by the name of their option, "bandwidth", "sample_rate": in SI, into the units
 // that the options have.
 template <class Settings>
-void take_numbers(const std::map<std::string, double>& numbers, Settings& settings) {
+void take_numbers(const py::dict& numbers, Settings& settings) {
   core::ProblemList problems;
-  std::map<std::string, double> rest = numbers;
+  std::map<std::string, double> rest;
+  for (const auto& [key, value] : numbers) {
+    const auto name = value_of<std::string>(key, "numbers", "names that are texts");
+    rest[name] = value_of<double>(value, name);
+  }
   for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i) {
     const session::WaveformNumber& known = session::kWaveformNumbers[i];
     std::string name = std::string(known.option).substr(2);
@@ -52,16 +90,16 @@ void take_numbers(const std::map<std::string, double>& numbers, Settings& settin
 // `own`: the radar file that the scene names, which another one replaces.
 session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::path& own) {
   session::FmcwSettings settings;
-  const auto given = told["radar"].cast<std::string>();
+  const auto given = value_of<std::string>(told["radar"], "radar");
   if (const std::filesystem::path file = given.empty() ? own : std::filesystem::path(given);
       !file.empty())
     settings = session::radar_settings(file);
-  if (const auto kind = told["waveform"].cast<std::string>(); !kind.empty())
+  if (const auto kind = value_of<std::string>(told["waveform"], "waveform"); !kind.empty())
     settings.waveform = kind;
-  take_numbers(told["numbers"].cast<std::map<std::string, double>>(), settings);
+  take_numbers(told["numbers"].cast<py::dict>(), settings);
   // What is missing stays as the file or the default has it.
   const auto take = [&told]<class T>(const char* name, T& value) {
-    if (told.contains(name)) value = told[name].cast<T>();
+    if (told.contains(name)) value = value_of<T>(told[name], name);
   };
   if (told.contains("transmitters") || told.contains("receivers")) settings.put_on_a_line();
   take("real", settings.real);
@@ -141,7 +179,7 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   const session::FmcwSettings settings = settings_of(told, now->description.signal_file);
   const sensors::Sensor& sensor = now->description.sensor;
   const auto made = std::make_shared<Made>();
-  made->radar = session::fmcw_radar(settings, sensor);
+  made->radar = told_in_python_words([&] { return session::fmcw_radar(settings, sensor); });
   without_lock([&](const core::StopToken& stop) {
     const core::StopScope scope(stop);
     made->paths = session::fmcw_paths(*now, index, settings);
@@ -170,14 +208,14 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   return result;
 }
 
-std::string waveform(const std::string& kind, const std::map<std::string, double>& numbers,
-                     bool real, bool down_first) {
+std::string waveform(const std::string& kind, const py::dict& numbers, bool real, bool down_first) {
   session::WaveformSettings settings;
   settings.kind = kind;
   settings.real = real;
   settings.down_first = down_first;
   take_numbers(numbers, settings);
-  return session::waveform_json(session::chosen_waveform(settings));
+  return told_in_python_words(
+      [&] { return session::waveform_json(session::chosen_waveform(settings)); });
 }
 
 }  // namespace

@@ -46,7 +46,11 @@ class DetectionSource : public MeasuredSource {
   void read_radar(const fs::path& file, core::ProblemList& problems) {
     try {
       const FmcwSettings known = radar_settings(file);
-      radar_ = radar_in_file(file, [&] { return fmcw_radar(known); });
+      radar_ = radar_in_file(file, [&] {
+        FmcwRadar radar = fmcw_radar(known);
+        check_has_maps(radar);
+        return radar;
+      });
     } catch (const core::InputError& error) {
       problems.append(error.problems());
     }

@@ -24,6 +24,7 @@
 
 namespace fanbeam::session {
 
+// As measurements are: on the plane where the radar tells elevations.
 struct SeenTarget {
   std::string name;
   double range_m = 0.0, range_rate_mps = 0.0, azimuth_rad = 0.0;

@@ -86,8 +86,9 @@ std::string_view number_at(std::string_view text, std::size_t& at) {
   return text.substr(first, at - first);
 }
 
-// Behind a point between digits: a decimal, which goes digit by digit.
+// In a number behind a point between digits: a decimal, which goes digit by digit.
 bool is_decimal(std::string_view text, std::size_t at) {
+  while (at > 0 && is_digit(text[at - 1])) --at;
   return at >= 2 && text[at - 1] == '.' && is_digit(text[at - 2]);
 }
 
@@ -148,7 +149,9 @@ class SampleSource : public MeasuredSource {
         radar_(radar_in_file(radar_file,
                              [this] {
                                check_tells_samples(settings_);
-                               return fmcw_radar(settings_);
+                               FmcwRadar radar = fmcw_radar(settings_);
+                               check_detects(radar);
+                               return radar;
                              })),
         files_(files, radar_, settings_.layout) {
     check_values(files);

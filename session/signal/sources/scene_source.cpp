@@ -20,14 +20,15 @@ class SceneSource : public MeasuredSource {
     settings_.seed = asked_.seed;
     if (!file.empty()) read_radar_file(file, settings_, problems);
     problems.throw_if_errors();
-    scene_ = Session(description, {}, problems).scene();
+    scene_ = Session(description, {.pictures = false}, problems).scene();
     warnings = problems.all();
     const sensors::Sensor& sensor = scene_->description.sensor;
-    const auto radar = [&] { return fmcw_radar(settings_, sensor); };
+    const auto radar = [&] {
+      FmcwRadar made = fmcw_radar(settings_, sensor);
+      check_detects(made);
+      return made;
+    };
     radar_ = file.empty() ? radar() : radar_in_file(file, radar);
-    if (!radar_.maps)
-      core::throw_input_error(core::ErrorClass::unsupported, "waveform.kind", radar_.waveform_name,
-                              "a chirp sequence: the other kinds have no detections");
     indices_ = parse_frames(asked_.frames.empty() ? "0:" : asked_.frames, scene_->frame_count());
     name = scene_->description.name;
     kind = "scene";
@@ -56,10 +57,13 @@ class SceneSource : public MeasuredSource {
                         measurements_of(made, &radar_, asked_.errors),
                         {}};
     std::set<std::uint32_t> seen;
-    for (const core::Echo& echo : paths.targets)
-      if (seen.insert(echo.object_id).second)  // the direct way comes before the mirrored ones
-        frame.targets.push_back({scene_->world.targets[echo.object_id].name, echo.range_m,
-                                 echo.radial_speed_mps, echo.azimuth_rad});
+    for (const core::Echo& echo : paths.targets) {
+      if (!seen.insert(echo.object_id).second) continue;  // the direct way is before the mirrored
+      const double elevation_rad = tells_elevation(radar_) ? echo.elevation_rad : 0.0;
+      frame.targets.push_back(
+          {scene_->world.targets[echo.object_id].name, on_plane_m(echo.range_m, elevation_rad),
+           on_plane_mps(echo.radial_speed_mps, elevation_rad), echo.azimuth_rad});
+    }
     return frame;
   }
 

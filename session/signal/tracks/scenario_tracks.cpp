@@ -54,8 +54,7 @@ void add_rows(const core::HighwayScenario& scenario, const tracking::ScenarioFra
 int beyond(const tracking::SampledRadar& radar, const tracking::ScenarioFrame& frame) {
   return static_cast<int>(
       std::count_if(frame.truth.begin(), frame.truth.end(), [&](const core::HighwayTruth& one) {
-        return one.in_view && (one.range_m > radar.most_range_m() ||
-                               std::abs(one.range_rate_mps) > radar.most_speed_mps());
+        return one.in_view && !radar.shows(one.range_m, one.range_rate_mps);
       }));
 }
 
@@ -81,6 +80,9 @@ Json json_of_tracks(const core::HighwayScenario& scenario, const ScenarioTracks&
   }
   return json;
 }
+
+// Of nothing there is no mean.
+Json figure_or_null(int count, double value) { return count > 0 ? Json(value) : Json(); }
 
 }  // namespace
 
@@ -147,14 +149,15 @@ std::string scenario_tracks_json(const core::HighwayScenario& scenario,
                {"confirmed_tracks", score.tracks.size()},
                {"gospa_mean_m", score.gospa_m.mean()},
                {"ospa_mean_m", score.ospa_m.mean()},
-               {"mota", score.mot.mota()}};
+               {"mota", figure_or_null(score.mot.instances(), score.mot.mota())}};
   if (const auto motp_m = score.mot.motp_m()) json["motp_m"] = *motp_m;
   json["missed"] = score.mot.missed();
   json["false_tracks"] = score.mot.false_tracks();
   json["switches"] = score.mot.switches();
-  json["range_rmse_m"] = score.range_m.rms();
-  json["range_error_largest_m"] = score.range_m.largest();
-  json["range_rate_rmse_mps"] = score.range_rate_mps.rms();
+  const tracking::MeanSquare &range_m = score.range_m, &speed_mps = score.range_rate_mps;
+  json["range_rmse_m"] = figure_or_null(range_m.count(), range_m.rms());
+  json["range_error_largest_m"] = figure_or_null(range_m.count(), range_m.largest());
+  json["range_rate_rmse_mps"] = figure_or_null(speed_mps.count(), speed_mps.rms());
   json["nees_mean"] = score.nees.mean();
   json["skipped_updates"] = tracks.skipped_updates;
   json["beyond_samples"] = tracks.beyond;

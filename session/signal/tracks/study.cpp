@@ -2,9 +2,22 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/files.h"
 
 namespace fanbeam::session {
+namespace {
+
+// gnuplot fails where it has nothing to draw.
+bool has_points(const Plot& plot) {
+  return std::any_of(plot.series.begin(), plot.series.end(), [](const PlotSeries& series) {
+    return std::any_of(series.y.begin(), series.y.end(), [](double y) { return std::isfinite(y); });
+  });
+}
+
+}  // namespace
 
 void track_study(const std::vector<StudyScenario>& scenarios, const core::HighwayRadar& radar,
                  const TrackSettings& settings, const std::filesystem::path& folder,
@@ -13,6 +26,7 @@ void track_study(const std::vector<StudyScenario>& scenarios, const core::Highwa
   const auto add = [&](const char* what, const StudyPart& part) {
     page += part.text + "\n";
     for (const auto& [name, plot] : part.plots) {
+      if (!has_points(plot)) continue;
       write_plots(plot, folder / name);
       page += fmt::format("![{}]({}.png)\n\n", plot.title, name);
     }

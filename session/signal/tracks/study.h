@@ -27,7 +27,8 @@ struct StudyPart {
 };
 
 // One car of 10 m2 at 100 m that closes at 100 km/h, measured from samples of 1 to 32 of the radar's triangles
-// (triangle_ramp_s): root mean square errors of 100 draws beside their bound.
+// (triangle_ramp_s, triangle_rate_Hz): root mean square errors of 100 draws beside their bound, those that are
+// wrong by over 1 m left out and counted.
 StudyPart study_buffer(const core::HighwayRadar& radar, std::uint64_t seed);
 // The same of one triangle, over the noise figure.
 StudyPart study_noise_figure(const core::HighwayRadar& radar, std::uint64_t seed);

@@ -40,6 +40,7 @@ class TriangleRadar {
     parameters.frequency_Hz = radar.centre_frequency_Hz;
     parameters.bandwidth_Hz = radar.bandwidth_Hz;
     parameters.ramp_s = radar_.ramp_s;
+    parameters.sample_rate_Hz = radar_.waveforms.triangle_rate_Hz;
     waveform_ = signal::triangle(parameters);
     model_ = signal::triangle_model(waveform_, 0);
   }
@@ -92,6 +93,16 @@ struct Errors {
   double ms = 0.0;  // of processing one buffer, its synthesis included
 };
 
+// In thousandths; a dash, and no point of a plot, where no right peak is left.
+std::string rms_cell(const tracking::MeanSquare& errors, int decimals) {
+  return errors.count() > 0 ? fmt::format("{:.{}f}", 1e3 * errors.rms(), decimals)
+                            : std::string("-");
+}
+
+double rms_point(const tracking::MeanSquare& errors) {
+  return errors.count() > 0 ? 1e3 * errors.rms() : std::nan("");
+}
+
 // Mean over a buffer of triangles, which belongs to its middle; also as if it belonged to its end,
 // when it comes out.
 Errors errors_of(const core::HighwayRadar& radar, int triangles, std::uint64_t seed) {
@@ -128,9 +139,8 @@ StudyPart study_buffer(const core::HighwayRadar& given, std::uint64_t seed) {
   StudyPart part;
   part.text =
       "| ramps in the buffer | range error, mm rms | bound, mm | taken as of its end, mm rms | "
-      "speed "
-      "error, mm/s rms | bound, mm/s | measuring takes, ms | processing, ms |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "speed error, mm/s rms | bound, mm/s | wrong peaks of 100 | measuring takes, ms | "
+      "processing, ms |\n|---|---|---|---|---|---|---|---|---|\n";
   Plot plot;
   plot.title = "One car at 100 m, 100 km/h closing: error over the ramps in the buffer";
   plot.x = {fmt::format("ramps of {:.6g} ms in the buffer", 1e3 * radar.ramp_s), true, 1.5, 80.0};
@@ -143,16 +153,16 @@ StudyPart study_buffer(const core::HighwayRadar& given, std::uint64_t seed) {
     const Errors errors = errors_of(radar, triangles, seed);
     const double root = std::sqrt(static_cast<double>(triangles));
     const double ramps = 2.0 * triangles;
-    part.text +=
-        fmt::format("| {} | {:.3f} | {:.3f} | {:.0f} | {:.3f} | {:.3f} | {:.0f} | {:.2f} |\n",
-                    2 * triangles, 1e3 * errors.range_m.rms(), 1e3 * bound.range_sigma_m / root,
-                    1e3 * errors.uncompensated_m.rms(), 1e3 * errors.speed_mps.rms(),
-                    1e3 * bound.range_rate_sigma_mps / root, 1e3 * radar.ramp_s * ramps, errors.ms);
-    const double values[] = {errors.range_m.rms(), bound.range_sigma_m / root,
-                             errors.uncompensated_m.rms()};
+    part.text += fmt::format("| {} | {} | {:.3f} | {} | {} | {:.3f} | {} | {:.0f} | {:.2f} |\n",
+                             2 * triangles, rms_cell(errors.range_m, 3),
+                             1e3 * bound.range_sigma_m / root, rms_cell(errors.uncompensated_m, 0),
+                             rms_cell(errors.speed_mps, 3), 1e3 * bound.range_rate_sigma_mps / root,
+                             errors.outliers, 1e3 * radar.ramp_s * ramps, errors.ms);
+    const double values[] = {rms_point(errors.range_m), 1e3 * bound.range_sigma_m / root,
+                             rms_point(errors.uncompensated_m)};
     for (std::size_t i = 0; i < 3; ++i) {
       plot.series[i].x.push_back(ramps);
-      plot.series[i].y.push_back(1e3 * values[i]);
+      plot.series[i].y.push_back(values[i]);
     }
   }
   part.plots.push_back({"buffer", plot});
@@ -178,11 +188,11 @@ StudyPart study_noise_figure(const core::HighwayRadar& given, std::uint64_t seed
     const Errors errors = errors_of(noisy, 1, seed);
     const auto bound = tracking::measurement_bound(noisy, kSection_m2, kRange_m, 0.0);
     part.text +=
-        fmt::format("| {:g} | {:.1f} | {:.2f} | {:.2f} | {:.2f} | {:.2f} | {} |\n", figure_dB,
-                    core::dB_from_power(bound.signal_to_noise, -300.0), 1e3 * errors.range_m.rms(),
-                    1e3 * bound.range_sigma_m, 1e3 * errors.speed_mps.rms(),
+        fmt::format("| {:g} | {:.1f} | {} | {:.2f} | {} | {:.2f} | {} |\n", figure_dB,
+                    core::dB_from_power(bound.signal_to_noise, -300.0), rms_cell(errors.range_m, 2),
+                    1e3 * bound.range_sigma_m, rms_cell(errors.speed_mps, 2),
                     1e3 * bound.range_rate_sigma_mps, errors.outliers);
-    const double values[] = {1e3 * errors.range_m.rms(), 1e3 * bound.range_sigma_m,
+    const double values[] = {rms_point(errors.range_m), 1e3 * bound.range_sigma_m,
                              errors.outliers > 0 ? errors.outliers : std::nan("")};
     for (std::size_t i = 0; i < 3; ++i) {
       plot.series[i].x.push_back(figure_dB);
@@ -241,12 +251,12 @@ StudyPart study_reflections(const core::HighwayRadar& given, std::uint64_t seed)
     part.text += fmt::format("| {:g} |", figure_dB);
     for (std::size_t i = 0; i < kRoads.size(); ++i) {
       const Errors errors = errors_over_ranges(noisy, kRoads[i], seed);
-      part.text += fmt::format(" {:.2f}; {:.2f}; {} |", 1e3 * errors.range_m.rms(),
-                               1e3 * errors.speed_mps.rms(), errors.outliers);
+      part.text += fmt::format(" {}; {}; {} |", rms_cell(errors.range_m, 2),
+                               rms_cell(errors.speed_mps, 2), errors.outliers);
       range.series[i].x.push_back(figure_dB);
-      range.series[i].y.push_back(1e3 * errors.range_m.rms());
+      range.series[i].y.push_back(rms_point(errors.range_m));
       speed.series[i].x.push_back(figure_dB);
-      speed.series[i].y.push_back(1e3 * errors.speed_mps.rms());
+      speed.series[i].y.push_back(rms_point(errors.speed_mps));
     }
     part.text += "\n";
   }

@@ -21,7 +21,9 @@ int main(int argc, char** argv) try {
   core::ProblemList problems;  // everything wrong at once, with file, line and column
 
   // Seconds: terrain, buildings, Embree's tree.
-  session::Session session(shipped / "scenes" / argv[2], {.shipped = shipped}, problems);
+  session::Setup setup{.shipped = shipped};
+  setup.build.read.power = true;  // its plan counts on somebody reading watts
+  session::Session session(shipped / "scenes" / argv[2], setup, problems);
 
   // Milliseconds each; frames under way keep the conditions that they began with.
   const auto opened = session.scene();

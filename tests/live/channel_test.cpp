@@ -1,0 +1,55 @@
+// What a channel shows of a source that falls silent.
+#include "live/channel.h"
+
+#include <catch2/catch.hpp>
+
+#include "live/desk.h"
+#include "live/flights.h"
+#include "tests/live/live_scene.h"
+
+using namespace fanbeam;
+
+// Who looks at pictures alone took the last one for that of an aircraft that stands.
+TEST_CASE("F13 a second without a pose shows the last picture once more, as out of date",
+          "[channel][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const auto scene = session->scene();
+  core::Pose pose = live::circle(*scene)(1.0);
+  pose.v_N_mps = glm::dvec3(0.0);
+  live::Hub hub;
+  live::Mailbox mailbox;
+  const auto begin = live::Clock::now();
+  mailbox.put(pose);
+  std::vector<std::shared_ptr<const live::LiveFrame>> frames;
+  core::StopSource stop;
+  int stale_ticks = 0;
+  const auto told = [&](live::Status& status) {
+    const auto newest = hub.newest();
+    REQUIRE(newest);
+    if (frames.empty() || frames.back()->number != newest->number) frames.push_back(newest);
+    CHECK(status.frames == newest->number);
+    CHECK(status.stale == newest->stale);
+    if (status.stale && ++stale_ticks == 10) mailbox.put(pose);
+    if (stale_ticks > 0 && !status.stale) stop.request();
+  };
+  live::run_channel(*session, live::source_of(mailbox, scene->frame, begin), {20.0, 1.0, begin},
+                    hub, told, stop.token());
+  REQUIRE(frames.size() >= 3);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    CHECK(frames[i]->number == i + 1);
+    CHECK(frames[i]->stale == (i + 2 == frames.size()));
+  }
+  const live::LiveFrame &last = *frames[frames.size() - 3], &stale = *frames[frames.size() - 2];
+  CHECK(stale.pose_age_ms > 1000.0);
+  CHECK(last.pose_age_ms < stale.pose_age_ms);
+  CHECK(stale.bscope.pixels == last.bscope.pixels);
+  CHECK(stale.cscope.pixels == last.cscope.pixels);
+  CHECK(stale.pose.position.latitude_rad == last.pose.position.latitude_rad);
+  CHECK(hub.origin(stale.number)->scene == hub.origin(last.number)->scene);
+  for (const live::Scope scope : {live::Scope::bscope, live::Scope::cscope}) {
+    const auto& pixels = scope == live::Scope::bscope ? stale.bscope.pixels : stale.cscope.pixels;
+    CHECK(live::picture_to_show(last, scope).pixels == pixels);
+    CHECK(live::picture_to_show(stale, scope).pixels != pixels);
+  }
+}
