@@ -1,7 +1,6 @@
 #include "renderer/stages/rain_echo.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -97,6 +96,7 @@ class Echo {
         antenna_(antenna),
         subs_(sub_columns_per_column),
         sums_(sums),
+        directions_(rain_directions(world, antenna)),
         borders_(elevation_borders(sensor_, height_above_ground_m())) {
     const sensors::BeamCut& cut = sensor_.antenna.elevation;
     const double boresight_rad = sensor_.antenna.boresight_elevation_rad;
@@ -109,38 +109,24 @@ class Echo {
                               : sensors::two_way_gain_with_side_lobes(cut, middle_rad) *
                                     (to_rad - from_rad));
     }
-    const sensors::HeightSpan beam = sensors::heights_in_beam(antenna, sensor_);
-    const bool one_layer = world.volume_echo->same_at_all_heights(beam.lowest_m, beam.highest_m);
-    shared_ = azimuths_are_upright(antenna, sensor_.scan.surface) ||
-              (one_layer && leans_little() &&
-               world.attenuation.same_layer(beam.lowest_m, beam.highest_m));
     const double span_rad = borders_.back() - borders_.front();
-    const double step_rad = one_layer ? kSmoothStep_rad : kLayeredStep_rad;
-    nodes_ = 1 + static_cast<int>(std::ceil(span_rad / step_rad));
+    nodes_ = 1 + static_cast<int>(std::ceil(span_rad / directions_.step_rad));
     node_step_rad_ = span_rad / (nodes_ - 1);
   }
 
-  // Gives the number of profiles.
-  std::size_t run() {
+  void run() {
     const int blocks = (sums_.sub_columns + subs_ - 1) / subs_;
     for (int block = 0; block < blocks && beside_cells_.empty(); ++block)
-      if (shared_ && !cells_in(azimuth_rad(block))) profiles(0.0, false, beside_cells_);
+      if (directions_.shared && !cells_in(azimuth_rad(block))) profiles(0.0, false, beside_cells_);
     free_m_.resize(static_cast<std::size_t>(blocks) + 1);
     core::parallel_for(free_m_.size(), [&](std::size_t border) {
       free_distances_m(fan_azimuth_rad(first_of(static_cast<int>(border))), free_m_[border]);
     });
     core::parallel_for(static_cast<std::size_t>(blocks),
                        [&](std::size_t block) { add_block(static_cast<int>(block)); });
-    return beside_cells_.size() + own_profiles_;
   }
 
  private:
-  // Rain cells are looked for in vertical half-planes, which azimuths then are not quite.
-  bool leans_little() const {
-    return sensor_.scan.surface == sensors::ScanSurface::plane &&
-           antenna_.up.z > kSharedTiltCosine && !world_.volume_echo->has_cells();
-  }
-
   double height_above_ground_m() const {
     return world_.surfaces().terrain() == nullptr
                ? 0.0
@@ -267,14 +253,13 @@ class Echo {
   const sensors::AntennaFrame& antenna_;
   int subs_;
   FanSums& sums_;
+  RainDirections directions_;
   std::vector<double> borders_;
   std::vector<double> gain_rad_;  // per interval
   int nodes_ = 0;
   double node_step_rad_ = 0.0;
-  bool shared_ = false;  // what is worked out beside rain cells, by all azimuths
-  std::atomic<std::size_t> own_profiles_{0};  // of azimuths that share none
-  std::vector<std::vector<double>> free_m_;   // [border between blocks][border of elevations]
-  std::vector<Profile> beside_cells_;         // of every azimuth without one, where they share
+  std::vector<std::vector<double>> free_m_;  // [border between blocks][border of elevations]
+  std::vector<Profile> beside_cells_;        // of every azimuth without one, where they share
 };
 
 // Adds one interval: free up to the nearer of the two distances, half way between them by half.
@@ -326,11 +311,8 @@ void Echo::add_block(int block) {
   thread_local std::vector<std::size_t> borders, intervals;  // that a silhouette cuts
   range_W.assign(static_cast<std::size_t>(sums_.cells), 0.0);
   row_W_m3.assign(static_cast<std::size_t>(sums_.rows), 0.0);
-  const bool common = shared_ && !cells_in(middle_rad);
-  if (!common) {
-    profiles(middle_rad, true, own);
-    own_profiles_ += own.size();
-  }
+  const bool common = directions_.shared && !cells_in(middle_rad);
+  if (!common) profiles(middle_rad, true, own);
   const std::vector<Profile>& nodes = common ? beside_cells_ : own;
   borders.clear();
   intervals.clear();
@@ -370,9 +352,22 @@ void Echo::add_block(int block) {
 
 }  // namespace
 
-std::size_t add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
-                          int sub_columns_per_column, FanSums& sums) {
-  return Echo(world, antenna, sub_columns_per_column, sums).run();
+RainDirections rain_directions(const World& world, const sensors::AntennaFrame& antenna) {
+  const sensors::Sensor& sensor = world.sensor;
+  const sensors::HeightSpan beam = sensors::heights_in_beam(antenna, sensor);
+  const bool one_layer = world.volume_echo->same_at_all_heights(beam.lowest_m, beam.highest_m);
+  // Rain cells are looked for in vertical half-planes, which azimuths of one that leans are not quite.
+  const bool leans_little = sensor.scan.surface == sensors::ScanSurface::plane &&
+                            antenna.up.z > kSharedTiltCosine && !world.volume_echo->has_cells();
+  return {one_layer ? kSmoothStep_rad : kLayeredStep_rad,
+          azimuths_are_upright(antenna, sensor.scan.surface) ||
+              (one_layer && leans_little &&
+               world.attenuation.same_layer(beam.lowest_m, beam.highest_m))};
+}
+
+void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
+                   int sub_columns_per_column, FanSums& sums) {
+  Echo(world, antenna, sub_columns_per_column, sums).run();
 }
 
 double rain_echo_bound_dB(const SceneFacts& facts) {

@@ -22,18 +22,22 @@
 // Cost: docs/physics/rain-echo.md.
 #pragma once
 
-#include <cstddef>
-
 #include "renderer/casting/caster.h"
 #include "renderer/plan/scene_facts.h"
 #include "renderer/world.h"
 
 namespace fanbeam::renderer {
 
-// Adds to `sums` what `world.volume_echo` returns. `sub_columns_per_column` as in the sampling. Gives
-// the number of directions along which echo and loss were worked out.
-std::size_t add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
-                          int sub_columns_per_column, FanSums& sums);
+// Adds to `sums` what `world.volume_echo` returns. `sub_columns_per_column` as in the sampling.
+void add_rain_echo(const World& world, const sensors::AntennaFrame& antenna,
+                   int sub_columns_per_column, FanSums& sums);
+
+// Along which directions of an antenna echo and loss are worked out.
+struct RainDirections {
+  double step_rad = 0.0;  // of elevation, at most
+  bool shared = false;    // by all azimuths beside rain cells
+};
+RainDirections rain_directions(const World& world, const sensors::AntennaFrame& antenna);
 
 // Upper bound of the change of a pixel by the echo, in dB: the largest eta filling the whole beam,
 // side lobes included, without loss (largest_echo.h), spread by the range response, over the floor
