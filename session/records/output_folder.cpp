@@ -61,6 +61,13 @@ bool is_of_run(const std::string& name) {
          std::find(kRunLabelFiles.begin(), kRunLabelFiles.end(), name) != kRunLabelFiles.end();
 }
 
+// The record of a run, with what is written of all frames together.
+std::vector<std::string> record_files() {
+  std::vector<std::string> files = {"run.json", "timing.json", kLayersFile, kRadarFile};
+  files.insert(files.end(), kRunLabelFiles.begin(), kRunLabelFiles.end());
+  return files;
+}
+
 // A film, or a file in the folder of a product: what a record may have removed, whoever wrote it.
 bool may_be_replaced(const fs::path& relative) {
   const bool film = relative.parent_path().empty() &&
@@ -141,37 +148,43 @@ OutputFolder::Listed OutputFolder::listed_in(const fs::path& folder) {
 
 bool OutputFolder::has_record_of_another() const {
   if (listed_.files.empty()) return false;
-  return fingerprint_.empty() ||
-         std::any_of(listed_.files.begin(), listed_.files.end(), [&](const std::string& name) {
-           std::error_code none;
-           return frame_of(name) && fs::exists(folder_ / name, none) && !is_of_this_input(name);
-         });
+  if (fingerprint_.empty()) return true;
+  // A record lists frames of one input.
+  const auto one =
+      std::find_if(listed_.files.begin(), listed_.files.end(), [&](const std::string& name) {
+        std::error_code none;
+        return frame_of(name) && fs::exists(folder_ / name, none);
+      });
+  return one != listed_.files.end() && !is_of_this_input(*one);
 }
 
 void OutputFolder::begin_frames() {
   if (std::exchange(begun_, true) || !has_record_of_another()) return;
   listed_.begun.insert(listed_.files.begin(), listed_.files.end());
   write_note({}, {});
-  std::vector<std::string> record = {"run.json", "timing.json"};
-  for (const std::string& name : listed_.files)
-    if (is_of_run(name)) record.push_back(name);
-  std::error_code ignored;  // what cannot be removed cannot be written anew either
-  for (const std::string& name : record) {
-    if (!fs::is_regular_file(folder_ / name, ignored)) continue;
-    taken_[name] = core::read_file(folder_ / name, kLargestRecord_bytes);
-    fs::remove(folder_ / name, ignored);
-  }
+  set_aside_ = true;
+  std::error_code ignored;  // of those that are there
+  for (const std::string& name : record_files())
+    if (!is_of_run(name) || listed_.files.contains(name))
+      fs::rename(folder_ / name, aside(name), ignored);
+}
+
+fs::path OutputFolder::aside(const std::string& name) const {
+  return folder_ / ("." + name + ".before");
 }
 
 OutputFolder::~OutputFolder() {
-  try {
-    const bool untouched = !fingerprint_.empty() &&
-                           std::none_of(listed_.files.begin(), listed_.files.end(),
-                                        [&](const auto& name) { return is_of_this_input(name); });
-    if (!untouched) return;
-    for (const auto& [name, text] : taken_) core::write_file_atomically(folder_ / name, text);
-  } catch (const std::exception&) {  // what kept the run from writing keeps this too
-  }
+  if (!set_aside_) return;
+  const bool replaced =
+      fingerprint_.empty() ||
+      std::any_of(listed_.files.begin(), listed_.files.end(),
+                  [&](const std::string& name) { return is_of_this_input(name); });
+  std::error_code ignored;
+  for (const std::string& name : record_files())
+    if (replaced)
+      fs::remove(aside(name), ignored);
+    else
+      fs::rename(aside(name), folder_ / name, ignored);
 }
 
 void OutputFolder::begin(const std::set<std::string>& products,
@@ -190,8 +203,9 @@ void OutputFolder::write_note(const std::set<std::string>& products,
 }
 
 void OutputFolder::end() {
-  taken_.clear();
+  set_aside_ = false;
   std::error_code ignored;
+  for (const std::string& name : record_files()) fs::remove(aside(name), ignored);
   fs::remove(folder_ / kUnfinished, ignored);
 }
 

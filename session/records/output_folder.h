@@ -53,6 +53,7 @@ class OutputFolder {
  private:
   bool is_of_this_input(const std::filesystem::path& relative) const;
   bool has_record_of_another() const;
+  std::filesystem::path aside(const std::string& name) const;
   void write_note(const std::set<std::string>& products, const std::set<std::string>& files) const;
 
   std::filesystem::path folder_;
@@ -66,7 +67,7 @@ class OutputFolder {
   static Listed listed_in(const std::filesystem::path& folder);
   Listed listed_;  // by the run.json that was there
   bool begun_ = false;
-  std::map<std::string, std::string> taken_;  // the record of another input, by name
+  bool set_aside_ = false;  // the record of another input
 };
 
 // Whether a run that writes there has not ended, or was stopped: what is there may be of two.
