@@ -51,11 +51,12 @@ struct CityOptions {
 bool is_cityjson(std::string_view json);
 
 // Of the file's text; `name` goes into the messages. Throws InputError with all problems: those of
-// core::parse_json; E-UNSUPPORTED (another version, a system in three dimensions from the Earth's centre),
-// E-LIMIT (faces with more corners than corner_budget.h allows), E-PARSE (a value of another type than
-// the format's), E-REF (no reference system, or one that PROJ does not know; a vertex or parent that is not there),
-// E-RANGE (positions that have no place on the Earth). Warnings: W-UNUSED (a `crs` beside another one of the
-// file); with counts, W-SKIPPED objects and faces, W-DEGENERATE faces without area.
+// core::parse_json; E-UNSUPPORTED (another version, a system in three dimensions from the Earth's
+// centre), E-LIMIT (faces with more corners than corner_budget.h allows), E-PARSE (a value of another
+// type than the format's), E-REF (no reference system, or one that PROJ does not know; a vertex or
+// parent that is not there), E-RANGE (positions that have no place on the Earth). Warnings: W-UNUSED (a
+// `crs` beside another one of the file); with counts, W-SKIPPED objects and faces, W-DEGENERATE faces
+// without area.
 CityModel read_cityjson(const std::string& text, const std::string& name,
                         const CityOptions& options, core::ProblemList& problems);
 

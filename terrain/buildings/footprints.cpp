@@ -197,7 +197,6 @@ void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m
   if (!all_points(polygon, is_on_earth))
     return refuse_feature("coordinates", "beyond the Earth",
                           "longitude -540 to 540, latitude -90 to 90 deg");
-  if (!check_corners(polygon)) return;
   if (polygon.IsValid()) return add_valid_polygon(polygon, min_height_m, height_m);
   const std::size_t most = std::min(kMostPolygonCrossings, crossings_left_) + 1;
   const std::size_t found = crossings(polygon, most);
@@ -216,8 +215,7 @@ void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m
     return;
   }
   ++repaired_;
-  for (const OGRPolygon* part : parts)
-    if (check_corners(*part)) add_valid_polygon(*part, min_height_m, height_m);
+  for (const OGRPolygon* part : parts) add_valid_polygon(*part, min_height_m, height_m);
 }
 
 bool FootprintReader::check_corners(const OGRPolygon& polygon) {
@@ -237,6 +235,7 @@ void FootprintReader::add_valid_polygon(const OGRPolygon& polygon, double min_he
     ++degenerate_;
     return;
   }
+  if (!check_corners(polygon)) return;
   Footprint footprint;
   footprint.outer = ring_from(*polygon.getExteriorRing(), true);
   for (int i = 0; i < polygon.getNumInteriorRings(); ++i)

@@ -45,11 +45,11 @@ inline constexpr std::uint64_t kLargestFootprintFile_bytes = 200'000'000;
 inline constexpr std::size_t kMostPolygonCrossings = 1000;
 inline constexpr std::size_t kMostFileCrossings = 10'000;
 
-// Throws InputError: E-IO, E-LIMIT (larger than kLargestFootprintFile_bytes, more crossings than
-// above, more corners than corner_budget.h allows), E-PARSE (no GeoJSON, or damaged), E-REF (a "crs" that is not on the Earth), E-RANGE
-// (coordinates outside the Earth; heights that are no numbers or outside 0 to 1000 m), all features
-// together. Warnings, with counts: W-REPAIRED rings, W-DEFAULT heights, W-SKIPPED features that are
-// no polygons, W-DEGENERATE footprints without area or height.
+// Throws InputError: E-IO, E-LIMIT (larger than kLargestFootprintFile_bytes, more crossings than above,
+// more corners than corner_budget.h allows), E-PARSE (no GeoJSON, or damaged), E-REF (a "crs" that is
+// not on the Earth), E-RANGE (coordinates outside the Earth; heights that are no numbers or outside 0
+// to 1000 m), all features together. Warnings, with counts: W-REPAIRED rings, W-DEFAULT heights,
+// W-SKIPPED features that are no polygons, W-DEGENERATE footprints without area or height.
 std::vector<Footprint> read_footprints(const std::filesystem::path& file,
                                        const FootprintOptions& options,
                                        core::ProblemList& problems);
