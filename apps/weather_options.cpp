@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <string_view>
 #include <utility>
 
 #include "atmosphere/air_column.h"
@@ -126,20 +125,16 @@ void refuse_idle(const WeatherOptions& options, const atmosphere::Weather& weath
   need(rain || snow, "--melting-layer", options.melting_layer ? "given" : "", "--rain or --snow");
   need(rain || snow, "--melting-height", text_of(options.melting_height_m), "--rain or --snow");
   need(snow, "--snow-top", text_of(options.snow_top_m), "--snow");
-  const std::pair<const char*, std::string> of_rain[] = {
-      {"--rain-law", options.rain_law},
-      {"--rain-echo-law", options.rain_echo_law},
-      {"--drop-sizes", options.drop_sizes},
+  need(rain || rain_cells, "--rain-law", options.rain_law, "--rain");
+  need(rain || rain_cells, "--rain-echo-law", options.rain_echo_law, "--rain");
+  need(rain || rain_cells, "--drop-sizes", options.drop_sizes, "--rain");
+  const std::pair<const char*, std::string> of_itu_p838[] = {
       {"--polarisation", options.polarisation},
       {"--tilt", text_of(options.tilt_deg)},
       {"--path-elevation", text_of(options.path_elevation_deg)}};
-  const bool other_law = weather.rain_law != atmosphere::RainLaw::itu_p838;
-  for (const auto& [option, value] : of_rain) {
+  for (const auto& [option, value] : of_itu_p838) {
     need(rain || rain_cells, option, value, "--rain");
-    const bool of_itu = std::string_view(option) == "--polarisation" ||
-                        std::string_view(option) == "--tilt" ||
-                        std::string_view(option) == "--path-elevation";
-    if (of_itu && other_law && !value.empty())
+    if (weather.rain_law != atmosphere::RainLaw::itu_p838 && !value.empty())
       problems.error(core::ErrorClass::range, {}, option, value,
                      "the rain law itu-p838, as " + std::string(name_of(weather.rain_law)) +
                          " does not know it");
