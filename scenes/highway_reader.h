@@ -14,13 +14,16 @@
 // Those that count for a scenario that names them take no longer than its frame period.
 // Members that describe purpose, events, acceptance and truth tables are not read; docs/highway.schema.json has
 // them all.
-// All problems are told together, each with its JSON pointer ("/scenarios/1/targets/0/rcs_m2"):
-// E-PARSE for what is no JSON or of the wrong type, E-REF for a member that is missing; E-NONFINITE
-// and E-RANGE for values, a file without scenarios, fractions where a whole number is asked for and segments below a
-// nanosecond included, for truth that a target's motion contradicts (0.1 m, 0.1 m/s, 2 mrad), and for a target's id that is empty or holds a comma, a quote or a control character; E-REF also for a member that the format, or this type of motion, segment or waveform, does not have, with those like it, for truth of an unknown target, and for a scenario, target or
-// truth table whose name was used before; E-UNSUPPORTED for another format or version, or an
-// unknown motion; E-LIMIT for more than 64 MiB, a million values, nesting deeper than 64, more than
-// 1000 scenarios, targets, segments or truth rows of one owner; E-IO.
+// All problems are told together, each with its JSON pointer ("/scenarios/1/targets/0/rcs_m2"): E-PARSE
+// for what is no JSON or of the wrong type, E-REF for a member that is missing; E-NONFINITE and E-RANGE
+// for values, a file without scenarios, fractions where a whole number is asked for and segments below
+// a nanosecond included, for truth that a target's motion contradicts (0.1 m, 0.1 m/s, 2 mrad), and for
+// a target's id that is empty or holds a comma, a quote or a control character; E-REF also for a member
+// that the format, or this type of motion, segment or waveform, does not have, with those like it, for
+// truth of an unknown target, and for a scenario, target or truth table whose name was used before;
+// E-UNSUPPORTED for another format or version, or an unknown motion; E-LIMIT for more than 64 MiB, a
+// million values, nesting deeper than 64, more than 1000 scenarios, targets, segments or truth rows of
+// one owner; E-IO.
 #pragma once
 
 #include <filesystem>

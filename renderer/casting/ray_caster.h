@@ -12,11 +12,11 @@
 // interval that the ray stands for: half way to its neighbours on the same surface, along its own
 // facet where that is steep and at a silhouette, never across one.
 //
-// How it samples: elevations follow the visible range cells (elevation_fan.h), in each sub-column
-// at another place between their borders; each ray of the fan has its own azimuth inside its sub-column,
+// How it samples: elevations follow the visible range cells (elevation_fan.h), in each sub-column at
+// another place between their borders; each ray of the fan has its own azimuth inside its sub-column,
 // by the golden-ratio sequence, because regular azimuths hit or miss oblique walls (one put between two
-// has that of the lower one); neighbours that are
-// more than a cell apart or hit different surfaces are refined by halving.
+// has that of the lower one); neighbours that are more than a cell apart or hit different surfaces are
+// refined by halving.
 //
 // Neglected: secondary bounces, refraction, diffraction. Accuracy over sampling:
 // docs/performance.md; closed forms on flat ground within 0.05 dB (reference) and 0.5 dB (one ray

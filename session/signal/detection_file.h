@@ -1,21 +1,22 @@
 // Detections that are at hand already: of this program (product detections) or of somebody's radar.
 //
 // CSV: a line of column names, then a row a detection. Needed: time_s, range_m, radial_speed_mps
-// (positive receding), azimuth_deg (positive right); taken where they are there: elevation_deg (positive up,
-// missing: 0), power_W, snr_dB, cluster (a whole number, -1 or empty for none). Other columns are passed over. Rows in the order of time; those
-// of one time are a frame.
+// (positive receding), azimuth_deg (positive right); taken where they are there: elevation_deg
+// (positive up, missing: 0), power_W, snr_dB, cluster (a whole number, -1 or empty for none). Other
+// columns are passed over. Rows in the order of time; those of one time are a frame.
 // JSON: {"time_s", "detections": [...]} of one frame, or {"frames": [those]}; a detection has range_m,
-// radial_speed_mps and azimuth_rad, and may have elevation_rad, power_W, snr_dB and cluster; a frame may have
-// radar_velocity_mps, [forward, right] over ground in the antenna's axes, or radar_speed_mps, forward alone. What
-// `fanbeam fmcw` writes beside these (frame, forward_m, right_m) is passed over, any other member is E-REF.
+// radial_speed_mps and azimuth_rad, and may have elevation_rad, power_W, snr_dB and cluster; a frame
+// may have radar_velocity_mps, [forward, right] over ground in the antenna's axes, or radar_speed_mps,
+// forward alone. What `fanbeam fmcw` writes beside these (frame, forward_m, right_m) is passed over,
+// any other member is E-REF.
 // A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
 // order of their names.
 //
-// Limits: files of 256 MiB, a million frames, 100 000 detections in a frame (a tracker takes fewer measurements); ranges above 0 to 1e6 m, speeds
-// within 1e5 m/s, azimuths within a half turn, elevations within a quarter. Ranges are slant ones at the middle of
-// the chirps, times those of the waveform's clock at 0 (factories.h: of a chirp sequence its beginning), as `fanbeam fmcw`
-// writes them. What is wrong is told with its place; times that go back
-// are E-TIME.
+// Limits: files of 256 MiB, a million frames, 100 000 detections in a frame (a tracker takes fewer
+// measurements); ranges above 0 to 1e6 m, speeds within 1e5 m/s, azimuths within a half turn,
+// elevations within a quarter. Ranges are slant ones at the middle of the chirps, times those of the
+// waveform's clock at 0 (factories.h: of a chirp sequence its beginning), as `fanbeam fmcw` writes
+// them. What is wrong is told with its place; times that go back are E-TIME.
 #pragma once
 
 #include <filesystem>

@@ -9,9 +9,10 @@
 // neither phi_b nor that the sum lies above it (from twice the sweep less the beat on). The low pass is a
 // Kaiser-windowed sinc, 100 dB down from there, flat to 1e-5 below half the trace's rate.
 // Source: M. I. Skolnik, Introduction to Radar Systems, 3rd ed., 2001, ch. 3.
-// Inputs: a stage of ramps or steps, not pulsed, sinusoidal or of one tone (E-UNSUPPORTED); an echo that the
-// waveform's check takes; a sweep and an echo whose sum stays clear of half the trace's rate (E-RANGE); at most 3e7 samples of the product (E-LIMIT: a shorter ramp or a smaller
-// sweep). Neglected: noise, leakage, the mixer's imbalance.
+// Inputs: a stage of ramps or steps, not pulsed, sinusoidal or of one tone (E-UNSUPPORTED); an echo
+// that the waveform's check takes; a sweep and an echo whose sum stays clear of half the trace's rate
+// (E-RANGE); at most 3e7 samples of the product (E-LIMIT: a shorter ramp or a smaller sweep).
+// Neglected: noise, leakage, the mixer's imbalance.
 #pragma once
 
 #include <vector>

@@ -44,8 +44,9 @@
 // Source: S. Blackman, R. Popoli, "Design and Analysis of Modern Tracking Systems", 1999, ch. 6;
 // Y. Bar-Shalom, P. K. Willett, X. Tian, "Tracking and Data Fusion", 2011.
 // Neglected: groups of three and more unresolved targets are taken pair by pair.
-// Inputs: times that do not go back (E-TIME; the tracks are then unchanged), at most kMostMeasurements a
-// frame (E-LIMIT, unchanged as well), measurements as of observation.h. Measurements that would make an innovation singular are counted, not used.
+// Inputs: times that do not go back (E-TIME; the tracks are then unchanged), at most kMostMeasurements
+// a frame (E-LIMIT, unchanged as well), measurements as of observation.h. Measurements that would make
+// an innovation singular are counted, not used.
 // Cost: six targets take 0.05 ms a frame on one core, a hundred 0.9 ms; with the cube from there: a thousand
 // take 0.5 s, two thousand 3.4 s and 0.2 GB.
 #pragma once
