@@ -142,6 +142,30 @@ TEST_CASE("Results do not depend on the order of measurements", "[tracker]") {
   }
 }
 
+// Three cars and sixty measurements among them ended the run.
+TEST_CASE("Joint association goes on through clutter of which the tracks share dozens",
+          "[tracker]") {
+  TrackerSettings settings = settings_for();
+  settings.association = Association::joint;
+  Tracker tracker(settings);
+  const auto wide = [](double range_m, double rate_mps, double azimuth_rad) {
+    return RadarMeasurement{range_m, rate_mps, azimuth_rad, 0.3, 0.1, 0.0175};
+  };
+  int frame = 0;
+  while (frame < 20)
+    tracker.update(0.05 * frame++,
+                   {wide(30.0, 0.0, 0.0), wide(31.6, 0.0, 0.035), wide(33.2, 0.0, 0.07)});
+  REQUIRE(confirmed(tracker) == 3);
+  CHECK(tracker.left_out() == 0);
+  std::vector<RadarMeasurement> clutter;
+  for (int j = 0; j < 60; ++j)
+    clutter.push_back(
+        wide(30.4 + 0.04 * j, 0.02 * ((7 * j) % 11 - 5), 0.01 + 0.0012 * ((11 * j) % 40)));
+  tracker.update(0.05 * frame, clutter);
+  CHECK(tracker.left_out() > 0);
+  CHECK(confirmed(tracker) == 3);
+}
+
 TEST_CASE("What is marked as clutter need not be tracked, and is no false track if it is",
           "[tracker]") {
   core::HighwayScenario scenario = one_stopped_car();

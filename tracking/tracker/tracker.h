@@ -52,6 +52,7 @@
 // take half a second.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "tracking/association/joint_probabilities.h"
@@ -91,6 +92,8 @@ class Tracker {
   // So far, in the order of time.
   const std::vector<Crossing>& crossings() const { return crossings_; }
   int skipped_updates() const { return skipped_; }
+  // Of joint probabilities, whose sums were exact where this is 0 (joint_probabilities.h).
+  std::int64_t left_out() const { return left_out_; }
 
  private:
   struct Frame;
@@ -128,6 +131,7 @@ class Tracker {
   std::vector<Crossing> crossings_;
   std::optional<double> time_s_;
   int next_id_ = 1, skipped_ = 0;
+  std::int64_t left_out_ = 0;
 };
 
 }  // namespace fanbeam::tracking
