@@ -216,8 +216,8 @@ void read_json(const fs::path& path, std::vector<DetectedFrame>& frames,
   }
 }
 
-// Adds the detections of a frame to another. Each has numbered its clusters on its own: those of the added one count from
-// `next`, above all numbers so far, which moves on behind them.
+// Adds the detections of a frame to another. Each has numbered its clusters on its own: those of the added one
+// count from `next`, above all numbers so far, which moves on behind them.
 void append(const DetectedFrame& added, DetectedFrame& frame, int& next) {
   frame.detections.insert(frame.detections.end(), added.detections.begin(), added.detections.end());
   std::map<int, int> renumbered;
