@@ -43,6 +43,8 @@ std::unique_ptr<session::Session> opened(const LiveOptions& options, const live:
                                          bool quiet) {
   core::ProblemList problems;
   scenes::BuildOptions build;
+  // Radar video may read watts; always, as no picture of a recording depends on who else looked.
+  build.read.power = true;
   if (!options.effects.empty())
     build.wishes = renderer::parse_effect_wishes(options.effects, renderer::Touches::pictures);
   // Without lockstep the rate decides, and a recording knows its samplings.
