@@ -11,7 +11,11 @@
 namespace fanbeam::live {
 
 FrameMaker::FrameMaker(session::Session& session, Hub& hub, const ChannelSettings& settings)
-    : session_(session), hub_(hub), settings_(settings), status_(hub.status()) {
+    : session_(session),
+      hub_(hub),
+      settings_(settings),
+      status_(hub.status()),
+      number_(status_.frames) {
   const std::shared_ptr<const scenes::Scene> scene = session.scene();
   status_.scene = scene->description.name;
   status_.caster = renderer::name_of(scene->caster.chosen);
@@ -77,7 +81,8 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   }
   journal_made(true);
   const double frame_s = seconds_between(from, Clock::now());
-  frame->number = status_.frames = tick.number;
+  ++status_.frames;
+  frame->number = number_ = tick.number;
   frame->pose = seen.pose;
   frame->under = under;
   frame->samples = status_.samples;
@@ -95,7 +100,7 @@ void FrameMaker::show_stale() {
   const std::shared_ptr<const LiveFrame> newest = hub_.newest();
   if (!newest) return;
   auto frame = std::make_shared<LiveFrame>(*newest);
-  frame->number = ++status_.frames;
+  frame->number = ++number_;
   frame->stale = true;
   frame->pose_age_ms = status_.pose_age_ms;
   hub_.publish(std::move(frame));

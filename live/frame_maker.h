@@ -51,7 +51,7 @@ class FrameMaker {
   // Of the last two seconds up to now: for whoever makes no frame.
   void look_back();
   double now_s() const { return seconds_between(settings_.begin, Clock::now()); }
-  std::uint64_t next_number() const { return status_.frames + 1; }
+  std::uint64_t next_number() const { return number_ + 1; }
 
  private:
   // What the frame is made under, once the journal knows of it.
@@ -68,7 +68,8 @@ class FrameMaker {
   Hub& hub_;
   ChannelSettings settings_;
   Status status_;
-  double told_samples_ = 0.0;                     // 0: none
+  std::uint64_t number_ = 0;   // of the newest frame that was shown, also once more as a stale one
+  double told_samples_ = 0.0;  // 0: none
   std::deque<std::pair<double, double>> recent_;  // of two seconds: end, milliseconds taken
 };
 

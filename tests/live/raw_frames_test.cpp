@@ -46,10 +46,12 @@ TEST_CASE("Where every frame is wanted, the file holds all pictures one after th
   const auto file = folder.path() / "frames.raw";
   {
     RawFrames raw(RawFrames::Scope::cscope, file.string(), true);
-    for (const std::uint64_t number : {1U, 2U, 2U, 3U}) raw.write(frame_of(number, 2));
+    const auto second = frame_of(2, 2);
+    for (const auto& frame : {frame_of(1, 2), second, second, frame_of(3, 2)}) raw.write(frame);
+    raw.write(frame_of(3, 2));  // of another scene
     CHECK_FALSE(raw.ended());
   }
-  CHECK(bytes_of(file) == "eeffgg");  // 101, 102, 103
+  CHECK(bytes_of(file) == "eeffgggg");  // 101, 102, 103
 }
 
 TEST_CASE("A picture that is shown once more as a stale one is written once", "[raw_frames]") {
