@@ -322,9 +322,13 @@ TEST_CASE("A file that is no recording is told once, not by each of its lines", 
   const tests::TemporaryFolder folder;
   std::string table = "airport,runway,length_m\n";
   for (int i = 0; i < 50; ++i) table += "EDVE,26," + std::to_string(i) + "\n";
-  for (const std::string& text : {table, std::string("{}\n{}\n"), std::string("[1]\n2\n")}) {
+  for (const std::string& text :
+       {table, std::string("{}\n{}\n"), std::string("[1]\n2\n"), std::string("no line's end"),
+        std::string(R"({"fanbeam_live":1,"scene":"s","fr)")}) {
+    INFO(text.substr(0, 40));
     const auto problems = problems_of(folder.write("runways.csv", text));
     REQUIRE(problems.size() == 1);
+    CHECK(problems[0].code == "E-REF");
     CHECK(problems[0].value == "no recording");
   }
 }
