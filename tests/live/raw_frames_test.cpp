@@ -18,6 +18,7 @@
 #include "core/stop.h"
 #include "live/frame_taker.h"
 #include "live/mailbox.h"
+#include "live/wiring/sinks.h"
 #include "tests/live/live_scene.h"
 
 using namespace fanbeam;
@@ -230,4 +231,33 @@ TEST_CASE("A file is as it was until its flight begins, and one that was made go
   RawFrames raw(RawFrames::Scope::bscope, old.string(), true);
   raw.begin();
   CHECK(bytes_of(old).empty());
+}
+
+// A pipe has no lock that would tell so, as a file has.
+TEST_CASE("One file or pipe for two pictures is refused, whatever names it goes by",
+          "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe", linked = folder.path() / "linked";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  std::filesystem::create_symlink(pipe, linked);
+  const auto below = [&](const char* name) { return folder.path().string() + "/" + name; };
+  const auto refused = [](const std::string& first, const std::string& second) {
+    live::FramesTo to;
+    live::add_sink("raw-bscope:" + first, to);
+    try {
+      live::add_sink("raw-cscope:" + second, to);
+      return false;
+    } catch (const core::InputError&) {
+      return true;
+    }
+  };
+  CHECK(refused(below("pipe"), below("pipe")));
+  CHECK(refused(below("pipe"), below("./pipe")));
+  CHECK(refused(below("linked"), below("pipe")));
+  CHECK(refused(below("none/../film.raw"), below("film.raw")));  // not there yet
+  CHECK(refused("film.raw", "./film.raw"));
+  CHECK(refused("-", "-"));
+  CHECK_FALSE(refused("-", "./-"));
+  CHECK_FALSE(refused(below("pipe"), below("film.raw")));
+  CHECK_FALSE(refused("film.raw", "other.raw"));
 }
