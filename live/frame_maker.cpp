@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "core/errors.h"
 #include "live/processor_time.h"
@@ -64,7 +65,7 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
                                                  const core::StopToken& stop) {
   const Clock::time_point from = Clock::now();
   const double spent_s = processor_s();
-  status_.waiting = false;
+  status_.waiting = status_.stale = false;
   status_.pose_age_ms = 1e3 * seen.age_s;
   const session::Session::Moment under = conditions(tick);
   std::shared_ptr<LiveFrame> frame;
@@ -94,6 +95,16 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   if (settings_.dress) settings_.dress(*frame);
   hub_.publish(std::move(frame));
   return Made{frame_s, outside};
+}
+
+bool FrameMaker::stands(double age_s) {
+  constexpr double kStale_s = 1.0;
+  const bool was_stale = std::exchange(status_.stale, age_s > kStale_s);
+  if (!status_.stale) return false;
+  status_.pose_age_ms = 1e3 * age_s;
+  if (!was_stale) show_stale();
+  look_back();
+  return true;
 }
 
 void FrameMaker::show_stale() {
