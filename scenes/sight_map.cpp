@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
-#include "sensors/antenna/beam_pattern.h"
+#include "sensors/antenna/column_place.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -77,19 +77,13 @@ class Fan {
   double sine_, cosine_;
 };
 
-// The steepest ray of the beam, in the antenna's axes. Below pi / 2 where azimuths mean anything.
-double steepest_rad(const sensors::Sensor& sensor) {
-  return sensors::reach_rad(sensor.antenna.elevation) +
-         std::abs(sensor.antenna.boresight_elevation_rad);
-}
-
 // How far ground whose facets rise at most `slope` turns a ray of the beam to the side: the mirrored
 // direction is d + 2 sin(psi) n, the level part of d at least cos(steepest ray), that of n at most
 // sin(slope). Pi where it may turn it anywhere.
 double largest_turn_rad(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
                         double slope_rad) {
   const double tilt_rad = std::acos(std::clamp(antenna.up.z, -1.0, 1.0));
-  const double ray_rad = steepest_rad(sensor) + tilt_rad;
+  const double ray_rad = sensors::steepest_rad(sensor) + tilt_rad;
   const double grazing_rad = ray_rad + slope_rad;
   if (grazing_rad >= core::kPi / 2) return core::kPi;
   const double sine = 2.0 * std::sin(grazing_rad) * std::sin(slope_rad) / std::cos(ray_rad);
@@ -105,7 +99,7 @@ Fan level_fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& senso
   sensors::AntennaFrame level;
   level.position_m = antenna.position_m;
   const glm::dvec2 heading(antenna.forward);
-  const double steepest = steepest_rad(sensor);
+  const double steepest = sensors::steepest_rad(sensor);
   double half_rad = core::kPi;
   if (steepest < core::kPi / 2 && glm::length(heading) > 0.0) {
     level.forward = glm::dvec3(glm::normalize(heading), 0.0);
