@@ -307,6 +307,7 @@ TEST_CASE("Files of all frames are a killed run's own by its note alone", "[rend
 TEST_CASE("The record of a run comes back where the next one wrote nothing, also without inputs",
           "[fmcw]") {
   const TemporaryFolder folder;
+  for (const char* product : {"detections", "beat"}) fs::create_directory(folder.path() / product);
   folder.write("run.json", R"({"frames": [{"files": ["detections/00000.csv"]}],)"
                            R"( "files": ["radar.toml"]})");
   for (const char* name : {"timing.json", "radar.toml", "detections/00000.csv"})
@@ -332,6 +333,7 @@ TEST_CASE("The record of a run comes back where the next one wrote nothing, also
 // Its note held nothing but what the record had listed, and a film alone told no input.
 TEST_CASE("A killed run of another input leaves only what the next run may replace", "[render]") {
   const TemporaryFolder folder;
+  for (const char* product : {"bscope", "cscope"}) fs::create_directory(folder.path() / product);
   folder.write("run.json", R"({"frames": [], "files": ["preview.mp4"]})");
   folder.write("preview.mp4", "of the first run");
   session::OutputFolder killed(folder.path(), "second input", false);
