@@ -47,10 +47,11 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
   estimate->excludes(accuracy)->excludes(budget);
   const auto& wishes = renderer::kCasterWishes;
   command
-      .add_option("--caster", options.caster,
-                  "rays: any geometry, the reference; profile: azimuth slices in closed form, over "
-                  "buildings the same error in half of the time; auto: slices where they apply and "
-                  "pay (default: the scene's, else auto)")
+      .add_option(
+          "--caster", options.caster,
+          "rays: any geometry, the reference; profile: azimuth slices in closed form, over "
+          "buildings as close in half to all of the rays' time; auto: slices where they apply and "
+          "pay (default: the scene's, else auto)")
       ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
   command
       .add_flag(

@@ -195,11 +195,12 @@ void Session::open(scenes::SceneDescription description, const Setup& setup,
                    core::ProblemList& problems) {
   if (setup.build.accuracy_grey != 0.0) check(Accuracy{setup.build.accuracy_grey}, problems);
   if (setup.pictures && !description.sensor.waveform.doppler_compensated)
-    problems.error(core::ErrorClass::unsupported, {}, "waveform.doppler_compensated", "false",
+    problems.error(core::ErrorClass::unsupported, description.sensor.waveform.doppler_place,
+                   "waveform.doppler_compensated", "false",
                    "true: pictures have no range shift by own-ship Doppler; fanbeam fmcw "
                    "--products bscope has");
   if (setup.sample) description.sample = *setup.sample;
-  if (setup.sample && !*setup.sample) renderer::refuse_draws(setup.build.wishes);
+  if (setup.sample && !*setup.sample) renderer::refuse_draws(setup.build.wishes, problems);
   inside_->seed = setup.seed;
   inside_->threads = setup.threads;
   inside_->opened = scenes::build_scene(description, setup.build, problems);

@@ -223,13 +223,13 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
   return wishes;
 }
 
-void refuse_draws(const EffectWishes& wishes) {
+void refuse_draws(const EffectWishes& wishes, core::ProblemList& problems) {
   for (const core::EffectId draw : {core::EffectId::speckle, core::EffectId::swerling})
     if (wishes.forced_on.contains(draw))
-      core::throw_input_error(core::ErrorClass::unsupported, "--effects",
-                              "\"+" + std::string(name_of(draw)) + "\"",
-                              "no effect of a draw beside the realisation mean, which is the "
-                              "expectation of all draws");
+      problems.error(core::ErrorClass::unsupported, {}, "--effects",
+                     "\"+" + std::string(name_of(draw)) + "\"",
+                     "no effect of a draw beside the realisation mean, which is the "
+                     "expectation of all draws");
 }
 
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {

@@ -22,9 +22,9 @@ struct EffectWishes {
 // for one forced on that samples do not show (effects_shown_in).
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched = Touches::pictures);
 
-// Throws InputError E-UNSUPPORTED where they force speckle or fluctuating targets on: for whoever asks
-// for the expected power, realisation mean.
-void refuse_draws(const EffectWishes& wishes);
+// Adds E-UNSUPPORTED where they force speckle or fluctuating targets on: for whoever asks for the
+// expected power, realisation mean.
+void refuse_draws(const EffectWishes& wishes, core::ProblemList& problems);
 
 // That may be asked for, in grey levels.
 inline constexpr core::NumberRange kAccuracies_grey{0.01, 100.0};
