@@ -10,7 +10,8 @@
 // add. Behind a mirror it needs something to meet: a body, which lies within the farthest range of
 // the antenna because |OB| <= R1 + R2, and, where the ground alone mirrors, no farther beside the fan
 // than its slopes turn a ray; or the ground. Beside the fan means by azimuths of the scene's
-// horizontal, which level ground keeps; those of an antenna that leans, or scans a cone, it does not. A ray that comes down at the angle d onto
+// horizontal, which level ground keeps; those of an antenna that leans, or scans a cone, it does not.
+// A ray that comes down at the angle d onto
 // ground of slope s leaves at the angle d - 2 s or more, and what it meets lies at a chord of the
 // ground that is nowhere steeper than its steepest facet, t: with
 //     d - 2 s > t ,   sin d >= (antenna - highest mirroring ground) / farthest range
