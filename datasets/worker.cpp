@@ -234,7 +234,8 @@ void Worker::render(const Draw& draw, const fs::path& folder) {
     made.record.index = index;
     made.record.pose = run_pose(draw, campaign_.seed,
                                 stage.own->trajectory->at(stage.own->trajectory->frame_time_s(
-                                    index, stage.own->description.sensor.scan.frame_rate_Hz)));
+                                    index, stage.own->description.sensor.scan.frame_rate_Hz)),
+                                stage.own->trajectory->begin_s());
     made.record.time_s = made.record.pose.time_s;
     const std::uint64_t key =
         (static_cast<std::uint64_t>(draw.run) << kFrameBits) + static_cast<std::uint64_t>(index);

@@ -181,7 +181,7 @@ TEST_CASE("Runs leave the flight as they are told, and wander as far as they are
                  {"flight.speed_factor", 2.0},
                  {"flight.heading_deg", 90.0}};
   flown.time_s = 10.0;
-  const core::Pose pose = datasets::run_pose(draw, 1, flown);
+  const core::Pose pose = datasets::run_pose(draw, 1, flown, 0.0);
   // 100 m to the east on the parallel: a / sqrt(1 - e^2 sin^2) cos.
   const double sine = std::sin(0.9),
                radius_m = 6378137.0 / std::sqrt(1 - 6.69437999014e-3 * sine * sine);
@@ -189,6 +189,9 @@ TEST_CASE("Runs leave the flight as they are told, and wander as far as they are
         Approx(100.0).epsilon(1e-6));
   CHECK(pose.position.height_m == 480.0);
   CHECK(pose.time_s == 5.0);
+  // From where it begins, whatever the clock says there.
+  flown.time_s = 1010.0;
+  CHECK(datasets::run_pose(draw, 1, flown, 1000.0).time_s == 1005.0);
   CHECK(pose.v_N_mps.x == 100.0);
   CHECK(core::attitude_from(pose.q_NB).heading_rad == Approx(1.5707963267948966));
 
@@ -198,7 +201,7 @@ TEST_CASE("Runs leave the flight as they are told, and wander as far as they are
   for (draw.run = 0; draw.run < 200; ++draw.run)
     for (int second = 0; second < 60; ++second, ++count) {
       flown.time_s = second;
-      const double up_m = datasets::run_pose(draw, 1, flown).position.height_m - 500.0;
+      const double up_m = datasets::run_pose(draw, 1, flown, 0.0).position.height_m - 500.0;
       square += up_m * up_m;
     }
   CHECK(std::sqrt(square / count) == Approx(3.0).epsilon(0.05));
