@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,7 @@ struct Bodies {
   // Those before, and "hangar" of a box, "buildings.geojson 17" of a footprint, "truck: cabin" of a
   // model's node.
   Objects objects{};
+  std::vector<std::filesystem::path> files{};  // read for them, a model's buffers too
 };
 
 // Walls go this far into the ground, so that no gap shows on a slope between two posts.
