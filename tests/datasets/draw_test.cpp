@@ -76,6 +76,16 @@ TEST_CASE("Distributions are the inverse of their law", "[draw]") {
   CHECK(number(decades.at(0.5)) == Approx(10.0).epsilon(1e-14));
   CHECK(number(decades.at(1.0)) <= 100.0);
   // A normal law cut at one standard deviation: u = (Phi(x) - Phi(-1)) / (Phi(1) - Phi(-1)).
+  // High in the tail as low in it: what is left above x is erfc(x / sqrt 2) / 2, beyond 20 nothing.
+  const Distribution tail(Distribution::Normal{0.0, 1.0, 8.0, 20.0}),
+      other_tail(Distribution::Normal{0.0, 1.0, -20.0, -8.0});
+  for (const double u : {0.0625, 0.25, 0.5, 0.9375, 0.9990234375}) {
+    INFO(u);
+    const double x = number(tail.at(u));
+    CHECK(std::erfc(x / std::sqrt(2.0)) / std::erfc(8.0 / std::sqrt(2.0)) ==
+          Approx(1.0 - u).epsilon(1e-9));
+    CHECK(number(other_tail.at(1.0 - u)) == Approx(-x).epsilon(1e-9));
+  }
   const Distribution normal(Distribution::Normal{5.0, 2.0, 3.0, 7.0});
   CHECK(number(normal.at(0.5)) == Approx(5.0).epsilon(1e-12));
   for (const double x : {3.3, 4.0, 6.9}) {
@@ -148,6 +158,29 @@ TEST_CASE("A run's values depend on the file and its number alone", "[draw]") {
     datasets::Drawer any(campaign);
     for (const int run : {5, 0, 3, 3, 1, 4, 2})
       CHECK((any.draw(run).values == draws[static_cast<std::size_t>(run)].values));
+  }
+}
+
+TEST_CASE("A scene is named once, and not as an airport is", "[draw]") {
+  const auto told = [](const std::string& scenes, const std::string& rest,
+                       datasets::ReadFor purpose) {
+    const tests::TemporaryFolder folder;
+    core::ProblemList problems;
+    datasets::read_campaign(
+        folder.write("campaign.toml", "[campaign]\nname = \"x\"\nscenes = " + scenes + "\n" + rest),
+        problems, purpose);
+    return problems.all().empty() ? "" : core::to_string(problems.all().front());
+  };
+  const std::string airport =
+      "[[airport]]\nident = \"EDNY\"\nrunway = \"24\"\nname = \"a\"\nfile = \"r.csv\"\n"
+      "elevation = \"e.hgt\"\n";
+  using datasets::ReadFor;
+  CHECK(told("[\"b\", \"c\"]", airport, ReadFor::making).empty());
+  for (const std::string& scenes : {std::string("[\"b\", \"b\"]"), std::string("[\"b\", \"a\"]")}) {
+    INFO(scenes);
+    CHECK_THAT(told(scenes, airport, ReadFor::making),
+               Catch::Contains("campaign.toml:3:") && Catch::Contains("E-REF campaign.scenes"));
+    CHECK(told(scenes, airport, ReadFor::looking).empty());
   }
 }
 
