@@ -22,8 +22,9 @@ PercentDecoded percent_decoded(std::string_view text);
 bool has_uri_scheme(std::string_view text);
 
 // The file that `uri`, found in `from_file`, stands for: relative to that file, and inside
-// `allowed_folder` with symbolic links followed. "%20" and its like are decoded. Throws InputError E-PATH for a scheme, an absolute path and one that leaves the folder;
-// `place` and `field` go into the message.
+// `allowed_folder` with symbolic links followed. "%20" and its like are decoded. Throws InputError
+// E-PATH for a scheme, an absolute path and one that leaves the folder; `place` and `field` go into
+// the message.
 std::filesystem::path file_of_uri(const std::filesystem::path& allowed_folder,
                                   const std::filesystem::path& from_file, const std::string& uri,
                                   const Place& place, const std::string& field);
