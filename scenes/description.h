@@ -92,7 +92,8 @@ struct SurfaceDescription {
 struct PavementDescription {
   std::string material;
   std::vector<std::vector<core::Geodetic>> rings;
-  core::Place place;
+  core::Place place;  // of the scene's [[airport]]
+  core::Place row;    // of the airport's file
 };
 
 struct LightRowDescription {
