@@ -44,6 +44,7 @@ MeshTops::MeshTops(const std::vector<const TriangleMesh*>& meshes) {
     return sum;
   };
   while (all.squares(spacing_m_) > kMostSquares || covered() > kMostCovered) spacing_m_ *= 2.0;
+  per_spacing_ = 1.0 / spacing_m_;
   west_m_ = all.low.x;
   south_m_ = all.low.y;
   columns_ = square_of(all.high.x - west_m_) + 1;

@@ -28,8 +28,8 @@ class MeshTops {
   // Upper bound of the height over the square that holds the point, rounded to a float;
   // kNothing_m where there is no mesh.
   double top_m(double x_m, double y_m) const noexcept {
-    const double u = (x_m - west_m_) / spacing_m_;
-    const double v = (y_m - south_m_) / spacing_m_;
+    const double u = (x_m - west_m_) * per_spacing_;
+    const double v = (y_m - south_m_) * per_spacing_;
     if (!(u >= 0.0 && v >= 0.0 && u < columns_ && v < rows_)) return kNothing_m;
     return static_cast<double>(
         top_m_[static_cast<std::size_t>(v) * static_cast<std::size_t>(columns_) +
@@ -38,9 +38,9 @@ class MeshTops {
 
  private:
   // Squares from the first of the grid on, in which a length along an axis ends.
-  int square_of(double along_m) const noexcept { return static_cast<int>(along_m / spacing_m_); }
+  int square_of(double along_m) const noexcept { return static_cast<int>(along_m * per_spacing_); }
 
-  double spacing_m_ = kSpacing_m;
+  double spacing_m_ = kSpacing_m, per_spacing_ = 1.0 / kSpacing_m;  // powers of two: no rounding
   double west_m_ = 0.0, south_m_ = 0.0;
   int columns_ = 0, rows_ = 0;
   std::vector<float> top_m_;
