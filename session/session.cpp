@@ -110,7 +110,7 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
   if ((settings.low_dB || settings.high_dB) && display.mapping == sensors::Display::Mapping::seed)
     problems.error(core::ErrorClass::unsupported, {}, "low_dB, high_dB", "with mapping \"seed\"",
                    "mapping \"stc\" or \"log\"; \"seed\" has a window of its own");
-  constexpr core::NumberRange kLevels_dB{-400.0, 400.0};
+  constexpr core::NumberRange kLevels_dB = SensorSettings::kLevels_dB;
   if (settings.low_dB) core::check_range(problems, "low_dB", *settings.low_dB, kLevels_dB, "dB");
   if (settings.high_dB) core::check_range(problems, "high_dB", *settings.high_dB, kLevels_dB, "dB");
   display.low_dB = settings.low_dB.value_or(display.low_dB);
