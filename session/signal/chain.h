@@ -51,6 +51,10 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const SignalBudget& budget = {},
                      const std::vector<signal::Interferer>& interferers = {});
 
+// E-RANGE where what `products` need has detections and the radar cannot detect (check_detects): to
+// be asked before any rays are cast. Nothing for waveforms without maps.
+void check_processing(const FmcwRadar& radar, const std::set<std::string>& products);
+
 // Maps and detections of frame.beats[0], as the names of `products` need them: the way down from
 // samples, whoever made them.
 void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
