@@ -177,12 +177,17 @@ void require_rows(const AtmosphereOptions& options) {
 
 void answer(const Question& question, const AtmosphereOptions& options,
             const CommonOptions& common) {
-  if (!options.compare_GHz.empty()) {
+  const bool compares = !options.compare_GHz.empty();
+  core::ProblemList idle;
+  if (!compares)  // which has fog and rain of its own
+    check_amounts(options.weather, question.weather, !question.rain_cells.empty(), idle);
+  check_laws(options.weather, question.weather, idle);
+  idle.throw_if_errors();
+  if (compares) {
     fmt::print("{}", measure::compare_frequencies(question.weather, 1e9 * options.compare_GHz[0],
                                                   1e9 * options.compare_GHz[1], options.output));
     return;
   }
-  refuse_idle(options.weather, question.weather, !question.rain_cells.empty());
   require_rows(options);
   const atmosphere::AtmospherePath path{options.height_m, options.to_height_m, options.range_m,
                                         options.step_m,
