@@ -149,16 +149,6 @@ int merge(const CampaignOptions& options, const CommonOptions& common, const Cam
   return kExitDone;
 }
 
-// As a shell takes it back, plain words as they are.
-std::string quoted(const std::string& text) {
-  if (text.find_first_not_of(
-          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") ==
-          std::string::npos &&
-      !text.empty())
-    return text;
-  return datasets::shell_quoted(text);
-}
-
 int verify(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
   const std::vector<int> runs = chosen_runs(options, campaign);
   const std::vector<datasets::Damage> damages =
@@ -174,11 +164,13 @@ int verify(const CampaignOptions& options, const CommonOptions& common, const Ca
     return kExitDone;
   }
   if (wrong.empty()) return kExitCompareFailed;
-  const std::string folder = options.output.empty() ? "" : " -o " + quoted(options.output);
-  const std::string data = options.data.empty() ? "" : " --data " + quoted(options.data);
+  const std::string folder =
+      options.output.empty() ? "" : " -o " + core::shell_word(options.output);
+  const std::string data = options.data.empty() ? "" : " --data " + core::shell_word(options.data);
   fmt::print(
       "{} of {} runs are to be made again:\nfanbeam campaign run {}{}{} --runs {} --replace\n",
-      wrong.size(), runs.size(), quoted(options.file), folder, data, datasets::runs_text(wrong));
+      wrong.size(), runs.size(), core::shell_word(options.file), folder, data,
+      datasets::runs_text(wrong));
   return kExitCompareFailed;
 }
 
@@ -192,7 +184,7 @@ int slurm(const CampaignOptions& options, const CommonOptions& common, const Cam
                            fs::absolute(folder_of(options.folder, campaign)).lexically_normal(),
                            options.data.empty() ? "" : fs::absolute(options.data).string(),
                            options.tasks, options.threads}));
-  if (!common.quiet) fmt::print("bash {}\n", quoted(script.string()));
+  if (!common.quiet) fmt::print("bash {}\n", core::shell_word(script.string()));
   return kExitDone;
 }
 

@@ -175,11 +175,8 @@ void print_notes(const scenes::Notes& notes) {
 }
 
 void print_next_steps(const InitOptions& options, const scenes::Scene& scene) {
-  constexpr const char* kPlain =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789./_-";
-  const bool plain = options.folder.find_first_not_of(kPlain) == std::string::npos;
-  const std::string folder = plain ? options.folder : "'" + options.folder + "'";
-  const std::string data = options.data.empty() ? "" : " --data " + options.data;
+  const std::string folder = core::shell_word(options.folder);
+  const std::string data = options.data.empty() ? "" : " --data " + core::shell_word(options.data);
   fmt::print("\nvalid: {} frames, {:.1f} s of flight, {} triangles\n", scene.frame_count(),
              scene.trajectory->end_s() - scene.trajectory->begin_s(),
              scene.world.surfaces().triangle_count());
