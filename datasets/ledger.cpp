@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -128,6 +129,25 @@ std::vector<int> runs_in(const std::string& text, int runs, const std::string& f
     for (int run = *first; run < end; ++run) chosen.insert(run);
   }
   return {chosen.begin(), chosen.end()};
+}
+
+std::vector<int> shard_of(const std::vector<int>& runs, const std::string& text,
+                          const std::string& field) {
+  if (text.empty()) return runs;
+  const std::size_t slash = text.find('/');
+  const auto part = core::parse_number(text.substr(0, slash));
+  const auto parts = core::parse_number(slash == std::string::npos ? "" : text.substr(slash + 1));
+  const bool whole = part.error == core::NumberError::none &&
+                     parts.error == core::NumberError::none &&
+                     part.value == std::floor(part.value) && parts.value == std::floor(parts.value);
+  if (!whole || part.value < 1 || part.value > parts.value || parts.value > 1e6)
+    core::throw_input_error(core::ErrorClass::range, field, "\"" + text + "\"",
+                            "K/N with K from 1 to N, such as 3/8");
+  std::vector<int> mine;
+  for (auto i = static_cast<std::size_t>(part.value) - 1; i < runs.size();
+       i += static_cast<std::size_t>(parts.value))
+    mine.push_back(runs[i]);
+  return mine;
 }
 
 std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,

@@ -24,6 +24,10 @@ bool was_made_by_other_file(const Campaign& campaign, const std::filesystem::pat
 std::string runs_text(const std::vector<int>& runs);
 // Throws InputError E-PARSE or E-RANGE for `field`.
 std::vector<int> runs_in(const std::string& text, int runs, const std::string& field);
+// Of "K/N" every N-th of the runs, beginning with the K-th; all of an empty text. Throws InputError E-RANGE
+// for `field`.
+std::vector<int> shard_of(const std::vector<int>& runs, const std::string& text,
+                          const std::string& field);
 
 // One line of what is wrong with a run.
 struct Damage {
