@@ -50,6 +50,9 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const FmcwSettings& options, const std::set<std::string>& products,
                      const SignalBudget& budget = {},
                      const std::vector<signal::Interferer>& interferers = {});
+// The same of a frame of a scene, whose `paths` fmcw_paths gave.
+FmcwFrame fmcw_frame(const FmcwRadar& radar, const scenes::Scene& scene, const FmcwPaths& paths,
+                     int frame, const FmcwSettings& options, const std::set<std::string>& products);
 
 // Maps and detections of frame.beats[0], as the names of `products` need them: the way down from
 // samples, whoever made them.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/plan/plan.h"
+#include "scenes/scene.h"
 #include "session/signal/receive.h"
 
 namespace fanbeam::session {
@@ -12,6 +13,7 @@ struct SignalBudget {
   double accuracy_grey = 0.5;
   renderer::EffectWishes wishes;
 };
+SignalBudget signal_budget(const scenes::Scene& scene);
 
 // How what is made of the samples is shown: see renderer::SignalFacts.
 struct SamplesShown {
