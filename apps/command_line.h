@@ -29,8 +29,15 @@ class CommandLine {
   // What is added from here on stands under this heading in overviews.
   void heading(std::string text) { heading_ = std::move(text); }
 
-  // declare(CLI::App& program, Options&, CommonOptions&) adds a subcommand with its options and
-  // returns it; action(const Options&, const CommonOptions&) gives an exit code.
+  // declare(CLI::App& program, Options&) adds a subcommand with its options and returns it; what every
+  // command has is added to it and those below. action(const Options&, const CommonOptions&) gives an exit
+  // code.
+  template <class Options, class Run>
+  void add(CLI::App& (*declare)(CLI::App&, Options&), Run action) {
+    const auto options = std::make_shared<Options>();
+    put(declare(program_, *options), [this, options, action] { return action(*options, common_); });
+  }
+  // The same of one that adds what every command has at other places than the end.
   template <class Options, class Run>
   void add(CLI::App& (*declare)(CLI::App&, Options&, CommonOptions&), Run action) {
     const auto options = std::make_shared<Options>();
@@ -46,6 +53,7 @@ class CommandLine {
 
  private:
   void put(CLI::App& command, std::function<int()> action);
+  void complete(CLI::App& command);
 
   CLI::App program_;
   CommonOptions common_;

@@ -7,7 +7,7 @@
 
 namespace fanbeam::apps {
 
-CLI::App& add_compare_command(CLI::App& program, CompareOptions& options, CommonOptions& common) {
+CLI::App& add_compare_command(CLI::App& program, CompareOptions& options) {
   CLI::App& command =
       *program.add_subcommand("compare", "Compare two images or two folders of images");
   command.add_option("A", options.a, "Image (PNG, EXR) or folder of images")
@@ -33,7 +33,6 @@ CLI::App& add_compare_command(CLI::App& program, CompareOptions& options, Common
                   "Draw where they differ, B - A in grey levels or dB: a PNG file for two images; "
                   "for two folders a folder of maps of the pairs that differ")
       ->type_name(kFileValue);
-  add_common_options(command, common);
   return command;
 }
 

@@ -8,7 +8,7 @@
 
 namespace fanbeam::apps {
 
-CLI::App& add_cost_command(CLI::App& program, CostOptions& options, CommonOptions& common) {
+CLI::App& add_cost_command(CLI::App& program, CostOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "cost", "Measure what accuracy and effects cost in time: CSV, plots and a page of tables");
   command.footer(
@@ -47,7 +47,6 @@ CLI::App& add_cost_command(CLI::App& program, CostOptions& options, CommonOption
       ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
   command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
       ->check(whole_number_from(0, 1024));
-  add_common_options(command, common);
   return command;
 }
 

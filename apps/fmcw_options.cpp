@@ -208,7 +208,7 @@ std::vector<const CLI::Option*> declared_by(CLI::App& command, const Add& add) {
 
 }  // namespace
 
-CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOptions& common) {
+CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "fmcw",
       "A scene at signal level: beat signals, maps of range, speed and azimuth, detections");
@@ -259,7 +259,6 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
   command.footer(
       "Frequency, sweep and element pattern are those of the scene's sensor. Speeds are positive "
       "receding, azimuths positive right. docs/fmcw.md explains every step and file.");
-  add_common_options(command, common);
   command.parse_complete_callback([&options, chain] {
     for (const CLI::Option* option : chain)
       if (option->count() > 0) options.given_for_chain.insert(option->get_name());

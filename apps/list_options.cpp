@@ -6,7 +6,7 @@
 
 namespace fanbeam::apps {
 
-CLI::App& add_list_command(CLI::App& program, ListOptions& options, CommonOptions& common) {
+CLI::App& add_list_command(CLI::App& program, ListOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "list", "List the scenes, sensors, materials, effects and products that there are");
   CLI::Option* what =
@@ -21,7 +21,6 @@ CLI::App& add_list_command(CLI::App& program, ListOptions& options, CommonOption
                   "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
                   "names: are the files of the scenes there?")
       ->type_name(kFolderValue);
-  add_common_options(command, common);
   return command;
 }
 

@@ -12,6 +12,6 @@ struct LiveOptions : SceneChoice, live::RunSettings {};
 // Runs until it is stopped, which is its good end. Returns an exit code; throws InputError for bad
 // input.
 int fly(const LiveOptions& options, const CommonOptions& common);
-CLI::App& add_live_command(CLI::App& program, LiveOptions& options, CommonOptions& common);
+CLI::App& add_live_command(CLI::App& program, LiveOptions& options);
 
 }  // namespace fanbeam::apps

@@ -10,7 +10,7 @@
 
 namespace fanbeam::apps {
 
-CLI::App& add_plan_command(CLI::App& program, PlanOptions& options, CommonOptions& common) {
+CLI::App& add_plan_command(CLI::App& program, PlanOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "plan", "Tell which effects a scene calls for, why, how much each can change, and its cost");
   add_scene_choice(command, options);
@@ -44,7 +44,6 @@ CLI::App& add_plan_command(CLI::App& program, PlanOptions& options, CommonOption
       ->check(whole_number_from(1, 10000))
       ->needs(measure)
       ->group("");  // for tests and the impatient: a cost that is told elsewhere wants 20
-  add_common_options(command, common);
   command.callback([&options] {
     if (!options.frames.empty() && !options.per_frame && !options.measure)
       throw CLI::ValidationError(

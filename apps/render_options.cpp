@@ -81,7 +81,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
 
 }  // namespace
 
-CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOptions& common) {
+CLI::App& add_render_command(CLI::App& program, RenderOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "render", "Render a scene's approach to B-scope and C-scope pictures");
   add_scene_choice(command, options);
@@ -121,7 +121,6 @@ CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOp
                   "m)")
       ->check(CLI::IsMember(
           std::vector<std::string>(session::kRangeUnits.begin(), session::kRangeUnits.end())));
-  add_common_options(command, common);
   return command;
 }
 
