@@ -7,6 +7,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -19,8 +20,21 @@ namespace fanbeam::apps {
 // --version, --quiet, --log-level and --isa, which every command and subcommand has (--help is CLI11's).
 void add_common_options(CLI::App& command, CommonOptions& common);
 
-// --accuracy, of one range wherever it is asked for.
+// Options that several commands have, each with the same name, values and limits wherever it is asked for.
+// `what` is what help says of it.
 CLI::Option* add_accuracy_option(CLI::App& command, double& accuracy_grey, const std::string& what);
+void add_caster_option(CLI::App& command, std::string& caster, const std::string& what);
+void add_output_option(CLI::App& command, std::string& folder, const std::string& what);
+void add_seed_option(CLI::App& command, std::uint64_t& seed);
+void add_threads_option(CLI::App& command, int& threads);
+
+// As session::parse_frames takes them; kFramesText is part of what help says.
+inline constexpr const char* kFramesText = "A:B[:STEP], counted like a Python slice, or one frame";
+CLI::Option* add_frames_option(CLI::App& command, std::string& frames, const std::string& what);
+
+// `order`: when that folder is looked at.
+inline constexpr const char* kDataOrder = "looked at before the one that FANBEAM_DATA names";
+void add_data_option(CLI::App& command, std::string& folder, const std::string& order);
 
 class CommandLine {
  public:

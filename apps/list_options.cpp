@@ -2,7 +2,6 @@
 
 #include "apps/command_line.h"
 #include "apps/list_command.h"
-#include "apps/value_words.h"
 
 namespace fanbeam::apps {
 
@@ -16,11 +15,8 @@ CLI::App& add_list_command(CLI::App& program, ListOptions& options) {
   command.add_flag("--names", options.names, "Print the names alone, one a line")
       ->needs(what)
       ->excludes(json);
-  command
-      .add_option("--data", options.data,
-                  "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
-                  "names: are the files of the scenes there?")
-      ->type_name(kFolderValue);
+  add_data_option(command, options.data,
+                  std::string(kDataOrder) + ": are the files of the scenes there?");
   return command;
 }
 

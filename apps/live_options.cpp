@@ -105,8 +105,7 @@ CLI::App& add_live_command(CLI::App& program, LiveOptions& options) {
   command
       .add_option("--frames", options.frames, "End after so many frames (default: when stopped)")
       ->check(whole_number_from(1, 1'000'000'000));
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
+  add_threads_option(command, options.threads);
   command.footer("Ctrl-C and SIGTERM are a good end, as --seconds is: exit code 0.");
   return command;
 }

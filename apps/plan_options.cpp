@@ -32,14 +32,10 @@ CLI::App& add_plan_command(CLI::App& program, PlanOptions& options) {
       "--measure", options.measure,
       "Measure what each effect costs in milliseconds a frame: on against off, in turn, over three "
       "frames; takes minutes");
-  command
-      .add_option("--frames", options.frames,
-                  "Frames for --per-frame and --measure: A:B[:STEP], counted like a Python slice, "
-                  "or one frame")
-      ->type_name(kFramesValue)
+  add_frames_option(command, options.frames,
+                    std::string("Frames for --per-frame and --measure: ") + kFramesText)
       ->default_str("all");
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
+  add_threads_option(command, options.threads);
   command.add_option("--repetitions", options.repetitions, "Of each measured frame")
       ->check(whole_number_from(1, 10000))
       ->needs(measure)

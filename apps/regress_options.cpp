@@ -16,7 +16,7 @@ void add_run(CLI::App& regress, RegressOptions& options) {
   command.add_option("SUITE", options.suite, "TOML file (docs/regression.md)")
       ->type_name(kFileValue)
       ->required();
-  command.add_option("-o,--output", options.output, kOutputHelp)->type_name(kFolderValue);
+  add_output_option(command, options.output, kOutputHelp);
   command
       .add_option("--junit", options.junit,
                   "File for the JUnit XML (default junit.xml in the folder of results)")
@@ -24,12 +24,8 @@ void add_run(CLI::App& regress, RegressOptions& options) {
   command.add_flag(
       "--html,!--no-html", options.page,
       "Write report.html with the pictures that differ (the default), or leave it out");
-  command
-      .add_option("--data", options.data,
-                  "Folder with terrain and flight data, instead of the suite's")
-      ->type_name(kFolderValue);
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
+  add_data_option(command, options.data, "instead of the suite's");
+  add_threads_option(command, options.threads);
   command.footer(
       "--isa replaces what the suite pins. docs/regression.md tells how to use it in a CI.");
 }
@@ -46,7 +42,7 @@ CLI::App& add_approve(CLI::App& regress, ApproveOptions& options) {
       ->required();
   command.add_option("--case", options.only,
                      "Name of one case (default: every case that did not pass)");
-  command.add_option("-o,--output", options.output, kOutputHelp)->type_name(kFolderValue);
+  add_output_option(command, options.output, kOutputHelp);
   return command;
 }
 
