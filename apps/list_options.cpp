@@ -17,6 +17,15 @@ CLI::App& add_list_command(CLI::App& program, ListOptions& options) {
       ->excludes(json);
   add_data_option(command, options.data,
                   std::string(kDataOrder) + ": are the files of the scenes there?");
+  command.callback([&options] {
+    const bool told =
+        options.what.empty() ? options.json : options.what == "scenes" && !options.names;
+    if (!options.data.empty() && !told)
+      throw CLI::ValidationError("--data",
+                                 "only tells in fanbeam list scenes, and in the JSON of "
+                                 "everything, whether the files of scenes "
+                                 "are there");
+  });
   return command;
 }
 
