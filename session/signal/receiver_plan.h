@@ -23,8 +23,8 @@ struct SamplesShown {
   int beams = 1;
 };
 
-// `beat` as synthesised, complex, the channels' gains included, `echo_W` the sum of its echoes' powers in the channel that
-// has most; `interference`: what other radars add to it, or empty.
+// `beat` as synthesised, complex, the channels' gains included, `echo_W` the sum of its echoes' powers in
+// the channel that has most; `interference`: what other radars add to it, or empty.
 core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
                                const sensors::Sensor& sensor, const FmcwReceiver& receiver,
                                double echo_W, const signal::FloatCube& beat,
