@@ -3,10 +3,10 @@
 #include <fmt/core.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "apps/scene_choice.h"
 #include "atmosphere/loss_table.h"
+#include "atmosphere/loss_text.h"
 #include "core/constants.h"
 #include "core/files.h"
 #include "measure/frequency_choice.h"
@@ -54,49 +54,6 @@ core::Problem in_words_of_options(core::Problem problem, const AtmosphereOptions
 // dB of an echo that may be none.
 std::string dB_text(double value_dB) {
   return std::isfinite(value_dB) ? fmt::format("{:.1f}", value_dB) : "-";
-}
-
-std::string csv_of(const std::vector<atmosphere::AtmosphereTable>& tables) {
-  std::string text =
-      "frequency_GHz,range_m,gas_dB,oxygen_dB,vapour_dB,fog_dB,rain_dB,snow_dB,one_way_dB,"
-      "two_way_dB,eta_m2_per_m3,equivalent_sigma0_dB\n";
-  for (const atmosphere::AtmosphereTable& table : tables)
-    for (const atmosphere::AtmosphereRow& row : table.rows)
-      text += fmt::format(
-          "{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}\n",
-          table.frequency_Hz / 1e9, row.range_m, row.gas_dB(), row.oxygen_dB, row.vapour_dB,
-          row.fog_dB, row.rain_dB, row.snow_dB, row.one_way_dB(), row.two_way_dB(),
-          row.eta_m2_per_m3,
-          std::isfinite(row.equivalent_sigma0_dB) ? fmt::format("{:.4f}", row.equivalent_sigma0_dB)
-                                                  : "");
-  return text;
-}
-
-std::string json_of(const std::vector<atmosphere::AtmosphereTable>& tables,
-                    const std::vector<atmosphere::AtmosphereModel>& models) {
-  nlohmann::ordered_json json;
-  for (const atmosphere::AtmosphereModel& model : models)
-    json["models"].push_back(
-        {{"cause", model.cause}, {"model", model.model}, {"source", model.source}});
-  for (const atmosphere::AtmosphereTable& table : tables) {
-    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-    for (const atmosphere::AtmosphereRow& row : table.rows) {
-      nlohmann::ordered_json entry = {
-          {"range_m", row.range_m},         {"gas_dB", row.gas_dB()},
-          {"oxygen_dB", row.oxygen_dB},     {"vapour_dB", row.vapour_dB},
-          {"fog_dB", row.fog_dB},           {"rain_dB", row.rain_dB},
-          {"snow_dB", row.snow_dB},         {"one_way_dB", row.one_way_dB()},
-          {"two_way_dB", row.two_way_dB()}, {"eta_m2_per_m3", row.eta_m2_per_m3}};
-      if (std::isfinite(row.equivalent_sigma0_dB))
-        entry["equivalent_sigma0_dB"] = row.equivalent_sigma0_dB;
-      rows.push_back(entry);
-    }
-    nlohmann::ordered_json entry = {{"frequency_GHz", table.frequency_Hz / 1e9}};
-    if (table.rain) entry["rain"] = {{"k", table.rain->k}, {"alpha", table.rain->alpha}};
-    entry["rows"] = rows;
-    json["frequencies"].push_back(entry);
-  }
-  return json.dump(2) + "\n";
 }
 
 void print_table(const atmosphere::AtmosphereTable& table) {
@@ -160,8 +117,8 @@ session::Plot plot_of(const std::vector<atmosphere::AtmosphereTable>& tables) {
 void write_files(const fs::path& folder, const std::vector<atmosphere::AtmosphereTable>& tables,
                  const std::vector<atmosphere::AtmosphereModel>& models) {
   fs::create_directories(folder);
-  core::write_file_atomically(folder / "atmosphere.csv", csv_of(tables));
-  core::write_file_atomically(folder / "atmosphere.json", json_of(tables, models));
+  core::write_file_atomically(folder / "atmosphere.csv", atmosphere::loss_csv(tables));
+  core::write_file_atomically(folder / "atmosphere.json", atmosphere::loss_json(tables, models));
   for (const char* name : {"atmosphere.svg", "atmosphere.png"})
     session::write_plot(plot_of(tables), folder / name);
 }
@@ -177,12 +134,17 @@ void require_rows(const AtmosphereOptions& options) {
 
 void answer(const Question& question, const AtmosphereOptions& options,
             const CommonOptions& common) {
-  if (!options.compare_GHz.empty()) {
+  const bool compares = !options.compare_GHz.empty();
+  core::ProblemList idle;
+  if (!compares)  // which has fog and rain of its own
+    check_amounts(options.weather, question.weather, !question.rain_cells.empty(), idle);
+  check_laws(options.weather, question.weather, idle);
+  idle.throw_if_errors();
+  if (compares) {
     fmt::print("{}", measure::compare_frequencies(question.weather, 1e9 * options.compare_GHz[0],
                                                   1e9 * options.compare_GHz[1], options.output));
     return;
   }
-  refuse_idle(options.weather, question.weather, !question.rain_cells.empty());
   require_rows(options);
   const atmosphere::AtmospherePath path{options.height_m, options.to_height_m, options.range_m,
                                         options.step_m,
@@ -195,9 +157,9 @@ void answer(const Question& question, const AtmosphereOptions& options,
     tables.push_back(atmosphere::atmosphere_table(question.weather, 1e9 * frequency_GHz, path));
   const std::vector<atmosphere::AtmosphereModel> models = atmosphere_models(question.weather);
   if (options.json) {
-    fmt::print("{}", json_of(tables, models));
+    fmt::print("{}", atmosphere::loss_json(tables, models));
   } else if (options.csv) {
-    fmt::print("{}", csv_of(tables));
+    fmt::print("{}", atmosphere::loss_csv(tables));
   } else {
     if (!common.quiet) print_notes(path, models);
     print_tables(question, tables);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -48,25 +47,6 @@ fs::path folder_of(const std::string& told, const Campaign& campaign) {
   return told.empty() ? core::default_output_folder(campaign.name) : fs::path(told);
 }
 
-// Every N-th run beginning with the K-th.
-std::vector<int> shard_of(const std::vector<int>& runs, const std::string& text) {
-  if (text.empty()) return runs;
-  const std::size_t slash = text.find('/');
-  const auto part = core::parse_number(text.substr(0, slash));
-  const auto parts = core::parse_number(slash == std::string::npos ? "" : text.substr(slash + 1));
-  const bool whole = part.error == core::NumberError::none &&
-                     parts.error == core::NumberError::none &&
-                     part.value == std::floor(part.value) && parts.value == std::floor(parts.value);
-  if (!whole || part.value < 1 || part.value > parts.value || parts.value > 1e6)
-    core::throw_input_error(core::ErrorClass::range, "--shard", "\"" + text + "\"",
-                            "K/N with K from 1 to N, such as 3/8");
-  std::vector<int> mine;
-  for (auto i = static_cast<std::size_t>(part.value) - 1; i < runs.size();
-       i += static_cast<std::size_t>(parts.value))
-    mine.push_back(runs[i]);
-  return mine;
-}
-
 std::vector<int> chosen_runs(const CampaignOptions& options, const Campaign& campaign) {
   if (!options.runs.empty()) return datasets::runs_in(options.runs, campaign.runs, "--runs");
   std::vector<int> runs(static_cast<std::size_t>(campaign.runs));
@@ -86,10 +66,12 @@ void warn_of_change(const Campaign& campaign, const CommonOptions& common) {
 int run(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
   const core::ThreadLimit threads(options.threads);
   const fs::path output = folder_of(options.output, campaign);
-  const std::vector<int> runs = shard_of(chosen_runs(options, campaign), options.shard);
+  const std::vector<int> runs =
+      datasets::shard_of(chosen_runs(options, campaign), options.shard, "--shard");
   datasets::Worker worker(campaign,
                           {output, shipped_folder(), data_folders(options.data), options.replace});
   int made = 0, elsewhere = 0, there = 0;
+  bool tells_change = !common.quiet;  // once
   std::vector<int> failed;
   const StopOnSignals stop_on_signals;
   try {
@@ -109,8 +91,11 @@ int run(const CampaignOptions& options, const CommonOptions& common, const Campa
                         datasets::failed_file(output, runs[i]).string());
           break;
         case datasets::RunEnd::there:
-          if (there++ == 0 && datasets::was_made_by_other_file(campaign, output, runs[i]))
+          ++there;
+          if (tells_change && datasets::was_made_by_other_file(campaign, output, runs[i])) {
             warn_of_change(campaign, common);
+            tells_change = false;
+          }
           break;
       }
       progress.step(static_cast<int>(i) + 1);
@@ -149,16 +134,6 @@ int merge(const CampaignOptions& options, const CommonOptions& common, const Cam
   return kExitDone;
 }
 
-// As a shell takes it back, plain words as they are.
-std::string quoted(const std::string& text) {
-  if (text.find_first_not_of(
-          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./") ==
-          std::string::npos &&
-      !text.empty())
-    return text;
-  return datasets::shell_quoted(text);
-}
-
 int verify(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
   const std::vector<int> runs = chosen_runs(options, campaign);
   const std::vector<datasets::Damage> damages =
@@ -174,11 +149,13 @@ int verify(const CampaignOptions& options, const CommonOptions& common, const Ca
     return kExitDone;
   }
   if (wrong.empty()) return kExitCompareFailed;
-  const std::string folder = options.output.empty() ? "" : " -o " + quoted(options.output);
-  const std::string data = options.data.empty() ? "" : " --data " + quoted(options.data);
+  const std::string folder =
+      options.output.empty() ? "" : " -o " + core::shell_word(options.output);
+  const std::string data = options.data.empty() ? "" : " --data " + core::shell_word(options.data);
   fmt::print(
       "{} of {} runs are to be made again:\nfanbeam campaign run {}{}{} --runs {} --replace\n",
-      wrong.size(), runs.size(), quoted(options.file), folder, data, datasets::runs_text(wrong));
+      wrong.size(), runs.size(), core::shell_word(options.file), folder, data,
+      datasets::runs_text(wrong));
   return kExitCompareFailed;
 }
 
@@ -192,7 +169,7 @@ int slurm(const CampaignOptions& options, const CommonOptions& common, const Cam
                            fs::absolute(folder_of(options.folder, campaign)).lexically_normal(),
                            options.data.empty() ? "" : fs::absolute(options.data).string(),
                            options.tasks, options.threads}));
-  if (!common.quiet) fmt::print("bash {}\n", quoted(script.string()));
+  if (!common.quiet) fmt::print("bash {}\n", core::shell_word(script.string()));
   return kExitDone;
 }
 

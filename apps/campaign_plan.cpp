@@ -2,73 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <map>
-
-#include "apps/campaign_pilot.h"
 #include "apps/stop_on_signals.h"
+#include "core/parallel.h"
 #include "core/stop.h"
-#include "datasets/draw.h"
-#include "datasets/run_conditions.h"
+#include "datasets/pilot.h"
 
 namespace fanbeam::apps {
 namespace {
 
 using datasets::Campaign;
 
-// What the draws of a parameter come to.
-struct Range {
-  double low = 1e300, high = -1e300;
-  std::map<std::string, int> words;
-};
-
-struct Refusal {
-  int run = 0;
-  std::string why;
-  int count = 0;
-};
-
-struct Drawn {
-  std::map<std::string, Range> ranges;
-  std::map<std::string, Refusal> refused;  // by what is wrong
-  RunsByScene scenes;
-};
-
-// All runs, without a scene: what its weather would make of them is told by the runs themselves.
-Drawn draw_all(const Campaign& campaign) {
-  constexpr double kFrequency_Hz = 35e9;
-  Drawn drawn;
-  datasets::Drawer drawer(campaign);
-  const bool weather = std::any_of(
-      campaign.parameters.begin(), campaign.parameters.end(),
-      [](const datasets::Parameter& parameter) { return parameter.name.starts_with("weather."); });
-  for (int run = 0; run < campaign.runs; ++run) {
-    const datasets::Draw draw = drawer.draw(run);
-    drawn.scenes[draw.word("scene").value_or(campaign.scenes.front())].add(run);
-    for (const auto& [name, value] : draw.values) {
-      Range& range = drawn.ranges[name];
-      if (const auto* number = std::get_if<double>(&value)) {
-        range.low = std::min(range.low, *number);
-        range.high = std::max(range.high, *number);
-      } else {
-        ++range.words[std::get<std::string>(value)];
-      }
-    }
-    if (!weather) continue;
-    const core::ProblemList problems =
-        atmosphere::problems_in(datasets::weather_of(draw, {}), kFrequency_Hz);
-    for (const core::Problem& problem : problems.all()) {
-      if (!problem.is_error()) continue;
-      Refusal& refusal = drawn.refused[problem.field + ": expected " + problem.expected];
-      if (refusal.count++ == 0) refusal = {run, to_string(problem), 1};
-    }
-  }
-  return drawn;
-}
-
-void print_ranges(const Campaign& campaign, const Drawn& drawn) {
+void print_ranges(const Campaign& campaign, const datasets::Drawn& drawn) {
   for (const datasets::Parameter& parameter : campaign.parameters) {
-    const Range& range = drawn.ranges.at(parameter.name);
+    const datasets::Drawn::Range& range = drawn.ranges.at(parameter.name);
     std::string text;
     for (const auto& [word, count] : range.words)
       text += (text.empty() ? "" : ", ") + word + " in " + std::to_string(count);
@@ -80,6 +26,28 @@ void print_ranges(const Campaign& campaign, const Drawn& drawn) {
   }
 }
 
+std::string bytes_text(double bytes) {
+  return bytes >= 1e12  ? fmt::format("{:.2f} TB", bytes / 1e12)
+         : bytes >= 1e9 ? fmt::format("{:.2f} GB", bytes / 1e9)
+                        : fmt::format("{:.1f} MB", bytes / 1e6);
+}
+
+// Scenes that were not flown count as those that were.
+void print_pilot(const datasets::PilotFigures& pilot, const datasets::Drawn& drawn, int cores) {
+  for (const auto& refusal : pilot.refused)
+    fmt::print("would be refused: run {} of {}: {}\n", refusal.run, refusal.scene, refusal.why);
+  if (pilot.runs == 0) return;
+  const double all_s =
+      pilot.run_s * drawn.runs + pilot.open_s * static_cast<double>(drawn.scenes.size());
+  fmt::print(
+      "pilot of {} runs of {} {} on {} cores: {:.2f} s and {} a run, {:.2f} s to open a scene; all "
+      "of it {} and {:.3g} core hours ({} here)\n",
+      pilot.runs, pilot.scenes, pilot.scenes == 1 ? "scene" : "scenes", cores, pilot.run_s,
+      bytes_text(pilot.run_bytes), pilot.open_s, bytes_text(pilot.run_bytes * drawn.runs),
+      all_s * cores / 3600.0,
+      all_s < 120.0 ? fmt::format("{:.0f} s", all_s) : fmt::format("{:.0f} min", all_s / 60.0));
+}
+
 }  // namespace
 
 int plan_campaign(const CampaignOptions& options, const Campaign& campaign) {
@@ -88,7 +56,7 @@ int plan_campaign(const CampaignOptions& options, const Campaign& campaign) {
              campaign.runs, kPlans[static_cast<std::size_t>(campaign.plan)], campaign.frames.count,
              static_cast<long long>(campaign.runs) * campaign.frames.count,
              core::short_name_of(campaign.isa));
-  const Drawn drawn = draw_all(campaign);
+  const datasets::Drawn drawn = datasets::drawn_of(campaign);
   print_ranges(campaign, drawn);
   for (const auto& [what, refusal] : drawn.refused)
     fmt::print("would be refused: {} {}, such as run {}: {}\n", refusal.count,
@@ -96,8 +64,12 @@ int plan_campaign(const CampaignOptions& options, const Campaign& campaign) {
   bool all_fly = drawn.refused.empty();
   if (options.pilot) {
     const StopOnSignals stop_on_signals;
+    const core::ThreadLimit threads(options.threads);
     try {
-      all_fly = print_pilot(options, campaign, drawn.scenes) && all_fly;
+      const datasets::PilotFigures pilot =
+          datasets::fly_pilot(campaign, drawn, {{}, shipped_folder(), data_folders(options.data)});
+      print_pilot(pilot, drawn, core::ThreadLimit::threads());
+      all_fly = pilot.refused.empty() && all_fly;
     } catch (const core::Stopped&) {
       return end_by_stop_signal();
     }

@@ -23,14 +23,20 @@ CommandLine::CommandLine()
 
 void CommandLine::put(CLI::App& command, std::function<int()> action) {
   command.group(heading_);
+  complete(command);
+  actions_[&command] = std::move(action);
+}
+
+void CommandLine::complete(CLI::App& command) {
+  if (command.get_option_no_throw("--quiet") == nullptr) add_common_options(command, common_);
   for (CLI::App* below : command.get_subcommands({})) {
     if (below->get_name().empty()) {
       below->set_help_flag();  // a group of options, which CLI11 gives a --help of its own
     } else {
       below->group("Commands");
+      complete(*below);
     }
   }
-  actions_[&command] = std::move(action);
 }
 
 int CommandLine::run(int argc, const char* const* argv) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -19,8 +20,21 @@ namespace fanbeam::apps {
 // --version, --quiet, --log-level and --isa, which every command and subcommand has (--help is CLI11's).
 void add_common_options(CLI::App& command, CommonOptions& common);
 
-// --accuracy, of one range wherever it is asked for.
+// Options that several commands have, each with the same name, values and limits wherever it is asked for.
+// `what` is what help says of it.
 CLI::Option* add_accuracy_option(CLI::App& command, double& accuracy_grey, const std::string& what);
+void add_caster_option(CLI::App& command, std::string& caster, const std::string& what);
+void add_output_option(CLI::App& command, std::string& folder, const std::string& what);
+void add_seed_option(CLI::App& command, std::uint64_t& seed);
+void add_threads_option(CLI::App& command, int& threads);
+
+// As session::parse_frames takes them; kFramesText is part of what help says.
+inline constexpr const char* kFramesText = "A:B[:STEP], counted like a Python slice, or one frame";
+CLI::Option* add_frames_option(CLI::App& command, std::string& frames, const std::string& what);
+
+// `order`: when that folder is looked at.
+inline constexpr const char* kDataOrder = "looked at before the one that FANBEAM_DATA names";
+void add_data_option(CLI::App& command, std::string& folder, const std::string& order);
 
 class CommandLine {
  public:
@@ -29,8 +43,15 @@ class CommandLine {
   // What is added from here on stands under this heading in overviews.
   void heading(std::string text) { heading_ = std::move(text); }
 
-  // declare(CLI::App& program, Options&, CommonOptions&) adds a subcommand with its options and
-  // returns it; action(const Options&, const CommonOptions&) gives an exit code.
+  // declare(CLI::App& program, Options&) adds a subcommand with its options and returns it; what every
+  // command has is added to it and those below. action(const Options&, const CommonOptions&) gives an exit
+  // code.
+  template <class Options, class Run>
+  void add(CLI::App& (*declare)(CLI::App&, Options&), Run action) {
+    const auto options = std::make_shared<Options>();
+    put(declare(program_, *options), [this, options, action] { return action(*options, common_); });
+  }
+  // The same of one that adds what every command has at other places than the end.
   template <class Options, class Run>
   void add(CLI::App& (*declare)(CLI::App&, Options&, CommonOptions&), Run action) {
     const auto options = std::make_shared<Options>();
@@ -46,6 +67,7 @@ class CommandLine {
 
  private:
   void put(CLI::App& command, std::function<int()> action);
+  void complete(CLI::App& command);
 
   CLI::App program_;
   CommonOptions common_;

@@ -30,6 +30,6 @@ std::filesystem::path heat_map_path(const std::filesystem::path& folder,
 // InputError, beside what reading and writing throw: E-REF for a file and a folder, E-RANGE for a
 // map that is no PNG, E-PATH for maps on or among the images compared.
 int compare(const CompareOptions& options, const CommonOptions& common);
-CLI::App& add_compare_command(CLI::App& program, CompareOptions& options, CommonOptions& common);
+CLI::App& add_compare_command(CLI::App& program, CompareOptions& options);
 
 }  // namespace fanbeam::apps

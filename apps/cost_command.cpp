@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "apps/cost_levels.h"
-#include "apps/cost_progress.h"
+#include "apps/progress.h"
 #include "apps/render_command.h"
 #include "core/files.h"
 #include "core/parallel.h"

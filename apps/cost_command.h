@@ -22,6 +22,6 @@ struct CostOptions : SceneChoice {
 // Writes ladder.csv, equal_error.csv, effects.csv, numerics.csv, levels.csv, plots as SVG and PNG, and cost.md.
 // Returns an exit code; throws InputError for bad input.
 int cost(const CostOptions& options, const CommonOptions& common);
-CLI::App& add_cost_command(CLI::App& program, CostOptions& options, CommonOptions& common);
+CLI::App& add_cost_command(CLI::App& program, CostOptions& options);
 
 }  // namespace fanbeam::apps

@@ -3,27 +3,20 @@
 #include "apps/command_line.h"
 #include "apps/cost_command.h"
 #include "apps/number_check.h"
-#include "apps/value_words.h"
-#include "renderer/plan/caster_choice.h"
 
 namespace fanbeam::apps {
 
-CLI::App& add_cost_command(CLI::App& program, CostOptions& options, CommonOptions& common) {
+CLI::App& add_cost_command(CLI::App& program, CostOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "cost", "Measure what accuracy and effects cost in time: CSV, plots and a page of tables");
   command.footer(
       "Takes minutes: converged pictures come first, 10 s to well over a minute each on two "
       "cores, longest over a city. Leave the machine alone meanwhile.");
   add_scene_choice(command, options);
-  command
-      .add_option("-o,--output", options.output,
-                  "Folder to write to (default out/<scene name>-cost)")
-      ->type_name(kFolderValue);
-  command
-      .add_option("--frames", options.frames,
-                  "A:B[:STEP], counted like a Python slice, or one frame (default: two, at a "
-                  "quarter and at three quarters of the approach)")
-      ->type_name(kFramesValue);
+  add_output_option(command, options.output, "Folder to write to (default out/<scene name>-cost)");
+  add_frames_option(command, options.frames,
+                    std::string(kFramesText) +
+                        " (default: two, at a quarter and at three quarters of the approach)");
   command
       .add_option(
           "--parts", options.parts,
@@ -39,15 +32,10 @@ CLI::App& add_cost_command(CLI::App& program, CostOptions& options, CommonOption
       ->check(whole_number_from(1, 10000));
   command.add_flag("--quick", options.quick,
                    "A short look: fewer steps and repetitions, a coarse reference");
-  const auto& wishes = renderer::kCasterWishes;
-  command
-      .add_option("--caster", options.caster,
-                  "Way to sample the frames in which effects are measured (default: the scene's, "
-                  "else auto)")
-      ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
-  add_common_options(command, common);
+  add_caster_option(command, options.caster,
+                    "Way to sample the frames in which effects are measured (default: the scene's, "
+                    "else auto)");
+  add_threads_option(command, options.threads);
   return command;
 }
 

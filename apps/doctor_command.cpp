@@ -142,7 +142,8 @@ int examine_scene(const DoctorOptions& options, const CommonOptions& common) {
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
   scenes::BuildOptions build;
   build.accuracy_grey = options.accuracy_grey;
-  const auto scene = session::Session(description, {.build = build}, problems).scene();
+  const auto scene =
+      session::Session(description, {.build = build, .pictures = false}, problems).scene();
   if (!common.quiet) print_problems(problems.all());
   Findings findings = scenes::examine(*scene, problems.all());
   session::add_blank_pictures(*scene, findings);

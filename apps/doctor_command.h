@@ -17,6 +17,6 @@ struct DoctorOptions : SceneChoice {
 // Writes the findings as a table to standard output. Returns kExitDone when none is worse than
 // delicate, else kExitCompareFailed; throws InputError for bad input.
 int examine_scene(const DoctorOptions& options, const CommonOptions& common);
-CLI::App& add_doctor_command(CLI::App& program, DoctorOptions& options, CommonOptions& common);
+CLI::App& add_doctor_command(CLI::App& program, DoctorOptions& options);
 
 }  // namespace fanbeam::apps

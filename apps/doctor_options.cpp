@@ -8,7 +8,7 @@
 
 namespace fanbeam::apps {
 
-CLI::App& add_doctor_command(CLI::App& program, DoctorOptions& options, CommonOptions& common) {
+CLI::App& add_doctor_command(CLI::App& program, DoctorOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "doctor", "Tell what makes a scene numerically delicate, why it matters and what to do");
   add_scene_choice(command, options);
@@ -21,7 +21,6 @@ CLI::App& add_doctor_command(CLI::App& program, DoctorOptions& options, CommonOp
   command.add_flag("--measure", options.measure,
                    "Refine three frames to the accuracy as well and tell where it is not reached; "
                    "takes up to minutes");
-  add_common_options(command, common);
   return command;
 }
 

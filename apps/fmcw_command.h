@@ -30,6 +30,6 @@ struct FmcwOptions : SceneChoice, session::FmcwSettings {
 // Returns an exit code; throws InputError for bad input. Stopped by signals as render is.
 // A radar file that the scene names goes into the options, below those that were given.
 int fmcw(FmcwOptions& options, const CommonOptions& common);
-CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOptions& common);
+CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options);
 
 }  // namespace fanbeam::apps

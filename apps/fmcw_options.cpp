@@ -208,22 +208,15 @@ std::vector<const CLI::Option*> declared_by(CLI::App& command, const Add& add) {
 
 }  // namespace
 
-CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOptions& common) {
+CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "fmcw",
       "A scene at signal level: beat signals, maps of range, speed and azimuth, detections");
   add_scene_choice(command, options);
-  command
-      .add_option("-o,--output", options.output,
-                  "Folder to write to (default out/<scene name>-fmcw)")
-      ->type_name(kFolderValue);
+  add_output_option(command, options.output, "Folder to write to (default out/<scene name>-fmcw)");
   command.add_flag("--overwrite", options.overwrite,
                    "Write to a folder that holds files of others too, which stay");
-  command
-      .add_option("--frames", options.frames,
-                  "A:B[:STEP], counted like a Python slice, or one frame")
-      ->type_name(kFramesValue)
-      ->capture_default_str();
+  add_frames_option(command, options.frames, kFramesText)->capture_default_str();
   command
       .add_option("--products", options.products,
                   products_help(session::kFmcwProducts) +
@@ -251,15 +244,11 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options, CommonOption
   command.add_option("--spectrogram-of", options.spectrogram_of,
                      "Name, or its beginning, of targets about whose range the spectrogram looks "
                      "(default: all ranges)");
-  command.add_option("--seed", options.seed, "Seed of everything random")
-      ->check(any_seed())
-      ->capture_default_str();
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
+  add_seed_option(command, options.seed);
+  add_threads_option(command, options.threads);
   command.footer(
       "Frequency, sweep and element pattern are those of the scene's sensor. Speeds are positive "
       "receding, azimuths positive right. docs/fmcw.md explains every step and file.");
-  add_common_options(command, common);
   command.parse_complete_callback([&options, chain] {
     for (const CLI::Option* option : chain)
       if (option->count() > 0) options.given_for_chain.insert(option->get_name());

@@ -49,7 +49,7 @@ int help(const CLI::App& program, const HelpOptions& options) {
   return kExitDone;
 }
 
-CLI::App& add_help_command(CLI::App& program, HelpOptions& options, CommonOptions& common) {
+CLI::App& add_help_command(CLI::App& program, HelpOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "help", "Tell what there is, or how a command is used, with examples");
   CLI::Option* name =
@@ -65,7 +65,6 @@ CLI::App& add_help_command(CLI::App& program, HelpOptions& options, CommonOption
       ->type_name(kFolderValue)
       ->excludes(name)
       ->excludes(completion);
-  add_common_options(command, common);
   return command;
 }
 

@@ -16,6 +16,6 @@ struct HelpOptions {
 
 // Returns an exit code: kExitUsage for a command that does not exist.
 int help(const CLI::App& program, const HelpOptions& options);
-CLI::App& add_help_command(CLI::App& program, HelpOptions& options, CommonOptions& common);
+CLI::App& add_help_command(CLI::App& program, HelpOptions& options);
 
 }  // namespace fanbeam::apps

@@ -3,24 +3,28 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <map>
+#include <nlohmann/json.hpp>
 
-#include "apps/listing.h"
 #include "apps/text_table.h"
+#include "session/listing.h"
+#include "session/signal/fmcw_settings.h"
 
 namespace fanbeam::apps {
 namespace {
 
 using Json = nlohmann::ordered_json;
+using session::ListedThing, session::Listing;
 
 constexpr const char* kKinds[] = {"scenes", "sensors", "materials", "effects", "products"};
 
 Listing listing_of(const std::string& kind, const ListOptions& options) {
-  if (kind == "scenes") return listed_scenes(data_folders(options.data));
-  if (kind == "sensors") return listed_sensors();
-  if (kind == "materials") return listed_materials();
-  if (kind == "effects") return listed_effects();
-  return listed_products();
+  if (kind == "scenes") return session::listed_scenes(shipped_folder(), data_folders(options.data));
+  if (kind == "sensors") return session::listed_sensors(shipped_folder());
+  if (kind == "materials") return session::listed_materials(shipped_folder());
+  if (kind == "effects") return session::listed_effects();
+  constexpr session::CommandProducts kAll[] = {{"render", session::kProducts},
+                                               {"fmcw", session::kFmcwProducts}};
+  return session::listed_products(kAll);
 }
 
 // A name may come twice: fmcw has a bscope too.
@@ -34,7 +38,7 @@ std::vector<std::string> names_in(const Listing& listing) {
 
 Json json_of(const Listing& listing) {
   Json json = Json::array();
-  for (const ListedThing& thing : listing.things) json.push_back(thing.json);
+  for (const ListedThing& thing : listing.things) json.push_back(Json::parse(thing.json));
   return json;
 }
 

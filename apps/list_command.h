@@ -17,6 +17,6 @@ struct ListOptions {
 // Returns an exit code; throws InputError E-IO as shipped_folder, or for what is wrong with a
 // shipped file.
 int list(const ListOptions& options, const CommonOptions& common);
-CLI::App& add_list_command(CLI::App& program, ListOptions& options, CommonOptions& common);
+CLI::App& add_list_command(CLI::App& program, ListOptions& options);
 
 }  // namespace fanbeam::apps

@@ -2,11 +2,10 @@
 
 #include "apps/command_line.h"
 #include "apps/list_command.h"
-#include "apps/value_words.h"
 
 namespace fanbeam::apps {
 
-CLI::App& add_list_command(CLI::App& program, ListOptions& options, CommonOptions& common) {
+CLI::App& add_list_command(CLI::App& program, ListOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "list", "List the scenes, sensors, materials, effects and products that there are");
   CLI::Option* what =
@@ -16,12 +15,17 @@ CLI::App& add_list_command(CLI::App& program, ListOptions& options, CommonOption
   command.add_flag("--names", options.names, "Print the names alone, one a line")
       ->needs(what)
       ->excludes(json);
-  command
-      .add_option("--data", options.data,
-                  "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
-                  "names: are the files of the scenes there?")
-      ->type_name(kFolderValue);
-  add_common_options(command, common);
+  add_data_option(command, options.data,
+                  std::string(kDataOrder) + ": are the files of the scenes there?");
+  command.callback([&options] {
+    const bool told =
+        options.what.empty() ? options.json : options.what == "scenes" && !options.names;
+    if (!options.data.empty() && !told)
+      throw CLI::ValidationError("--data",
+                                 "only tells in fanbeam list scenes, and in the JSON of "
+                                 "everything, whether the files of scenes "
+                                 "are there");
+  });
   return command;
 }
 

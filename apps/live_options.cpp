@@ -82,7 +82,7 @@ void add_sinks(CLI::App& command, LiveOptions& options) {
 
 }  // namespace
 
-CLI::App& add_live_command(CLI::App& program, LiveOptions& options, CommonOptions& common) {
+CLI::App& add_live_command(CLI::App& program, LiveOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "live", "Show what the radar sees from where a simulator is now, on a page in a browser");
   add_scene_choice(command, options);
@@ -105,10 +105,8 @@ CLI::App& add_live_command(CLI::App& program, LiveOptions& options, CommonOption
   command
       .add_option("--frames", options.frames, "End after so many frames (default: when stopped)")
       ->check(whole_number_from(1, 1'000'000'000));
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
+  add_threads_option(command, options.threads);
   command.footer("Ctrl-C and SIGTERM are a good end, as --seconds is: exit code 0.");
-  add_common_options(command, common);
   return command;
 }
 

@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "materials/library/library_text.h"
 #include "materials/library/material_library.h"
+#include "materials/library/material_rows.h"
 #include "materials/library/model_reader.h"
 #include "materials/nrcs/measurement_csv.h"
 #include "session/plots/gnuplot.h"
@@ -21,10 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-using materials::Material;
-using materials::NrcsCurve;
+using materials::MaterialRow;
 
-constexpr double kListAngles_deg[] = {3.0, 10.0, 30.0};
 constexpr std::uint64_t kLargestFile_bytes = 4U << 20U;
 
 fs::path library_file(const MaterialsView& options) {
@@ -44,78 +43,25 @@ materials::MaterialLibrary read_library(const MaterialsView& options) {
   return library;
 }
 
-// One row as the options ask to see it.
-struct Row {
-  const Material& dry;
-  const Material& shown;
-  NrcsCurve curve;
-  bool known;  // at the frequency and polarisation asked for
-
-  double level_dB(double grazing_deg) const {
-    return 10.0 * std::log10(curve.sigma0(std::sin(core::radians(grazing_deg))));
-  }
-};
-
-std::vector<Row> rows_of(const materials::MaterialLibrary& library, const MaterialsView& options) {
-  const double frequency_Hz = options.frequency_GHz * 1e9;
-  const core::Polarisation polarisation = polarisation_of(options);
-  const materials::SurfaceState state = materials::surface_state_of(options.state, "--state");
-  std::vector<Row> rows;
-  for (std::size_t i = 0; i < library.size(); ++i) {
-    const Material& shown = library[library.in_state(i, state)];
-    rows.push_back({library[i], shown, NrcsCurve(shown.model, polarisation, frequency_Hz),
-                    extrapolations_of(shown.model, polarisation, frequency_Hz).empty()});
-  }
-  return rows;
+std::vector<MaterialRow> rows_of(const materials::MaterialLibrary& library,
+                                 const MaterialsView& options) {
+  return materials::rows_under(library, options.frequency_GHz * 1e9, polarisation_of(options),
+                               materials::surface_state_of(options.state, "--state"));
 }
 
 std::string level_text(double level_dB) {
   return std::isfinite(level_dB) ? fmt::format("{:7.1f}", level_dB) : "   dark";
 }
 
-// "HH", "VV" or "any": what the model tells apart.
-const char* polarisation_text(const materials::ModelValidity& known) {
-  return known.horizontal && known.vertical ? "any" : known.horizontal ? "HH" : "VV";
-}
-
-Json row_json(const Row& row) {
-  const materials::ModelValidity known = validity_of(row.shown.model);
-  Json json = {{"material", row.dry.name},
-               {"shown_as", row.shown.name},
-               {"model", name_of(row.shown.model)}};
-  if (const auto* phong = std::get_if<materials::PhongSurface>(&row.shown.model)) {
-    json["a"] = phong->nrcs.a();
-    json["b"] = phong->nrcs.b();
-    json["c"] = phong->nrcs.c();
-    json["reference_frequency_GHz"] = phong->reference_frequency_Hz / 1e9;
-    json["frequency_exponent"] = phong->frequency_exponent;
-  }
-  json["frequency_range_GHz"] = {known.frequency_Hz.low / 1e9, known.frequency_Hz.high / 1e9};
-  json["grazing_range_deg"] = {core::degrees(known.grazing_rad.low),
-                               core::degrees(known.grazing_rad.high)};
-  json["polarisation"] = polarisation_text(known);
-  json["extrapolated"] = !row.known;
-  json["sigma0_dB"] = Json::object();
-  for (const double angle_deg : kListAngles_deg) {
-    const double level_dB = row.level_dB(angle_deg);
-    json["sigma0_dB"][core::number_text(angle_deg)] =
-        std::isfinite(level_dB) ? Json(level_dB) : Json(nullptr);
-  }
-  if (!row.shown.dielectric.empty()) json["dielectric"] = row.shown.dielectric;
-  if (row.shown.rms_height_m) json["rms_height_mm"] = *row.shown.rms_height_m * 1000.0;
-  json["confidence"] = name_of(row.shown.confidence);
-  json["source"] = row.shown.source;
-  return json;
-}
-
-void print_row(const Row& row) {
+void print_row(const MaterialRow& row) {
   const materials::ModelValidity known = validity_of(row.shown.model);
   std::string figures = fmt::format("{:>32}", name_of(row.shown.model));
   if (const auto* phong = std::get_if<materials::PhongSurface>(&row.shown.model))
     figures = fmt::format("{:>10.4g} {:>10.4g} {:>10.4g}", phong->nrcs.a(), phong->nrcs.b(),
                           phong->nrcs.c());
   std::string levels;
-  for (const double angle_deg : kListAngles_deg) levels += level_text(row.level_dB(angle_deg));
+  for (const double angle_deg : materials::kListAngles_deg)
+    levels += level_text(row.level_dB(angle_deg));
   const std::string range =
       fmt::format("{:g}-{:g}", known.frequency_Hz.low / 1e9, known.frequency_Hz.high / 1e9);
   fmt::print("{:<19}{} {}{} {:>9} {:<4} {:<9} {}{}\n", row.dry.name, figures, levels,
@@ -199,14 +145,14 @@ int print_library_again(const MaterialsView& options) {
 
 int list_materials(const MaterialsView& options) {
   const materials::MaterialLibrary library = read_library(options);
-  const std::vector<Row> rows = rows_of(library, options);
+  const std::vector<MaterialRow> rows = rows_of(library, options);
   if (options.json) {
     Json json = {{"library", library_file(options).string()},
                  {"frequency_GHz", options.frequency_GHz},
                  {"polarisation", options.polarisation},
                  {"state", options.state},
                  {"materials", Json::array()}};
-    for (const Row& row : rows) json["materials"].push_back(row_json(row));
+    for (const MaterialRow& row : rows) json["materials"].push_back(Json::parse(row_json(row)));
     fmt::print("{}\n", json.dump(1));
     return kExitDone;
   }
@@ -216,7 +162,7 @@ int list_materials(const MaterialsView& options) {
       options.frequency_GHz, options.polarisation, options.state);
   fmt::print("{:<19}{:>10} {:>10} {:>10}  {:>6} {:>6} {:>6} {:>10} {:<4} {:<9} {}\n", "material",
              "a", "b", "c", "3 deg", "10 deg", "30 deg", "GHz", "pol.", "confid.", "source");
-  for (const Row& row : rows) print_row(row);
+  for (const MaterialRow& row : rows) print_row(row);
   return kExitDone;
 }
 
@@ -231,7 +177,7 @@ int plot_materials(const MaterialsView& options, const MaterialsPlotOptions& plo
                               options.polarisation, options.state);
   picture.x = {"grazing angle, deg", true, 0.5, 90.0};
   picture.y = {"sigma0, dB", false, {}, {}};
-  for (const Row& row : rows_of(library, options)) {
+  for (const MaterialRow& row : rows_of(library, options)) {
     const bool wanted = plot.names.empty() || std::find(plot.names.begin(), plot.names.end(),
                                                         row.dry.name) != plot.names.end();
     if (!wanted) continue;

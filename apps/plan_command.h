@@ -23,6 +23,6 @@ struct PlanOptions : SceneChoice {
 // Writes the table or JSON to standard output. Returns an exit code; throws InputError for bad
 // input.
 int explain_plan(const PlanOptions& options, const CommonOptions& common);
-CLI::App& add_plan_command(CLI::App& program, PlanOptions& options, CommonOptions& common);
+CLI::App& add_plan_command(CLI::App& program, PlanOptions& options);
 
 }  // namespace fanbeam::apps

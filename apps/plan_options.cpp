@@ -10,7 +10,7 @@
 
 namespace fanbeam::apps {
 
-CLI::App& add_plan_command(CLI::App& program, PlanOptions& options, CommonOptions& common) {
+CLI::App& add_plan_command(CLI::App& program, PlanOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "plan", "Tell which effects a scene calls for, why, how much each can change, and its cost");
   add_scene_choice(command, options);
@@ -32,19 +32,14 @@ CLI::App& add_plan_command(CLI::App& program, PlanOptions& options, CommonOption
       "--measure", options.measure,
       "Measure what each effect costs in milliseconds a frame: on against off, in turn, over three "
       "frames; takes minutes");
-  command
-      .add_option("--frames", options.frames,
-                  "Frames for --per-frame and --measure: A:B[:STEP], counted like a Python slice, "
-                  "or one frame")
-      ->type_name(kFramesValue)
+  add_frames_option(command, options.frames,
+                    std::string("Frames for --per-frame and --measure: ") + kFramesText)
       ->default_str("all");
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
+  add_threads_option(command, options.threads);
   command.add_option("--repetitions", options.repetitions, "Of each measured frame")
       ->check(whole_number_from(1, 10000))
       ->needs(measure)
       ->group("");  // for tests and the impatient: a cost that is told elsewhere wants 20
-  add_common_options(command, common);
   command.callback([&options] {
     if (!options.frames.empty() && !options.per_frame && !options.measure)
       throw CLI::ValidationError(

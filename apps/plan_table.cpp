@@ -1,9 +1,10 @@
+#include "apps/plan_table.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <string_view>
 
-#include "apps/plan_report.h"
 #include "apps/text_table.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "renderer/plan/effect_texts.h"
@@ -16,7 +17,7 @@ std::string labelled(std::string_view label, const std::string& text) {
   return beside(fmt::format("{:<12} ", label), text);
 }
 
-std::string frames_text(const PlanSpan& span) {
+std::string frames_text(const measure::PlanSpan& span) {
   return span.first == span.last ? fmt::format("frame {}", span.first)
                                  : fmt::format("frames {} to {}", span.first, span.last);
 }
@@ -29,10 +30,10 @@ bool impossible(const core::EffectDecision& decision) {
   });
 }
 
-std::string head(const PlanReport& report) {
+std::string head(const measure::PlanReport& report) {
   const scenes::Scene& scene = report.scene;
   const sensors::Sensor& sensor = scene.description.sensor;
-  const Budget budget = budget_of(scene);
+  const measure::PlanBudget budget = measure::budget_of(scene);
   std::string accuracy = fmt::format(
       "{} grey levels: {} for effects left out, of which {} taken; {} for sampling",
       core::number_text(scene.accuracy_grey), core::number_text(budget.for_effects),
@@ -56,7 +57,7 @@ std::string cost_text(const std::optional<measure::EffectCost>& cost) {
   return cost ? fmt::format("{:.2f} +-{:.2f}", cost->ms, cost->error_ms) : "-";
 }
 
-std::string rows(const PlanReport& report) {
+std::string rows(const measure::PlanReport& report) {
   const auto& decisions = report.scene.plan.decisions;
   std::size_t width = 6;
   for (const core::EffectDecision& decision : decisions)
@@ -82,9 +83,9 @@ std::string rows(const PlanReport& report) {
   return table;
 }
 
-std::string along_trajectory(const PlanReport& report) {
+std::string along_trajectory(const measure::PlanReport& report) {
   std::string text = fmt::format("frame by frame, {:.2f} ms to plan one:\n", report.frame_plan_ms);
-  for (const PlanSpan& span : report.spans) {
+  for (const measure::PlanSpan& span : report.spans) {
     std::string differs;
     for (std::size_t i = 0; i < span.plan.decisions.size(); ++i) {
       const core::EffectDecision& decision = span.plan.decisions[i];
@@ -98,7 +99,7 @@ std::string along_trajectory(const PlanReport& report) {
   return text;
 }
 
-std::string notes_of(const PlanReport& report) {
+std::string notes_of(const measure::PlanReport& report) {
   std::string text = beside(
       "",
       "grey, dB: the most that leaving the effect out can change any pixel; 255 grey levels are "
@@ -114,20 +115,7 @@ std::string notes_of(const PlanReport& report) {
 
 }  // namespace
 
-Budget budget_of(const scenes::Scene& scene) {
-  Budget budget{renderer::effects_share_grey(scene.accuracy_grey), 0.0, 0.0,
-                renderer::sampling_share_grey(scene.accuracy_grey)};
-  const renderer::EffectWishes& wishes = scene.options.wishes;
-  for (const core::EffectDecision& decision : scene.plan.decisions) {
-    if (decision.on) continue;
-    const bool forced = wishes.base == renderer::EffectWishes::Base::none ||
-                        wishes.forced_off.contains(decision.effect);
-    (forced ? budget.left_out_by_user : budget.left_out) += decision.bound_grey;
-  }
-  return budget;
-}
-
-std::string plan_table(const PlanReport& report, bool notes) {
+std::string plan_table(const measure::PlanReport& report, bool notes) {
   std::string text = head(report);
   if (report.measured)
     text += labelled("frame takes", fmt::format("{:.1f} ms", report.measured->frame_ms));

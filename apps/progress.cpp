@@ -4,14 +4,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace fanbeam::apps {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-using Seconds = std::chrono::duration<double>;
-
+// "0:45", "3:10".
 std::string minutes_text(double seconds) {
   const auto whole = static_cast<long>(std::min(seconds, 359999.0) + 0.5);
   return fmt::format("{}:{:02}", whole / 60, whole % 60);
@@ -19,44 +18,68 @@ std::string minutes_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::string what, int total, bool quiet, std::string things)
-    : what_(std::move(what)),
-      things_(std::move(things)),
-      total_(total),
-      quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) == 1),
-      begin_(Clock::now()),
-      last_drawn_(begin_) {}
+std::string duration_text(double seconds) {
+  return seconds < 90.0 ? fmt::format("{:.0f} s", std::max(1.0, seconds))
+                        : fmt::format("{:.0f} min", std::ceil(seconds / 60.0));
+}
 
-Progress::~Progress() {
+ProgressLine::ProgressLine(std::string what, bool quiet)
+    : what_(std::move(what)), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+
+ProgressLine::~ProgressLine() {
   if (!quiet_ && terminal_) std::fputs("\n", stderr);
 }
 
+double ProgressLine::elapsed_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+}
+
+void ProgressLine::draw_bar(int filled, const std::string& text) const {
+  fmt::print(stderr, "\r{} [{}{}] {}", what_, std::string(static_cast<std::size_t>(filled), '#'),
+             std::string(static_cast<std::size_t>(kWidth - filled), '.'), text);
+  std::fflush(stderr);
+}
+
+void ProgressLine::print_line(const std::string& text) const {
+  fmt::print(stderr, "{}: {}\n", what_, text);
+}
+
+Progress::Progress(std::string what, int total, bool quiet, std::string things)
+    : ProgressLine(std::move(what), quiet), things_(std::move(things)), total_(total) {}
+
 void Progress::step(int done) {
-  if (quiet_ || total_ <= 0) return;
-  const Clock::time_point now = Clock::now();
-  const double elapsed_s = std::max(Seconds(now - begin_).count(), 1e-9);
-  const double rate = done / elapsed_s;
+  if (quiet() || total_ <= 0) return;
+  const double now_s = elapsed_s();
+  const double rate = done / std::max(now_s, 1e-9);
   const double left_s = done > 0 ? (total_ - done) / rate : 0.0;
-  if (terminal_) {
-    if (done < total_ && Seconds(now - last_drawn_).count() < 0.1) return;
-    last_drawn_ = now;
-    draw_bar(done, rate, left_s);
+  if (terminal()) {
+    if (done < total_ && now_s - last_drawn_s_ < 0.1) return;
+    last_drawn_s_ = now_s;
+    draw_bar(static_cast<int>(static_cast<long>(kWidth) * done / total_),
+             fmt::format("{}/{} {}  {:.1f} {}/s  {} left ", done, total_, things_, rate, things_,
+                         minutes_text(left_s)));
   } else if (100 * done >= next_line_percent_ * total_) {
     next_line_percent_ = 100 * done / total_ / 10 * 10 + 10;
-    fmt::print(stderr, "{}: {} of {} {}, {:.1f} {}/s, {} left\n", what_, done, total_, things_,
-               rate, things_, minutes_text(left_s));
+    print_line(fmt::format("{} of {} {}, {:.1f} {}/s, {} left", done, total_, things_, rate,
+                           things_, minutes_text(left_s)));
   }
 }
 
-void Progress::draw_bar(int done, double rate, double left_s) {
-  constexpr int kWidth = 30;
-  const int filled = static_cast<int>(static_cast<long>(kWidth) * done / total_);
-  fmt::print(stderr, "\r{} [{}{}] {}/{} {}  {:.1f} {}/s  {} left ", what_,
-             std::string(static_cast<std::size_t>(filled), '#'),
-             std::string(static_cast<std::size_t>(kWidth - filled), '.'), done, total_, things_,
-             rate, things_, minutes_text(left_s));
-  std::fflush(stderr);
+CostProgress::CostProgress(std::string what, double total_s, bool quiet)
+    : ProgressLine(std::move(what), quiet), total_s_(std::max(total_s, 1e-3)) {}
+
+void CostProgress::begin(const std::string& step, double expected_s) {
+  done_s_ += step_s_;
+  step_s_ = expected_s;
+  if (quiet()) return;
+  const double share = std::min(done_s_ / total_s_, 0.99);
+  const double left_s = share > 0.05 ? elapsed_s() * (1.0 - share) / share : total_s_ - done_s_;
+  if (terminal())
+    draw_bar(
+        static_cast<int>(kWidth * share),
+        fmt::format("{:2.0f} %  {} left  {}\x1b[K", 100.0 * share, duration_text(left_s), step));
+  else
+    print_line(fmt::format("{:2.0f} %, {} left: {}", 100.0 * share, duration_text(left_s), step));
 }
 
 }  // namespace fanbeam::apps

@@ -19,17 +19,9 @@ using measure::CaseState;
 void render_case(const measure::SuiteCase& one, const RegressOptions& options,
                  const fs::path& folder) {
   RenderOptions render_options;
-  static_cast<session::SamplingRequest&>(render_options) = one.render.sampling;
+  static_cast<session::RenderRequest&>(render_options) = one.render;
   render_options.repeatable = true;
-  render_options.scene = one.render.scene;
-  render_options.sensor = one.render.sensor;
-  render_options.data = options.data.empty() ? one.render.data : options.data;
-  render_options.frames = one.render.frames;
-  render_options.products = one.render.products;
-  render_options.effects = one.render.effects;
-  render_options.realisation = one.render.realisation;
-  render_options.caster = one.render.caster;
-  render_options.seed = one.render.seed;
+  if (!options.data.empty()) render_options.data = options.data;
   render_options.output = folder.string();
   render_options.threads = options.threads;
   CommonOptions quiet;

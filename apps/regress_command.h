@@ -33,6 +33,6 @@ struct RegressionOptions {
 // written, what the cases that could not be rendered ask for (exit_code_of). Throws InputError for a
 // suite that is not valid, before anything is rendered, and E-RANGE for a reason that says nothing.
 int regression(const RegressionOptions& options, const CommonOptions& common);
-CLI::App& add_regress_command(CLI::App& program, RegressionOptions& options, CommonOptions& common);
+CLI::App& add_regress_command(CLI::App& program, RegressionOptions& options);
 
 }  // namespace fanbeam::apps

@@ -10,13 +10,13 @@ namespace {
 
 constexpr const char* kOutputHelp = "Folder of results (default out/regress/<suite name>)";
 
-void add_run(CLI::App& regress, RegressOptions& options, CommonOptions& common) {
+void add_run(CLI::App& regress, RegressOptions& options) {
   CLI::App& command = *regress.add_subcommand(
       "run", "Render the suite's cases, compare with the approved pictures and report");
   command.add_option("SUITE", options.suite, "TOML file (docs/regression.md)")
       ->type_name(kFileValue)
       ->required();
-  command.add_option("-o,--output", options.output, kOutputHelp)->type_name(kFolderValue);
+  add_output_option(command, options.output, kOutputHelp);
   command
       .add_option("--junit", options.junit,
                   "File for the JUnit XML (default junit.xml in the folder of results)")
@@ -24,18 +24,13 @@ void add_run(CLI::App& regress, RegressOptions& options, CommonOptions& common) 
   command.add_flag(
       "--html,!--no-html", options.page,
       "Write report.html with the pictures that differ (the default), or leave it out");
-  command
-      .add_option("--data", options.data,
-                  "Folder with terrain and flight data, instead of the suite's")
-      ->type_name(kFolderValue);
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
-  add_common_options(command, common);
+  add_data_option(command, options.data, "instead of the suite's");
+  add_threads_option(command, options.threads);
   command.footer(
       "--isa replaces what the suite pins. docs/regression.md tells how to use it in a CI.");
 }
 
-CLI::App& add_approve(CLI::App& regress, ApproveOptions& options, CommonOptions& common) {
+CLI::App& add_approve(CLI::App& regress, ApproveOptions& options) {
   CLI::App& command = *regress.add_subcommand(
       "approve", "Take the pictures of the last run as the approved ones, and keep the reason");
   command.add_option("SUITE", options.suite, "TOML file (docs/regression.md)")
@@ -47,22 +42,19 @@ CLI::App& add_approve(CLI::App& regress, ApproveOptions& options, CommonOptions&
       ->required();
   command.add_option("--case", options.only,
                      "Name of one case (default: every case that did not pass)");
-  command.add_option("-o,--output", options.output, kOutputHelp)->type_name(kFolderValue);
-  add_common_options(command, common);
+  add_output_option(command, options.output, kOutputHelp);
   return command;
 }
 
 }  // namespace
 
-CLI::App& add_regress_command(CLI::App& program, RegressionOptions& options,
-                              CommonOptions& common) {
+CLI::App& add_regress_command(CLI::App& program, RegressionOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "regress", "Image regression: a suite of pictures against approved ones");
   command.require_subcommand(1);
-  add_run(command, options.run, common);
-  CLI::App& approval = add_approve(command, options.approval, common);
+  add_run(command, options.run);
+  CLI::App& approval = add_approve(command, options.approval);
   approval.callback([&options] { options.approves = true; });
-  add_common_options(command, common);
   return command;
 }
 

@@ -1,35 +1,28 @@
 // fanbeam render: a scene's approach as pictures.
 #pragma once
 
-#include <cstdint>
 #include <string>
 
 #include "apps/common.h"
 #include "apps/scene_choice.h"
-#include "session/sampling_choice.h"
+#include "session/render_request.h"
 
 namespace fanbeam::apps {
 
-struct RenderOptions : SceneChoice, session::SamplingRequest {
-  std::string output;  // default out/<scene name>
-  std::string frames;  // "A:B[:STEP]", like a Python slice
-  std::string products = "bscope,cscope";
-  std::string effects;
-  std::string realisation;     // "mean" or "sample"; empty: the scene's
+struct RenderOptions : session::RenderRequest {
+  std::string output;          // default out/<scene name>
   std::string preview_format;  // of kPreviewFormats; empty: mp4
   std::string range_unit;  // of the figure: one of kRangeUnits; empty: by how far the sensor sees
   int threads = 0;
-  std::string caster;  // one of kCasterWishes; empty: the scene's
   bool plan_per_frame = false;
   bool resume = false;
   bool overwrite = false;  // where other files are
-  std::uint64_t seed = 0;
 };
 
 // Returns an exit code; throws InputError for bad input. SIGINT and SIGTERM while frames are made
 // end the process by that signal (a shell sees 130 or 143), within a second, with whole files only
 // and without run.json.
 int render(const RenderOptions& options, const CommonOptions& common);
-CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOptions& common);
+CLI::App& add_render_command(CLI::App& program, RenderOptions& options);
 
 }  // namespace fanbeam::apps

@@ -45,13 +45,11 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
                        "Estimate every frame's sampling error, for run.json; takes twice the "
                        "time with rays, three times with slices");
   estimate->excludes(accuracy)->excludes(budget);
-  const auto& wishes = renderer::kCasterWishes;
-  command
-      .add_option("--caster", options.caster,
-                  "rays: any geometry, the reference; profile: azimuth slices in closed form, over "
-                  "buildings the same error in half of the time; auto: slices where they apply and "
-                  "pay (default: the scene's, else auto)")
-      ->check(CLI::IsMember(std::vector<std::string>(wishes.begin(), wishes.end())));
+  add_caster_option(
+      command, options.caster,
+      "rays: any geometry, the reference; profile: azimuth slices in closed form, over "
+      "buildings as close in half to all of the rays' time; auto: slices where they "
+      "apply and pay (default: the scene's, else auto)");
   command
       .add_flag(
           "--reference", options.reference,
@@ -67,9 +65,7 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
           "mean: expected power, and so without --effects +speckle or +swerling; sample: one "
           "draw with speckle, noise and fluctuating targets (default: the scene's)")
       ->check(CLI::IsMember({"mean", "sample"}));
-  command.add_option("--seed", options.seed, "Seed of everything random")
-      ->check(any_seed())
-      ->capture_default_str();
+  add_seed_option(command, options.seed);
   command.callback([&options] {
     if (options.reference && options.caster == name_of(renderer::CasterWish::profile))
       throw CLI::ValidationError(
@@ -81,23 +77,17 @@ void add_sampling(CLI::App& command, RenderOptions& options) {
 
 }  // namespace
 
-CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOptions& common) {
+CLI::App& add_render_command(CLI::App& program, RenderOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "render", "Render a scene's approach to B-scope and C-scope pictures");
   add_scene_choice(command, options);
-  command
-      .add_option("-o,--output", options.output, "Folder to write to (default out/<scene name>)")
-      ->type_name(kFolderValue);
-  command
-      .add_option("--frames", options.frames,
-                  "A:B[:STEP], counted like a Python slice, or one frame (default: all)")
-      ->type_name(kFramesValue);
+  add_output_option(command, options.output, "Folder to write to (default out/<scene name>)");
+  add_frames_option(command, options.frames, std::string(kFramesText) + " (default: all)");
   command.add_option("--products", options.products, products_help(session::kProducts))
       ->type_name("PRODUCT")
       ->check(offers(names_of(session::kProducts)))
       ->capture_default_str();
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
+  add_threads_option(command, options.threads);
   add_sampling(command, options);
   add_effects_option(command, options.effects, renderer::Touches::pictures);
   command.add_flag("--plan-per-frame", options.plan_per_frame,
@@ -121,7 +111,6 @@ CLI::App& add_render_command(CLI::App& program, RenderOptions& options, CommonOp
                   "m)")
       ->check(CLI::IsMember(
           std::vector<std::string>(session::kRangeUnits.begin(), session::kRangeUnits.end())));
-  add_common_options(command, common);
   return command;
 }
 

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "apps/common.h"
+#include "apps/command_line.h"
 #include "apps/value_words.h"
 #include "scenes/scene_reader.h"
 #include "session/shipped.h"
@@ -37,11 +37,7 @@ void add_scene_choice(CLI::App& command, SceneChoice& choice) {
                   "Sensor file, or the name of a shipped sensor (fanbeam list sensors), instead of "
                   "the scene's")
       ->type_name(kSensorValue);
-  command
-      .add_option("--data", choice.data,
-                  "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
-                  "names")
-      ->type_name(kFolderValue);
+  add_data_option(command, choice.data, kDataOrder);
 }
 
 fs::path find_sensor(const std::string& name) {

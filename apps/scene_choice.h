@@ -5,6 +5,7 @@
 
 #include "core/errors.h"
 #include "scenes/description.h"
+#include "session/render_request.h"
 
 namespace CLI {
 class App;
@@ -12,11 +13,7 @@ class App;
 
 namespace fanbeam::apps {
 
-struct SceneChoice {
-  std::string scene = "braunschweig-26";  // as find_scene takes it
-  std::string sensor;                     // as find_sensor takes it, instead of the scene's
-  std::string data;                       // folder looked at first, see data_folders
-};
+using session::SceneChoice;
 
 // SCENE, --sensor and --data.
 void add_scene_choice(CLI::App& command, SceneChoice& choice);

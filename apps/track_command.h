@@ -13,10 +13,8 @@ namespace fanbeam::apps {
 
 struct TrackOptions : session::TrackSettings {
   std::string file;
-  std::string scenario;                     // its id; empty: all of the file
-  std::string output;                       // default out/<file's name>-tracks
-  std::optional<double> noise_figure_dB{};  // instead of the file's
-  bool range_only = false;
+  std::string scenario;  // its id; empty: all of the file
+  std::string output;    // default out/<file's name>-tracks
   bool plots = false;
   bool study = false;
   // Of what is no road scenario (apps/track_inputs.h).

@@ -9,7 +9,7 @@ namespace fanbeam::apps {
 int validate(const ValidateOptions& options, const CommonOptions& common) {
   core::ProblemList problems;
   const scenes::SceneDescription description = read_chosen_scene(options, problems);
-  const auto scene = session::Session(description, {}, problems).scene();
+  const auto scene = session::Session(description, {.pictures = false}, problems).scene();
   print_problems(problems.all());
   if (common.quiet) return kExitDone;
   const sensors::Sensor& radar = description.sensor;
@@ -30,6 +30,9 @@ int validate(const ValidateOptions& options, const CommonOptions& common) {
   fmt::print("  scatterers  {} points\n", scene->world.targets.size());
   fmt::print("  sensor      {}, {} x {} cells, {:.4g} GHz\n", radar.name, radar.scan.columns,
              radar.range.cells, radar.waveform.frequency_Hz / 1e9);
+  if (!radar.waveform.doppler_compensated)
+    fmt::print(
+        "  pictures    of fanbeam fmcw --products bscope alone: own-ship Doppler shifts ranges\n");
   fmt::print("  caster      {}: {}\n", renderer::name_of(scene->caster.chosen),
              scene->caster.reason);
   fmt::print("  built in    {:.1f} s\n", scene->build_s);

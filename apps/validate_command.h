@@ -10,6 +10,6 @@ struct ValidateOptions : SceneChoice {};
 
 // Returns an exit code; throws InputError for bad input.
 int validate(const ValidateOptions& options, const CommonOptions& common);
-CLI::App& add_validate_command(CLI::App& program, ValidateOptions& options, CommonOptions& common);
+CLI::App& add_validate_command(CLI::App& program, ValidateOptions& options);
 
 }  // namespace fanbeam::apps

@@ -5,11 +5,10 @@
 
 namespace fanbeam::apps {
 
-CLI::App& add_validate_command(CLI::App& program, ValidateOptions& options, CommonOptions& common) {
+CLI::App& add_validate_command(CLI::App& program, ValidateOptions& options) {
   CLI::App& command =
       *program.add_subcommand("validate", "Check a scene and report every problem at once");
   add_scene_choice(command, options);
-  add_common_options(command, common);
   return command;
 }
 

@@ -7,63 +7,27 @@
 #include "session/signal/mixer_files.h"
 #include "session/signal/waveform_choice.h"
 #include "session/signal/waveform_figures.h"
-#include "signal/waveform/doppler.h"
-#include "signal/waveform/folding.h"
+#include "session/signal/waveform_target.h"
 
 namespace fanbeam::apps {
 namespace {
 
-struct Beat {
-  int stage;
-  bool up;
-  double beat_Hz;
-};
-
-struct Target {
-  signal::ScatterPath path;
-  double doppler_shift_Hz = 0.0;
-  std::vector<Beat> beats;  // one of every slope of every stage that has one
-  std::vector<core::Problem> warnings;
-};
-
-std::optional<Target> target_of(const WaveformOptions& options, const signal::Waveform& waveform) {
+std::optional<session::WaveformTarget> target_of(const WaveformOptions& options,
+                                                 const signal::Waveform& waveform) {
   if (!options.range_m) return std::nullopt;
-  Target target;
-  target.path.range_m = *options.range_m;
-  target.path.radial_speed_mps = options.speed_mps.value_or(0.0);
-  const auto policy =
-      options.refuse_folding ? signal::FoldingPolicy::refuse : signal::FoldingPolicy::count;
-  target.warnings =
-      signal::folding_warnings(signal::count_folding(waveform, {target.path}, policy));
-  target.doppler_shift_Hz =
-      signal::doppler_shift_Hz(target.path.radial_speed_mps, waveform.centre_frequency_Hz);
-  for (const signal::Segment& segment : waveform.segments) {
-    const bool up = segment.slope_Hz_per_s > 0.0;
-    const bool known = !target.beats.empty() && target.beats.back().stage == segment.stage &&
-                       target.beats.back().up == up;
-    if (segment.slope_Hz_per_s == 0.0 || known) continue;
-    const double range_m = target.path.range_m + target.path.radial_speed_mps * segment.middle_s();
-    target.beats.push_back(
-        {segment.stage, up, signal::beat_Hz(segment, range_m, target.path.radial_speed_mps)});
-  }
-  return target;
+  signal::ScatterPath path;
+  path.range_m = *options.range_m;
+  path.radial_speed_mps = options.speed_mps.value_or(0.0);
+  return session::target_seen_by(
+      waveform, path,
+      options.refuse_folding ? signal::FoldingPolicy::refuse : signal::FoldingPolicy::count);
 }
 
 nlohmann::ordered_json json_of(const signal::Waveform& waveform,
-                               const std::optional<Target>& target) {
+                               const std::optional<session::WaveformTarget>& target) {
   nlohmann::ordered_json json = nlohmann::ordered_json::parse(session::waveform_json(waveform));
-  if (!target) return json;
-  nlohmann::ordered_json beats = nlohmann::ordered_json::array();
-  for (const Beat& beat : target->beats)
-    beats.push_back(
-        {{"stage", beat.stage}, {"ramp", beat.up ? "up" : "down"}, {"beat_Hz", beat.beat_Hz}});
-  nlohmann::ordered_json warnings = nlohmann::ordered_json::array();
-  for (const core::Problem& warning : target->warnings) warnings.push_back(to_string(warning));
-  json["target"] = {{"range_m", target->path.range_m},
-                    {"radial_speed_mps", target->path.radial_speed_mps},
-                    {"doppler_shift_Hz", target->doppler_shift_Hz},
-                    {"beats", beats},
-                    {"warnings", warnings}};
+  if (target)
+    json["target"] = nlohmann::ordered_json::parse(session::waveform_target_json(*target));
   return json;
 }
 
@@ -81,10 +45,10 @@ void print_tables(const signal::Waveform& waveform) {
   }
 }
 
-void print_target(const Target& target) {
+void print_target(const session::WaveformTarget& target) {
   fmt::print("\ntarget at {:.8g} m, {:.8g} m/s: Doppler shift of the echo {:.8g} Hz\n",
              target.path.range_m, target.path.radial_speed_mps, target.doppler_shift_Hz);
-  for (const Beat& beat : target.beats)
+  for (const session::SlopeBeat& beat : target.beats)
     fmt::print("  stage {}, ramp {:<4}  beat {:>16.8g} Hz\n", beat.stage, beat.up ? "up" : "down",
                beat.beat_Hz);
 }
@@ -113,7 +77,7 @@ core::Problem in_words_of_options(core::Problem problem) {
 int waveform(const WaveformOptions& options, const CommonOptions& common) {
   try {
     const signal::Waveform made = session::chosen_waveform(options);
-    const std::optional<Target> target = target_of(options, made);
+    const std::optional<session::WaveformTarget> target = target_of(options, made);
     if (!options.mixer.empty())
       session::write_mixer(options.mixer, signal::mixer_trace(made, target->path),
                            fmt::format("{}: echo at {:.6g} m, {:.6g} m/s", signal::name(made.kind),

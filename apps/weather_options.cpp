@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -87,6 +88,13 @@ void put_gases(const WeatherOptions& options, atmosphere::Weather& weather) {
                       now.temperature_K - 273.15));
 }
 
+// Options, and what was given for them, of which that rain law alone knows.
+std::array<std::pair<const char*, std::string>, 3> of_itu_p838(const WeatherOptions& options) {
+  return {{{"--polarisation", options.polarisation},
+           {"--tilt", text_of(options.tilt_deg)},
+           {"--path-elevation", text_of(options.path_elevation_deg)}}};
+}
+
 }  // namespace
 
 void put_over(const WeatherOptions& options, atmosphere::Weather& weather) {
@@ -105,9 +113,8 @@ void put_over(const WeatherOptions& options, atmosphere::Weather& weather) {
     weather.rain_path_elevation_rad = core::radians(*options.path_elevation_deg);
 }
 
-void refuse_idle(const WeatherOptions& options, const atmosphere::Weather& weather,
-                 bool rain_cells) {
-  core::ProblemList problems;
+void check_amounts(const WeatherOptions& options, const atmosphere::Weather& weather,
+                   bool rain_cells, core::ProblemList& problems) {
   const auto need = [&](bool there, const char* option, const std::string& value,
                         const std::string& what) {
     if (!there && !value.empty())
@@ -128,18 +135,24 @@ void refuse_idle(const WeatherOptions& options, const atmosphere::Weather& weath
   need(rain || rain_cells, "--rain-law", options.rain_law, "--rain");
   need(rain || rain_cells, "--rain-echo-law", options.rain_echo_law, "--rain");
   need(rain || rain_cells, "--drop-sizes", options.drop_sizes, "--rain");
-  const std::pair<const char*, std::string> of_itu_p838[] = {
-      {"--polarisation", options.polarisation},
-      {"--tilt", text_of(options.tilt_deg)},
-      {"--path-elevation", text_of(options.path_elevation_deg)}};
-  for (const auto& [option, value] : of_itu_p838) {
+  for (const auto& [option, value] : of_itu_p838(options))
     need(rain || rain_cells, option, value, "--rain");
-    if (weather.rain_law != atmosphere::RainLaw::itu_p838 && !value.empty())
-      problems.error(core::ErrorClass::range, {}, option, value,
-                     "the rain law itu-p838, as " + std::string(name_of(weather.rain_law)) +
-                         " does not know it");
-  }
-  problems.throw_if_errors();
+}
+
+void check_laws(const WeatherOptions& options, const atmosphere::Weather& weather,
+                core::ProblemList& problems) {
+  const std::string law(name_of(weather.rain_law)), echo_law(name_of(weather.rain_echo_law));
+  const auto refuse = [&](const char* option, const std::string& value, const std::string& what) {
+    if (!value.empty()) problems.error(core::ErrorClass::range, {}, option, value, what);
+  };
+  if (weather.rain_law != atmosphere::RainLaw::mie &&
+      weather.rain_echo_law != atmosphere::RainEchoLaw::mie)
+    refuse("--drop-sizes", options.drop_sizes,
+           "the rain law or the rain echo law mie, as " + law + " and " + echo_law +
+               " do not know it");
+  if (weather.rain_law == atmosphere::RainLaw::itu_p838) return;
+  for (const auto& [option, value] : of_itu_p838(options))
+    refuse(option, value, "the rain law itu-p838, as " + law + " does not know it");
 }
 
 std::string option_behind(const WeatherOptions& options, const std::string& field) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "atmosphere/weather.h"
+#include "core/errors.h"
 
 namespace fanbeam::apps {
 
@@ -26,10 +27,12 @@ struct WeatherOptions {
 // is not, with the option where it is a vapour density or a dry pressure.
 void put_over(const WeatherOptions& options, atmosphere::Weather& weather);
 
-// Of options over `weather`, which has them: throws InputError E-REF for those about fog, rain or snow
-// where there is none of it, E-RANGE for what the rain law does not know.
-void refuse_idle(const WeatherOptions& options, const atmosphere::Weather& weather,
-                 bool rain_cells);
+// Of options over `weather`, which has them: E-REF for those about fog, rain or snow where there is
+// none of it; E-RANGE for those that its laws of rain do not know.
+void check_amounts(const WeatherOptions& options, const atmosphere::Weather& weather,
+                   bool rain_cells, core::ProblemList& problems);
+void check_laws(const WeatherOptions& options, const atmosphere::Weather& weather,
+                core::ProblemList& problems);
 
 // The option that gave a field of atmosphere's problems its value; empty when none did.
 std::string option_behind(const WeatherOptions& options, const std::string& field);

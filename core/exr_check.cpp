@@ -89,7 +89,8 @@ void check_value(ExrHead& head, const std::string& name, const std::string& type
     while (head.left() > end) head.skip(head.length(head.left() - end - 4));
   } else if (type == "preview" && bytes >= 8) {
     const std::int64_t columns = head.number(), rows = head.number();
-    if (columns > bytes || rows > bytes || 4 * columns * rows != bytes - 8)
+    if (columns > bytes || rows > bytes || (bytes - 8) % 4 != 0 ||
+        columns * rows != (bytes - 8) / 4)
       head.refuse(std::to_string(columns) + " x " + std::to_string(rows),
                   "a preview of its length");
   } else if (name == "dataWindow" && type == "box2i" && bytes == 16) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "core/errors.h"
+#include "core/relative_uri.h"
 #include "core/text.h"
 
 namespace fanbeam::core {
@@ -163,8 +164,7 @@ fs::path path_inside(const fs::path& folder, const std::string& relative, const 
   if (relative.empty()) refuse("it is empty");
   if (relative.find('\0') != std::string::npos) refuse("it holds a zero byte");
   if (asked.is_absolute()) refuse("it is absolute");
-  const auto colon = relative.find(':');
-  if (colon != std::string::npos && relative.find('/') > colon) refuse("it names a URI scheme");
+  if (has_uri_scheme(relative)) refuse("it names a URI scheme");
   std::error_code status;
   const fs::path root = fs::weakly_canonical(folder, status);
   const fs::path full = fs::weakly_canonical(root / asked, status);

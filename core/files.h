@@ -42,8 +42,8 @@ void remove_abandoned_temporaries(const std::filesystem::path& folder);
 // lies where its name says. False too where the system does not answer.
 bool lies_inside(const std::filesystem::path& folder, const std::filesystem::path& path);
 
-// `relative` resolved inside `folder`. Throws InputError E-PATH when it is absolute, holds a URI
-// scheme, or leaves the folder (".." or a symbolic link). `place` and `field` go into the message.
+// `relative` resolved inside `folder`. Throws InputError E-PATH when it is absolute, has a URI
+// scheme (relative_uri.h), or leaves the folder (".." or a symbolic link). `place` and `field` go into the message.
 std::filesystem::path path_inside(const std::filesystem::path& folder, const std::string& relative,
                                   const struct Place& place, const std::string& field);
 

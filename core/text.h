@@ -1,5 +1,5 @@
 // Text from outside: numbers read without looking at the locale, words that are safe as names of
-// folders, and what may be printed.
+// folders, what may be printed, and what a shell takes back.
 #pragma once
 
 #include <cstddef>
@@ -44,5 +44,9 @@ bool is_safe_word(std::string_view text);
 // Such a word from any text: other bytes become '-', what is too long is cut; "unnamed" where
 // nothing is left.
 std::string safe_word(std::string_view text);
+
+// A word that a POSIX shell takes back as this text, whatever it holds: letters, digits, '.', '/',
+// '_' and '-' of ASCII stand as they are, anything else in quotation marks.
+std::string shell_word(std::string_view text);
 
 }  // namespace fanbeam::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/random/sobol.hpp>
 #include <limits>
+#include <set>
 
 #include "core/config_table.h"
 #include "core/files.h"
@@ -62,12 +63,24 @@ CampaignAirport read_airport_of(ConfigTable& table, const std::vector<CampaignAi
   return airport;
 }
 
-void read_campaign_table(ConfigTable table, Campaign& campaign) {
+// Two of one name would be one scene: the airport's, or the folder's twice. Earlier versions took them, and
+// what they made can still be looked at.
+void check_scene_names(ConfigTable& table, const Campaign& campaign) {
+  std::set<std::string> names;
+  for (const CampaignAirport& airport : campaign.airports) names.insert(airport.name);
+  for (const std::string& scene : campaign.scenes)
+    if (!names.insert(scene).second)
+      table.error(ErrorClass::ref, "scenes", "\"" + scene + "\"",
+                  "each scene once, of another name than every [[airport]]");
+}
+
+void read_campaign_table(ConfigTable table, Campaign& campaign, ReadFor purpose) {
   campaign.name = table.required_text("name");
   if (!core::is_safe_word(campaign.name))
     table.error(ErrorClass::range, "name", "\"" + campaign.name + "\"",
                 "letters, digits, - and _: it names folders");
   campaign.scenes = table.texts("scenes");
+  if (purpose == ReadFor::making) check_scene_names(table, campaign);
   for (const CampaignAirport& airport : campaign.airports) campaign.scenes.push_back(airport.name);
   if (campaign.scenes.empty())
     table.error(ErrorClass::ref, "scenes", "none", "at least one scene, or an [[airport]]");
@@ -222,7 +235,7 @@ Campaign read_campaign(const fs::path& file, core::ProblemList& problems, ReadFo
   campaign.text_hash = sha256(core::read_file(file, kLargestFile_bytes));
   for (ConfigTable& airport : root.tables("airport", 1000))
     campaign.airports.push_back(read_airport_of(airport, campaign.airports));
-  read_campaign_table(root.table("campaign"), campaign);
+  read_campaign_table(root.table("campaign"), campaign, purpose);
   const Reading reading{campaign, purpose};
   read_parameters(root.table("parameters"), reading);
   for (ConfigTable& traffic : root.tables("traffic", 1000))

@@ -3,7 +3,7 @@
 //   [campaign]
 //   name = "fog-approaches"
 //   scenes = ["braunschweig-26"]       names of shipped scenes, or folders beside this file; optional
-//                                      where there are airports
+//                                      where there are airports; each once, and none named as an airport
 //   runs = 200                         of a grid: how often it is gone through, 1 unless given
 //   plan = "sobol"                     "grid", "sobol" or "random"
 //   seed = 1

@@ -14,6 +14,14 @@ using core::ErrorClass;
 
 double truncated_normal(const Distribution::Normal& form, double u) {
   const boost::math::normal_distribution<double> normal(form.mean, form.deviation);
+  if (form.low > form.mean) {
+    // From above: below the bounds is so nearly all that nothing is left of the digits.
+    const double at_low = cdf(complement(normal, form.low)),
+                 at_high = cdf(complement(normal, form.high));
+    const double beyond = at_low + u * (at_high - at_low);
+    if (!(beyond > 0.0)) return form.high;
+    return std::clamp(quantile(complement(normal, beyond)), form.low, form.high);
+  }
   const double below = cdf(normal, form.low), above = cdf(normal, form.high);
   const double p = below + u * (above - below);
   if (!(p > 0.0)) return form.low;

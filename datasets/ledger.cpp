@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -70,28 +71,41 @@ bool was_made_by_other_file(const Campaign& campaign, const fs::path& output, in
 }
 
 Status status_of(const Campaign& campaign, const fs::path& output) {
+  const auto entries = [&](const char* folder, const auto& use) {
+    std::error_code none;
+    for (fs::directory_iterator entry(output / folder, none), end; !none && entry != end;
+         entry.increment(none))
+      use(entry->path());
+  };
+  // Of one that the campaign has.
+  const auto run_of = [&](const std::string& text) {
+    const std::optional<int> run = number_in(text);
+    return run && *run < campaign.runs ? run : std::nullopt;
+  };
+  std::set<int> there, under_way, failed;
+  entries("runs", [&](const fs::path& path) {
+    const std::string stem = path.stem().string();
+    if (!stem.starts_with(".")) {
+      const auto run = run_of(stem);
+      if (run && RunFiles::is_there(output, *run)) there.insert(*run);
+    } else if (const auto run = run_of(stem.substr(1));
+               run && path.extension() == ".lock" && is_locked(path)) {
+      under_way.insert(*run);
+    }
+  });
+  entries("failed", [&](const fs::path& path) {
+    const auto run = run_of(path.stem().string());
+    if (run && !there.contains(*run) && !under_way.contains(*run)) failed.insert(*run);
+  });
   Status status;
   status.runs = campaign.runs;
-  int first = campaign.runs;
-  std::error_code none;
-  for (fs::directory_iterator entry(output / "runs", none), end; !none && entry != end;
-       entry.increment(none)) {
-    const std::string name = entry->path().filename().string();
-    if (!name.starts_with(".")) {
-      const auto run = number_in(entry->path().stem().string());
-      if (!run || *run >= campaign.runs || !RunFiles::is_there(output, *run)) continue;
-      ++status.made;
-      first = std::min(first, *run);
-    } else if (name.ends_with(".lock") && is_locked(entry->path())) {
-      ++status.under_way;
-    }
-  }
-  for (fs::directory_iterator entry(output / "failed", none), end; !none && entry != end;
-       entry.increment(none)) {
-    const auto run = number_in(entry->path().stem().string());
-    if (run && *run < campaign.runs && !RunFiles::is_there(output, *run)) ++status.failed;
-  }
-  status.changed = status.made > 0 && was_made_by_other_file(campaign, output, first);
+  status.under_way = static_cast<int>(under_way.size());
+  status.failed = static_cast<int>(failed.size());
+  status.made = static_cast<int>(
+      std::count_if(there.begin(), there.end(), [&](int run) { return !under_way.contains(run); }));
+  status.changed = std::any_of(there.begin(), there.end(), [&](int run) {
+    return was_made_by_other_file(campaign, output, run);
+  });
   return status;
 }
 
@@ -128,6 +142,25 @@ std::vector<int> runs_in(const std::string& text, int runs, const std::string& f
     for (int run = *first; run < end; ++run) chosen.insert(run);
   }
   return {chosen.begin(), chosen.end()};
+}
+
+std::vector<int> shard_of(const std::vector<int>& runs, const std::string& text,
+                          const std::string& field) {
+  if (text.empty()) return runs;
+  const std::size_t slash = text.find('/');
+  const auto part = core::parse_number(text.substr(0, slash));
+  const auto parts = core::parse_number(slash == std::string::npos ? "" : text.substr(slash + 1));
+  const bool whole = part.error == core::NumberError::none &&
+                     parts.error == core::NumberError::none &&
+                     part.value == std::floor(part.value) && parts.value == std::floor(parts.value);
+  if (!whole || part.value < 1 || part.value > parts.value || parts.value > 1e6)
+    core::throw_input_error(core::ErrorClass::range, field, "\"" + text + "\"",
+                            "K/N with K from 1 to N, such as 3/8");
+  std::vector<int> mine;
+  for (auto i = static_cast<std::size_t>(part.value) - 1; i < runs.size();
+       i += static_cast<std::size_t>(parts.value))
+    mine.push_back(runs[i]);
+  return mine;
 }
 
 std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,

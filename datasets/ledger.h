@@ -12,9 +12,11 @@ namespace fanbeam::datasets {
 struct Status {
   int runs = 0, made = 0, under_way = 0, failed = 0;
   int missing() const { return runs - made - under_way - failed; }
-  bool changed = false;  // the campaign's file, since the first of the runs there was made
+  bool changed = false;  // the campaign's file, since one of the runs there was made, or all
 };
-// Reads names, and the record of one run; others may work meanwhile.
+// Each run counts once: under way where somebody makes it or makes it anew, else made where it is there, else
+// failed where that was told. Reads names, and records up to the first that tells of another file; others may
+// work meanwhile.
 Status status_of(const Campaign& campaign, const std::filesystem::path& output);
 
 // Whether the run is there and was made before the campaign's file was changed, or by another.
@@ -24,6 +26,10 @@ bool was_made_by_other_file(const Campaign& campaign, const std::filesystem::pat
 std::string runs_text(const std::vector<int>& runs);
 // Throws InputError E-PARSE or E-RANGE for `field`.
 std::vector<int> runs_in(const std::string& text, int runs, const std::string& field);
+// Of "K/N" every N-th of the runs, beginning with the K-th; all of an empty text. Throws InputError E-RANGE
+// for `field`.
+std::vector<int> shard_of(const std::vector<int>& runs, const std::string& text,
+                          const std::string& field);
 
 // One line of what is wrong with a run.
 struct Damage {

@@ -90,6 +90,7 @@ class Merger {
 
   void add(int run, const RunFiles& files, const Json& record, core::ProblemList& problems) {
     const core::Place place{files.shown(kRunRecord)};
+    ++looked_at_;
     try {
       const std::string text = files.read(kRunRecord, kLargestRecord_bytes);
       if (!is_intact(text))
@@ -126,7 +127,7 @@ class Merger {
     if (of_other_file_ > 0)
       problems.error(
           core::ErrorClass::unsupported, core::Place{campaign_.file.string()}, "campaign",
-          fmt::format("changed since {} of {} runs were made", of_other_file_, merged_.runs),
+          fmt::format("changed since {} of {} runs were made", of_other_file_, looked_at_),
           "the file as it was, or these runs made anew (fanbeam campaign run --replace)");
   }
 
@@ -156,7 +157,7 @@ class Merger {
   Json manifest_;
   session::RunLabels labels_;
   Merged merged_;
-  int of_other_file_ = 0;
+  int looked_at_ = 0, of_other_file_ = 0;
 };
 
 }  // namespace

@@ -43,12 +43,12 @@ std::vector<int> frames_of(const FrameSpread& spread, int frame_count) {
   return frames;
 }
 
-core::Pose run_pose(const Draw& draw, std::uint64_t seed, const core::Pose& flown) {
+core::Pose run_pose(const Draw& draw, std::uint64_t seed, const core::Pose& flown, double begin_s) {
   const auto of_flight = [&](const char* name) {
     return draw.number(std::string("flight.") + name).value_or(0.0);
   };
   const double speed_factor = draw.number("flight.speed_factor").value_or(1.0);
-  const double time_s = flown.time_s / speed_factor;
+  const double time_s = begin_s + (flown.time_s - begin_s) / speed_factor;
   const double rms_m = of_flight("turbulence_m"),
                rms_rad = core::radians(of_flight("turbulence_deg"));
   const auto wander = [&](Wander what) { return wandering(seed, draw.run, what, time_s); };

@@ -20,6 +20,7 @@ inline constexpr int kWaves = 4;
 // Frames of the flight, evenly from the share `from` to the share `to` of it.
 std::vector<int> frames_of(const FrameSpread& spread, int frame_count);
 
-core::Pose run_pose(const Draw& draw, std::uint64_t seed, const core::Pose& flown);
+// `begin_s` is when the flight begins, on the clock of `flown`: there every speed is at the same place.
+core::Pose run_pose(const Draw& draw, std::uint64_t seed, const core::Pose& flown, double begin_s);
 
 }  // namespace fanbeam::datasets

@@ -8,8 +8,9 @@ namespace fanbeam::datasets {
 
 class RunLock {
  public:
-  // Throws InputError E-IO for a folder that cannot be written to, or whose file system has no locks; then
-  // it leaves no file.
+  // Looks a few times, a hundredth of a second in all, so that nobody who asks for the state of a run (below)
+  // passes for one that makes it. Throws InputError E-IO for a folder that cannot be written to, or whose
+  // file system has no locks; then it leaves no file.
   explicit RunLock(std::filesystem::path file);
   ~RunLock();
   RunLock(const RunLock&) = delete;
@@ -18,6 +19,8 @@ class RunLock {
   bool held() const { return held_; }
 
  private:
+  bool take();
+
   std::filesystem::path file_;
   int descriptor_ = -1;
   bool held_ = false;
@@ -25,5 +28,8 @@ class RunLock {
 
 // Somebody holds it; nobody can where the file system has no locks.
 bool is_locked(const std::filesystem::path& file);
+
+// Takes the file away that one who was killed left; one that is held stays.
+void remove_unheld(const std::filesystem::path& file);
 
 }  // namespace fanbeam::datasets

@@ -2,20 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "core/text.h"
+
 namespace fanbeam::datasets {
 
-std::string shell_quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char letter : text)
-    result += letter == '\'' ? std::string("'\\''") : std::string(1, letter);
-  return result + "'";
-}
-
 std::string slurm_script(const Campaign& campaign, const SlurmSettings& settings) {
-  const std::string command = fmt::format("{} campaign", shell_quoted(settings.program.string()));
-  const std::string rest = fmt::format("{} -o {}", shell_quoted(campaign.file.string()),
-                                       shell_quoted(settings.output.string()));
-  const std::string data = settings.data.empty() ? "" : " --data " + shell_quoted(settings.data);
+  const std::string command =
+      fmt::format("{} campaign", core::shell_word(settings.program.string()));
+  const std::string rest = fmt::format("{} -o {}", core::shell_word(campaign.file.string()),
+                                       core::shell_word(settings.output.string()));
+  const std::string data =
+      settings.data.empty() ? "" : " --data " + core::shell_word(settings.data);
   const std::string processors =
       settings.threads > 0 ? fmt::format(" --cpus-per-task={}", settings.threads) : " --exclusive";
   return fmt::format(R"(#!/bin/bash
@@ -47,7 +44,7 @@ echo "$array $merge $verify"
 )",
                      fmt::arg("name", campaign.name), fmt::arg("runs", campaign.runs),
                      fmt::arg("tasks", settings.tasks),
-                     fmt::arg("log", shell_quoted((settings.output / "slurm").string())),
+                     fmt::arg("log", core::shell_word((settings.output / "slurm").string())),
                      fmt::arg("processors", processors), fmt::arg("command", command),
                      fmt::arg("rest", rest), fmt::arg("data", data));
 }

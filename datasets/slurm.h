@@ -21,7 +21,4 @@ struct SlurmSettings {
 // have ended. Standing in the queue twice does no harm: what is there is not made again.
 std::string slurm_script(const Campaign& campaign, const SlurmSettings& settings);
 
-// A word that a shell takes back as this text, whatever it holds.
-std::string shell_quoted(const std::string& text);
-
 }  // namespace fanbeam::datasets

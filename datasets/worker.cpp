@@ -144,12 +144,12 @@ RunEnd Worker::make(int run) {
     return !settings_.replace && RunFiles::is_there(settings_.output, run);
   };
   const fs::path lock_file = hidden(settings_.output, run, ".lock");
-  std::error_code made;
   if (there()) {
     // Of a worker that was killed when its run had its name already.
-    if (fs::exists(lock_file, made) && !is_locked(lock_file)) fs::remove(lock_file, made);
+    remove_unheld(lock_file);
     return RunEnd::there;
   }
+  std::error_code made;
   fs::create_directories(settings_.output / "runs", made);
   const RunLock lock(lock_file);
   if (!lock.held()) return RunEnd::elsewhere;
@@ -234,7 +234,8 @@ void Worker::render(const Draw& draw, const fs::path& folder) {
     made.record.index = index;
     made.record.pose = run_pose(draw, campaign_.seed,
                                 stage.own->trajectory->at(stage.own->trajectory->frame_time_s(
-                                    index, stage.own->description.sensor.scan.frame_rate_Hz)));
+                                    index, stage.own->description.sensor.scan.frame_rate_Hz)),
+                                stage.own->trajectory->begin_s());
     made.record.time_s = made.record.pose.time_s;
     const std::uint64_t key =
         (static_cast<std::uint64_t>(draw.run) << kFrameBits) + static_cast<std::uint64_t>(index);

@@ -4,6 +4,7 @@
 #include "core/units.h"
 #include "live/answers_private.h"
 #include "sensors/display/grey_scale.h"
+#include "session/records/record_json.h"
 
 namespace fanbeam::live {
 
@@ -90,14 +91,9 @@ std::string metrics_text(const Status& status) {
 }
 
 Json plan_json(const scenes::Scene& scene) {
-  Json effects = Json::array();
-  for (const core::EffectDecision& decision : scene.plan.decisions)
-    effects.push_back({{"effect", name_of(decision.effect)},
-                       {"on", decision.on},
-                       {"reason", decision.reason},
-                       {"bound_grey", decision.bound_grey}});
-  return {
-      {"scene", scene.description.name}, {"accuracy_grey", scene.accuracy_grey}, {"plan", effects}};
+  return {{"scene", scene.description.name},
+          {"accuracy_grey", scene.accuracy_grey},
+          {"plan", Json::parse(session::decisions_json(scene.plan))}};
 }
 
 Json sensor_json(const sensors::Sensor& sensor) {

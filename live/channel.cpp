@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <thread>
-#include <utility>
 
 #include "live/pace.h"
 #include "live/source_clock.h"
@@ -11,8 +10,6 @@
 
 namespace fanbeam::live {
 namespace {
-
-constexpr double kStale_s = 1.0;
 
 // Wakes often enough to see that it is to stop.
 void sleep_until(Clock::time_point when, const core::StopToken& stop) {
@@ -64,12 +61,7 @@ class Channel {
     status.waiting = !seen;
     if (!seen) return;
     status.stray_poses = seen->strays;
-    const bool was_stale = std::exchange(status.stale, seen->age_s > kStale_s);
-    if (status.stale) {
-      status.pose_age_ms = 1e3 * seen->age_s;
-      if (!was_stale) maker_.show_stale();
-      return maker_.look_back();
-    }
+    if (maker_.stands(seen->age_s)) return;
     const auto made = maker_.make(tick, *seen, stop);
     if (made && !(settings_.samples > 0.0))
       maker_.sample(pace_.after(maker_.now_s(), made->frame_s, made->outside_volume));

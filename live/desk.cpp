@@ -193,6 +193,17 @@ Answer Desk::picture(const std::string& path, const std::string& query) const {
 }
 
 void Desk::control(const std::string& path, const std::string& body) const {
+  const std::lock_guard<std::mutex> lock(controls_);
+  obey(path, body);
+}
+
+void Desk::change_weather(
+    const std::function<std::string(const atmosphere::Weather&)>& body_of) const {
+  const std::lock_guard<std::mutex> lock(controls_);
+  obey(kWeather, body_of(session_.scene()->weather));
+}
+
+void Desk::obey(const std::string& path, const std::string& body) const {
   if (!is_control(path))
     core::throw_input_error(core::ErrorClass::ref, "control", "\"" + path + "\"",
                             std::string(kWeather) + " or " + kSensor);

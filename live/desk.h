@@ -23,6 +23,8 @@
 // another page can.
 #pragma once
 
+#include <functional>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -50,18 +52,21 @@ class Desk {
   Answer answer(const Request& request) const;
   // What a POST with that body does. Throws InputError with all that is wrong, and changes nothing then.
   void control(const std::string& path, const std::string& body) const;
-  atmosphere::Weather weather() const { return session_.scene()->weather; }
+  // A POST to /api/weather with what `body_of` makes of the weather of now: no control comes in between.
+  void change_weather(const std::function<std::string(const atmosphere::Weather&)>& body_of) const;
 
  private:
   Answer get(const std::string& path, const std::string& query) const;
   Answer cell(const std::string& query) const;
   Answer picture(const std::string& path, const std::string& query) const;
+  void obey(const std::string& path, const std::string& body) const;
 
   session::Session& session_;
   const Hub& hub_;
   Journal* journal_;
   Access access_;
   Truth truth_;
+  mutable std::mutex controls_;  // one after the other
 };
 
 // A frame as it goes through a WebSocket: a line of JSON with its facts (number, size of both

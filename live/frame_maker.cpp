@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <utility>
 
 #include "core/errors.h"
 #include "live/processor_time.h"
@@ -11,7 +12,11 @@
 namespace fanbeam::live {
 
 FrameMaker::FrameMaker(session::Session& session, Hub& hub, const ChannelSettings& settings)
-    : session_(session), hub_(hub), settings_(settings), status_(hub.status()) {
+    : session_(session),
+      hub_(hub),
+      settings_(settings),
+      status_(hub.status()),
+      number_(status_.frames) {
   const std::shared_ptr<const scenes::Scene> scene = session.scene();
   status_.scene = scene->description.name;
   status_.caster = renderer::name_of(scene->caster.chosen);
@@ -60,7 +65,7 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
                                                  const core::StopToken& stop) {
   const Clock::time_point from = Clock::now();
   const double spent_s = processor_s();
-  status_.waiting = false;
+  status_.waiting = status_.stale = false;
   status_.pose_age_ms = 1e3 * seen.age_s;
   const session::Session::Moment under = conditions(tick);
   std::shared_ptr<LiveFrame> frame;
@@ -77,7 +82,8 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   }
   journal_made(true);
   const double frame_s = seconds_between(from, Clock::now());
-  frame->number = status_.frames = tick.number;
+  ++status_.frames;
+  frame->number = number_ = tick.number;
   frame->pose = seen.pose;
   frame->under = under;
   frame->samples = status_.samples;
@@ -91,11 +97,21 @@ std::optional<FrameMaker::Made> FrameMaker::make(const Tick& tick, const Sightin
   return Made{frame_s, outside};
 }
 
+bool FrameMaker::stands(double age_s) {
+  constexpr double kStale_s = 1.0;
+  const bool was_stale = std::exchange(status_.stale, age_s > kStale_s);
+  if (!status_.stale) return false;
+  status_.pose_age_ms = 1e3 * age_s;
+  if (!was_stale) show_stale();
+  look_back();
+  return true;
+}
+
 void FrameMaker::show_stale() {
   const std::shared_ptr<const LiveFrame> newest = hub_.newest();
   if (!newest) return;
   auto frame = std::make_shared<LiveFrame>(*newest);
-  frame->number = ++status_.frames;
+  frame->number = ++number_;
   frame->stale = true;
   frame->pose_age_ms = status_.pose_age_ms;
   hub_.publish(std::move(frame));

@@ -44,14 +44,13 @@ class FrameMaker {
   // `stop` asked.
   std::optional<Made> make(const Tick& tick, const Sighting& seen, const core::StopToken& stop);
 
-  // The newest frame once more, as one whose pose is out of date by now.
-  void show_stale();
+  // Whether the newest pose, which is so old, is out of date. At the first time that it is, the newest frame is
+  // shown once more as such.
+  bool stands(double age_s);
 
   Status& status() { return status_; }
-  // Of the last two seconds up to now: for whoever makes no frame.
-  void look_back();
   double now_s() const { return seconds_between(settings_.begin, Clock::now()); }
-  std::uint64_t next_number() const { return status_.frames + 1; }
+  std::uint64_t next_number() const { return number_ + 1; }
 
  private:
   // What the frame is made under, once the journal knows of it.
@@ -60,6 +59,9 @@ class FrameMaker {
   // Its pictures; throws what Session::render throws.
   std::shared_ptr<LiveFrame> rendered(const session::Session::Moment& under, const Tick& tick,
                                       const core::Pose& pose, const core::StopToken& stop);
+  void show_stale();
+  // Of the last two seconds up to now.
+  void look_back();
   // Spent on frames so far.
   double processor_s() const;
   void tell(double frame_s, double processor_s);
@@ -68,7 +70,8 @@ class FrameMaker {
   Hub& hub_;
   ChannelSettings settings_;
   Status status_;
-  double told_samples_ = 0.0;                     // 0: none
+  std::uint64_t number_ = 0;   // of the newest frame that was shown, also once more as a stale one
+  double told_samples_ = 0.0;  // 0: none
   std::deque<std::pair<double, double>> recent_;  // of two seconds: end, milliseconds taken
 };
 

@@ -51,9 +51,9 @@ bool FrameTaker::leaving() const {
 void FrameTaker::write(const std::shared_ptr<const LiveFrame>& frame) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!frame || frame->stale || frame->number == taken_ || ended_) return;
+    if (!frame || frame->stale || frame == taken_ || ended_) return;
     newest_ = frame;
-    if (every_frame_) taken_ = frame->number;
+    if (every_frame_) taken_ = frame;
   }
   if (every_frame_)
     put(*frame);
@@ -66,10 +66,9 @@ void FrameTaker::run() {
     std::shared_ptr<const LiveFrame> frame;
     {
       std::unique_lock<std::mutex> lock(mutex_);
-      changed_.wait(lock, [&] { return ending_ || (newest_ && newest_->number != taken_); });
+      changed_.wait(lock, [&] { return ending_ || newest_ != taken_; });
       if (ending_) return;
-      frame = newest_;
-      taken_ = frame->number;
+      frame = taken_ = newest_;
     }
     put(*frame);
   }

@@ -26,7 +26,8 @@ class FrameTaker {
   FrameTaker(const FrameTaker&) = delete;
   FrameTaker& operator=(const FrameTaker&) = delete;
 
-  // A frame that was given before is left out, also where it is shown once more as a stale one.
+  // A frame that was given before is left out, also where it is shown once more as a stale one. Numbers tell
+  // nothing here: those of another scene may be the same.
   void write(const std::shared_ptr<const LiveFrame>& frame);
   // The sink gave false.
   bool ended() const;
@@ -43,8 +44,7 @@ class FrameTaker {
   bool every_frame_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::shared_ptr<const LiveFrame> newest_;
-  std::uint64_t taken_ = 0;  // number of the frame
+  std::shared_ptr<const LiveFrame> newest_, taken_;
   bool ended_ = false, ending_ = false, leaving_ = false;
   std::thread thread_;  // unless every frame is wanted
 };

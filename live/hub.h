@@ -27,7 +27,7 @@ struct PictureErrors {
 };
 
 struct LiveFrame {
-  std::uint64_t number = 0;                      // from 1 up
+  std::uint64_t number = 0;                      // from 1 up; one that is stale has its own
   core::Pose pose;                               // of the frame's middle
   session::Session::Moment under{};              // conditions and sampling
   std::shared_ptr<const scenes::Scene> scene{};  // of `under`
@@ -54,8 +54,8 @@ struct FrameOrigin {
 struct Status {
   std::string start;  // of the hub, another of each: frames of another are numbered anew
   std::string scene, source, caster;
-  std::uint64_t frames = 0;
-  std::uint64_t late = 0;  // ticks left out, as frames took longer than a period
+  std::uint64_t frames = 0;  // rendered: one that is shown once more has a number, and is none
+  std::uint64_t late = 0;    // ticks left out, as frames took longer than a period
   // Took more processor time than a period has on all its threads: late on any machine, however quiet.
   std::uint64_t late_by_processor = 0;
   std::uint64_t refused = 0;                // poses that nothing can be rendered at

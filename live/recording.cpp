@@ -127,7 +127,8 @@ Recording read_recording(const std::filesystem::path& file) {
   core::ProblemList problems;
   Lines lines(recording, problems);
   std::string text;
-  for (int number = 1; std::getline(stream, text) && !stream.eof(); ++number) {
+  // The first line tells what the file is, whether it is whole or not.
+  for (int number = 1; std::getline(stream, text) && (number == 1 || !stream.eof()); ++number) {
     const std::string name = fmt::format("{}:{}", file.string(), number);
     if (number == 1 && !lines.take_head(text, name)) break;
     if (number > 1) lines.take(text, name);

@@ -54,7 +54,10 @@ class Replay {
   void take(const RecordedControl& control) { desk_.control(control.path, control.body); }
 
   void take(const RecordedFrame& frame) {
-    if (!settings_.lockstep && !in_time(frame.tick)) return;
+    const bool shows = settings_.lockstep || in_time(frame.tick);
+    last_number_ = frame.tick.number;
+    known_s_ = predictor_.newest_s();
+    if (!shows) return;
     maker_.sample(frame.samples);
     if (const auto seen = sighting(frame.tick)) maker_.make(frame.tick, *seen, stop_);
     told_(maker_.status());
@@ -68,11 +71,21 @@ class Replay {
     const double due_s = (tick.now_s - *first_s_) / settings_.speed;
     const Clock::time_point due = settings_.begin + std::chrono::duration_cast<Clock::duration>(
                                                         std::chrono::duration<double>(due_s));
-    while (stop_.reason() == 0 && Clock::now() < due)
+    while (stop_.reason() == 0 && Clock::now() < due) {
       std::this_thread::sleep_until(std::min(due, Clock::now() + kNap));
+      if (tick.number > last_number_ + 1) grow_old();
+    }
     const bool in_time = maker_.now_s() <= due_s + 1.0 / maker_.status().wanted_Hz;
     if (!in_time) ++maker_.status().late;
     return in_time && stop_.reason() == 0;
+  }
+
+  // While no pose came: the number that is left out is that of the picture that was shown once more.
+  void grow_old() {
+    const double now_s = *first_s_ + settings_.speed * maker_.now_s();
+    if (!known_s_ || !maker_.stands(now_s - *known_s_)) return;
+    told_(maker_.status());
+    hub_.tell(maker_.status());
   }
 
   std::optional<Sighting> sighting(const Tick& tick) const {
@@ -98,6 +111,9 @@ class Replay {
   FrameMaker maker_;
   std::optional<std::pair<core::Pose, double>> newest_;  // and when it arrived
   std::optional<double> first_s_;
+  // Of the last frame, shown or late: its number, and when the newest pose arrived that it knew.
+  std::uint64_t last_number_ = 0;
+  std::optional<double> known_s_;
 };
 
 }  // namespace

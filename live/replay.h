@@ -13,8 +13,9 @@ namespace fanbeam::live {
 
 struct ReplaySettings {
   double speed = 1.0;  // times that of the recording
-  bool lockstep =
-      false;  // every frame, as fast as they are made; else frames that are late are left out
+  // Every frame, as fast as they are made; else frames that are late are left out, and pictures become stale as
+  // they did.
+  bool lockstep = false;
   Clock::time_point begin = Clock::now();
   bool keep_received = false;  // LiveFrame::received_W
 };

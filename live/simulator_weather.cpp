@@ -56,7 +56,8 @@ void SimulatorWeather::follow(Clock::time_point now) {
   told_ = std::move(told);
   refusal_.clear();
   try {
-    desk_.control("/api/weather", weather_body(*state, desk_.weather()));
+    desk_.change_weather(
+        [&state](const atmosphere::Weather& weather) { return weather_body(*state, weather); });
   } catch (const core::InputError& error) {
     refusal_ = core::to_string(error.problems().front());
   }

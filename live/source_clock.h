@@ -12,13 +12,17 @@
 // little by little. How much of its time passes in half a second of ours is known of every packet of the
 // last two seconds; the median of that is moved by no packet that was held back and by no short pause.
 // From a twelfth off (below, jitter would pass for it) until it is within a fiftieth again, its seconds
-// count as so much longer or shorter, and the quickest packets of half a second set the time.
+// count as so much longer or shorter, and the quickest packets of half a second set the time. Another rate is
+// known once it holds for most of the two seconds; that it keeps step with time again, of four packets in a row.
+// From a tenth to ten times, of packets that come four times a second or more.
 // Pure.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <deque>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,7 +40,10 @@ class SourceClock {
     const double waited_s = last_ ? arrived_s - last_->arrived_s : 0.0;
     const bool goes_on = last_ && step_s > 0.0;
     if (!goes_on) recent_.clear();
-    if (!goes_on || std::abs(step_s - waited_s) > kLate_s) even_.clear();
+    // Each step of a fast simulator is ahead of time, evenly.
+    const double ahead_s = goes_on ? step_s - waited_s : 0.0;
+    if (!goes_on || std::abs(ahead_s - ahead_s_) > kLate_s) even_.clear();
+    ahead_s_ = ahead_s;
     last_ = {arrived_s, clock_s};
     measure_rate();
     double late_s = recent_.empty() ? 0.0 : arrived_s - quickest_s();
@@ -58,7 +65,8 @@ class SourceClock {
   double rate() const { return rate_; }
 
  private:
-  static constexpr double kSpan_s = 0.5;
+  static constexpr double kSpan_s = 0.5, kOn = 1.0 / 50.0;
+  static constexpr std::ptrdiff_t kEnough = 4;  // packets
 
   struct Stamp {
     double arrived_s = 0.0, clock_s = 0.0;
@@ -75,10 +83,15 @@ class SourceClock {
     return least_s;
   }
 
+  bool is_in_step() const {
+    return std::ssize(measured_) >= kEnough &&
+           std::all_of(measured_.end() - kEnough, measured_.end(),
+                       [](const Measured& one) { return std::abs(one.rate - 1.0) <= kOn; });
+  }
+
   void measure_rate() {
-    constexpr double kLook_s = 2.0, kOff = 1.0 / 12.0, kOn = 1.0 / 50.0;
+    constexpr double kLook_s = 2.0, kOff = 1.0 / 12.0;
     constexpr double kSlowest = 0.1, kFastest = 10.0;
-    constexpr std::size_t kEnough = 4;
     const double now_s = last_->arrived_s;
     even_.push_back(*last_);
     while (even_.size() > 1 && even_[1].arrived_s <= now_s - kSpan_s) even_.pop_front();
@@ -87,11 +100,12 @@ class SourceClock {
       measured_.push_back({now_s, (last_->clock_s - even_.front().clock_s) / span_s});
     while (!measured_.empty() && measured_.front().arrived_s < now_s - kLook_s)
       measured_.pop_front();
+    if (rate_ != 1.0 && is_in_step()) measured_.erase(measured_.begin(), measured_.end() - kEnough);
     std::vector<double> rates;
     for (const Measured& one : measured_) rates.push_back(one.rate);
     const double rate = core::median(std::move(rates));
     const bool off = std::abs(rate - 1.0) > (rate_ == 1.0 ? kOff : kOn);
-    const bool known = measured_.size() >= kEnough && rate > kSlowest && rate < kFastest;
+    const bool known = std::ssize(measured_) >= kEnough && rate > kSlowest && rate < kFastest;
     rate_ = known && off ? rate : 1.0;
   }
 
@@ -100,7 +114,8 @@ class SourceClock {
   std::deque<Measured> measured_;
   std::optional<Stamp> last_;
   std::optional<double> late_at_once_s_;
-  double late_s_ = 0.0;  // the last packet
+  double late_s_ = 0.0;   // the last packet
+  double ahead_s_ = 0.0;  // its step of the clock, of the time between packets
   double rate_ = 1.0;
 };
 

@@ -101,7 +101,8 @@ class AirportTable {
 
   void add_taxiways(const Airport& airport, double light_rcs_m2) {
     for (const AirportPavement& pavement : airport.pavements)
-      scene_.pavements.push_back({pavement.surface.material, pavement.rings, place_});
+      scene_.pavements.push_back(
+          {pavement.surface.material, pavement.rings, place_, pavement.place});
     LightRowDescription lights{"taxiway light", {}, kTaxiwayLightHeight_m, light_rcs_m2, place_};
     for (const AirportLine& line : airport.taxiway_lights) add_lights(line, lights.at);
     if (!lights.at.empty()) scene_.light_rows.push_back(std::move(lights));

@@ -237,6 +237,7 @@ Bodies build_bodies(const SceneDescription& scene, const Ground& ground, const M
   for (const ModelDescription& model : scene.models)
     guarded(model.place, "model",
             [&] { add_model(model, ground, names, model_materials, budget, problems, bodies); });
+  bodies.files.assign(budget.files().begin(), budget.files().end());
   return bodies;
 }
 

@@ -92,7 +92,8 @@ struct SurfaceDescription {
 struct PavementDescription {
   std::string material;
   std::vector<std::vector<core::Geodetic>> rings;
-  core::Place place;
+  core::Place place;  // of the scene's [[airport]]
+  core::Place row;    // of the airport's file
 };
 
 struct LightRowDescription {
@@ -269,9 +270,10 @@ struct SceneDescription {
   double rays_per_cell = 0.0, accuracy_grey = 0.0, time_budget_ms = 0.0;
   renderer::CasterWish caster = renderer::CasterWish::automatic;
   core::Place caster_place;
-  bool sample = false;                       // frames show one realisation, not the expected power
-  core::ResolvedConfig resolved;             // every setting with its default, for run.json
-  std::vector<std::filesystem::path> files;  // what the scene is made of beside scene.toml
+  bool sample = false;            // frames show one realisation, not the expected power
+  core::ResolvedConfig resolved;  // every setting with its default, for run.json
+  // What the scene is made of beside scene.toml; files of models and buildings once they are read.
+  std::vector<std::filesystem::path> files;
 };
 
 }  // namespace fanbeam::scenes

@@ -16,6 +16,7 @@ std::string FileBudget::read(const std::filesystem::path& file, std::uint64_t la
                             "more than " + std::to_string(kMostBodyFiles_bytes) + " bytes",
                             "at most that, a file counted each time it is placed");
   if (!unreadable) left_bytes_ -= size_bytes;
+  files_.insert(file);
   return core::read_file(file, largest_bytes);
 }
 

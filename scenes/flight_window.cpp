@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "scenes/placed_problems.h"
 #include "scenes/scene_pose.h"
 
 namespace fanbeam::scenes {
@@ -71,7 +72,13 @@ void check_flight(const SceneDescription& scene, const terrain::LocalFrame& fram
                   core::ProblemList& problems) {
   const double rate_Hz = scene.sensor.scan.frame_rate_Hz;
   const core::Place& place = scene.trajectory.place;
-  const int frames = trajectory.frame_count(rate_Hz);
+  int frames = 0;
+  try {
+    frames = trajectory.frame_count(rate_Hz);
+  } catch (const core::InputError& error) {
+    append_placed(problems, error, place, "trajectory");
+    return;
+  }
   if (frames == 0)
     problems.error(ErrorClass::range, place, "trajectory",
                    number_text(trajectory.end_s() - trajectory.begin_s()) + " s long",

@@ -12,7 +12,7 @@ namespace fanbeam::scenes {
 // In the middle of every frame the antenna, where its mounting puts it, must be over the terrain and
 // above it, and there must be a frame. Adds E-RANGE to `problems`: for the first frame outside the
 // terrain and the first in the ground, with the longest time between such frames; for a flight
-// shorter than one frame.
+// shorter than one frame. E-LIMIT for one of more than kMostFrames.
 void check_flight(const SceneDescription& scene, const terrain::LocalFrame& frame,
                   const Trajectory& trajectory, const terrain::HeightField& ground,
                   core::ProblemList& problems);

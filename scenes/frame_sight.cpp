@@ -31,13 +31,11 @@ std::vector<RainCell> those(const std::vector<RainCell>& cells, const May& may) 
 // Whether anything is seen past the fan: by mirrored rays, or a target in the antenna's side lobes, or
 // so steeply above or below that its beam reaches far aside.
 bool sees_beside(const renderer::SceneFacts& facts) {
-  const sensors::Antenna& antenna = facts.sensor.antenna;
-  const double steepest_rad =
-      std::min(std::abs(antenna.boresight_elevation_rad) + sensors::reach_rad(antenna.elevation),
-               core::kPi / 2);
+  const sensors::Sensor& sensor = facts.sensor;
   return renderer::has_mirrored_echo(facts) ||
          (facts.has_point_targets &&
-          sensors::azimuth_reach_rad(facts.sensor, steepest_rad) > fan_margin_rad(facts.sensor));
+          sensors::azimuth_reach_rad(sensor, sensors::steepest_rad(sensor)) >
+              fan_margin_rad(sensor));
 }
 
 // Whether rays of the fan, and with `beside` others as well, may pass the cell.

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -25,10 +26,15 @@ struct Objects {
   terrain::ObjectId add(const std::string& name, renderer::ObjectKind kind);
 };
 
+// Of a pavement of [[airport]] with its holes, curves cut into eighths. Its holes are joined to it in a time with
+// the square of this: a second.
+inline constexpr std::size_t kMostPavementCorners = 50'000;
+
 // The pavements of [[airport]], the rectangles of [[surface]] on them, the runways on top, each in file
 // order. Adds "pavement 1", "surface 1" and so on, "runway 36/18" and "runway 36/18 markings" to `objects`.
-// E-LIMIT for the one after which they lie on more than `most_cells` of the ground (terrain::cells_under);
-// what would follow is left out.
+// E-LIMIT for a pavement of more corners, W-SKIPPED for one that reaches beyond 1000 km, both at their row of
+// the airport's file; E-LIMIT for the one after which they lie on more than `most_cells` of the ground
+// (terrain::cells_under); what would follow is left out.
 std::vector<terrain::SurfacePatch> build_patches(
     const SceneDescription& scene, const Ground& ground, const MaterialNames& names,
     Objects& objects, core::ProblemList& problems,
@@ -45,6 +51,7 @@ struct Bodies {
   // Those before, and "hangar" of a box, "buildings.geojson 17" of a footprint, "truck: cabin" of a
   // model's node.
   Objects objects{};
+  std::vector<std::filesystem::path> files{};  // read for them, a model's buffers too
 };
 
 // Walls go this far into the ground, so that no gap shows on a slope between two posts.

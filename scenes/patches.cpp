@@ -39,7 +39,14 @@ terrain::Ring_m with_holes(const terrain::Polygon_m& polygon_m) {
 
 void add_pavement(const PavementDescription& pavement, const Ground& ground,
                   const MaterialNames& names, Objects& objects,
-                  std::vector<terrain::SurfacePatch>& patches) {
+                  std::vector<terrain::SurfacePatch>& patches, core::ProblemList& problems) {
+  std::size_t corners = 0;
+  for (const std::vector<core::Geodetic>& ring : pavement.rings) corners += ring.size();
+  if (corners > kMostPavementCorners)
+    return problems.error(core::ErrorClass::limit, pavement.row, "pavement",
+                          std::to_string(corners) + " corners",
+                          "at most " + std::to_string(kMostPavementCorners) +
+                              ", an eighth of a curve counted as one");
   std::vector<terrain::Ring_m> rings_m;
   for (const std::vector<core::Geodetic>& ring : pavement.rings) {
     rings_m.emplace_back();
@@ -50,7 +57,9 @@ void add_pavement(const PavementDescription& pavement, const Ground& ground,
     return std::max(std::abs(p.x), std::abs(p.y)) > terrain::kLargestCoordinate_m;
   };
   for (const terrain::Ring_m& ring_m : rings_m)
-    if (std::any_of(ring_m.begin(), ring_m.end(), is_far)) return;
+    if (std::any_of(ring_m.begin(), ring_m.end(), is_far))
+      return problems.warning("SKIPPED", pavement.row, "pavement",
+                              "a corner more than 1000 km from the scene's origin", "left out");
   const terrain::Ring_m outer_m = rings_m.front();
   rings_m.erase(rings_m.begin());
   const terrain::MaterialId material = names.id(pavement.material, pavement.place, "airport");
@@ -96,7 +105,7 @@ std::vector<terrain::SurfacePatch> build_patches(const SceneDescription& scene,
   std::vector<terrain::SurfacePatch> patches;
   CellBudget budget(ground, problems, most_cells);
   for (const PavementDescription& pavement : scene.pavements) {
-    add_pavement(pavement, ground, names, objects, patches);
+    add_pavement(pavement, ground, names, objects, patches, problems);
     if (!budget.holds(patches, pavement.place, "airport")) return patches;
   }
   for (const SurfaceDescription& surface : scene.surfaces) {

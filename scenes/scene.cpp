@@ -115,8 +115,8 @@ std::unique_ptr<Scene> build_scene(const SceneDescription& description, const Bu
   setting.runways = runway_places(description, ground);
   setting.raised_buildings = bodies.raised;
   setting.floating_buildings = bodies.floating;
-  for (const std::filesystem::path& file : model_materials.files())
-    setting.description.files.push_back(file);
+  for (const auto& files : {bodies.files, model_materials.files()})
+    setting.description.files.insert(setting.description.files.end(), files.begin(), files.end());
   std::vector<std::string> material_names = names_of(library, model_materials);
   SightMap sight(ground.field(), patches, bodies.meshes);
   setting.site = std::make_shared<const Site>(Site::Parts{

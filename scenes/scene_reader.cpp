@@ -260,9 +260,6 @@ void list_files(SceneDescription& scene) {
   for (const fs::path& file :
        {scene.terrain.elevation, scene.terrain.land_cover, scene.trajectory.file})
     if (!file.empty()) scene.files.push_back(file);
-  for (const ModelDescription& model : scene.models) scene.files.push_back(model.file);
-  for (const BuildingsDescription& buildings : scene.buildings)
-    scene.files.push_back(buildings.file);
 }
 
 void read_databases(ConfigTable& root, SceneDescription& scene) {

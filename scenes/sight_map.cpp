@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/constants.h"
-#include "sensors/antenna/beam_pattern.h"
+#include "sensors/antenna/column_place.h"
 
 namespace fanbeam::scenes {
 namespace {
@@ -38,13 +38,17 @@ double farthest_m(const sensors::Sensor& sensor) {
 // Directions of the fan and a sphere: false only where they certainly miss each other.
 class Fan {
  public:
-  // `wider_rad` on both sides.
-  Fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor, double wider_rad = 0.0)
-      : antenna_(antenna), cone_(sensor.scan.surface == sensors::ScanSurface::cone) {
-    const double half_rad = sensor.scan.field_of_view_rad / 2 + fan_margin_rad(sensor) + wider_rad;
-    all_round_ = half_rad >= core::kPi / 2;
-    sine_ = std::sin(std::min(half_rad, core::kPi / 2));
-    cosine_ = std::cos(std::min(half_rad, core::kPi / 2));
+  Fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor)
+      : Fan(antenna, half_of(sensor), sensor.scan.surface) {}
+  Fan(const sensors::AntennaFrame& antenna, double half_rad, sensors::ScanSurface surface)
+      : antenna_(antenna),
+        cone_(surface == sensors::ScanSurface::cone),
+        all_round_(half_rad >= core::kPi / 2),
+        sine_(std::sin(std::min(half_rad, core::kPi / 2))),
+        cosine_(std::cos(std::min(half_rad, core::kPi / 2))) {}
+
+  static double half_of(const sensors::Sensor& sensor) {
+    return sensor.scan.field_of_view_rad / 2 + fan_margin_rad(sensor);
   }
 
   bool may_meet(const glm::dvec3& centre_m, double radius_m) const {
@@ -68,9 +72,9 @@ class Fan {
   }
 
  private:
-  const sensors::AntennaFrame& antenna_;
-  bool cone_, all_round_ = false;
-  double sine_ = 0.0, cosine_ = 0.0;
+  sensors::AntennaFrame antenna_;
+  bool cone_, all_round_;
+  double sine_, cosine_;
 };
 
 // How far ground whose facets rise at most `slope` turns a ray of the beam to the side: the mirrored
@@ -79,12 +83,38 @@ class Fan {
 double largest_turn_rad(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
                         double slope_rad) {
   const double tilt_rad = std::acos(std::clamp(antenna.up.z, -1.0, 1.0));
-  const double ray_rad = sensors::reach_rad(sensor.antenna.elevation) +
-                         std::abs(sensor.antenna.boresight_elevation_rad) + tilt_rad;
+  const double ray_rad = sensors::steepest_rad(sensor) + tilt_rad;
   const double grazing_rad = ray_rad + slope_rad;
   if (grazing_rad >= core::kPi / 2) return core::kPi;
   const double sine = 2.0 * std::sin(grazing_rad) * std::sin(slope_rad) / std::cos(ray_rad);
   return sine < 1.0 ? std::asin(sine) : core::kPi;
+}
+
+// The fan's azimuths in the scene's horizontal, which is what level ground keeps of a ray that it
+// mirrors: those of the antenna turned level under its heading, wider by what the turn back moves
+// the steepest ray aside, and by `wider_rad`. The azimuth a of a ray on a cone is atan(tan a / cos e)
+// there.
+Fan level_fan(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
+              double wider_rad) {
+  sensors::AntennaFrame level;
+  level.position_m = antenna.position_m;
+  const glm::dvec2 heading(antenna.forward);
+  const double steepest = sensors::steepest_rad(sensor);
+  double half_rad = core::kPi;
+  if (steepest < core::kPi / 2 && glm::length(heading) > 0.0) {
+    level.forward = glm::dvec3(glm::normalize(heading), 0.0);
+    level.right = {level.forward.y, -level.forward.x, 0.0};
+    // |d - d0| of a direction and its turned one: 2 sin(turn / 2), the trace being 1 + 2 cos(turn).
+    const double chord =
+        std::sqrt(std::max(0.0, 3.0 - glm::dot(antenna.forward, level.forward) -
+                                    glm::dot(antenna.right, level.right) - antenna.up.z));
+    const double moved = chord / std::cos(steepest);
+    half_rad = Fan::half_of(sensor);
+    if (sensor.scan.surface == sensors::ScanSurface::cone && half_rad < core::kPi / 2)
+      half_rad = std::atan(std::tan(half_rad) / std::cos(steepest));
+    half_rad += wider_rad + (moved < 1.0 ? std::asin(moved) : core::kPi);
+  }
+  return {level, half_rad, sensors::ScanSurface::plane};
 }
 
 }  // namespace
@@ -241,9 +271,26 @@ bool SightMap::fan_may_meet(const sensors::AntennaFrame& antenna, const sensors:
 
 bool SightMap::ends_within_range(const sensors::AntennaFrame& antenna,
                                  const sensors::Sensor& sensor) const {
-  const glm::dvec3& at_m = antenna.position_m;
-  return std::min({at_m.x - tiles_->west_m, tiles_->east_m - at_m.x, at_m.y - tiles_->south_m,
-                   tiles_->north_m - at_m.y}) <= farthest_m(sensor);
+  const glm::dvec2 at_m(antenna.position_m);
+  const glm::dvec2 low_m(tiles_->west_m, tiles_->south_m);
+  const glm::dvec2 high_m(tiles_->east_m, tiles_->north_m);
+  if (glm::clamp(at_m, low_m, high_m) != at_m) return true;
+  const double far_m = farthest_m(sensor);
+  const Fan fan(antenna, sensor);
+  // Pieces of what of a side is within range.
+  constexpr int kPieces = 64;
+  const double piece_m = 2.0 * far_m / kPieces;
+  const auto meets = [&](int axis, double side_m) {
+    if (std::abs(side_m - at_m[axis]) > far_m) return false;
+    for (int piece = 0; piece < kPieces; ++piece) {
+      glm::dvec2 middle_m;
+      middle_m[axis] = side_m;
+      middle_m[1 - axis] = at_m[1 - axis] - far_m + (piece + 0.5) * piece_m;
+      if (fan.may_meet_column(middle_m, piece_m / 2.0, far_m)) return true;
+    }
+    return false;
+  };
+  return meets(0, low_m.x) || meets(0, high_m.x) || meets(1, low_m.y) || meets(1, high_m.y);
 }
 
 SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
@@ -282,7 +329,8 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
     steepest_mirror = std::max(steepest_mirror, tile.steepest);
     highest_mirror_m = std::max(highest_mirror_m, tile.highest_ground_m);
   }
-  const Fan turned(antenna, sensor, largest_turn_rad(antenna, sensor, std::atan(steepest_mirror)));
+  const Fan turned =
+      level_fan(antenna, sensor, largest_turn_rad(antenna, sensor, std::atan(steepest_mirror)));
   const bool meets_bodies = std::any_of(bodies.begin(), bodies.end(), [&](const Tile* tile) {
     return bodies_mirror || (ground_in_fan && may_meet(turned, *tile));
   });

@@ -9,7 +9,9 @@
 // (bounce_tracer.h), so without a mirror inside the fan and the farthest range it has nothing to
 // add. Behind a mirror it needs something to meet: a body, which lies within the farthest range of
 // the antenna because |OB| <= R1 + R2, and, where the ground alone mirrors, no farther beside the fan
-// than its slopes turn a ray; or the ground. A ray that comes down at the angle d onto
+// than its slopes turn a ray; or the ground. Beside the fan means by azimuths of the scene's
+// horizontal, which level ground keeps; those of an antenna that leans, or scans a cone, it does not.
+// A ray that comes down at the angle d onto
 // ground of slope s leaves at the angle d - 2 s or more, and what it meets lies at a chord of the
 // ground that is nowhere steeper than its steepest facet, t: with
 //     d - 2 s > t ,   sin d >= (antenna - highest mirroring ground) / farthest range
@@ -56,7 +58,7 @@ class SightMap {
   // Whether the fan may see a vertical column within the farthest range.
   bool fan_may_meet(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor,
                     const glm::dvec2& centre_m, double radius_m) const;
-  // Whether the ground ends within the farthest range.
+  // Whether the fan may pass the rim of the ground within the farthest range, or begins beyond it.
   bool ends_within_range(const sensors::AntennaFrame& antenna, const sensors::Sensor& sensor) const;
 
  private:

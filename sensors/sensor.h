@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/errors.h"
 #include "core/polarisation.h"
 
 namespace fanbeam::sensors {
@@ -95,6 +96,7 @@ struct Waveform {
   // Own-ship Doppler's shift of range is taken off. What leaves it in has no pictures of powers
   // (session::Setup::pictures), only signals.
   bool doppler_compensated = true;
+  core::Place doppler_place{};                                       // of that key in its file
   core::Polarisation polarisation = core::Polarisation::horizontal;  // sent and received
   Window window = Window::none;
   double taylor_side_lobe = 3.1622776601683795e-4;  // highest lobe over the peak, power: -35 dB

@@ -102,6 +102,7 @@ void read_waveform(ConfigTable table, Waveform& waveform) {
   waveform.transmit_power_W = table.required_number("transmit_power_W", above_zero(1e9));
   read_window(table, waveform);
   waveform.doppler_compensated = table.boolean("doppler_compensated", true);
+  waveform.doppler_place = table.place("doppler_compensated");
   waveform.polarisation =
       static_cast<core::Polarisation>(table.choice("polarisation", {"HH", "VV"}, 0));
 }

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/number_range.h"
 #include "core/pose.h"
 #include "core/swerling.h"
 #include "materials/rcs/rcs.h"
@@ -28,9 +29,12 @@ struct TargetState {
 
 // What a pilot's panel and an installer set; the rest of a sensor is its file's.
 struct SensorSettings {
+  static constexpr core::NumberRange kLevels_dB{-400.0, 400.0};
+
   std::optional<double> boresight_elevation_rad{};  // tilt, -pi/2 to pi/2; the C-scope goes along
   std::optional<bool> stabilised{};
-  std::optional<double> low_dB{}, high_dB{};  // of the display's window, low below high
+  std::optional<double> low_dB{},
+      high_dB{};  // of the display's window, low below high, in kLevels_dB
   std::optional<sensors::Display::CScopeMode> cscope_mode{};
   std::optional<double> noise_figure{};  // of the receiver, linear, 1 to 1e6
 };

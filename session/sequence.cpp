@@ -151,7 +151,7 @@ void Run::render_frames(const ProgressListener& progress) {
     FrameRecord record = frame_record(index, plan);
     if (!settings_.resume || !take_over(output_.path(), settings_.products, fingerprint_, record)) {
       FrameOutput output = render_frame(plan, record);
-      output_.begin_frames();
+      output_.begin_frames(settings_.products);
       if (preview)
         preview->add(side_by_side(sensors::bscope_picture(sensor, output.frame.bscope_grey),
                                   sensors::cscope_picture(sensor, output.frame.cscope_grey)));

@@ -110,7 +110,7 @@ sensors::Sensor with_settings(sensors::Sensor sensor, const SensorSettings& sett
   if ((settings.low_dB || settings.high_dB) && display.mapping == sensors::Display::Mapping::seed)
     problems.error(core::ErrorClass::unsupported, {}, "low_dB, high_dB", "with mapping \"seed\"",
                    "mapping \"stc\" or \"log\"; \"seed\" has a window of its own");
-  constexpr core::NumberRange kLevels_dB{-400.0, 400.0};
+  constexpr core::NumberRange kLevels_dB = SensorSettings::kLevels_dB;
   if (settings.low_dB) core::check_range(problems, "low_dB", *settings.low_dB, kLevels_dB, "dB");
   if (settings.high_dB) core::check_range(problems, "high_dB", *settings.high_dB, kLevels_dB, "dB");
   display.low_dB = settings.low_dB.value_or(display.low_dB);
@@ -195,11 +195,12 @@ void Session::open(scenes::SceneDescription description, const Setup& setup,
                    core::ProblemList& problems) {
   if (setup.build.accuracy_grey != 0.0) check(Accuracy{setup.build.accuracy_grey}, problems);
   if (setup.pictures && !description.sensor.waveform.doppler_compensated)
-    problems.error(core::ErrorClass::unsupported, {}, "waveform.doppler_compensated", "false",
+    problems.error(core::ErrorClass::unsupported, description.sensor.waveform.doppler_place,
+                   "waveform.doppler_compensated", "false",
                    "true: pictures have no range shift by own-ship Doppler; fanbeam fmcw "
                    "--products bscope has");
   if (setup.sample) description.sample = *setup.sample;
-  if (setup.sample && !*setup.sample) renderer::refuse_draws(setup.build.wishes);
+  if (setup.sample && !*setup.sample) renderer::refuse_draws(setup.build.wishes, problems);
   inside_->seed = setup.seed;
   inside_->threads = setup.threads;
   inside_->opened = scenes::build_scene(description, setup.build, problems);

@@ -52,30 +52,30 @@ std::vector<std::string> shipped_sensors(const fs::path& shipped) {
   return names;
 }
 
-fs::path find_scene(const std::string& name, const fs::path& shipped) {
+fs::path find_scene(const fs::path& name, const fs::path& shipped) {
   std::error_code refused;  // such as a name too long to be one
-  for (const fs::path& candidate : {fs::path(name), shipped / name, shipped / "scenes" / name})
+  for (const fs::path& candidate : {name, shipped / name, shipped / "scenes" / name})
     if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused))
       return candidate;
-  core::throw_input_error(core::ErrorClass::io, core::Place{name}, "scene", "not found",
+  core::throw_input_error(core::ErrorClass::io, "scene", "\"" + name.string() + "\" not found",
                           "a folder with scene.toml, or one of the shipped scenes:" +
-                              nearest_first(name, shipped_scenes(shipped)));
+                              nearest_first(name.string(), shipped_scenes(shipped)));
 }
 
-fs::path find_sensor(const std::string& name, const fs::path& shipped, const std::string& field) {
+fs::path find_sensor(const fs::path& name, const fs::path& shipped, const std::string& field) {
   std::error_code refused;
-  for (const fs::path& candidate : {fs::path(name), shipped / "sensors" / (name + ".toml")})
+  for (const fs::path& candidate : {name, shipped / "sensors" / (name.string() + ".toml")})
     if (fs::is_regular_file(candidate, refused)) return candidate;
-  core::throw_input_error(core::ErrorClass::io, field, "\"" + name + "\" not found",
+  core::throw_input_error(core::ErrorClass::io, field, "\"" + name.string() + "\" not found",
                           "a sensor file, or one of the shipped sensors:" +
-                              nearest_first(name, shipped_sensors(shipped)));
+                              nearest_first(name.string(), shipped_sensors(shipped)));
 }
 
-void check_data_folder(const std::string& folder, const std::string& field,
+void check_data_folder(const fs::path& folder, const std::string& field,
                        core::ProblemList& problems) {
   std::error_code refused;
   if (!fs::is_directory(folder, refused))
-    problems.error(core::ErrorClass::io, {}, field, "\"" + folder + "\"",
+    problems.error(core::ErrorClass::io, {}, field, "\"" + folder.string() + "\"",
                    "a folder that exists, with terrain and flight data");
 }
 

@@ -20,15 +20,16 @@ std::vector<std::string> shipped_sensors(const std::filesystem::path& shipped);
 
 // A folder with scene.toml, that file, or the name of a shipped scene ("braunschweig-26",
 // "scenes/braunschweig-26"). Throws InputError E-IO with the names there are.
-std::filesystem::path find_scene(const std::string& name, const std::filesystem::path& shipped);
+std::filesystem::path find_scene(const std::filesystem::path& name,
+                                 const std::filesystem::path& shipped);
 
 // A sensor file, or the name of a shipped sensor ("hivision-94"). Throws InputError E-IO, about
 // `field`.
-std::filesystem::path find_sensor(const std::string& name, const std::filesystem::path& shipped,
-                                  const std::string& field);
+std::filesystem::path find_sensor(const std::filesystem::path& name,
+                                  const std::filesystem::path& shipped, const std::string& field);
 
 // Whose data is looked at first. E-IO, about `field`, where it is no folder.
-void check_data_folder(const std::string& folder, const std::string& field,
+void check_data_folder(const std::filesystem::path& folder, const std::string& field,
                        core::ProblemList& problems);
 
 }  // namespace fanbeam::session

@@ -70,7 +70,7 @@ std::vector<PointTarget> placed_targets(const scenes::Scene& scene,
     // It stands in tables and on terminals.
     if (state.name.empty() || !core::is_printable_text(state.name))
       problems.error(core::ErrorClass::range, {}, field + ".name", "\"" + state.name + "\"",
-                     "a name without control characters");
+                     "a name of UTF-8 without control characters");
     if (!named.insert(state.name).second)
       problems.error(core::ErrorClass::ref, {}, field + ".name", "\"" + state.name + "\" again",
                      "every target once");

@@ -166,9 +166,9 @@ class RayScene {
 
   // Upper bound of the height of mesh geometry (terrain/mesh_tops.h). Guides the elevation fan.
   double mesh_top_m(double x_m, double y_m) const noexcept { return tops_.top_m(x_m, y_m); }
-  // Points so far apart miss no top; it stands no farther than that from where it was found.
+  // Points so far apart miss no top; it stands no farther than tops_reach_m from where it was found.
   static constexpr double kTopsStep_m = 2.0 * MeshTops::kBeside_m;
-  static constexpr double kTopsReach_m = MeshTops::kSpacing_m + MeshTops::kBeside_m;
+  double tops_reach_m() const noexcept { return tops_.spacing_m() + MeshTops::kBeside_m; }
 
  private:
   struct Library;

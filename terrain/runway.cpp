@@ -10,12 +10,13 @@ namespace {
 glm::dvec2 across(glm::dvec2 along) { return {-along.y, along.x}; }
 
 // Paints rectangles in runway coordinates: s metres behind the threshold, t metres left of the
-// centre line.
+// centre line. What would reach beyond the pavement's edges is left out.
 class MarkingPainter {
  public:
   MarkingPainter(const Runway& runway, int end, std::vector<SurfacePatch>& patches)
       : origin_(runway.threshold_m(end)),
         along_(end == 0 ? runway.along() : -runway.along()),
+        half_width_m_(runway.width_m / 2),
         material_(runway.materials.marking),
         patches_(patches) {}
 
@@ -25,12 +26,15 @@ class MarkingPainter {
                         length_m, width_m, material_));
   }
   void pair(double s_m, double t_m, double length_m, double width_m) {
+    constexpr double kRounding_m = 1e-6;  // side stripes end on the edge
+    if (t_m + width_m / 2 > half_width_m_ + kRounding_m) return;
     rectangle(s_m, t_m, length_m, width_m);
     rectangle(s_m, -t_m, length_m, width_m);
   }
 
  private:
   glm::dvec2 origin_, along_;
+  double half_width_m_;
   MaterialId material_;
   std::vector<SurfacePatch>& patches_;
 };
@@ -43,6 +47,14 @@ int stripes_per_side(double width_m) {
   return width_m < 60.0 ? 6 : 8;
 }
 
+// Of the touchdown zone, Annex 14, 5.2.6.3.
+int touchdown_pairs(double landing_length_m) {
+  if (landing_length_m < 900.0) return 1;
+  if (landing_length_m < 1200.0) return 2;
+  if (landing_length_m < 1500.0) return 3;
+  return landing_length_m < 2400.0 ? 4 : 6;
+}
+
 void paint_end(const Runway& runway, int end, double landing_length_m,
                std::vector<SurfacePatch>& patches) {
   MarkingPainter paint(runway, end, patches);
@@ -51,8 +63,11 @@ void paint_end(const Runway& runway, int end, double landing_length_m,
     paint.pair(6.0, 1.8 + 3.6 * i, 30.0, 1.8);
   const double aiming_m = landing_length_m < 2400.0 ? 300.0 : 400.0;
   if (aiming_m + 45.0 < reach_m) paint.pair(aiming_m, 11.5, 45.0, 6.0);
-  for (double s_m = 150.0; s_m + 22.5 < std::min(reach_m, 901.0); s_m += 150.0)
-    if (s_m != aiming_m) paint.pair(s_m, 10.5, 22.5, 3.0);
+  for (int i = 1; i <= touchdown_pairs(landing_length_m); ++i) {
+    const double s_m = 150.0 * i;
+    const bool at_aiming_point = std::abs(s_m - aiming_m) <= 50.0;  // 5.2.6.5
+    if (!at_aiming_point && s_m + 22.5 < reach_m) paint.pair(s_m, 10.5, 22.5, 3.0);
+  }
 }
 
 std::vector<SurfacePatch> pavement_patches(const Runway& runway) {

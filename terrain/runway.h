@@ -4,9 +4,11 @@
 // Marking sizes follow ICAO Annex 14 Vol. I (8th edition, 5.2): threshold stripes 30 m long, 1.8 m
 // wide and 1.8 m apart, 6 m behind the threshold; centre-line stripes 30 m with 20 m gaps; aiming
 // point 300 m (below 2400 m length) or 400 m behind the threshold; touchdown-zone pairs every 150
-// m; side stripes 0.9 m. Approach lights follow the precision category I pattern (5.3.4): 900 m of
-// centre line every 30 m, one cross bar at 300 m. Neglected: runway numbers, displaced-threshold
-// arrows, paint wear.
+// m, one to six by the landing length, none within 50 m of the aiming point; side stripes 0.9 m. Approach
+// lights follow the precision category I pattern (5.3.4): 900 m of centre line every 30 m, one cross bar at
+// 300 m. Markings that would reach beyond the pavement of a narrow runway are left out: aiming points below
+// 29 m of width, touchdown zones below 24 m, threshold stripes farther out than half the width. Neglected:
+// runway numbers, displaced-threshold arrows, paint wear, aiming points nearer than 300 m of short runways.
 #pragma once
 
 #include <glm/vec2.hpp>

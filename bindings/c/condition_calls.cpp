@@ -53,22 +53,33 @@ session::TargetState state_of(const fanbeam_target& target) {
   return state;
 }
 
-// Where the state before had an attitude or an rcs and this one has not, they stay.
-void merge(session::TargetState state, std::vector<session::TargetState>& states) {
+// Where the state before had an attitude or an rcs and this one has not, they stay. Its index.
+std::size_t merge(session::TargetState state, std::vector<session::TargetState>& states) {
   const auto before = std::find_if(states.begin(), states.end(),
                                    [&](const auto& known) { return known.name == state.name; });
   if (before == states.end()) {
     states.push_back(std::move(state));
-    return;
+    return states.size() - 1;
   }
   if (!state.q_NB) state.q_NB = before->q_NB;
   if (!state.rcs) state.rcs = before->rcs;
   *before = std::move(state);
+  return static_cast<std::size_t>(before - states.begin());
 }
 
-// The caller holds handle.changing.
-void put(fanbeam_session& handle, std::vector<session::TargetState> states) {
-  const core::ProblemList warnings = handle.held.set(std::span<const session::TargetState>(states));
+// The caller holds handle.changing. Of the targets one is given by the caller, or all are: what the
+// session calls `theirs`, "target[2]", is the caller's `ours`.
+void put(fanbeam_session& handle, std::vector<session::TargetState> states,
+         const std::string& theirs, const std::string& ours) {
+  core::ProblemList warnings;
+  try {
+    warnings = handle.held.set(std::span<const session::TargetState>(states));
+  } catch (const core::InputError& error) {
+    std::vector<core::Problem> problems = error.problems();
+    for (core::Problem& problem : problems)
+      if (problem.field.starts_with(theirs)) problem.field.replace(0, theirs.size(), ours);
+    throw core::InputError(std::move(problems));
+  }
   handle.targets = std::move(states);
   bindings::tell_warnings(warnings);
 }
@@ -106,8 +117,8 @@ fanbeam_status fanbeam_set_target(fanbeam_session* session, const fanbeam_target
     arguments.done();
     const std::lock_guard<std::mutex> one(session->changing);
     std::vector<session::TargetState> states = session->targets;
-    merge(state_of(*target), states);
-    put(*session, std::move(states));
+    const std::size_t index = merge(state_of(*target), states);
+    put(*session, std::move(states), "target[" + std::to_string(index) + "]", "target");
     return FANBEAM_OK;
   });
 }
@@ -134,7 +145,7 @@ fanbeam_status fanbeam_set_targets(fanbeam_session* session, const fanbeam_targe
     }
     arguments.done();
     const std::lock_guard<std::mutex> one(session->changing);
-    put(*session, std::move(states));
+    put(*session, std::move(states), "target[", "targets[");
     return FANBEAM_OK;
   });
 }

@@ -23,7 +23,8 @@
  * Threads: every function may be called at any time from any thread and from tasks of oneTBB, on one
  * session or several, but for fanbeam_close (and fanbeam_free_layers on the layers it frees): no
  * other call on that session may be under way then or come later. Frames keep the conditions that
- * they began with; the bytes of a frame depend on its conditions, pose and number alone. */
+ * they began with; the bytes of a frame depend on its conditions, pose and number alone. A forked
+ * child has none of the threads: it must exec, or leave by _exit. */
 #ifndef FANBEAM_FANBEAM_H
 #define FANBEAM_FANBEAM_H
 
@@ -92,7 +93,7 @@ typedef struct fanbeam_setup {
   int32_t threads; /* at most, for a frame: to 1024; 0: as many as the caller's tasks have */
   uint64_t seed;   /* of everything random */
   const char* shipped_folder; /* holds scenes/, sensors/ and materials/: PREFIX/share/fanbeam */
-  const char* const* data_folders; /* searched in this order; NULL: none */
+  const char* const* data_folders; /* that exist, searched in this order; NULL: none */
   size_t data_folder_count;        /* at most 256 */
   const char* sensor_file;         /* NULL or "": the scene's */
   const char* effects;     /* "all", "none", "+rain,-gas"; NULL or "": as the scene calls for */

@@ -4,9 +4,11 @@
 // A few slots, each with a count of the readers that hold it. The writer fills a slot that nobody
 // holds and that is not the newest one, then names it the newest. A reader counts itself into the
 // newest slot, copies what it wants and counts itself out. The writer may have taken that slot in
-// between (it then was no longer the newest): the reader sees the mark and looks again. That takes
-// two frames within two instructions of the reader, and after kAttempts of it the reader goes home
-// with nothing: a bounded number of steps, whatever others do.
+// between, or filled it with a newer frame that is not named yet; it then was no longer the newest.
+// So the reader, counted in, asks again which is the newest and lets go where that is another one:
+// what it would hold might be ahead of its turn, and the next one then older. That takes a frame
+// within three instructions of the reader, and after kAttempts of it the reader goes home with
+// nothing: a bounded number of steps, whatever others do.
 //
 // Contents need not be atomic: whoever counts itself in sees all that the writer did before it took
 // its mark away (release, acquire), and the writer takes a slot only after the last reader's release.
@@ -60,8 +62,9 @@ class NewestRing {
       const std::uint64_t newest = newest_.load(std::memory_order_acquire);
       if (newest == 0 || newest / kSlots == have) return Hold();
       Slot& slot = slots_[newest % kSlots];
-      if ((slot.holders.fetch_add(1, std::memory_order_acquire) & kWriting) == 0) return Hold(slot);
-      slot.holders.fetch_sub(1, std::memory_order_release);
+      const bool writing = (slot.holders.fetch_add(1, std::memory_order_acquire) & kWriting) != 0;
+      Hold hold(slot);
+      if (!writing && newest_.load(std::memory_order_relaxed) == newest) return hold;
     }
     return Hold();
   }

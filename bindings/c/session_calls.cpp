@@ -1,6 +1,8 @@
 // Versions, opening and closing, and what a session says of itself.
 #include <algorithm>
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "bindings/c/arguments.h"
 #include "bindings/c/handle.h"
@@ -9,6 +11,7 @@
 #include "renderer/plan/caster_choice.h"
 #include "renderer/plan/plan.h"
 #include "sensors/display/grey_scale.h"
+#include "session/shipped.h"
 
 using namespace fanbeam;
 using bindings::Arguments;
@@ -38,10 +41,12 @@ std::vector<std::filesystem::path> folders_of(const fanbeam_setup& setup, Argume
                      "at most " + std::to_string(kMostDataFolders));
     return folders;
   }
-  for (std::size_t i = 0; i < setup.data_folder_count; ++i)
-    if (arguments.there(setup.data_folders[i], "setup.data_folders[" + std::to_string(i) + "]",
-                        "a folder"))
-      folders.emplace_back(setup.data_folders[i]);
+  for (std::size_t i = 0; i < setup.data_folder_count; ++i) {
+    const std::string name = "setup.data_folders[" + std::to_string(i) + "]";
+    if (!arguments.there(setup.data_folders[i], name, "a folder")) continue;
+    folders.emplace_back(setup.data_folders[i]);
+    session::check_data_folder(folders.back(), name, arguments.problems());
+  }
   return folders;
 }
 
@@ -54,13 +59,27 @@ void take_caster(const std::string& word, Arguments& arguments, session::Setup& 
   settings.build.caster = renderer::caster_wish(word);
 }
 
+void take_sensor(const std::string& file, Arguments& arguments, session::Setup& settings) {
+  settings.sensor = file;
+  std::error_code refused;
+  if (!file.empty() && !std::filesystem::is_regular_file(settings.sensor, refused))
+    arguments.refuse(core::ErrorClass::io, "setup.sensor_file", "\"" + file + "\" not found",
+                     "a sensor file");
+}
+
+// Of a realisation that was taken before.
 void take_effects(const std::string& text, Arguments& arguments, session::Setup& settings) {
   if (text.empty()) return;
+  core::ProblemList found;
   try {
     settings.build.wishes = renderer::parse_effect_wishes(text);
+    if (settings.sample && !*settings.sample) renderer::refuse_draws(settings.build.wishes, found);
   } catch (const core::InputError& error) {
-    for (const core::Problem& problem : error.problems())
-      arguments.refuse(core::ErrorClass::ref, "setup.effects", problem.value, problem.expected);
+    found.append(error.problems());
+  }
+  for (core::Problem problem : found.all()) {
+    problem.field = "setup.effects";
+    arguments.problems().append({problem});
   }
 }
 
@@ -70,15 +89,15 @@ session::Setup settings_of(const fanbeam_setup& setup, Arguments& arguments) {
                       "the folder with scenes/, sensors/ and materials/"))
     settings.shipped = setup.shipped_folder;
   settings.data_folders = folders_of(setup, arguments);
-  settings.sensor = bindings::text_of(setup.sensor_file);
+  take_sensor(bindings::text_of(setup.sensor_file), arguments, settings);
   settings.build.read.power = true;  // bscope_W and cscope_W_m3 of any frame
   take_caster(bindings::text_of(setup.caster), arguments, settings);
-  take_effects(bindings::text_of(setup.effects), arguments, settings);
   if (setup.realisation != FANBEAM_AS_SCENE) settings.sample = setup.realisation == FANBEAM_SAMPLE;
   if (setup.realisation < FANBEAM_AS_SCENE || setup.realisation > FANBEAM_SAMPLE)
     arguments.refuse(core::ErrorClass::range, "setup.realisation",
                      std::to_string(setup.realisation),
                      "FANBEAM_AS_SCENE, FANBEAM_EXPECTED or FANBEAM_SAMPLE");
+  take_effects(bindings::text_of(setup.effects), arguments, settings);
   settings.keeps_time_budget = !(setup.samples_per_cell > 0.0);
   settings.seed = setup.seed;
   if (setup.threads < 0 || setup.threads > 1024)
@@ -119,7 +138,9 @@ fanbeam_status fanbeam_open(const char* scene, const fanbeam_setup* setup,
   if (session != nullptr) *session = nullptr;
   return bindings::guarded([&] {
     Arguments arguments;
-    arguments.there(scene, "scene", "a folder with scene.toml, or that file");
+    constexpr const char* kScene = "a folder with scene.toml, or that file";
+    if (arguments.there(scene, "scene", kScene) && *scene == '\0')
+      arguments.refuse(core::ErrorClass::io, "scene", "\"\"", kScene);
     arguments.there(session, "session", "a place for the session");
     session::Setup settings;
     if (arguments.sized(setup, "setup")) settings = settings_of(*setup, arguments);

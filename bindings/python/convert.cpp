@@ -1,6 +1,5 @@
 #include "bindings/python/convert.h"
 
-#include "core/number_range.h"
 #include "core/stop.h"
 #include "core/units.h"
 
@@ -24,12 +23,10 @@ constexpr std::array<PoseField, 10> kPoseFields = {
      {"pose.east_mps", {}, "m/s"},
      {"pose.down_mps", {}, "m/s"}}};
 
-void check(const PoseNumbers& numbers) {
-  core::ProblemList problems;
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    core::check_range(problems, kPoseFields[i].name, numbers[i], kPoseFields[i].range,
-                      kPoseFields[i].unit);
-  problems.throw_if_errors();
+// Names of files may hold bytes that are no UTF-8; they become \xff.
+py::str text_of(const std::string& text) {
+  return py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
+      text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
 }
 
 void raise(const core::InputError& error) {
@@ -39,8 +36,22 @@ void raise(const core::InputError& error) {
 
 }  // namespace
 
-core::Pose pose_of(const PoseNumbers& numbers) {
-  check(numbers);
+void refuse_type(const std::string& field, const char* expected, const py::handle& value) {
+  throw py::type_error(field + ": expected " + expected + ", not " +
+                       py::repr(value).cast<std::string>());
+}
+
+py::object whole_number(const py::handle& value) {
+  py::object number = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+  PyErr_Clear();
+  return number;
+}
+
+core::Pose pose_of(const py::tuple& told, core::ProblemList& problems) {
+  PoseNumbers numbers{};
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    numbers[i] = number_of<double>(told[i], kPoseFields[i].name, problems, kPoseFields[i].range,
+                                   kPoseFields[i].unit);
   core::Pose pose;
   pose.time_s = numbers[0];
   pose.position = {core::radians(numbers[1]), core::radians(numbers[2]), numbers[3]};
@@ -68,8 +79,9 @@ py::list problems_list(const std::vector<core::Problem>& problems) {
   const py::object type = py::module_::import("fanbeam._errors").attr("Problem");
   py::list result;
   for (const core::Problem& problem : problems)
-    result.append(type(problem.code, problem.place.file, problem.place.line, problem.place.column,
-                       problem.field, problem.value, problem.expected, core::to_string(problem)));
+    result.append(type(problem.code, text_of(problem.place.file), problem.place.line,
+                       problem.place.column, text_of(problem.field), text_of(problem.value),
+                       text_of(problem.expected), text_of(core::to_string(problem))));
   return result;
 }
 

@@ -4,14 +4,19 @@
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <array>
+#include <filesystem>
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
 #include "core/errors.h"
+#include "core/number_range.h"
 #include "core/pose.h"
 
 namespace fanbeam::bindings {
@@ -21,28 +26,83 @@ namespace py = pybind11;
 // time_s, latitude_deg, longitude_deg, height_m, roll_deg, pitch_deg, heading_deg, then the velocity
 // over ground north_mps, east_mps, down_mps: fanbeam.Pose and a row of Scene.trajectory.
 using PoseNumbers = std::array<double, 10>;
-// Throws InputError E-NONFINITE and E-RANGE, every problem; heights -20 to 1000 km.
-core::Pose pose_of(const PoseNumbers& numbers);
+// Of such numbers as Python told; heights -20 to 1000 km. What is wrong goes to `problems`, each
+// below "pose", and then the pose is none. Throws TypeError.
+core::Pose pose_of(const py::tuple& numbers, core::ProblemList& problems);
 PoseNumbers numbers_of(const core::Pose& pose);
 
 // What a value of this type is called in messages.
 template <class T>
 constexpr const char* words_for() {
   if constexpr (std::is_same_v<T, bool>) return "True or False";
-  if constexpr (std::is_integral_v<T>) return "a whole number in its range";
+  if constexpr (std::is_integral_v<T>) return "a whole number";
   if constexpr (std::is_same_v<T, std::string>) return "a text";
+  if constexpr (std::is_same_v<T, std::filesystem::path>) return "a path";
   return "a number";
 }
 
-// What Python told as `field`. Throws TypeError, which names it, for another type.
+// Throws TypeError: "seed: expected a whole number, not 'x'".
+[[noreturn]] void refuse_type(const std::string& field, const char* expected,
+                              const py::handle& value);
+// As Python counts: 3, numpy.int64(3), not 3.0. Empty for what is no such number.
+py::object whole_number(const py::handle& value);
+
+// What Python told as `field`. Throws TypeError, which names it, for another type. A number of
+// Python's that T cannot hold goes to `problems`, E-RANGE, and T() comes back.
 template <class T>
-T value_of(const py::handle& value, const std::string& field,
+T value_of(const py::handle& value, const std::string& field, core::ProblemList& problems,
            const char* expected = words_for<T>()) {
+  if constexpr (std::is_same_v<T, bool>) {
+    // True and False, NumPy's too; every other object has a truth as well, and none of them is meant.
+    py::detail::make_caster<bool> truth;
+    if (!truth.load(value, false)) refuse_type(field, expected, value);
+    return py::detail::cast_op<bool>(truth);
+  } else {
+    py::object given = py::reinterpret_borrow<py::object>(value);
+    if constexpr (std::is_integral_v<T>) given = whole_number(value);
+    if (!given) refuse_type(field, expected, value);
+    try {
+      return given.cast<T>();
+    } catch (const py::cast_error&) {
+      if (!std::is_arithmetic_v<T> || !PyLong_Check(given.ptr()))
+        refuse_type(field, expected, value);
+    }
+    using Limits = std::numeric_limits<T>;
+    std::string range = "a finite number";
+    if constexpr (std::is_integral_v<T>)
+      range = std::to_string(Limits::min()) + " to " + std::to_string(Limits::max());
+    problems.error(core::ErrorClass::range, {}, field, py::str(given), range);
+    return T();
+  }
+}
+
+// The same of what may be None.
+template <class T>
+std::optional<T> optional_of(const py::handle& value, const std::string& field,
+                             core::ProblemList& problems) {
+  if (value.is_none()) return std::nullopt;
+  return value_of<T>(value, field, problems);
+}
+
+// The same of a number within `range`; one outside goes to `problems` too.
+template <class T>
+T number_of(const py::handle& value, const std::string& field, core::ProblemList& problems,
+            const core::NumberRange& range, const char* unit = "") {
+  using Wide = std::conditional_t<std::is_integral_v<T>, long long, T>;
+  core::ProblemList own;
+  const auto number = value_of<Wide>(value, field, own);
+  if (!own.has_errors()) core::check_range(own, field, static_cast<double>(number), range, unit);
+  problems.append(own.all());
+  return static_cast<T>(number);
+}
+
+// What `work` refuses goes to `problems`.
+template <class Work>
+void collect(core::ProblemList& problems, const Work& work) {
   try {
-    return value.cast<T>();
-  } catch (const py::cast_error&) {
-    throw py::type_error(field + ": expected " + expected + ", not " +
-                         py::repr(value).cast<std::string>());
+    work();
+  } catch (const core::InputError& error) {
+    problems.append(error.problems());
   }
 }
 

@@ -59,10 +59,14 @@ py::dict frame_dict(const std::shared_ptr<const renderer::Frame>& frame,
   result["rays"] = frame->rays;
   result["slices"] = frame->slices;
   result["events"] = frame->events;
+  const auto estimate = [](bool of_wanted, double grey) {
+    return of_wanted ? py::object(py::float_(grey)) : py::object(py::none());
+  };
   result["estimated_error_grey"] = py::none();
   if (frame->error)
     result["estimated_error_grey"] =
-        py::make_tuple(frame->error->rms_grey, frame->error->cscope_rms_grey);
+        py::make_tuple(estimate(wanted.bscope, frame->error->rms_grey),
+                       estimate(wanted.cscope, frame->error->cscope_rms_grey));
   return result;
 }
 

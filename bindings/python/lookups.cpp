@@ -4,6 +4,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -21,20 +22,26 @@ using atmosphere::PathAttenuation;
 using materials::Material;
 using materials::MaterialLibrary;
 
-core::Polarisation polarisation_of(const std::string& word) {
-  if (word == "HH") return core::Polarisation::horizontal;
-  if (word == "VV") return core::Polarisation::vertical;
-  core::throw_input_error(core::ErrorClass::ref, "polarisation", "\"" + word + "\"", "HH or VV");
+using Angles = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+// As computed in single precision, 90 degrees are a bit more than pi/2: so much passes for it.
+constexpr double kRounding_rad = 1e-6;
+
+core::Polarisation polarisation_of(const std::string& word, core::ProblemList& problems) {
+  if (word != "HH" && word != "VV")
+    problems.error(core::ErrorClass::ref, {}, "polarisation", "\"" + word + "\"", "HH or VV");
+  return word == "VV" ? core::Polarisation::vertical : core::Polarisation::horizontal;
 }
 
-MaterialLibrary library_in(const std::filesystem::path& file) {
+MaterialLibrary library_in(const py::handle& file) {
   core::ProblemList problems;
-  MaterialLibrary library = MaterialLibrary::from_file(file, problems);
+  MaterialLibrary library = MaterialLibrary::from_file(
+      value_of<std::filesystem::path>(file, "library", problems), problems);
   problems.throw_if_errors();
   return library;
 }
 
-py::list materials_of(const std::filesystem::path& file) {
+py::list materials_of(const py::handle& file) {
   const MaterialLibrary library = library_in(file);
   py::list rows;
   for (const Material& material : library.all())
@@ -43,39 +50,64 @@ py::list materials_of(const std::filesystem::path& file) {
   return rows;
 }
 
+Angles angles_of(const py::handle& told, core::ProblemList& problems) {
+  Angles angles_rad = Angles::ensure(told);
+  if (!angles_rad) refuse_type("grazing_rad", "a number or an array of numbers", told);
+  for (py::ssize_t i = 0; i < angles_rad.size(); ++i) {
+    const double angle_rad = angles_rad.data()[i];
+    if (!core::NumberRange{0.0, core::kPi / 2 + kRounding_rad}.holds(angle_rad))
+      core::check_range(problems, "grazing_rad", angle_rad, {0.0, core::kPi / 2}, "rad");
+  }
+  return angles_rad;
+}
+
 // Linear, of every grazing angle.
-py::array_t<double> nrcs(
-    const std::filesystem::path& file, const std::string& name,
-    const py::array_t<double, py::array::c_style | py::array::forcecast>& grazing_rad,
-    double frequency_Hz, const std::string& polarisation, const std::string& state,
-    bool extrapolate, py::list& warnings) {
-  const MaterialLibrary library = library_in(file);
+py::array_t<double> nrcs(const py::handle& file, const py::handle& name,
+                         const py::handle& grazing_rad, const py::handle& frequency_Hz,
+                         const py::handle& polarisation, const py::handle& state,
+                         const py::handle& extrapolate, py::list& warnings) {
   core::ProblemList problems;
-  const core::Polarisation seen = polarisation_of(polarisation);
-  const materials::SurfaceState surface = materials::surface_state_of(state, "state");
-  const auto found = library.find(name, {}, "material", problems);
-  problems.throw_if_errors();
-  const std::size_t shown = library.in_state(*found, surface);
-  library.report_extrapolations(shown, seen, frequency_Hz, extrapolate, problems);
-  for (py::ssize_t i = 0; i < grazing_rad.size(); ++i)
-    core::check_range(problems, "grazing_rad", grazing_rad.data()[i], {0.0, core::kPi / 2}, "rad");
+  const auto material = value_of<std::string>(name, "material", problems);
+  const Angles angles_rad = angles_of(grazing_rad, problems);
+  const auto frequency = value_of<double>(frequency_Hz, "frequency_Hz", problems);
+  const core::Polarisation seen =
+      polarisation_of(value_of<std::string>(polarisation, "polarisation", problems), problems);
+  const auto state_word = value_of<std::string>(state, "state", problems);
+  const bool allowed = value_of<bool>(extrapolate, "extrapolate", problems);
+  const MaterialLibrary library = library_in(file);
+  materials::SurfaceState surface{};
+  collect(problems, [&] { surface = materials::surface_state_of(state_word, "state"); });
+  const auto found = library.find(material, {}, "material", problems);
+  if (found)
+    library.report_extrapolations(library.in_state(*found, surface), seen, frequency, allowed,
+                                  problems, "extrapolate=True");
   problems.throw_if_errors();
   for (const py::handle warning : problems_list(problems.all())) warnings.append(warning);
-  const materials::NrcsCurve curve(library[shown].model, seen, frequency_Hz);
+  const materials::NrcsCurve curve(library[library.in_state(*found, surface)].model, seen,
+                                   frequency);
   py::array_t<double> result(
-      std::vector<py::ssize_t>(grazing_rad.shape(), grazing_rad.shape() + grazing_rad.ndim()));
-  for (py::ssize_t i = 0; i < grazing_rad.size(); ++i)
-    result.mutable_data()[i] = curve.sigma0(std::sin(grazing_rad.data()[i]));
+      std::vector<py::ssize_t>(angles_rad.shape(), angles_rad.shape() + angles_rad.ndim()));
+  for (py::ssize_t i = 0; i < angles_rad.size(); ++i)
+    result.mutable_data()[i] =
+        curve.sigma0(std::sin(std::min(angles_rad.data()[i], core::kPi / 2)));
   return result;
 }
 
-PathAttenuation air_of(const py::dict& weather, double frequency_Hz) {
-  return {changed_weather({}, weather), frequency_Hz};
+PathAttenuation air_of(const py::dict& weather, const py::handle& frequency_Hz) {
+  core::ProblemList problems;
+  const auto frequency = value_of<double>(frequency_Hz, "frequency_Hz", problems);
+  problems.throw_if_errors();
+  return {changed_weather({}, weather, frequency), frequency};
 }
 
-py::dict by_cause(const PathAttenuation& air, double height_m) {
-  core::require_range("height_m", height_m, {});
-  const atmosphere::SpecificAttenuation loss = air.one_way_attenuation_dB_per_km(height_m);
+// The air's profile ends there: a look-up beyond it would have the air of its ends go on for ever.
+constexpr core::NumberRange kHeights_m{PathAttenuation::kLowest_m, PathAttenuation::kHighest_m};
+
+py::dict by_cause(const PathAttenuation& air, const py::handle& height_m) {
+  core::ProblemList problems;
+  const auto height = number_of<double>(height_m, "height_m", problems, kHeights_m, "m");
+  problems.throw_if_errors();
+  const atmosphere::SpecificAttenuation loss = air.one_way_attenuation_dB_per_km(height);
   py::dict result;
   result["gas"] = loss.gas_dB_per_km;
   result["fog"] = loss.fog_dB_per_km;
@@ -84,21 +116,21 @@ py::dict by_cause(const PathAttenuation& air, double height_m) {
   return result;
 }
 
-double one_way_dB(const PathAttenuation& air, double from_height_m, double to_height_m,
-                  double length_m) {
+double one_way_dB(const PathAttenuation& air, const py::handle& from_height_m,
+                  const py::handle& to_height_m, const py::handle& length_m) {
   core::ProblemList problems;
-  core::check_range(problems, "from_height_m", from_height_m, {});
-  core::check_range(problems, "to_height_m", to_height_m, {});
-  core::check_range(problems, "length_m", length_m, {0.0}, "m");
+  const auto from_m = number_of<double>(from_height_m, "from_height_m", problems, kHeights_m, "m");
+  const auto to_m = number_of<double>(to_height_m, "to_height_m", problems, kHeights_m, "m");
+  const auto along_m = number_of<double>(length_m, "length_m", problems, {0.0}, "m");
   problems.throw_if_errors();
   // A path straight up or down may be as long as the difference but for rounding.
   constexpr double kRounding = 1e-9;
-  const double apart_m = std::abs(to_height_m - from_height_m);
-  if (length_m * (1.0 + kRounding) < apart_m)
+  const double apart_m = std::abs(to_m - from_m);
+  if (along_m * (1.0 + kRounding) < apart_m)
     core::throw_input_error(
-        core::ErrorClass::range, "length_m", length_m,
+        core::ErrorClass::range, "length_m", along_m,
         "at least " + core::number_text(apart_m) + " m, what the two heights are apart");
-  return air.one_way_dB(from_height_m, to_height_m, length_m);
+  return air.one_way_dB(from_m, to_m, along_m);
 }
 
 }  // namespace
@@ -107,17 +139,6 @@ void add_lookups(py::module_& module) {
   module.def("shipped_above", &session::shipped_above, py::arg("file"));
   module.def("shipped_scenes", &session::shipped_scenes, py::arg("shipped"));
   module.def("shipped_sensors", &session::shipped_sensors, py::arg("shipped"));
-  module.def("find_scene", &session::find_scene, py::arg("name"), py::arg("shipped"));
-  module.def("find_sensor", &session::find_sensor, py::arg("name"), py::arg("shipped"),
-             py::arg("field"));
-  module.def(
-      "check_data_folder",
-      [](const std::string& folder, const std::string& field) {
-        core::ProblemList problems;
-        session::check_data_folder(folder, field, problems);
-        problems.throw_if_errors();
-      },
-      py::arg("folder"), py::arg("field"));
   module.def("materials", &materials_of, py::arg("library"));
   module.def("nrcs", &nrcs, py::arg("library"), py::arg("material"), py::arg("grazing_rad"),
              py::arg("frequency_Hz"), py::arg("polarisation"), py::arg("state"),

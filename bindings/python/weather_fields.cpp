@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <variant>
 
 #include "bindings/python/convert.h"
@@ -36,8 +37,9 @@ const Field kFields[] = {{"visibility_m", &Weather::visibility_m},
 
 }  // namespace
 
-Weather changed_weather(Weather weather, const py::dict& changes) {
+Weather changed_weather(Weather weather, const py::dict& changes, double frequency_Hz) {
   const Weather usual;
+  core::ProblemList problems;
   for (const auto& [key, entry] : changes) {
     const py::handle value = entry;
     const auto name = key.cast<std::string>();
@@ -46,20 +48,24 @@ Weather changed_weather(Weather weather, const py::dict& changes) {
       if (name == field.name) found = &field;
     if (found == nullptr) throw py::type_error("the weather has no \"" + name + "\"");
     const auto put = [&](auto& place, const auto& without) {
-      place = value.is_none() ? without : value_of<std::decay_t<decltype(place)>>(value, name);
+      using Value = std::conditional_t<std::is_same_v<decltype(place), bool&>, bool, double>;
+      if (value.is_none())
+        place = without;
+      else
+        place = value_of<Value>(value, name, problems);
     };
     std::visit([&](auto member) { put(weather.*member, usual.*member); }, found->member);
   }
-  // One of the two replaces the other; both at once contradict each other, as in a scene's file.
+  // Whoever speaks of fog tells all of it.
   const auto given = [&](const char* name) {
     return changes.contains(name) && !changes[name].is_none();
   };
-  const bool seen = given("visibility_m"), weighed = given("liquid_water_g_per_m3");
-  if (seen && weighed)
-    core::throw_input_error(core::ErrorClass::ref, "liquid_water_g_per_m3", "beside visibility_m",
-                            "one of the two: each tells how thick the fog is");
-  if (seen) weather.liquid_water_g_per_m3.reset();
-  if (weighed) weather.visibility_m.reset();
+  if (changes.contains("visibility_m") || changes.contains("liquid_water_g_per_m3")) {
+    if (!given("visibility_m")) weather.visibility_m.reset();
+    if (!given("liquid_water_g_per_m3")) weather.liquid_water_g_per_m3.reset();
+  }
+  if (problems.has_errors()) problems.append(atmosphere::problems_in(weather, frequency_Hz).all());
+  problems.throw_if_errors();
   return weather;
 }
 

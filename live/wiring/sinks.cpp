@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <filesystem>
 
 #include "core/errors.h"
 #include "live/wiring/words.h"
@@ -81,10 +82,23 @@ RadarVideoSettings video_to(const std::string& text) {
   return video;
 }
 
+// Whatever names it goes by. "-" is no file's.
+bool is_same_file(const std::string& a, const std::string& b) {
+  if (a == "-" || b == "-") return a == b;
+  const auto real_path = [](const std::string& file) {
+    std::error_code fault;
+    const std::filesystem::path path = std::filesystem::absolute(file, fault);
+    const std::filesystem::path real = std::filesystem::weakly_canonical(path, fault);
+    return fault ? path : real;
+  };
+  std::error_code missing;
+  return std::filesystem::equivalent(a, b, missing) || real_path(a) == real_path(b);
+}
+
 // One file of two pictures in turns would be neither's.
 void add_raw(const std::string& text, const RawSink& sink, FramesTo& to) {
   if (std::any_of(to.raw.begin(), to.raw.end(),
-                  [&](const RawSink& other) { return other.file == sink.file; }))
+                  [&](const RawSink& other) { return is_same_file(other.file, sink.file); }))
     refuse_sink(text, "another file or pipe than the sink before it");
   to.raw.push_back(sink);
 }

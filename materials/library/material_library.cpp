@@ -150,7 +150,8 @@ std::vector<NrcsCurve> MaterialLibrary::curves(SurfaceState state, Polarisation 
 
 void MaterialLibrary::report_extrapolations(std::size_t index, Polarisation polarisation,
                                             double frequency_Hz, bool allowed,
-                                            core::ProblemList& problems) const {
+                                            core::ProblemList& problems,
+                                            const char* allowed_by) const {
   const Material& material = materials_[index];
   const std::string model(materials::name_of(material.model));
   for (const Extrapolation& outside :
@@ -162,7 +163,7 @@ void MaterialLibrary::report_extrapolations(std::size_t index, Polarisation pola
                        "known for " + known + "; continued as docs/physics/phong.md says");
     else
       problems.error(ErrorClass::range, material.place, field, outside.asked,
-                     known + ", or allow_extrapolation = true under [materials] of the scene");
+                     known + ", or " + allowed_by);
   }
 }
 

@@ -68,9 +68,12 @@ class MaterialLibrary {
                                 double frequency_Hz) const;
 
   // E-RANGE for a frequency or polarisation that the material is not known at, with what it is
-  // known for; W-EXTRAPOLATED instead when `allowed`.
-  void report_extrapolations(std::size_t index, Polarisation polarisation, double frequency_Hz,
-                             bool allowed, core::ProblemList& problems) const;
+  // known for and with `allowed_by`, what the caller's user would say; W-EXTRAPOLATED instead when
+  // `allowed`.
+  void report_extrapolations(
+      std::size_t index, Polarisation polarisation, double frequency_Hz, bool allowed,
+      core::ProblemList& problems,
+      const char* allowed_by = "allow_extrapolation = true under [materials] of the scene") const;
 
  private:
   static MaterialLibrary from_table(core::ConfigTable root, core::ProblemList& problems);

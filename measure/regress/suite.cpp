@@ -98,7 +98,7 @@ std::optional<core::InstructionLevel> read_isa(ConfigTable& table,
 }
 
 std::string read_products(ConfigTable& table) {
-  if (!given(table, "products")) return CaseRender{}.products;
+  if (!given(table, "products")) return session::RenderRequest{}.products;
   const std::vector<std::string> known = picture_products();
   const std::vector<std::string> products = table.texts("products");
   for (const std::string& product : products)
@@ -119,7 +119,7 @@ class CaseReader {
     result.name = required_line(table_, "name", kLongestName);
     result.place = table_.place("name");
     result.folder = file_name_of(result.name);
-    CaseRender& render = result.render;
+    session::RenderRequest& render = result.render;
     render.scene = read_scene();
     render.frames = table_.required_text("frames");
     render.products = read_products(table_);
@@ -157,7 +157,7 @@ class CaseReader {
     }
   }
 
-  void read_sampling(CaseRender& render) {
+  void read_sampling(session::RenderRequest& render) {
     if (given(table_, "caster")) {
       constexpr auto kWishes = renderer::kCasterWishes;
       static_assert(kWishes.size() == 3);
@@ -165,18 +165,18 @@ class CaseReader {
     }
     const auto samples = table_.optional_number("rays_per_cell", renderer::kSamplesPerCell);
     const auto accuracy = table_.optional_number("accuracy_grey", renderer::kAccuracies_grey);
-    render.sampling.rays_per_cell = samples.value_or(0.0);
-    render.sampling.accuracy_grey = accuracy.value_or(0.0);
-    if (given(table_, "reference")) render.sampling.reference = table_.boolean("reference", false);
-    if (render.sampling.reference && (samples || accuracy))
+    render.rays_per_cell = samples.value_or(0.0);
+    render.accuracy_grey = accuracy.value_or(0.0);
+    if (given(table_, "reference")) render.reference = table_.boolean("reference", false);
+    if (render.reference && (samples || accuracy))
       table_.error(ErrorClass::ref, samples ? "rays_per_cell" : "accuracy_grey", "beside reference",
                    "one of them: a reference has its own sampling");
-    if (render.sampling.reference && render.caster == name_of(renderer::CasterWish::profile))
+    if (render.reference && render.caster == name_of(renderer::CasterWish::profile))
       table_.error(ErrorClass::ref, "caster", "\"profile\" beside reference",
                    "\"rays\", of which references are made");
   }
 
-  void read_realisation(CaseRender& render) {
+  void read_realisation(session::RenderRequest& render) {
     render.seed = static_cast<std::uint64_t>(
         table_.integer("seed", 0, std::numeric_limits<std::int64_t>::max(), 0));
     if (given(table_, "realisation"))

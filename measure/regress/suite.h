@@ -1,7 +1,6 @@
 // A suite of pictures to be held against approved ones: a TOML file (docs/regression.md).
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -13,25 +12,15 @@
 #include "core/errors.h"
 #include "core/machine.h"
 #include "measure/regress/tolerance.h"
-#include "session/sampling_choice.h"
+#include "session/render_request.h"
 
 namespace fanbeam::measure {
-
-// How a case is rendered, in the words of `fanbeam render` (docs/regression.md).
-struct CaseRender {
-  std::string scene, sensor, data;
-  std::string frames;
-  std::string products = "bscope,cscope";
-  std::string effects, realisation, caster;  // empty: the scene's
-  session::SamplingRequest sampling;
-  std::uint64_t seed = 0;
-};
 
 struct SuiteCase {
   std::string name;
   core::Place place;
-  std::string folder;  // file_name_of(name)
-  CaseRender render;
+  std::string folder;             // file_name_of(name)
+  session::RenderRequest render;  // its keys: docs/regression.md
   std::optional<core::InstructionLevel> isa;
   std::map<std::string, Tolerance> tolerances;  // by product; every value equal where missing
 };

@@ -242,7 +242,7 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
   const glm::dvec3& sensor = frame.position_m;
   double top_slope = -1e30;
   constexpr double kStep_m = terrain::RayScene::kTopsStep_m;
-  constexpr double kReach_m = terrain::RayScene::kTopsReach_m;
+  const double reach_m = surfaces.tops_reach_m();
   // A step beyond the last cell: steps do not end on it.
   const double farthest_m = world_.sensor.range.maximum_m() + kStep_m;
   for (double distance_m = 0.0; distance_m <= farthest_m; distance_m += kStep_m) {
@@ -251,7 +251,7 @@ double ElevationFan::highest_object_rad(const sensors::AntennaFrame& frame,
     const double z_m = surfaces.mesh_top_m(sensor.x + x_m, sensor.y + y_m) - sensor.z;
     if (z_m < -1e29) continue;
     // The top may stand anywhere about: nearest when above the sensor, farthest when below.
-    const double at_m = std::max(distance_m + (z_m > 0.0 ? -kReach_m : kReach_m), 1.0);
+    const double at_m = std::max(distance_m + (z_m > 0.0 ? -reach_m : reach_m), 1.0);
     const glm::dvec3 relative_m(heading.x * at_m, heading.y * at_m, z_m);
     top_slope = std::max(top_slope, slope_of(frame, relative_m, world_.sensor.scan.surface));
   }

@@ -65,7 +65,7 @@ CasterChoice choose_caster(CasterWish wish, const CasterFacts& facts, const core
   choice.others = facts.others;
   choice.reason = wish == CasterWish::profile
                       ? "asked for"
-                      : "over buildings slices need half of the rays' time at equal error";
+                      : "over buildings slices come as close in half to all of the rays' time";
   if (facts.others > 0)
     choice.reason += "; azimuths with " + others_text(facts.others) + " in them go to rays";
   if (facts.others > 0 && !(facts.vertical_turn_rad < kLevelWithin_rad))

@@ -2,9 +2,9 @@
 // wish and of facts about the scene.
 //
 // Rays (ray_caster.h) show every geometry; they are the reference that all errors are stated
-// against. Over buildings slices (profile/profile_caster.h) need half of their time at equal error of
-// the whole picture (docs/performance-notes.md), so `automatic`, the default, takes them wherever they
-// show everything:
+// against. Over buildings slices (profile/profile_caster.h) come as close in half of their time, in the
+// B-scope of a city, to all of it (docs/performance-notes.md), so `automatic`, the default, takes them
+// wherever they show everything:
 //   no buildings                    both come as close in the same time: rays
 //   without ground                  nothing to cut: rays
 //   a fan wider than 150 deg        headings of slices would meet behind the sensor: rays

@@ -26,7 +26,7 @@ struct FrameSight {
   bool point_targets = false;                    // inside the range gate and the beam
   std::vector<atmosphere::RainCell> rain_cells;  // within range
   double largest_eta_m2_per_m3 = 0.0;            // of rain and snow within range and beam
-  bool leaves_ground = false;                    // the rim of the ground is within range
+  bool leaves_ground = false;                    // the fan may pass the rim of the ground in range
 };
 
 SceneFacts seen_facts(const SceneFacts& scene, const FrameSight& sight);

@@ -144,16 +144,19 @@ core::EffectPlan decided(const std::vector<Effect>& catalogue, const SceneFacts&
     const Effect& effect = catalogue[i];
     core::EffectDecision& decision = result.decisions[i];
     decision.effect = effect.id;
-    const bool possible = effect.possible(facts);
+    const bool seen = effect.possible(facts);
+    const bool forced =
+        wishes.forced_on.contains(effect.id) || wishes.base == EffectWishes::Base::all;
     Open weighing;
-    if (possible) weighing = weighed(effect, facts, greys, decision);
+    if (seen) weighing = weighed(effect, facts, greys, decision);
     if (wishes.forced_off.contains(effect.id)) {
       decision.reason = by_user("switched off by the user", decision);
-    } else if (!possible) {
-      decision.reason = why_without(effect, scene);
-    } else if (wishes.forced_on.contains(effect.id) || wishes.base == EffectWishes::Base::all) {
+    } else if (forced && (seen || effect.possible(scene))) {
       decision.on = true;
-      decision.reason = by_user("switched on by the user", decision);
+      decision.reason = seen ? by_user("switched on by the user", decision)
+                             : "switched on by the user; " + why_without(effect, scene);
+    } else if (!seen) {
+      decision.reason = why_without(effect, scene);
     } else if (wishes.base == EffectWishes::Base::none) {
       decision.reason = by_user("switched off by the user", decision);
     } else {
@@ -220,13 +223,13 @@ EffectWishes parse_effect_wishes(const std::string& text, Touches touched) {
   return wishes;
 }
 
-void refuse_draws(const EffectWishes& wishes) {
+void refuse_draws(const EffectWishes& wishes, core::ProblemList& problems) {
   for (const core::EffectId draw : {core::EffectId::speckle, core::EffectId::swerling})
     if (wishes.forced_on.contains(draw))
-      core::throw_input_error(core::ErrorClass::unsupported, "--effects",
-                              "\"+" + std::string(name_of(draw)) + "\"",
-                              "no effect of a draw beside the realisation mean, which is the "
-                              "expectation of all draws");
+      problems.error(core::ErrorClass::unsupported, {}, "--effects",
+                     "\"+" + std::string(name_of(draw)) + "\"",
+                     "no effect of a draw beside the realisation mean, which is the "
+                     "expectation of all draws");
 }
 
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes) {

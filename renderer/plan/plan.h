@@ -22,9 +22,9 @@ struct EffectWishes {
 // for one forced on that samples do not show (effects_shown_in).
 EffectWishes parse_effect_wishes(const std::string& text, Touches touched = Touches::pictures);
 
-// Throws InputError E-UNSUPPORTED where they force speckle or fluctuating targets on: for whoever asks
-// for the expected power, realisation mean.
-void refuse_draws(const EffectWishes& wishes);
+// Adds E-UNSUPPORTED where they force speckle or fluctuating targets on: for whoever asks for the
+// expected power, realisation mean.
+void refuse_draws(const EffectWishes& wishes, core::ProblemList& problems);
 
 // That may be asked for, in grey levels.
 inline constexpr core::NumberRange kAccuracies_grey{0.01, 100.0};
@@ -42,7 +42,8 @@ constexpr double sampling_share_grey(double accuracy_grey) {
 // that half. Speckle forced on asks for a realisation where the scene does not, and so do fluctuating
 // targets where there is one.
 core::EffectPlan plan(const SceneFacts& scene, double accuracy_grey, const EffectWishes& wishes);
-// Of a scene of which the frames together see only `seen` (seen_facts() of it): decided by that.
+// Of a scene of which the frames together see only `seen` (seen_facts() of it): decided by that. What
+// the user forces on runs wherever the scene has it, seen or not.
 core::EffectPlan plan(const SceneFacts& scene, const SceneFacts& seen, double accuracy_grey,
                       const EffectWishes& wishes);
 

@@ -40,7 +40,8 @@ struct SceneFacts {
   double surface_change_dB = 0.0;      // largest change of NRCS from dry to the scene's state
   bool state_changes_mirrors = false;  // a material mirrors otherwise in that state
   double largest_eta_m2_per_m3 = 0.0;  // of rain and snow, anywhere
-  // The beam may pass the rim of the ground within range, and go on under it.
+  // The beam may pass the rim of the ground within range, and go on under it. What is mirrored ends on
+  // ground, bodies and targets, and is as low as those at most.
   bool leaves_ground = true;
   double largest_sigma0_over_sine = 0.0;  // NRCS over sine of grazing of any material, any state
   double rcs_sum_m2 = 0.0;                // of the point targets, each at its brightest aspect

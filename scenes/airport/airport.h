@@ -34,6 +34,7 @@ struct AirportRunway {
 struct AirportPavement {
   RunwaySurface surface;
   std::vector<AirportLine> rings;
+  core::Place place{};
 };
 
 // A precision approach path indicator: the middle of its bar, and the heading of who lands.

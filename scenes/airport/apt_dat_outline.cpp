@@ -1,5 +1,8 @@
 #include "scenes/airport/apt_dat_outline.h"
 
+#include <cmath>
+
+#include "core/constants.h"
 #include "core/units.h"
 #include "scenes/airport/airport_numbers.h"
 
@@ -8,6 +11,12 @@ namespace {
 
 constexpr int kPieces = 8;
 constexpr std::string_view kEdgeLights = "102";
+
+// By whole turns to where it is nearest to `beside_rad`; there it stays to the bit.
+double turned(double angle_rad, double beside_rad) {
+  constexpr double kTurn_rad = 2.0 * core::kPi;
+  return angle_rad - kTurn_rad * std::round((angle_rad - beside_rad) / kTurn_rad);
+}
 
 }  // namespace
 
@@ -51,12 +60,16 @@ AirportLine AptOutline::pieces(const Node& from, const Node& to) {
       return s * s * s * a + 3.0 * s * s * t * behind + 3.0 * s * t * t * before + t * t * t * b;
     return s * s * a + 2.0 * s * t * (from.curved ? behind : before) + t * t * b;
   };
+  const auto beside = [&](double longitude_rad) {
+    return turned(longitude_rad, from.longitude_rad);
+  };
+  const double control_rad = beside(from.control_longitude_rad), to_rad = beside(to.longitude_rad),
+               to_control_rad = beside(to.control_longitude_rad);
   for (int i = 1; i < kPieces; ++i) {
     const double t = static_cast<double>(i) / kPieces;
     line.push_back({along(t, from.latitude_rad, from.control_latitude_rad, to.latitude_rad,
                           to.control_latitude_rad),
-                    along(t, from.longitude_rad, from.control_longitude_rad, to.longitude_rad,
-                          to.control_longitude_rad),
+                    turned(along(t, from.longitude_rad, control_rad, to_rad, to_control_rad), 0.0),
                     0.0});
   }
   return line;

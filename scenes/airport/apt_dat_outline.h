@@ -5,7 +5,7 @@
 // same, closing the ring; 115 and 116 end an open line. Between two corners the curve is quadratic when
 // one of them has a control point, cubic when both have; the one before a corner is its mirror image
 // ("Airport Data (apt.dat) File Specification", Laminar Research, format 1100). A piece is an eighth of
-// a curve: off a quarter of a circle by 0.5 % of its radius.
+// a curve: off a quarter of a circle by 0.5 % of its radius. A curve goes the short way over the date line.
 #pragma once
 
 #include <string_view>
@@ -25,6 +25,8 @@ class AptOutline {
   void add(const std::vector<std::string_view>& fields, const core::Place& place,
            core::ProblemList& problems);
 
+  // Corners after the last row that ended a ring or line.
+  bool is_open() const { return !nodes_.empty(); }
   // Those closed by a row 113 or 114, the last point not the first again; of three points or more.
   const std::vector<AirportLine>& rings() const { return rings_; }
   // Along which taxiway edge lights stand (lighting code 102).

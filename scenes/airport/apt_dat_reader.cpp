@@ -202,7 +202,17 @@ class AptDatReader {
   void read_surroundings() {
     std::optional<AirportPavement> pavement;
     AptOutline outline;
+    core::Place head;  // of the pavement or line at hand
     const auto finish = [&] {
+      const auto tell = [&](const char* field, const char* what, const char* done) {
+        problems_.warning("SKIPPED", head, field, what, done);
+      };
+      if (pavement && outline.is_open())
+        tell("pavement", "a ring that no row 113 or 114 closes", "the ring is left out");
+      else if (pavement && outline.rings().empty())
+        tell("pavement", "no ring of three corners", "left out");
+      else if (head.line > 0 && outline.is_open())
+        tell("line", "no row 113 to 116 ends it", "left out");
       airport_.taxiway_lights.insert(airport_.taxiway_lights.end(), outline.edge_lights().begin(),
                                      outline.edge_lights().end());
       if (pavement && !outline.rings().empty()) {
@@ -220,9 +230,10 @@ class AptDatReader {
         read_aid(fields, row.place);
       } else if (code == "110" || code == "120" || code == "130") {
         finish();
+        head = row.place;
         if (code != "110" || fields.size() < 2) continue;
         const auto surface = airport_code(fields[1], "surface", 0, 1'000'000, row.place, problems_);
-        pavement = AirportPavement{surface_of_apt_code(surface.value_or(0)), {}};
+        pavement = AirportPavement{surface_of_apt_code(surface.value_or(0)), {}, row.place};
       } else {
         outline.add(fields, row.place, problems_);
       }

@@ -29,6 +29,7 @@ inline constexpr std::size_t kMostAirportNames = 200'000;  // remembered for sug
 //   E-PARSE        no apt.dat, or of another format; a row with too few fields; not a number
 //   E-NONFINITE, E-RANGE  a number that no runway has
 //   E-REF          no such airport, with names that look like it; one without land runways
+//   W-SKIPPED      a ring of a pavement, or a line, that no row ends; a pavement without a ring
 // Only rows of the airport asked for are checked. Nothing after an error.
 std::optional<Airport> read_apt_dat(const std::filesystem::path& file, const std::string& ident,
                                     core::ProblemList& problems);

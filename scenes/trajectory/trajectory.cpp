@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
-#include <limits>
 #include <utility>
 
 #include "core/constants.h"
@@ -130,8 +129,10 @@ int Trajectory::frame_count(double frame_rate_Hz) const {
   check_rate(frame_rate_Hz);
   if (poses_.size() == 1) return 1;
   const double frames = std::floor((end_s() - begin_s()) * frame_rate_Hz + kFrameSlack);
-  if (frames > static_cast<double>(std::numeric_limits<int>::max()))
-    core::throw_input_error(ErrorClass::limit, "number of frames", frames, "at most 2147483647");
+  if (frames > kMostFrames)
+    core::throw_input_error(
+        ErrorClass::limit, "number of frames", frames,
+        "at most " + std::to_string(kMostFrames) + ": choose a part of the flight");
   return static_cast<int>(frames);
 }
 

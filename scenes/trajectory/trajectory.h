@@ -8,6 +8,9 @@
 
 namespace fanbeam::scenes {
 
+// Of one flight, 69 hours at 16 Hz: each is looked at before the first is rendered.
+inline constexpr int kMostFrames = 4'000'000;
+
 // Poses at increasing times; heights above the scene's vertical datum are already ellipsoidal (or
 // the scene's own).
 //
@@ -36,7 +39,7 @@ class Trajectory {
   // accumulated, so that a day at 16 Hz ends on the microsecond it should.
   // As many frames as end before the trajectory does; one for a fixed pose.
   // Throws InputError: E-RANGE for a rate outside 1e-3 to 1e6 Hz or a negative frame, E-NONFINITE,
-  // E-LIMIT for more than 2^31 - 1 frames.
+  // E-LIMIT for more than kMostFrames.
   int frame_count(double frame_rate_Hz) const;
   double frame_time_s(int frame, double frame_rate_Hz) const;
 

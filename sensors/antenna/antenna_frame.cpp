@@ -8,6 +8,7 @@
 #include "core/errors.h"
 #include "core/pose.h"
 #include "sensors/antenna/beam_pattern.h"
+#include "sensors/antenna/column_place.h"
 
 namespace fanbeam::sensors {
 namespace {
@@ -92,7 +93,8 @@ HeightSpan heights_in_beam(const AntennaFrame& frame, const Sensor& sensor) {
 
 bool beams_reach_behind(const Sensor& sensor) {
   return sensor.scan.surface == ScanSurface::plane &&
-         sensor.scan.field_of_view_rad / 2 + sensor.antenna.azimuth.cut_rad > core::kPi / 2;
+         sensor.scan.field_of_view_rad / 2 + azimuth_reach_rad(sensor, steepest_rad(sensor)) >
+             core::kPi / 2;
 }
 
 std::optional<AntennaAngles> angles(const AntennaFrame& frame, const glm::dvec3& from_antenna_m,

@@ -65,7 +65,8 @@ struct HeightSpan {
 // the scene's vertical: the elevations of the beam, wider by the antenna's tilt against it.
 HeightSpan heights_in_beam(const AntennaFrame& frame, const Sensor& sensor);
 
-// Whether the beam of an outer column, up to its azimuth cut, reaches more than 90 deg aside. A cone
+// Whether the beam of an outer column, side lobes included, reaches an azimuth of more than 90 deg at
+// any of its elevations (column_place.h): also steeply below, where azimuths lie close together. A cone
 // has no directions there.
 bool beams_reach_behind(const Sensor& sensor);
 // Of the two the one that the beams need: what they light has angles.

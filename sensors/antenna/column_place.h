@@ -38,6 +38,13 @@ inline double azimuth_reach_rad(const Sensor& sensor, double elevation_rad) {
   return reach_rad(sensor.antenna.azimuth) / std::max(sky, 0.01);
 }
 
+// The steepest elevation that a beam reaches, up or down, side lobes included: at most pi / 2.
+inline double steepest_rad(const Sensor& sensor) {
+  return std::min(
+      std::abs(sensor.antenna.boresight_elevation_rad) + reach_rad(sensor.antenna.elevation),
+      core::kPi / 2);
+}
+
 // Whether the beam of any azimuth within the scan reaches that direction.
 inline bool in_columns(const Sensor& sensor, double azimuth_rad, double elevation_rad) {
   return std::abs(azimuth_rad) <=

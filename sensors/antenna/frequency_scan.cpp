@@ -77,7 +77,6 @@ SteeredColumn steered_column(const Sensor& sensor, int column) {
   steered.wavelength_m = core::kSpeedOfLight_mps / steered.frequency_Hz;
   steered.rate_rad_per_Hz = steering_rate_rad_per_Hz(scan, steered.azimuth_rad);
   const double cosine = std::cos(steered.azimuth_rad);
-  steered.beam_broadening = 1.0 / cosine;
   const double ratio = cosine * steered.frequency_Hz / sensor.waveform.frequency_Hz;
   steered.point_power_ratio = ratio * ratio;
   return steered;

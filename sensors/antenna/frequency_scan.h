@@ -36,7 +36,6 @@ struct SteeredColumn {
   double frequency_Hz = 0.0;
   double wavelength_m = 0.0;
   double rate_rad_per_Hz = 0.0;
-  double beam_broadening = 1.0;  // 1 / cos(azimuth): width over that at broadside
   // Received power of a point target over that at broadside and the carrier, for an aperture of
   // fixed size and efficiency: G ~ cos(azimuth) / lambda^2, hence cos^2 (lambda_0 / lambda)^2.
   double point_power_ratio = 1.0;

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "core/constants.h"
 #include "sensors/cells.h"
 
 namespace fanbeam::session {
@@ -17,7 +18,9 @@ std::optional<SeenPoint> seen_from(const sensors::AntennaFrame& antenna,
                                    const glm::dvec3& point_m) {
   const glm::dvec3 away_m = point_m - antenna.position_m;
   const auto angles = sensors::angles(antenna, away_m, sensor);
-  if (!angles) return std::nullopt;
+  // Side lobes hear what is behind; no column of the picture is for it.
+  const double ahead_rad = std::max(sensor.scan.field_of_view_rad / 2, core::kPi / 2);
+  if (!angles || std::abs(angles->azimuth_rad) > ahead_rad) return std::nullopt;
   const double range_m = glm::length(away_m);
   return SeenPoint{range_m, angles->azimuth_rad, angles->elevation_rad,
                    std::asin(std::clamp(glm::dot(away_m, up) / range_m, -1.0, 1.0))};

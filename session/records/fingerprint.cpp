@@ -6,11 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <fstream>
-#include <iterator>
-#include <regex>
 #include <set>
-
-#include "core/relative_uri.h"
 
 namespace fanbeam::session {
 namespace {
@@ -49,29 +45,12 @@ std::set<fs::path> of_one_name(const fs::path& file) {
   return files;
 }
 
-// Files that the text names as URIs; what is refused as one is no part of the model.
-std::set<fs::path> named_as_uris(const fs::path& gltf) {
-  std::ifstream stream(gltf, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  static const std::regex kUri("\"uri\"[ \t\r\n]*:[ \t\r\n]*\"([^\"]{1,1000})\"");
-  std::set<fs::path> files;
-  std::error_code status;
-  for (std::sregex_iterator found(text.begin(), text.end(), kUri), end; found != end; ++found) {
-    try {
-      const fs::path file =
-          core::file_of_uri(gltf.parent_path(), gltf, (*found)[1].str(), {}, "uri");
-      if (fs::is_regular_file(file, status)) files.insert(file);
-    } catch (const core::InputError&) {
-      continue;
-    }
-  }
-  return files;
-}
-
 bool is_raster(const fs::path& file) {
   constexpr std::array<std::string_view, 7> kEndings = {".tif", ".tiff", ".asc", ".hgt",
                                                         ".dt0", ".dt1",  ".dt2"};
-  const std::string ending = file.extension().string();
+  std::string ending = file.extension().string();
+  for (char& letter : ending)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
   return std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
@@ -82,10 +61,8 @@ std::string fingerprint_of(std::string_view settings, const std::vector<fs::path
   hash.add(settings);
   for (const fs::path& file : files) {
     hash.add_file(file);
-    std::set<fs::path> more;
-    if (file.extension() == ".gltf") more = named_as_uris(file);
-    if (is_raster(file)) more = of_one_name(file);
-    for (const fs::path& other : more)
+    if (!is_raster(file)) continue;
+    for (const fs::path& other : of_one_name(file))
       if (other != file) hash.add_file(other);
   }
   return fmt::format("{:016x}", hash.value());

@@ -155,18 +155,30 @@ bool OutputFolder::has_record_of_another() const {
         std::error_code none;
         return frame_of(name) && fs::exists(folder_ / name, none);
       });
-  return one != listed_.files.end() && !is_of_this_input(*one);
+  return one == listed_.files.end() || !is_of_this_input(*one);
 }
 
-void OutputFolder::begin_frames() {
+void OutputFolder::begin_frames(const std::set<std::string>& products) {
   if (std::exchange(begun_, true) || !has_record_of_another()) return;
-  listed_.begun.insert(listed_.files.begin(), listed_.files.end());
-  write_note({}, {});
+  write_note(products, listed_.files);
   set_aside_ = true;
   std::error_code ignored;  // of those that are there
   for (const std::string& name : record_files())
     if (!is_of_run(name) || listed_.files.contains(name))
       fs::rename(folder_ / name, aside(name), ignored);
+  before_ = times();
+}
+
+// Of the files that the note says: a file that is written anew has another.
+std::map<std::string, fs::file_time_type> OutputFolder::times() const {
+  std::map<std::string, fs::file_time_type> found;
+  each_file(folder_, [&](const fs::path& relative) {
+    std::error_code gone;
+    if (noted_.contains(relative))
+      found[relative.generic_string()] = fs::last_write_time(folder_ / relative, gone);
+    return true;
+  });
+  return found;
 }
 
 fs::path OutputFolder::aside(const std::string& name) const {
@@ -175,30 +187,33 @@ fs::path OutputFolder::aside(const std::string& name) const {
 
 OutputFolder::~OutputFolder() {
   if (!set_aside_) return;
-  const bool replaced =
-      fingerprint_.empty() ||
-      std::any_of(listed_.files.begin(), listed_.files.end(),
-                  [&](const std::string& name) { return is_of_this_input(name); });
+  const auto now = times();
+  const bool replaced = std::any_of(now.begin(), now.end(), [&](const auto& file) {
+    const auto before = before_.find(file.first);
+    return before == before_.end() || before->second != file.second;
+  });
   std::error_code ignored;
   for (const std::string& name : record_files())
     if (replaced)
       fs::remove(aside(name), ignored);
     else
       fs::rename(aside(name), folder_ / name, ignored);
+  const bool of_earlier = !listed_.products.empty() || !listed_.begun.empty();
+  if (!replaced && !of_earlier) fs::remove(folder_ / kUnfinished, ignored);
 }
 
 void OutputFolder::begin(const std::set<std::string>& products,
                          const std::set<std::string>& files) {
-  begin_frames();
+  noted_.begun.insert(files.begin(), files.end());  // before anybody looks what is there
+  begin_frames(products);
   write_note(products, files);
 }
 
 void OutputFolder::write_note(const std::set<std::string>& products,
-                              const std::set<std::string>& files) const {
-  Listed all = listed_;
-  all.products.insert(products.begin(), products.end());
-  all.begun.insert(files.begin(), files.end());
-  const nlohmann::json note = {{"products", all.products}, {"files", all.begun}};
+                              const std::set<std::string>& files) {
+  noted_.products.insert(products.begin(), products.end());
+  noted_.begun.insert(files.begin(), files.end());
+  const nlohmann::json note = {{"products", noted_.products}, {"files", noted_.begun}};
   core::write_file_atomically(folder_ / kUnfinished, note.dump() + "\n");
 }
 
@@ -219,6 +234,8 @@ OutputFolder::OutputFolder(fs::path folder, std::string fingerprint, bool overwr
       fingerprint_(std::move(fingerprint)),
       overwrite_(overwrite),
       listed_(listed_in(folder_)) {
+  noted_.products = listed_.products;
+  noted_.begun = listed_.begun;
   if (overwrite_) return;
   std::vector<std::string> others;
   const bool has_record = !listed_.files.empty();

@@ -6,7 +6,8 @@
 // any other file is somebody's, and a run refuses to mix with it unless told to. A run whose files
 // do not say what input they are of leaves a note between `begin` and `end`: killed, it leaves
 // nothing that the next run takes for somebody's. So does one that replaces another input, whose
-// record goes before the first new file is there: the note lists what it listed.
+// record goes before the first new file is there: the note lists what it listed. A record that lists
+// no frame that is there does not say its input, and counts as another's.
 #pragma once
 
 #include <filesystem>
@@ -25,7 +26,7 @@ class OutputFolder {
   // files that neither run.json lists nor this input made, unless `overwrite`. Hidden files are
   // nobody's business.
   OutputFolder(std::filesystem::path folder, std::string fingerprint, bool overwrite);
-  // Of a run that failed before a picture of its own took another's place, the record comes back.
+  // Of a run that failed before any file of its own was there, the record that it replaces comes back.
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
   OutputFolder& operator=(const OutputFolder&) = delete;
@@ -33,10 +34,10 @@ class OutputFolder {
   const std::filesystem::path& path() const { return folder_; }
 
   // A frame was made and will be written: a record of another input goes, with what is of all its
-  // frames together.
-  void begin_frames();
-  // The same, and until `end` frames' files in the folders of `products`, and `files` of all frames
-  // together, are those of a run that has not ended.
+  // frames together, and until `end` frames' files in the folders of `products` are those of a run
+  // that has not ended.
+  void begin_frames(const std::set<std::string>& products);
+  // The same, whatever record is there; and so are `files` of all frames together.
   void begin(const std::set<std::string>& products, const std::set<std::string>& files);
   // After run.json is written.
   void end();
@@ -54,7 +55,8 @@ class OutputFolder {
   bool is_of_this_input(const std::filesystem::path& relative) const;
   bool has_record_of_another() const;
   std::filesystem::path aside(const std::string& name) const;
-  void write_note(const std::set<std::string>& products, const std::set<std::string>& files) const;
+  void write_note(const std::set<std::string>& products, const std::set<std::string>& files);
+  std::map<std::string, std::filesystem::file_time_type> times() const;
 
   std::filesystem::path folder_;
   std::string fingerprint_;
@@ -65,9 +67,12 @@ class OutputFolder {
     bool contains(const std::filesystem::path& relative) const;
   };
   static Listed listed_in(const std::filesystem::path& folder);
-  Listed listed_;  // by the run.json that was there
+  Listed listed_;  // by the run.json that was there, and the note
+  Listed noted_;   // by the note as it is now
   bool begun_ = false;
   bool set_aside_ = false;  // the record of another input
+  // What was there then, of what the note says.
+  std::map<std::string, std::filesystem::file_time_type> before_;
 };
 
 // Whether a run that writes there has not ended, or was stopped: what is there may be of two.

@@ -22,7 +22,7 @@ SignalBscope fmcw_bscope(const scenes::Scene& scene, int frame, const FmcwSettin
   if (scene.plan.runs(core::EffectId::multipath))
     settings.multipath = renderer::Multipath::coherent;
   settings.swerling = scene.plan.runs(core::EffectId::swerling);
-  settings.budget = {scene.plan, scene.accuracy_grey, scene.options.wishes};
+  settings.budget = signal_budget(scene);
   settings.receiver = options;
   settings.seed = options.seed;
   return signal_bscope(scene.world, frame_pose, settings);

@@ -167,4 +167,11 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
   return frame;
 }
 
+FmcwFrame fmcw_frame(const FmcwRadar& radar, const scenes::Scene& scene, const FmcwPaths& paths,
+                     int frame, const FmcwSettings& options,
+                     const std::set<std::string>& products) {
+  return fmcw_frame(radar, scene.description.sensor, paths.paths, frame, options, products,
+                    signal_budget(scene), paths.interferers);
+}
+
 }  // namespace fanbeam::session

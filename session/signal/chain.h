@@ -50,6 +50,13 @@ FmcwFrame fmcw_frame(const FmcwRadar& radar, const sensors::Sensor& sensor,
                      const FmcwSettings& options, const std::set<std::string>& products,
                      const SignalBudget& budget = {},
                      const std::vector<signal::Interferer>& interferers = {});
+// The same of a frame of a scene, whose `paths` fmcw_paths gave.
+FmcwFrame fmcw_frame(const FmcwRadar& radar, const scenes::Scene& scene, const FmcwPaths& paths,
+                     int frame, const FmcwSettings& options, const std::set<std::string>& products);
+
+// E-RANGE where what `products` need has detections and the radar cannot detect (check_detects): to
+// be asked before any rays are cast. Nothing for waveforms without maps.
+void check_processing(const FmcwRadar& radar, const std::set<std::string>& products);
 
 // Maps and detections of frame.beats[0], as the names of `products` need them: the way down from
 // samples, whoever made them.

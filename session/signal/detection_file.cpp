@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -215,18 +216,33 @@ void read_json(const fs::path& path, std::vector<DetectedFrame>& frames,
   }
 }
 
+// Adds the detections of a frame to another. Each has numbered its clusters on its own: those of the added one
+// count from `next`, above all numbers so far, which moves on behind them.
+void append(const DetectedFrame& added, DetectedFrame& frame, int& next) {
+  frame.detections.insert(frame.detections.end(), added.detections.begin(), added.detections.end());
+  std::map<int, int> renumbered;
+  for (const int number : added.clusters)
+    frame.clusters.push_back(
+        number == signal::kNoCluster
+            ? number
+            : renumbered.try_emplace(number, next + static_cast<int>(renumbered.size()))
+                  .first->second);
+  next += static_cast<int>(renumbered.size());
+}
+
 // Frames of one time are one frame, as in a table.
 std::vector<DetectedFrame> in_order(std::vector<DetectedFrame> frames, const fs::path& path,
                                     core::ProblemList& problems) {
   std::vector<DetectedFrame> result;
+  int next_cluster = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     DetectedFrame& one = frames[i];
     if (result.empty() || one.time_s > result.back().time_s) {
+      next_cluster = 0;
+      for (const int number : one.clusters) next_cluster = std::max(next_cluster, number + 1);
       result.push_back(std::move(one));
     } else if (one.time_s == result.back().time_s) {
-      DetectedFrame& same = result.back();
-      same.detections.insert(same.detections.end(), one.detections.begin(), one.detections.end());
-      same.clusters.insert(same.clusters.end(), one.clusters.begin(), one.clusters.end());
+      append(one, result.back(), next_cluster);
     } else if (problems.all().size() < kMostProblems) {
       problems.error(ErrorClass::time, {path.string()}, "frame " + std::to_string(i) + " time_s",
                      core::number_text(one.time_s), "times that do not go back");

@@ -11,6 +11,7 @@
 // any other member is E-REF.
 // A folder: the files *.json in it (but run.json and timing.json), or in detections/ below it, in the
 // order of their names.
+// Frames of one time are one; clusters are each frame's own, whatever their numbers.
 //
 // Limits: files of 256 MiB, a million frames, 100 000 detections in a frame (a tracker takes fewer
 // measurements); ranges above 0 to 1e6 m, speeds within 1e5 m/s, azimuths within a half turn,

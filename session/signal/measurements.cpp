@@ -35,10 +35,13 @@ double over_bound(const signal::WindowFigures& figures) {
 // pitch^2 N (N^2 - 1) / 12 for N on a line.
 double spread_of(const signal::Array& array, int axis) {
   const std::vector<glm::dvec3> elements_m = signal::virtual_elements_m(array);
+  // Counted from the first, so that the spread of one height, whatever it is, is exactly 0.
+  const double first_m = elements_m.front()[axis];
   double mean_m = 0.0, sum_m2 = 0.0;
   for (const glm::dvec3& element : elements_m)
-    mean_m += element[axis] / static_cast<double>(elements_m.size());
-  for (const glm::dvec3& element : elements_m) sum_m2 += std::pow(element[axis] - mean_m, 2);
+    mean_m += (element[axis] - first_m) / static_cast<double>(elements_m.size());
+  for (const glm::dvec3& element : elements_m)
+    sum_m2 += std::pow(element[axis] - first_m - mean_m, 2);
   return sum_m2;
 }
 

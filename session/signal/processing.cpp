@@ -51,19 +51,31 @@ signal::PowerMap capon_map(const FmcwRadar& radar, const signal::FloatCube& rang
                                      range_speed.shape.chirps * signal::noise_gain(weights));
 }
 
+bool holds_any(const std::set<std::string>& products, std::initializer_list<const char*> names) {
+  return std::any_of(names.begin(), names.end(),
+                     [&](const char* name) { return products.contains(name); });
+}
+
+bool need_detections(const std::set<std::string>& products) {
+  return holds_any(products,
+                   {"range-doppler", "range-azimuth", "top-view", "detections", "spectrogram"});
+}
+
 }  // namespace
+
+void check_processing(const FmcwRadar& radar, const std::set<std::string>& products) {
+  if (radar.maps && need_detections(products)) check_detects(radar);
+}
 
 void process_samples(const FmcwRadar& radar, const ProcessingSettings& settings,
                      const std::set<std::string>& products, FmcwFrame& frame) {
   const auto wants = [&](std::initializer_list<const char*> names) {
-    return std::any_of(names.begin(), names.end(),
-                       [&](const char* name) { return products.contains(name); });
+    return holds_any(products, names);
   };
-  const bool detections =
-      wants({"range-doppler", "range-azimuth", "top-view", "detections", "spectrogram"});
+  const bool detections = need_detections(products);
   const bool angles = wants({"cube", "range-azimuth", "top-view"});
   if (!radar.maps || !(detections || angles)) return;
-  if (detections) check_detects(radar);
+  check_processing(radar, products);
   signal::FloatCube changed;
   const bool mends = settings.mitigation != signal::Mitigation::none;
   if (mends || radar.power_scale != 1.0) changed = frame.beats[0];

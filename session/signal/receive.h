@@ -22,7 +22,8 @@ struct FmcwReceiver {
   signal::PhaseNoiseTable phase_noise;  // empty: none
   double longest_delay_s = 0.0;         // of the echoes
   int adc_bits = 0;                     // 0: no quantiser
-  double full_scale_sqrtW = 0.0;        // of a part; 0: the cube's largest
+  // Of a part; 0: the cube's largest, which if positive is clipped by the one step that levels end below it.
+  double full_scale_sqrtW = 0.0;
 };
 
 // What the settings say of the receiver of a radar with this noise figure.

@@ -29,6 +29,10 @@ double energy_W(const signal::FloatCube& samples) {
 
 }  // namespace
 
+SignalBudget signal_budget(const scenes::Scene& scene) {
+  return {scene.plan, scene.accuracy_grey, scene.options.wishes};
+}
+
 core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
                                const sensors::Sensor& sensor, const FmcwReceiver& receiver,
                                double echo_W, const signal::FloatCube& beat,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "renderer/plan/plan.h"
+#include "scenes/scene.h"
 #include "session/signal/receive.h"
 
 namespace fanbeam::session {
@@ -12,6 +13,7 @@ struct SignalBudget {
   double accuracy_grey = 0.5;
   renderer::EffectWishes wishes;
 };
+SignalBudget signal_budget(const scenes::Scene& scene);
 
 // How what is made of the samples is shown: see renderer::SignalFacts.
 struct SamplesShown {
@@ -21,8 +23,8 @@ struct SamplesShown {
   int beams = 1;
 };
 
-// `beat` as synthesised, complex, the channels' gains included, `echo_W` the sum of its echoes' powers in the channel that
-// has most; `interference`: what other radars add to it, or empty.
+// `beat` as synthesised, complex, the channels' gains included, `echo_W` the sum of its echoes' powers in
+// the channel that has most; `interference`: what other radars add to it, or empty.
 core::EffectPlan receiver_plan(const SignalBudget& budget, const SamplesShown& shown,
                                const sensors::Sensor& sensor, const FmcwReceiver& receiver,
                                double echo_W, const signal::FloatCube& beat,

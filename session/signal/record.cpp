@@ -13,6 +13,7 @@
 #include "session/signal/signal_bscope.h"
 #include "session/signal/waveform_figures.h"
 #include "session/version.h"
+#include "signal/fourier/window_figures.h"
 #include "signal/scan/column_sweep.h"
 
 namespace fanbeam::session {
@@ -55,9 +56,23 @@ Json axes_json(const FmcwRadar& radar) {
           {"noise_cell_W", radar.noise_cell_W}};
 }
 
+// What a window of that many weights takes of a tone and lets through beside it; null where it is too short.
+Json window_json(const signal::Window& window, int length) {
+  const std::vector<double> weights = signal::window_weights(window, length);
+  if (weights.size() < 3) return nullptr;
+  const signal::WindowFigures figures = signal::window_figures(weights);
+  return {{"half_power_width_cells", figures.half_power_width_bins},
+          {"peak_side_lobe_dB", signal::peak_side_lobe_dB(weights)},
+          {"snr_loss_dB", figures.snr_loss_dB},
+          {"scalloping_dB", figures.scalloping_dB}};
+}
+
 Json processing_json(const FmcwSettings& options, const FmcwRadar& radar) {
   return {{"range_window", signal::name(options.range_window)},
+          {"range_window_figures",
+           window_json(options.range_window, signal::samples_per_segment(radar.waveform, 0))},
           {"doppler_window", signal::name(options.doppler_window)},
+          {"doppler_window_figures", window_json(options.doppler_window, radar.axes.doppler_cells)},
           {"angle_window", radar.line ? signal::name(options.angle_window) : "none"},
           {"mitigation", std::string(signal::name(options.mitigation))},
           {"angle_method", std::string(signal::name(options.angle_method))},

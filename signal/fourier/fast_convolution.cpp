@@ -23,14 +23,4 @@ std::vector<std::complex<double>> convolved(const std::vector<std::complex<doubl
   return result;
 }
 
-std::vector<std::complex<double>> compressed(const std::vector<std::complex<double>>& x,
-                                             const std::vector<std::complex<double>>& pulse) {
-  if (x.empty() || pulse.empty()) return std::vector<std::complex<double>>(x.size());
-  std::vector<std::complex<double>> reversed(pulse.rbegin(), pulse.rend());
-  for (auto& value : reversed) value = std::conj(value);
-  const auto all = convolved(x, reversed);
-  const auto first = all.begin() + static_cast<std::ptrdiff_t>(pulse.size() - 1);
-  return {first, first + static_cast<std::ptrdiff_t>(x.size())};
-}
-
 }  // namespace fanbeam::signal

@@ -1,12 +1,11 @@
-// Convolution and pulse compression through the Fourier transform, without wrapping round.
+// Convolution through the Fourier transform, without wrapping round.
 //
-//   convolved   y[k] = sum over i of x[i] h[k - i],          k = 0 .. |x| + |h| - 2
-//   compressed  y[k] = sum over i of x[k + i] conj(pulse[i]), k = 0 .. |x| - 1
+//   y[k] = sum over i of x[i] h[k - i],  k = 0 .. |x| + |h| - 2
 //
-// x counts as zero outside its samples: both are padded to at least |x| + |h| - 1, so that the tail
+// Both count as zero outside their samples and are padded to at least |x| + |h| - 1, so that the tail
 // of an echo in the last cell leaves the record instead of appearing in the first cells, as it does
 // with the circular convolution that a product of unpadded spectra is. An empty input gives an
-// empty result for `convolved` and zeros for `compressed`.
+// empty result.
 //
 // Accuracy: 1e-14 of the largest output. Cost: three transforms of the padded length, a
 // product of 2, 3 and 5.
@@ -19,8 +18,5 @@ namespace fanbeam::signal {
 
 std::vector<std::complex<double>> convolved(const std::vector<std::complex<double>>& x,
                                             const std::vector<std::complex<double>>& h);
-
-std::vector<std::complex<double>> compressed(const std::vector<std::complex<double>>& x,
-                                             const std::vector<std::complex<double>>& pulse);
 
 }  // namespace fanbeam::signal

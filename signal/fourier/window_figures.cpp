@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <limits>
+#include <numeric>
 
 #include "core/constants.h"
 #include "signal/checks_private.h"
@@ -40,7 +42,16 @@ double half_power_width(const std::vector<double>& weights) {
   return inside + outside;
 }
 
-double peak_side_lobe(const std::vector<double>& weights) {
+void check_window(const std::vector<double>& weights) {
+  if (weights.size() < 3 || !(std::accumulate(weights.begin(), weights.end(), 0.0) > 0.0))
+    refuse("window.weights", static_cast<double>(weights.size()),
+           "three or more weights with a positive sum");
+}
+
+}  // namespace
+
+double peak_side_lobe_dB(const std::vector<double>& weights) {
+  check_window(weights);
   constexpr std::size_t kPadding = 16;
   std::vector<std::complex<double>> padded(kPadding * weights.size());
   std::copy(weights.begin(), weights.end(), padded.begin());
@@ -48,7 +59,7 @@ double peak_side_lobe(const std::vector<double>& weights) {
   const std::size_t half = lines.size() / 2;
   std::size_t k = 1;
   while (k + 1 < half && std::norm(lines[k + 1]) < std::norm(lines[k])) ++k;
-  if (k + 1 >= half) return 0.0;
+  if (k + 1 >= half) return -std::numeric_limits<double>::infinity();
   std::size_t peak = k;
   for (; k < half; ++k)
     if (std::norm(lines[k]) > std::norm(lines[peak])) peak = k;
@@ -62,12 +73,11 @@ double peak_side_lobe(const std::vector<double>& weights) {
     (response(weights, left) < response(weights, right) ? low : high) =
         response(weights, left) < response(weights, right) ? left : right;
   }
-  return response(weights, 0.5 * (low + high));
+  return 10.0 * std::log10(response(weights, 0.5 * (low + high)));
 }
 
-}  // namespace
-
 WindowFigures window_figures(const std::vector<double>& weights) {
+  check_window(weights);
   double sum = 0.0, squares = 0.0, moment = 0.0, square_moment = 0.0, plain_moment = 0.0;
   const double count = static_cast<double>(weights.size());
   for (std::size_t n = 0; n < weights.size(); ++n) {
@@ -79,11 +89,8 @@ WindowFigures window_figures(const std::vector<double>& weights) {
     square_moment += t * t * w * w;
     plain_moment += t * t;
   }
-  if (weights.size() < 3 || !(sum > 0.0))
-    refuse("window.weights", count, "three or more weights with a positive sum");
   WindowFigures figures;
   figures.half_power_width_bins = half_power_width(weights);
-  figures.peak_side_lobe_dB = 10.0 * std::log10(peak_side_lobe(weights));
   figures.noise_bandwidth_bins = count * squares / (sum * sum);
   figures.snr_loss_dB = 10.0 * std::log10(figures.noise_bandwidth_bins);
   figures.scalloping_dB = -10.0 * std::log10(response(weights, 0.5));

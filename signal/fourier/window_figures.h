@@ -5,7 +5,8 @@
 //
 //   half_power_width_bins   twice the f where |W(f)|^2 = |W(0)|^2 / 2; times c / 2B it is the range
 //                           resolution, which a cell's spacing is not
-//   peak_side_lobe_dB       largest |W|^2 beyond the first minimum, over |W(0)|^2
+//   peak_side_lobe_dB       largest |W|^2 beyond the first minimum, over |W(0)|^2; -infinity where the
+//                           main lobe is all there is
 //   noise_bandwidth_bins    N sum w^2 / (sum w)^2
 //   snr_loss_dB             10 log10 of that: loss against no window, tone on a bin
 //   scalloping_dB           |W(0)|^2 / |W(1/2)|^2: loss of a tone between two bins
@@ -22,7 +23,6 @@ namespace fanbeam::signal {
 
 struct WindowFigures {
   double half_power_width_bins = 0.0;
-  double peak_side_lobe_dB = 0.0;
   double noise_bandwidth_bins = 0.0;
   double snr_loss_dB = 0.0;
   double scalloping_dB = 0.0;
@@ -31,5 +31,7 @@ struct WindowFigures {
 
 // `weights` need three values or more and a positive sum; E-RANGE otherwise.
 WindowFigures window_figures(const std::vector<double>& weights);
+// Apart from the others: it takes a transform of 16 times their number.
+double peak_side_lobe_dB(const std::vector<double>& weights);
 
 }  // namespace fanbeam::signal

@@ -71,7 +71,9 @@ class FootprintReader {
   GDALDatasetUniquePtr open() const;
   void read_layer(OGRLayer& layer);
   void read_feature(OGRFeature& feature);
-  void add_polygon(const OGRPolygon& polygon, double min_height_m, double height_m);
+  void add_polygon(OGRPolygon& polygon, double min_height_m, double height_m);
+  // GEOS refuses a polygon with an open one, and with it the file.
+  void close_rings(OGRPolygon& polygon);
   // An error and false for one with too many corners.
   bool check_corners(const OGRPolygon& polygon);
   void add_valid_polygon(const OGRPolygon& polygon, double min_height_m, double height_m);
@@ -93,6 +95,7 @@ class FootprintReader {
   std::size_t feature_ = 0;
   CornerBudget corners_;
   std::size_t crossings_left_ = kMostFileCrossings;
+  std::size_t unclosed_ = 0;
   std::size_t repaired_ = 0;
   std::size_t without_height_ = 0;
   std::size_t no_polygons_ = 0;
@@ -190,13 +193,24 @@ void FootprintReader::read_feature(OGRFeature& feature) {
       height_of(feature, options_.height_property, options_.default_height_m, without_height_);
   const auto min_height_m = height_of(feature, options_.min_height_property, 0.0, unused);
   if (!height_m || !min_height_m) return;
-  for (const OGRPolygon* polygon : polygons) add_polygon(*polygon, *min_height_m, *height_m);
+  for (OGRPolygon* polygon : polygons) add_polygon(*polygon, *min_height_m, *height_m);
 }
 
-void FootprintReader::add_polygon(const OGRPolygon& polygon, double min_height_m, double height_m) {
+void FootprintReader::close_rings(OGRPolygon& polygon) {
+  for (OGRLinearRing* ring : polygon) {
+    const int last = ring->getNumPoints() - 1;
+    if (last < 1 || (ring->getX(0) == ring->getX(last) && ring->getY(0) == ring->getY(last)))
+      continue;
+    ring->addPoint(ring->getX(0), ring->getY(0));
+    ++unclosed_;
+  }
+}
+
+void FootprintReader::add_polygon(OGRPolygon& polygon, double min_height_m, double height_m) {
   if (!all_points(polygon, is_on_earth))
     return refuse_feature("coordinates", "beyond the Earth",
                           "longitude -540 to 540, latitude -90 to 90 deg");
+  close_rings(polygon);
   if (polygon.IsValid()) return add_valid_polygon(polygon, min_height_m, height_m);
   const std::size_t most = std::min(kMostPolygonCrossings, crossings_left_) + 1;
   const std::size_t found = crossings(polygon, most);
@@ -283,6 +297,7 @@ void FootprintReader::report_counts() {
                              const std::string& done) {
     if (count > 0) problems_.warning(name, core::Place{file_}, what, std::to_string(count), done);
   };
+  report("UNCLOSED", unclosed_, "rings that do not end where they begin", "closed");
   report("REPAIRED", repaired_, "polygons that cross or touch themselves", "their area is kept");
   // The usual cause where no feature has it is another name.
   report("DEFAULT", without_height_, "features without " + options_.height_property,

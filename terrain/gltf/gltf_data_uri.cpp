@@ -3,8 +3,10 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <charconv>
+#include <utility>
 #include <vector>
+
+#include "core/relative_uri.h"
 
 namespace fanbeam::terrain {
 namespace {
@@ -25,26 +27,6 @@ bool is_same_word(std::string_view a, std::string_view b) {
                          std::string expected) {
   core::throw_input_error(core::ErrorClass::parse, place, field, std::move(value),
                           std::move(expected));
-}
-
-std::string percent_decoded(std::string_view text, const core::Place& place,
-                            const std::string& field) {
-  std::string decoded;
-  decoded.reserve(text.size());
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '%') {
-      decoded += text[i];
-      continue;
-    }
-    unsigned char byte = 0;
-    const char* digits = text.data() + i + 1;
-    if (i + 2 >= text.size() || std::from_chars(digits, digits + 2, byte, 16).ptr != digits + 2)
-      refuse(place, field, "\"" + std::string(text.substr(i, 3)) + "\"",
-             "\"%\" with two hexadecimal digits");
-    decoded += static_cast<char>(byte);
-    i += 2;
-  }
-  return decoded;
 }
 
 // tinygltf's decoder ends at the first byte that is no digit, without a word.
@@ -68,7 +50,12 @@ std::string data_uri_bytes(std::string_view uri, const core::Place& place,
   if (comma == std::string_view::npos)
     refuse(place, field, "a data: URI without a comma", "data:[type][;base64],data");
   const std::string_view type = uri.substr(kScheme.size(), comma - kScheme.size());
-  std::string data = percent_decoded(uri.substr(comma + 1), place, field);
+  const std::string_view encoded = uri.substr(comma + 1);
+  core::PercentDecoded decoded = core::percent_decoded(encoded);
+  if (decoded.wrong != std::string::npos)
+    refuse(place, field, "\"" + std::string(encoded.substr(decoded.wrong, 3)) + "\"",
+           "\"%\" with two hexadecimal digits");
+  std::string data = std::move(decoded.bytes);
   const bool is_base64 = type.size() >= kBase64Mark.size() &&
                          is_same_word(type.substr(type.size() - kBase64Mark.size()), kBase64Mark);
   if (!is_base64) return data;

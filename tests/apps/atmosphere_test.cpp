@@ -256,6 +256,14 @@ TEST_CASE("Air that there is not, and options that do nothing, are refused in th
       {"--rain 5 --rain-law mie --tilt 45 --path-elevation 10",
        "E-RANGE --tilt = 45: expected the rain law itu-p838, as mie does not know it\n"
        "E-RANGE --path-elevation = 10"},
+      {"--rain 5 --rain-echo-law mie-fit --drop-sizes joss-drizzle",
+       "E-RANGE --drop-sizes = joss-drizzle: expected the rain law or the rain echo law mie, as "
+       "itu-p838 and mie-fit do not know it\n"},
+      {"--compare 90,100 --rain-law georgia-tech-95 --tilt 45 --path-elevation 10",
+       "E-RANGE --tilt = 45: expected the rain law itu-p838, as georgia-tech-95 does not know it\n"
+       "E-RANGE --path-elevation = 10"},
+      {"--compare 35,94 --rain-echo-law mie-fit --drop-sizes joss-drizzle",
+       "E-RANGE --drop-sizes = joss-drizzle"},
       {"--fog-top 50 --fog-type kunkel",
        "E-REF --fog-top = 50: expected --fog-visibility or --fog-water beside it, or a scene that "
        "has it\nE-REF --fog-type = kunkel: expected --fog-visibility beside it"},
@@ -290,7 +298,9 @@ TEST_CASE("Air that there is not, and options that do nothing, are refused in th
   }
   for (const char* words :
        {"--fog-water 0.1 --fog-law centimetre --frequency 15", "--rain 0 --rain-top 500",
-        "braunschweig-26 --fog-top 50", "rain-94ghz --rain-law mie", "--height 500 --range 500"}) {
+        "--rain 5 --rain-law mie --rain-echo-law mie-fit --drop-sizes joss-drizzle",
+        "--compare 35,94 --tilt 45 --drop-sizes joss-drizzle", "braunschweig-26 --fog-top 50",
+        "rain-94ghz --rain-law mie", "--height 500 --range 500"}) {
     INFO(words);
     CHECK(tests::run_fanbeam(std::string("atmosphere ") + words).exit_code == 0);
   }

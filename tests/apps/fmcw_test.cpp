@@ -115,6 +115,17 @@ TEST_CASE("A lone target stands at its cell of map, cube and list", "[fmcw]") {
   const double speed_cell =
       (-10.0 - axes["speed_first_mps"].get<double>()) / axes["speed_step_mps"].get<double>();
   CHECK(axes["speed_step_mps"].get<double>() == Approx(0.513625).epsilon(1e-4));
+  // Chebyshev's windows of 400 samples and of 64 chirps, by the sums over their weights.
+  const nlohmann::json& windows = record["processing"];
+  const auto window_has = [](const nlohmann::json& figures, double width_cells, double loss_dB,
+                             double scalloping_dB) {
+    CHECK(figures["half_power_width_cells"].get<double>() == Approx(width_cells).epsilon(1e-5));
+    CHECK(figures["peak_side_lobe_dB"].get<double>() == Approx(-60.0).epsilon(1e-4));
+    CHECK(figures["snr_loss_dB"].get<double>() == Approx(loss_dB).epsilon(1e-5));
+    CHECK(figures["scalloping_dB"].get<double>() == Approx(scalloping_dB).epsilon(1e-5));
+  };
+  window_has(windows["range_window_figures"], 1.448033, 1.818876, 1.418165);
+  window_has(windows["doppler_window_figures"], 1.463885, 1.865678, 1.387289);
 
   const core::Image map = core::read_image(out / "range-doppler" / "00000.exr");
   const std::vector<double>& powers = map.layers.at(0).values;

@@ -149,6 +149,19 @@ TEST_CASE("init names files of a data folder instead of copying them", "[init]")
           .exit_code == 0);
 }
 
+TEST_CASE("What init says comes next is what a shell takes back", "[init]") {
+  const TemporaryFolder data, folder;
+  dem(data);
+  fs::copy(data.path(), folder.path() / "da ta");
+  const Result made =
+      run_fanbeam("init \"it's\" " + kRunway + "--dem 'da ta/my dem.asc' --data 'da ta'",
+                  "cd " + quoted(folder.path()) + " &&");
+  INFO(made.output);
+  REQUIRE(made.exit_code == 0);
+  CHECK_THAT(made.output, Contains("next:  fanbeam render 'it'\\''s' --data 'da ta' --frames 0\n"
+                                   "       fanbeam doctor 'it'\\''s' --data 'da ta'\n"));
+}
+
 TEST_CASE("init makes Friedrichshafen 24 and 06 of a runway table and an SRTM tile", "[init]") {
   const auto runways = shared_data("airports/runway_ends_derived.csv");
   const auto tile = shared_data("srtm-n47e009/N47E009.hgt");

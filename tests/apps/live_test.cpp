@@ -195,6 +195,40 @@ TEST_CASE("Lockstep writes the same raw pictures every time, and a recording the
   CHECK(bytes_of("--speed 2 --replay " + record, "paced").size() % (164U * 524U) == 0);
 }
 
+// The display hid the noise, and it was left out of the watts too: cells in shadow had none.
+TEST_CASE("Radar video in watts holds the receiver's noise, whatever the display shows", "[live]") {
+  const int ear = ::socket(AF_INET, SOCK_DGRAM, 0);
+  sockaddr_in at{};
+  at.sin_family = AF_INET;
+  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof at;
+  REQUIRE(::bind(ear, reinterpret_cast<sockaddr*>(&at), size) == 0);
+  REQUIRE(::getsockname(ear, reinterpret_cast<sockaddr*>(&at), &size) == 0);
+  const TemporaryFolder folder;
+  const auto record = folder.write(
+      "flight.jsonl",
+      R"({"fanbeam_live":1,"scene":"flat-grass","from":["circle"],"rate_Hz":16,"lockstep":true})"
+      "\n"
+      R"({"control":"/api/sensor","body":"{\"low_dB\":0,\"high_dB\":60}"})"
+      "\n"
+      R"({"frame":1,"now_s":0.1,"at_s":0.1,"samples":1})"
+      "\n");
+  const Result flown =
+      run_fanbeam("live flat-grass --http 0 --lockstep --replay " + record.string() +
+                  " --to cat240:127.0.0.1:" + std::to_string(ntohs(at.sin_port)) + ",bits=16");
+  INFO(flown.output);
+  REQUIRE(flown.exit_code == 0);
+  // The summary, then the first column: two bytes a cell from byte 32 on, 0 for no power.
+  std::vector<std::uint8_t> message(65536);
+  REQUIRE(::recv(ear, message.data(), message.size(), MSG_DONTWAIT) > 0);
+  REQUIRE(::recv(ear, message.data(), message.size(), MSG_DONTWAIT) > 32 + 2 * 524);
+  ::close(ear);
+  int dark = 0;
+  for (std::size_t cell = 0; cell < 524; ++cell)
+    dark += message[32 + 2 * cell] == 0 && message[33 + 2 * cell] == 0 ? 1 : 0;
+  CHECK(dark == 0);  // 24 of them
+}
+
 TEST_CASE("A recording belongs to its scene, sensor and effects", "[live]") {
   const TemporaryFolder folder;
   const std::string record = (folder.path() / "flight.jsonl").string();

@@ -77,6 +77,7 @@ TEST_CASE("A run that could write no picture leaves the one before it whole, its
     INFO(name);
     CHECK(contents(out)[name] == bytes);
   }
+  CHECK_FALSE(fs::exists(out / ".unfinished.json"));
 }
 
 TEST_CASE("Frames of the same input stay, and run.json is that of all frames rendered at once",
@@ -300,6 +301,53 @@ TEST_CASE("Files of all frames are a killed run's own by its note alone", "[rend
   killed.end();
   folder.write("coco.json", "mine");
   CHECK_THROWS_AS(there(), core::InputError);
+}
+
+// It went with the first frame that was made, as files of fmcw do not say their input.
+TEST_CASE("The record of a run comes back where the next one wrote nothing, also without inputs",
+          "[fmcw]") {
+  const TemporaryFolder folder;
+  for (const char* product : {"detections", "beat"}) fs::create_directory(folder.path() / product);
+  folder.write("run.json", R"({"frames": [{"files": ["detections/00000.csv"]}],)"
+                           R"( "files": ["radar.toml"]})");
+  for (const char* name : {"timing.json", "radar.toml", "detections/00000.csv"})
+    folder.write(name, "of the first run");
+  const auto before = contents(folder.path());
+  {
+    session::OutputFolder failed(folder.path(), "", false);
+    failed.begin({"detections", "beat"}, {"radar.toml"});
+    CHECK_FALSE(fs::exists(folder.path() / "run.json"));
+    CHECK_FALSE(fs::exists(folder.path() / "radar.toml"));
+  }
+  CHECK((contents(folder.path()) == before));
+  {
+    session::OutputFolder failed(folder.path(), "", false);
+    failed.begin({"detections", "beat"}, {"radar.toml"});
+    folder.write("beat/00007.npy", "of the second run");
+  }
+  for (const char* gone : {"run.json", "timing.json", "radar.toml"})
+    CHECK_FALSE(fs::exists(folder.path() / gone));
+  CHECK_NOTHROW(session::OutputFolder(folder.path(), "", false));
+}
+
+// Its note held nothing but what the record had listed, and a film alone told no input.
+TEST_CASE("A killed run of another input leaves only what the next run may replace", "[render]") {
+  const TemporaryFolder folder;
+  for (const char* product : {"bscope", "cscope"}) fs::create_directory(folder.path() / product);
+  folder.write("run.json", R"({"frames": [], "files": ["preview.mp4"]})");
+  folder.write("preview.mp4", "of the first run");
+  session::OutputFolder killed(folder.path(), "second input", false);
+  killed.begin_frames({"cscope"});
+  CHECK_FALSE(fs::exists(folder.path() / "run.json"));
+  folder.write("cscope/00003.png", "of the second run");
+  CHECK_NOTHROW(session::OutputFolder(folder.path(), "third input", false));
+  folder.write("bscope/00003.png", "somebody's");
+  CHECK_THROWS_AS(session::OutputFolder(folder.path(), "third input", false), core::InputError);
+  // Films go on the same note.
+  killed.begin({}, {"preview.gif"});
+  fs::remove(folder.path() / "bscope/00003.png");
+  folder.write("preview.gif", "of the second run");
+  CHECK_NOTHROW(session::OutputFolder(folder.path(), "third input", false));
 }
 
 TEST_CASE("A frame that fmcw refuses leaves no folder", "[fmcw]") {

@@ -102,6 +102,29 @@ TEST_CASE("JSON detections have the members of the format alone, and one velocit
   CHECK(contrary[0].field == "/radar_speed_mps");
 }
 
+// Two cars 5 m apart, each cluster 0 of its radar's frame, were one measurement between them.
+TEST_CASE("Clusters of two frames of one time stay apart", "[track]") {
+  const tests::TemporaryFolder folder;
+  const auto frame = [](double range_m, int first, int second) {
+    const auto part = [&](double beyond_m, int cluster) {
+      return fmt::format(
+          R"({{"range_m": {}, "radial_speed_mps": 1, "azimuth_rad": 0, "cluster": {}}})",
+          range_m + beyond_m, cluster);
+    };
+    return R"({"time_s": 0, "detections": [)" + part(0.0, first) + "," + part(0.5, first) + "," +
+           part(20.0, second) + "]}";
+  };
+  core::ProblemList problems;
+  const auto frames = session::read_detections(
+      folder.write("two.json", R"({"frames": [)" + frame(30.0, 0, -1) + "," + frame(35.0, 0, 7) +
+                                   "," + frame(40.0, 1000000000, 0) + "]}"),
+      problems);
+  CHECK_FALSE(problems.has_errors());
+  REQUIRE(frames.size() == 1);
+  CHECK(frames[0].detections.size() == 9);
+  CHECK(frames[0].clusters == std::vector<int>{0, 0, -1, 1, 1, 2, 3, 3, 4});
+}
+
 TEST_CASE("Elevations are read from tables and from JSON, and lie within a quarter turn",
           "[track]") {
   const tests::TemporaryFolder folder;

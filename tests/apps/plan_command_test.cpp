@@ -79,7 +79,7 @@ TEST_CASE("The table fits 100 columns and names every effect with its reason", "
     CHECK(result.output.find("\n" + std::string(effect.name()) + " ") != std::string::npos);
   for (const char* word :
        {"scene        far", "sensor       HiVision", "0.5 grey levels: 0.25 for",
-        "caster       profile: over buildings slices need", "planned in   ", "the scene has no fog",
+        "caster       profile: over buildings slices come", "planned in   ", "the scene has no fog",
         "frame by frame, ", "  frames 0 to ", "double-bounce off,"})
     CHECK(result.output.find(word) != std::string::npos);
   for (const std::string& line : lines_of(result.output))

@@ -194,5 +194,17 @@ TEST_CASE("A sensor file may leave own-ship Doppler in: fmcw has the shift, pict
         tests::bytes_of(folder.path() / "left_in" / "bscope" / "00400.exr"));
   const auto refused = run("render --overwrite", "left_in");
   CHECK(refused.exit_code == 3);
+  CHECK(refused.output.find("left_in.toml:") != std::string::npos);
   CHECK(refused.output.find("E-UNSUPPORTED waveform.doppler_compensated") != std::string::npos);
+  // The scene is valid, for signals.
+  const auto look = [&](const std::string& command) {
+    return tests::run_fanbeam(command + " flat-grass --sensor " +
+                              tests::quoted(folder.path() / "left_in.toml"));
+  };
+  const auto valid = look("validate");
+  INFO(valid.output);
+  CHECK(valid.exit_code == 0);
+  CHECK(valid.output.find("pictures    of fanbeam fmcw --products bscope alone") !=
+        std::string::npos);
+  CHECK(look("doctor").output.find("E-UNSUPPORTED") == std::string::npos);
 }

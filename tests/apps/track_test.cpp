@@ -45,6 +45,7 @@ TEST_CASE("track writes tables and metrics, the same bytes again", "[track]") {
   CHECK(record["scenarios"][0]["range_rmse_m"] < 0.01);
   const auto& scenario = record["scenarios"][0];
   CHECK(scenario["skipped_updates"] == 0);
+  CHECK(scenario["left_out_of_joint"] == 0);
   CHECK(scenario["crossings"].empty());
   REQUIRE(scenario["tracks_at_end"].size() == 2);
   for (const auto& track : scenario["tracks_at_end"]) {

@@ -125,6 +125,29 @@ TEST_CASE("A file that the command line names and that is not there is E-IO, exi
         std::string::npos);
 }
 
+TEST_CASE("An option that would do nothing beside the others given is refused", "[cli]") {
+  const TemporaryFolder folder;
+  folder.write("a.png", "");  // not even looked at
+  const std::string a = quoted(folder.path() / "a.png");
+  for (const std::string option : {"--rms 5", "--largest 5", "--percent 5"}) {
+    const Result told = run_fanbeam("compare --exact " + option + " " + a + " " + a);
+    INFO(told.output);
+    CHECK(told.exit_code == 2);
+    CHECK(told.output.find(option.substr(0, option.find(' ')) + " excludes --exact") !=
+          std::string::npos);
+  }
+  const std::string data = " --data " + quoted(folder.path());
+  for (const char* words :
+       {"list", "list sensors", "list products --json", "list scenes --names"}) {
+    const Result told = run_fanbeam(words + data);
+    INFO(words << ": " << told.output);
+    CHECK(told.exit_code == 2);
+    CHECK(told.output.find("--data: only tells in fanbeam list scenes") != std::string::npos);
+  }
+  for (const char* words : {"list scenes", "list scenes --json", "list --json"})
+    CHECK(run_fanbeam(words + data).exit_code == 0);
+}
+
 TEST_CASE("A misspelt command or option is answered with the nearest one", "[cli]") {
   const std::pair<const char*, const char*> slips[] = {
       {"rendr", "fanbeam: no command rendr; did you mean render?\n"},

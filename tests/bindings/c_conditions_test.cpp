@@ -110,7 +110,7 @@ TEST_CASE("Targets set through C add up one by one, and go back together", "[bin
   };
   fanbeam_target truck = target_called("truck");
   CHECK(set(truck) == FANBEAM_BAD_INPUT);  // new, and without an rcs
-  CHECK(told("target[0].name"));
+  CHECK(told("E-REF target.name"));
   truck.given = FANBEAM_RCS;
   truck.rcs_m2 = 1000.0;
   REQUIRE(set(truck) == FANBEAM_OK);
@@ -125,6 +125,16 @@ TEST_CASE("Targets set through C add up one by one, and go back together", "[bin
   REQUIRE(set(truck) == FANBEAM_OK);
   CHECK((tests::c_rendered(c, pose) == both));
 
+  fanbeam_target nobody = target_called("nobody");
+  CHECK(set(nobody) == FANBEAM_BAD_INPUT);  // the third that the session has
+  CHECK(told("E-REF target.name"));
+  const fanbeam_target two[] = {mast, nobody};
+  CHECK(fanbeam_set_targets(c.get(), two, 2) == FANBEAM_BAD_INPUT);
+  CHECK(told("E-REF targets[1].name"));
+  nobody.name = "\xff";
+  nobody.given = FANBEAM_RCS;
+  CHECK(set(nobody) == FANBEAM_BAD_INPUT);
+  CHECK(told("UTF-8"));
   mast.height_m = std::nan("");
   CHECK(set(mast) == FANBEAM_BAD_INPUT);
   CHECK((tests::c_rendered(c, pose) == both));

@@ -160,6 +160,22 @@ TEST_CASE("Opening tells every problem of the setup, or of the scene, at once", 
         "threads = -1", "samples_per_cell = nan", "realisation = 9", "reserved = 1"})
     CHECK(told(std::string("setup.") + field));
   setup = tests::c_setup();
+  const std::array folders = {folder.path().c_str(), "/nowhere/data"};
+  setup.data_folders = folders.data();
+  setup.data_folder_count = folders.size();
+  setup.sensor_file = "hivision";
+  setup.effects = "+speckle";
+  setup.realisation = FANBEAM_EXPECTED;
+  CHECK(refused(tests::kSmallScene, setup) == FANBEAM_BAD_INPUT);
+  INFO(fanbeam_last_error());
+  CHECK(tests::problems_told() == 3);
+  CHECK(told("E-IO setup.data_folders[1] = \"/nowhere/data\""));
+  CHECK(told("E-IO setup.sensor_file = \"hivision\" not found"));
+  CHECK(told("E-UNSUPPORTED setup.effects = \"+speckle\""));
+  setup = tests::c_setup();
+  fanbeam_session* session = nullptr;
+  CHECK(fanbeam_open("", &setup, &session) == FANBEAM_BAD_INPUT);
+  CHECK(told("E-IO scene = \"\""));
   setup.size = 72;
   CHECK(refused(tests::kSmallScene, setup) == FANBEAM_BAD_SIZE);
 

@@ -151,6 +151,8 @@ TEST_CASE("F05 paths inside the folder resolve, with detours that come back", "[
   CHECK(path_inside(scratch.folder(), "./with space.tif", place, "file") ==
         root / "with space.tif");
   CHECK(path_inside(scratch.folder(), "..almost.tif", place, "file") == root / "..almost.tif");
+  CHECK(path_inside(scratch.folder(), "flight_08:30.csv", place, "file") ==
+        root / "flight_08:30.csv");
   fs::create_symlink("models", scratch / "link");
   CHECK(path_inside(scratch.folder(), "link/truck.glb", place, "file") ==
         root / "models/truck.glb");

@@ -119,6 +119,13 @@ TEST_CASE("F08 lengths in the head of an OpenEXR file are checked before memory 
   CHECK(with(std::string("a\0string\0", 9) + most) == "E-PARSE");
   CHECK(with(std::string("a\0stringvector\0", 15) + eight + most + "abcd") == "E-PARSE");
   CHECK(with(std::string("a\0preview\0", 10) + twelve + most + most + "abcd") == "E-PARSE");
+  // In a file so long that either side alone could be: their product is no smaller for running over.
+  const std::string side("\0\0\0\x70", 4);
+  std::string bytes = whole;
+  bytes.insert(8, std::string("a\0preview\0", 10) + side + side + side);
+  write_file_atomically(scratch.path() / "c.exr", bytes);
+  std::filesystem::resize_file(scratch.path() / "c.exr", 0x7f000000);
+  CHECK(code_of([&] { read_metadata(scratch.path() / "c.exr"); }) == "E-PARSE");
   CHECK(memory.rise_MiB() < 64.0);
   CHECK(with(std::string("a\0string\0", 9) + eight + "abcdefgh") == "accepted");
   CHECK(with(std::string("a\0stringvector\0", 15) + eight + std::string("\x04\0\0\0", 4) +

@@ -89,6 +89,22 @@ TEST_CASE("What a terminal would obey is shown as an escape, everything else as 
   }
 }
 
+TEST_CASE("A shell takes back any text as one word", "[text]") {
+  const std::pair<const char*, const char*> cases[] = {{"", "''"},
+                                                       {"out/edny-24_b.toml", "out/edny-24_b.toml"},
+                                                       {"da ta", "'da ta'"},
+                                                       {"it's", "'it'\\''s'"},
+                                                       {"'", "''\\'''"},
+                                                       {"$HOME", "'$HOME'"},
+                                                       {"~", "'~'"},
+                                                       {"a\nb", "'a\nb'"},
+                                                       {"\xC3\xA9", "'\xC3\xA9'"}};
+  for (const auto& [text, word] : cases) {
+    INFO(text);
+    CHECK(shell_word(text) == word);
+  }
+}
+
 TEST_CASE("A safe word names one file in one folder, and any text becomes one", "[text]") {
   for (const char* word : {"a", "innsbruck-26", "v1.2_b", "0", "A..b"}) {
     CHECK(is_safe_word(word));

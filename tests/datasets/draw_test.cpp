@@ -76,6 +76,16 @@ TEST_CASE("Distributions are the inverse of their law", "[draw]") {
   CHECK(number(decades.at(0.5)) == Approx(10.0).epsilon(1e-14));
   CHECK(number(decades.at(1.0)) <= 100.0);
   // A normal law cut at one standard deviation: u = (Phi(x) - Phi(-1)) / (Phi(1) - Phi(-1)).
+  // High in the tail as low in it: what is left above x is erfc(x / sqrt 2) / 2, beyond 20 nothing.
+  const Distribution tail(Distribution::Normal{0.0, 1.0, 8.0, 20.0}),
+      other_tail(Distribution::Normal{0.0, 1.0, -20.0, -8.0});
+  for (const double u : {0.0625, 0.25, 0.5, 0.9375, 0.9990234375}) {
+    INFO(u);
+    const double x = number(tail.at(u));
+    CHECK(std::erfc(x / std::sqrt(2.0)) / std::erfc(8.0 / std::sqrt(2.0)) ==
+          Approx(1.0 - u).epsilon(1e-9));
+    CHECK(number(other_tail.at(1.0 - u)) == Approx(-x).epsilon(1e-9));
+  }
   const Distribution normal(Distribution::Normal{5.0, 2.0, 3.0, 7.0});
   CHECK(number(normal.at(0.5)) == Approx(5.0).epsilon(1e-12));
   for (const double x : {3.3, 4.0, 6.9}) {
@@ -151,6 +161,29 @@ TEST_CASE("A run's values depend on the file and its number alone", "[draw]") {
   }
 }
 
+TEST_CASE("A scene is named once, and not as an airport is", "[draw]") {
+  const auto told = [](const std::string& scenes, const std::string& rest,
+                       datasets::ReadFor purpose) {
+    const tests::TemporaryFolder folder;
+    core::ProblemList problems;
+    datasets::read_campaign(
+        folder.write("campaign.toml", "[campaign]\nname = \"x\"\nscenes = " + scenes + "\n" + rest),
+        problems, purpose);
+    return problems.all().empty() ? "" : core::to_string(problems.all().front());
+  };
+  const std::string airport =
+      "[[airport]]\nident = \"EDNY\"\nrunway = \"24\"\nname = \"a\"\nfile = \"r.csv\"\n"
+      "elevation = \"e.hgt\"\n";
+  using datasets::ReadFor;
+  CHECK(told("[\"b\", \"c\"]", airport, ReadFor::making).empty());
+  for (const std::string& scenes : {std::string("[\"b\", \"b\"]"), std::string("[\"b\", \"a\"]")}) {
+    INFO(scenes);
+    CHECK_THAT(told(scenes, airport, ReadFor::making),
+               Catch::Contains("campaign.toml:3:") && Catch::Contains("E-REF campaign.scenes"));
+    CHECK(told(scenes, airport, ReadFor::looking).empty());
+  }
+}
+
 TEST_CASE("A Sobol plan fills every dimension evenly, whatever the seed", "[draw]") {
   for (const int seed : {0, 1, 99}) {
     const Campaign campaign =
@@ -181,7 +214,7 @@ TEST_CASE("Runs leave the flight as they are told, and wander as far as they are
                  {"flight.speed_factor", 2.0},
                  {"flight.heading_deg", 90.0}};
   flown.time_s = 10.0;
-  const core::Pose pose = datasets::run_pose(draw, 1, flown);
+  const core::Pose pose = datasets::run_pose(draw, 1, flown, 0.0);
   // 100 m to the east on the parallel: a / sqrt(1 - e^2 sin^2) cos.
   const double sine = std::sin(0.9),
                radius_m = 6378137.0 / std::sqrt(1 - 6.69437999014e-3 * sine * sine);
@@ -189,6 +222,9 @@ TEST_CASE("Runs leave the flight as they are told, and wander as far as they are
         Approx(100.0).epsilon(1e-6));
   CHECK(pose.position.height_m == 480.0);
   CHECK(pose.time_s == 5.0);
+  // From where it begins, whatever the clock says there.
+  flown.time_s = 1010.0;
+  CHECK(datasets::run_pose(draw, 1, flown, 1000.0).time_s == 1005.0);
   CHECK(pose.v_N_mps.x == 100.0);
   CHECK(core::attitude_from(pose.q_NB).heading_rad == Approx(1.5707963267948966));
 
@@ -198,7 +234,7 @@ TEST_CASE("Runs leave the flight as they are told, and wander as far as they are
   for (draw.run = 0; draw.run < 200; ++draw.run)
     for (int second = 0; second < 60; ++second, ++count) {
       flown.time_s = second;
-      const double up_m = datasets::run_pose(draw, 1, flown).position.height_m - 500.0;
+      const double up_m = datasets::run_pose(draw, 1, flown, 0.0).position.height_m - 500.0;
       square += up_m * up_m;
     }
   CHECK(std::sqrt(square / count) == Approx(3.0).epsilon(0.05));

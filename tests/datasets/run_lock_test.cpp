@@ -22,6 +22,8 @@ namespace {
 int refusal = 0;     // that every call answers
 int interrupts = 0;  // before the next call is heard
 int full = 0;        // calls that find no room
+int looks = 0;       // calls that find somebody who only looks
+int asked = 0;       // of the last call
 
 std::string told_by(const std::function<void()>& call) {
   try {
@@ -36,9 +38,13 @@ std::string told_by(const std::function<void()>& call) {
 
 // In the place of the C library's.
 extern "C" int flock(int descriptor, int operation) noexcept {
-  int* const next = interrupts > 0 ? &interrupts : full > 0 ? &full : nullptr;
+  asked = operation;
+  int* const next = interrupts > 0 ? &interrupts : full > 0 ? &full : looks > 0 ? &looks : nullptr;
   if (next != nullptr || refusal != 0) {
-    errno = next == &interrupts ? EINTR : next == &full ? ENOLCK : refusal;
+    errno = next == &interrupts ? EINTR
+            : next == &full     ? ENOLCK
+            : next == &looks    ? EWOULDBLOCK
+                                : refusal;
     if (next != nullptr) --*next;
     return -1;
   }
@@ -77,4 +83,30 @@ TEST_CASE("A lock is held by one alone, and a signal does not lose it", "[run_lo
   CHECK(lock.held());
   CHECK(datasets::is_locked(file));
   CHECK_FALSE(RunLock(file).held());
+}
+
+// A status that looked took the lock for a moment, and a worker left the run to nobody.
+TEST_CASE("Who looks at a lock neither has it nor hinders who takes it", "[run_lock]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write("run.lock", "");
+  CHECK_FALSE(datasets::is_locked(file));
+  CHECK((asked & LOCK_SH) != 0);
+  looks = 2;
+  CHECK(RunLock(file).held());
+  CHECK(looks == 0);
+}
+
+TEST_CASE("A lock that was left is taken away, one that is held is not", "[run_lock]") {
+  const tests::TemporaryFolder folder;
+  const auto file = folder.write("run.lock", "");
+  {
+    const RunLock lock(file);
+    datasets::remove_unheld(file);
+    CHECK(std::filesystem::exists(file));
+    CHECK(lock.held());
+  }
+  folder.write("run.lock", "");
+  datasets::remove_unheld(file);
+  CHECK_FALSE(std::filesystem::exists(file));
+  datasets::remove_unheld(file);
 }

@@ -344,62 +344,108 @@ TEST_CASE("Packets that are held back or bunched move the aircraft by no more th
 
 namespace {
 
-// Along a straight flight at 70 m/s of a simulator that runs `rate` times as fast as time: metres between one
-// frame and the next, from two seconds on. Packets and frames at 16 Hz, packets `late_s` late.
-std::vector<double> steps_m(
-    double rate, bool tells_clock,
-    const std::function<double(int)>& late_s = [](int) { return 0.0; }) {
-  constexpr double kPeriod_s = 1.0 / 16.0, kSpeed_mps = 70.0;
+using Late = std::function<double(int)>;
+
+constexpr double kFrame_s = 1.0 / 16.0, kStraight_mps = 70.0;
+
+double on_time(int) { return 0.0; }
+double held_back(int i) { return i % 8 == 3 ? kFrame_s - 0.0005 : 0.0; }
+
+// Metres along a straight flight at kStraight_mps of a simulator of which `flown_s` of our time has passed, at the
+// middles of frames at 16 Hz. Packets come at their rate, `late_s` late.
+std::vector<double> places_m(const std::function<double(double)>& flown_s, bool tells_clock,
+                             double packets_Hz = 16.0, const Late& late_s = on_time) {
   Predictor predictor(kFrame);
-  std::vector<double> places_m, steps_m;
+  std::vector<double> places_m;
   int next = 0;
   for (int frame = 0; frame < 320; ++frame) {
-    const double begin_s = (frame + 0.3) * kPeriod_s;
-    for (; next * kPeriod_s + late_s(next) <= begin_s; ++next) {
-      const double flown_s = rate * next * kPeriod_s;
+    const double begin_s = (frame + 0.3) * kFrame_s;
+    for (; next / packets_Hz + late_s(next) <= begin_s; ++next) {
+      const double sent_s = next / packets_Hz;
       core::Pose pose;
-      pose.position = kFrame.to_geodetic({0.0, kSpeed_mps * flown_s, 500.0});
-      pose.v_N_mps = {kSpeed_mps, 0.0, 0.0};
-      predictor.take(pose, next * kPeriod_s + late_s(next),
-                     tells_clock ? std::optional(1000.0 + flown_s) : std::nullopt);
+      pose.position = kFrame.to_geodetic({0.0, kStraight_mps * flown_s(sent_s), 500.0});
+      pose.v_N_mps = {kStraight_mps, 0.0, 0.0};
+      predictor.take(pose, sent_s + late_s(next),
+                     tells_clock ? std::optional(1000.0 + flown_s(sent_s)) : std::nullopt);
     }
-    places_m.push_back(kFrame.to_local_m(predictor.at(begin_s + kPeriod_s / 2)->position).y);
-    if (frame > 32) steps_m.push_back(places_m.back() - places_m[places_m.size() - 2]);
+    places_m.push_back(kFrame.to_local_m(predictor.at(begin_s + kFrame_s / 2)->position).y);
   }
+  return places_m;
+}
+
+// From one frame to the next, of a simulator that runs `rate` times as fast as time, from two seconds on.
+std::vector<double> steps_m(double rate, bool tells_clock, double packets_Hz = 16.0,
+                            const Late& late_s = on_time) {
+  const std::vector<double> places =
+      places_m([rate](double time_s) { return rate * time_s; }, tells_clock, packets_Hz, late_s);
+  std::vector<double> steps_m;
+  for (std::size_t frame = 33; frame < places.size(); ++frame)
+    steps_m.push_back(places[frame] - places[frame - 1]);
   return steps_m;
 }
 
 }  // namespace
 
-// It went back a quarter of a second's flight every eight frames.
+// It went back a quarter of a second's flight every eight frames; fast ones stood, kilometres behind.
 TEST_CASE("A simulator that runs slower than time, or faster, moves on evenly at its own pace",
           "[predictor]") {
-  for (const double rate : {0.3, 0.5, 0.8, 1.0, 1.5, 4.0})
-    for (const bool tells_clock : {true, false}) {
-      INFO("rate " << rate << ", clock " << tells_clock);
-      const double step_m = 70.0 * rate / 16.0;
-      const std::vector<double> steps = steps_m(rate, tells_clock);
-      const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
-      CHECK(*least > 0.8 * step_m);
-      CHECK(*most < 1.2 * step_m);
-      // As fast as time: to the millimetre.
-      if (rate == 1.0) CHECK(*most - *least < 1e-3);
-    }
+  for (const double packets_Hz : {4.0, 10.0, 16.0, 60.0})
+    for (const double rate : {0.11, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 4.0, 6.0, 8.0, 9.5})
+      for (const bool tells_clock : {true, false}) {
+        // Without a clock a packet tells no more than a second's flight.
+        if (!tells_clock && rate > packets_Hz) continue;
+        INFO("rate " << rate << ", clock " << tells_clock << ", packets " << packets_Hz << " Hz");
+        const double step_m = kStraight_mps * rate / 16.0;
+        const std::vector<double> steps = steps_m(rate, tells_clock, packets_Hz);
+        const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
+        CHECK(*least > 0.8 * step_m);
+        CHECK(*most < 1.2 * step_m);
+        // As fast as time: to the millimetre.
+        if (rate == 1.0) CHECK(*most - *least < 1e-3);
+      }
+}
+
+// It was a second and a half on the way back to time's own pace.
+TEST_CASE("A simulator that changes its pace is off by a quarter of a second's flight at most",
+          "[predictor]") {
+  struct Change {
+    double before, after, even_within_s;
+  };
+  constexpr double kChanges_s = 4.0;
+  for (const Change change : {Change{2.0, 1.0, 0.9}, Change{4.0, 1.0, 0.9}, Change{0.5, 1.0, 0.9},
+                              Change{1.0, 0.5, 1.6}, Change{1.0, 2.0, 1.6}})
+    for (const bool tells_clock : {true, false})
+      for (const Late& late_s : {Late(on_time), Late(held_back)}) {
+        INFO(change.before << " to " << change.after << ", clock " << tells_clock << ", late "
+                           << late_s(3));
+        const auto flown_s = [&](double time_s) {
+          return change.before * std::min(time_s, kChanges_s) +
+                 change.after * std::max(0.0, time_s - kChanges_s);
+        };
+        const std::vector<double> places = places_m(flown_s, tells_clock, 16.0, late_s);
+        const double step_m = kStraight_mps * change.after / 16.0;
+        for (std::size_t frame = 64; frame < places.size(); ++frame) {
+          const double at_s = (static_cast<double>(frame) + 0.8) * kFrame_s;
+          const double off_m = places[frame] - kStraight_mps * flown_s(at_s);
+          REQUIRE(std::abs(off_m) <
+                  Predictor::kCarriedOn_s * kStraight_mps * std::max(change.before, change.after));
+          if (at_s < kChanges_s + change.even_within_s) continue;
+          REQUIRE(places[frame] - places[frame - 1] == Approx(step_m).epsilon(0.2));
+        }
+      }
 }
 
 TEST_CASE("Packets that are held back change no pace", "[predictor]") {
-  const auto held_back = [](int i) { return i % 8 == 3 ? 1.0 / 16.0 - 0.0005 : 0.0; };
   // Nothing for 0.19 s, then three within a millisecond.
   const auto bunched = [](int i) {
     return i % 40 >= 38 ? (40 - i % 40) * (1.0 / 16.0 - 0.0002) : 0.0;
   };
   for (const double rate : {0.5, 0.8, 1.0})
     for (const bool tells_clock : {true, false})
-      for (const auto& late_s :
-           {std::function<double(int)>(held_back), std::function<double(int)>(bunched)}) {
+      for (const Late& late_s : {Late(held_back), Late(bunched)}) {
         INFO("rate " << rate << ", clock " << tells_clock);
-        const double step_m = 70.0 * rate / 16.0;
-        const std::vector<double> steps = steps_m(rate, tells_clock, late_s);
+        const double step_m = kStraight_mps * rate / 16.0;
+        const std::vector<double> steps = steps_m(rate, tells_clock, 16.0, late_s);
         const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
         CHECK(*least > 0.8 * step_m);
         CHECK(*most < 1.2 * step_m);

@@ -79,8 +79,9 @@ TEST_CASE("A frame is a summary and its columns, left first, their cells from ne
           "[radar_video]") {
   const Ear ear;
   live::RadarVideo video(to(ear), small_sensor(), "test", 1000.0, true);
-  video.write(small_frame(1));
-  video.write(small_frame(1));  // given before
+  const auto first = small_frame(1);
+  video.write(first);
+  video.write(first);  // given before
   video.write(small_frame(2));
   CHECK(ear.hear().at(7) == 1);
   for (std::uint8_t counter = 0; counter < 4; ++counter) {

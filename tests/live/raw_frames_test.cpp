@@ -18,6 +18,7 @@
 #include "core/stop.h"
 #include "live/frame_taker.h"
 #include "live/mailbox.h"
+#include "live/wiring/sinks.h"
 #include "tests/live/live_scene.h"
 
 using namespace fanbeam;
@@ -46,10 +47,12 @@ TEST_CASE("Where every frame is wanted, the file holds all pictures one after th
   const auto file = folder.path() / "frames.raw";
   {
     RawFrames raw(RawFrames::Scope::cscope, file.string(), true);
-    for (const std::uint64_t number : {1U, 2U, 2U, 3U}) raw.write(frame_of(number, 2));
+    const auto second = frame_of(2, 2);
+    for (const auto& frame : {frame_of(1, 2), second, second, frame_of(3, 2)}) raw.write(frame);
+    raw.write(frame_of(3, 2));  // of another scene
     CHECK_FALSE(raw.ended());
   }
-  CHECK(bytes_of(file) == "eeffgg");  // 101, 102, 103
+  CHECK(bytes_of(file) == "eeffgggg");  // 101, 102, 103
 }
 
 TEST_CASE("A picture that is shown once more as a stale one is written once", "[raw_frames]") {
@@ -228,4 +231,33 @@ TEST_CASE("A file is as it was until its flight begins, and one that was made go
   RawFrames raw(RawFrames::Scope::bscope, old.string(), true);
   raw.begin();
   CHECK(bytes_of(old).empty());
+}
+
+// A pipe has no lock that would tell so, as a file has.
+TEST_CASE("One file or pipe for two pictures is refused, whatever names it goes by",
+          "[raw_frames]") {
+  const tests::TemporaryFolder folder;
+  const auto pipe = folder.path() / "pipe", linked = folder.path() / "linked";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  std::filesystem::create_symlink(pipe, linked);
+  const auto below = [&](const char* name) { return folder.path().string() + "/" + name; };
+  const auto refused = [](const std::string& first, const std::string& second) {
+    live::FramesTo to;
+    live::add_sink("raw-bscope:" + first, to);
+    try {
+      live::add_sink("raw-cscope:" + second, to);
+      return false;
+    } catch (const core::InputError&) {
+      return true;
+    }
+  };
+  CHECK(refused(below("pipe"), below("pipe")));
+  CHECK(refused(below("pipe"), below("./pipe")));
+  CHECK(refused(below("linked"), below("pipe")));
+  CHECK(refused(below("none/../film.raw"), below("film.raw")));  // not there yet
+  CHECK(refused("film.raw", "./film.raw"));
+  CHECK(refused("-", "-"));
+  CHECK_FALSE(refused("-", "./-"));
+  CHECK_FALSE(refused(below("pipe"), below("film.raw")));
+  CHECK_FALSE(refused("film.raw", "other.raw"));
 }

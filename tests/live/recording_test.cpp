@@ -165,6 +165,41 @@ TEST_CASE("Of two sources a recording keeps what counted, and gives the same byt
   check_equal(repeated, frames);
 }
 
+// The aircraft stood, as one that is there.
+TEST_CASE("F13 a replay in time shows a picture as out of date where the channel did",
+          "[recording][threads]") {
+  const tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  const live::Feed feed(session->scene(), core::VerticalDatum::egm96);
+  live::Recording recording;
+  recording.flown_by.from = {"native-fdm:1"};
+  recording.flown_by.rate_Hz = 1.0;  // late is what comes a second late
+  const auto frame = [&](std::uint64_t number, double now_s) {
+    const auto packet = tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0));
+    recording.events.emplace_back(
+        live::RecordedPacket{now_s - 0.05, {packet.begin(), packet.end()}});
+    recording.events.emplace_back(live::RecordedFrame{{number, now_s, now_s}, 1.0});
+  };
+  frame(1, 0.1);
+  frame(3, 3.1);  // 2 was the first once more
+  frame(4, 4.9);  // the one before took long
+  live::Hub hub;
+  const live::Desk desk(*session, hub);
+  Frames frames;
+  core::StopSource stop;
+  live::run_replay(*session, recording, {&feed}, nullptr, desk, {.speed = 2.0}, hub,
+                   keeping(frames, hub, stop, 1'000'000), stop.token());
+  REQUIRE(frames.size() == 4);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    CHECK(frames[i]->number == i + 1);
+    CHECK(frames[i]->stale == (i == 1));
+  }
+  CHECK(frames[1]->bscope.pixels == frames[0]->bscope.pixels);
+  CHECK(frames[1]->pose_age_ms > 1000.0);
+  CHECK(hub.status().frames == 3);
+  CHECK_FALSE(hub.status().stale);
+}
+
 TEST_CASE("A packet of a source that a recording does not name is refused", "[recording]") {
   const tests::TemporaryFolder folder;
   const auto file = folder.write(
@@ -322,9 +357,13 @@ TEST_CASE("A file that is no recording is told once, not by each of its lines", 
   const tests::TemporaryFolder folder;
   std::string table = "airport,runway,length_m\n";
   for (int i = 0; i < 50; ++i) table += "EDVE,26," + std::to_string(i) + "\n";
-  for (const std::string& text : {table, std::string("{}\n{}\n"), std::string("[1]\n2\n")}) {
+  for (const std::string& text :
+       {table, std::string("{}\n{}\n"), std::string("[1]\n2\n"), std::string("no line's end"),
+        std::string(R"({"fanbeam_live":1,"scene":"s","fr)")}) {
+    INFO(text.substr(0, 40));
     const auto problems = problems_of(folder.write("runways.csv", text));
     REQUIRE(problems.size() == 1);
+    CHECK(problems[0].code == "E-REF");
     CHECK(problems[0].value == "no recording");
   }
 }

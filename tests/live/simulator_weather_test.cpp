@@ -2,7 +2,9 @@
 #include "live/simulator_weather.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/feeds/native_fdm_bytes.h"
 #include "tests/feeds/xplane_bytes.h"
@@ -126,6 +128,27 @@ TEST_CASE("What a protocol does not tell stays as it was set", "[simulator_weath
   CHECK(now().rain_rate_mm_per_h == 0.0);
   CHECK(now().snow_rate_mm_per_h == 2.0);
   CHECK(now().visibility_m == 300.0);
+}
+
+// What was read before it was written back as it had been.
+TEST_CASE("What a person sets while the simulator's weather is being set stands",
+          "[simulator_weather][threads]") {
+  tests::TemporaryFolder folder;
+  const auto session = tests::live_session(folder);
+  live::Hub hub;
+  const live::Desk desk(*session, hub);
+  feeds::AircraftState state;
+  state.visibility_m = 300.0;
+  std::thread person;
+  desk.change_weather([&](const atmosphere::Weather& now) {
+    person = std::thread(
+        [&] { desk.control("/api/weather", R"({"rain_rate_mm_per_h": 5, "visibility_m": 400})"); });
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    return live::weather_body(state, now);
+  });
+  person.join();
+  CHECK(session->scene()->weather.rain_rate_mm_per_h == 5.0);
+  CHECK(session->scene()->weather.visibility_m == 400.0);
 }
 
 // X-Plane tells visibility and rain, and each only once it was asked.

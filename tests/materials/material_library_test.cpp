@@ -173,6 +173,9 @@ TEST_CASE(
   REQUIRE(problems.all()[0].expected.starts_with("30 to 40 (model phong), or allow_extrapolation"));
   REQUIRE(problems.all()[1].value == "VV");
   REQUIRE(problems.all()[1].expected.starts_with("HH (model phong)"));
+  ProblemList of_a_call;
+  library.report_extrapolations(0, Polarisation::horizontal, 76e9, false, of_a_call, "a word");
+  REQUIRE(of_a_call.all().front().expected == "30 to 40 (model phong), or a word");
   ProblemList warnings;
   library.report_extrapolations(0, Polarisation::horizontal, 76e9, true, warnings);
   REQUIRE(warnings.all().size() == 1);

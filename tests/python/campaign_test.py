@@ -281,6 +281,11 @@ def test_a_changed_file_is_told_once_and_early(program, campaign, tmp_path):
     assert "W-CHANGED" not in told(program, "status", campaign, "-o", folder)
     for task in (["status", other, "-o", folder], ["run", other, "-o", folder, "--runs", "0:2"]):
         assert told(program, *task).count("W-CHANGED") == 1
+    # By the first run of another file, whichever of those there it is.
+    mixed = tmp_path / "mixed"
+    told(program, "run", other, "-o", mixed, "--runs", "0", "-q")
+    told(program, "run", campaign, "-o", mixed, "--runs", "1", "-q")
+    assert told(program, "run", other, "-o", mixed, "--runs", "0:2").count("W-CHANGED") == 1
     said = told(program, "merge", other, "-o", folder, exit_code=3)
     assert "changed since 4 of 4 runs were made" in said and said.count("E-UNSUPPORTED") == 1
     assert "one program for all" not in said
@@ -311,8 +316,14 @@ def test_one_bad_run_does_not_stop_the_others(program, tmp_path):
         encoding="utf-8",
     )
     assert "would be refused: 1 run" in told(program, "plan", file, "--no-pilot", exit_code=3)
+    # Told once, and neither flown nor counted by the pilot.
+    said = told(program, "plan", file, exit_code=3)
+    assert said.count("would be refused") == 1
+    all_MB = float(said.split("all of it ")[1].split(" MB")[0])
     said = told(program, "run", file, "-o", tmp_path / "out", exit_code=3)
     assert "2 of 3 runs made" in said and "1 failed" in said
+    size = sum(len(data) for name, data in bytes_of(tmp_path / "out" / "runs").items() if not name.endswith("run.json"))
+    assert all_MB == pytest.approx(size / 1e6, rel=0.1, abs=0.06)
     failed = json.loads((tmp_path / "out" / "failed" / "000001.json").read_text(encoding="utf-8"))
     assert "E-RANGE" in failed["problems"][0] and failed["parameters"]["weather.temperature_C"] == -50
     assert json.loads(told(program, "status", file, "-o", tmp_path / "out", "--json")) == {

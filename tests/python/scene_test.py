@@ -3,6 +3,7 @@
 import multiprocessing
 import os
 import pickle
+import re
 import shutil
 import subprocess
 import sys
@@ -10,6 +11,7 @@ import textwrap
 import threading
 import time
 import tomllib
+import warnings
 
 import fanbeam
 import numpy as np
@@ -100,6 +102,76 @@ def test_a_pickle_keeps_that_water_took_the_place_of_the_scenes_visibility():
     told.set_weather(liquid_water_g_per_m3=0.3)
     told.set_weather(liquid_water_g_per_m3=None)
     assert pickle.loads(pickle.dumps(told)).weather["visibility_m"] is None
+
+
+@pytest.mark.parametrize(
+    ("told", "other"),
+    [({"liquid_water_g_per_m3": 0.3}, "visibility_m"), ({"visibility_m": 300.0}, "liquid_water_g_per_m3")],
+)
+def test_none_for_either_way_of_telling_the_fog_ends_it(told, other):
+    scene = fanbeam.Scene.open("flat-grass")
+    scene.set_weather(**told)
+    scene.set_weather(**told, **{other: None})
+    assert scene.weather.items() >= told.items()
+    scene.set_weather(**{other: None})
+    assert scene.weather["visibility_m"] is None and scene.weather["liquid_water_g_per_m3"] is None
+    assert pickle.loads(pickle.dumps(scene)).weather == scene.weather
+
+
+def test_what_was_told_is_the_scenes_own():
+    scene = fanbeam.Scene.open("flat-grass")
+    rate_mm_per_h, tilt_deg, attitude_deg = np.array(3.0), np.array(-5.0), np.zeros(3)
+    scene.set_weather(rain_rate_mm_per_h=rate_mm_per_h)
+    scene.set_sensor(tilt_deg=tilt_deg)
+    scene.set_targets([fanbeam.Target("mast", 52.01, 10.0, 10.0, 100.0, attitude_deg)])
+    rate_mm_per_h[...], tilt_deg[...], attitude_deg[...] = 50.0, 3.0, np.nan
+    sent = pickle.loads(pickle.dumps(scene))
+    assert sent.weather["rain_rate_mm_per_h"] == 3.0
+    assert sent.facts["cscope_top_rad"] == scene.facts["cscope_top_rad"]
+    assert sent.objects[-1] == "mast"
+
+
+def test_copies_sample_as_the_time_budget_said_here(tmp_path, root):
+    own = tmp_path / "grass"
+    shutil.copytree(root / "scenes" / "flat-grass", own)
+    with (own / "scene.toml").open("a", encoding="utf-8") as file:
+        file.write("\n[accuracy]\ntime_budget_ms = 0.1\n")
+    with pytest.warns(fanbeam.FanbeamWarning, match="W-BUDGET"):  # the coarsest sampling takes longer
+        scene = fanbeam.Scene.open(own)
+    asked = fanbeam.Scene.open("flat-grass")
+    with pytest.warns(fanbeam.FanbeamWarning, match="W-BUDGET"):
+        asked.set_time_budget(0.1)
+    for told in (scene, asked):
+        kind, samples = told.__getstate__().sampling
+        assert kind == "samples" and samples > 0.0
+        told.__getstate__().sampling = (kind, 37.0)  # what no budget of such a length comes to
+        sent = pickle.loads(pickle.dumps(told))
+        assert sent.__getstate__().sampling == (kind, 37.0)
+        told.set_samples(37.0)
+        assert sent.render(0).meta["sampling"] == told.render(0).meta["sampling"]
+
+
+def test_warnings_show_the_users_line_and_are_not_given_again_by_copies():
+    scene = fanbeam.Scene.open("flat-grass")
+    with pytest.warns(fanbeam.FanbeamWarning) as told:
+        scene.set_weather(snow_rate_mm_per_h=5.0, temperature_C=40.0)
+        scene.set_time_budget(0.1)  # too short for any sampling
+    assert [str(warning.message).split()[0] for warning in told] == ["W-WARM-SNOW", "W-BUDGET"]
+    assert {warning.filename for warning in told} == {__file__}
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert pickle.loads(pickle.dumps(scene)).weather == scene.weather
+
+
+def test_folders_have_any_name(tmp_path, root):
+    folder = tmp_path / os.fsdecode(b"gr\xfcn")  # Latin-1
+    shutil.copytree(root / "scenes" / "flat-grass", folder)
+    assert fanbeam.Scene.open(folder, data=folder).name == "flat-grass"
+    assert pickle.loads(pickle.dumps(fanbeam.Scene.open(folder))).name == "flat-grass"
+    with pytest.raises(fanbeam.InputError, match=r"E-IO scene = .*gr\\xfcner\" not found"):
+        fanbeam.Scene.open(tmp_path / os.fsdecode(b"gr\xfcner"))
+    with pytest.raises(fanbeam.InputError, match='E-IO scene = "" not found'):
+        fanbeam.Scene.open("")
 
 
 def test_data_folders_are_the_same_from_another_folder(tmp_path, monkeypatch):
@@ -249,8 +321,110 @@ def test_every_problem_is_told_at_once(grass):
         grass.set_weather(rain_rate_mm_per_h="much")
     with pytest.raises(fanbeam.InputError, match="frame = 99999: expected 0 to 0, or -1"):
         grass.render(99999)
-    with pytest.raises(TypeError):
+    with pytest.raises(TypeError, match="frame: expected a whole number, not 'now'"):
         grass.render("now")
+
+
+@pytest.mark.parametrize(
+    ("fields", "call"),
+    [
+        (
+            "scene sensor data effects caster seed threads",
+            lambda scene: fanbeam.Scene.open(
+                "nowhere", sensor="bogus", data="/nowhere", effects="bogus", caster="bogus", seed=-1, threads=-1
+            ),
+        ),
+        (
+            "tilt_deg low_dB noise_figure_dB cscope_mode",
+            lambda scene: scene.set_sensor(tilt_deg=1e3, low_dB=float("nan"), noise_figure_dB=-4, cscope_mode="q"),
+        ),
+        ("pose.height_m frame_index", lambda scene: scene.render(fanbeam.Pose(52.0, 10.0, 1e9), frame_index=-1)),
+        (
+            "grazing_rad polarisation state material",
+            lambda scene: fanbeam.nrcs("nothing", 2.0, polarisation="HV", state="moist"),
+        ),
+        (
+            "liquid_water_g_per_m3 humidity",
+            lambda scene: fanbeam.Atmosphere(visibility_m=300.0, liquid_water_g_per_m3=0.1, humidity=2.0),
+        ),
+        (
+            "rain_rate_mm_per_h humidity",
+            lambda scene: fanbeam.Atmosphere(rain_rate_mm_per_h=10**400, humidity=2.0),
+        ),
+    ],
+)
+def test_problems_of_one_call_are_told_together(grass, fields, call):
+    with pytest.raises(fanbeam.InputError) as told:
+        call(grass)
+    assert sorted(problem.field for problem in told.value.problems) == sorted(fields.split())
+    assert "--" not in str(told.value)
+
+
+@pytest.mark.parametrize(
+    ("field", "call"),
+    [
+        ("seed", lambda scene: fanbeam.Scene.open("flat-grass", seed=2**64)),
+        ("threads", lambda scene: fanbeam.Scene.open("flat-grass", threads=2**40)),
+        ("effects", lambda scene: fanbeam.Scene.open("flat-grass", effects="+speckle", sample=False)),
+        ("frame_index", lambda scene: scene.render(0, frame_index=2**64)),
+        ("frame", lambda scene: scene.render(2**70)),
+        ("latitude_deg", lambda scene: scene.ground_height_m(91.0, 10.0)),
+        ("height_m", lambda scene: fanbeam.Atmosphere().one_way_dB_per_km(12001.0)),
+        ("from_height_m", lambda scene: fanbeam.Atmosphere().one_way_dB(-2001.0, 0.0, 3000.0)),
+        ("to_height_m", lambda scene: fanbeam.Atmosphere().one_way_dB(0.0, 2e4, 2e4)),
+    ],
+)
+def test_what_is_out_of_range_is_an_input_error(grass, field, call):
+    with pytest.raises(fanbeam.InputError) as told:
+        call(grass)
+    assert [problem.field for problem in told.value.problems] == [field]
+
+
+@pytest.mark.parametrize(
+    ("field", "call"),
+    [
+        ("pose.latitude_deg", lambda scene: scene.render(fanbeam.Pose("x", 1, 2))),
+        ("pose.height_m", lambda scene: scene.render(fanbeam.Pose(52.0, 10.0, None))),
+        ("frame", lambda scene: scene.render(1.0)),
+        ("frame_index", lambda scene: scene.render(0, frame_index=3.0)),
+        ("bscope", lambda scene: scene.render(0, bscope="no")),
+        ("tilt_deg", lambda scene: scene.set_sensor(tilt_deg="3")),
+        ("stabilised", lambda scene: scene.set_sensor(stabilised=0.0)),
+        ("cscope_mode", lambda scene: scene.set_sensor(cscope_mode=3)),
+        ("melting_layer", lambda scene: scene.set_weather(melting_layer=5)),
+        ("surface", lambda scene: scene.set_surface(3)),
+        ("samples_per_cell", lambda scene: scene.set_samples("x")),
+        ("accuracy_grey", lambda scene: scene.set_accuracy("a")),
+        ("time_budget_ms", lambda scene: scene.set_time_budget(None)),
+        ("targets", lambda scene: scene.set_targets(None)),
+        ("target[0]", lambda scene: scene.set_targets([3])),
+        ("latitude_deg", lambda scene: scene.ground_height_m("a", 1)),
+        ("scene", lambda scene: fanbeam.Scene.open(3)),
+        ("sensor", lambda scene: fanbeam.Scene.open("flat-grass", sensor=3)),
+        ("data", lambda scene: fanbeam.Scene.open("flat-grass", data=3)),
+        ("seed", lambda scene: fanbeam.Scene.open("flat-grass", seed="a")),
+        ("effects", lambda scene: fanbeam.Scene.open("flat-grass", effects=None)),
+        ("sample", lambda scene: fanbeam.Scene.open("flat-grass", sample="x")),
+        ("library", lambda scene: fanbeam.materials(library=3)),
+        ("material", lambda scene: fanbeam.nrcs(3, 0.1)),
+        ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", "steep")),
+        ("polarisation", lambda scene: fanbeam.nrcs("short_grass", 0.1, polarisation=None)),
+        ("extrapolate", lambda scene: fanbeam.nrcs("short_grass", 0.1, extrapolate="yes")),
+        ("frequency_Hz", lambda scene: fanbeam.Atmosphere("35e9")),
+        ("height_m", lambda scene: fanbeam.Atmosphere().one_way_dB_per_km("low")),
+    ],
+)
+def test_another_type_is_a_type_error_that_names_the_field(grass, field, call):
+    with pytest.raises(TypeError, match=f"^{re.escape(field)}: expected "):
+        call(grass)
+
+
+def test_numpys_numbers_and_truths_are_taken():
+    scene = fanbeam.Scene.open("flat-grass", seed=np.uint64(2**64 - 1), sample=np.bool_(False), threads=np.int32(1))
+    scene.set_weather(rain_rate_mm_per_h=np.float32(2.0), melting_layer=np.bool_(True), melting_height_m=500)
+    assert scene.weather["melting_layer"] is True and scene.weather["rain_rate_mm_per_h"] == 2.0
+    frame = scene.render(np.int64(-1), frame_index=np.uint64(2**63 + 1), cscope=np.bool_(False))
+    assert frame.cscope is None and int(frame.meta["frame_index"]) == 2**63 + 1
 
 
 @pytest.mark.parametrize(
@@ -403,6 +577,8 @@ def test_sampling_is_told_in_the_frame(grass):
     scene.set_accuracy(0.5)
     frame = scene.render(0)
     assert max(frame.meta["estimated_error_grey"]) <= 0.25
+    of_bscope, of_cscope = scene.render(0, cscope=False).meta["estimated_error_grey"]
+    assert of_bscope <= 0.25 and of_cscope is None
 
 
 def test_lookups(root):
@@ -418,8 +594,12 @@ def test_lookups(root):
     assert np.allclose(values, row["a"] * sine + row["b"] * sine ** row["c"], rtol=1e-12)
     with pytest.raises(fanbeam.InputError, match="short_grass"):
         fanbeam.nrcs("short_gras", 0.1)
+    upright = fanbeam.nrcs("short_grass", np.pi / 2)
+    assert fanbeam.nrcs("short_grass", np.float32(np.pi / 2)) == upright  # a bit more than pi/2
     with pytest.raises(fanbeam.InputError, match="grazing_rad"):
-        fanbeam.nrcs("short_grass", 2.0)
+        fanbeam.nrcs("short_grass", np.pi / 2 + 2e-6)
+    with pytest.raises(fanbeam.InputError, match="or extrapolate=True"):
+        fanbeam.nrcs("short_grass", 0.1, frequency_Hz=0.0)
     air = fanbeam.Atmosphere()
     with pytest.raises(fanbeam.InputError, match="E-RANGE length_m = 299: expected at least 300 m"):
         air.one_way_dB(0.0, 300.0, 299.0)

@@ -2,6 +2,8 @@
 
 import subprocess
 import sys
+import threading
+import time
 
 import fanbeam
 import fanbeam.signal
@@ -87,13 +89,53 @@ def test_what_is_wanted_is_checked(lone_target):
 
 
 def test_a_value_of_another_type_is_told_with_its_field(lone_target):
-    for field, value in (("seed", -1), ("seed", "x"), ("receivers", 1.5), ("real", "yes"), ("waveform", 5)):
+    for field, value in (("seed", "x"), ("receivers", 1.5), ("real", "yes"), ("unfold", 1), ("waveform", 5),
+                         ("radar", 3), ("numbers", 3), ("want", 3)):
         with pytest.raises(TypeError, match=f"{field}: expected "):
             fanbeam.signal.frame(lone_target, 0, **{field: value})
     with pytest.raises(TypeError, match="bandwidth: expected a number, not 'x'"):
         fanbeam.signal.frame(lone_target, 0, numbers={"bandwidth": "x"})
     with pytest.raises(TypeError, match="bandwidth: expected a number, not 'x'"):
         fanbeam.signal.waveform("chirp-sequence", bandwidth="x")
+    with pytest.raises(TypeError, match="kind: expected a text, not 3"):
+        fanbeam.signal.waveform(3)
+    with pytest.raises(TypeError, match="scene: expected a fanbeam.Scene, not 'highway-76ghz'"):
+        fanbeam.signal.frame("highway-76ghz", 0)
+    with pytest.raises(TypeError, match="frame: expected a whole number, not 'first'"):
+        fanbeam.signal.frame(lone_target, "first")
+
+
+def test_all_numbers_out_of_range_are_told_together(lone_target):
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.frame(lone_target, 0, seed=-1, receivers=2**40, numbers={"bandwidth": -1.0})
+    assert {problem.field for problem in told.value.problems} == {"seed", "receivers", "bandwidth"}
+    assert "receivers = 1099511627776: expected 1 to 64" in str(told.value)
+
+
+def test_too_few_chirps_for_the_detector_are_told_by_arguments(lone_target):
+    # The usual window leaves out 2 and takes 2 cells on either side: 8 in all.
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.frame(lone_target, 0, numbers={"chirps": 8})
+    (problem,) = told.value.problems
+    assert (problem.code, problem.field, problem.value) == ("E-RANGE", "chirps", "8")
+    assert "--" not in problem.expected and "cfar_guard of a radar file" in problem.expected
+    assert fanbeam.signal.frame(lone_target, 0, want=("beat",), numbers={"chirps": 8}).detections is None
+
+
+def test_a_frame_keeps_to_the_threads_of_its_scene():
+    # Outside Python's main thread the work is done by the thread that asks for it.
+    road = fanbeam.Scene.open("highway-76ghz", threads=1)
+    spent = {}
+
+    def work():
+        of_all, of_this = time.process_time(), time.thread_time()
+        fanbeam.signal.frame(road, 0, want=("range-doppler",))
+        spent["all_s"], spent["own_s"] = time.process_time() - of_all, time.thread_time() - of_this
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert spent["all_s"] < 1.2 * spent["own_s"] + 0.02
 
 
 def test_numbers_of_elements_replace_the_places_of_a_radar_file(lone_target, tmp_path):

@@ -70,7 +70,8 @@ TEST_CASE("Ground and solid prisms go to slices with any antenna", "[caster_choi
     const auto automatic = choose_caster(CasterWish::automatic, scene.facts);
     CHECK(automatic.chosen == CasterKind::profile);
     CHECK(automatic.others == 0);
-    CHECK(automatic.reason == "over buildings slices need half of the rays' time at equal error");
+    CHECK(automatic.reason ==
+          "over buildings slices come as close in half to all of the rays' time");
     const auto forced = choose_caster(CasterWish::profile, scene.facts);
     CHECK(forced.chosen == CasterKind::profile);
     CHECK(forced.reason == "asked for");

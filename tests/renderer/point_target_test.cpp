@@ -249,6 +249,63 @@ TEST_CASE("A target abeam is seen where the outer columns' beams reach it", "[ta
   CHECK(found.echoes[0].azimuth_rad == Approx(core::radians(100.0)));
 }
 
+// Azimuths lie close together there: 10 m from the point below, 91 deg are 0.7 deg from the last column
+// on the sky. It vanished at 90.
+TEST_CASE(
+    "Nearly below, a target a hair behind the antenna fades with the beam as one before it does",
+    "[target]") {
+  sensors::Sensor sensor = tests::hivision();
+  sensor.antenna.boresight_elevation_rad = core::radians(-85.0);
+  const double outermost_rad =
+      sensors::column_middle_rad(sensor.scan, sensor.scan.columns - 1);  // 20.375 deg
+  renderer::World world = tests::world(sensor, std::nullopt, {});
+  const double sky = 10.0 / std::hypot(10.0, 1000.0);
+  const auto power_W = [&](double bearing_deg) {
+    const double bearing_rad = core::radians(bearing_deg);
+    world.targets = {{"sphere",
+                      materials::ConstantRcs{1.0},
+                      {{0.0, {10.0 * std::sin(bearing_rad), 10.0 * std::cos(bearing_rad), 0.0}}},
+                      glm::dmat3(1.0)}};
+    const renderer::Frame frame =
+        renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(1000.0));
+    CHECK(frame.unprojected == 0);
+    return frame.bscope_W[static_cast<std::size_t>(
+        (sensors::range_row(sensor.range, 1000.05) + 1) * sensor.scan.columns - 1)];
+  };
+  const auto gain = [&](double bearing_deg) {
+    return sensors::two_way_gain(sensor.antenna.azimuth,
+                                 sky * (core::radians(bearing_deg) - outermost_rad));
+  };
+  const double before_W = power_W(89.0);
+  REQUIRE(before_W > 0.0);
+  for (const double bearing_deg : {91.0, 120.0, 145.0}) {
+    INFO(bearing_deg);
+    CHECK(power_W(bearing_deg) / before_W == Approx(gain(bearing_deg) / gain(89.0)).epsilon(1e-6));
+  }
+  // The cut of 1.25 deg is reached at 145.4 deg.
+  CHECK(power_W(147.0) == 0.0);
+}
+
+TEST_CASE("Side lobes that reach behind the antenna show a target there", "[target]") {
+  sensors::Sensor sensor = tests::hivision();
+  sensor.antenna.azimuth.side_lobe_gain = 1e-3;
+  sensor.antenna.azimuth.side_lobe_extent_rad = core::radians(90.0);
+  renderer::World world = tests::world(sensor, std::nullopt, {});
+  const auto power_W = [&](double bearing_deg) {
+    world.targets.clear();
+    add_spheres({bearing_deg}, world);
+    const renderer::Frame frame =
+        renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(60.0));
+    return frame.bscope_W[static_cast<std::size_t>(
+        (sensors::range_row(sensor.range, 1000.0) + 1) * sensor.scan.columns - 1)];
+  };
+  const double abeam_W = power_W(89.0);
+  REQUIRE(abeam_W > 0.0);
+  // 90 deg from the last column, at 20.375 deg.
+  CHECK(power_W(110.0) == Approx(abeam_W).epsilon(1e-9));
+  CHECK(power_W(111.0) == 0.0);
+}
+
 // It vanished where its azimuth, not its angle on the sky, left the beam.
 TEST_CASE("Steeply below, a target that leaves the outermost column fades with the beam",
           "[target]") {

@@ -5,6 +5,7 @@
 
 #include "scenes/airport/apt_dat_outline.h"
 #include "scenes/airport/apt_dat_reader.h"
+#include "scenes/objects.h"
 #include "terrain/geoid.h"
 #include "tests/scenes/built_scene.h"
 #include "tests/shared_data.h"
@@ -151,6 +152,56 @@ TEST_CASE("An airport of apt.dat is one line of a scene: runway, apron with its 
   const auto& names = scene->world.geometry->object_names;
   CHECK(std::count(names.begin(), names.end(), "runway 36/18") == 1);
   CHECK(std::count(names.begin(), names.end(), "pavement 1") == 1);
+}
+
+// They went without a word.
+TEST_CASE("Pavements that cannot be laid are told by their row", "[airport]") {
+  const TemporaryFolder folder;
+  const auto told = [&](const std::string& airport) {
+    folder.write("apt.dat", airport);
+    std::string text;
+    for (const core::Problem& problem : tests::build_text(folder, scene_with("")).problems)
+      text += core::to_string(problem) + "\n";
+    return text;
+  };
+  CHECK_THAT(told(kAirport), !Catch::Contains("SKIPPED pavement"));
+  const std::string end_of_hole = "113 52.00300000", end_of_outline = "113 52.00500000";
+  const std::string open_hole = tests::replaced(kAirport, end_of_hole, "111 52.00300000");
+  CHECK_THAT(told(open_hole),
+             Catch::Contains("apt.dat:6: W-SKIPPED pavement = a ring that no row"));
+  // Of both a single ring is left, which nothing closes.
+  CHECK_THAT(told(tests::replaced(open_hole, end_of_outline, "111 52.00500000")),
+             Catch::Contains("apt.dat:6: W-SKIPPED pavement = a ring that no row"));
+  CHECK_THAT(
+      told(tests::replaced(kAirport, "110 2 0.25 0.0 Apron", "110 2 0.25 0.0 A\n110 2 0.25 0.0 B")),
+      Catch::Contains("apt.dat:6: W-SKIPPED pavement = no ring of three corners"));
+  CHECK_THAT(told(tests::replaced(kAirport, "010.00700000", "030.00700000")),
+             Catch::Contains("apt.dat:6: W-SKIPPED pavement = a corner more than 1000 km"));
+  std::string many;
+  for (std::size_t i = 4; i <= scenes::kMostPavementCorners; ++i)
+    many += "111 52.00200000 010.00400000\n";
+  CHECK_THAT(told(tests::replaced(kAirport, "111 52.00200000 010.00700000\n",
+                                  "111 52.00200000 010.00700000\n" + many)),
+             Catch::Contains("apt.dat:6: E-LIMIT pavement = 50005 corners"));
+}
+
+TEST_CASE("Curves go the short way over the date line", "[airport]") {
+  const auto here = outline_of({{"111", "0", "-0.5"},
+                                {"111", "0", "0.5"},
+                                {"112", "1", "0.5", "1.5", "0.25"},
+                                {"114", "1", "-0.5", "1", "-0.75"}});
+  const auto there = outline_of({{"111", "0", "179.5"},
+                                 {"111", "0", "-179.5"},
+                                 {"112", "1", "-179.5", "1.5", "-179.75"},
+                                 {"114", "1", "179.5", "1", "179.25"}});
+  REQUIRE(here.rings().at(0).size() == there.rings().at(0).size());
+  for (std::size_t i = 0; i < here.rings()[0].size(); ++i) {
+    const core::Geodetic &a = here.rings()[0][i], &b = there.rings()[0][i];
+    CHECK(b.latitude_rad == Approx(a.latitude_rad).margin(1e-12));
+    CHECK(std::abs(b.longitude_rad) <= core::kPi);
+    CHECK(std::remainder(b.longitude_rad - a.longitude_rad - core::kPi, 2.0 * core::kPi) ==
+          Approx(0.0).margin(1e-12));
+  }
 }
 
 // The rest of the scene was then placed along no direction: "flight_volume = -nan to -nan".

@@ -8,6 +8,7 @@
 #include "core/units.h"
 #include "scenes/airport/apt_dat_reader.h"
 #include "scenes/airport/runway_csv_reader.h"
+#include "scenes/airport/runway_ends.h"
 #include "tests/shared_data.h"
 #include "tests/terrain/ascii_grid.h"
 
@@ -269,4 +270,36 @@ TEST_CASE("The end to land on: unknown names list the runways, wrong ends are re
   wrong.runways[0].ends[0].name = "12";
   wrong.runways[0].ends[1].name = "30";
   CHECK_THAT(told(wrong, "12"), Contains("W-BEARING"));
+}
+
+TEST_CASE("Two places make a runway, and words that are none are refused", "[airport]") {
+  core::ProblemList problems;
+  const auto airport =
+      airport_from_ends({"ZZZZ", "36L", "52.0,10.0,80", " 52.018 , -10.5", 40.0}, problems);
+  REQUIRE(airport);
+  CHECK(problems.all().empty());
+  REQUIRE(airport->runways.size() == 1);
+  const AirportRunway& runway = airport->runways[0];
+  CHECK(runway.width_m == 40.0);
+  CHECK(runway.ends[0].name == "36L");
+  CHECK(runway.ends[1].name == "18R");
+  CHECK(degrees(runway.ends[0].pavement_end.latitude_rad) == Approx(52.0).epsilon(1e-14));
+  CHECK(degrees(runway.ends[1].pavement_end.longitude_rad) == Approx(-10.5).epsilon(1e-14));
+  CHECK(runway.ends[0].elevation_m == 80.0);
+  CHECK_FALSE(runway.ends[1].elevation_m);
+
+  const std::pair<const char*, const char*> wrong[] = {
+      {"52.0", "expected LAT,LON or LAT,LON,HEIGHT_M"},
+      {"52,0,10,0", "expected LAT,LON or LAT,LON,HEIGHT_M"},
+      {"52.0,10.0,", "expected LAT,LON or LAT,LON,HEIGHT_M"},
+      {"152.0,10.0", "expected the latitude, -90 to 90 deg, before the longitude"},
+      {"52.0,190.0", "expected latitude -90 to 90, longitude -180 to 180 deg"},
+      {"52.0,10.0,6001", "expected a height of -500 to 6000 m"}};
+  for (const auto& [text, expected] : wrong) {
+    INFO(text);
+    core::ProblemList refused;
+    CHECK_FALSE(airport_from_ends({"ZZZZ", "37", "52,10", text, 0.0}, refused));
+    CHECK_THAT(all_of(refused), Contains("E-RANGE --far-end = \"" + std::string(text) + "\": ") &&
+                                    Contains(expected) && Contains("E-RANGE --runway = \"37\""));
+  }
 }

@@ -245,6 +245,28 @@ TEST_CASE("R17 points of runways, lines and targets together are E-LIMIT, and no
   CHECK(errors[0].place.line == 28 + 3 * 50);
 }
 
+// Two rows with attitudes and a wrong clock kept validate busy for minutes, or hours.
+TEST_CASE("A flight of more frames than anybody renders is E-LIMIT, and none is looked at",
+          "[hostile_scene]") {
+  const TemporaryFolder folder;
+  folder.write("t.csv",
+               "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg,heading_deg\n"
+               "0,52.0,10.0,160,0,0,0\n1000000,52.001,10.0,160,0,0,0\n");
+  const std::string text = tests::kSmallScene.substr(0, tests::kSmallScene.find("[trajectory")) +
+                           "[trajectory]\nfile = \"t.csv\"\nvertical_datum = \"scene\"\n";
+  const double begin_s = tests::processor_time_s();
+  const std::vector<core::Problem> problems = tests::build_text(folder, text).problems;
+  CHECK(tests::processor_time_s() - begin_s < tests::kAtOnce_s);
+  INFO(codes_of(problems));
+  const auto found = std::find_if(problems.begin(), problems.end(),
+                                  [](const core::Problem& one) { return one.is_error(); });
+  REQUIRE(found != problems.end());
+  CHECK_THAT(core::to_string(*found), Catch::Matchers::Contains("scene.toml:25:") &&
+                                          Catch::Matchers::Contains("E-LIMIT trajectory") &&
+                                          Catch::Matchers::Contains("number of frames") &&
+                                          Catch::Matchers::Contains("at most 4000000"));
+}
+
 TEST_CASE("Scene files of 4 MiB of anything are answered in seconds", "[hostile_scene]") {
   struct Case {
     const char* what;

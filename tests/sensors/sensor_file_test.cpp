@@ -179,6 +179,8 @@ TEST_CASE("a radar that leaves own-ship Doppler in its ranges can be described",
       problems);
   CHECK(problems.all().empty());
   CHECK_FALSE(sensor.waveform.doppler_compensated);
+  CHECK(sensor.waveform.doppler_place.file == "t");
+  CHECK(sensor.waveform.doppler_place.line > 1);
   CHECK(tests::hivision().waveform.doppler_compensated);
 }
 

@@ -178,6 +178,10 @@ TEST_CASE("What is seen above the antenna's plane is measured on it", "[fmcw]") 
   }
   const session::FmcwRadar flat = radar_with({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
   CHECK_FALSE(session::tells_elevation(flat));
+  // Of six elements 6 and 99 mm above the origin the mean, summed up, is not the height to the last bit.
+  for (const double up : {3.0, 50.0})
+    CHECK_FALSE(session::tells_elevation(
+        radar_with({{0, up}, {1, up}, {2, up}, {3, up}, {4, up}, {5, up}})));
   const session::FmcwRadar square = radar_with({{0, 0}, {1, 0}, {0, 1}, {1, 1}});
   REQUIRE(session::tells_elevation(square));
   // Four elements half a pitch up and down: S' is pitch^2, and an error of the elevation moves the range on the plane by

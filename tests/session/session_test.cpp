@@ -250,12 +250,21 @@ TEST_CASE("A sensor whose ranges own-ship Doppler shifts has no pictures, but a 
   scenes::SceneDescription description = scenes::read_scene(written(folder, tests::kSmallScene),
                                                             {FANBEAM_SOURCE_DIR, {}, {}}, problems);
   description.sensor.waveform.doppler_compensated = false;
-  CHECK_THROWS_WITH(Session(description, {}, problems),
-                    Catch::Contains("E-UNSUPPORTED waveform.doppler_compensated = false") &&
-                        Catch::Contains("fanbeam fmcw --products bscope"));
+  description.sensor.waveform.doppler_place = {"left_in.toml", 7, 1};
+  CHECK_THROWS_WITH(
+      Session(description, {}, problems),
+      Catch::Contains("left_in.toml:7:1: E-UNSUPPORTED waveform.doppler_compensated = false") &&
+          Catch::Contains("fanbeam fmcw --products bscope"));
   core::ProblemList others;
   const Session for_signals(description, {.pictures = false}, others);
   CHECK_FALSE(for_signals.scene()->world.sensor.waveform.doppler_compensated);
+  // All that is wrong is told at once.
+  core::ProblemList both;
+  session::Setup mean{.sample = false};
+  mean.build.wishes = renderer::parse_effect_wishes("+speckle");
+  CHECK_THROWS_WITH(Session(description, mean, both),
+                    Catch::Contains("waveform.doppler_compensated") &&
+                        Catch::Contains("E-UNSUPPORTED --effects = \"+speckle\""));
 }
 
 TEST_CASE("Jittered rays, which tell no error, are refused where one is asked for", "[session]") {

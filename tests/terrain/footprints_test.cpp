@@ -103,6 +103,24 @@ TEST_CASE("Parts of a multi-polygon become footprints of one feature", "[footpri
   CHECK(footprints[2].outer.size() == 3);
 }
 
+// One of them refused the file, without a word where.
+TEST_CASE("Rings that do not end where they begin are closed and counted", "[footprints]") {
+  const std::string open =
+      "[[[11,47],[11.002,47],[11.002,47.002],[11,47.002]],"
+      "[[11.0005,47.0005],[11.001,47.0005],[11.001,47.001]]]";
+  core::ProblemList problems;
+  const auto footprints = read(collection(feature(R"("render_height":5)", "Polygon", kSquare) +
+                                          "," + feature(R"("render_height":9)", "Polygon", open)),
+                               problems);
+  REQUIRE(footprints.size() == 2);
+  CHECK(footprints[1].outer.size() == 4);
+  CHECK(signed_area_deg2(footprints[1].outer) == Approx(4e-6));
+  REQUIRE(footprints[1].holes.size() == 1);
+  CHECK(signed_area_deg2(footprints[1].holes[0]) == Approx(-0.125e-6));
+  CHECK_THAT(warnings_of(problems),
+             Contains("W-UNCLOSED rings that do not end where they begin = 2"));
+}
+
 TEST_CASE("Rings that touch or cross themselves are repaired and counted", "[footprints]") {
   // A square whose outline pinches to a point on its own edge, and a bow tie of two triangles.
   const std::string pinched =

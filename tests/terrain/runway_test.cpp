@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <glm/common.hpp>
 #include <vector>
 
 namespace fanbeam::terrain {
@@ -103,6 +104,64 @@ TEST_CASE("The largest step is that of two lines in a place of both strips", "[r
   Runway narrow = kEast;
   narrow.strip_half_width_m = 1.0;
   CHECK(largest_step_m(kNorth, narrow) == near_to(10.0));
+}
+
+// Where rectangles of a length begin behind the threshold of the south end, and how far they reach aside.
+struct Marks {
+  std::vector<double> from_m;  // of pairs: those on one side
+  double farthest_aside_m = 0.0;
+};
+
+Marks marks_of(double runway_m, double width_m, double length_m) {
+  Runway runway = level_runway({0.0, 0.0}, {0.0, runway_m}, 100.0);
+  runway.width_m = width_m;
+  runway.shoulder_m = 0.0;
+  Marks marks;
+  const std::vector<SurfacePatch> patches = runway_patches(runway);
+  for (std::size_t i = 1; i < patches.size(); ++i) {  // behind the pavement
+    glm::dvec2 low(1e9), high(-1e9);
+    for (const glm::dvec2& corner : patches[i].outline_m) {
+      low = glm::min(low, corner);
+      high = glm::max(high, corner);
+      marks.farthest_aside_m = std::max(marks.farthest_aside_m, std::abs(corner.x));
+    }
+    const bool of_south_end = low.y < runway_m / 2 && low.x > 0.5;
+    if (of_south_end && std::abs(high.y - low.y - length_m) < 1e-6)
+      marks.from_m.push_back(std::round(low.y));
+  }
+  return marks;
+}
+
+// ICAO Annex 14 Vol. I, 5.2.6.3 (number of pairs) and 5.2.6.5 (150 m apart, none within 50 m of the aiming
+// point).
+TEST_CASE("Touchdown zones have the pairs of the landing length, none beside the aiming point",
+          "[runway]") {
+  using Places = std::vector<double>;
+  CHECK(marks_of(3000.0, 45.0, 22.5).from_m == Places{150, 300, 600, 750, 900});
+  CHECK(marks_of(3000.0, 45.0, 45.0).from_m == Places{400});
+  CHECK(marks_of(2000.0, 45.0, 22.5).from_m == Places{150, 450, 600});
+  CHECK(marks_of(2000.0, 45.0, 45.0).from_m == Places{300});
+  CHECK(marks_of(1300.0, 45.0, 22.5).from_m == Places{150, 450});
+  CHECK(marks_of(1000.0, 45.0, 22.5).from_m == Places{150});
+  CHECK(marks_of(850.0, 45.0, 22.5).from_m == Places{150});
+}
+
+TEST_CASE("Markings of narrow runways stay on the pavement", "[runway]") {
+  for (const double width_m : {5.0, 10.0, 18.0, 23.0, 26.0, 30.0, 45.0, 60.0, 200.0}) {
+    INFO(width_m);
+    CHECK(marks_of(3000.0, width_m, 30.0).farthest_aside_m ==
+          near_to(width_m / 2));  // side stripes
+  }
+  // From 0.9 m of the centre line a stripe of 1.8 m every 3.6 m, while there is room.
+  CHECK(marks_of(3000.0, 5.0, 30.0).from_m.empty());
+  CHECK(marks_of(3000.0, 10.0, 30.0).from_m.size() == 1);
+  CHECK(marks_of(3000.0, 18.0, 30.0).from_m.size() == 2);
+  CHECK(marks_of(3000.0, 23.0, 30.0).from_m.size() == 3);
+  // Aiming points reach 14.5 m aside, touchdown zones 12 m.
+  CHECK(marks_of(3000.0, 28.0, 45.0).from_m.empty());
+  CHECK(marks_of(3000.0, 30.0, 45.0).from_m.size() == 1);
+  CHECK(marks_of(3000.0, 23.0, 22.5).from_m.empty());
+  CHECK(marks_of(3000.0, 24.0, 22.5).from_m.size() == 5);
 }
 
 }  // namespace

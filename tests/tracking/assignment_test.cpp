@@ -135,10 +135,48 @@ TEST_CASE("A track that is not seen becomes less likely to exist, as Bayes has i
   const auto seen = joint_probabilities(CostMatrix(1, 1, 2.0), {0.8}, settings);
   const double there = 0.8 * (0.1 + 0.9 * 2.0 / 1e-3);
   CHECK(seen.existence[0] == Approx(there / (there + 0.2)).epsilon(1e-12));
-  CHECK_NOTHROW(joint_probabilities(CostMatrix(2, 16, 1.0), {0.8, 0.8}, settings));
-  CHECK_THROWS_AS(joint_probabilities(CostMatrix(2, 17, 1.0), {0.8, 0.8}, settings),
-                  core::InputError);
   CHECK_THROWS_AS(joint_probabilities(CostMatrix(1, 1, -1.0), {0.8}, settings), core::InputError);
+}
+
+// More than 16 shared ones were E-LIMIT, in the middle of a run.
+TEST_CASE(
+    "Where tracks share more measurements than can be summed over, the likeliest count, and the "
+    "others are told",
+    "[association]") {
+  const JointSettings settings{0.9, 0.99, 1e-2};
+  constexpr int kColumns = 20;
+  CostMatrix likelihood(2, kColumns, 0.0);
+  for (int j = 0; j < kColumns; ++j)
+    likelihood.at(0, j) = likelihood.at(1, kColumns - 1 - j) = std::ldexp(1.0, -j);
+  CHECK(joint_probabilities(CostMatrix(2, 16, 1.0), {0.8, 0.8}, settings).left_out == 0);
+  CHECK(joint_probabilities(CostMatrix(2, 17, 1.0), {0.8, 0.8}, settings).left_out == 2);
+  // All pairs of two tracks, added up; what lies below 2^-15 of the likeliest is left out.
+  const double miss = 1.0 - 0.9 * 0.99 * 0.8, hit = 0.9 * 0.8 / 1e-2;
+  double total = miss * miss;
+  std::vector<double> first(kColumns, 0.0);
+  for (int i = 0; i < kColumns; ++i) {
+    double others = miss;
+    for (int j = 0; j < kColumns; ++j)
+      if (j != i) others += hit * likelihood.at(1, j);
+    first[static_cast<std::size_t>(i)] = hit * likelihood.at(0, i) * others;
+    total += first[static_cast<std::size_t>(i)] + miss * hit * likelihood.at(1, i);
+  }
+  const JointProbabilities found = joint_probabilities(likelihood, {0.8, 0.8}, settings);
+  CHECK(found.left_out == 2 * 4);
+  for (int j = 0; j < kColumns; ++j)
+    CHECK(found.belongs.at(0, j) ==
+          Approx(first[static_cast<std::size_t>(j)] / total).margin(2e-5).epsilon(0.0));
+  // Thirty tracks in forty measurements, all in all gates.
+  CostMatrix dense(30, 40, 0.0);
+  for (int t = 0; t < dense.rows; ++t)
+    for (int j = 0; j < dense.columns; ++j) dense.at(t, j) = 0.1 + 0.02 * ((7 * t + 11 * j) % 37);
+  const JointProbabilities all = joint_probabilities(dense, std::vector<double>(30, 0.9), settings);
+  CHECK(all.left_out == 30 * 36);  // four each
+  for (int t = 0; t < dense.rows; ++t) {
+    double sum = all.missed[static_cast<std::size_t>(t)];
+    for (int j = 0; j < dense.columns; ++j) sum += all.belongs.at(t, j);
+    CHECK(sum == Approx(1.0).epsilon(1e-12));
+  }
 }
 
 // A column of 40 cars, each near its neighbours' measurements too: 41 measurements in one group. Where the

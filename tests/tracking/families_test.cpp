@@ -50,40 +50,29 @@ bool in_band(const FamilyScore& score) {
   return score.nees.mean() >= band.low && score.nees.mean() <= band.high;
 }
 
-// Of four states; cars that drive straight on, which the tracker does not know, bring it somewhat below: their speed across the
-// line of sight errs by 0.6 of what is told.
-void check_honest(const FamilyScore& score) {
-  const Interval band = mean_interval(4, static_cast<int>(score.runs.size()));
-  CHECK(score.nees.mean() <= band.high);
-  CHECK(score.nees.mean() >= 3.0);
-}
-
-FamilyScore check_kept(const std::string& name) {
+void check_kept(const std::string& name) {
   const FamilyScore score = score_of(name, kRuns);
   INFO(name << ": " << words_of(score));
   CHECK(score.mota() >= 0.97);
   CHECK(score.without_switch() >= 95);
-  return score;
+  CHECK(in_band(score));
 }
 
 }  // namespace
 
-// With one model straight on and one for turns, braking cars had a MOTA of 0.77 and switched in every run,
-// stop-and-go 0.27.
-TEST_CASE("Cars side by side, that brake unseen for 0.6 s, or stop and go stay one track each",
-          "[tracker][statistics]") {
-  for (const char* name : {"side by side", "braking", "stop and go"})
-    check_honest(check_kept(name));
+// With one model straight on and one for turns, braking cars had a MOTA of 0.77 and switched in every run, stop-and-go
+// 0.27. With turns of white acceleration across, cars that drive straight on had a NEES of 3.3.
+TEST_CASE(
+    "Cars side by side, that brake unseen for 0.6 s, or stop and go stay one track each, as true "
+    "as told",
+    "[tracker][statistics]") {
+  for (const char* name : {"side by side", "braking", "stop and go"}) check_kept(name);
 }
 
 // Cars that do what the tracker expects, and cars that change lanes, whose turn begins and ends at once.
 TEST_CASE("Tracks of cars that wander and that change lanes err by as much as they say",
           "[tracker][statistics]") {
-  for (const char* name : {"wandering", "lane change", "braking"}) {
-    const FamilyScore score = check_kept(name);
-    INFO(words_of(score));
-    CHECK(in_band(score));
-  }
+  for (const char* name : {"wandering", "lane change"}) check_kept(name);
 }
 
 // Within a cell of range for three to five seconds, where the radar sees one: they are told apart again by
@@ -174,8 +163,22 @@ TEST_CASE("Tracks of S1 to S3 are as good as they say in all four states",
        {RoadFamily{"S1", [](int, double) { return one_stopped_car(); }},
         RoadFamily{"S2", [](int, double) { return six_vehicles(); }},
         RoadFamily{"S3", [](int, double) { return slow_crossing(); }}}) {
-    const FamilyScore score = score_of(scenario, 30);
+    const FamilyScore score = score_of(scenario, kRuns);
     INFO(scenario.name << ": " << words_of(score));
-    check_honest(score);
+    CHECK(in_band(score));
   }
+}
+
+// A car on a ring around the radar passes a post of the same range: within a beam of it, for a second, the two are one
+// measurement, told as wrong by what two targets anywhere in a cell may be, while these two are at exactly one range,
+// which no radar knows. Where beats merged by frequency alone, in whatever direction, 1.65 and a MOTA of 0.982.
+TEST_CASE(
+    "Tracks of S4 err by less than told where two targets are one measurement, and only there",
+    "[tracker][statistics]") {
+  const FamilyScore score =
+      score_of(RoadFamily{"S4", [](int, double) { return beaming(); }}, kRuns);
+  INFO(words_of(score));
+  CHECK(score.mota() >= 0.985);
+  CHECK(score.nees.mean() >= 2.5);
+  CHECK(score.nees.mean() <= mean_interval(4, kRuns).high);
 }

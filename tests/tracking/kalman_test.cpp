@@ -125,7 +125,7 @@ TEST_CASE("K02 a million updates leave the covariance symmetric and positive", "
 
 TEST_CASE("K03 steps of zero, back, tiny and huge", "[kalman]") {
   for (const MotionKind kind : {MotionKind::constant_velocity, MotionKind::constant_acceleration,
-                                MotionKind::coordinated_turn}) {
+                                MotionKind::smooth_turn}) {
     MotionModel model;
     model.kind = kind;
     Gaussian state;

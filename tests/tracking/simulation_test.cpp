@@ -205,3 +205,41 @@ TEST_CASE("Merged beats say how wrong they may be, lone ones that they are right
   // Now and then the coarse stage takes a beat of the other car.
   CHECK(beyond <= (merged + lone) / 20);
 }
+
+// The array's beam is 8.5 degrees wide: 0.148 in the sine of the azimuth.
+TEST_CASE("Beats of one frequency merge within a beam, and beyond it with one direction alone",
+          "[highway]") {
+  const auto cars = [](double apart) {
+    // Two standing cars, 30 m away.
+    return scene(1.0, 0.0,
+                 {car("A", 30.0, 0.0, 0.0),
+                  car("B", 30.0 * std::sqrt(1.0 - apart * apart), 30.0 * apart, 0.0)});
+  };
+  const auto merged = [&](double apart, Scheme scheme, int elements) {
+    core::HighwayRadar radar = highway_radar();
+    radar.array_elements = elements;
+    SimulationSettings settings;
+    settings.scheme = scheme;
+    const auto seen = simulated_frame(cars(apart), radar, settings, 9, 0, 3);
+    return std::any_of(seen.begin(), seen.end(),
+                       [](const RadarMeasurement& one) { return one.range_systematic_m > 0.0; });
+  };
+  for (const Scheme scheme : {Scheme::two_stage, Scheme::coded}) {
+    CHECK(merged(0.13, scheme, 12));
+    CHECK_FALSE(merged(0.17, scheme, 12));
+    const auto apart = simulated_frame(
+        cars(0.17), highway_radar(),
+        [&] {
+          SimulationSettings settings;
+          settings.scheme = scheme;
+          return settings;
+        }(),
+        9, 0, 3);
+    REQUIRE(apart.size() == 2);
+    CHECK(std::abs(std::sin(apart[0].azimuth_rad) - std::sin(apart[1].azimuth_rad)) ==
+          Approx(0.17).epsilon(0.0).margin(0.01));
+  }
+  // A triangle's pairs go by frequency alone, and one element tells no direction.
+  CHECK(merged(0.17, Scheme::triangle, 12));
+  CHECK(merged(0.17, Scheme::two_stage, 1));
+}

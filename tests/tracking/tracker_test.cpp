@@ -142,6 +142,30 @@ TEST_CASE("Results do not depend on the order of measurements", "[tracker]") {
   }
 }
 
+// Three cars and sixty measurements among them ended the run.
+TEST_CASE("Joint association goes on through clutter of which the tracks share dozens",
+          "[tracker]") {
+  TrackerSettings settings = settings_for();
+  settings.association = Association::joint;
+  Tracker tracker(settings);
+  const auto wide = [](double range_m, double rate_mps, double azimuth_rad) {
+    return RadarMeasurement{range_m, rate_mps, azimuth_rad, 0.3, 0.1, 0.0175};
+  };
+  int frame = 0;
+  while (frame < 20)
+    tracker.update(0.05 * frame++,
+                   {wide(30.0, 0.0, 0.0), wide(31.6, 0.0, 0.035), wide(33.2, 0.0, 0.07)});
+  REQUIRE(confirmed(tracker) == 3);
+  CHECK(tracker.left_out() == 0);
+  std::vector<RadarMeasurement> clutter;
+  for (int j = 0; j < 60; ++j)
+    clutter.push_back(
+        wide(30.4 + 0.04 * j, 0.02 * ((7 * j) % 11 - 5), 0.01 + 0.0012 * ((11 * j) % 40)));
+  tracker.update(0.05 * frame, clutter);
+  CHECK(tracker.left_out() > 0);
+  CHECK(confirmed(tracker) == 3);
+}
+
 TEST_CASE("What is marked as clutter need not be tracked, and is no false track if it is",
           "[tracker]") {
   core::HighwayScenario scenario = one_stopped_car();
@@ -310,6 +334,45 @@ TEST_CASE("A third car that appears beside an unresolved pair keeps its measurem
     CHECK(std::count_if(tracker.tracks().begin(), tracker.tracks().end(),
                         [](const Track& one) { return one.unresolved_with.has_value(); }) == 2);
   }
+}
+
+// It kept nothing from any later pair with one of them: the second pair parted by its echo, 32 m away.
+TEST_CASE("A car that began on a pair's echo keeps its measurements from the next pair",
+          "[tracker]") {
+  Tracker tracker(settings_for());
+  int frame = 0;
+  const auto step = [&](const std::vector<RadarMeasurement>& seen) {
+    tracker.update(0.05 * frame++, seen);
+  };
+  // One drives past another as one echo, at last between the two places: a third track begins there.
+  double passing_m = 64.0;
+  for (; passing_m > 61.2; passing_m -= 0.04) step({at(60.0, 0.0), at(passing_m, -0.8, 0.001)});
+  for (int i = 0; i < 100; ++i, passing_m -= 0.04) step({at(60.0, 0.0)});
+  for (int i = 0; i < 3; ++i, passing_m -= 0.04) step({at(0.5 * (60.0 + passing_m), -0.4)});
+  REQUIRE(confirmed(tracker) == 3);
+  REQUIRE(tracker.tracks()[2].began_on.has_value());
+  // All three are seen, and the third drives away.
+  double third_m = 0.5 * (60.0 + passing_m), third_mps = -0.4;
+  for (int i = 0; i < 140; ++i, passing_m -= 0.04) {
+    third_mps = std::min(third_mps + 0.1, 5.0);
+    third_m += 0.05 * third_mps;
+    step({at(60.0, 0.0), at(passing_m, -0.8, 0.001),
+          at(third_m, third_mps, 0.0002 * std::min(i, 100))});
+  }
+  REQUIRE(tracker.crossings().size() == 1);
+  REQUIRE(confirmed(tracker) == 3);
+  CHECK_FALSE(tracker.tracks()[2].began_on.has_value());
+  // It stands 32 m away while another car drives past the first.
+  for (double next_m = 64.0; next_m > 61.2; next_m -= 0.04) {
+    third_mps = std::max(third_mps - 0.1, 0.0);
+    third_m += 0.05 * third_mps;
+    step({at(60.0, 0.0), at(next_m, -0.8, 0.001), at(third_m, third_mps, 0.02)});
+  }
+  for (int i = 0; i < 80; ++i) step({at(60.0, 0.0), at(third_m, 0.0, 0.02)});
+  CHECK(tracker.crossings().size() == 1);
+  CHECK(confirmed(tracker) == 3);
+  CHECK(std::count_if(tracker.tracks().begin(), tracker.tracks().end(),
+                      [](const Track& one) { return one.unresolved_with.has_value(); }) == 2);
 }
 
 // The echo of one pair lies in the swollen gates of the other.

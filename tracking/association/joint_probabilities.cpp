@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <utility>
 
 #include "core/errors.h"
 
@@ -82,6 +83,7 @@ class Frontiers {
       }
       for (std::size_t t = first + 1; t <= last; ++t) open_[t].push_back(j);
     }
+    if (widest() > kMostOpen) return;  // sets are not asked for, and have no bits for so many
     for (std::size_t t = 0; t < weight.size(); ++t)
       for (const std::size_t j : open_[t]) carries_[t].push_back(bit(t + 1, j));
   }
@@ -176,14 +178,34 @@ void solve(const Group& group, const std::vector<std::vector<double>>& weight,
   }
 }
 
-}  // namespace
+// A group by itself, with the likeliest measurements of each track alone.
+CostMatrix likeliest(const CostMatrix& likelihood, const Group& group, std::size_t of_each,
+                     int& left_out) {
+  CostMatrix kept(static_cast<int>(group.tracks.size()),
+                  static_cast<int>(group.measurements.size()), 0.0);
+  for (int row = 0; row < kept.rows; ++row) {
+    const int track = group.tracks[static_cast<std::size_t>(row)];
+    std::vector<std::pair<double, int>> shared;  // likelihood and column
+    for (int column = 0; column < kept.columns; ++column) {
+      const double value =
+          likelihood.at(track, group.measurements[static_cast<std::size_t>(column)]);
+      if (value > 0.0) shared.emplace_back(value, column);
+    }
+    std::sort(shared.rbegin(), shared.rend());
+    for (std::size_t i = 0; i < shared.size(); ++i)
+      if (i < of_each)
+        kept.at(row, shared[i].second) = shared[i].first;
+      else
+        ++left_out;
+  }
+  return kept;
+}
 
-JointProbabilities joint_probabilities(const CostMatrix& likelihood,
-                                       const std::vector<double>& existence,
-                                       const JointSettings& settings) {
-  check(likelihood, existence, settings);
+// `existence` of the result is left as it is.
+JointProbabilities added_up(const CostMatrix& likelihood, const std::vector<double>& existence,
+                            const JointSettings& settings, std::size_t of_each) {
   JointProbabilities result{CostMatrix(likelihood.rows, likelihood.columns, 0.0),
-                            std::vector<double>(existence.size(), 1.0), existence};
+                            std::vector<double>(existence.size(), 1.0), existence, 0};
   const double seen = settings.detection_probability * settings.gate_probability;
   for (const Group& group : groups_of(likelihood)) {
     std::vector<std::vector<double>> weight;
@@ -200,12 +222,36 @@ JointProbabilities joint_probabilities(const CostMatrix& likelihood,
       weight.push_back(std::move(row));
     }
     const Frontiers frontiers(weight, group.measurements.size());
-    if (frontiers.widest() > kMostOpen)
-      core::throw_input_error(
-          core::ErrorClass::limit, "joint.measurements", static_cast<double>(frontiers.widest()),
-          "at most 16 that tracks share at once: the best assignment takes more");
-    solve(group, weight, frontiers, result);
+    if (frontiers.widest() <= kMostOpen) {
+      solve(group, weight, frontiers, result);
+      continue;
+    }
+    // Tracks with one measurement each share no other, so that this comes to an end.
+    const CostMatrix kept = likeliest(likelihood, group, of_each, result.left_out);
+    std::vector<double> there;
+    for (const int track : group.tracks)
+      there.push_back(existence[static_cast<std::size_t>(track)]);
+    const JointProbabilities part = added_up(kept, there, settings, of_each / 2);
+    result.left_out += part.left_out;
+    for (int row = 0; row < kept.rows; ++row) {
+      const int track = group.tracks[static_cast<std::size_t>(row)];
+      result.missed[static_cast<std::size_t>(track)] = part.missed[static_cast<std::size_t>(row)];
+      for (int column = 0; column < kept.columns; ++column)
+        result.belongs.at(track, group.measurements[static_cast<std::size_t>(column)]) =
+            part.belongs.at(row, column);
+    }
   }
+  return result;
+}
+
+}  // namespace
+
+JointProbabilities joint_probabilities(const CostMatrix& likelihood,
+                                       const std::vector<double>& existence,
+                                       const JointSettings& settings) {
+  check(likelihood, existence, settings);
+  JointProbabilities result = added_up(likelihood, existence, settings, kMostOpen);
+  const double seen = settings.detection_probability * settings.gate_probability;
   for (std::size_t t = 0; t < existence.size(); ++t) {
     const double none = 1.0 - seen * existence[t];
     const double silent = none > 0.0 ? (1.0 - seen) * existence[t] / none : 0.0;

@@ -15,8 +15,10 @@
 // R. Evans, "Joint integrated probabilistic data association: JIPDA", IEEE Trans. AES-40, 2004.
 // Inputs: likelihoods finite, 0 or more (0 outside the gate); probabilities in [0, 1]; lambda above
 // 0. E-RANGE, E-NONFINITE otherwise. Cost: tracks 2^m m in each group of tracks that share
-// measurements, m the most that are wanted by tracks on both sides of one; more than 16 are E-LIMIT.
-// Of a column of cars, each sharing measurements with its neighbours, m is 1 or 2.
+// measurements, m the most that are wanted by tracks on both sides of one, at most 16. Of a column of
+// cars, each sharing measurements with its neighbours, m is 1 or 2.
+// Where m is more than 16, in clutter so dense that gates hold dozens, each track of the group keeps its 16 likeliest
+// measurements; where that is not enough, 8, 4, 2 or 1. `left_out` counts the others: 0 says that the sums are exact.
 #pragma once
 
 #include <vector>
@@ -35,6 +37,7 @@ struct JointProbabilities {
   CostMatrix belongs;             // beta of track (row) and measurement (column)
   std::vector<double> missed;     // beta_0 of each track
   std::vector<double> existence;  // r'
+  int left_out = 0;               // measurements of tracks
 };
 
 // `likelihood` of tracks (rows) and measurements (columns).

@@ -1,7 +1,7 @@
-// A state estimate: mean and covariance of up to six numbers, as plain data.
+// A state estimate: mean and covariance of up to eight numbers, as plain data.
 //
-// Planar states hold (x, y, vx, vy) and then (ax, ay) or the turn rate, x forward and y to the
-// right of the radar; states of one axis hold (r, v) and then the acceleration. All in SI.
+// Planar states hold (x, y, vx, vy) and then (ax, ay) or the parts of the turn rate, x forward
+// and y to the right of the radar; states of one axis hold (r, v) and then the acceleration. All in SI.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@
 
 namespace fanbeam::tracking {
 
-inline constexpr int kMostStates = 6;
+inline constexpr int kMostStates = 8;
 inline constexpr int kMostMeasured = 3;
 
 using StateVector = std::array<double, kMostStates>;
-using StateMatrix = std::array<double, kMostStates * kMostStates>;  // row after row, stride 6
+using StateMatrix = std::array<double, kMostStates * kMostStates>;  // row after row
 
 struct Gaussian {
   int size = 0;  // of it are used

@@ -86,15 +86,15 @@ ImmState start_imm(const ImmModel& model, const Gaussian& kinematic, const ImmSt
     core::throw_input_error(core::ErrorClass::range, "imm.state.size", kinematic.size,
                             core::number_text(common));
   for (const MotionModel& motion : model.motions) {
-    const bool turn = motion.kind == MotionKind::coordinated_turn;
+    const bool turn = motion.kind == MotionKind::smooth_turn;
     if (motion.axes != result.axes || (turn && result.axes != 2))
       core::throw_input_error(core::ErrorClass::range, "imm.motion.axes", motion.axes,
                               "the same for all models, 2 for a turn");
     Gaussian state = kinematic;
     state.size = states(motion);
-    const double sigma = turn ? start.turn_sigma_rad_per_s : start.acceleration_sigma_mps2;
     for (int extra = common; extra < state.size; ++extra)
-      state.variance(extra, extra) = sigma * sigma;
+      state.variance(extra, extra) = std::pow(start.acceleration_sigma_mps2, 2);
+    if (turn) add_turn(motion, state);
     result.states.push_back(state);
     result.probabilities.push_back(
         model.at_start.empty() ? 1.0 : model.at_start[result.probabilities.size()]);

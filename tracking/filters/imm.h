@@ -37,12 +37,11 @@ struct ImmState {
   bool operator==(const ImmState&) const = default;
 };
 
-// Starts every model from position and velocity. Accelerations and turn rates start at 0 with these
-// standard deviations. E-RANGE for no model, another number of `at_start`, one of other axes than the first (a turn has two), or a state
-// that is not of two components for each axis.
+// Starts every model from position and velocity. Accelerations start at 0 with this standard deviation, turns by
+// their own law (add_turn). E-RANGE for no model, another number of `at_start`, one of other axes than the first (a
+// turn has two), or a state that is not of two components for each axis.
 struct ImmStart {
   double acceleration_sigma_mps2 = 3.0;
-  double turn_sigma_rad_per_s = 0.3;
 };
 ImmState start_imm(const ImmModel& model, const Gaussian& kinematic, const ImmStart& start = {});
 

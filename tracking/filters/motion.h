@@ -1,28 +1,38 @@
-// How a target moves between measurements: constant velocity, constant acceleration, coordinated
-// turn.
+// How a target moves between measurements: constant velocity, constant acceleration, smooth turn.
 //
 // constant_velocity      each axis: r += v T; white acceleration, constant inside a step,
 //                        Q = sa^2 [[T^4/4, T^3/2], [T^3/2, T^2]]
 // constant_acceleration  each axis: r += v T + a T^2/2, v += a T; white jerk of density q,
 //                        Q = q [[T^5/20, T^4/8, T^3/6], [T^4/8, T^3/3, T^2/2], [T^3/6, T^2/2, T]]
-// coordinated_turn       planar: the velocity over ground turns at the rate w,
-//                        x += s gx - c gy - ex T, y += c gx + s gy - ey T, g turned by w T,
-//                        s = sin(w T)/w, c = (1 - cos(w T))/w, g = v + e;
-//                        noise as constant velocity, and w a random walk of density qw
+// smooth_turn            planar: the velocity over ground turns at the rate w, evenly inside a step with its mean u,
+//                        x += s gx - c gy - ex T, y += c gx + s gy - ey T, g turned by u T,
+//                        s = sin(u T)/u, c = (1 - cos(u T))/u, g = v + e;
+//                        w = f + b: steering f, which returns to 0, and the road's bend b, which lasts. f, f', f''
+//                        and b are states; (d/dt + k)^3 f is white noise of density 16/3 sf^2 k^5, so that f has the
+//                        standard deviation sf and is forgotten within some 3 / k; b is a random walk of density qb;
+//                        noise of acceleration as constant velocity, along g alone (forward where g is below 0.5 m/s)
+// Who steers turns a wheel, which takes time: the turn rate does not jump, and nothing but the turn moves a car
+// across its way. How smooth a model takes it to be decides how true its errors are on who drives straight on: where
+// position is the n-th integral of white noise, position and speed of a target without any have a normalised error
+// squared of 2 - 2/n instead of 2 (tests/tracking/consistency_test.cpp). Here n is 5, for white acceleration 2.
 // e is the radar's own velocity over ground, constant; v is relative to the radar.
 // Source: Y. Bar-Shalom, X. R. Li, T. Kirubarajan, "Estimation with Applications to Tracking and
-// Navigation", 2001, 6.2, 6.3 and 11.7.
-// Neglected: rotation and acceleration of the radar. For small w T the limits of s and c are used:
-// both forms agree to 1e-10 at the change. The turn's covariance is linearised at the mean.
+// Navigation", 2001, 6.2, 6.3 and 11.7; noise in a derivative of the curvature: E. D. Dickmanns, B. D. Mysliwetz,
+// "Recursive 3-D road and relative ego-state recognition", IEEE Trans. PAMI-14, 1992; the law of f (Matern, 5/2) as a
+// state: J. Hartikainen, S. Sarkka, "Kalman filtering and smoothing solutions to temporal Gaussian process regression
+// models", IEEE MLSP, 2010.
+// Neglected: rotation and acceleration of the radar; how w changes inside a step (for positions, w' T^3 |g| / 12: 10 um
+// at 30 m/s, 50 ms and 0.03 rad/s2). For small u T the limits of s and c are used: both forms agree to 1e-10 at the
+// change. The turn's covariance is linearised at the mean; transition and noise of f and b are exact for any step.
 // Inputs: 0 leaves the state alone; a negative step is E-TIME, one that is not finite E-NONFINITE;
-// noise that is negative E-RANGE. The state is then unchanged.
+// noise that is negative and a time that is not above 0 E-RANGE. The state is then unchanged.
 #pragma once
 
 #include "tracking/filters/gaussian.h"
 
 namespace fanbeam::tracking {
 
-enum class MotionKind { constant_velocity, constant_acceleration, coordinated_turn };
+enum class MotionKind { constant_velocity, constant_acceleration, smooth_turn };
 
 struct MotionModel {
   MotionKind kind = MotionKind::constant_velocity;
@@ -30,12 +40,20 @@ struct MotionModel {
   double acceleration_mps2 = 1.0;          // sa
   double jerk_density_m2_per_s5 = 1.0;     // q
   double lateral_jerk_share = 1.0;         // of q, on the second axis: cars brake along the road
-  double turn_density_rad2_per_s3 = 0.01;  // qw
+  double steering_sigma_rad_per_s = 0.1;   // sf
+  double steering_time_s = 0.3;            // 1 / k
+  double bend_density_rad2_per_s3 = 1e-5;  // qb
+  double bend_sigma_rad_per_s = 0.3;       // of b when a track starts
   std::array<double, 2> radar_velocity_mps = {0.0, 0.0};  // e: forward, right
 };
 
-// 2, 3 for one axis; 4, 6, 5 for the plane.
+// 2, 3 for one axis; 4, 6, 8 for the plane.
 int states(const MotionModel& model);
+
+// Position and velocity of the plane become a state of smooth_turn whose turn is any: 0, with the spread that
+// steering has at any time, sf^2 [[1, 0, -k^2/3], [0, k^2/3, 0], [-k^2/3, 0, k^4]], and the bend's when a track
+// starts.
+void add_turn(const MotionModel& model, Gaussian& state);
 
 void predict(const MotionModel& model, double step_s, Gaussian& state);
 

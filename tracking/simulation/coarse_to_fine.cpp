@@ -13,10 +13,6 @@ namespace {
 constexpr double kBeamwidth = 0.8859;
 constexpr double kMostMisfit = 4.0;  // of directions, over what they may be apart
 
-double beam_rad(const core::HighwayRadar& radar) {
-  return kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths);
-}
-
 // Targets that the coarse stage cannot tell apart become one.
 std::vector<Seen> merged(std::vector<Seen> targets,
                          const std::function<bool(const Seen&, const Seen&)>& together) {
@@ -154,6 +150,10 @@ void add_pairs_of_speed(const signal::TriangleModel& fine, const RampPeaks& peak
 }
 
 }  // namespace
+
+double beam_rad(const core::HighwayRadar& radar) {
+  return kBeamwidth / (radar.array_elements * radar.array_pitch_wavelengths);
+}
 
 std::vector<RadarMeasurement> coarse_to_fine(
     const signal::TriangleModel& fine, const RampPeaks& peaks, const std::vector<Seen>& targets,

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 #include "core/constants.h"
 #include "core/errors.h"
@@ -35,12 +37,9 @@ std::vector<Seen> seen_targets(const core::HighwayScenario& scenario,
   return result;
 }
 
-Peaks merged(const Peaks& beats, double closer_than_Hz) {
-  std::vector<std::size_t> order(beats.Hz.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return beats.Hz[a] < beats.Hz[b]; });
-  Peaks peaks;
+// Of these beats, in the order of frequency, those that are closer become one.
+void add_merged(const Peaks& beats, const std::vector<std::size_t>& order, double closer_than_Hz,
+                Peaks& peaks) {
   for (std::size_t i = 0; i < order.size();) {
     double power = 0.0, sum_Hz = 0.0, sum_rad = 0.0, sum_rad2 = 0.0;
     std::size_t end = i;
@@ -63,12 +62,36 @@ Peaks merged(const Peaks& beats, double closer_than_Hz) {
         lone ? 0.0 : std::sqrt(std::max(0.0, sum_rad2 / power - std::pow(sum_rad / power, 2))));
     i = end;
   }
+}
+
+// What beats have to be closer than to merge: in frequency and in the sine of their azimuths.
+struct Cell {
+  double bins, beam;
+};
+
+Peaks merged(const Peaks& beats, double closer_than_Hz, double beam) {
+  std::vector<std::size_t> order(beats.Hz.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto across = [&](std::size_t i) { return std::sin(beats.azimuth_rad[i]); };
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return across(a) < across(b); });
+  Peaks peaks;
+  for (auto first = order.begin(); first != order.end();) {
+    const auto apart = [&](std::size_t a, std::size_t b) { return across(b) - across(a) >= beam; };
+    auto last = std::adjacent_find(first, order.end(), apart);
+    if (last != order.end()) ++last;
+    std::vector<std::size_t> group(first, last);
+    std::sort(group.begin(), group.end(),
+              [&](std::size_t a, std::size_t b) { return beats.Hz[a] < beats.Hz[b]; });
+    add_merged(beats, group, closer_than_Hz, peaks);
+    first = last;
+  }
   return peaks;
 }
 
 // `later_s`: from the frame's time to the triangle's turnaround.
 RampPeaks peaks_of(const signal::TriangleModel& model, double later_s,
-                   const std::vector<Seen>& targets, double merge_bins, double bound_ramp_s,
+                   const std::vector<Seen>& targets, const Cell& cell, double bound_ramp_s,
                    const Draws& draws, std::uint32_t draw) {
   RampPeaks beats;
   for (std::size_t i = 0; i < targets.size(); ++i) {
@@ -85,8 +108,9 @@ RampPeaks peaks_of(const signal::TriangleModel& model, double later_s,
       side->power.push_back(target.power);
     }
   }
-  return {merged(beats.up, merge_bins * model.bin_Hz()),
-          merged(beats.down, merge_bins * model.bin_Hz())};
+  const double closer_than_Hz = cell.bins * model.bin_Hz();
+  return {merged(beats.up, closer_than_Hz, cell.beam),
+          merged(beats.down, closer_than_Hz, cell.beam)};
 }
 
 std::size_t nearest(const std::vector<double>& values, double to) {
@@ -226,10 +250,14 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
   const signal::Waveform waveform = signal::two_slopes(parameters);
   const signal::TriangleModel first = signal::triangle_model(waveform, 0);
   const signal::PairingLimits limits{0.0, 1.1 * radar.most_range_m, settings.most_speed_mps};
-  const RampPeaks peaks =
-      peaks_of(first, 0.0, targets, settings.merge_bins, radar.ramp_s, draws, 1);
+  const bool by_direction =
+      settings.scheme == Scheme::two_stage || settings.scheme == Scheme::coded;
+  const Cell cell{settings.merge_bins, by_direction && radar.array_elements > 1
+                                           ? beam_rad(radar)
+                                           : std::numeric_limits<double>::infinity()};
+  const RampPeaks peaks = peaks_of(first, 0.0, targets, cell, radar.ramp_s, draws, 1);
   std::vector<RadarMeasurement> result;
-  if (settings.scheme == Scheme::two_stage || settings.scheme == Scheme::coded) {
+  if (by_direction) {
     result = coarse_to_fine(first, peaks, targets, radar, settings, draws);
   } else {
     std::vector<signal::RangeSpeed> places;
@@ -240,8 +268,7 @@ std::vector<RadarMeasurement> simulated_frame(const core::HighwayScenario& scena
     } else {
       const signal::TriangleModel second = signal::triangle_model(waveform, 1);
       const double between_s = second.turnaround_s - first.turnaround_s;
-      const RampPeaks later =
-          peaks_of(second, between_s, targets, settings.merge_bins, radar.ramp_s, draws, 2);
+      const RampPeaks later = peaks_of(second, between_s, targets, cell, radar.ramp_s, draws, 2);
       places = signal::pair_two_slopes({first, peaks.up.Hz, peaks.down.Hz},
                                        {second, later.up.Hz, later.down.Hz}, {limits, 1.3});
     }

@@ -5,7 +5,8 @@
 // For every target in view, with the signal-to-noise ratio e of one ramp of the fine triangle (link
 // budget, two ways):
 //   beats      of signal/pairing/triangle.h, normal errors sqrt(6/e) / (2 pi T); those of one ramp
-//              closer than 1.2 bins become one at their mean, weighted with power
+//              closer than 1.2 bins become one at their mean, weighted with power; with two stages or a
+//              coded stretch, which take beats by their direction, only those of one beam (0.886 lambda / N d)
 //   azimuth    normal error sqrt(6/(r N (N^2-1))) / (2 pi d/lambda cos azimuth), r = e / N
 //   coarse     (two stages) range and speed with errors of 0.3 m and 0.3 m/s, refined by beats of the same direction; targets that share
 //              the cells of range and speed (1.2 wide each) and the beam (0.886 lambda / N d)

@@ -59,6 +59,9 @@ void state_spread(const signal::TriangleModel& model, const RampPeaks& peaks,
 RadarMeasurement with_sigmas(const signal::RangeSpeed& place, double azimuth_rad,
                              const MeasurementBound& bound);
 
+// Of the array, in the sine of the azimuth: half-power width.
+double beam_rad(const core::HighwayRadar& radar);
+
 // Coarse ranges and speeds from a chirp sequence, or from the coded flat stretch of a triangle,
 // refined by the triangle's beats.
 std::vector<RadarMeasurement> coarse_to_fine(

@@ -21,8 +21,9 @@ struct Track {
   double unresolved_s = 0.0;           // so far
   int unresolved_unseen = 0;           // frames since anything was measured of either
   std::optional<int> given_up_with;    // unresolved for too long, and not seen apart since
-  std::optional<int> began_on;  // one of a pair set aside, whose only echo this may have begun on
-  Existence existence;          // since it was confirmed
+  // One of a pair, for as long as that is set aside: this may have begun on its only echo.
+  std::optional<int> began_on;
+  Existence existence;  // since it was confirmed
   // That the target is still the one the track started with.
   double identity_probability = 1.0;
 };

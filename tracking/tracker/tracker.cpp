@@ -150,11 +150,15 @@ void Tracker::start(const Frame& frame) {
   // In the order of range, so that numbers do not depend on the order of measurements.
   std::stable_sort(fresh.begin(), fresh.end(),
                    [](const auto& a, const auto& b) { return a.range_m < b.range_m; });
+  const std::vector<PairPlaces> pairs = pairs_aside();
   for (const RadarMeasurement& one : fresh) {
+    const auto pair = std::find_if(pairs.begin(), pairs.end(), [&](const PairPlaces& aside) {
+      return between(polar(one), aside.here, aside.there, settings_.resolution);
+    });
     Track track;
     track.id = next_id_++;
     track.hits = track.frames = 1;
-    track.began_on = echo_of_pair(polar(one), places);
+    if (pair != pairs.end()) track.began_on = pair->id;
     track.state = start_imm(settings_.motion, start_state(one, settings_.motion.axes(),
                                                           settings_.start_tangential_sigma_mps));
     tracks_.push_back(std::move(track));

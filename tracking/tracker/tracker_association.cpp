@@ -77,6 +77,7 @@ void Tracker::update_joint(const std::vector<std::size_t>& which, Frame& frame) 
   for (const std::size_t i : which) seen.push_back(tracks_[i].existence.seen);
   const JointSettings& model = settings_.detection;
   const JointProbabilities joint = joint_probabilities(likelihood, seen, model);
+  left_out_ += joint.left_out;
   for (std::size_t row = 0; row < which.size(); ++row) {
     Track& track = tracks_[which[row]];
     track.existence.associated(joint.existence[row], joint.missed[row],

@@ -1,4 +1,4 @@
-// One frame of a tracker: its measurements, and which of them are taken.
+// One frame of a tracker: its measurements, which of them are taken, and the pairs that it cannot resolve.
 #pragma once
 
 #include "tracking/tracker/tracker.h"
@@ -16,6 +16,12 @@ struct Tracker::Frame {
   std::vector<RadarMeasurement> measurements;
   std::vector<bool> used;
   std::vector<std::vector<Claim>> claims;  // of every measurement; none before a pair asks
+};
+
+// A pair that is set aside.
+struct Tracker::PairPlaces {
+  int id = 0;  // of either
+  PolarPlace here, there;
 };
 
 }  // namespace fanbeam::tracking

@@ -10,14 +10,8 @@ namespace {
 
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
-// Lets a track take part again, with all of its coasting before it.
-void release(Track& track) {
-  track.unresolved_with.reset();
-  track.unresolved_s = track.unseen_s = 0.0;
-  track.coasted = 1;
-}
-
-Track* track_of(std::vector<Track>& tracks, int id) {
+template <typename Tracks>
+auto* track_of(Tracks& tracks, int id) {
   const auto found =
       std::find_if(tracks.begin(), tracks.end(), [&](const Track& one) { return one.id == id; });
   return found == tracks.end() ? nullptr : &*found;
@@ -30,6 +24,16 @@ void set_aside(Track& track, const Track& with) {
 }
 
 }  // namespace
+
+// Lets a track take part again, with all of its coasting before it. What began on the echo of its pair has one of its
+// own from then on, as any other.
+void Tracker::release(Track& track) {
+  track.unresolved_with.reset();
+  track.unresolved_s = track.unseen_s = 0.0;
+  track.coasted = 1;
+  for (Track& other : tracks_)
+    if (other.began_on == track.id) other.began_on.reset();
+}
 
 void Tracker::claim(Frame& frame) const {
   if (!frame.claims.empty()) return;
@@ -108,15 +112,14 @@ void Tracker::coast_unresolved(double step_s, Frame& frame) {
   }
 }
 
-// Either one of a pair that is set aside, about whose places, or between them, that one lies.
-std::optional<int> Tracker::echo_of_pair(const PolarPlace& place,
-                                         const std::vector<PolarPlace>& places) const {
-  for (std::size_t i = 0; i < tracks_.size(); ++i)
-    for (std::size_t j = i + 1; j < tracks_.size(); ++j)
-      if (tracks_[i].unresolved_with == tracks_[j].id &&
-          between(place, places[i], places[j], settings_.resolution))
-        return tracks_[i].id;
-  return std::nullopt;
+std::vector<Tracker::PairPlaces> Tracker::pairs_aside() const {
+  std::vector<PairPlaces> pairs;
+  for (const Track& one : tracks_) {
+    if (!one.unresolved_with || one.id > *one.unresolved_with) continue;
+    const Track* const other = track_of(tracks_, *one.unresolved_with);
+    if (other != nullptr) pairs.push_back({one.id, polar(one.state), polar(other->state)});
+  }
+  return pairs;
 }
 
 // Pairs that have been one for too long. Whichever of them goes on, nothing tells which of the two it is.

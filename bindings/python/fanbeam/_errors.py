@@ -38,5 +38,6 @@ class FanbeamWarning(UserWarning):
 
 
 def warn(problems: list[Problem]) -> None:
+    """For functions that users call themselves: the warning shows their line."""
     for problem in problems:
         warnings.warn(problem.text, FanbeamWarning, stacklevel=3)

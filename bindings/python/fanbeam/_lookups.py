@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -33,8 +32,8 @@ class Material(NamedTuple):
     note: str
 
 
-def _library(library: str | os.PathLike[str] | None) -> Path:
-    return _paths.shipped() / "materials" / "library.toml" if library is None else Path(library)
+def _library(library: str | os.PathLike[str] | None) -> str | os.PathLike[str]:
+    return _paths.shipped() / "materials" / "library.toml" if library is None else library
 
 
 def materials(library: str | os.PathLike[str] | None = None) -> list[Material]:
@@ -54,13 +53,14 @@ def nrcs(
 ) -> npt.NDArray[np.float64]:
     """Normalised radar cross section sigma0, linear, of a material at grazing angles 0 to pi/2.
 
+    Angles up to 1e-6 above pi/2, as single precision has them, count as pi/2.
     `polarisation` is "HH" or "VV", `state` what the weather left: "dry", "wet", "dry-snow" or
     "wet-snow". A frequency or polarisation that the material's model is not known for is refused
     unless `extrapolate`. The shape is that of `grazing_rad`.
     """
     told: list[Any] = []
     values = _core.nrcs(
-        _library(library), material, np.asarray(grazing_rad, float), frequency_Hz, polarisation, state, extrapolate, told
+        _library(library), material, grazing_rad, frequency_Hz, polarisation, state, extrapolate, told
     )
     warn(told)
     return values
@@ -70,7 +70,7 @@ class Atmosphere:
     """Loss along straight paths through layered air: gases (ITU-R P.676), fog (P.840), rain (P.838), snow.
 
     Weather as in Scene.set_weather; without any, a standard day. Heights are above the ground that the
-    weather is told for. Losses are one way.
+    weather is told for, -2000 to 12000 m: that far the air is known. Losses are one way.
     """
 
     def __init__(self, frequency_Hz: float = 35e9, **weather: float | bool | None):

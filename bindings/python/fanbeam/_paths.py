@@ -19,7 +19,7 @@ def data_folders(first: str | os.PathLike[str] | None) -> list[Path]:
 
     All absolute: a pickled scene may be opened from another folder.
     """
-    folders = [Path(first).absolute()] if first is not None else []
+    folders = [Path(os.fsdecode(first)).absolute()] if first is not None else []
     if named := os.environ.get("FANBEAM_DATA"):
         folders.append(Path(named).absolute())
     beside = shipped().parent / "shared" / "data"

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+import copy
 import json
-import operator
 import os
 import threading
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, fields
-from pathlib import Path
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, fields, replace
 from types import EllipsisType
 from typing import Any, NamedTuple, TypedDict, cast, overload
 
@@ -16,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from fanbeam import _core, _paths
-from fanbeam._errors import warn
+from fanbeam._errors import Problem, warn
 
 Grey = npt.NDArray[np.uint8]
 Values = npt.NDArray[np.float64]
@@ -187,7 +186,9 @@ class Frame:
     layers: Layers | None
     cscope_layers: Layers | None  # of the C-scope; range_m in the place of elevation_rad
     labels: dict[str, Any] | None  # what is where: runways, lights, obstacles, buildings; docs/labels.md
-    meta: dict[str, Any] = field(repr=False)  # pose, frame_index, noise_W, rays, events, ...
+    # pose, frame_index, noise_W, rays, events, estimated_error_grey (of the B-scope and the C-scope;
+    # None where not estimated, or where that picture was not asked for), ...
+    meta: dict[str, Any] = field(repr=False)
 
     @property
     def pose(self) -> Pose:
@@ -197,15 +198,15 @@ class Frame:
 
 _KEEP: EllipsisType = ...
 _Wish = float | None | EllipsisType
-_FOG = ("visibility_m", "liquid_water_g_per_m3")  # the two ways of telling how thick it is
+_SENSOR = ("tilt_deg", "stabilised", "low_dB", "high_dB", "cscope_mode", "noise_figure_dB")
 
 
 @dataclass
 class _Settings:
-    """All that a scene was told: what another process needs to have the same."""
+    """All that a scene was told: what another process needs to have the same. Nobody else's objects."""
 
     opened: dict[str, Any]
-    weather: dict[str, Any] = field(default_factory=dict)
+    weather: dict[str, Any] = field(default_factory=dict)  # all of it, once any was told
     sensor: dict[str, Any] = field(default_factory=dict)
     surface: str | None = None
     targets: tuple[Target, ...] = ()
@@ -231,18 +232,21 @@ class Scene:
     of a frame depend on its conditions, pose and number alone.
 
     Scenes pickle: what travels is what they were told, and the other side opens them anew; what is
-    wrong with that is raised by the first call there. A process forked from one that used fanbeam has
-    none of its threads: there every call raises RuntimeError; start processes by "spawn" or
-    "forkserver".
+    wrong with that is raised by the first call there. A process forked from one that opened a scene
+    has none of its threads: there every call of a scene raises RuntimeError; start processes by
+    "spawn" or "forkserver". A forked child that ends by itself must do so by os._exit, as those of
+    multiprocessing do, or exec: docs/python.md.
     """
 
-    def __init__(self, settings: _Settings):
+    def __init__(self, settings: _Settings, warnings: list[Any]):
         self._told = settings
         # What changes a part reads the rest before; a time budget is measured for seconds.
         self._setting, self._sampling = threading.Lock(), threading.Lock()
-        warnings: list[Any] = []
-        self._core = _core.Scene(warnings=warnings, **settings.opened)
-        warn(warnings)
+        # The scene's own time budget is measured once: copies take what it came to.
+        budget = settings.sampling is None
+        self._core = _core.Scene(keeps_time_budget=budget, warnings=warnings, **settings.opened)
+        if budget:
+            settings.sampling = self._core.own_budget()
 
     @staticmethod
     def open(
@@ -267,22 +271,12 @@ class Scene:
         threads  at most, for a frame; 0: all
         """
         shipped = _paths.shipped()
-        if data is not None:
-            _core.check_data_folder(os.fspath(data), "data")
-        opened: dict[str, Any] = {
-            "scene": Path(_core.find_scene(os.fspath(scene), shipped)).absolute(),
-            "shipped": shipped,
-            "data": _paths.data_folders(data),
-            "sensor": "",
-            "effects": effects,
-            "caster": caster,
-            "sample": sample,
-            "seed": seed,
-            "threads": threads,
-        }
-        if sensor is not None:
-            opened["sensor"] = Path(_core.find_sensor(os.fspath(sensor), shipped, "sensor")).absolute()
-        return Scene(_Settings(opened))
+        opened = _core.checked_setup(scene, sensor, data, effects, caster, sample, seed, threads, shipped)
+        opened["data"] = _paths.data_folders(data)
+        warnings: list[Any] = []
+        opened_scene = Scene(_Settings(opened), warnings)
+        warn(warnings)
+        return opened_scene
 
     def __getstate__(self) -> _Settings:
         return self._told
@@ -296,19 +290,20 @@ class Scene:
             self._core = cast(Any, _NotOpened(error))
 
     def _open_again(self, told: _Settings) -> None:
-        self.__init__(_Settings(told.opened))  # type: ignore[misc]
+        # Warnings were given where all this was told.
+        self.__init__(replace(told), [])  # type: ignore[misc]
         if told.weather:
-            self._change_weather(told.weather)
+            self._core.set_weather(told.weather)
         if told.surface is not None:
-            self.set_surface(told.surface)
+            self._core.set_surface(told.surface)
         if told.sensor:
-            self._change_sensor(told.sensor)
+            self._core.set_sensor(**told.sensor)
         if told.targets:
-            self.set_targets(told.targets)
+            self._core.set_targets(told.targets)
         if told.accuracy is not None:
-            self.set_accuracy(told.accuracy)
+            self._core.set_sampling("accuracy", told.accuracy)
         if told.sampling is not None:
-            self._set_sampling(*told.sampling)
+            self._core.set_sampling(*told.sampling)
 
     def __repr__(self) -> str:
         return f"<fanbeam.Scene {self.name!r}, {self.sensor!r}, {len(self.trajectory)} frames>"
@@ -333,7 +328,8 @@ class Scene:
     ) -> None:
         """Changes what is named and keeps the rest. Heights are above the scene's origin.
 
-        visibility_m 10 to 100000 or liquid_water_g_per_m3 0 to 20: fog below fog_top_m; None: none.
+        visibility_m 10 to 100000 or liquid_water_g_per_m3 0 to 20: fog below fog_top_m. Either takes the
+        other's place; None for either: no fog there.
         rain_rate_mm_per_h 0 to 300, everywhere below rain_top_m or a melting layer.
         snow_rate_mm_per_h 0 to 50, water equivalent. temperature_C -60 to 50, pressure_hPa 300 to 1100,
         humidity 0 to 1, of the air at the origin; None: of the reference atmosphere.
@@ -341,18 +337,9 @@ class Scene:
         Layers of fog and cells of rain that the scene has stay.
         """
         told = {name: value for name, value in locals().items() if name != "self" and value is not _KEEP}
-        self._change_weather(told)
-
-    def _change_weather(self, told: Mapping[str, Any]) -> None:
         with self._setting:
-            warnings = self._core.set_weather(dict(told))
-            # Whichever was given takes the other's place, the scene's own too: told again at once,
-            # it must not stand beside the other.
-            weather = self._told.weather | dict(told)
-            for given, replaced in (_FOG, _FOG[::-1]):
-                if told.get(given) is not None:
-                    weather[replaced] = None
-            self._told.weather = weather
+            warnings = self._core.set_weather(told)
+            self._told.weather = self._core.weather()
         warn(warnings)
 
     @property
@@ -387,49 +374,50 @@ class Scene:
         window. cscope_mode: "true_elevation", "flat_earth" or "shadow". Another sensor: Scene.open.
         """
         told = {name: value for name, value in locals().items() if name != "self" and value is not _KEEP}
-        self._change_sensor(told)
-
-    def _change_sensor(self, told: Mapping[str, Any]) -> None:
-        names = ("tilt_deg", "stabilised", "low_dB", "high_dB", "cscope_mode", "noise_figure_dB")
         with self._setting:
-            settings = self._told.sensor | dict(told)
-            warnings = self._core.set_sensor(*(settings.get(name) for name in names))
+            settings = dict.fromkeys(_SENSOR) | self._told.sensor | copy.deepcopy(told)
+            warnings = self._core.set_sensor(**settings)
             self._told.sensor = settings
         warn(warnings)
 
     def set_targets(self, targets: Iterable[Target]) -> None:
         """Puts these; all others go back to where the scene has them, and new ones vanish."""
-        targets = tuple(targets)
+        if not isinstance(targets, Iterable):
+            raise TypeError(f"targets: expected an iterable of fanbeam.Target, not {targets!r}")
+        own = copy.deepcopy(tuple(targets))
         with self._setting:
-            warnings = self._core.set_targets(targets)
-            self._told.targets = targets
+            warnings = self._core.set_targets(own)
+            self._told.targets = own
         warn(warnings)
 
     # Sampling: the last call counts.
 
     def set_samples(self, per_cell: float = 0.0) -> None:
         """Rays per range cell and column, or slices per column: 0.3 to 10000; 0: the caster's default."""
-        self._set_sampling("samples", per_cell)
+        warn(self._set_sampling("samples", per_cell))
 
     def set_accuracy(self, grey_levels: float) -> None:
         """Every frame is refined until its estimated error (RMS, grey levels) is at most half of it."""
-        self._set_sampling("accuracy", grey_levels)
+        warn(self._set_sampling("accuracy", grey_levels))
 
     def set_time_budget(self, ms: float) -> None:
-        """The finest sampling with which frames take so long on this machine, timed now."""
-        self._set_sampling("time_budget", ms)
+        """The finest sampling with which frames take so long on this machine, timed now.
+
+        A pickled scene takes the sampling along: copies are not timed anew.
+        """
+        warn(self._set_sampling("time_budget", ms))
 
     def set_reference(self) -> None:
         """Converged pictures, as errors are stated against: 10 s to well over a minute each."""
-        self._set_sampling("reference", 0.0)
+        warn(self._set_sampling("reference", 0.0))
 
-    def _set_sampling(self, kind: str, value: float) -> None:
+    def _set_sampling(self, kind: str, value: float) -> list[Problem]:
         with self._sampling:
-            warnings = self._core.set_sampling(kind, value)
-            self._told.sampling = (kind, value)
+            warnings, same, plain = self._core.set_sampling(kind, value)
+            self._told.sampling = (same, plain)
             if kind == "accuracy":
-                self._told.accuracy = value
-        warn(warnings)
+                self._told.accuracy = plain
+        return warnings
 
     # Frames
 
@@ -446,15 +434,15 @@ class Scene:
     ) -> Frame:
         """What the radar sees from a Pose, or in a frame of the scene's flight.
 
-        Frames below 0 are counted from the end. What is not wanted is not computed. `frame_index` keys what is random: that of the flight, or 0,
-        unless given. A pose the scene's plan was not made for takes tens of milliseconds more and has
-        the event "outside_volume".
+        Frames below 0 are counted from the end. What is not wanted is not computed. `frame_index` keys
+        what is random: that of the flight, or 0, unless given. A pose the scene's plan was not made for
+        takes tens of milliseconds more and has the event "outside_volume".
         """
         number = 0
         if isinstance(at, Pose):
             pose = at
         else:
-            number = self._core.frame_number(operator.index(at))
+            number = self._core.frame_number(at)
             pose = self.trajectory[number]
         if frame_index is None:
             frame_index = number

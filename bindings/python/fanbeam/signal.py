@@ -14,7 +14,6 @@ port. docs/fmcw.md tells what is modelled.
 from __future__ import annotations
 
 import json
-import operator
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
@@ -53,6 +52,12 @@ class SignalFrame:
     meta: dict[str, Any] = field(repr=False)
 
 
+def _numbers(told: Mapping[str, float]) -> dict[str, float]:
+    if not isinstance(told, Mapping):
+        raise TypeError(f"numbers: expected names with their numbers, not {told!r}")
+    return dict(told)
+
+
 def frame(
     scene: Scene,
     index: int,
@@ -83,12 +88,16 @@ def frame(
     line_width_Hz  of the oscillator, 0: no phase noise; adc_bits 0: no quantiser
     unfold         speeds of detections, by time division of the transmitters
     """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene: expected a fanbeam.Scene, not {scene!r}")
+    if not isinstance(want, Iterable):
+        raise TypeError(f"want: expected an iterable of texts, not {want!r}")
     products = set(want)
     if unknown := products - {"beat", "cube", "range-doppler", "range-azimuth", "detections"}:
-        raise ValueError(f"want: no {', '.join(sorted(unknown))}")
+        raise ValueError(f"want: no {', '.join(sorted(map(str, unknown)))}")
     told = {
         "waveform": waveform,
-        "radar": "" if radar is None else os.fspath(radar),
+        "radar": "" if radar is None else radar,
         "transmitters": transmitters,
         "receivers": receivers,
         "real": real,
@@ -98,10 +107,10 @@ def frame(
         "adc_bits": adc_bits,
         "unfold": unfold,
         "seed": seed,
-        "numbers": dict(numbers or {}),
+        "numbers": _numbers(numbers or {}),
     }
     told = {name: value for name, value in told.items() if value is not None}
-    made = _signal.frame(scene._core, scene._core.frame_number(operator.index(index)), products, told)
+    made = _signal.frame(scene._core, scene._core.frame_number(index), products, told)
     warn(made.pop("warnings"))
     axes = made.pop("axes")
     doppler_Hz = (np.arange(axes["doppler_cells"]) - axes["doppler_cells"] // 2) * axes["doppler_step_Hz"]

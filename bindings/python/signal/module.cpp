@@ -16,6 +16,7 @@
 #include "bindings/python/interruptible.h"
 #include "bindings/python/scene_handle.h"
 #include "core/number_range.h"
+#include "core/parallel.h"
 #include "session/signal/chain.h"
 #include "session/signal/paths.h"
 #include "session/signal/radar_file.h"
@@ -34,10 +35,13 @@ std::string in_python_words(const std::string& text) {
       result += text[i++];
       continue;
     }
+    std::string word;
     for (i += 2; i < text.size() &&
                  (std::islower(static_cast<unsigned char>(text[i])) != 0 || text[i] == '-');
          ++i)
-      result += text[i] == '-' ? '_' : text[i];
+      word += text[i] == '-' ? '_' : text[i];
+    // What Python has no argument for is said by a file.
+    result += word.starts_with("cfar_") ? word + " of a radar file" : word;
   }
   return result;
 }
@@ -64,8 +68,8 @@ void take_numbers(const py::dict& numbers, Settings& settings) {
   core::ProblemList problems;
   std::map<std::string, double> rest;
   for (const auto& [key, value] : numbers) {
-    const auto name = value_of<std::string>(key, "numbers", "names that are texts");
-    rest[name] = value_of<double>(value, name);
+    const auto name = value_of<std::string>(key, "numbers", problems, "names that are texts");
+    rest[name] = value_of<double>(value, name, problems);
   }
   for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i) {
     const session::WaveformNumber& known = session::kWaveformNumbers[i];
@@ -90,35 +94,32 @@ void take_numbers(const py::dict& numbers, Settings& settings) {
 // `own`: the radar file that the scene names, which another one replaces.
 session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::path& own) {
   session::FmcwSettings settings;
-  const auto given = value_of<std::string>(told["radar"], "radar");
-  if (const std::filesystem::path file = given.empty() ? own : std::filesystem::path(given);
-      !file.empty())
+  core::ProblemList problems;
+  const auto given = value_of<std::filesystem::path>(told["radar"], "radar", problems);
+  if (const std::filesystem::path& file = given.empty() ? own : given; !file.empty())
     settings = session::radar_settings(file);
-  if (const auto kind = value_of<std::string>(told["waveform"], "waveform"); !kind.empty())
-    settings.waveform = kind;
-  take_numbers(told["numbers"].cast<py::dict>(), settings);
   // What is missing stays as the file or the default has it.
-  const auto take = [&told]<class T>(const char* name, T& value) {
-    if (told.contains(name)) value = value_of<T>(told[name], name);
+  const auto take = [&]<class T>(const char* name, T& value) {
+    if (told.contains(name)) value = value_of<T>(told[name], name, problems);
   };
+  const auto take_number = [&]<class T>(const char* name, T& value, const core::NumberRange& range,
+                                        const char* unit = "") {
+    if (told.contains(name)) value = number_of<T>(told[name], name, problems, range, unit);
+  };
+  std::string waveform;
+  take("waveform", waveform);
+  if (!waveform.empty()) settings.waveform = waveform;
+  collect(problems, [&] { take_numbers(told["numbers"].cast<py::dict>(), settings); });
   if (told.contains("transmitters") || told.contains("receivers")) settings.put_on_a_line();
   take("real", settings.real);
-  take("transmitters", settings.transmitters);
-  take("receivers", settings.receivers);
-  take("false_alarm_probability", settings.false_alarm_probability);
-  take("rays_per_cell", settings.rays_per_cell);
-  take("line_width_Hz", settings.line_width_Hz);
-  take("adc_bits", settings.adc_bits);
+  take_number("transmitters", settings.transmitters, {1, 64});
+  take_number("receivers", settings.receivers, {1, 64});
+  take_number("false_alarm_probability", settings.false_alarm_probability, {1e-12, 0.1});
+  take_number("rays_per_cell", settings.rays_per_cell, {0.3, 1000.0});
+  take_number("line_width_Hz", settings.line_width_Hz, {0.0, 1e6}, "Hz");
+  take_number("adc_bits", settings.adc_bits, {0, 24});
   take("unfold", settings.unfold);
   take("seed", settings.seed);
-  core::ProblemList problems;
-  core::check_range(problems, "transmitters", settings.transmitters, {1, 64});
-  core::check_range(problems, "receivers", settings.receivers, {1, 64});
-  core::check_range(problems, "false_alarm_probability", settings.false_alarm_probability,
-                    {1e-12, 0.1});
-  core::check_range(problems, "rays_per_cell", settings.rays_per_cell, {0.3, 1000.0});
-  core::check_range(problems, "line_width_Hz", settings.line_width_Hz, {0.0, 1e6}, "Hz");
-  core::check_range(problems, "adc_bits", settings.adc_bits, {0, 24});
   problems.throw_if_errors();
   return settings;
 }
@@ -179,13 +180,17 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   const session::FmcwSettings settings = settings_of(told, now->description.signal_file);
   const sensors::Sensor& sensor = now->description.sensor;
   const auto made = std::make_shared<Made>();
-  made->radar = told_in_python_words([&] { return session::fmcw_radar(settings, sensor); });
-  without_lock([&](const core::StopToken& stop) {
-    const core::StopScope scope(stop);
-    made->paths = session::fmcw_paths(*now, index, settings);
-    made->frame = session::fmcw_frame(
-        made->radar, sensor, made->paths.paths, index, settings, products,
-        {now->plan, now->accuracy_grey, now->options.wishes}, made->paths.interferers);
+  told_in_python_words([&] {
+    made->radar = session::fmcw_radar(settings, sensor);
+    session::check_processing(made->radar, products);
+    without_lock([&](const core::StopToken& stop) {
+      const core::StopScope scope(stop);
+      const core::ThreadLimit limit(scene.threads());
+      made->paths = session::fmcw_paths(*now, index, settings);
+      made->frame = session::fmcw_frame(
+          made->radar, sensor, made->paths.paths, index, settings, products,
+          {now->plan, now->accuracy_grey, now->options.wishes}, made->paths.interferers);
+    });
   });
   const py::object owner = owner_of(made);
   py::list beats;
@@ -208,11 +213,13 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   return result;
 }
 
-std::string waveform(const std::string& kind, const py::dict& numbers, bool real, bool down_first) {
+std::string waveform(const py::handle& kind, const py::dict& numbers, const py::handle& real,
+                     const py::handle& down_first) {
+  core::ProblemList problems;
   session::WaveformSettings settings;
-  settings.kind = kind;
-  settings.real = real;
-  settings.down_first = down_first;
+  settings.kind = value_of<std::string>(kind, "kind", problems);
+  settings.real = value_of<bool>(real, "real", problems);
+  settings.down_first = value_of<bool>(down_first, "down_first", problems);
   take_numbers(numbers, settings);
   return told_in_python_words(
       [&] { return session::waveform_json(session::chosen_waveform(settings)); });

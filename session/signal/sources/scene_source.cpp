@@ -43,9 +43,7 @@ class SceneSource : public MeasuredSource {
   MeasuredFrame frame(int number) override {
     const int index = indices_[static_cast<std::size_t>(number)];
     const FmcwPaths paths = fmcw_paths(*scene_, index, settings_);
-    const FmcwFrame found = fmcw_frame(
-        radar_, scene_->description.sensor, paths.paths, index, settings_, {"detections"},
-        {scene_->plan, scene_->accuracy_grey, scene_->options.wishes}, paths.interferers);
+    const FmcwFrame found = fmcw_frame(radar_, *scene_, paths, index, settings_, {"detections"});
     if (!folding_told_ && !found.warnings.empty()) {
       warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
       folding_told_ = true;

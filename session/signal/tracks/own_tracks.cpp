@@ -98,7 +98,8 @@ Json json_of(const TrackSettings& settings, const MeasuredSource& source, const 
                {"detections", tracks.detections},
                {"measurements", tracks.measured},
                {"confirmed_tracks", tracks.confirmed.size()},
-               {"moving_tracks", tracks.moving()}};
+               {"moving_tracks", tracks.moving()},
+               {"left_out_of_joint", tracks.left_out}};
   // Two targets nearer than this may be one measurement.
   const tracking::Resolution resolution = own_tracker(settings, source).resolution;
   json["resolution"] = {{"of", source.resolution ? "the radar" : "no radar: assumed"},
@@ -137,6 +138,7 @@ OwnTracks track_source(MeasuredSource& source, const TrackSettings& settings,
     add(frame, tracker, tracks);
     progress(i + 1);
   }
+  tracks.left_out = tracker.left_out();
   return tracks;
 }
 

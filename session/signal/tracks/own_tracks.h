@@ -1,6 +1,7 @@
 // Tracks of measurements that are at hand (session/signal/sources), and their files.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
@@ -27,6 +28,7 @@ struct OwnTracks {
   std::map<int, Seen> confirmed;  // by the track's number
   std::size_t detections = 0, measured = 0;
   int frames = 0;
+  std::int64_t left_out = 0;  // by joint association
   double measuring_s = 0.0, tracking_s = 0.0;
   OwnHistory history;
 

@@ -133,6 +133,7 @@ ScenarioTracks track_scenario(const core::HighwayScenario& scenario,
         tracks.tracks_at_end = frame.tracker->tracks();
         tracks.crossings = frame.tracker->crossings();
         tracks.skipped_updates = frame.tracker->skipped_updates();
+        tracks.left_out = frame.tracker->left_out();
         tracks.last = frame;
         tracks.last.tracker = nullptr;
         progress(static_cast<int>(tracks.score.gospa_m.count()));
@@ -160,6 +161,7 @@ std::string scenario_tracks_json(const core::HighwayScenario& scenario,
   json["range_rate_rmse_mps"] = figure_or_null(speed_mps.count(), speed_mps.rms());
   json["nees_mean"] = score.nees.mean();
   json["skipped_updates"] = tracks.skipped_updates;
+  json["left_out_of_joint"] = tracks.left_out;
   json["beyond_samples"] = tracks.beyond;
   json["crossings"] = Json::array();
   for (const tracking::Crossing& one : tracks.crossings)

@@ -1,6 +1,7 @@
 // A road scenario's tracks, their score, and their files.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -24,7 +25,8 @@ struct ScenarioTracks {
   std::vector<tracking::Track> tracks_at_end;
   std::vector<tracking::Crossing> crossings;
   int skipped_updates = 0;
-  int beyond = 0;  // instances of targets in view that the samples cannot show
+  std::int64_t left_out = 0;  // by joint association
+  int beyond = 0;             // instances of targets in view that the samples cannot show
   double measuring_s = 0.0, tracking_s = 0.0;
 };
 

@@ -2,7 +2,15 @@
 
 #include <algorithm>
 
+#include "core/decibel.h"
+
 namespace fanbeam::session {
+
+core::HighwayRadar radar_under(const TrackSettings& settings, core::HighwayRadar radar) {
+  if (settings.range_only) radar.array_elements = 1;
+  if (settings.noise_figure_dB) radar.noise_figure = core::power_from_dB(*settings.noise_figure_dB);
+  return radar;
+}
 
 bool fits(tracking::Scheme scheme, const core::HighwayRadar& radar) {
   return length_of(scheme, radar.waveforms) <= radar.frame_s;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "core/highway.h"
@@ -19,9 +20,14 @@ struct TrackSettings {
   std::string scheme;  // as --waveform; empty: two-stage, unless the scenario names others alone
   double detection_probability = 1.0;
   double false_per_frame = 0.0;
-  bool samples = false;  // measured from beat samples
-  int run = 0;           // another draw of the same seed
+  bool samples = false;                     // measured from beat samples
+  int run = 0;                              // another draw of the same seed
+  std::optional<double> noise_figure_dB{};  // instead of the file's
+  bool range_only = false;                  // one receiver without azimuth
 };
+
+// Of road scenarios: the radar of the file as the settings change it.
+core::HighwayRadar radar_under(const TrackSettings& settings, core::HighwayRadar radar);
 
 // Whether all ramps of the waveform end within a frame.
 bool fits(tracking::Scheme scheme, const core::HighwayRadar& radar);

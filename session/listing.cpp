@@ -1,11 +1,9 @@
-#include "apps/listing.h"
+#include "session/listing.h"
 
 #include <fmt/core.h>
 
-#include "apps/common.h"
-#include "apps/fmcw_command.h"
-#include "apps/render_command.h"
-#include "apps/scene_choice.h"
+#include <nlohmann/json.hpp>
+
 #include "core/units.h"
 #include "materials/library/material_library.h"
 #include "renderer/plan/effect_catalogue.h"
@@ -13,7 +11,7 @@
 #include "sensors/sensor_file.h"
 #include "session/shipped.h"
 
-namespace fanbeam::apps {
+namespace fanbeam::session {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -44,22 +42,24 @@ std::vector<std::string> missing_files(const core::ProblemList& problems) {
 
 }  // namespace
 
-Listing listed_scenes(const std::vector<std::filesystem::path>& data_folders) {
+Listing listed_scenes(const std::filesystem::path& shipped,
+                      const std::vector<std::filesystem::path>& data_folders) {
   Listing listing{{"data", "what it shows"}, {}, {}};
   bool complete = true;
-  for (const std::string& name : session::shipped_scenes(shipped_folder())) {
+  for (const std::string& name : shipped_scenes(shipped)) {
     core::ProblemList problems;
     const scenes::SceneDescription scene =
-        scenes::read_scene(find_scene(name), {shipped_folder(), data_folders, {}}, problems);
+        scenes::read_scene(find_scene(name, shipped), {shipped, data_folders, {}}, problems);
     const std::vector<std::string> missing = missing_files(problems);
     complete = complete && missing.empty();
     listing.things.push_back({name,
                               {missing.empty() ? "there" : "missing", scene.title},
-                              {{"name", name},
-                               {"title", scene.title},
-                               {"folder", scene.folder.string()},
-                               {"data_found", missing.empty()},
-                               {"missing", missing}}});
+                              Json{{"name", name},
+                                   {"title", scene.title},
+                                   {"folder", scene.folder.string()},
+                                   {"data_found", missing.empty()},
+                                   {"missing", missing}}
+                                  .dump()});
   }
   listing.note = "fanbeam render NAME makes its pictures; README.md in its folder tells more.";
   if (!complete)
@@ -69,13 +69,13 @@ Listing listed_scenes(const std::vector<std::filesystem::path>& data_folders) {
   return listing;
 }
 
-Listing listed_sensors() {
+Listing listed_sensors(const std::filesystem::path& shipped) {
   Listing listing{{"band", "range", "field of view", "cells", "radar"},
                   {},
                   "fanbeam render --sensor NAME looks with it."};
-  for (const std::string& name : session::shipped_sensors(shipped_folder())) {
+  for (const std::string& name : shipped_sensors(shipped)) {
     core::ProblemList problems;
-    const std::filesystem::path file = find_sensor(name);
+    const std::filesystem::path file = find_sensor(name, shipped, "--sensor");
     const sensors::Sensor sensor = sensors::read_sensor(file, problems);
     problems.throw_if_errors();
     const double frequency_GHz = sensor.waveform.frequency_Hz * 1e-9;
@@ -88,32 +88,33 @@ Listing listed_sensors() {
           fmt::format("{:.4g} to {:.4g} m", sensor.range.minimum_m, sensor.range.maximum_m()),
           fmt::format("{:.4g} x {:.4g} deg", view_deg, beam_deg),
           fmt::format("{} x {}", sensor.scan.columns, sensor.range.cells), sensor.name},
-         {{"name", name},
-          {"file", file.string()},
-          {"radar", sensor.name},
-          {"frequency_GHz", frequency_GHz},
-          {"band", band},
-          {"minimum_range_m", sensor.range.minimum_m},
-          {"maximum_range_m", sensor.range.maximum_m()},
-          {"range_cell_m", sensor.range.cell_m},
-          {"field_of_view_deg", view_deg},
-          {"elevation_beam_deg", beam_deg},
-          {"columns", sensor.scan.columns},
-          {"cells", sensor.range.cells},
-          {"frame_rate_Hz", sensor.scan.frame_rate_Hz}}});
+         Json{{"name", name},
+              {"file", file.string()},
+              {"radar", sensor.name},
+              {"frequency_GHz", frequency_GHz},
+              {"band", band},
+              {"minimum_range_m", sensor.range.minimum_m},
+              {"maximum_range_m", sensor.range.maximum_m()},
+              {"range_cell_m", sensor.range.cell_m},
+              {"field_of_view_deg", view_deg},
+              {"elevation_beam_deg", beam_deg},
+              {"columns", sensor.scan.columns},
+              {"cells", sensor.range.cells},
+              {"frame_rate_Hz", sensor.scan.frame_rate_Hz}}
+             .dump()});
   }
   return listing;
 }
 
-Listing listed_materials() {
+Listing listed_materials(const std::filesystem::path& shipped) {
   Listing listing{
       {"GHz", "figures", "source"},
       {},
       "fanbeam materials prints their reflectivity; figures say how sure they are: seen "
       "in a source, fitted to one, recalled, or assumed."};
   core::ProblemList problems;
-  const auto library = materials::MaterialLibrary::from_file(
-      shipped_folder() / "materials" / "library.toml", problems);
+  const auto library =
+      materials::MaterialLibrary::from_file(shipped / "materials" / "library.toml", problems);
   problems.throw_if_errors();
   for (const materials::Material& material : library.all()) {
     const materials::ModelValidity known = validity_of(material.model);
@@ -123,12 +124,13 @@ Listing listed_materials() {
     listing.things.push_back(
         {material.name,
          {fmt::format("{:g}-{:g}", low_GHz, high_GHz), confidence, material.source},
-         {{"name", material.name},
-          {"model", name_of(material.model)},
-          {"frequency_range_GHz", {low_GHz, high_GHz}},
-          {"confidence", confidence},
-          {"source", material.source},
-          {"note", material.note}}});
+         Json{{"name", material.name},
+              {"model", name_of(material.model)},
+              {"frequency_range_GHz", {low_GHz, high_GHz}},
+              {"confidence", confidence},
+              {"source", material.source},
+              {"note", material.note}}
+             .dump()});
   }
   return listing;
 }
@@ -145,32 +147,32 @@ Listing listed_effects() {
     for (const renderer::Effect& effect : renderer::effect_catalogue(touched))
       listing.things.push_back({std::string(effect.name()),
                                 {where, fmt::format("{} ({})", effect.what, effect.source)},
-                                {{"name", effect.name()},
-                                 {"what", effect.what},
-                                 {"source", effect.source},
-                                 {"touches", where}}});
+                                Json{{"name", effect.name()},
+                                     {"what", effect.what},
+                                     {"source", effect.source},
+                                     {"touches", where}}
+                                    .dump()});
   }
   return listing;
 }
 
-Listing listed_products() {
+Listing listed_products(std::span<const CommandProducts> all) {
   Listing listing{
       {"command", "files of frame 0", "what it is"},
       {},
       "fanbeam render --products NAME,NAME makes them, below the output folder; so does "
       "fanbeam fmcw with its own."};
-  const auto add = [&listing](const char* command, const auto& products) {
-    for (const session::Product& product : products)
-      listing.things.push_back({std::string(product.name),
-                                {command, std::string(product.files), std::string(product.what)},
-                                {{"name", product.name},
-                                 {"command", command},
-                                 {"what", product.what},
-                                 {"files", product.files}}});
-  };
-  add("render", session::kProducts);
-  add("fmcw", session::kFmcwProducts);
+  for (const CommandProducts& made : all)
+    for (const Product& product : made.products)
+      listing.things.push_back(
+          {std::string(product.name),
+           {made.command, std::string(product.files), std::string(product.what)},
+           Json{{"name", product.name},
+                {"command", made.command},
+                {"what", product.what},
+                {"files", product.files}}
+               .dump()});
   return listing;
 }
 
-}  // namespace fanbeam::apps
+}  // namespace fanbeam::session

@@ -1,14 +1,13 @@
 #include <nlohmann/json.hpp>
 
-#include "apps/common.h"
-#include "apps/plan_report.h"
 #include "core/machine.h"
+#include "measure/plan_report.h"
 #include "renderer/plan/effect_catalogue.h"
 #include "session/records/record_json.h"
 #include "session/records/run_record.h"
 #include "session/version.h"
 
-namespace fanbeam::apps {
+namespace fanbeam::measure {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -49,7 +48,7 @@ Json spans_json(const PlanReport& report) {
 
 std::string plan_json(const PlanReport& report) {
   const scenes::Scene& scene = report.scene;
-  const Budget budget = budget_of(scene);
+  const PlanBudget budget = budget_of(scene);
   Json json;
   json["version"] = session::version_text();
   json["commit"] = session::commit_text();
@@ -83,4 +82,4 @@ std::string plan_json(const PlanReport& report) {
   return json.dump(1) + "\n";
 }
 
-}  // namespace fanbeam::apps
+}  // namespace fanbeam::measure
