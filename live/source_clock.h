@@ -40,9 +40,10 @@ class SourceClock {
     const double waited_s = last_ ? arrived_s - last_->arrived_s : 0.0;
     const bool goes_on = last_ && step_s > 0.0;
     if (!goes_on) recent_.clear();
-    // Each step of a fast simulator is ahead of time, evenly.
+    // Each step of a fast simulator is ahead of time, evenly; where packets are uneven, its steps are all the more.
     const double ahead_s = goes_on ? step_s - waited_s : 0.0;
-    if (!goes_on || std::abs(ahead_s - ahead_s_) > kLate_s) even_.clear();
+    const double uneven_s = std::max(kLate_s, std::min(ahead_s, ahead_s_));
+    if (!goes_on || std::abs(ahead_s - ahead_s_) > uneven_s) even_.clear();
     ahead_s_ = ahead_s;
     last_ = {arrived_s, clock_s};
     measure_rate();
@@ -91,7 +92,7 @@ class SourceClock {
 
   void measure_rate() {
     constexpr double kLook_s = 2.0, kOff = 1.0 / 12.0;
-    constexpr double kSlowest = 0.1, kFastest = 10.0;
+    constexpr double kSlowest = 0.09, kFastest = 11.0;  // a tenth and ten times, and their jitter
     const double now_s = last_->arrived_s;
     even_.push_back(*last_);
     while (even_.size() > 1 && even_[1].arrived_s <= now_s - kSpan_s) even_.pop_front();

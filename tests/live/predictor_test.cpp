@@ -345,23 +345,34 @@ TEST_CASE("Packets that are held back or bunched move the aircraft by no more th
 namespace {
 
 using Late = std::function<double(int)>;
+using Sends = std::function<double(int)>;
 
 constexpr double kFrame_s = 1.0 / 16.0, kStraight_mps = 70.0;
 
 double on_time(int) { return 0.0; }
 double held_back(int i) { return i % 8 == 3 ? kFrame_s - 0.0005 : 0.0; }
 
+Sends evenly(double packets_Hz) {
+  return [packets_Hz](int i) { return i / packets_Hz; };
+}
+
+// FlightGear, asked for 15 Hz, sends after three, four or five of its own frames.
+double as_flightgear(int i) {
+  constexpr int kFrames[] = {0, 3, 7, 12, 15, 20}, kRound = 24;
+  return (i / 6 * kRound + kFrames[i % 6]) / 60.0;
+}
+
 // Metres along a straight flight at kStraight_mps of a simulator of which `flown_s` of our time has passed, at the
-// middles of frames at 16 Hz. Packets come at their rate, `late_s` late.
+// middles of frames at 16 Hz. Packets are sent when `sends` says and come `late_s` late.
 std::vector<double> places_m(const std::function<double(double)>& flown_s, bool tells_clock,
-                             double packets_Hz = 16.0, const Late& late_s = on_time) {
+                             const Sends& sends, const Late& late_s = on_time) {
   Predictor predictor(kFrame);
   std::vector<double> places_m;
   int next = 0;
   for (int frame = 0; frame < 320; ++frame) {
     const double begin_s = (frame + 0.3) * kFrame_s;
-    for (; next / packets_Hz + late_s(next) <= begin_s; ++next) {
-      const double sent_s = next / packets_Hz;
+    for (; sends(next) + late_s(next) <= begin_s; ++next) {
+      const double sent_s = sends(next);
       core::Pose pose;
       pose.position = kFrame.to_geodetic({0.0, kStraight_mps * flown_s(sent_s), 500.0});
       pose.v_N_mps = {kStraight_mps, 0.0, 0.0};
@@ -374,10 +385,10 @@ std::vector<double> places_m(const std::function<double(double)>& flown_s, bool 
 }
 
 // From one frame to the next, of a simulator that runs `rate` times as fast as time, from two seconds on.
-std::vector<double> steps_m(double rate, bool tells_clock, double packets_Hz = 16.0,
+std::vector<double> steps_m(double rate, bool tells_clock, const Sends& sends,
                             const Late& late_s = on_time) {
   const std::vector<double> places =
-      places_m([rate](double time_s) { return rate * time_s; }, tells_clock, packets_Hz, late_s);
+      places_m([rate](double time_s) { return rate * time_s; }, tells_clock, sends, late_s);
   std::vector<double> steps_m;
   for (std::size_t frame = 33; frame < places.size(); ++frame)
     steps_m.push_back(places[frame] - places[frame - 1]);
@@ -389,14 +400,21 @@ std::vector<double> steps_m(double rate, bool tells_clock, double packets_Hz = 1
 // It went back a quarter of a second's flight every eight frames; fast ones stood, kilometres behind.
 TEST_CASE("A simulator that runs slower than time, or faster, moves on evenly at its own pace",
           "[predictor]") {
-  for (const double packets_Hz : {4.0, 10.0, 16.0, 60.0})
-    for (const double rate : {0.11, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 4.0, 6.0, 8.0, 9.5})
+  struct Sender {
+    Sends sends;
+    double longest_s;  // from a packet to the next
+  };
+  for (const Sender& sender : {Sender{evenly(4.0), 1.0 / 4.0}, Sender{evenly(10.0), 1.0 / 10.0},
+                               Sender{evenly(16.0), 1.0 / 16.0}, Sender{evenly(60.0), 1.0 / 60.0},
+                               Sender{as_flightgear, 5.0 / 60.0}})
+    for (const double rate : {0.1, 0.11, 0.3, 0.5, 0.8, 1.0, 1.5, 2.0, 4.0, 6.0, 8.0, 9.5, 10.0})
       for (const bool tells_clock : {true, false}) {
         // Without a clock a packet tells no more than a second's flight.
-        if (!tells_clock && rate > packets_Hz) continue;
-        INFO("rate " << rate << ", clock " << tells_clock << ", packets " << packets_Hz << " Hz");
+        if (!tells_clock && rate * sender.longest_s > 0.99) continue;
+        INFO("rate " << rate << ", clock " << tells_clock << ", packets " << sender.longest_s
+                     << " s apart at most");
         const double step_m = kStraight_mps * rate / 16.0;
-        const std::vector<double> steps = steps_m(rate, tells_clock, packets_Hz);
+        const std::vector<double> steps = steps_m(rate, tells_clock, sender.sends);
         const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
         CHECK(*least > 0.8 * step_m);
         CHECK(*most < 1.2 * step_m);
@@ -422,7 +440,7 @@ TEST_CASE("A simulator that changes its pace is off by a quarter of a second's f
           return change.before * std::min(time_s, kChanges_s) +
                  change.after * std::max(0.0, time_s - kChanges_s);
         };
-        const std::vector<double> places = places_m(flown_s, tells_clock, 16.0, late_s);
+        const std::vector<double> places = places_m(flown_s, tells_clock, evenly(16.0), late_s);
         const double step_m = kStraight_mps * change.after / 16.0;
         for (std::size_t frame = 64; frame < places.size(); ++frame) {
           const double at_s = (static_cast<double>(frame) + 0.8) * kFrame_s;
@@ -445,7 +463,7 @@ TEST_CASE("Packets that are held back change no pace", "[predictor]") {
       for (const Late& late_s : {Late(held_back), Late(bunched)}) {
         INFO("rate " << rate << ", clock " << tells_clock);
         const double step_m = kStraight_mps * rate / 16.0;
-        const std::vector<double> steps = steps_m(rate, tells_clock, 16.0, late_s);
+        const std::vector<double> steps = steps_m(rate, tells_clock, evenly(16.0), late_s);
         const auto [least, most] = std::minmax_element(steps.begin(), steps.end());
         CHECK(*least > 0.8 * step_m);
         CHECK(*most < 1.2 * step_m);
