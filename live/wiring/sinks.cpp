@@ -82,9 +82,10 @@ RadarVideoSettings video_to(const std::string& text) {
   return video;
 }
 
-// Whatever names it goes by. "-" is no file's.
-bool is_same_file(const std::string& a, const std::string& b) {
-  if (a == "-" || b == "-") return a == b;
+// Whatever names it goes by, standard output too.
+bool is_same_file(const std::string& one, const std::string& other) {
+  const auto named = [](const std::string& file) { return file == "-" ? "/dev/stdout" : file; };
+  const std::string a = named(one), b = named(other);
   const auto real_path = [](const std::string& file) {
     std::error_code fault;
     const std::filesystem::path path = std::filesystem::absolute(file, fault);

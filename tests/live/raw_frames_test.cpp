@@ -257,6 +257,7 @@ TEST_CASE("One file or pipe for two pictures is refused, whatever names it goes 
   CHECK(refused(below("none/../film.raw"), below("film.raw")));  // not there yet
   CHECK(refused("film.raw", "./film.raw"));
   CHECK(refused("-", "-"));
+  CHECK(refused("-", "/dev/stdout"));
   CHECK_FALSE(refused("-", "./-"));
   CHECK_FALSE(refused(below("pipe"), below("film.raw")));
   CHECK_FALSE(refused("film.raw", "other.raw"));
