@@ -59,7 +59,9 @@ class Replay {
     known_s_ = predictor_.newest_s();
     if (!shows) return;
     maker_.sample(frame.samples);
-    if (const auto seen = sighting(frame.tick)) maker_.make(frame.tick, *seen, stop_);
+    const auto seen = sighting(frame.tick);
+    // One that is refused leaves its number to the next.
+    if (seen && !maker_.make(frame.tick, *seen, stop_)) --last_number_;
     told_(maker_.status());
     hub_.tell(maker_.status());
   }
@@ -111,7 +113,7 @@ class Replay {
   FrameMaker maker_;
   std::optional<std::pair<core::Pose, double>> newest_;  // and when it arrived
   std::optional<double> first_s_;
-  // Of the last frame, shown or late: its number, and when the newest pose arrived that it knew.
+  // The number of the last frame, shown or late, and when the newest pose arrived that the last tick knew.
   std::uint64_t last_number_ = 0;
   std::optional<double> known_s_;
 };

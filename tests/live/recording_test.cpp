@@ -174,15 +174,19 @@ TEST_CASE("F13 a replay in time shows a picture as out of date where the channel
   live::Recording recording;
   recording.flown_by.from = {"native-fdm:1"};
   recording.flown_by.rate_Hz = 1.0;  // late is what comes a second late
-  const auto frame = [&](std::uint64_t number, double now_s) {
-    const auto packet = tests::native_fdm_bytes(core::radians(52.0), core::radians(10.0));
-    recording.events.emplace_back(
-        live::RecordedPacket{now_s - 0.05, {packet.begin(), packet.end()}});
+  const auto frame = [&](std::uint64_t number, double now_s, double latitude_deg = 52.0) {
+    // Of two packets, as one from elsewhere may be a stray one.
+    for (const double before_s : {0.08, 0.05}) {
+      const auto packet = tests::native_fdm_bytes(core::radians(latitude_deg), core::radians(10.0));
+      recording.events.emplace_back(
+          live::RecordedPacket{now_s - before_s, {packet.begin(), packet.end()}});
+    }
     recording.events.emplace_back(live::RecordedFrame{{number, now_s, now_s}, 1.0});
   };
   frame(1, 0.1);
-  frame(3, 3.1);  // 2 was the first once more
-  frame(4, 4.9);  // the one before took long
+  frame(2, 0.3, 0.0);  // too far away: refused
+  frame(3, 3.1);       // 2 was the first once more
+  frame(4, 4.9);       // the one before took long
   live::Hub hub;
   const live::Desk desk(*session, hub);
   Frames frames;
@@ -197,6 +201,7 @@ TEST_CASE("F13 a replay in time shows a picture as out of date where the channel
   CHECK(frames[1]->bscope.pixels == frames[0]->bscope.pixels);
   CHECK(frames[1]->pose_age_ms > 1000.0);
   CHECK(hub.status().frames == 3);
+  CHECK(hub.status().refused == 1);
   CHECK_FALSE(hub.status().stale);
 }
 
