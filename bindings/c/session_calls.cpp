@@ -92,8 +92,9 @@ session::Setup settings_of(const fanbeam_setup& setup, Arguments& arguments) {
   take_sensor(bindings::text_of(setup.sensor_file), arguments, settings);
   settings.build.read.power = true;  // bscope_W and cscope_W_m3 of any frame
   take_caster(bindings::text_of(setup.caster), arguments, settings);
-  if (setup.realisation != FANBEAM_AS_SCENE) settings.sample = setup.realisation == FANBEAM_SAMPLE;
-  if (setup.realisation < FANBEAM_AS_SCENE || setup.realisation > FANBEAM_SAMPLE)
+  if (setup.realisation == FANBEAM_EXPECTED || setup.realisation == FANBEAM_SAMPLE)
+    settings.sample = setup.realisation == FANBEAM_SAMPLE;
+  else if (setup.realisation != FANBEAM_AS_SCENE)
     arguments.refuse(core::ErrorClass::range, "setup.realisation",
                      std::to_string(setup.realisation),
                      "FANBEAM_AS_SCENE, FANBEAM_EXPECTED or FANBEAM_SAMPLE");

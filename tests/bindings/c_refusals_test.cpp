@@ -159,6 +159,13 @@ TEST_CASE("Opening tells every problem of the setup, or of the scene, at once", 
        {"shipped_folder", "data_folders", "caster = \"beams\"", "effects = \"+frogs\"",
         "threads = -1", "samples_per_cell = nan", "realisation = 9", "reserved = 1"})
     CHECK(told(std::string("setup.") + field));
+  // What is no realisation forbids no draws.
+  setup = tests::c_setup();
+  setup.effects = "+speckle";
+  setup.realisation = 9;
+  CHECK(refused(tests::kSmallScene, setup) == FANBEAM_BAD_INPUT);
+  CHECK(tests::problems_told() == 1);
+  CHECK(told("setup.realisation = 9"));
   setup = tests::c_setup();
   const std::array folders = {folder.path().c_str(), "/nowhere/data"};
   setup.data_folders = folders.data();
