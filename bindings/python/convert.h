@@ -76,6 +76,16 @@ T value_of(const py::handle& value, const std::string& field, core::ProblemList&
   }
 }
 
+// The same; none where T cannot hold the number, so that nothing is said of what stands in for it.
+template <class T>
+std::optional<T> held_of(const py::handle& value, const std::string& field,
+                         core::ProblemList& problems) {
+  core::ProblemList own;
+  const T held = value_of<T>(value, field, own);
+  problems.append(own.all());
+  return own.has_errors() ? std::nullopt : std::optional<T>(held);
+}
+
 // The same of what may be None.
 template <class T>
 std::optional<T> optional_of(const py::handle& value, const std::string& field,
@@ -91,8 +101,11 @@ T number_of(const py::handle& value, const std::string& field, core::ProblemList
   using Wide = std::conditional_t<std::is_integral_v<T>, long long, T>;
   core::ProblemList own;
   const auto number = value_of<Wide>(value, field, own);
-  if (!own.has_errors()) core::check_range(own, field, static_cast<double>(number), range, unit);
-  problems.append(own.all());
+  if (own.has_errors())
+    problems.error(core::ErrorClass::range, {}, field, own.all().front().value,
+                   core::to_string(range) + (*unit ? " " : "") + unit);
+  else
+    core::check_range(problems, field, static_cast<double>(number), range, unit);
   return static_cast<T>(number);
 }
 

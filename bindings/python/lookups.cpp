@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <optional>
+#include <string_view>
 
 #include "atmosphere/path_attenuation.h"
 #include "bindings/python/convert.h"
@@ -51,8 +53,12 @@ py::list materials_of(const py::handle& file) {
 }
 
 Angles angles_of(const py::handle& told, core::ProblemList& problems) {
-  Angles angles_rad = Angles::ensure(told);
-  if (!angles_rad) refuse_type("grazing_rad", "a number or an array of numbers", told);
+  // Texts and None would be read as numbers.
+  constexpr std::string_view kNumbers = "biuf";
+  const py::array given = py::array::ensure(told);
+  const bool numbers = given && kNumbers.find(given.dtype().kind()) != std::string_view::npos;
+  const Angles angles_rad = numbers ? Angles::ensure(given) : Angles();
+  if (!numbers || !angles_rad) refuse_type("grazing_rad", "a number or an array of numbers", told);
   for (py::ssize_t i = 0; i < angles_rad.size(); ++i) {
     const double angle_rad = angles_rad.data()[i];
     if (!core::NumberRange{0.0, core::kPi / 2 + kRounding_rad}.holds(angle_rad))
@@ -69,22 +75,23 @@ py::array_t<double> nrcs(const py::handle& file, const py::handle& name,
   core::ProblemList problems;
   const auto material = value_of<std::string>(name, "material", problems);
   const Angles angles_rad = angles_of(grazing_rad, problems);
-  const auto frequency = value_of<double>(frequency_Hz, "frequency_Hz", problems);
+  const auto frequency = held_of<double>(frequency_Hz, "frequency_Hz", problems);
   const core::Polarisation seen =
       polarisation_of(value_of<std::string>(polarisation, "polarisation", problems), problems);
   const auto state_word = value_of<std::string>(state, "state", problems);
   const bool allowed = value_of<bool>(extrapolate, "extrapolate", problems);
-  const MaterialLibrary library = library_in(file);
+  std::optional<MaterialLibrary> library;
+  collect(problems, [&] { library = library_in(file); });
   materials::SurfaceState surface{};
   collect(problems, [&] { surface = materials::surface_state_of(state_word, "state"); });
-  const auto found = library.find(material, {}, "material", problems);
-  if (found)
-    library.report_extrapolations(library.in_state(*found, surface), seen, frequency, allowed,
-                                  problems, "extrapolate=True");
+  const auto found = library ? library->find(material, {}, "material", problems) : std::nullopt;
+  if (found && frequency)
+    library->report_extrapolations(library->in_state(*found, surface), seen, *frequency, allowed,
+                                   problems, "extrapolate=True");
   problems.throw_if_errors();
   for (const py::handle warning : problems_list(problems.all())) warnings.append(warning);
-  const materials::NrcsCurve curve(library[library.in_state(*found, surface)].model, seen,
-                                   frequency);
+  const materials::NrcsCurve curve((*library)[library->in_state(*found, surface)].model, seen,
+                                   *frequency);
   py::array_t<double> result(
       std::vector<py::ssize_t>(angles_rad.shape(), angles_rad.shape() + angles_rad.ndim()));
   for (py::ssize_t i = 0; i < angles_rad.size(); ++i)

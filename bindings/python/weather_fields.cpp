@@ -51,8 +51,8 @@ Weather changed_weather(Weather weather, const py::dict& changes, double frequen
       using Value = std::conditional_t<std::is_same_v<decltype(place), bool&>, bool, double>;
       if (value.is_none())
         place = without;
-      else
-        place = value_of<Value>(value, name, problems);
+      else if (const auto held = held_of<Value>(value, name, problems))
+        place = *held;
     };
     std::visit([&](auto member) { put(weather.*member, usual.*member); }, found->member);
   }

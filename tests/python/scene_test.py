@@ -351,6 +351,10 @@ def test_every_problem_is_told_at_once(grass):
             "rain_rate_mm_per_h humidity",
             lambda scene: fanbeam.Atmosphere(rain_rate_mm_per_h=10**400, humidity=2.0),
         ),
+        # Nothing is said of the number that stands in for one that is too large.
+        ("visibility_m", lambda scene: fanbeam.Atmosphere(visibility_m=10**400)),
+        ("temperature_C pressure_hPa", lambda scene: scene.set_weather(temperature_C=90.0, pressure_hPa=10**400)),
+        ("frequency_Hz state", lambda scene: fanbeam.nrcs("short_grass", 0.1, frequency_Hz=10**400, state="moist")),
     ],
 )
 def test_problems_of_one_call_are_told_together(grass, fields, call):
@@ -358,6 +362,20 @@ def test_problems_of_one_call_are_told_together(grass, fields, call):
         call(grass)
     assert sorted(problem.field for problem in told.value.problems) == sorted(fields.split())
     assert "--" not in str(told.value)
+
+
+def test_a_number_that_is_too_large_is_told_the_range_of_its_field(grass):
+    with pytest.raises(fanbeam.InputError, match=f"threads = {2**70}: expected 0 to 1024$"):
+        fanbeam.Scene.open("flat-grass", threads=2**70)
+    with pytest.raises(fanbeam.InputError, match="noise_figure_dB = 10{400}: expected 0 to 60 dB$"):
+        grass.set_sensor(noise_figure_dB=10**400)
+
+
+def test_a_library_that_is_none_is_told_beside_what_else_is_wrong(tmp_path):
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.nrcs("short_grass", 2.0, state="moist", library=tmp_path / "none.toml")
+    assert [problem.field for problem in told.value.problems] == ["grazing_rad", "", "state"]
+    assert told.value.problems[1].file == str(tmp_path / "none.toml")
 
 
 @pytest.mark.parametrize(
@@ -389,6 +407,7 @@ def test_what_is_out_of_range_is_an_input_error(grass, field, call):
         ("frame_index", lambda scene: scene.render(0, frame_index=3.0)),
         ("bscope", lambda scene: scene.render(0, bscope="no")),
         ("tilt_deg", lambda scene: scene.set_sensor(tilt_deg="3")),
+        ("tilt_deg", lambda scene: scene.set_sensor(tilt_deg=(i for i in range(2)))),  # no copy can be made
         ("stabilised", lambda scene: scene.set_sensor(stabilised=0.0)),
         ("cscope_mode", lambda scene: scene.set_sensor(cscope_mode=3)),
         ("melting_layer", lambda scene: scene.set_weather(melting_layer=5)),
@@ -398,6 +417,7 @@ def test_what_is_out_of_range_is_an_input_error(grass, field, call):
         ("time_budget_ms", lambda scene: scene.set_time_budget(None)),
         ("targets", lambda scene: scene.set_targets(None)),
         ("target[0]", lambda scene: scene.set_targets([3])),
+        ("target[0]", lambda scene: scene.set_targets([(i for i in range(2))])),
         ("latitude_deg", lambda scene: scene.ground_height_m("a", 1)),
         ("scene", lambda scene: fanbeam.Scene.open(3)),
         ("sensor", lambda scene: fanbeam.Scene.open("flat-grass", sensor=3)),
@@ -408,6 +428,9 @@ def test_what_is_out_of_range_is_an_input_error(grass, field, call):
         ("library", lambda scene: fanbeam.materials(library=3)),
         ("material", lambda scene: fanbeam.nrcs(3, 0.1)),
         ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", "steep")),
+        ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", "0.1")),
+        ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", [0.1, None])),
+        ("grazing_rad", lambda scene: fanbeam.nrcs("short_grass", 0.1j)),
         ("polarisation", lambda scene: fanbeam.nrcs("short_grass", 0.1, polarisation=None)),
         ("extrapolate", lambda scene: fanbeam.nrcs("short_grass", 0.1, extrapolate="yes")),
         ("frequency_Hz", lambda scene: fanbeam.Atmosphere("35e9")),

@@ -110,6 +110,19 @@ def test_all_numbers_out_of_range_are_told_together(lone_target):
         fanbeam.signal.frame(lone_target, 0, seed=-1, receivers=2**40, numbers={"bandwidth": -1.0})
     assert {problem.field for problem in told.value.problems} == {"seed", "receivers", "bandwidth"}
     assert "receivers = 1099511627776: expected 1 to 64" in str(told.value)
+    with pytest.raises(fanbeam.InputError, match="receivers = 1180591620717411303424: expected 1 to 64$"):
+        fanbeam.signal.frame(lone_target, 0, receivers=2**70)
+    # Nothing is said of the number that stands in for one that is too large.
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.waveform("chirp-sequence", bandwidth=10**400, chirps=-1)
+    assert sorted(problem.field for problem in told.value.problems) == ["bandwidth", "chirps"]
+
+
+def test_a_radar_that_is_none_is_told_beside_what_else_is_wrong(lone_target, tmp_path):
+    with pytest.raises(fanbeam.InputError) as told:
+        fanbeam.signal.frame(lone_target, 0, radar=tmp_path / "none.toml", receivers=99, seed=-1)
+    assert [problem.field for problem in told.value.problems] == ["", "receivers", "seed"]
+    assert told.value.problems[0].file == str(tmp_path / "none.toml")
 
 
 def test_too_few_chirps_for_the_detector_are_told_by_arguments(lone_target):

@@ -375,19 +375,19 @@ class Scene:
         """
         told = {name: value for name, value in locals().items() if name != "self" and value is not _KEEP}
         with self._setting:
-            settings = dict.fromkeys(_SENSOR) | self._told.sensor | copy.deepcopy(told)
+            settings = dict.fromkeys(_SENSOR) | self._told.sensor | told
             warnings = self._core.set_sensor(**settings)
-            self._told.sensor = settings
+            self._told.sensor = copy.deepcopy(settings)  # what passed can be copied
         warn(warnings)
 
     def set_targets(self, targets: Iterable[Target]) -> None:
         """Puts these; all others go back to where the scene has them, and new ones vanish."""
         if not isinstance(targets, Iterable):
             raise TypeError(f"targets: expected an iterable of fanbeam.Target, not {targets!r}")
-        own = copy.deepcopy(tuple(targets))
+        own = tuple(targets)
         with self._setting:
             warnings = self._core.set_targets(own)
-            self._told.targets = own
+            self._told.targets = copy.deepcopy(own)
         warn(warnings)
 
     # Sampling: the last call counts.

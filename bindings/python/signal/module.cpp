@@ -69,7 +69,7 @@ void take_numbers(const py::dict& numbers, Settings& settings) {
   std::map<std::string, double> rest;
   for (const auto& [key, value] : numbers) {
     const auto name = value_of<std::string>(key, "numbers", problems, "names that are texts");
-    rest[name] = value_of<double>(value, name, problems);
+    if (const auto number = held_of<double>(value, name, problems)) rest[name] = *number;
   }
   for (std::size_t i = 0; i < session::kWaveformNumbers.size(); ++i) {
     const session::WaveformNumber& known = session::kWaveformNumbers[i];
@@ -97,7 +97,7 @@ session::FmcwSettings settings_of(const py::dict& told, const std::filesystem::p
   core::ProblemList problems;
   const auto given = value_of<std::filesystem::path>(told["radar"], "radar", problems);
   if (const std::filesystem::path& file = given.empty() ? own : given; !file.empty())
-    settings = session::radar_settings(file);
+    collect(problems, [&] { settings = session::radar_settings(file); });
   // What is missing stays as the file or the default has it.
   const auto take = [&]<class T>(const char* name, T& value) {
     if (told.contains(name)) value = value_of<T>(told[name], name, problems);
