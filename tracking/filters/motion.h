@@ -24,6 +24,9 @@
 // Neglected: rotation and acceleration of the radar; how w changes inside a step (for positions, w' T^3 |g| / 12: 10 um
 // at 30 m/s, 50 ms and 0.03 rad/s2). For small u T the limits of s and c are used: both forms agree to 1e-10 at the
 // change. The turn's covariance is linearised at the mean; transition and noise of f and b are exact for any step.
+// Of the noise within a step, place and velocity get a fixed share of the turn's at its end, which is right for short
+// steps: at 30 m/s, with steering known as add_turn tells it and no bend at first, a step of 1 s tells 1.20 m across where 400
+// steps tell 1.33 m; 2 s 3.27 and 4.72 m, 3 s 5.56 and 9.46 m (sf 0.095 rad/s, 1 / k 0.32 s).
 // Inputs: 0 leaves the state alone; a negative step is E-TIME, one that is not finite E-NONFINITE;
 // noise that is negative and a time that is not above 0 E-RANGE. The state is then unchanged.
 #pragma once
