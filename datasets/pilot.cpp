@@ -76,18 +76,18 @@ class Pilot {
 
   // One run that opens the scene, then `count` that count.
   void fly(const std::string& scene, const SceneRuns& runs, std::size_t count) {
-    const auto begin = Clock::now();
     double first_s = 0.0, seconds = 0.0, bytes = 0.0;
     std::size_t made = 0;
     // Where so many are refused, each of those kept is tried twice: a single good one then counts.
     const std::size_t most = count + 1 + 2 * runs.kept();
     for (std::size_t i = 0; i < most && made <= count; ++i) {
-      if (!make(runs.pick(i, count + 1), scene)) continue;
-      if (made++ == 0) {
-        // With those before it that were refused: the first of them had the scene opened.
-        first_s = std::chrono::duration<double>(Clock::now() - begin).count();
-        continue;
-      }
+      const auto begin = Clock::now();
+      const bool is_made = make(runs.pick(i, count + 1), scene);
+      // The first try has the scene opened, even one that is refused; the first run that is made does
+      // what is left of that.
+      if (i == 0 || (is_made && made == 0))
+        first_s += std::chrono::duration<double>(Clock::now() - begin).count();
+      if (!is_made || made++ == 0) continue;
       seconds += worker_.cost().seconds;
       bytes += static_cast<double>(worker_.cost().bytes);
     }
