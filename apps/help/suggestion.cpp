@@ -42,8 +42,11 @@ std::vector<std::string> names_of_options(const CLI::App& command) {
 
 std::string no_such_option(const CLI::App& command, const std::string& word) {
   const std::string name = word.substr(0, word.find('='));
-  return path_of(command) + ": no option " + name +
-         question(meant(name, names_of_options(command)), "") + "\n";
+  const std::vector<std::string> names = names_of_options(command);
+  if (std::find(names.begin(), names.end(), name) != names.end())  // but given before the command
+    return path_of(command) + ": " + name + " belongs after the command: " + path_of(command) +
+           " " + name + "\n";
+  return path_of(command) + ": no option " + name + question(meant(name, names), "") + "\n";
 }
 
 // Options by names that do not exist; else words that nothing takes.

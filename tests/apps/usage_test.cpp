@@ -169,6 +169,25 @@ TEST_CASE("A misspelt command or option is answered with the nearest one", "[cli
   }
 }
 
+// It was asked whether -q had been meant by -q.
+TEST_CASE("Of an option before its command it is told that it belongs after it", "[cli]") {
+  const std::pair<const char*, const char*> early[] = {
+      {"-q render", "fanbeam render: -q belongs after the command: fanbeam render -q\n"},
+      {"--seed=3 render flat-grass",
+       "fanbeam render: --seed belongs after the command: fanbeam render --seed\n"},
+      {"materials --output x.svg plot",
+       "fanbeam materials plot: --output belongs after the command: fanbeam materials plot "
+       "--output\n"},
+      {"--frame 0:1 render", "fanbeam render: no option --frame; did you mean --frames?\n"}};
+  for (const auto& [words, answer] : early) {
+    const Result result = run_fanbeam(words);
+    INFO("fanbeam " << words << ": " << result.output);
+    CHECK(result.exit_code == 2);
+    CHECK(result.output.find(answer) != std::string::npos);
+    CHECK(std::count(result.output.begin(), result.output.end(), '\n') <= 2);
+  }
+}
+
 TEST_CASE("Of a list with too few or too many values it is told how many it takes", "[cli]") {
   const std::pair<const char*, const char*> counts[] = {
       {"track x.json --body-errors 0.1,0.1", "--body-errors takes 3 values, M,MPS,DEG: 2 given\n"},
