@@ -56,6 +56,18 @@ void collect_polygons(OGRGeometry& geometry, std::vector<OGRPolygon*>& polygons)
   }
 }
 
+// Rings that bound nothing, of one position or two alike: GEOS refuses them, and with them the file. Holes of
+// that kind go; false where the outer ring is one.
+bool drop_points(OGRPolygon& polygon) {
+  const auto is_point = [](const OGRLinearRing* ring) {
+    return ring == nullptr || ring->getNumPoints() < 3;
+  };
+  if (is_point(polygon.getExteriorRing())) return false;
+  for (int i = polygon.getNumInteriorRings(); i > 0; --i)
+    if (is_point(polygon.getInteriorRing(i - 1))) polygon.removeRing(i);
+  return true;
+}
+
 class FootprintReader {
  public:
   FootprintReader(const std::filesystem::path& path, const FootprintOptions& options,
@@ -211,6 +223,10 @@ void FootprintReader::add_polygon(OGRPolygon& polygon, double min_height_m, doub
     return refuse_feature("coordinates", "beyond the Earth",
                           "longitude -540 to 540, latitude -90 to 90 deg");
   close_rings(polygon);
+  if (!drop_points(polygon)) {
+    ++degenerate_;
+    return;
+  }
   if (polygon.IsValid()) return add_valid_polygon(polygon, min_height_m, height_m);
   const std::size_t most = std::min(kMostPolygonCrossings, crossings_left_) + 1;
   const std::size_t found = crossings(polygon, most);

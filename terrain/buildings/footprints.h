@@ -50,7 +50,8 @@ inline constexpr std::size_t kMostFileCrossings = 10'000;
 // not on the Earth), E-RANGE (coordinates outside the Earth; heights that are no numbers or outside 0
 // to 1000 m), all features together. Warnings, with counts: W-UNCLOSED rings, which do not end where
 // they begin as RFC 7946 asks and are closed, W-REPAIRED rings, W-DEFAULT heights, W-SKIPPED features
-// that are no polygons, W-DEGENERATE footprints without area or height.
+// that are no polygons, W-DEGENERATE footprints without area or height. Courtyards that are a single point
+// are none.
 std::vector<Footprint> read_footprints(const std::filesystem::path& file,
                                        const FootprintOptions& options,
                                        core::ProblemList& problems);

@@ -121,6 +121,29 @@ TEST_CASE("Rings that do not end where they begin are closed and counted", "[foo
              Contains("W-UNCLOSED rings that do not end where they begin = 2"));
 }
 
+// One of them refused the file as well.
+TEST_CASE("Rings of a single position are no footprints and no courtyards", "[footprints]") {
+  const std::string square = kSquare.substr(1, kSquare.size() - 2);
+  const std::string one = "[[11.001,47.001]]", twice = "[[11.001,47.001],[11.001,47.001]]";
+  const auto polygon = [](const std::string& rings) {
+    return feature(R"("render_height":9)", "Polygon", "[" + rings + "]");
+  };
+  core::ProblemList problems;
+  const auto footprints = read(
+      collection(polygon(square + "," + one +
+                         ",[[11.0005,47.0005],[11.001,47.0005],[11.001,47.001],"
+                         "[11.0005,47.0005]]," +
+                         twice) +
+                 "," + polygon(one) + "," + polygon(twice) + "," + polygon(one + "," + square)),
+      problems);
+  REQUIRE(footprints.size() == 1);
+  CHECK(footprints[0].feature == 0);
+  CHECK(signed_area_deg2(footprints[0].outer) == Approx(4e-6));
+  REQUIRE(footprints[0].holes.size() == 1);
+  CHECK(signed_area_deg2(footprints[0].holes[0]) == Approx(-0.125e-6));
+  CHECK_THAT(warnings_of(problems), Contains("W-DEGENERATE footprints without area or height = 3"));
+}
+
 TEST_CASE("Rings that touch or cross themselves are repaired and counted", "[footprints]") {
   // A square whose outline pinches to a point on its own edge, and a bow tie of two triangles.
   const std::string pinched =
