@@ -135,7 +135,7 @@ class SightMap::Tiles {
         tile_m_(posts_per_tile_ * ground.spacing_m),
         columns_((ground.columns - 2) / posts_per_tile_ + 1),
         rows_((ground.rows - 2) / posts_per_tile_ + 1) {
-    all.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    all_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     add_ground(ground);
     for (const terrain::SurfacePatch& patch : patches) add_patch(patch);
     for (const terrain::PlacedMesh& mesh : meshes) add_mesh(mesh);
@@ -150,7 +150,10 @@ class SightMap::Tiles {
   }
 
   double west_m, south_m, east_m, north_m;
-  std::vector<Tile> all;  // [row][column]
+  const Tile& at(int column, int row) const { return all_[place(column, row)]; }
+  // Every tile that holds anything within the box, by east and north, and few others: use(column, row).
+  template <class Use>
+  void for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use) const;
 
  private:
   static constexpr std::size_t kMostBits = 64;
@@ -165,19 +168,19 @@ class SightMap::Tiles {
     last_bit_ = std::uint64_t{1} << std::min(index, kMostBits - 1);
     return last_bit_;
   }
-  Tile& at(int column, int row) {
-    return all[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-               static_cast<std::size_t>(column)];
+  std::size_t place(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
   }
+  Tile& at(int column, int row) { return all_[place(column, row)]; }
   void add_ground(const HeightField& ground);
   void add_patch(const terrain::SurfacePatch& patch);
   void add_mesh(const terrain::PlacedMesh& placed);
-  template <class Use>
-  void for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use);
 
   int posts_per_tile_;
   double tile_m_;
   int columns_, rows_;
+  std::vector<Tile> all_;                 // [row][column]
   std::vector<terrain::MaterialId> met_;  // in the order of their bits
   terrain::MaterialId last_ = 0;
   std::uint64_t last_bit_ = 0;
@@ -194,17 +197,18 @@ SightMap SightMap::with_mirrors(const std::vector<bool>& mirrors) const {
 }
 
 template <class Use>
-void SightMap::Tiles::for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m, const Use& use) {
+void SightMap::Tiles::for_tiles(const glm::dvec3& low_m, const glm::dvec3& high_m,
+                                const Use& use) const {
   // What stands off the terrain belongs to the tile at its edge.
   const auto index = [this](double value_m, double start_m, int count) {
     return static_cast<int>(
         std::clamp(std::floor((value_m - start_m) / tile_m_), 0.0, static_cast<double>(count - 1)));
   };
-  for (int row = index(low_m.y - kMargin_m, south_m, rows_);
-       row <= index(high_m.y + kMargin_m, south_m, rows_); ++row)
-    for (int column = index(low_m.x - kMargin_m, west_m, columns_);
-         column <= index(high_m.x + kMargin_m, west_m, columns_); ++column)
-      use(at(column, row), column, row);
+  const int west = index(low_m.x - kMargin_m, west_m, columns_);
+  const int east = index(high_m.x + kMargin_m, west_m, columns_);
+  const int north = index(high_m.y + kMargin_m, south_m, rows_);
+  for (int row = index(low_m.y - kMargin_m, south_m, rows_); row <= north; ++row)
+    for (int column = west; column <= east; ++column) use(column, row);
 }
 
 void SightMap::Tiles::add_ground(const HeightField& ground) {
@@ -237,7 +241,7 @@ void SightMap::Tiles::add_patch(const terrain::SurfacePatch& patch) {
   }
   const std::uint64_t bit = bit_of(patch.material);
   if (low_m.x <= high_m.x)
-    for_tiles(low_m, high_m, [bit](Tile& tile, int, int) { tile.of_ground |= bit; });
+    for_tiles(low_m, high_m, [&](int column, int row) { at(column, row).of_ground |= bit; });
 }
 
 void SightMap::Tiles::add_mesh(const terrain::PlacedMesh& placed) {
@@ -250,7 +254,8 @@ void SightMap::Tiles::add_mesh(const terrain::PlacedMesh& placed) {
     const std::uint64_t bit = bit_of(placed.material_of_name[mesh.triangle_material[i]]);
     const glm::dvec3 low_m = glm::min(a, glm::min(b, c));
     const glm::dvec3 high_m = glm::max(a, glm::max(b, c));
-    for_tiles(low_m, high_m, [&](Tile& tile, int column, int row) {
+    for_tiles(low_m, high_m, [&](int column, int row) {
+      Tile& tile = at(column, row);
       tile.has_bodies = true;
       tile.of_bodies |= bit;
       tile.low_m.z = std::min(tile.low_m.z, low_m.z);
@@ -309,10 +314,12 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
     return directions.may_meet((tile.low_m + tile.high_m) / 2.0,
                                glm::length(tile.high_m - tile.low_m) / 2.0 + kMargin_m);
   };
-  for (const Tile& tile : tiles_->all) {
+  const glm::dvec3 reach_m(far_m, far_m, 0.0);
+  tiles_->for_tiles(at_m - reach_m, at_m + reach_m, [&](int column, int row) {
+    const Tile& tile = tiles_->at(column, row);
     const double east_m = std::max({tile.low_m.x - at_m.x, at_m.x - tile.high_m.x, 0.0});
     const double north_m = std::max({tile.low_m.y - at_m.y, at_m.y - tile.high_m.y, 0.0});
-    if (east_m * east_m + north_m * north_m > far_m * far_m) continue;
+    if (east_m * east_m + north_m * north_m > far_m * far_m) return;
     seen.lowest_ground_m = std::min(seen.lowest_ground_m, tile.lowest_ground_m);
     seen.highest_ground_m = std::max(seen.highest_ground_m, tile.highest_ground_m);
     steepest = std::max(steepest, tile.steepest);
@@ -320,15 +327,15 @@ SightMap::Seen SightMap::seen_from(const sensors::AntennaFrame& antenna,
     const bool mirroring_ground = (tile.of_ground & mirrors_) != 0;
     const bool mirroring_bodies = (tile.of_bodies & mirrors_) != 0;
     seen.ground_mirrors = seen.ground_mirrors || mirroring_ground;
-    if (!mirroring_ground && !mirroring_bodies) continue;
-    if (!may_meet(fan, tile)) continue;
+    if (!mirroring_ground && !mirroring_bodies) return;
+    if (!may_meet(fan, tile)) return;
     seen.mirrors = true;
     bodies_mirror = bodies_mirror || mirroring_bodies;
-    if (!mirroring_ground) continue;
+    if (!mirroring_ground) return;
     ground_in_fan = true;
     steepest_mirror = std::max(steepest_mirror, tile.steepest);
     highest_mirror_m = std::max(highest_mirror_m, tile.highest_ground_m);
-  }
+  });
   const Fan turned =
       level_fan(antenna, sensor, largest_turn_rad(antenna, sensor, std::atan(steepest_mirror)));
   const bool meets_bodies = std::any_of(bodies.begin(), bodies.end(), [&](const Tile* tile) {

@@ -20,7 +20,7 @@
 // of its echo, so within the farthest range at any azimuth.
 //
 // Heights are of the scene's frame. Cost: 5 ms a million cells and 30 ms a million triangles to
-// build; 20 ns per tile and frame. Copies share the tiles, whatever mirrors in them.
+// build; 20 ns a frame for each tile within the farthest range. Copies share the tiles, whatever mirrors in them.
 #pragma once
 
 #include <cstdint>

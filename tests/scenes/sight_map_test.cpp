@@ -1,6 +1,7 @@
 // What a map of a scene answers: what mirrored rays may meet, and where the ground ends.
 #include "scenes/sight_map.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -9,6 +10,7 @@
 #include "core/errors.h"
 #include "core/units.h"
 #include "sensors/sensor_file.h"
+#include "tests/processor_time.h"
 
 namespace fanbeam::tests {
 namespace {
@@ -27,16 +29,29 @@ sensors::AntennaFrame pitched(const glm::dvec3& position_m, double pitch_deg) {
   return antenna;
 }
 
-// A mirroring plain under a triangle that stands in the air.
-scenes::SightMap plain_below(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+terrain::HeightField ground_within(double half_m) {
+  return terrain::make_height_field(-half_m, -half_m, half_m, half_m, 100.0);
+}
+
+terrain::PlacedMesh triangle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   terrain::PlacedMesh mesh;
   mesh.mesh.vertices_m = {a, b, c};
   mesh.mesh.triangles = {{0, 1, 2}};
   mesh.mesh.triangle_material = {0};
   mesh.material_of_name = {1};
-  return scenes::SightMap(terrain::make_height_field(-4200.0, -4200.0, 4200.0, 4200.0, 100.0), {},
-                          {mesh})
-      .with_mirrors({true, false});
+  return mesh;
+}
+
+// Of 100 frames, the least of three goes.
+double time_of_looking_s(const scenes::SightMap& map, const sensors::Sensor& sensor) {
+  double least_s = 1e300;
+  for (int go = 0; go < 3; ++go) {
+    const double begin_s = processor_time_s();
+    for (int frame = 0; frame < 100; ++frame)
+      CHECK_FALSE(map.seen_from(pitched({frame, 0.0, 300.0}, 0.0), sensor).mirrors);
+    least_s = std::min(least_s, processor_time_s() - begin_s);
+  }
+  return least_s;
 }
 
 }  // namespace
@@ -49,8 +64,12 @@ TEST_CASE("What level ground mirrors leaves the fan of an antenna that leans",
   sensor.scan.field_of_view_rad = core::radians(80.0);
   sensor.scan.columns = 320;
   const glm::dvec3 body_m(1086.0, -1738.0, 760.0);  // 58 deg to the right
-  const scenes::SightMap map = plain_below(body_m + glm::dvec3(-10.0, -10.0, -60.0), body_m,
-                                           body_m + glm::dvec3(10.0, 10.0, 60.0));
+  // A mirroring plain under a triangle that stands in the air.
+  const scenes::SightMap map =
+      scenes::SightMap(ground_within(4200.0), {},
+                       {triangle(body_m + glm::dvec3(-10.0, -10.0, -60.0), body_m,
+                                 body_m + glm::dvec3(10.0, 10.0, 60.0))})
+          .with_mirrors({true, false});
   const sensors::AntennaFrame leaning = pitched({0.0, 0.0, 1000.0}, -60.0);
   // The ray that the ground mirrors into it is one of the fan: towards its image.
   const glm::dvec3 to_image_m = glm::dvec3(body_m.x, body_m.y, -body_m.z) - leaning.position_m;
@@ -71,6 +90,34 @@ TEST_CASE("What level ground mirrors leaves the fan of an antenna that leans",
   // On a cone a ray 42 deg aside and 79 deg down is 78 deg aside in the horizontal.
   sensor.scan.surface = sensors::ScanSurface::cone;
   CHECK(map.seen_from(level, sensor).mirrored_rays_end);
+}
+
+TEST_CASE("A mirror off the terrain is seen from off the terrain, within range",
+          "[scenes][frame_plan]") {
+  const sensors::Sensor sensor = shipped();
+  for (const glm::dvec3& corner_m : {glm::dvec3(5000.0, 3000.0, 0.0), glm::dvec3(5000.0, 0.0, 0.0),
+                                     glm::dvec3(5000.0, -3000.0, 0.0)}) {
+    const scenes::SightMap map =
+        scenes::SightMap(ground_within(1000.0), {},
+                         {triangle(corner_m, corner_m + glm::dvec3(10.0, 0.0, 0.0),
+                                   corner_m + glm::dvec3(0.0, 10.0, 50.0))})
+            .with_mirrors({false, true});
+    INFO(corner_m.y);
+    CHECK(map.seen_from(pitched(corner_m + glm::dvec3(-1000.0, 0.0, 50.0), 0.0), sensor).mirrors);
+    // 4 km behind it.
+    CHECK_FALSE(
+        map.seen_from(pitched(corner_m + glm::dvec3(4010.0, 0.0, 50.0), 0.0), sensor).mirrors);
+  }
+}
+
+// Of 23 times the ground each frame took 17 times as long.
+TEST_CASE("What lies beyond the farthest range takes no time of a frame", "[scenes][frame_plan]") {
+  const sensors::Sensor sensor = shipped();
+  const auto takes_s = [&](double half_m) {
+    return time_of_looking_s(
+        scenes::SightMap(ground_within(half_m), {}, {}).with_mirrors({false, true}), sensor);
+  };
+  CHECK(takes_s(20000.0) < 4.0 * takes_s(4200.0));
 }
 
 TEST_CASE("The ground ends where the fan may pass its rim", "[scenes][frame_plan]") {
