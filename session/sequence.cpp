@@ -114,6 +114,7 @@ class Run {
   core::EffectPlan plan_of(int index) const {
     return settings_.plan_per_frame ? scenes::frame_plan(scene_, index) : scene_.plan;
   }
+  std::set<std::string> files_of(const std::vector<int>& frames) const;
   FrameRecord frame_record(int index, const core::EffectPlan& plan) const;
   void take_over_frames();
   void fill_result();
@@ -151,7 +152,7 @@ void Run::render_frames(const ProgressListener& progress) {
     FrameRecord record = frame_record(index, plan);
     if (!settings_.resume || !take_over(output_.path(), settings_.products, fingerprint_, record)) {
       FrameOutput output = render_frame(plan, record);
-      output_.begin_frames(settings_.products);
+      output_.begin_frames([&] { return files_of(frames); });
       if (preview)
         preview->add(side_by_side(sensors::bscope_picture(sensor, output.frame.bscope_grey),
                                   sensors::cscope_picture(sensor, output.frame.cscope_grey)));
@@ -171,6 +172,12 @@ void Run::render_frames(const ProgressListener& progress) {
   result_.resumed =
       static_cast<int>(std::count_if(record_.frames.begin(), record_.frames.end(),
                                      [](const FrameRecord& frame) { return frame.resumed; }));
+}
+
+std::set<std::string> Run::files_of(const std::vector<int>& frames) const {
+  std::set<std::string> files;
+  for (const int index : frames) files.merge(frame_files(settings_.products, index));
+  return files;
 }
 
 FrameRecord Run::frame_record(int index, const core::EffectPlan& plan) const {

@@ -158,9 +158,15 @@ bool OutputFolder::has_record_of_another() const {
   return one == listed_.files.end() || !is_of_this_input(*one);
 }
 
-void OutputFolder::begin_frames(const std::set<std::string>& products) {
-  if (std::exchange(begun_, true) || !has_record_of_another()) return;
-  write_note(products, listed_.files);
+void OutputFolder::begin_frames(const std::function<std::set<std::string>()>& files) {
+  if (!std::exchange(begun_, true) && has_record_of_another()) take_place({}, files());
+}
+
+// The note says what the record listed, and what will be written.
+void OutputFolder::take_place(const std::set<std::string>& products,
+                              const std::set<std::string>& files) {
+  noted_.begun.insert(listed_.files.begin(), listed_.files.end());
+  write_note(products, files);
   set_aside_ = true;
   std::error_code ignored;  // of those that are there
   for (const std::string& name : record_files())
@@ -198,14 +204,26 @@ OutputFolder::~OutputFolder() {
       fs::remove(aside(name), ignored);
     else
       fs::rename(aside(name), folder_ / name, ignored);
-  const bool of_earlier = !listed_.products.empty() || !listed_.begun.empty();
-  if (!replaced && !of_earlier) fs::remove(folder_ / kUnfinished, ignored);
+  if (!replaced) restore_note();
+}
+
+// As it was before this run.
+void OutputFolder::restore_note() noexcept {
+  noted_ = listed_;
+  std::error_code ignored;
+  if (listed_.products.empty() && listed_.begun.empty()) {
+    fs::remove(folder_ / kUnfinished, ignored);
+    return;
+  }
+  try {
+    write_note({}, {});
+  } catch (const std::exception&) {  // a full disk: the note says more than is there
+  }
 }
 
 void OutputFolder::begin(const std::set<std::string>& products,
                          const std::set<std::string>& files) {
-  noted_.begun.insert(files.begin(), files.end());  // before anybody looks what is there
-  begin_frames(products);
+  if (!std::exchange(begun_, true) && has_record_of_another()) take_place(products, files);
   write_note(products, files);
 }
 

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -34,10 +35,11 @@ class OutputFolder {
   const std::filesystem::path& path() const { return folder_; }
 
   // A frame was made and will be written: a record of another input goes, with what is of all its
-  // frames together, and until `end` frames' files in the folders of `products` are those of a run
-  // that has not ended.
-  void begin_frames(const std::set<std::string>& products);
-  // The same, whatever record is there; and so are `files` of all frames together.
+  // frames together, and until `end` the `files` of all frames to come are those of a run that has not
+  // ended.
+  void begin_frames(const std::function<std::set<std::string>()>& files);
+  // The same, whatever record is there, of `files` of all frames together and of frames' files in the
+  // folders of `products`.
   void begin(const std::set<std::string>& products, const std::set<std::string>& files);
   // After run.json is written.
   void end();
@@ -55,7 +57,9 @@ class OutputFolder {
   bool is_of_this_input(const std::filesystem::path& relative) const;
   bool has_record_of_another() const;
   std::filesystem::path aside(const std::string& name) const;
+  void take_place(const std::set<std::string>& products, const std::set<std::string>& files);
   void write_note(const std::set<std::string>& products, const std::set<std::string>& files);
+  void restore_note() noexcept;
   std::map<std::string, std::filesystem::file_time_type> times() const;
 
   std::filesystem::path folder_;

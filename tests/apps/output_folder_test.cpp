@@ -337,15 +337,17 @@ TEST_CASE("A killed run of another input leaves only what the next run may repla
   folder.write("run.json", R"({"frames": [], "files": ["preview.mp4"]})");
   folder.write("preview.mp4", "of the first run");
   session::OutputFolder killed(folder.path(), "second input", false);
-  killed.begin_frames({"cscope"});
+  killed.begin_frames([] { return std::set<std::string>{"cscope/00003.png", "cscope/00004.png"}; });
   CHECK_FALSE(fs::exists(folder.path() / "run.json"));
   folder.write("cscope/00003.png", "of the second run");
   CHECK_NOTHROW(session::OutputFolder(folder.path(), "third input", false));
-  folder.write("bscope/00003.png", "somebody's");
-  CHECK_THROWS_AS(session::OutputFolder(folder.path(), "third input", false), core::InputError);
+  for (const char* name : {"bscope/00003.png", "cscope/00005.png", "cscope/00003_mine.png"}) {
+    folder.write(name, "somebody's");
+    CHECK_THROWS_AS(session::OutputFolder(folder.path(), "third input", false), core::InputError);
+    fs::remove(folder.path() / name);
+  }
   // Films go on the same note.
   killed.begin({}, {"preview.gif"});
-  fs::remove(folder.path() / "bscope/00003.png");
   folder.write("preview.gif", "of the second run");
   CHECK_NOTHROW(session::OutputFolder(folder.path(), "third input", false));
 }
