@@ -48,6 +48,7 @@ class EchoDensity {
     std::copy_n(facets.range_slope, count, chain.range_slope.data() + to);
     std::copy_n(density, count, chain.density_W_per_rad2.data() + to);
     std::copy_n(facets.surface, count, chain.surface.data() + to);
+    std::copy_n(factors.material, count, chain.material.data() + to);
     return static_cast<int>(std::count_if(batch.geometry, batch.geometry + count,
                                           [](auto id) { return id != terrain::kNoHit; }));
   }
@@ -64,6 +65,7 @@ class EchoDensity {
 
   // A table's value, the step to its next one and the share of that step.
   struct Factors {
+    alignas(64) terrain::MaterialId material[kBatchRays];  // of what echoes
     alignas(64) double nrcs[kBatchRays], nrcs_step[kBatchRays], nrcs_share[kBatchRays];
     alignas(64) double loss[kBatchRays], loss_step[kBatchRays], loss_share[kBatchRays];
   };
@@ -100,10 +102,12 @@ class EchoDensity {
           NrcsTable::index_of(static_cast<double>(facets.sin_grazing[i]), factors.nrcs_share[i]);
     for (int i = 0; i < kBatchRays; ++i) {
       factors.nrcs[i] = factors.nrcs_step[i] = 0.0;
+      factors.material[i] = 0;
       if (facets.sin_grazing[i] <= 0.0F) continue;
       const terrain::MaterialId material = surfaces_.material(batch.geometry[i], batch.primitive[i],
                                                               static_cast<double>(facets.x_m[i]),
                                                               static_cast<double>(facets.y_m[i]));
+      factors.material[i] = material;
       const double* const value = nrcs_[material].values() + nrcs_index[i];
       factors.nrcs[i] = value[0];
       factors.nrcs_step[i] = value[1] - value[0];

@@ -1,5 +1,7 @@
-// Finds the gaps of a chain: where neighbours are farther apart than a range cell or hit different
-// surfaces. A gap is filled by halving, and only its halves can be gaps of the next level.
+// Finds the gaps of a chain: where neighbours are farther apart than a range cell, hit different
+// surfaces, or see two materials: the border of two grounds. By nothing that depends on losses, noise or
+// power: an effect left out would move rays, and pixels by more than it is worth. A gap is filled by
+// halving, and only its halves can be gaps of the next level.
 #pragma once
 
 #include <cmath>
@@ -14,8 +16,9 @@ namespace fanbeam::renderer {
 
 class GapFinder {
  public:
-  // Neighbours farther apart than this are not one piece of surface.
-  explicit GapFinder(double limit_m) : limit_m_(limit_m) {}
+  // Neighbours farther apart than `limit_m` are not one piece of surface. Borders of materials are
+  // sought to `edge_rad` of elevation.
+  GapFinder(double limit_m, double edge_rad) : limit_m_(limit_m), edge_rad_(edge_rad) {}
 
   // Into `gaps`, all of a fan just linked, from the lowest step in elevation up.
   void search_fan(const RayChain& rays, bool horizon_only, std::vector<std::uint8_t>& marks,
@@ -60,33 +63,43 @@ class GapFinder {
   bool is_gap(const RayChain& rays, std::int32_t below, std::int32_t above,
               bool horizon_only) const {
     const auto b = static_cast<std::size_t>(below), a = static_cast<std::size_t>(above);
-    return differ(rays.elevation_rad.data(), rays.range_m.data(), rays.surface.data(), b, a,
-                  horizon_only);
+    return differ(Columns(rays), b, a, horizon_only);
   }
   template <bool horizon_only>
   void mark(const RayChain& rays, int count, std::uint8_t* marks) const {
-    const double* elevation_rad = rays.elevation_rad.data();
-    const float* range_m = rays.range_m.data();
-    const std::uint32_t* surface = rays.surface.data();
+    const Columns of(rays);
     for (int i = 0; i < count; ++i) {
       const auto below = static_cast<std::size_t>(i);
-      marks[i] =
-          differ(elevation_rad, range_m, surface, below, below + kGroupAzimuths, horizon_only) ? 1
-                                                                                               : 0;
+      marks[i] = differ(of, below, below + kGroupAzimuths, horizon_only) ? 1 : 0;
     }
   }
-  bool differ(const double* elevation_rad, const float* range_m, const std::uint32_t* surface,
-              std::size_t below, std::size_t above, bool horizon_only) const {
-    const bool resolved = elevation_rad[above] - elevation_rad[below] >= kSmallestStep_rad;
-    const bool horizon = (surface[below] == terrain::kNoHit) != (surface[above] == terrain::kNoHit);
-    const bool apart = static_cast<double>(std::abs(range_m[above] - range_m[below])) > limit_m_;
-    const bool differs =
-        static_cast<unsigned>(surface[below] != surface[above]) | static_cast<unsigned>(apart);
-    return static_cast<unsigned>(resolved) &
-           static_cast<unsigned>(horizon_only ? horizon : differs);
+
+  struct Columns {
+    explicit Columns(const RayChain& rays)
+        : elevation_rad(rays.elevation_rad.data()),
+          range_m(rays.range_m.data()),
+          surface(rays.surface.data()),
+          material(rays.material.data()) {}
+    const double* elevation_rad;
+    const float* range_m;
+    const std::uint32_t* surface;
+    const terrain::MaterialId* material;
+  };
+  bool differ(const Columns& of, std::size_t below, std::size_t above, bool horizon_only) const {
+    const double step_rad = of.elevation_rad[above] - of.elevation_rad[below];
+    const unsigned horizon =
+        (of.surface[below] == terrain::kNoHit) != (of.surface[above] == terrain::kNoHit);
+    const unsigned apart =
+        static_cast<double>(std::abs(of.range_m[above] - of.range_m[below])) > limit_m_;
+    const unsigned other = of.surface[below] != of.surface[above];
+    const unsigned edge = static_cast<unsigned>(step_rad > edge_rad_) &
+                          static_cast<unsigned>(of.material[below] != of.material[above]);
+    return (static_cast<unsigned>(step_rad >= kSmallestStep_rad) &
+            (edge | (horizon_only ? horizon : apart | other))) != 0;
   }
 
   double limit_m_;
+  double edge_rad_;
 };
 
 }  // namespace fanbeam::renderer

@@ -15,8 +15,8 @@
 // How it samples: elevations follow the visible range cells (elevation_fan.h), in each sub-column at
 // another place between their borders; each ray of the fan has its own azimuth inside its sub-column,
 // by the golden-ratio sequence, because regular azimuths hit or miss oblique walls (one put between two
-// has that of the lower one); neighbours that are more than a cell apart or hit different surfaces are
-// refined by halving.
+// has that of the lower one); neighbours that are more than a cell apart, hit different surfaces, or see
+// different materials a quarter of a C-scope row apart, are refined by halving.
 //
 // Neglected: secondary bounces, refraction, diffraction. Accuracy over sampling:
 // docs/performance.md; closed forms on flat ground within 0.05 dB (reference) and 0.5 dB (one ray

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "renderer/casting/fan_layout.h"
+#include "terrain/height_field.h"
 
 namespace fanbeam::renderer {
 
@@ -59,10 +60,11 @@ class RayChain {
   std::vector<float> range_m;      // 0 without a hit
   std::vector<float>
       range_slope;  // q: the facet's plane lies at R / (1 + q de) for a ray de higher
-  std::vector<float> density_W_per_rad2;  // dP / (de daz)
-  std::vector<std::uint32_t> surface;     // surface_of(), terrain::kNoHit without a hit
-  std::vector<std::uint8_t> azimuth;      // sub-column of the group
-  std::vector<std::int32_t> next;         // the next higher ray of the same sub-column
+  std::vector<float> density_W_per_rad2;      // dP / (de daz)
+  std::vector<std::uint32_t> surface;         // surface_of(), terrain::kNoHit without a hit
+  std::vector<terrain::MaterialId> material;  // 0 without an echo
+  std::vector<std::uint8_t> azimuth;          // sub-column of the group
+  std::vector<std::int32_t> next;             // the next higher ray of the same sub-column
 
  private:
   void grow(std::size_t size) {
@@ -72,6 +74,7 @@ class RayChain {
     range_slope.resize(size);
     density_W_per_rad2.resize(size);
     surface.resize(size);
+    material.resize(size);
     azimuth.resize(size);
     next.resize(size);
   }

@@ -19,9 +19,14 @@ namespace {
 
 using terrain::RayPacket;
 
-// Silhouettes against the sky are halved this often beyond the refinement depth: a C-scope row
-// above the horizon that is lit by half a ray interval shows at once, and there are few of them.
+// Silhouettes against the sky, and borders of materials, are halved this often beyond the refinement
+// depth: a C-scope row above the horizon that is lit by half a ray interval shows at once, and there are
+// few of them.
 constexpr int kHorizonLevels = 3;
+
+// Borders of materials are sought to this part of a C-scope row: close by a range cell covers several
+// rows, and the mean of many sub-columns, each a range cell off, would smear the brighter ground over them.
+constexpr double kEdgeRows = 0.25;
 
 bool is_cone(const World& world) { return world.sensor.scan.surface == sensors::ScanSurface::cone; }
 
@@ -157,7 +162,8 @@ class GroupCaster {
   }
 
   void refine() {
-    const GapFinder finder(gap_limit_m_);
+    const sensors::Display& display = frame_.world.sensor.display;
+    const GapFinder finder(gap_limit_m_, kEdgeRows * display.cscope_span_rad / display.cscope_rows);
     const int depth = frame_.sampling.refinement_depth;
     finder.search_fan(scratch_.rays, depth == 0, scratch_.marks, scratch_.gaps);
     for (int level = 0; level < depth + kHorizonLevels && !scratch_.gaps.empty(); ++level) {

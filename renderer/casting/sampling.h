@@ -22,7 +22,8 @@ struct Sampling {
   // Rays per range cell of visible ground and per sub-column; below 1, cells share rays.
   double rays_per_cell = 1.0;
   // Between neighbouring rays that are more than `gap_cells` apart or hit different surfaces, halve
-  // this many times.
+  // this many times. Silhouettes against the sky, and borders of materials down to a part of a C-scope
+  // row, three times more.
   int refinement_depth = 2;
   double gap_cells = 1.2;
   // Largest angle between neighbouring rays, on the ground close by and on what stands above the
