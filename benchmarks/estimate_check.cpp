@@ -57,15 +57,21 @@ void check_frame(const BenchScene& bench, int frame, const Effort& effort,
   const auto shown_rms = [&](const PictureError& error) {
     return (effects.thermal_noise ? error.with_noise : error.noise_free).rms;
   };
-  const double own_grey =
-      shown_rms(GreyReference(scene.world.sensor, first).error_of(second).bscope) / 2;
+  const renderer::FrameError own = GreyReference(scene.world.sensor, first).error_of(second);
   const GreyReference reference(scene.world.sensor, mean_of(first, second));
+  const auto add = [&](const Way& way, const char* scope, double estimate_grey,
+                       const PictureError& error, const PictureError& of_halves) {
+    const double apart_grey = shown_rms(error), own_grey = shown_rms(of_halves) / 2;
+    const double true_grey =
+        std::sqrt(std::max(apart_grey * apart_grey - own_grey * own_grey, 0.0));
+    cases.push_back({bench.name, frame, way.name, scope, estimate_grey, true_grey});
+  };
   for (const Way& way : ways_of(scene)) {
     renderer::Frame picture = render(way.sampling);
-    EstimateCase found{bench.name, frame, way.name, picture.error->rms_grey, 0.0};
-    const double apart_grey = shown_rms(reference.error_of(power_of(std::move(picture))).bscope);
-    found.true_grey = std::sqrt(std::max(apart_grey * apart_grey - own_grey * own_grey, 0.0));
-    cases.push_back(found);
+    const renderer::ErrorEstimate told = *picture.error;
+    const renderer::FrameError error = reference.error_of(power_of(std::move(picture)));
+    add(way, "B-scope", told.rms_grey, error.bscope, own.bscope);
+    add(way, "C-scope", told.cscope_rms_grey, error.cscope, own.cscope);
   }
 }
 
@@ -95,18 +101,18 @@ std::string estimates_markdown(const std::vector<EstimateCase>& cases) {
   if (cases.empty()) return "";
   std::string text =
       "## Errors that frames state of themselves\n\n"
-      "Estimated and true error of the B-scope, grey RMS, with every effect and the noise that "
-      "the\n"
+      "Estimated and true error of B-scope and C-scope, grey RMS, with every effect and the noise "
+      "that the\n"
       "plan of the scene has. The true error is that against a converged picture less, in "
       "squares,\n"
       "what the halves of that picture say of its own. The last column is the true error over the\n"
       "estimate; an error below 0.05 grey in both is seen by nobody and counts as right.\n\n"
-      "| scene | frame | sampling | estimated | true | ratio |\n"
-      "| --- | --- | --- | --- | --- | --- |\n";
+      "| scene | frame | sampling | picture | estimated | true | ratio |\n"
+      "| --- | --- | --- | --- | --- | --- | --- |\n";
   for (const EstimateCase& each : cases)
     text += fmt::format(
-        "| {} | {} | {} | {:.3f} | {:.3f} | {}{} |\n", each.scene, each.frame, each.sampling,
-        each.estimate_grey, each.true_grey,
+        "| {} | {} | {} | {} | {:.3f} | {:.3f} | {}{} |\n", each.scene, each.frame, each.sampling,
+        each.scope, each.estimate_grey, each.true_grey,
         each.invisible() ? "-" : fmt::format("{:.2f}", each.true_grey / each.estimate_grey),
         each.within() ? "" : ", **missed**");
   return text + fmt::format("\n{:.0f} % of {} within a factor of 1.5.\n\n",

@@ -9,12 +9,13 @@
 
 namespace fanbeam::benchmarks {
 
-// One frame by one sampling: B-scope, mean noise and every effect as the scene's plan has them
+// One picture of a frame by one sampling: mean noise and every effect as the scene's plan has them
 // (expected power, nothing drawn).
 struct EstimateCase {
   std::string scene;
   int frame = 0;
   std::string sampling;  // "rays, default"
+  std::string scope;     // "B-scope" or "C-scope"
   double estimate_grey = 0.0, true_grey = 0.0;
 
   // Errors that nobody sees: half a tenth of a grey level RMS.

@@ -303,7 +303,7 @@ std::string plan_rows(const PlanFigures& plan) {
 
 std::string estimates_row(const std::vector<EstimateCase>& cases) {
   TargetRow row(
-      fmt::format("all scenes, share of {} frames whose error is within a factor of 1.5 of what "
+      fmt::format("all scenes, share of {} pictures whose error is within a factor of 1.5 of what "
                   "they state",
                   cases.size()),
       fmt::format("at least {:.2f}", kEstimatesWithin.must));
