@@ -53,8 +53,8 @@ bool has_uri_scheme(std::string_view text) {
 fs::path file_of_uri(const fs::path& allowed_folder, const fs::path& from_file,
                      const std::string& uri, const Place& place, const std::string& field) {
   const std::string decoded = percent_decoded(uri).bytes;
-  // Looked for here because behind a folder name a scheme would pass for a part of the path.
-  if (has_uri_scheme(decoded))
+  // Looked for here because behind a folder name a scheme would pass for a part of the path. An empty one is one.
+  if (has_uri_scheme(decoded) || uri.starts_with(':'))
     throw_input_error(ErrorClass::path, place, field, "\"" + uri + "\"",
                       "a relative path, not a URI scheme");
   std::error_code status;

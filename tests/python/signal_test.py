@@ -136,19 +136,21 @@ def test_too_few_chirps_for_the_detector_are_told_by_arguments(lone_target):
 
 
 def test_a_frame_keeps_to_the_threads_of_its_scene():
-    # Outside Python's main thread the work is done by the thread that asks for it.
+    # Outside Python's main thread the work is done by the thread that asks for it. On a busy machine threads that
+    # have nothing to do any more take their time to sleep: the best of three.
     road = fanbeam.Scene.open("highway-76ghz", threads=1)
-    spent = {}
+    ratios = []
 
     def work():
         of_all, of_this = time.process_time(), time.thread_time()
         fanbeam.signal.frame(road, 0, want=("range-doppler",))
-        spent["all_s"], spent["own_s"] = time.process_time() - of_all, time.thread_time() - of_this
+        ratios.append((time.process_time() - of_all) / (time.thread_time() - of_this))
 
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join()
-    assert spent["all_s"] < 1.2 * spent["own_s"] + 0.02
+    for _ in range(3):
+        thread = threading.Thread(target=work)
+        thread.start()
+        thread.join()
+    assert min(ratios) < 1.2
 
 
 def test_numbers_of_elements_replace_the_places_of_a_radar_file(lone_target, tmp_path):

@@ -181,11 +181,11 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
   const sensors::Sensor& sensor = now->description.sensor;
   const auto made = std::make_shared<Made>();
   told_in_python_words([&] {
-    made->radar = session::fmcw_radar(settings, sensor);
-    session::check_processing(made->radar, products);
     without_lock([&](const core::StopToken& stop) {
       const core::StopScope scope(stop);
       const core::ThreadLimit limit(scene.threads());
+      made->radar = session::fmcw_radar(settings, sensor);
+      session::check_processing(made->radar, products);
       made->paths = session::fmcw_paths(*now, index, settings);
       made->frame = session::fmcw_frame(
           made->radar, sensor, made->paths.paths, index, settings, products,
