@@ -26,10 +26,9 @@ constexpr int kCellsPerStep = 8;
 // where one does.
 constexpr double kSmoothStep_rad = 2.0 * core::kPi / 180.0;
 constexpr double kLayeredStep_rad = 0.1 * core::kPi / 180.0;
-// Azimuths share their profiles where the beam holds no border of any layer and it leans by no more than
-// this, changing heights by no more than this at the farthest range. That changes the loss by gas by under 1 % of it
+// Azimuths share their profiles where the beam holds no border of any layer and its tilt changes heights
+// by no more than this at the farthest range. That changes the loss by gas by under 1 % of it
 // over 41 deg of azimuth, 2 % all round: 0.006 dB at 35 GHz and 3.7 km, 0.03 dB at 94 GHz.
-constexpr double kSharedTilt_rad = 0.02;
 constexpr double kSharedHeight_m = 75.0;
 // The loss between these is a straight line in dB. The border of a rain cell is sharp in eta; its
 // loss is off by at most half a step, 0.1 dB in a shower of 40 mm/h at 94 GHz.
@@ -358,10 +357,9 @@ RainDirections rain_directions(const World& world, const sensors::AntennaFrame& 
   const sensors::HeightSpan beam = sensors::heights_in_beam(antenna, sensor);
   const bool one_layer = world.volume_echo->same_at_all_heights(beam.lowest_m, beam.highest_m);
   // Rain cells are looked for in vertical half-planes, which azimuths of one that leans are not quite.
-  const double leans = std::hypot(antenna.up.x, antenna.up.y);
+  const double leans_m = std::hypot(antenna.up.x, antenna.up.y) * sensor.range.maximum_m();
   const bool leans_little = sensor.scan.surface == sensors::ScanSurface::plane &&
-                            antenna.up.z > 0.0 && leans <= std::sin(kSharedTilt_rad) &&
-                            leans * sensor.range.maximum_m() <= kSharedHeight_m &&
+                            antenna.up.z > 0.0 && leans_m <= kSharedHeight_m &&
                             !world.volume_echo->has_cells();
   return {one_layer ? kSmoothStep_rad : kLayeredStep_rad,
           azimuths_are_upright(antenna, sensor.scan.surface) ||

@@ -13,9 +13,9 @@
 // Inside a range cell eta is that of the middle and the loss decays exponentially; over elevation
 // both are interpolated between values 0.1 deg apart, or 2 deg where no top, base or melting layer
 // lies within the beam. Azimuths of a plane scan share them beside rain cells: those of a level
-// antenna, and where no border of a layer lies within the beam those of one that leans by up to 0.02 rad
-// and changes no height within range by more than 75 m with that, as level at the aircraft does 127 km
-// from the scene's origin.
+// antenna, and where no border of a layer lies within the beam those of one whose tilt changes no height
+// within range by more than 75 m: at 3.7 km 0.02 rad, as of level at the aircraft 127 km from the
+// scene's origin.
 //
 // Neglected: depolarisation, multiple scattering, echo that reaches the antenna by way of the ground.
 // Accuracy: 0.02 dB over level ground against the closed form; where a silhouette cuts the beam, half
