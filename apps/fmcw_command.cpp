@@ -91,12 +91,7 @@ int fmcw(FmcwOptions& options, const CommonOptions& common) {
   try {
     const session::FmcwSequenceSettings settings = sequence_of(options);
     std::optional<Progress> bar;
-    const auto progress = [&](int done, int total) {
-      if (done == 0)
-        bar.emplace(scene->description.name, total, common.quiet);
-      else
-        bar->step(done);
-    };
+    const auto progress = frames_progress(bar, scene->description.name, common.quiet);
     const session::FmcwSequence sequence = session::run_fmcw(*scene, settings, progress);
     bar.reset();
     if (!common.quiet) print_summary(sequence);

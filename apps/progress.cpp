@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace fanbeam::apps {
 namespace {
@@ -63,6 +64,16 @@ void Progress::step(int done) {
     print_line(fmt::format("{} of {} {}, {:.1f} {}/s, {} left", done, total_, things_, rate,
                            things_, minutes_text(left_s)));
   }
+}
+
+std::function<void(int, int)> frames_progress(std::optional<Progress>& bar, std::string what,
+                                              bool quiet) {
+  return [&bar, what = std::move(what), quiet](int done, int total) {
+    if (done == 0)
+      bar.emplace(what, total, quiet);
+    else
+      bar->step(done);
+  };
 }
 
 CostProgress::CostProgress(std::string what, double total_s, bool quiet)

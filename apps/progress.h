@@ -2,6 +2,8 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <optional>
 #include <string>
 
 namespace fanbeam::apps {
@@ -43,6 +45,10 @@ class Progress : public ProgressLine {
   int next_line_percent_ = 10;
   double last_drawn_s_ = 0.0;
 };
+
+// What hears how many of how many frames are done, first of none: it makes `bar` with the first.
+std::function<void(int, int)> frames_progress(std::optional<Progress>& bar, std::string what,
+                                              bool quiet);
 
 // Of steps that take very different times, weighed by what they are expected to take.
 class CostProgress : public ProgressLine {

@@ -83,12 +83,7 @@ int render(const RenderOptions& asked, const CommonOptions& common) {
   const StopOnSignals stop_on_signals;
   try {
     std::optional<Progress> bar;
-    const auto progress = [&](int done, int total) {
-      if (done == 0)
-        bar.emplace(scene->description.name, total, common.quiet);
-      else
-        bar->step(done);
-    };
+    const auto progress = frames_progress(bar, scene->description.name, common.quiet);
     const session::Sequence sequence =
         session::render_sequence(session, sequence_of(options, products), progress);
     bar.reset();
