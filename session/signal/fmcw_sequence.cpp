@@ -69,6 +69,7 @@ class FmcwRun {
                     ? core::default_output_folder(scene.description.name, "-fmcw")
                     : settings.output,
                 "", settings.overwrite) {
+    if (runs_chain_) check_processing(radar_, products_);  // before rays are sent
     if (products_.contains(kInterference) && scene.description.interferers.empty())
       core::throw_input_error(core::ErrorClass::ref, "--products", "\"interference\"",
                               "a scene with [[interferer]]: this one has no other radar");

@@ -187,9 +187,8 @@ py::dict frame(const Scene& scene, int index, const std::set<std::string>& produ
       made->radar = session::fmcw_radar(settings, sensor);
       session::check_processing(made->radar, products);
       made->paths = session::fmcw_paths(*now, index, settings);
-      made->frame = session::fmcw_frame(
-          made->radar, sensor, made->paths.paths, index, settings, products,
-          {now->plan, now->accuracy_grey, now->options.wishes}, made->paths.interferers);
+      made->frame =
+          session::fmcw_frame(made->radar, *now, made->paths, index, settings, products);
     });
   });
   const py::object owner = owner_of(made);
