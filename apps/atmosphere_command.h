@@ -21,7 +21,6 @@ struct AtmosphereOptions {
 };
 
 int atmosphere(const AtmosphereOptions& options, const CommonOptions& common);
-CLI::App& add_atmosphere_command(CLI::App& program, AtmosphereOptions& options,
-                                 CommonOptions& common);
+CLI::App& add_atmosphere_command(CLI::App& program, AtmosphereOptions& options);
 
 }  // namespace fanbeam::apps

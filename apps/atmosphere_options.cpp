@@ -107,8 +107,7 @@ Options add_path(CLI::App& command, AtmosphereOptions& options) {
 
 }  // namespace
 
-CLI::App& add_atmosphere_command(CLI::App& program, AtmosphereOptions& options,
-                                 CommonOptions& common) {
+CLI::App& add_atmosphere_command(CLI::App& program, AtmosphereOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "atmosphere", "Loss in air, fog, rain and snow over range, and the echo of what falls");
   CLI::Option* scene =
@@ -145,7 +144,6 @@ CLI::App& add_atmosphere_command(CLI::App& program, AtmosphereOptions& options,
       .add_option("-o,--output", options.output,
                   "Folder for plots, and for CSV and JSON unless --compare (default: none written)")
       ->type_name(kFolderValue);
-  add_common_options(command, common);
   return command;
 }
 

@@ -20,6 +20,6 @@ struct CampaignOptions {
 };
 
 int campaign(const CampaignOptions& options, const CommonOptions& common);
-CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options, CommonOptions& common);
+CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options);
 
 }  // namespace fanbeam::apps

@@ -10,22 +10,19 @@ namespace {
 
 using Task = CampaignOptions::Task;
 
-CLI::App& add_task(CLI::App& campaign, CampaignOptions& options, CommonOptions& common, Task task,
-                   const char* name, const char* what) {
+CLI::App& add_task(CLI::App& campaign, CampaignOptions& options, Task task, const char* name,
+                   const char* what) {
   CLI::App& command = *campaign.add_subcommand(name, what);
   command.add_option("FILE", options.file, "Campaign (docs/campaigns.md)")
       ->type_name(kFileValue)
       ->required();
   command.callback([&options, task] { options.task = task; });
-  add_common_options(command, common);
   return command;
 }
 
 void add_output(CLI::App& command, CampaignOptions& options) {
-  command
-      .add_option("-o,--output", options.output,
-                  "Folder of the campaign (default out/<campaign's name>)")
-      ->type_name(kFolderValue);
+  add_output_option(command, options.output,
+                    "Folder of the campaign (default out/<campaign's name>)");
 }
 
 void add_runs(CLI::App& command, CampaignOptions& options) {
@@ -35,21 +32,9 @@ void add_runs(CLI::App& command, CampaignOptions& options) {
       ->type_name("RUNS");
 }
 
-void add_data(CLI::App& command, CampaignOptions& options,
-              const char* what =
-                  "Folder with terrain and flight data, looked at before the one that FANBEAM_DATA "
-                  "names") {
-  command.add_option("--data", options.data, what)->type_name(kFolderValue);
-}
-
-void add_threads(CLI::App& command, CampaignOptions& options) {
-  command.add_option("--threads", options.threads, "Threads to use (default: all cores)")
-      ->check(whole_number_from(0, 1024));
-}
-
-void add_run(CLI::App& campaign, CampaignOptions& options, CommonOptions& common) {
-  CLI::App& run = add_task(campaign, options, common, Task::run, "run",
-                           "Render the runs that are not there yet");
+void add_run(CLI::App& campaign, CampaignOptions& options) {
+  CLI::App& run =
+      add_task(campaign, options, Task::run, "run", "Render the runs that are not there yet");
   add_output(run, options);
   add_runs(run, options);
   run.add_option(
@@ -58,12 +43,12 @@ void add_run(CLI::App& campaign, CampaignOptions& options, CommonOptions& common
          "on the same part too")
       ->type_name("K/N");
   run.add_flag("--replace", options.replace, "Make runs again that are there: verify tells which");
-  add_data(run, options);
-  add_threads(run, options);
+  add_data_option(run, options.data, kDataOrder);
+  add_threads_option(run, options.threads);
 }
 
-void add_slurm(CLI::App& campaign, CampaignOptions& options, CommonOptions& common) {
-  CLI::App& slurm = add_task(campaign, options, common, Task::slurm, "slurm",
+void add_slurm(CLI::App& campaign, CampaignOptions& options) {
+  CLI::App& slurm = add_task(campaign, options, Task::slurm, "slurm",
                              "Write a script that has Slurm do all of it");
   slurm.add_option("-o,--output", options.output, "Script (default job.sh)")->type_name(kFileValue);
   slurm
@@ -73,7 +58,7 @@ void add_slurm(CLI::App& campaign, CampaignOptions& options, CommonOptions& comm
   slurm.add_option("--tasks", options.tasks, "Processes of the job array, a node each")
       ->check(whole_number_from(1, 100'000))
       ->capture_default_str();
-  add_data(slurm, options);
+  add_data_option(slurm, options.data, kDataOrder);
   slurm
       .add_option("--threads", options.threads,
                   "Processors of each process (default: a node for itself)")
@@ -82,36 +67,36 @@ void add_slurm(CLI::App& campaign, CampaignOptions& options, CommonOptions& comm
 
 }  // namespace
 
-CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options, CommonOptions& common) {
+CLI::App& add_campaign_command(CLI::App& program, CampaignOptions& options) {
   CLI::App& campaign = *program.add_subcommand(
       "campaign",
       "Thousands of labelled approaches: drawn conditions, on one machine or a cluster");
   campaign.require_subcommand(1);
   CLI::App& plan =
-      add_task(campaign, options, common, Task::plan, "plan",
+      add_task(campaign, options, Task::plan, "plan",
                "What there is to do: runs, frames, disk, hours, what would be refused");
   plan.add_flag(
       "--pilot,!--no-pilot", options.pilot,
       "Render a few runs of up to four scenes to measure time and disk (the default), or do "
       "not");
-  add_data(plan, options);
-  add_threads(plan, options);
-  add_run(campaign, options, common);
+  add_data_option(plan, options.data, kDataOrder);
+  add_threads_option(plan, options.threads);
+  add_run(campaign, options);
   CLI::App& status =
-      add_task(campaign, options, common, Task::status, "status", "How far it is; others may work");
+      add_task(campaign, options, Task::status, "status", "How far it is; others may work");
   add_output(status, options);
   status.add_flag("--json", options.json, "For programs");
   CLI::App& merge =
-      add_task(campaign, options, common, Task::merge, "merge",
+      add_task(campaign, options, Task::merge, "merge",
                "Write index.csv, manifest.json, coco.json and lard.csv of all runs there");
   add_output(merge, options);
-  CLI::App& verify = add_task(campaign, options, common, Task::verify, "verify",
+  CLI::App& verify = add_task(campaign, options, Task::verify, "verify",
                               "Check every file against its hash, and tell what repairs the rest");
   add_output(verify, options);
   add_runs(verify, options);
-  add_data(verify, options, "That of the runs, for the command that repairs them");
-  add_slurm(campaign, options, common);
-  add_common_options(campaign, common);
+  verify.add_option("--data", options.data, "That of the runs, for the command that repairs them")
+      ->type_name(kFolderValue);
+  add_slurm(campaign, options);
   return campaign;
 }
 

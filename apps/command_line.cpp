@@ -10,6 +10,25 @@
 #include "session/version.h"
 
 namespace fanbeam::apps {
+namespace {
+
+void add_common_options(CLI::App& command, CommonOptions& common) {
+  command.set_version_flag(
+      "--version", "fanbeam " + session::version_text() + " (" + session::commit_text() + ")");
+  command.add_flag("-q,--quiet", common.quiet,
+                   "No progress and no notes: only what was asked for, and errors");
+  command.add_option("--log-level", common.log_level, "Least message level shown")
+      ->check(CLI::IsMember({"trace", "debug", "info", "warning", "error"}))
+      ->capture_default_str();
+  command
+      .add_option("--isa", common.isa,
+                  "Use no instructions beyond this level of x86-64 (v2 SSE4.2, v3 AVX2, v4 "
+                  "AVX-512), in our kernels and in Embree, for pictures that machines of several "
+                  "kinds are to share (default: the best of this machine)")
+      ->check(CLI::IsMember({"v2", "v3", "v4"}));
+}
+
+}  // namespace
 
 CommandLine::CommandLine()
     : program_(
@@ -28,7 +47,7 @@ void CommandLine::put(CLI::App& command, std::function<int()> action) {
 }
 
 void CommandLine::complete(CLI::App& command) {
-  if (command.get_option_no_throw("--quiet") == nullptr) add_common_options(command, common_);
+  add_common_options(command, common_);
   for (CLI::App* below : command.get_subcommands({})) {
     if (below->get_name().empty()) {
       below->set_help_flag();  // a group of options, which CLI11 gives a --help of its own

@@ -17,9 +17,6 @@
 
 namespace fanbeam::apps {
 
-// --version, --quiet, --log-level and --isa, which every command and subcommand has (--help is CLI11's).
-void add_common_options(CLI::App& command, CommonOptions& common);
-
 // Options that several commands have, each with the same name, values and limits wherever it is asked for.
 // `what` is what help says of it.
 CLI::Option* add_accuracy_option(CLI::App& command, double& accuracy_grey, const std::string& what);
@@ -51,13 +48,6 @@ class CommandLine {
     const auto options = std::make_shared<Options>();
     put(declare(program_, *options), [this, options, action] { return action(*options, common_); });
   }
-  // The same of one that adds what every command has at other places than the end.
-  template <class Options, class Run>
-  void add(CLI::App& (*declare)(CLI::App&, Options&, CommonOptions&), Run action) {
-    const auto options = std::make_shared<Options>();
-    put(declare(program_, *options, common_),
-        [this, options, action] { return action(*options, common_); });
-  }
 
   // Reads the command line and runs what it asks for. Returns the program's exit code; what went
   // wrong is on standard error.
@@ -67,6 +57,7 @@ class CommandLine {
 
  private:
   void put(CLI::App& command, std::function<int()> action);
+  // --version, --quiet, --log-level and --isa, for the command and those below (--help is CLI11's).
   void complete(CLI::App& command);
 
   CLI::App program_;

@@ -23,6 +23,6 @@ struct InitOptions {
 // name; a scene that is there already is kept unless `overwrite`. Prints what was found and guessed.
 // Whatever is wrong is printed, all at once, and nothing is written.
 int init_scene(const InitOptions& options, const CommonOptions& common);
-CLI::App& add_init_command(CLI::App& program, InitOptions& options, CommonOptions& common);
+CLI::App& add_init_command(CLI::App& program, InitOptions& options);
 
 }  // namespace fanbeam::apps

@@ -36,7 +36,7 @@ void add_runway_data(CLI::App& command, InitOptions& options) {
 
 }  // namespace
 
-CLI::App& add_init_command(CLI::App& program, InitOptions& options, CommonOptions& common) {
+CLI::App& add_init_command(CLI::App& program, InitOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "init", "Write a commented scene of an airport from runway data and an elevation file");
   command.add_option("FOLDER", options.folder, "Where the scene goes: a new folder")
@@ -76,7 +76,6 @@ CLI::App& add_init_command(CLI::App& program, InitOptions& options, CommonOption
                   "rendering needs the same --data or FANBEAM_DATA")
       ->type_name(kFolderValue);
   command.add_flag("--overwrite", options.overwrite, "Replace a scene that is there already");
-  add_common_options(command, common);
   command.footer(
       "What the data do not say is guessed from them, and told: columns and units of the flight, "
       "what heights count from, the buildings' height property. Nothing is written on an error. "

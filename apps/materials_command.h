@@ -42,7 +42,6 @@ struct MaterialsOptions {
 
 // Returns an exit code; throws InputError for bad input.
 int materials(const MaterialsOptions& options, const CommonOptions& common);
-CLI::App& add_materials_command(CLI::App& program, MaterialsOptions& options,
-                                CommonOptions& common);
+CLI::App& add_materials_command(CLI::App& program, MaterialsOptions& options);
 
 }  // namespace fanbeam::apps

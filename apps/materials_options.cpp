@@ -86,8 +86,7 @@ void add_fit(CLI::App& command, MaterialsOptions& options) {
 
 }  // namespace
 
-CLI::App& add_materials_command(CLI::App& program, MaterialsOptions& options,
-                                CommonOptions& common) {
+CLI::App& add_materials_command(CLI::App& program, MaterialsOptions& options) {
   using Task = MaterialsOptions::Task;
   MaterialsView& view = options.view;
   CLI::App& list = *program.add_subcommand(
@@ -106,13 +105,10 @@ CLI::App& add_materials_command(CLI::App& program, MaterialsOptions& options,
   objects.add_option("--library", view.library, "Object library (default: the shipped one)")
       ->type_name(kFileValue);
   objects.callback([&options] { options.task = Task::objects; });
-  for (CLI::App* subcommand : {&plot, &fit, &objects}) {
-    // Options of the list stand behind the subcommand where they mean something to it.
+  // Options of the list stand behind the subcommand where they mean something to it.
+  for (CLI::App* subcommand : {&plot, &fit, &objects})
     for (CLI::Option* option : of_list) subcommand->excludes(option);
-    add_common_options(*subcommand, common);
-  }
   list.require_subcommand(0, 1);
-  add_common_options(list, common);
   return list;
 }
 

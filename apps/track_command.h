@@ -26,6 +26,6 @@ struct TrackOptions : session::TrackSettings {
 
 // Returns an exit code; throws InputError for bad input.
 int track(const TrackOptions& options, const CommonOptions& common);
-CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOptions& common);
+CLI::App& add_track_command(CLI::App& program, TrackOptions& options);
 
 }  // namespace fanbeam::apps

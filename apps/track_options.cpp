@@ -15,8 +15,7 @@ void add_own_data(CLI::App& command, TrackOptions& options) {
                   "TOML file of the radar (docs/fmcw.md) that a scene is seen by or that recorded "
                   "samples or detections (default: the scene's, or radar.toml in the folder)")
       ->type_name(kFileValue);
-  command.add_option("--frames", options.frames, "Of a scene, A:B[:STEP] (default: all)")
-      ->type_name(kFramesValue);
+  add_frames_option(command, options.frames, "Of a scene, A:B[:STEP] (default: all)");
   command.add_option("--sensor", options.sensor, "Of a scene, instead of its own")
       ->type_name(kSensorValue);
   command.add_option("--data", options.data, "Folder of terrain data, of a scene")
@@ -109,7 +108,7 @@ void add_study(CLI::App& command, TrackOptions& options) {
 
 }  // namespace
 
-CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOptions& common) {
+CLI::App& add_track_command(CLI::App& program, TrackOptions& options) {
   CLI::App& command = *program.add_subcommand("track",
                                               "A highway scenario, a scene's signals, recorded "
                                               "samples or detections to tracks and metrics");
@@ -122,16 +121,12 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
       ->required();
   add_own_data(command, options);
   command.add_option("--scenario", options.scenario, "Id of one scenario (default: all)");
-  command
-      .add_option("-o,--output", options.output,
-                  "Folder to write to (default out/<file's name>-tracks)")
-      ->type_name(kFolderValue);
+  add_output_option(command, options.output,
+                    "Folder to write to (default out/<file's name>-tracks)");
   add_tracker(command, options);
   add_simulation(command, options);
   command.add_flag("--plots", options.plots, "Draw range and errors over time too (needs gnuplot)");
-  command.add_option("--seed", options.seed, "Seed of everything random")
-      ->check(any_seed())
-      ->capture_default_str();
+  add_seed_option(command, options.seed);
   add_study(command, options);
   command.footer(
       "Writes tracks.csv (with the covariance of x, y, vx, vy and the normalised error squared "
@@ -144,7 +139,6 @@ CLI::App& add_track_command(CLI::App& program, TrackOptions& options, CommonOpti
       "simulated radar belong to highway scenarios alone. "
       "Places are relative to the radar, x forward and y right; azimuths positive right, speeds "
       "positive receding.");
-  add_common_options(command, common);
   command.parse_complete_callback([&command, &options] {
     for (const CLI::Option* option : command.get_options())
       if (option->count() > 0) options.given.insert(option->get_name());

@@ -17,6 +17,6 @@ struct WaveformOptions : session::WaveformSettings {
 };
 
 int waveform(const WaveformOptions& options, const CommonOptions& common);
-CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options, CommonOptions& common);
+CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options);
 
 }  // namespace fanbeam::apps

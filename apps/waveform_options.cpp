@@ -8,7 +8,7 @@
 
 namespace fanbeam::apps {
 
-CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options, CommonOptions& common) {
+CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options) {
   CLI::App& command = *program.add_subcommand(
       "waveform", "What a radar waveform can measure, and what it reads for a target");
   std::vector<std::string> kinds;
@@ -48,7 +48,6 @@ CLI::App& add_waveform_command(CLI::App& program, WaveformOptions& options, Comm
       "A parameter that the kind does not have is refused. The range of a triangle's target is "
       "that at its turnaround. Beats are transmitted minus received frequency: a receding target's "
       "Doppler is positive.");
-  add_common_options(command, common);
   return command;
 }
 
