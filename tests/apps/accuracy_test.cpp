@@ -10,15 +10,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kFrames = " --frames 100:160:20 ";
 const std::string kPictures = " -q --products bscope,cscope,power ";
 const char* const kCasters[] = {"rays", "profile"};
 
-Result render(const fs::path& folder, const std::string& words) {
-  const Result result = run_fanbeam("render obstacle-field -o " + quoted(folder) + " " + words);
-  INFO(result.output);
-  REQUIRE(result.exit_code == 0);
-  return result;
+Result render_obstacles(const fs::path& folder, const std::string& words) {
+  return render("obstacle-field", folder, words);
 }
 
 // Four columns: a ladder of samplings is then quickly climbed.
@@ -46,17 +42,17 @@ TEST_CASE("--accuracy gives the same bytes for any number of threads and choice 
     INFO(caster);
     const std::string words = kPictures + "--accuracy 0.3 --caster " + caster;
     const fs::path together = folder.path() / (caster + "-1");
-    render(together, words + kFrames + "--threads 1");
+    render_obstacles(together, words + kThreeFrames + "--threads 1");
     const auto first = results(together);
     CHECK(first.size() >= 9);
-    render(folder.path() / (caster + "-2"), words + kFrames + "--threads 2");
+    render_obstacles(folder.path() / (caster + "-2"), words + kThreeFrames + "--threads 2");
     CHECK((results(folder.path() / (caster + "-2")) == first));
     const nlohmann::json frames = json_of(together / "run.json")["frames"];
     for (const auto& [frame, index] :
          std::vector<std::pair<std::string, int>>{{"140", 2}, {"120", 1}}) {
       INFO("frame " << frame);
       const fs::path alone = folder.path() / (caster + frame);
-      render(alone, words + " --frames " + frame);
+      render_obstacles(alone, words + " --frames " + frame);
       CHECK(json_of(alone / "run.json")["frames"][0] == frames[static_cast<std::size_t>(index)]);
       for (const auto& [name, bytes] : pictures(alone))
         CHECK((bytes.empty() || bytes == bytes_of(together / name)));
@@ -73,8 +69,8 @@ TEST_CASE("--accuracy leaves at most half of its error to sampling, and more of 
       INFO(caster << " to " << accuracy_grey);
       const std::string asked = nlohmann::json(accuracy_grey).dump();
       const Result result =
-          render(folder.path() / "out",
-                 "--products bscope,cscope --accuracy " + asked + kFrames + "--caster " + caster);
+          render_obstacles(folder.path() / "out", "--products bscope,cscope --accuracy " + asked +
+                                                      kThreeFrames + "--caster " + caster);
       CHECK(result.output.find("sampling error at most 0.") != std::string::npos);
       CHECK(result.output.find(" grey RMS (estimated), asked for ") != std::string::npos);
       CHECK(result.output.find("missed") == std::string::npos);
@@ -111,14 +107,14 @@ TEST_CASE("What a time budget chose gives the same bytes by --rays-per-cell", "[
       const fs::path chosen = folder.path() / "chosen", told = folder.path() / "told";
       fs::remove_all(chosen);
       fs::remove_all(told);
-      render(chosen, words + "--time-budget " + budget_ms);
+      render_obstacles(chosen, words + "--time-budget " + budget_ms);
       nlohmann::json run = json_of(chosen / "run.json");
       const nlohmann::json budget = run["time_budget"];
       CHECK(budget["budget_ms"] == std::stod(budget_ms));
       CHECK(budget["estimated_error_grey"] > 0.0);
       if (budget_ms == "1e6") CHECK(budget["rays_per_cell"] == 64.0);  // the finest of the ladder
       if (budget_ms == "1e6") CHECK(budget["fits"] == true);
-      render(told, words + "--rays-per-cell " + budget["rays_per_cell"].dump());
+      render_obstacles(told, words + "--rays-per-cell " + budget["rays_per_cell"].dump());
       CHECK(pictures(chosen).size() == 6);  // with their folders
       CHECK((pictures(chosen) == pictures(told)));
       run.erase("time_budget");
@@ -133,8 +129,8 @@ TEST_CASE("A time budget that nothing meets takes the coarsest sampling and says
   for (const auto& [caster, coarsest] :
        std::vector<std::pair<std::string, double>>{{"rays", 0.5}, {"profile", 0.3}}) {
     INFO(caster);
-    const Result result =
-        render(folder.path() / "out", "--time-budget 0.1 --frames 120 --caster " + caster);
+    const Result result = render_obstacles(folder.path() / "out",
+                                           "--time-budget 0.1 --frames 120 --caster " + caster);
     CHECK(result.output.find(" ms of 0.1 ms a frame, sampling error ") != std::string::npos);
     CHECK(result.output.find("--rays-per-cell " + std::string(caster == "rays" ? "0.5" : "0.3") +
                              " (the coarsest there is, and too slow)") != std::string::npos);
@@ -152,10 +148,10 @@ TEST_CASE("Time and accuracy together: the coarsest sampling that is accurate en
     double before = 0.0;
     for (const double accuracy_grey : {20.0, 1.0, 0.5}) {
       INFO(caster << " to " << accuracy_grey);
-      render(folder.path() / "out",
-             "-q --products bscope,cscope --frames 120 --time-budget 1e6 "
-             "--accuracy " +
-                 nlohmann::json(accuracy_grey).dump() + " --caster " + caster + sensor);
+      render_obstacles(folder.path() / "out",
+                       "-q --products bscope,cscope --frames 120 --time-budget 1e6 "
+                       "--accuracy " +
+                           nlohmann::json(accuracy_grey).dump() + " --caster " + caster + sensor);
       const nlohmann::json budget = json_of(folder.path() / "out/run.json")["time_budget"];
       CHECK(budget["fits"] == true);
       CHECK(budget["estimated_error_grey"] <= accuracy_grey / 2.0);
@@ -174,9 +170,9 @@ TEST_CASE("A time budget with an accuracy is repeated by --rays-per-cell with th
   const std::string words =
       kPictures + "--frames 120 --caster rays --accuracy 4" + narrow_view(folder);
   const fs::path chosen = folder.path() / "chosen", told = folder.path() / "told";
-  render(chosen, words + " --time-budget 1e6");
+  render_obstacles(chosen, words + " --time-budget 1e6");
   const nlohmann::json budget = json_of(chosen / "run.json")["time_budget"];
-  render(told, words + " --rays-per-cell " + budget["rays_per_cell"].dump());
+  render_obstacles(told, words + " --rays-per-cell " + budget["rays_per_cell"].dump());
   CHECK((pictures(chosen) == pictures(told)));
 }
 
@@ -217,35 +213,36 @@ TEST_CASE("--resume takes the estimated errors of finished frames over", "[accur
     INFO(caster);
     const fs::path out = folder.path() / caster;
     const std::string words =
-        "--resume --products bscope,cscope --caster " + caster + kFrames + "--accuracy ";
+        "--resume --products bscope,cscope --caster " + caster + kThreeFrames + "--accuracy ";
     const std::string summary = "sampling error at most ";
     const auto told = [&](const std::string& output) {
       const std::size_t at = output.find(summary);
       REQUIRE(at != std::string::npos);
       return output.substr(at, output.find('\n', at) - at);
     };
-    const std::string first_told = told(render(out, words + "0.3").output);
+    const std::string first_told = told(render_obstacles(out, words + "0.3").output);
     const auto first = results(out);
-    const Result all = render(out, words + "0.3");
+    const Result all = render_obstacles(out, words + "0.3");
     CHECK(all.output.find("(3 already there)") != std::string::npos);
     CHECK(told(all.output) == first_told);
     CHECK((results(out) == first));
     fs::remove(out / "cscope/00120.png");
-    CHECK(render(out, words + "0.3").output.find("(2 already there)") != std::string::npos);
+    CHECK(render_obstacles(out, words + "0.3").output.find("(2 already there)") !=
+          std::string::npos);
     CHECK((results(out) == first));
     // Frames of another accuracy are others.
-    CHECK(render(out, words + "0.4").output.find("already there") == std::string::npos);
+    CHECK(render_obstacles(out, words + "0.4").output.find("already there") == std::string::npos);
   }
 }
 
 TEST_CASE("--estimate-error tells the error and leaves the pictures alone", "[accuracy]") {
   const TemporaryFolder folder;
   for (const std::string caster : kCasters) {
-    const std::string words = kPictures + kFrames + "--rays-per-cell 2 --caster " + caster;
+    const std::string words = kPictures + kThreeFrames + "--rays-per-cell 2 --caster " + caster;
     const fs::path plain = folder.path() / (caster + "-plain");
     const fs::path estimated = folder.path() / (caster + "-estimated");
-    render(plain, words);
-    render(estimated, words + " --estimate-error");
+    render_obstacles(plain, words);
+    render_obstacles(estimated, words + " --estimate-error");
     const nlohmann::json without = json_of(plain / "run.json")["frames"];
     const nlohmann::json with = json_of(estimated / "run.json")["frames"];
     for (std::size_t i = 0; i < 3; ++i) {

@@ -23,7 +23,7 @@ nlohmann::json frequencies_of(const std::string& words) {
   return nlohmann::json::parse(result.output)["frequencies"];
 }
 
-double number(const nlohmann::json& row, const char* key) { return row[key].get<double>(); }
+double figure(const nlohmann::json& row, const char* key) { return row[key].get<double>(); }
 
 }  // namespace
 
@@ -180,9 +180,9 @@ TEST_CASE("Oxygen and vapour apart meet the ITU's P.676-13 examples, in dry pres
   for (std::size_t i = 0; i < rows.size(); ++i) {
     INFO(rows[i].text("f_GHz") << " GHz");
     const nlohmann::json& row = found[i]["rows"][0];
-    CHECK(number(row, "oxygen_dB") == Approx(rows[i].number("gamma_oxygen")).epsilon(1e-9));
-    CHECK(number(row, "vapour_dB") == Approx(rows[i].number("gamma_water")).epsilon(1e-9));
-    CHECK(number(row, "gas_dB") == Approx(rows[i].number("gamma_total")).epsilon(1e-9));
+    CHECK(figure(row, "oxygen_dB") == Approx(rows[i].number("gamma_oxygen")).epsilon(1e-9));
+    CHECK(figure(row, "vapour_dB") == Approx(rows[i].number("gamma_water")).epsilon(1e-9));
+    CHECK(figure(row, "gas_dB") == Approx(rows[i].number("gamma_total")).epsilon(1e-9));
   }
 }
 
@@ -202,13 +202,13 @@ TEST_CASE("Dry pressure and humidity, total pressure and density are the same ai
       air("--pressure 1013.25 --vapour-density" + text(vapour_hPa * 216.7 / 293.15));
   for (const char* cause : {"oxygen_dB", "vapour_dB"}) {
     INFO(cause);
-    CHECK(number(dry, cause) == Approx(number(total, cause)).epsilon(1e-5));
-    CHECK(number(density, cause) == Approx(number(total, cause)).epsilon(1e-5));
+    CHECK(figure(dry, cause) == Approx(figure(total, cause)).epsilon(1e-5));
+    CHECK(figure(density, cause) == Approx(figure(total, cause)).epsilon(1e-5));
   }
   // Taking dry for total pressure would be seen: 1.4 % of oxygen's loss.
-  CHECK(number(air("--pressure" + text(1013.25 - vapour_hPa) + " --humidity 0.6"), "oxygen_dB") <
-        0.98 * number(total, "oxygen_dB"));
-  CHECK(number(air("--vapour-density 0"), "vapour_dB") == 0.0);
+  CHECK(figure(air("--pressure" + text(1013.25 - vapour_hPa) + " --humidity 0.6"), "oxygen_dB") <
+        0.98 * figure(total, "oxygen_dB"));
+  CHECK(figure(air("--vapour-density 0"), "vapour_dB") == 0.0);
 }
 
 TEST_CASE("Rain at any tilt and path elevation meets the ITU's P.838-3 examples",
@@ -222,9 +222,9 @@ TEST_CASE("Rain at any tilt and path elevation meets the ITU's P.838-3 examples"
         row.text("tau_deg") + " --path-elevation " + row.text("elevation_deg"))[0];
     INFO(row.text("f_GHz") << " GHz, elevation " << row.text("elevation_deg") << ", tilt "
                            << row.text("tau_deg"));
-    CHECK(number(found["rain"], "k") == Approx(row.number("k")).epsilon(0.0).margin(6e-9));
-    CHECK(number(found["rain"], "alpha") == Approx(row.number("alpha")).epsilon(0.0).margin(6e-9));
-    CHECK(number(found["rows"][0], "rain_dB") ==
+    CHECK(figure(found["rain"], "k") == Approx(row.number("k")).epsilon(0.0).margin(6e-9));
+    CHECK(figure(found["rain"], "alpha") == Approx(row.number("alpha")).epsilon(0.0).margin(6e-9));
+    CHECK(figure(found["rows"][0], "rain_dB") ==
           Approx(row.number("gamma_dB_km")).epsilon(0.0).margin(6e-9));
   }
   // Circular, 45 deg: k is the mean of P.838-3's 0.3374 and 0.3224 at 35 GHz, alpha their mean
@@ -232,12 +232,12 @@ TEST_CASE("Rain at any tilt and path elevation meets the ITU's P.838-3 examples"
   for (const char* elevation : {"0", "60"}) {
     const nlohmann::json circular = frequencies_of("--frequency 35 --rain 10 --tilt 45 " +
                                                    ("--path-elevation " + std::string(elevation)));
-    CHECK(number(circular[0]["rain"], "k") == Approx(0.3299).epsilon(0.0).margin(5e-5));
-    CHECK(number(circular[0]["rain"], "alpha") ==
+    CHECK(figure(circular[0]["rain"], "k") == Approx(0.3299).epsilon(0.0).margin(5e-5));
+    CHECK(figure(circular[0]["rain"], "alpha") ==
           Approx((0.3374 * 0.9047 + 0.3224 * 0.8761) / 0.6598).epsilon(0.0).margin(1e-4));
   }
   const auto rain_dB = [](const std::string& words) {
-    return number(frequencies_of("--rain 10 " + words)[0]["rows"][0], "rain_dB");
+    return figure(frequencies_of("--rain 10 " + words)[0]["rows"][0], "rain_dB");
   };
   CHECK(rain_dB("--tilt 0") == rain_dB("--polarisation HH"));
   CHECK(rain_dB("--tilt 90") == rain_dB("--polarisation VV"));

@@ -11,15 +11,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kFrames = " --frames 100:160:20 ";
-
-Result render(const std::string& scene, const fs::path& folder, const std::string& words) {
-  const Result result = run_fanbeam("render " + scene + " -o " + quoted(folder) + " " + words);
-  INFO(result.output);
-  REQUIRE(result.exit_code == 0);
-  return result;
-}
-
 std::string note(const fs::path& picture, const std::string& name) {
   for (const auto& [key, value] : core::read_metadata(picture))
     if (key == name) return value;
@@ -66,12 +57,13 @@ TEST_CASE("Slices give the same bytes for any number of threads and any order of
           "[caster]") {
   const TemporaryFolder folder;
   const std::string words = "-q --rays-per-cell 2 --caster profile --products bscope,cscope,power ";
-  render("obstacle-field", folder.path() / "one", words + kFrames + "--threads 1");
+  render("obstacle-field", folder.path() / "one", words + kThreeFrames + "--threads 1");
   const auto one = results(folder.path() / "one");
   CHECK(one.size() >= 9);
   for (const char* threads : {"2", "3"}) {
     INFO(threads << " threads");
-    render("obstacle-field", folder.path() / threads, words + kFrames + "--threads " + threads);
+    render("obstacle-field", folder.path() / threads,
+           words + kThreeFrames + "--threads " + threads);
     CHECK((results(folder.path() / threads) == one));
   }
   for (const std::string frame : {"140", "100", "120"}) {
@@ -169,7 +161,7 @@ TEST_CASE("Of a fraction of slices there is the next whole number, with fewer ra
 TEST_CASE("--resume takes slices up again, but no frame of the other caster", "[caster]") {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
-  const std::string words = kFrames + "--rays-per-cell 2 --resume --caster ";
+  const std::string words = kThreeFrames + "--rays-per-cell 2 --resume --caster ";
   render("obstacle-field", out, words + "profile");
   const auto first = results(out);
   CHECK(render("obstacle-field", out, words + "profile").output.find("(3 already there)") !=

@@ -54,7 +54,7 @@ above_ground_m = 2.0
 heading_deg = 0.0
 )";
 
-const std::string kQuick = " --chirps 64 --quiet ";
+const std::string kFewChirps = " --chirps 64 --quiet ";
 
 struct Peak {
   std::vector<std::size_t> shape, place;
@@ -102,7 +102,7 @@ TEST_CASE("A lone target stands at its cell of map, cube and list", "[fmcw]") {
   folder.write("scene.toml", kLoneTarget);
   const fs::path out = folder.path() / "out";
   const auto run =
-      tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) + kQuick +
+      tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) + kFewChirps +
                          "--products beat,cube,range-doppler,detections -o " + tests::quoted(out));
   INFO(run.output);
   REQUIRE(run.exit_code == 0);
@@ -173,7 +173,7 @@ TEST_CASE("The power of a target is what reaches the samples, and the same from 
                                                  : "behind_threshold_m = 40.0"));
       const fs::path out = folder.path() / "out";
       const auto run =
-          tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) + kQuick + samples +
+          tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) + kFewChirps + samples +
                              "--products detections -o " + tests::quoted(out));
       INFO(run.output);
       REQUIRE(run.exit_code == 0);
@@ -199,7 +199,7 @@ TEST_CASE("fmcw gives the same bytes again, for any number of threads", "[fmcw]"
   folder.write("scene.toml", kLoneTarget);
   const auto render = [&](const char* name, const std::string& words) {
     const fs::path out = folder.path() / name;
-    const auto run = tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) + kQuick +
+    const auto run = tests::run_fanbeam("fmcw " + tests::quoted(folder.path()) + kFewChirps +
                                         "--products cube,range-azimuth,top-view,detections " +
                                         words + " -o " + tests::quoted(out));
     INFO(run.output);
@@ -236,7 +236,7 @@ TEST_CASE("Samples alone are recorded with the cube's azimuths and without detec
 TEST_CASE("fmcw refuses what it cannot use", "[fmcw]") {
   const tests::TemporaryFolder folder;
   folder.write("scene.toml", kLoneTarget);
-  const std::string command = "fmcw " + tests::quoted(folder.path()) + kQuick + "-o " +
+  const std::string command = "fmcw " + tests::quoted(folder.path()) + kFewChirps + "-o " +
                               tests::quoted(folder.path() / "out") + " ";
   const auto code = [&](const std::string& words) {
     return tests::run_fanbeam(command + words).exit_code;

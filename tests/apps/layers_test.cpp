@@ -5,15 +5,15 @@
 #include "core/image.h"
 #include "tests/apps/program.h"
 
-namespace {
-
-namespace fs = std::filesystem;
 using namespace fanbeam;
 using tests::json_of;
 using tests::quoted;
 using tests::run_fanbeam;
+namespace fs = std::filesystem;
 
-const fs::path kOut = fs::path(FANBEAM_BINARY_DIR) / "layers_test";
+namespace {
+
+const fs::path kTruthOut = fs::path(FANBEAM_BINARY_DIR) / "layers_test";
 
 const std::vector<double>& layer(const core::Image& image, const std::string& name) {
   const auto found =
@@ -27,8 +27,8 @@ const std::vector<double>& layer(const core::Image& image, const std::string& na
 }  // namespace
 
 TEST_CASE("render writes layers whose numbers layers.json names", "[layers]") {
-  const fs::path out = kOut / "out";
-  fs::remove_all(kOut);
+  const fs::path out = kTruthOut / "out";
+  fs::remove_all(kTruthOut);
   REQUIRE(run_fanbeam("render braunschweig-26 --frames 971 --products layers,cscope_layers -q "
                       "-o " +
                       quoted(out))
@@ -67,8 +67,9 @@ TEST_CASE("Truth by elevation is refused for a C-scope that draws none", "[layer
   const tests::TemporaryFolder folder;
   std::string scene = tests::bytes_of(FANBEAM_SOURCE_DIR "/scenes/flat-grass/scene.toml");
   folder.write("scene.toml", scene + "\n[display]\ncscope_mode = \"flat_earth\"\n");
-  const tests::Result result = run_fanbeam("render " + quoted(folder.path()) +
-                                           " --products cscope_layers -o " + quoted(kOut / "none"));
+  const tests::Result result =
+      run_fanbeam("render " + quoted(folder.path()) + " --products cscope_layers -o " +
+                  quoted(kTruthOut / "none"));
   INFO(result.output);
   CHECK(result.exit_code == 3);
   CHECK(result.output.find("E-UNSUPPORTED C-scope layers, which labels") != std::string::npos);
@@ -77,10 +78,10 @@ TEST_CASE("Truth by elevation is refused for a C-scope that draws none", "[layer
 
 TEST_CASE("Truth is compared in its own unit: what has no decibels differs all the same",
           "[layers]") {
-  fs::create_directories(kOut);
+  fs::create_directories(kTruthOut);
   const auto written = [](const char* name, const char* layer, double value) {
-    core::write_exr(kOut / name, {2, 1, {{layer, {value, value}}}}, {});
-    return quoted(kOut / name);
+    core::write_exr(kTruthOut / name, {2, 1, {{layer, {value, value}}}}, {});
+    return quoted(kTruthOut / name);
   };
   const std::string dark = written("a.exr", "nrcs_dB", -30.0);
   const tests::Result differs =

@@ -18,10 +18,11 @@ namespace fs = std::filesystem;
 namespace {
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr int kFrames = 1000;  // their own bookkeeping grows: only descriptors and threads count
+// Their own bookkeeping grows: only descriptors and threads count.
+constexpr int kManyFrames = 1000;
 constexpr bool kMemoryCounts = false;
 #else
-constexpr int kFrames = 20000;
+constexpr int kManyFrames = 20000;
 constexpr bool kMemoryCounts = true;
 #endif
 
@@ -92,12 +93,12 @@ void check_frames(const std::string& effects, int count) {
 
 TEST_CASE("F19 twenty thousand frames in one process hold no more than the first thousand",
           "[long_run][F19]") {
-  check_frames("-side-lobes,-double-bounce,-rain-echo,-range-response", kFrames);
+  check_frames("-side-lobes,-double-bounce,-rain-echo,-range-response", kManyFrames);
 }
 
 TEST_CASE("F19 a thousand frames with every effect hold no more than the first two hundred",
           "[long_run][F19]") {
-  check_frames("", std::max(kFrames / 20, 250));
+  check_frames("", std::max(kManyFrames / 20, 250));
 }
 
 TEST_CASE("F19 a render of hundreds of pictures holds no more than at its start",

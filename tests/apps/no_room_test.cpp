@@ -210,7 +210,7 @@ std::vector<Writing> writings() {
       {"plots of materials", "materials plot short_grass asphalt_worn ", "gnuplot"}};
 }
 
-bool has_program(const std::string& name) {
+bool can_run(const std::string& name) {
   return name.empty() ||
          std::system((name + " --version >/dev/null 2>&1 || " + name + " -version >/dev/null 2>&1")
                          .c_str()) == 0;
@@ -222,7 +222,7 @@ TEST_CASE("F17 whatever writes: no file or a whole one, and exit code 4, by disk
           "[no_room]") {
   const TemporaryFolder folder;
   for (const Writing& writing : writings()) {
-    if (!has_program(writing.needs)) {
+    if (!can_run(writing.needs)) {
       std::cout << "[not run] " << writing.what << " need " << writing.needs << '\n';
       continue;
     }
@@ -267,7 +267,7 @@ TEST_CASE("F17 whatever writes: no file or a whole one, and exit code 4, by disk
 }
 
 TEST_CASE("F17 a film that a killed run was making is gone after --resume", "[no_room]") {
-  if (!has_program("ffmpeg")) {
+  if (!can_run("ffmpeg")) {
     std::cout << "[not run] needs the ffmpeg program\n";
     return;
   }

@@ -15,14 +15,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kQuick = " --rays-per-cell 1 -q ";
+const std::string kFewRays = " --rays-per-cell 1 -q ";
 
-Result render(const fs::path& folder, const std::string& words) {
-  return run_fanbeam("render " + words + kQuick + "-o " + quoted(folder));
+Result render_quickly(const fs::path& folder, const std::string& words) {
+  return run_fanbeam("render " + words + kFewRays + "-o " + quoted(folder));
 }
 
 void must_render(const fs::path& folder, const std::string& words) {
-  const Result result = render(folder, words);
+  const Result result = render_quickly(folder, words);
   INFO(result.output);
   REQUIRE(result.exit_code == 0);
 }
@@ -70,7 +70,8 @@ TEST_CASE("A run that could write no picture leaves the one before it whole, its
   // No file can take its place, whoever asks.
   fs::create_directories(out / "bscope/00100.png");
   folder.write("out/bscope/00100.png/.kept", "");
-  const Result failed = render(out, "obstacle-field --frames 100 --products bscope --seed 5");
+  const Result failed =
+      render_quickly(out, "obstacle-field --frames 100 --products bscope --seed 5");
   INFO(failed.output);
   CHECK(failed.exit_code == 4);
   for (const auto& [name, bytes] : before) {
@@ -142,7 +143,7 @@ TEST_CASE("A folder with other files is refused by their names, and --overwrite 
   std::ofstream(out / ".hidden") << "mine";
   const auto before = contents(out);
   for (const char* more : {"", " --resume"}) {
-    const Result refused = render(out, std::string("flat-grass --frames 0") + more);
+    const Result refused = render_quickly(out, std::string("flat-grass --frames 0") + more);
     INFO(refused.output);
     CHECK(refused.exit_code == 2);
     CHECK(refused.output.find("bscope/00100.png, bscope/00120.png, bscope/mine.png, notes.txt") !=
@@ -156,7 +157,7 @@ TEST_CASE("A folder with other files is refused by their names, and --overwrite 
                                                   "notes.txt", "run.json", "timing.json"});
   CHECK(bytes_of(out / "notes.txt") == "mine");
   // Refused again: what is not ours does not become so.
-  CHECK(render(out, "flat-grass --frames 0").exit_code == 2);
+  CHECK(render_quickly(out, "flat-grass --frames 0").exit_code == 2);
 }
 
 TEST_CASE("A hostile run.json cannot have files removed outside the folder, nor others in it",
@@ -178,7 +179,7 @@ TEST_CASE("A hostile run.json cannot have files removed outside the folder, nor 
   for (const std::string record : {"{", "[]", "{\"files\": \"bscope\"}", "{\"frames\": {}}"}) {
     std::ofstream(out / "run.json") << record;
     INFO(record);
-    CHECK(render(out, "obstacle-field --frames 100").exit_code == 2);
+    CHECK(render_quickly(out, "obstacle-field --frames 100").exit_code == 2);
     CHECK(bytes_of(out / "run.json") == record);
   }
 }
@@ -241,7 +242,7 @@ TEST_CASE("A killed run of another input leaves no record of files that it has r
   const fs::path out = folder.path() / "out";
   must_render(out, "flat-grass --frames 0 --products bscope,labels,layers");
   const auto before = contents(out);
-  CHECK(render(out, "obstacle-field --frames 0 --products bscope,nonsense").exit_code == 2);
+  CHECK(render_quickly(out, "obstacle-field --frames 0 --products bscope,nonsense").exit_code == 2);
   CHECK((contents(out) == before));
   Child child({"render", "obstacle-field", "--rays-per-cell", "1", "-q", "-o", out.string(),
                "--frames", "0:400", "--products", "bscope"});

@@ -12,6 +12,7 @@
 #include "tests/apps/program.h"
 
 using namespace fanbeam;
+using tests::track;
 namespace fs = std::filesystem;
 
 namespace {
@@ -29,11 +30,6 @@ receivers = 4
 noise_figure_dB = 12
 )";
 
-tests::Result track(const fs::path& input, const fs::path& out, const std::string& words = "") {
-  return tests::run_fanbeam("track " + tests::quoted(input) + " -q " + words + " -o " +
-                            tests::quoted(out));
-}
-
 std::string car(int first, int last, double begin_s) {
   std::string rows;
   for (int i = first; i < last; ++i)
@@ -41,14 +37,14 @@ std::string car(int first, int last, double begin_s) {
   return rows;
 }
 
-constexpr const char* kColumns = "time_s,range_m,radial_speed_mps,azimuth_deg\n";
+constexpr const char* kTableHead = "time_s,range_m,radial_speed_mps,azimuth_deg\n";
 
 }  // namespace
 
 TEST_CASE("A track does not live through half a minute without frames", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path csv =
-      folder.write("gap.csv", kColumns + car(0, 10, 0.0) + "30,200,1,-40\n30.1,200.1,1,-40\n");
+      folder.write("gap.csv", kTableHead + car(0, 10, 0.0) + "30,200,1,-40\n30.1,200.1,1,-40\n");
   REQUIRE(track(csv, folder.path() / "out").exit_code == 0);
   const std::string tracks = tests::bytes_of(folder.path() / "out/tracks.csv");
   CHECK(tracks.find("\n0.9,1,") != std::string::npos);
@@ -151,7 +147,7 @@ TEST_CASE("Elevations are read from tables and from JSON, and lie within a quart
 
 TEST_CASE("Options of another kind of input are refused by name", "[track]") {
   const tests::TemporaryFolder folder;
-  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const fs::path csv = folder.write("car.csv", kTableHead + car(0, 10, 0.0));
   const auto run = track(csv, folder.path() / "out",
                          "--frames 0:3 --samples --noise-figure 3 --frame-period 0.1");
   CHECK(run.exit_code == 2);
@@ -164,7 +160,7 @@ TEST_CASE("Options of another kind of input are refused by name", "[track]") {
 
 TEST_CASE("The record of another command is not written over", "[track]") {
   const tests::TemporaryFolder folder;
-  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const fs::path csv = folder.write("car.csv", kTableHead + car(0, 10, 0.0));
   const fs::path record = folder.write("run.json", R"({"command": "render"})");
   const auto refused = track(csv, folder.path());
   CHECK(refused.exit_code == 2);
@@ -179,7 +175,7 @@ TEST_CASE("What contradicts itself in a radar file is the file's fault", "[track
   std::string text = kRadar;
   text.insert(text.find("chirps = 16"), "slots = 3\n");
   const fs::path radar = folder.write("slots.toml", text);
-  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const fs::path csv = folder.write("car.csv", kTableHead + car(0, 10, 0.0));
   const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
   CHECK(run.exit_code == 3);
   CHECK(run.output.find("slots.toml: E-UNSUPPORTED waveform.slots = 3") != std::string::npos);
@@ -200,7 +196,7 @@ TEST_CASE(
   const fs::path radar = folder.write("triangle.toml",
                                       "[waveform]\nkind = \"triangle\"\nfrequency_GHz = 76\n"
                                       "bandwidth_MHz = 250\n[receiver]\nnoise_figure_dB = 10\n");
-  const fs::path csv = folder.write("car.csv", kColumns + car(0, 10, 0.0));
+  const fs::path csv = folder.write("car.csv", kTableHead + car(0, 10, 0.0));
   const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
   INFO(run.output);
   CHECK(run.exit_code == 3);
@@ -288,7 +284,7 @@ TEST_CASE("Real samples are not read as complex ones", "[track]") {
 TEST_CASE("A radar file and detections that are wrong are told together", "[track]") {
   const tests::TemporaryFolder folder;
   const fs::path radar = folder.write("bad.toml", std::string(kRadar) + "colour = 1\n");
-  const fs::path csv = folder.write("bad.csv", std::string(kColumns) + "0,-3,1,0\n");
+  const fs::path csv = folder.write("bad.csv", std::string(kTableHead) + "0,-3,1,0\n");
   const auto run = track(csv, folder.path() / "out", "--radar " + tests::quoted(radar));
   INFO(run.output);
   CHECK(run.exit_code == 3);

@@ -12,6 +12,7 @@
 #include "tests/apps/program.h"
 
 using namespace fanbeam;
+using tests::track;
 namespace fs = std::filesystem;
 
 namespace {
@@ -23,11 +24,6 @@ int least_followed(const nlohmann::json& record, const std::string& what) {
     if (target["name"].get<std::string>().starts_with(what))
       least = std::min(least, target["followed"].get<int>());
   return least;
-}
-
-tests::Result track(const fs::path& input, const fs::path& out, const std::string& words = "") {
-  return tests::run_fanbeam("track " + tests::quoted(input) + " -q " + words + " -o " +
-                            tests::quoted(out));
 }
 
 }  // namespace

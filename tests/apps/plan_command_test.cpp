@@ -21,13 +21,6 @@ Json json_plan(const std::string& words) {
   return Json::parse(result.output);
 }
 
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
 }  // namespace
 
 TEST_CASE("plan decides as render does", "[plan]") {

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/terrain/ascii_grid.h"
 
@@ -50,6 +51,23 @@ inline std::string bytes_of(const std::filesystem::path& path) {
   return bytes.str();
 }
 
+// What must succeed: a scene by its name, or by its folder as the shell takes it.
+inline Result render(const std::string& scene, const std::filesystem::path& folder,
+                     const std::string& words) {
+  const Result result = run_fanbeam("render " + scene + " -o " + quoted(folder) + " " + words);
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  return result;
+}
+
+// Three of the obstacle field with texture, walls and targets.
+inline const std::string kThreeFrames = " --frames 100:160:20 ";
+
+inline Result track(const std::filesystem::path& input, const std::filesystem::path& out,
+                    const std::string& words = "") {
+  return run_fanbeam("track " + quoted(input) + " -q " + words + " -o " + quoted(out));
+}
+
 // HiVision, but for so few columns that even a reference is quick, and for what `stabilised` says.
 inline std::string narrow_sensor(int columns, bool stabilised = true) {
   std::string sensor = bytes_of(FANBEAM_SOURCE_DIR "/sensors/hivision.toml");
@@ -62,6 +80,13 @@ inline std::string narrow_sensor(int columns, bool stabilised = true) {
   replace("columns = 164", "columns = " + std::to_string(columns));
   replace("stabilised = true", stabilised ? "stabilised = true" : "stabilised = false");
   return sensor;
+}
+
+inline std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
 }
 
 inline nlohmann::json json_of(const std::filesystem::path& path) {

@@ -15,19 +15,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kFrames = "render obstacle-field --frames 100:160:20 --rays-per-cell 1 ";
+const std::string kCheapRender = "render obstacle-field --frames 100:160:20 --rays-per-cell 1 ";
 
 void run(const std::string& words, const fs::path& folder) {
-  const Result result = run_fanbeam(kFrames + words + " -q -o " + quoted(folder));
+  const Result result = run_fanbeam(kCheapRender + words + " -q -o " + quoted(folder));
   INFO(result.output);
   REQUIRE(result.exit_code == 0);
-}
-
-std::vector<std::string> lines_of(const fs::path& path) {
-  std::istringstream text(bytes_of(path));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(text, line);) lines.push_back(line);
-  return lines;
 }
 
 }  // namespace
@@ -73,8 +66,8 @@ TEST_CASE("The expected power is refused beside effects of a draw, which would s
           "[render]") {
   const TemporaryFolder folder;
   for (const std::string effect : {"+speckle", "+swerling"}) {
-    const Result result = run_fanbeam(kFrames + "--realisation mean --effects " + effect + " -o " +
-                                      quoted(folder.path() / "out"));
+    const Result result = run_fanbeam(kCheapRender + "--realisation mean --effects " + effect +
+                                      " -o " + quoted(folder.path() / "out"));
     INFO(result.output);
     CHECK(result.exit_code == 2);
     CHECK(result.output.find("E-UNSUPPORTED --effects = \"" + effect + "\"") != std::string::npos);
@@ -132,7 +125,7 @@ TEST_CASE("Detections: a mask laid out as the B-scope and a table with the same 
   const core::Image mask = core::read_image(folder.path() / "detections/00120.png");
   REQUIRE(mask.columns == 164);
   REQUIRE(mask.rows == 524);
-  std::vector<std::string> lines = lines_of(folder.path() / "detections/00120.csv");
+  std::vector<std::string> lines = lines_of(bytes_of(folder.path() / "detections/00120.csv"));
   CHECK(lines[0] == "# threshold detections");
   CHECK(std::count(lines.begin(), lines.end(), "# fanbeam:frame 120") == 1);
   // One comment stays, for the numbers of lines below.
@@ -167,12 +160,13 @@ TEST_CASE("--resume takes a frame's detections over only with both of their file
   const auto whole = results(folder.path());
   fs::remove(folder.path() / "detections/00120.csv");
   fs::remove(folder.path() / "detections/00140.png");
-  const Result resumed = run_fanbeam(kFrames + words + " --resume -o " + quoted(folder.path()));
+  const Result resumed =
+      run_fanbeam(kCheapRender + words + " --resume -o " + quoted(folder.path()));
   CHECK(resumed.exit_code == 0);
   CHECK(resumed.output.find("(1 already there)") != std::string::npos);
   CHECK((results(folder.path()) == whole));
   // A table of another input does not count.
   const Result other =
-      run_fanbeam(kFrames + words + " --seed 8 --resume -o " + quoted(folder.path()));
+      run_fanbeam(kCheapRender + words + " --seed 8 --resume -o " + quoted(folder.path()));
   CHECK(other.output.find("already there") == std::string::npos);
 }

@@ -15,13 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Frames of the obstacle field, cheap but with noise-free texture, walls and targets.
-const std::string kFrames = " --frames 100:160:20 --rays-per-cell 1 -q ";
-
-void render(const std::string& scene, const fs::path& folder, const std::string& words) {
-  const Result result = run_fanbeam("render " + scene + " -o " + quoted(folder) + " " + words);
-  INFO(result.output);
-  REQUIRE(result.exit_code == 0);
-}
+const std::string kCheapFrames = " --frames 100:160:20 --rays-per-cell 1 -q ";
 
 std::vector<std::string> keys_of(const nlohmann::json& json) {
   std::vector<std::string> keys;
@@ -42,7 +36,8 @@ void check_has(const nlohmann::json& json, const std::vector<std::string>& keys)
 TEST_CASE("The output folder holds the pictures by frame number, run.json and timing.json",
           "[render]") {
   const TemporaryFolder folder;
-  render("obstacle-field", folder.path() / "out", kFrames + "--products bscope,cscope,power,ppi");
+  render("obstacle-field", folder.path() / "out",
+         kCheapFrames + "--products bscope,cscope,power,ppi");
   std::vector<std::string> files;
   for (const auto& [name, bytes] : contents(folder.path() / "out"))
     if (!bytes.empty()) files.push_back(name);
@@ -69,7 +64,7 @@ TEST_CASE("The output folder holds the pictures by frame number, run.json and ti
 TEST_CASE("run.json and timing.json have their documented keys, pictures the essentials",
           "[render]") {
   const TemporaryFolder folder;
-  render("obstacle-field", folder.path(), kFrames + "--seed 7 --threads 2");
+  render("obstacle-field", folder.path(), kCheapFrames + "--seed 7 --threads 2");
   const nlohmann::json run = json_of(folder.path() / "run.json");
   check_has(run,
             {"version", "commit", "scene", "sensor", "seed", "caster", "input", "plan", "frames"});
@@ -191,7 +186,7 @@ TEST_CASE("Two runs and any number of threads give the same bytes in everything 
   const TemporaryFolder folder;
   for (const auto& [scene, words] : std::vector<std::pair<std::string, std::string>>{
            {"flat-grass", " -q --products bscope,cscope,power "},
-           {"obstacle-field", kFrames + "--products bscope,cscope,power,ppi "}}) {
+           {"obstacle-field", kCheapFrames + "--products bscope,cscope,power,ppi "}}) {
     render(scene, folder.path() / (scene + "-1"), words + "--threads 1");
     const auto first = results(folder.path() / (scene + "-1"));
     CHECK(first.size() >= 4);
@@ -207,7 +202,7 @@ TEST_CASE("Two runs and any number of threads give the same bytes in everything 
 
 TEST_CASE("A frame does not depend on which frames were rendered before it", "[render]") {
   const TemporaryFolder folder;
-  render("obstacle-field", folder.path() / "together", kFrames);
+  render("obstacle-field", folder.path() / "together", kCheapFrames);
   for (const char* frame : {"140", "100", "120"}) {
     render("obstacle-field", folder.path() / frame,
            std::string("--rays-per-cell 1 -q --frames ") + frame);
@@ -274,7 +269,7 @@ TEST_CASE(
     "[render]") {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
-  render("obstacle-field", out, kFrames);
+  render("obstacle-field", out, kCheapFrames);
   const auto whole = results(out);
   const auto kept_time = fs::last_write_time(out / "bscope/00100.png");
 
@@ -294,7 +289,7 @@ TEST_CASE(
                                    " --frames 100:160:20 --rays-per-cell 2 --resume");
   CHECK(other.output.find("already there") == std::string::npos);
   CHECK_FALSE((results(out) == whole));
-  render("obstacle-field", out, kFrames);
+  render("obstacle-field", out, kCheapFrames);
   CHECK((results(out) == whole));
   CHECK(fs::last_write_time(out / "bscope/00100.png") != kept_time);
 }
@@ -327,7 +322,7 @@ TEST_CASE("A preview is a video of all frames", "[render]") {
   const TemporaryFolder folder;
   for (const std::string format : {"mp4", "gif"}) {
     render("obstacle-field", folder.path() / format,
-           kFrames + "--products preview --preview-format " + format);
+           kCheapFrames + "--products preview --preview-format " + format);
     CHECK(fs::file_size(folder.path() / format / ("preview." + format)) > 1000);
     CHECK(contents(folder.path() / format).size() ==
           3);  // with run.json and timing.json: no leftovers

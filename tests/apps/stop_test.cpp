@@ -22,7 +22,7 @@ constexpr double kLatest_s = 20.0;  // what is instrumented runs ten times as lo
 constexpr double kLatest_s = 1.0;
 #endif
 
-const std::string kFrames = " -q --frames 0:60:5 --rays-per-cell 4" + kAllPictures;
+const std::string kBusyFrames = " -q --frames 0:60:5 --rays-per-cell 4" + kAllPictures;
 
 std::vector<std::string> split(const std::string& words) {
   std::istringstream stream(words);
@@ -36,12 +36,6 @@ std::vector<std::string> render_words(const fs::path& scene, const fs::path& out
   std::vector<std::string> words = {"render", scene.string(), "-o", out.string()};
   for (const std::string& word : split(more)) words.push_back(word);
   return words;
-}
-
-void render(const fs::path& scene, const fs::path& out, const std::string& more) {
-  const Result result = run_fanbeam("render " + quoted(scene) + " -o " + quoted(out) + more);
-  INFO(result.output);
-  REQUIRE(result.exit_code == 0);
 }
 
 bool is_hidden(const std::string& name) { return fs::path(name).filename().string()[0] == '.'; }
@@ -81,12 +75,12 @@ TEST_CASE("SIGTERM and SIGINT end a render within a second and leave whole frame
   const TemporaryFolder folder;
   write_busy_scene(folder);
   const fs::path whole = folder.path() / "whole";
-  render(folder.path(), whole, kFrames);
+  render(quoted(folder.path()), whole, kBusyFrames);
   const Files reference = results(whole);
   for (const int signal : {SIGTERM, SIGINT}) {
     const fs::path out = folder.path() / ("out" + std::to_string(signal));
     {
-      Child child(render_words(folder.path(), out, kFrames));
+      Child child(render_words(folder.path(), out, kBusyFrames));
       child.wait_until_it_handles_signals();
       while (child.running() && !fs::exists(out / "power")) wait_ms(1.0);
       CHECK(stop(child, signal) < kLatest_s);
@@ -94,7 +88,7 @@ TEST_CASE("SIGTERM and SIGINT end a render within a second and leave whole frame
     CHECK(leftovers(out) == 0);
     CHECK_FALSE(fs::exists(out / "run.json"));
     check_whole(out, reference);
-    render(folder.path(), out, kFrames + " --resume");
+    render(quoted(folder.path()), out, kBusyFrames + " --resume");
     CHECK((results(out) == reference));
   }
 }
@@ -156,20 +150,20 @@ TEST_CASE("A render killed at any moment leaves whole files, and --resume comple
   write_busy_scene(folder);
   const fs::path whole = folder.path() / "whole";
   const auto begin = Clock::now();
-  render(folder.path(), whole, kFrames);
+  render(quoted(folder.path()), whole, kBusyFrames);
   const double whole_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   const Files reference = results(whole);
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const fs::path out = folder.path() / ("out" + std::to_string(seed));
     // Killed twice, the second time while it resumes.
     for (std::uint32_t turn = 0; turn < 2; ++turn) {
-      Child child(render_words(folder.path(), out, kFrames + (turn > 0 ? " --resume" : "")));
+      Child child(render_words(folder.path(), out, kBusyFrames + (turn > 0 ? " --resume" : "")));
       wait_ms(whole_ms * core::uniform_from(core::random_words({19, 0, 0}, seed, turn)[0]));
       child.send(SIGKILL);
       child.wait();
       check_whole(out, reference);
     }
-    render(folder.path(), out, kFrames + " --resume");
+    render(quoted(folder.path()), out, kBusyFrames + " --resume");
     INFO("seed " << seed);
     CHECK(leftovers(out) == 0);
     CHECK((results(out) == reference));
@@ -193,7 +187,7 @@ TEST_CASE("--resume removes what a killed run was writing, and nothing else", "[
   const fs::path alive = write(core::temporary_beside(out / "bscope/00001.png"));
   write("bscope/.notes");
   write("bscope/mine.tmp.png");
-  render(folder.path(), out, " -q --frames 0 --resume --overwrite");
+  render(quoted(folder.path()), out, " -q --frames 0 --resume --overwrite");
   CHECK_FALSE(fs::exists(picture));
   CHECK_FALSE(fs::exists(record));
   CHECK(fs::exists(alive));

@@ -6,14 +6,14 @@
 #include "session/session.h"
 #include "tests/bindings/c_session.h"
 
-namespace {
-
 using namespace fanbeam;
 using tests::Buffers;
 using tests::CSession;
 using tests::sized;
 using tests::TemporaryFolder;
 using tests::told;
+
+namespace {
 
 const std::string kMast = R"(
 [[target]]

@@ -9,14 +9,14 @@
 #include "session/session.h"
 #include "tests/bindings/c_session.h"
 
-namespace {
-
 using namespace fanbeam;
 using tests::Buffers;
 using tests::CSession;
 using tests::sized;
 using tests::TemporaryFolder;
 using tests::told;
+
+namespace {
 
 // The same as c_opened() opens.
 std::unique_ptr<session::Session> opened(const TemporaryFolder& folder,

@@ -8,14 +8,14 @@
 #include "bindings/c/fanbeam.h"
 #include "tests/bindings/c_session.h"
 
-namespace {
-
 using namespace fanbeam;
 using tests::Buffers;
 using tests::CSession;
 using tests::sized;
 using tests::TemporaryFolder;
 using tests::told;
+
+namespace {
 
 struct Seen {
   fanbeam_frame frame;

@@ -8,16 +8,12 @@
 #include "bindings/c/fanbeam.h"
 #include "tests/bindings/c_session.h"
 
-namespace {
-
 using namespace fanbeam;
 using tests::Buffers;
 using tests::CSession;
 using tests::sized;
 using tests::TemporaryFolder;
 using tests::told;
-
-}  // namespace
 
 TEST_CASE("What fanbeam_render refuses leaves buffers and output alone", "[bindings]") {
   struct Refused {

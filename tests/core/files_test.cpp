@@ -6,14 +6,16 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <stdexcept>
 #include <string>
 
 #include "core/errors.h"
+#include "tests/core/file_checks.h"
 #include "tests/core/left_temporary.h"
 
 using namespace fanbeam::core;
+using fanbeam::tests::code_of;
+using fanbeam::tests::entries;
 namespace fs = std::filesystem;
 
 namespace {
@@ -34,20 +36,6 @@ class Scratch {
  private:
   fs::path folder_;
 };
-
-std::string code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.problems().at(0).code;
-  }
-  return "accepted";
-}
-
-std::size_t entries(const fs::path& folder) {
-  return static_cast<std::size_t>(
-      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
 
 }  // namespace
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "core/image_compare.h"
+#include "tests/core/file_checks.h"
 #include "tests/core/image_files.h"
 #include "tests/peak_memory.h"
 

@@ -2,24 +2,13 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <string>
 
-#include "core/errors.h"
 #include "core/files.h"
 #include "core/image.h"
 #include "tests/terrain/ascii_grid.h"
 
 namespace fanbeam::tests {
-
-inline std::string code_of(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const core::InputError& error) {
-    return error.problems().at(0).code;
-  }
-  return "accepted";
-}
 
 inline std::string bytes_of(const std::filesystem::path& path) {
   return core::read_file(path, 100U << 20U);

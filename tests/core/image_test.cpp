@@ -8,11 +8,13 @@
 #include <csignal>
 #include <thread>
 
+#include "tests/core/file_checks.h"
 #include "tests/core/image_files.h"
 
 using namespace fanbeam::core;
 using fanbeam::tests::bytes_of;
 using fanbeam::tests::code_of;
+using fanbeam::tests::entries;
 using fanbeam::tests::gradient;
 using fanbeam::tests::kNotes;
 using fanbeam::tests::TemporaryFolder;
@@ -21,11 +23,6 @@ using fanbeam::tests::two_layers;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::size_t entries(const fs::path& folder) {
-  return static_cast<std::size_t>(
-      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
-}
 
 std::string metadata_value(const Metadata& metadata, const std::string& name) {
   for (const auto& [key, value] : metadata)

@@ -23,12 +23,12 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr double kFloatRadian = static_cast<double>(0.01745329238474369F);
 
-std::optional<feeds::AircraftState> decoded(const Bytes& bytes) {
+std::optional<feeds::AircraftState> decoded_fdm(const Bytes& bytes) {
   PacketFault fault{};
   return feeds::decode_native_fdm(bytes, fault);
 }
 
-PacketFault fault_of(const Bytes& bytes) {
+PacketFault fdm_fault_of(const Bytes& bytes) {
   PacketFault fault{};
   CHECK_FALSE(feeds::decode_native_fdm(bytes, fault).has_value());
   return fault;
@@ -85,7 +85,8 @@ const Row* row_at(const std::map<std::pair<long long, long long>, Row>& rows, do
 }  // namespace
 
 TEST_CASE("A packet's fields stand where FlightGear's layout has them", "[native_fdm]") {
-  const auto packet = decoded(tests::native_fdm_bytes(52.0 * kFloatRadian, 10.0 * kFloatRadian));
+  const auto packet =
+      decoded_fdm(tests::native_fdm_bytes(52.0 * kFloatRadian, 10.0 * kFloatRadian));
   REQUIRE(packet.has_value());
   // The simulator's single-precision pi/180 is taken out again.
   CHECK(core::degrees(packet->latitude_rad) == Approx(52.0).epsilon(0.0).margin(5e-13));
@@ -113,7 +114,7 @@ TEST_CASE("Every datagram of the recorded flight is the simulator's own row", "[
   const std::vector<Bytes> packets = datagrams(*recording, 5501);
   REQUIRE(packets.size() > 1800);
   for (const Bytes& bytes : packets) {
-    const auto packet = decoded(bytes);
+    const auto packet = decoded_fdm(bytes);
     REQUIRE(packet.has_value());
     const double latitude_deg = core::degrees(packet->latitude_rad);
     const double longitude_deg = core::degrees(packet->longitude_rad);
@@ -142,27 +143,27 @@ TEST_CASE("Bytes that are no packet are refused with their reason", "[native_fdm
   for (const std::size_t size : {0UL, 1UL, 4UL, 407UL, 409UL, 65507UL}) {
     Bytes other = good;
     other.resize(size);
-    CHECK(fault_of(other) == PacketFault::length);
+    CHECK(fdm_fault_of(other) == PacketFault::length);
   }
   Bytes other = good;
   tests::put(other, 0, 25, 4);
-  CHECK(fault_of(other) == PacketFault::version);
+  CHECK(fdm_fault_of(other) == PacketFault::version);
   for (const std::size_t at : {8UL, 16UL, 24UL}) {
     other = good;
     tests::put(other, at, std::numeric_limits<double>::quiet_NaN());
-    CHECK(fault_of(other) == PacketFault::nonfinite);
+    CHECK(fdm_fault_of(other) == PacketFault::nonfinite);
     tests::put(other, at, 1e9);
-    CHECK(fault_of(other) == PacketFault::range);
+    CHECK(fdm_fault_of(other) == PacketFault::range);
   }
   for (const std::size_t at : {32UL, 36UL, 40UL, 44UL, 76UL, 80UL, 84UL, 364UL}) {
     other = good;
     tests::put(other, at, std::numeric_limits<float>::infinity());
-    CHECK(fault_of(other) == PacketFault::nonfinite);
+    CHECK(fdm_fault_of(other) == PacketFault::nonfinite);
   }
   for (const std::size_t at : {36UL, 76UL}) {
     other = good;
     tests::put(other, at, 1e9F);
-    CHECK(fault_of(other) == PacketFault::range);
+    CHECK(fdm_fault_of(other) == PacketFault::range);
   }
 }
 
@@ -170,18 +171,18 @@ TEST_CASE("F14 states that cannot be are refused with their reason", "[native_fd
   const Bytes good = tests::native_fdm_bytes(0.9, 0.2);
   Bytes other = good;
   tests::put(other, 36, std::numeric_limits<float>::quiet_NaN());  // roll
-  CHECK(fault_of(other) == PacketFault::nonfinite);
-  CHECK(fault_of(tests::native_fdm_bytes(core::radians(91.0), 0.2)) == PacketFault::range);
+  CHECK(fdm_fault_of(other) == PacketFault::nonfinite);
+  CHECK(fdm_fault_of(tests::native_fdm_bytes(core::radians(91.0), 0.2)) == PacketFault::range);
   other = good;
   tests::put(other, 24, 1e9);
-  CHECK(fault_of(other) == PacketFault::range);
+  CHECK(fdm_fault_of(other) == PacketFault::range);
   other.assign(408, 0);
-  CHECK(fault_of(other) == PacketFault::version);
+  CHECK(fdm_fault_of(other) == PacketFault::version);
   tests::put(other, 0, 24, 4);  // as before the simulator has started
-  CHECK(fault_of(other) == PacketFault::range);
+  CHECK(fdm_fault_of(other) == PacketFault::range);
   // The poles and the equator are places.
   for (const double latitude_rad : {-core::kPi / 2, 0.0, core::kPi / 2}) {
-    const auto packet = decoded(tests::native_fdm_bytes(latitude_rad, 0.0));
+    const auto packet = decoded_fdm(tests::native_fdm_bytes(latitude_rad, 0.0));
     REQUIRE(packet.has_value());
     CHECK(feeds::pose_of(*packet).position.latitude_rad == Approx(latitude_rad).margin(1e-7));
     CHECK(std::abs(feeds::pose_of(*packet).position.latitude_rad) <= core::kPi / 2);
@@ -202,7 +203,7 @@ TEST_CASE("Packets with four bytes changed: what is taken is finite and possible
     Bytes bytes = good;
     for (int k = 0; k < 4; ++k) bytes[4 + next() % 404] = static_cast<std::uint8_t>(next());
     if (i % 8 == 0) bytes.resize(next() % 600);
-    const auto packet = decoded(bytes);
+    const auto packet = decoded_fdm(bytes);
     if (!packet) continue;
     ++taken;
     const core::Pose pose = feeds::pose_of(*packet);

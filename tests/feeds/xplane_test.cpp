@@ -15,7 +15,7 @@ using tests::xplane_position;
 
 namespace {
 
-PacketFault refusal_of(const std::vector<std::uint8_t>& datagram) {
+PacketFault datagram_refusal(const std::vector<std::uint8_t>& datagram) {
   PacketFault fault{};
   CHECK_FALSE(feeds::decode_xplane(datagram, fault).has_value());
   return fault;
@@ -47,15 +47,15 @@ TEST_CASE("A position is degrees and metres, longitude first, with axes to east,
 TEST_CASE("What is no position is refused with its reason", "[xplane]") {
   auto datagram = xplane_position(52.3, 10.5, 300.0);
   datagram.push_back(0);
-  CHECK(refusal_of(datagram) == PacketFault::length);
+  CHECK(datagram_refusal(datagram) == PacketFault::length);
   datagram.resize(68);
-  CHECK(refusal_of(datagram) == PacketFault::length);
-  CHECK(refusal_of({}) == PacketFault::version);
+  CHECK(datagram_refusal(datagram) == PacketFault::length);
+  CHECK(datagram_refusal({}) == PacketFault::version);
   datagram = xplane_position(52.3, 10.5, 300.0);
   datagram[0] = 'X';
-  CHECK(refusal_of(datagram) == PacketFault::version);
-  CHECK(refusal_of(xplane_position(91.0, 10.5, 300.0)) == PacketFault::range);
-  CHECK(refusal_of(xplane_position(std::numeric_limits<double>::quiet_NaN(), 10.5, 300.0)) ==
+  CHECK(datagram_refusal(datagram) == PacketFault::version);
+  CHECK(datagram_refusal(xplane_position(91.0, 10.5, 300.0)) == PacketFault::range);
+  CHECK(datagram_refusal(xplane_position(std::numeric_limits<double>::quiet_NaN(), 10.5, 300.0)) ==
         PacketFault::nonfinite);
 }
 

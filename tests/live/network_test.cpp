@@ -27,12 +27,12 @@ using udp = asio::ip::udp;
 
 namespace {
 
-struct Station {
-  tests::TemporaryFolder folder;
+struct WebStation {
+  tests::TemporaryFolder folder{};
   std::unique_ptr<session::Session> session = tests::live_session(folder);
-  std::string token;
+  std::string token{};
   std::chrono::milliseconds patience = live::Network::kPatience;
-  live::Hub hub;
+  live::Hub hub{};
   live::Desk desk{*session, hub, nullptr, token.empty() ? live::Access() : live::Access(token, {})};
   live::Network network{desk, hub, patience};
   std::uint16_t port = network.serve({});
@@ -41,7 +41,7 @@ struct Station {
   tcp::endpoint endpoint() const { return {asio::ip::address_v4::loopback(), port}; }
 };
 
-std::shared_ptr<const live::LiveFrame> frame_of(std::uint64_t number, int rows = 2) {
+std::shared_ptr<const live::LiveFrame> narrow_frame(std::uint64_t number, int rows = 2) {
   auto frame = std::make_shared<live::LiveFrame>();
   frame->number = number;
   const std::vector<std::uint8_t> pixels(static_cast<std::size_t>(3 * rows),
@@ -52,7 +52,7 @@ std::shared_ptr<const live::LiveFrame> frame_of(std::uint64_t number, int rows =
 
 using WebSocket = beast::websocket::stream<tcp::socket>;
 
-std::unique_ptr<WebSocket> watching(asio::io_context& context, const Station& station,
+std::unique_ptr<WebSocket> watching(asio::io_context& context, const WebStation& station,
                                     const std::string& target = "/ws") {
   auto socket = std::make_unique<WebSocket>(context);
   socket->next_layer().connect(station.endpoint());
@@ -69,7 +69,7 @@ json next_head(WebSocket& socket, std::string* pixels = nullptr) {
 }
 
 // What the server says to these bytes before it closes or falls silent for a second.
-std::string answer_to(const Station& station, const std::string& bytes) {
+std::string answer_to(const WebStation& station, const std::string& bytes) {
   asio::io_context context;
   tcp::socket socket(context);
   socket.connect(station.endpoint());
@@ -107,7 +107,7 @@ TEST_CASE("Addresses are this machine's, ports are ports", "[network]") {
 }
 
 TEST_CASE("A browser gets the page, and an error for what is not there", "[network][threads]") {
-  Station station;
+  WebStation station;
   station.network.start();
   const std::string ask = " HTTP/1.1\r\nHost: " + station.host() + "\r\nConnection: close\r\n\r\n";
   CHECK(answer_to(station, "GET /" + ask).starts_with("HTTP/1.1 200"));
@@ -126,7 +126,7 @@ TEST_CASE("A browser gets the page, and an error for what is not there", "[netwo
 }
 
 TEST_CASE("Nonsense and floods are cut off, and the next visitor is served", "[network][threads]") {
-  Station station;
+  WebStation station;
   station.network.start();
   CHECK(answer_to(station, std::string(100000, 'x')).find("200 OK") == std::string::npos);
   CHECK(answer_to(station, "GET / HTTP/1.1\r\nHost: " + std::string(20000, 'h') + "\r\n\r\n")
@@ -150,7 +150,7 @@ TEST_CASE("Nonsense and floods are cut off, and the next visitor is served", "[n
 
 TEST_CASE("F16 frames arrive whole and in order; who reads late, or never, misses some alone",
           "[network][threads]") {
-  Station station;
+  WebStation station;
   station.network.start();
   asio::io_context context;
   const auto quick = watching(context, station), slow = watching(context, station);
@@ -159,7 +159,7 @@ TEST_CASE("F16 frames arrive whole and in order; who reads late, or never, misse
   constexpr int kFrames = 50, kRows = 100'000;  // enough to fill every buffer on the way
   std::uint64_t last = 0;
   for (std::uint64_t number = 1; number <= kFrames; ++number) {
-    station.hub.publish(frame_of(number, kRows));
+    station.hub.publish(narrow_frame(number, kRows));
     std::string pixels;
     const json head = next_head(*quick, &pixels);
     const auto got = head["number"].get<std::uint64_t>();
@@ -183,7 +183,7 @@ TEST_CASE("F16 frames arrive whole and in order; who reads late, or never, misse
 // Whoever also sent something was never left.
 TEST_CASE("F16 a socket that takes no frame while patience lasts is left, silent or not",
           "[network][threads]") {
-  Station station{.patience = std::chrono::seconds(5)};
+  WebStation station{.patience = std::chrono::seconds(5)};
   station.network.start();
   asio::io_context context;
   const auto quick = watching(context, station), silent = watching(context, station);
@@ -191,7 +191,7 @@ TEST_CASE("F16 a socket that takes no frame while patience lasts is left, silent
   wait_for([&] { return station.network.clients() == 3; });
   constexpr int kFrames = 50, kRows = 100'000;  // enough to fill every buffer on the way
   for (std::uint64_t number = 1; number <= kFrames; ++number) {
-    station.hub.publish(frame_of(number, kRows));
+    station.hub.publish(narrow_frame(number, kRows));
     next_head(*quick);
   }
   wait_for([&] {
@@ -199,13 +199,13 @@ TEST_CASE("F16 a socket that takes no frame while patience lasts is left, silent
     chatty->write(asio::buffer("x", 1), ignored);
     return station.network.clients() == 1;
   });
-  station.hub.publish(frame_of(kFrames + 1));
+  station.hub.publish(narrow_frame(kFrames + 1));
   CHECK(next_head(*quick)["number"] == kFrames + 1);
 }
 
 // Each was rendered to its end, one after the other.
 TEST_CASE("The end does not wait for answers that nobody will get", "[network][threads]") {
-  auto station = std::make_unique<Station>();
+  auto station = std::make_unique<WebStation>();
   station->session->set(session::Samples{200.0});
   const auto scene = station->session->scene();
   const auto before = live::Clock::now();
@@ -237,7 +237,7 @@ TEST_CASE("The end does not wait for answers that nobody will get", "[network][t
 TEST_CASE(
     "Cameras' streams are JPEG pictures one after the other; /frames the WebSocket's messages",
     "[network][threads]") {
-  Station station;
+  WebStation station;
   station.network.start();
   auto frame = std::make_shared<live::LiveFrame>();
   frame->number = 1;
@@ -271,7 +271,7 @@ TEST_CASE(
 
 TEST_CASE("With a token neither page, picture, stream nor socket opens without it",
           "[network][threads]") {
-  Station station{.token = "0123456789abcdef"};
+  WebStation station{.token = "0123456789abcdef"};
   station.network.start();
   const std::string rest = " HTTP/1.1\r\nHost: radar:1\r\nConnection: close\r\n";
   const std::string bearer = "Authorization: Bearer 0123456789abcdef\r\n";
@@ -292,7 +292,7 @@ TEST_CASE("With a token neither page, picture, stream nor socket opens without i
 }
 
 TEST_CASE("Datagrams count from peers alone, where there is a list of them", "[network][threads]") {
-  Station station;
+  WebStation station;
   std::atomic<int> known{0}, foreign{0};
   const auto count = [&](std::span<const std::uint8_t>, const live::Sender& from) {
     ++(from.is_peer ? known : foreign);
@@ -310,7 +310,7 @@ TEST_CASE("Datagrams count from peers alone, where there is a list of them", "[n
 }
 
 TEST_CASE("What is sent goes out from the port that listens", "[network][threads]") {
-  Station station;
+  WebStation station;
   std::atomic<int> heard{0};
   const std::uint16_t port = station.network.receive(
       {"127.0.0.1", 0}, [&](std::span<const std::uint8_t> bytes, const live::Sender& from) {
@@ -330,7 +330,7 @@ TEST_CASE("What is sent goes out from the port that listens", "[network][threads
 }
 
 TEST_CASE("Datagrams arrive as they were sent", "[network][threads]") {
-  Station station;
+  WebStation station;
   std::atomic<int> taken{0}, refused{0};
   const std::uint16_t port =
       station.network.receive({}, [&](std::span<const std::uint8_t> bytes, const live::Sender&) {
@@ -349,7 +349,7 @@ TEST_CASE("Datagrams arrive as they were sent", "[network][threads]") {
 
 TEST_CASE("A channel renders what a flight sees, sixteen times a second, until it is stopped",
           "[network][threads]") {
-  Station station;
+  WebStation station;
   station.network.start();
   asio::io_context context;
   const auto socket = watching(context, station);
@@ -379,7 +379,7 @@ TEST_CASE("A channel renders what a flight sees, sixteen times a second, until i
 
 TEST_CASE("A pose that nothing can be rendered at is counted, and the channel goes on",
           "[network][threads]") {
-  Station station;
+  WebStation station;
   live::Mailbox mailbox;
   const auto scene = station.session->scene();
   const auto begin = live::Clock::now();

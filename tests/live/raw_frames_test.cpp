@@ -26,7 +26,7 @@ using live::RawFrames;
 
 namespace {
 
-std::shared_ptr<const live::LiveFrame> frame_of(std::uint64_t number, std::size_t size) {
+std::shared_ptr<const live::LiveFrame> raw_frame(std::uint64_t number, std::size_t size) {
   auto frame = std::make_shared<live::LiveFrame>();
   frame->number = number;
   frame->bscope.pixels.assign(size, static_cast<std::uint8_t>(number));
@@ -47,9 +47,9 @@ TEST_CASE("Where every frame is wanted, the file holds all pictures one after th
   const auto file = folder.path() / "frames.raw";
   {
     RawFrames raw(RawFrames::Scope::cscope, file.string(), true);
-    const auto second = frame_of(2, 2);
-    for (const auto& frame : {frame_of(1, 2), second, second, frame_of(3, 2)}) raw.write(frame);
-    raw.write(frame_of(3, 2));  // of another scene
+    const auto second = raw_frame(2, 2);
+    for (const auto& frame : {raw_frame(1, 2), second, second, raw_frame(3, 2)}) raw.write(frame);
+    raw.write(raw_frame(3, 2));  // of another scene
     CHECK_FALSE(raw.ended());
   }
   CHECK(bytes_of(file) == "eeffgggg");  // 101, 102, 103
@@ -61,7 +61,7 @@ TEST_CASE("A picture that is shown once more as a stale one is written once", "[
   {
     RawFrames raw(RawFrames::Scope::bscope, file.string(), true);
     for (const std::uint64_t number : {65U, 66U, 67U}) {
-      auto frame = std::make_shared<live::LiveFrame>(*frame_of(number, 2));
+      auto frame = std::make_shared<live::LiveFrame>(*raw_frame(number, 2));
       frame->stale = number == 66;
       raw.write(frame);
     }
@@ -78,12 +78,12 @@ TEST_CASE("F15 a reader that stands still holds nobody up, and gets whole pictur
   REQUIRE(reader >= 0);
   constexpr std::size_t kSize = 100'000;  // more than a pipe holds
   RawFrames raw(RawFrames::Scope::bscope, pipe, false);
-  raw.write(frame_of(1, kSize));
+  raw.write(raw_frame(1, kSize));
   pollfd begun{reader, POLLIN, 0};
   REQUIRE(::poll(&begun, 1, 10'000) == 1);
   const auto begin = live::Clock::now();
   // Who waited for the reader would wait for ever.
-  for (std::uint64_t number = 2; number <= 50; ++number) raw.write(frame_of(number, kSize));
+  for (std::uint64_t number = 2; number <= 50; ++number) raw.write(raw_frame(number, kSize));
   CHECK(live::seconds_between(begin, live::Clock::now()) < 5.0);
   std::string got;
   char bytes[65536];
@@ -107,7 +107,7 @@ TEST_CASE("The end of the flight cuts no picture in a file", "[raw_frames][threa
   constexpr std::size_t kSize = 20'000'000;  // far from written when the end comes
   {
     RawFrames raw(RawFrames::Scope::bscope, file.string(), false);
-    raw.write(frame_of(1, kSize));
+    raw.write(raw_frame(1, kSize));
     while (std::filesystem::file_size(file) == 0) std::this_thread::yield();
   }
   CHECK(std::filesystem::file_size(file) == kSize);
@@ -147,7 +147,7 @@ TEST_CASE("Where time is up a slow reader gets the picture to its end; a signal 
       const core::StopToken token = end.token();
       const core::StopScope scope(token);
       RawFrames raw(RawFrames::Scope::bscope, pipe, every_frame);
-      raw.write(frame_of(1, kSize));
+      raw.write(raw_frame(1, kSize));
       while (token.reason() == 0) std::this_thread::yield();  // the picture is under way
     }
     slow.join();
@@ -167,9 +167,9 @@ TEST_CASE("A reader that leaves ends the pictures, not the program", "[raw_frame
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
   REQUIRE(reader >= 0);
   RawFrames raw(RawFrames::Scope::bscope, pipe, true);
-  raw.write(frame_of(1, 10));
+  raw.write(raw_frame(1, 10));
   ::close(reader);
-  raw.write(frame_of(2, 10));
+  raw.write(raw_frame(2, 10));
   CHECK(raw.ended());
   CHECK_NOTHROW(raw.close());
 }
@@ -177,7 +177,7 @@ TEST_CASE("A reader that leaves ends the pictures, not the program", "[raw_frame
 TEST_CASE("What the system refuses to write is told at the end", "[raw_frames][threads]") {
   for (const bool every_frame : {true, false}) {
     RawFrames raw(RawFrames::Scope::bscope, "/dev/full", every_frame);
-    raw.write(frame_of(1, 10));
+    raw.write(raw_frame(1, 10));
     for (int i = 0; i < 500 && !raw.ended(); ++i)
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     CHECK(raw.ended());
@@ -201,12 +201,12 @@ TEST_CASE("A pipe gets frames from when it has a reader", "[raw_frames]") {
   const auto pipe = (folder.path() / "pipe").string();
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
   RawFrames raw(RawFrames::Scope::bscope, pipe, false);
-  raw.write(frame_of(1, 4));
+  raw.write(raw_frame(1, 4));
   std::this_thread::sleep_for(std::chrono::milliseconds(50));
   CHECK_FALSE(raw.ended());
   const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
   REQUIRE(reader >= 0);
-  raw.write(frame_of(2, 4));
+  raw.write(raw_frame(2, 4));
   pollfd ready{reader, POLLIN, 0};
   REQUIRE(::poll(&ready, 1, 5000) == 1);
   char bytes[8] = {};

@@ -16,11 +16,11 @@
 namespace fanbeam::materials {
 namespace {
 
-using Model = std::pair<const char*, std::function<double(double grazing_rad)>>;
+using NamedModel = std::pair<const char*, std::function<double(double grazing_rad)>>;
 
-std::vector<Model> every_model() {
+std::vector<NamedModel> named_models() {
   constexpr double kWavelength_m = 299792458.0 / 35e9;
-  std::vector<Model> models = {
+  std::vector<NamedModel> models = {
       {"phong", [](double psi) { return PhongNrcs(0.1, 0.2, 3.3).sigma0(std::sin(psi)); }},
       {"constant gamma", [](double psi) { return constant_gamma_sigma0(0.1, psi); }},
       {"rough metal", [](double psi) { return rough_metal_sigma0({}, kWavelength_m, psi); }},
@@ -64,7 +64,7 @@ TEST_CASE("M01 backscatter at the ends of the angle range: constant gamma", "[ma
 TEST_CASE(
     "M01 every model is finite and not negative at 0, 1e-12, 90 and -5 degrees, and dark behind",
     "[materials][M01]") {
-  for (const auto& [name, sigma0] : every_model()) {
+  for (const auto& [name, sigma0] : named_models()) {
     INFO(name);
     for (const double grazing_deg : {0.0, 1e-12, 1e-300, 90.0, -5.0, -90.0}) {
       const double value = sigma0(core::radians(grazing_deg));

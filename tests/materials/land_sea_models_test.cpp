@@ -10,6 +10,7 @@
 #include "materials/nrcs/git_land.h"
 #include "materials/nrcs/kulemin.h"
 #include "materials/nrcs/nrl_sea.h"
+#include "tests/decibel.h"
 #include "tests/materials/error_class.h"
 #include "tests/nrcs_rows.h"
 
@@ -18,9 +19,8 @@ namespace {
 
 using core::ErrorClass;
 using core::radians;
+using tests::dB;
 using tests::refuses;
-
-double level_dB(double power) { return 10.0 * std::log10(power); }
 
 TEST_CASE("Kulemin, GIT and NRL models give the independently computed values",
           "[materials][models]") {
@@ -31,8 +31,7 @@ TEST_CASE("Kulemin, GIT and NRL models give the independently computed values",
     // The NRL rows use the report's coefficients, rounded one digit earlier than the authors' code:
     // up to 0.02 dB.
     const double tolerance_dB = row.text("model") == "nrl_sea" ? 0.02 : 6e-4;
-    REQUIRE(std::abs(level_dB(tests::modelled_sigma0(row)) - row.number("sigma0_dB")) <
-            tolerance_dB);
+    REQUIRE(std::abs(dB(tests::modelled_sigma0(row)) - row.number("sigma0_dB")) < tolerance_dB);
   }
 }
 
@@ -53,7 +52,7 @@ TEST_CASE("NRL sea model deviates from Nathanson's tables as its authors publish
   std::map<std::string, Sum> sums;
   for (const tests::DataRow& row : tests::data_rows("nathanson_sea.csv")) {
     const double model = tests::nrl_sigma0(row);
-    const double deviation_dB = std::abs(level_dB(model) - row.number("sigma0_dB"));
+    const double deviation_dB = std::abs(dB(model) - row.number("sigma0_dB"));
     Sum& sum = sums[row.text("polarisation")];
     sum.all_dB += deviation_dB;
     ++sum.all;
@@ -71,14 +70,11 @@ TEST_CASE("NRL sea model deviates from Nathanson's tables as its authors publish
 }
 
 TEST_CASE("Constant gamma grows by 5 dB per decade of frequency", "[materials][models]") {
-  REQUIRE(level_dB(gamma_at(GammaTerrain::flatland, 10e9)) ==
-          Approx(-20.0).epsilon(0.0).margin(1e-9));
-  REQUIRE(level_dB(gamma_at(GammaTerrain::metropolitan, 100e9)) ==
-          Approx(5.0).epsilon(0.0).margin(1e-9));
+  REQUIRE(dB(gamma_at(GammaTerrain::flatland, 10e9)) == Approx(-20.0).epsilon(0.0).margin(1e-9));
+  REQUIRE(dB(gamma_at(GammaTerrain::metropolitan, 100e9)) == Approx(5.0).epsilon(0.0).margin(1e-9));
   // 5 log10(3.5) = 2.720 dB, 5 log10(9.4) = 4.866 dB.
-  REQUIRE(level_dB(gamma_at(GammaTerrain::farmland, 35e9)) ==
-          Approx(-12.2797).epsilon(0.0).margin(1e-4));
-  REQUIRE(level_dB(gamma_at(GammaTerrain::sea_state_3, 94e9)) ==
+  REQUIRE(dB(gamma_at(GammaTerrain::farmland, 35e9)) == Approx(-12.2797).epsilon(0.0).margin(1e-4));
+  REQUIRE(dB(gamma_at(GammaTerrain::sea_state_3, 94e9)) ==
           Approx(-35.1344).epsilon(0.0).margin(1e-4));
 }
 
@@ -89,7 +85,7 @@ TEST_CASE("Grass of GIT and gamma farmland agree within 2.3 dB from 3 to 30 degr
     const double git = git_land_sigma0(GitTerrain::grass, GitBand::ka_35GHz, radians(grazing_deg));
     const double lambert = constant_gamma_sigma0(gamma, radians(grazing_deg));
     INFO(grazing_deg);
-    REQUIRE(std::abs(level_dB(git / lambert)) < 2.35);
+    REQUIRE(std::abs(dB(git / lambert)) < 2.35);
   }
 }
 

@@ -16,25 +16,18 @@
 #include "materials/library/library_text.h"
 #include "materials/library/material_library.h"
 #include "materials/nrcs/oh1992.h"
+#include "tests/decibel.h"
+#include "tests/materials/shipped_library.h"
 
 namespace fanbeam::materials {
 namespace {
 
 using core::radians;
+using tests::dB;
+using tests::shipped_library;
+using tests::shipped_library_path;
 
 constexpr double kReference_Hz = 35e9;
-
-double wavelength_m(double frequency_Hz) { return core::kSpeedOfLight_mps / frequency_Hz; }
-double level_dB(double power) { return 10.0 * std::log10(power); }
-
-MaterialLibrary shipped() {
-  core::ProblemList problems;
-  MaterialLibrary library = MaterialLibrary::from_file(
-      std::string(FANBEAM_SOURCE_DIR) + "/materials/library.toml", problems);
-  for (const core::Problem& problem : problems.all()) UNSCOPED_INFO(to_string(problem));
-  CHECK(problems.all().empty());
-  return library;
-}
 
 std::string formatted(const char* format, double value) {
   char text[64];
@@ -56,7 +49,7 @@ std::string library_line(const Material& material) {
     line += " | " + formatted("%.4g", value);
   line += " | ";
   for (const double angle_deg : {3.0, 10.0, 30.0}) {
-    const double level = level_dB(row.nrcs.sigma0(std::sin(radians(angle_deg))));
+    const double level = dB(row.nrcs.sigma0(std::sin(radians(angle_deg))));
     line += formatted("%.1f", level) + (angle_deg < 30.0 ? " / " : " | ");
   }
   line += formatted("%.4g", row.frequency_exponent) + " | " +
@@ -108,7 +101,7 @@ std::string derivation_line(const Material& material) {
 
 TEST_CASE("The shipped library is what the fits to its own references give, byte for byte",
           "[materials][derivation]") {
-  const std::string file = std::string(FANBEAM_SOURCE_DIR) + "/materials/library.toml";
+  const std::string file = shipped_library_path();
   const std::string text = core::read_file(file, 1 << 20);
   core::ProblemList problems;
   const std::string again = with_fits_made_again(text, file, problems);
@@ -119,13 +112,13 @@ TEST_CASE("The shipped library is what the fits to its own references give, byte
     CHECK(line_again == line);
   }
   REQUIRE(again == text);
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   for (const Material& material : library.all()) CHECK(material.reference.has_value());
 }
 
 TEST_CASE("Making the fits again repairs spoilt figures and touches nothing else",
           "[materials][derivation]") {
-  const std::string file = std::string(FANBEAM_SOURCE_DIR) + "/materials/library.toml";
+  const std::string file = shipped_library_path();
   const std::string text = core::read_file(file, 1 << 20);
   std::string spoilt = text;
   const std::size_t grass = spoilt.find("a = 0.032527");
@@ -143,7 +136,7 @@ TEST_CASE("Making the fits again repairs spoilt figures and touches nothing else
 
 TEST_CASE("Scaling by the exponent follows the model within 1 dB where the model is run again",
           "[materials][derivation]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   for (const Material& material : library.all()) {
     // Oh's rows only: fitted to better than 0.1 dB, so what is left is the frequency law.
     const PhongReference& reference = *material.reference;
@@ -156,21 +149,20 @@ TEST_CASE("Scaling by the exponent follows the model within 1 dB where the model
       const double model = sigma0(reference.model, Polarisation::horizontal,
                                   reference.exponent_to_Hz, radians(angle_deg));
       INFO(material.name << " at " << angle_deg << " deg");
-      CHECK(std::abs(level_dB(scaled.sigma0(std::sin(radians(angle_deg))) / model)) <
-            (wet ? 2.0 : 1.0));
+      CHECK(std::abs(dB(scaled.sigma0(std::sin(radians(angle_deg))) / model)) < (wet ? 2.0 : 1.0));
     }
   }
 }
 
 TEST_CASE("Oh's asphalt changes by less than half a dB with the permittivity of the ITU",
           "[materials][derivation]") {
-  const double lambda_m = wavelength_m(kReference_Hz);
+  const double lambda_m = core::kSpeedOfLight_mps / kReference_Hz;
   const Permittivity listed =
       building_permittivity(BuildingMaterial::asphalt_concrete, kReference_Hz);
   for (const double angle_deg : fit_angles_deg(FitAngles::steep)) {
     const double assumed_hh = oh1992_sigma0({5.1, 0.3}, 0.5e-3, lambda_m, radians(angle_deg)).hh;
     const double listed_hh = oh1992_sigma0(listed, 0.5e-3, lambda_m, radians(angle_deg)).hh;
-    REQUIRE(std::abs(level_dB(assumed_hh / listed_hh)) < 0.5);
+    REQUIRE(std::abs(dB(assumed_hh / listed_hh)) < 0.5);
   }
 }
 
@@ -184,7 +176,7 @@ TEST_CASE("The tables of docs/materials.md are those of the library and of the f
     INFO("lines to copy are in " << expected_file);
     CHECK(page.contains(line));
   };
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   for (const Material& material : library.all()) check_line(library_line(material));
   for (const Material& material : library.all()) check_line(derivation_line(material));
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/materials/error_class.h"
+#include "tests/materials/shipped_library.h"
 
 namespace fanbeam::materials {
 namespace {
@@ -12,16 +13,7 @@ namespace {
 using core::ErrorClass;
 using core::Problem;
 using core::ProblemList;
-
-const std::string kShipped = std::string(FANBEAM_SOURCE_DIR) + "/materials/library.toml";
-
-MaterialLibrary shipped() {
-  ProblemList problems;
-  MaterialLibrary library = MaterialLibrary::from_file(kShipped, problems);
-  for (const Problem& problem : problems.all()) UNSCOPED_INFO(to_string(problem));
-  REQUIRE(problems.all().empty());
-  return library;
-}
+using tests::shipped_library;
 
 // A material with one line replaced; the coefficients stand on lines 2 to 4.
 std::string material_text(const std::string& a, const std::string& b, const std::string& c,
@@ -52,7 +44,7 @@ void require_problem(const ProblemList& problems, const char* code, int line, co
 }
 
 TEST_CASE("M07 an unknown material name is E-REF with the nearest names", "[materials][M07]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   ProblemList problems;
   REQUIRE_FALSE(library.index_of("asfalt_smooth"));
   REQUIRE_FALSE(
@@ -185,7 +177,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The shipped library holds every material a scene names", "[materials][library]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   for (const char* name :
        {"short_grass", "tall_grass",     "crops",        "forest",      "bare_soil",
         "gravel",      "asphalt_smooth", "asphalt_worn", "concrete",    "paint",
@@ -205,7 +197,7 @@ TEST_CASE("The shipped library holds every material a scene names", "[materials]
 TEST_CASE(
     "At approach angles grass is brighter than asphalt, asphalt than concrete, concrete than water",
     "[materials][library]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   const std::vector<NrcsCurve> nrcs =
       library.curves(SurfaceState::dry, Polarisation::horizontal, 35e9);
   for (const double grazing_deg : {2.0, 3.0, 5.0, 10.0}) {

@@ -10,16 +10,18 @@
 
 #include "core/constants.h"
 #include "core/units.h"
+#include "tests/decibel.h"
+#include "tests/materials/ka_radar.h"
 
 namespace fanbeam::materials {
 namespace {
 
 using core::kPi;
 using core::radians;
+using tests::dB;
+using tests::kLambda_m;
 
-const double kLambda_m = core::kSpeedOfLight_mps / 35e9;
-
-ObjectLibrary shipped() {
+ObjectLibrary shipped_objects() {
   core::ProblemList problems;
   ObjectLibrary library = ObjectLibrary::from_file(
       std::string(FANBEAM_SOURCE_DIR) + "/materials/objects.toml", problems);
@@ -34,8 +36,6 @@ const TypicalObject& object(const ObjectLibrary& library, const std::string& nam
   REQUIRE(found != nullptr);
   return *found;
 }
-
-double dB(double ratio) { return 10.0 * std::log10(ratio); }
 
 // Mean of a shape's cross-section while it leans evenly over `lean_deg` about broadside: what the
 // notes of built objects say in closed form. Steps far below the lobe's width.
@@ -64,7 +64,7 @@ double mean_over_plate_m2(const RectangularPlate& plate, double azimuth_deg, dou
 
 TEST_CASE("Every object that we built follows from the shapes in its note",
           "[materials][objects]") {
-  const ObjectLibrary library = shipped();
+  const ObjectLibrary library = shipped_objects();
   const double w = radians(10.0);
   const double sphere_m2 = rcs_m2(Sphere{0.1}, {1, 0, 0}, kLambda_m);
   struct Built {
@@ -102,7 +102,7 @@ TEST_CASE("Every object that we built follows from the shapes in its note",
 }
 
 TEST_CASE("Published objects have their published figures", "[materials][objects]") {
-  const ObjectLibrary library = shipped();
+  const ObjectLibrary library = shipped_objects();
   // 3GPP TR 38.901 release 19, 7.9.2: mean in dBsm, standard deviation in dB.
   const std::map<std::string, std::pair<double, double>> rows = {{"person", {-1.37, 3.94}},
                                                                  {"car", {11.25, 3.41}},
@@ -130,7 +130,7 @@ TEST_CASE(
     "A car is brightest from the side, has its floor between the lobes, and averages to its "
     "published mean",
     "[materials][objects]") {
-  const RcsModel car = object(shipped(), "car").rcs();
+  const RcsModel car = object(shipped_objects(), "car").rcs();
   const auto level = [&](double azimuth_deg, double elevation_deg) {
     const double a = radians(azimuth_deg);
     const double e = radians(elevation_deg);
@@ -209,7 +209,7 @@ peak_dBsm = 3.0
 }
 
 TEST_CASE("Objects used far from where they are known are told about", "[materials][objects]") {
-  const ObjectLibrary library = shipped();
+  const ObjectLibrary library = shipped_objects();
   core::ProblemList problems;
   warn_if_extrapolated(object(library, "car"), 35e9, problems);
   CHECK(problems.all().empty());

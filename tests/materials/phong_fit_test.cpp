@@ -14,6 +14,7 @@
 #include "materials/nrcs/nrl_sea.h"
 #include "materials/nrcs/oh1992.h"
 #include "tests/data_rows.h"
+#include "tests/decibel.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {
@@ -21,11 +22,10 @@ namespace {
 
 using core::ErrorClass;
 using core::radians;
+using tests::dB;
 using tests::refuses;
 
 using Model = std::function<double(double grazing_rad)>;
-
-double level_dB(double power) { return 10.0 * std::log10(power); }
 
 Model kulemin(KuleminTerrain terrain) {
   return [terrain](double psi) { return kulemin_sigma0(terrain, 35e9, psi); };
@@ -91,7 +91,7 @@ TEST_CASE("Fits reproduce those of another program to 0.02 dB and 1 percent", "[
     for (const char* angle_deg : {"3", "10", "30"}) {
       const double sine = std::sin(radians(std::stod(angle_deg)));
       const double expected_dB = row.number("level_" + std::string(angle_deg) + "_dB");
-      REQUIRE(level_dB(fit.nrcs.sigma0(sine)) == Approx(expected_dB).margin(is_oh ? 0.1 : 0.02));
+      REQUIRE(dB(fit.nrcs.sigma0(sine)) == Approx(expected_dB).margin(is_oh ? 0.1 : 0.02));
     }
   }
 }

@@ -11,21 +11,22 @@
 #include "core/units.h"
 #include "materials/rcs/rcs.h"
 #include "tests/data_rows.h"
+#include "tests/decibel.h"
 #include "tests/materials/error_class.h"
+#include "tests/materials/ka_radar.h"
 
 namespace fanbeam::materials {
 namespace {
 
 using core::kPi;
 using core::radians;
+using tests::dB;
+using tests::kBoresight;
+using tests::kLambda_m;
 
-const double kLambda_m = core::kSpeedOfLight_mps / 35e9;
 const double kWaveNumber_per_m = 2.0 * kPi / kLambda_m;
-const glm::dvec3 kBoresight(1.0, 0.0, 0.0);
 // Where (sin x / x)^2 is one half.
 constexpr double kHalfPower = 1.3915573782515103;
-
-double dB(double ratio) { return 10.0 * std::log10(ratio); }
 
 // At the sine of an angle in the x-z plane, and in the x-y plane.
 double up(const RcsModel& model, double sine) {

@@ -12,6 +12,7 @@
 #include "core/constants.h"
 #include "core/units.h"
 #include "tests/materials/error_class.h"
+#include "tests/materials/ka_radar.h"
 
 namespace fanbeam::materials {
 namespace {
@@ -19,9 +20,8 @@ namespace {
 using core::ErrorClass;
 using core::kPi;
 using core::radians;
+using tests::kBoresight;
 using tests::refuses;
-
-const glm::dvec3 kBoresight(1.0, 0.0, 0.0);
 
 double wavelength_m(double frequency_GHz) {
   return core::kSpeedOfLight_mps / (frequency_GHz * 1e9);

@@ -7,6 +7,7 @@
 #include "materials/rcs/rcs.h"
 #include "materials/rcs/round_wire.h"
 #include "materials/rcs/sphere.h"
+#include "tests/decibel.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {
@@ -14,8 +15,7 @@ namespace {
 
 using core::kPi;
 using core::radians;
-
-double dB(double ratio) { return 10.0 * std::log10(ratio); }
+using tests::dB;
 
 // sigma / (pi a^2) of a sphere.
 double relative_sphere(double ka) {

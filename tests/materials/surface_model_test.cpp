@@ -12,6 +12,7 @@
 #include "materials/nrcs/nrl_sea.h"
 #include "materials/nrcs/oh1992.h"
 #include "tests/data_rows.h"
+#include "tests/decibel.h"
 #include "tests/materials/error_class.h"
 
 namespace fanbeam::materials {
@@ -19,12 +20,11 @@ namespace {
 
 using core::ErrorClass;
 using core::radians;
+using tests::dB;
 using tests::refuses;
 
 constexpr Polarisation kH = Polarisation::horizontal;
 constexpr Polarisation kV = Polarisation::vertical;
-
-double level_dB(double power) { return 10.0 * std::log10(power); }
 
 // One of each kind, and every terrain of the empirical ones.
 std::vector<SurfaceModel> every_model() {
@@ -63,7 +63,7 @@ TEST_CASE("Every model gives the independently computed values through the inter
         sigma0(model, row.text("polarisation") == "V" ? kV : kH, row.number("frequency_GHz") * 1e9,
                radians(row.number("grazing_deg")));
     // The NRL rows use coefficients with one digit less.
-    CHECK(std::abs(level_dB(value) - row.number("sigma0_dB")) < (sea ? 0.02 : 6e-4));
+    CHECK(std::abs(dB(value) - row.number("sigma0_dB")) < (sea ? 0.02 : 6e-4));
   }
 }
 
@@ -109,8 +109,8 @@ TEST_CASE("Empirical models are held above 60 degrees, where NRL's formula would
           "[materials][models]") {
   const NrlSeaSurface sea{3.0};
   CHECK(sigma0(sea, kH, 35e9, radians(90.0)) == sigma0(sea, kH, 35e9, radians(60.0)));
-  CHECK(level_dB(nrl_sea_sigma0(kH, 3.0, 35e9, radians(90.0))) >
-        level_dB(sigma0(sea, kH, 35e9, radians(90.0))) + 15.0);
+  CHECK(dB(nrl_sea_sigma0(kH, 3.0, 35e9, radians(90.0))) >
+        dB(sigma0(sea, kH, 35e9, radians(90.0))) + 15.0);
   const KuleminSurface concrete{KuleminTerrain::concrete};
   CHECK(sigma0(concrete, kH, 35e9, radians(75.0)) ==
         kulemin_sigma0(KuleminTerrain::concrete, 35e9, radians(60.0)));
@@ -172,8 +172,7 @@ TEST_CASE("A curve outside a model's frequencies keeps the nearest; a Phong row 
 TEST_CASE("Polarisations differ where the model tells them apart, and only there",
           "[materials][models]") {
   const auto ratio_dB = [](const SurfaceModel& model) {
-    return level_dB(sigma0(model, kV, 35e9, radians(20.0)) /
-                    sigma0(model, kH, 35e9, radians(20.0)));
+    return dB(sigma0(model, kV, 35e9, radians(20.0)) / sigma0(model, kH, 35e9, radians(20.0)));
   };
   // Reference figures of Oh's model for concrete of 0.2 mm at 35 GHz, 20 deg: -32.2 / -38.3 dB.
   CHECK(ratio_dB(OhSurface{DielectricMedium::concrete, 2e-4, 288.15}) == Approx(6.1).margin(0.1));
@@ -196,10 +195,9 @@ TEST_CASE("GIT gives its rows at 10, 35 and 95 GHz and a straight line in dB bet
   CHECK(git_land_sigma0(GitTerrain::trees, 10e9, psi) ==
         Approx(0.002 * std::pow(psi + 0.002, 0.64)).epsilon(1e-12));
   const double middle_Hz = std::sqrt(10e9 * 35e9);
-  CHECK(level_dB(grass(middle_Hz)) ==
-        Approx((level_dB(grass(10e9)) + level_dB(grass(35e9))) / 2.0).epsilon(1e-12));
-  CHECK(level_dB(grass(76e9)) > level_dB(grass(35e9)));
-  CHECK(level_dB(grass(76e9)) < level_dB(grass(95e9)));
+  CHECK(dB(grass(middle_Hz)) == Approx((dB(grass(10e9)) + dB(grass(35e9))) / 2.0).epsilon(1e-12));
+  CHECK(dB(grass(76e9)) > dB(grass(35e9)));
+  CHECK(dB(grass(76e9)) < dB(grass(95e9)));
 }
 
 TEST_CASE("Every model says what it knows", "[materials][models]") {

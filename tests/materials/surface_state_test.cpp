@@ -7,20 +7,14 @@
 #include "core/units.h"
 #include "materials/dielectric/dielectric_medium.h"
 #include "materials/library/material_library.h"
+#include "tests/materials/shipped_library.h"
 
 namespace fanbeam::materials {
 namespace {
 
 using core::radians;
-
-const std::string kFile = std::string(FANBEAM_SOURCE_DIR) + "/materials/library.toml";
-
-MaterialLibrary shipped() {
-  core::ProblemList problems;
-  MaterialLibrary library = MaterialLibrary::from_file(kFile, problems);
-  REQUIRE(problems.all().empty());
-  return library;
-}
+using tests::shipped_library;
+using tests::shipped_library_path;
 
 double level_dB(const MaterialLibrary& library, const char* name, SurfaceState state,
                 double grazing_deg) {
@@ -31,9 +25,10 @@ double level_dB(const MaterialLibrary& library, const char* name, SurfaceState s
 
 TEST_CASE("Every shipped material says what every state makes of it", "[materials][state]") {
   core::ProblemList problems;
-  const std::string text = core::read_file(kFile, 1 << 20);
-  core::ConfigTable file = core::ConfigTable::from_text(text, kFile, problems);
-  const MaterialLibrary library = shipped();
+  const std::string path = shipped_library_path();
+  const std::string text = core::read_file(path, 1 << 20);
+  core::ConfigTable file = core::ConfigTable::from_text(text, path, problems);
+  const MaterialLibrary library = shipped_library();
   for (const std::string& name : file.keys()) {
     INFO(name);
     core::ConfigTable row = file.table(name);
@@ -62,7 +57,7 @@ TEST_CASE("Every shipped material says what every state makes of it", "[material
 
 TEST_CASE("Wet pavement is darker at approach angles and brighter near the normal",
           "[materials][state]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   for (const char* name : {"asphalt_smooth", "asphalt_worn", "concrete", "paint"}) {
     INFO(name);
     for (const double grazing_deg : {2.0, 3.0, 5.0}) {
@@ -77,7 +72,7 @@ TEST_CASE("Wet pavement is darker at approach angles and brighter near the norma
 }
 
 TEST_CASE("Wet vegetation and soil are brighter by their documented step", "[materials][state]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   const auto change_dB = [&](const char* name, double grazing_deg) {
     return level_dB(library, name, SurfaceState::wet, grazing_deg) -
            level_dB(library, name, SurfaceState::dry, grazing_deg);
@@ -98,7 +93,7 @@ TEST_CASE("Wet vegetation and soil are brighter by their documented step", "[mat
 }
 
 TEST_CASE("Snow covers flat ground, and neither walls nor water", "[materials][state]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   const auto turned = [&](const char* name, SurfaceState state) {
     return library[library.in_state(library.index_of(name).value(), state)].name;
   };
@@ -115,7 +110,7 @@ TEST_CASE("Snow covers flat ground, and neither walls nor water", "[materials][s
 
 TEST_CASE("At 2 to 5 degrees dry grass outshines asphalt, asphalt concrete, concrete calm water",
           "[materials][state]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   for (const double grazing_deg : {2.0, 3.0, 4.0, 5.0}) {
     double previous_dB = 100.0;
     for (const char* name : {"short_grass", "asphalt_worn", "concrete", "water_calm"}) {
@@ -129,7 +124,7 @@ TEST_CASE("At 2 to 5 degrees dry grass outshines asphalt, asphalt concrete, conc
 
 TEST_CASE("What mirrors has a medium and a height, and the medium is known at 35 GHz",
           "[materials][state]") {
-  const MaterialLibrary library = shipped();
+  const MaterialLibrary library = shipped_library();
   for (const Material& material : library.all()) {
     INFO(material.name);
     CHECK(material.dielectric.empty() == !material.rms_height_m.has_value());

@@ -7,9 +7,9 @@
 #include "renderer/stages/point_targets.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 constexpr int kWeak = 20'000'000;
 

@@ -8,11 +8,10 @@
 #include "renderer/accuracy/grey_error.h"
 #include "tests/renderer/city_world.h"
 
-namespace {
-
 using namespace fanbeam;
+using tests::kGrass;
 
-const materials::PhongNrcs kMeadow(0.0325, 0.136, 1.99);
+namespace {
 
 // The tile begins 300 m north of the antenna.
 terrain::HeightField tile(const std::function<double(double, double)>& height_m) {
@@ -25,7 +24,7 @@ terrain::HeightField tile(const std::function<double(double, double)>& height_m)
 }
 
 renderer::World level_tile(const sensors::Sensor& sensor, double height_m) {
-  return tests::world(sensor, tile([height_m](double, double) { return height_m; }), {kMeadow});
+  return tests::world(sensor, tile([height_m](double, double) { return height_m; }), {kGrass});
 }
 
 renderer::Frame frame_of(const renderer::World& world, const renderer::Sampling& sampling,
@@ -76,7 +75,7 @@ TEST_CASE("Beyond its rim a tile looks as the ground that goes on to the antenna
   renderer::FramePose pose = tests::level_pose(80.0);
   pose.q_NB = core::quaternion_from({core::radians(roll_deg), 0.0, 0.0});
   const auto seen = [&](terrain::HeightField field) {
-    const renderer::World world = tests::world(sensor, std::move(field), {kMeadow});
+    const renderer::World world = tests::world(sensor, std::move(field), {kGrass});
     return renderer::render_frame(world, sampling, {}, {}, pose).bscope_W;
   };
   const std::vector<double> beside = seen(tile(height_m));

@@ -7,15 +7,14 @@
 #include "core/units.h"
 #include "materials/library/material_library.h"
 #include "renderer/surfaces/mirrors.h"
-#include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
 using renderer::BistaticNrcs;
 using renderer::NrcsTable;
+using tests::kRough;
 
-const materials::PhongNrcs kRough(0.05, 0.3, 3.0);
+namespace {
 
 // Of what arrives at `sin_in`, summed over directions given as unit vectors.
 double share_by_vectors(const BistaticNrcs& nrcs, double sin_in) {

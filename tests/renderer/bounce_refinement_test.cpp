@@ -6,9 +6,9 @@
 #include "renderer/stages/double_bounce.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 // Ground mirrors and is black otherwise. Walls that run away from the antenna, so that the range of
 // their corner changes by several of the narrow cells across a column, and one that few columns see.

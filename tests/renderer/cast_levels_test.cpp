@@ -1,36 +1,27 @@
 // Samples in levels (CastPass): evenly between each other, the same power, group by group.
 #include <catch2/catch.hpp>
-#include <numeric>
 
 #include "tests/renderer/city_world.h"
-
-namespace {
+#include "tests/renderer/values.h"
 
 using namespace fanbeam;
-using namespace fanbeam::tests;
-
-constexpr double kHeight_m = 60.0;
-
-double total(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
-}  // namespace
+using tests::kHeight_m;
+using tests::total;
 
 TEST_CASE("Each level of slices is the plain sampling with twice as many as the one before",
           "[levels]") {
-  const renderer::World world = city_world(narrow(12), everywhere);
-  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
-  const renderer::ProfileCaster caster(world, slices(4));
-  const std::uint64_t first = cast_level(caster, 0, antenna).slices;
+  const renderer::World world = tests::city_world(tests::narrow(12), tests::everywhere);
+  const sensors::AntennaFrame antenna = tests::level_antenna({0.0, 0.0, kHeight_m});
+  const renderer::ProfileCaster caster(world, tests::slices(4));
+  const std::uint64_t first = tests::cast_level(caster, 0, antenna).slices;
   for (int level = 0; level <= 4; ++level) {
     INFO("level " << level);
-    const renderer::FanSums sums = cast_level(caster, level, antenna);
+    const renderer::FanSums sums = tests::cast_level(caster, level, antenna);
     CHECK(sums.slices == first << level);
-    renderer::Sampling plain = slices(4);
+    renderer::Sampling plain = tests::slices(4);
     plain.slices_per_sub_column = 1 << level;
     CHECK(sums.range_W_per_rad ==
-          cast_level(renderer::ProfileCaster(world, plain), 0, antenna).range_W_per_rad);
+          tests::cast_level(renderer::ProfileCaster(world, plain), 0, antenna).range_W_per_rad);
   }
 }
 
@@ -39,15 +30,16 @@ TEST_CASE("Four levels of slices take nine tenths of the error away", "[levels]"
   // more than an eighth of it.
   std::uint64_t post = 0;
   const renderer::World rough = tests::world(
-      narrow(12), ground(1300.0, 25.0, [&](double, double) { return 20.0 * uniform(3, ++post); }),
-      city_library());
-  const renderer::World city = city_world(narrow(12), everywhere);
-  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m + 20.0});
+      tests::narrow(12),
+      tests::ground(1300.0, 25.0, [&](double, double) { return 20.0 * tests::uniform(3, ++post); }),
+      tests::city_library());
+  const renderer::World city = tests::city_world(tests::narrow(12), tests::everywhere);
+  const sensors::AntennaFrame antenna = tests::level_antenna({0.0, 0.0, kHeight_m + 20.0});
   for (const renderer::World* world : {&rough, &city}) {
-    const renderer::ProfileCaster caster(*world, slices(1));
-    const renderer::FanSums many = cast_level(caster, 7, antenna);
+    const renderer::ProfileCaster caster(*world, tests::slices(1));
+    const renderer::FanSums many = tests::cast_level(caster, 7, antenna);
     const auto error = [&](int level) {
-      const renderer::FanSums sums = cast_level(caster, level, antenna);
+      const renderer::FanSums sums = tests::cast_level(caster, level, antenna);
       double square = 0.0, whole = 0.0;
       for (std::size_t i = 0; i < sums.range_W_per_rad.size(); ++i) {
         square += std::pow(sums.range_W_per_rad[i] - many.range_W_per_rad[i], 2);
@@ -63,18 +55,18 @@ TEST_CASE("Four levels of slices take nine tenths of the error away", "[levels]"
 
 TEST_CASE("Flat ground returns the same power at every level", "[levels]") {
   // Even gain and constant gamma: slices are then exact to 1e-9.
-  sensors::Sensor sensor = even_hivision(12);
+  sensors::Sensor sensor = tests::even_hivision(12);
   sensor.range.cells = 105;
-  const renderer::World world = tests::world(sensor, level_ground(), {kGamma});
-  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
-  const renderer::ProfileCaster by_slices(world, slices(4));
+  const renderer::World world = tests::world(sensor, tests::level_ground(), {tests::kGamma});
+  const sensors::AntennaFrame antenna = tests::level_antenna({0.0, 0.0, kHeight_m});
+  const renderer::ProfileCaster by_slices(world, tests::slices(4));
   const renderer::RayCaster by_rays(world, renderer::sampling_for(4.0));
-  const renderer::FanSums first = cast_level(by_slices, 0, antenna);
-  const double first_rays_W = total(cast_level(by_rays, 0, antenna).range_W_per_rad);
-  std::uint64_t rays = cast_level(by_rays, 0, antenna).rays;
+  const renderer::FanSums first = tests::cast_level(by_slices, 0, antenna);
+  const double first_rays_W = total(tests::cast_level(by_rays, 0, antenna).range_W_per_rad);
+  std::uint64_t rays = tests::cast_level(by_rays, 0, antenna).rays;
   for (int level = 1; level <= 5; ++level) {
     INFO("level " << level);
-    const renderer::FanSums sums = cast_level(by_slices, level, antenna);
+    const renderer::FanSums sums = tests::cast_level(by_slices, level, antenna);
     double largest = 0.0;
     for (std::size_t i = 0; i < sums.range_W_per_rad.size(); ++i)
       if (first.range_W_per_rad[i] > 0.0)
@@ -85,7 +77,7 @@ TEST_CASE("Flat ground returns the same power at every level", "[levels]") {
     CHECK(total(sums.elevation_W_m3_per_rad) ==
           Approx(total(first.elevation_W_m3_per_rad)).epsilon(1e-6));
     // Rays stand for what they hit in the middle of their interval.
-    const renderer::FanSums of_rays = cast_level(by_rays, level, antenna);
+    const renderer::FanSums of_rays = tests::cast_level(by_rays, level, antenna);
     CHECK(total(of_rays.range_W_per_rad) == Approx(first_rays_W).epsilon(1e-3));
     CHECK(static_cast<double>(of_rays.rays) == Approx(static_cast<double>(rays)).epsilon(0.2));
     rays += of_rays.rays;
@@ -95,13 +87,13 @@ TEST_CASE("Flat ground returns the same power at every level", "[levels]") {
 TEST_CASE("Groups that are not asked for keep what they hold", "[levels]") {
   constexpr double kHeld = 7.0;
   const std::vector<std::uint32_t> asked{1, 4};
-  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
-  renderer::World world = city_world(narrow(24), everywhere);
+  const sensors::AntennaFrame antenna = tests::level_antenna({0.0, 0.0, kHeight_m});
+  renderer::World world = tests::city_world(tests::narrow(24), tests::everywhere);
   const auto check_kept = [&](const renderer::Sampling& sampling) {
-    const auto caster = caster_of(world, sampling);
+    const auto caster = tests::caster_of(world, sampling);
     for (int level = 0; level <= 3; ++level) {
       INFO("level " << level);
-      const renderer::FanSums all = cast_level(*caster, level, antenna);
+      const renderer::FanSums all = tests::cast_level(*caster, level, antenna);
       renderer::FanSums sums = all;
       const auto fill = [&](std::vector<double>& values) {
         std::fill(values.begin(), values.end(), kHeld);
@@ -125,8 +117,8 @@ TEST_CASE("Groups that are not asked for keep what they hold", "[levels]") {
     }
   };
   check_kept(renderer::sampling_for(4.0));
-  check_kept(slices(4));
+  check_kept(tests::slices(4));
   // A box in the middle of the fan is left to rays: group 4 is theirs, group 1 is not.
   tests::solids_of(world).others = {{{-30.0, 600.0, 0.0}, {10.0, 620.0, 9.0}}};
-  check_kept(slices(4));
+  check_kept(tests::slices(4));
 }

@@ -8,21 +8,14 @@
 #include "renderer/casting/fan_layout.h"
 #include "renderer/casting/ray_caster.h"
 #include "tests/renderer/profile_closed_form.h"
+#include "tests/renderer/usual_world.h"
 
 namespace fanbeam::tests {
 
-enum CityMaterial : terrain::MaterialId { kGrass, kWall, kRoof };
+enum CityMaterial : terrain::MaterialId { kCityGround, kCityWall, kCityRoof };
 
 inline std::vector<materials::NrcsCurve> city_library() {
-  return {materials::PhongNrcs(0.0325, 0.136, 1.99), materials::PhongNrcs(0.05, 0.3, 4.0),
-          materials::PhongNrcs(0.02, 0.2, 3.0)};
-}
-
-// Ranges to 900 m: references are slow.
-inline sensors::Sensor narrow(int columns) {
-  sensors::Sensor sensor = hivision(columns);
-  sensor.range.cells = 105;
-  return sensor;
+  return {kGrass, kWall, materials::PhongNrcs(0.02, 0.2, 3.0)};
 }
 
 inline terrain::HeightField level_ground() {
@@ -42,7 +35,7 @@ inline Body city(const std::function<bool(double, double)>& built, double share)
       const double turn_rad = core::kPi * random(1);
       const terrain::SurfacePatch outline =
           terrain::rectangle_patch({x, y}, {std::cos(turn_rad), std::sin(turn_rad)},
-                                   12.0 + 20.0 * random(2), 8.0 + 12.0 * random(3), kRoof);
+                                   12.0 + 20.0 * random(2), 8.0 + 12.0 * random(3), kCityRoof);
       prisms.push_back({outline.outline_m, {}, -5.0, 5.0 + 20.0 * random(4)});
     }
   core::ProblemList problems;
@@ -51,8 +44,9 @@ inline Body city(const std::function<bool(double, double)>& built, double share)
   terrain::Solids solids;
   std::vector<terrain::ObjectId> objects(prisms.size());
   std::iota(objects.begin(), objects.end(), 1U);
-  terrain::add_solids(prisms, extrusion, kWall, kRoof, objects, solids);
-  return {{std::move(extrusion.mesh), {kWall, kRoof}, std::move(objects)}, std::move(solids)};
+  terrain::add_solids(prisms, extrusion, kCityWall, kCityRoof, objects, solids);
+  return {{std::move(extrusion.mesh), {kCityWall, kCityRoof}, std::move(objects)},
+          std::move(solids)};
 }
 
 inline renderer::World city_world(const sensors::Sensor& sensor,

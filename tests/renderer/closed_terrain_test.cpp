@@ -6,13 +6,13 @@
 #include "core/units.h"
 #include "terrain/mesh.h"
 #include "tests/renderer/profile_closed_form.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
+using tests::kGrass;
+using tests::kHeight_m;
 
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
-constexpr double kHeight_m = 60.0;
+namespace {
 
 renderer::Frame frame_over(const renderer::World& world, const renderer::Sampling& sampling,
                            double height_m) {

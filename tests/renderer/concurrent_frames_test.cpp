@@ -12,9 +12,9 @@
 #include "renderer/frame_renderer.h"
 #include "tests/renderer/city_world.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 #ifdef __SANITIZE_THREAD__  // which does not understand oneTBB's tasks, and takes its time
 constexpr std::size_t kFrames = 8;
@@ -23,7 +23,7 @@ constexpr std::size_t kFrames = 64;
 constexpr int kThreads = 8;
 #endif
 
-bool same(const renderer::Frame& a, const renderer::Frame& b) {
+bool same_powers(const renderer::Frame& a, const renderer::Frame& b) {
   return a.bscope_W == b.bscope_W && a.cscope_W_m3 == b.cscope_W_m3 && a.rays == b.rays &&
          a.slices == b.slices;
 }
@@ -55,7 +55,7 @@ TEST_CASE("R10 frames rendered at once, inside tasks or threads, are those rende
     tbb::task_arena(kThreads).execute([&] {
       tbb::parallel_for(
           std::size_t{0}, kFrames, std::size_t{1},
-          [&](std::size_t i) { right[i] = same(frames.render(pose(i)), expected[i % 8]); },
+          [&](std::size_t i) { right[i] = same_powers(frames.render(pose(i)), expected[i % 8]); },
           tbb::simple_partitioner());
     });
     CHECK(std::count(right.begin(), right.end(), false) == 0);
@@ -66,7 +66,7 @@ TEST_CASE("R10 frames rendered at once, inside tasks or threads, are those rende
     for (std::size_t first = 0; first < 4; ++first)
       callers.emplace_back([&, first] {
         for (std::size_t i = first; i < kFrames; i += 4)
-          right[i] = same(frames.render(pose(i)), expected[i % 8]);
+          right[i] = same_powers(frames.render(pose(i)), expected[i % 8]);
       });
     for (std::thread& caller : callers) caller.join();
     CHECK(std::count(right.begin(), right.end(), false) == 0);

@@ -5,12 +5,13 @@
 
 #include "renderer/casting/ray_caster.h"
 #include "tests/renderer/profile_closed_form.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kHeight_m;
 
 namespace {
 
-using namespace fanbeam;
-
-constexpr double kHeight_m = 60.0;
 constexpr int kSeeds = 16;
 constexpr int kSteps = 11;  // 1 to 1024 rays per cell
 

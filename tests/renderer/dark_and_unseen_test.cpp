@@ -3,14 +3,13 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
+using tests::kBlack;
+using tests::kGrass;
 
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
-const materials::PhongNrcs kDark;
+namespace {
 
 renderer::PointTarget reflector(const glm::dvec3& position_m) {
   renderer::PointTarget target;
@@ -33,8 +32,8 @@ TEST_CASE("M02 the dark half of a scene is the noise-only picture, or the floor,
   for (int row = 0; row + 1 < field.rows; ++row)
     for (int column = 0; column + 1 < field.columns; ++column)
       field.cell_material[field.cell(column, row)] = field.west_m + 40.0 * column >= 0.0 ? 1 : 0;
-  const renderer::World half = tests::world(sensor, std::move(field), {kGrass, kDark});
-  const renderer::World nothing = tests::world(sensor, std::nullopt, {kGrass, kDark});
+  const renderer::World half = tests::world(sensor, std::move(field), {kGrass, kBlack});
+  const renderer::World nothing = tests::world(sensor, std::nullopt, {kGrass, kBlack});
 
   for (const renderer::Sampling& sampling :
        {renderer::sampling_for(4.0), renderer::profile_sampling_for(8.0)})

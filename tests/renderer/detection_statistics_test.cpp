@@ -6,12 +6,12 @@
 #include "sensors/receiver/detection.h"
 #include "tests/renderer/statistics.h"
 
-namespace {
-
 using namespace fanbeam;
 using core::Swerling;
 
-constexpr int kColumns = 1000;
+namespace {
+
+constexpr int kPictureColumns = 1000;
 
 double share_above(const std::vector<double>& picture, double threshold) {
   const auto above = std::count_if(picture.begin(), picture.end(),
@@ -32,7 +32,7 @@ TEST_CASE("The false-alarm rate of ten million cells of noise is the one asked f
       for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
         std::vector<double> picture(1'000'000, 0.0);
         renderer::realise({}, {}, {true, false, looks, 5, frame}, core::kStreamSpeckle, kNoise_W,
-                          kColumns, picture);
+                          kPictureColumns, picture);
         rate += share_above(picture, threshold_W) / kFrames;
       }
       CAPTURE(looks, pfa);
@@ -48,11 +48,11 @@ TEST_CASE("Targets are detected as often as Marcum and Swerling say", "[detectio
       for (const double snr : {1.5, 9.0}) {
         std::vector<renderer::TargetShare> shares;
         for (std::uint32_t cell = 0; cell < kCount; ++cell)
-          shares.push_back({cell, cell % kColumns, cell, snr});
+          shares.push_back({cell, cell % kPictureColumns, cell, snr});
         const std::vector<Swerling> cases(kCount, target);
         std::vector<double> picture(kCount, 0.0);
         renderer::realise(shares, cases, {true, true, looks, 11, 0}, core::kStreamSpeckle, 1.0,
-                          kColumns, picture);
+                          kPictureColumns, picture);
         const double threshold = sensors::detection_threshold(1e-3, looks);
         const double pd = sensors::detection_probability(target, snr, looks, threshold);
         CAPTURE(static_cast<int>(target), looks, snr);

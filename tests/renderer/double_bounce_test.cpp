@@ -2,7 +2,6 @@
 #include "renderer/stages/double_bounce.h"
 
 #include <catch2/catch.hpp>
-#include <cstring>
 
 #include "core/parallel.h"
 #include "core/units.h"
@@ -10,29 +9,31 @@
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
 #include "sensors/display/grey_scale.h"
-#include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/decibel.h"
+#include "tests/renderer/usual_world.h"
+#include "tests/renderer/values.h"
 
 using namespace fanbeam;
 using renderer::BounceEcho;
 using renderer::BounceTracer;
+using tests::antenna_at;
+using tests::dB;
+using tests::flat_ground;
+using tests::kBlack;
+using tests::kHeight_m;
+using tests::kRough;
+using tests::same_bytes;
 
-constexpr double kHeight_m = 60.0;
+namespace {
+
 constexpr double kWall_m = 15.0;        // tall
 constexpr double kDistance_m = 1000.0;  // slant range of the corner 1001.8 m, inside cell 120
 constexpr int kCornerCell = 120;
 
-const materials::PhongNrcs kBlack(0.0, 0.0, 1.0);
-const materials::PhongNrcs kRough(0.05, 0.3, 3.0);
 // So weak that next to nothing is taken from what it mirrors.
 const materials::PhongNrcs kFaint(0.00005, 0.0003, 3.0);
 // Reflects all there is at every angle.
 const materials::SpecularSurface kPolished{{1.0, 1e9}, 0.0};
-
-terrain::HeightField plane() {
-  return tests::ground(4000.0, 250.0, [](double, double) { return 0.0; });
-}
 
 // Faces south, towards the sensor of level_pose.
 terrain::PlacedMesh wall(double y_m, double bottom_m, double top_m) {
@@ -45,7 +46,7 @@ terrain::PlacedMesh wall(double y_m, double bottom_m, double top_m) {
 renderer::World corner_world(std::vector<tests::Body> screens = {}) {
   screens.push_back(wall(kDistance_m, 0.0, kWall_m));
   renderer::World world =
-      tests::world(tests::hivision(12), plane(), {kBlack, kRough}, std::move(screens));
+      tests::world(tests::hivision(12), flat_ground(), {kBlack, kRough}, std::move(screens));
   world.specular = {kPolished};
   return world;
 }
@@ -112,17 +113,6 @@ Dihedral dihedral_W(const sensors::Sensor& sensor) {
   return sum;
 }
 
-sensors::AntennaFrame antenna_at(double height_m) {
-  const renderer::FramePose pose = tests::level_pose(height_m);
-  return sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB, {}, true);
-}
-
-double dB(double ratio) { return 10.0 * std::log10(ratio); }
-
-bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
-
 }  // namespace
 
 TEST_CASE("One ray by way of the ground has the range and the power of the closed form",
@@ -161,7 +151,7 @@ TEST_CASE("Behind a scan all round a corner returns what it returns ahead", "[bo
     sensor.scan.surface = sensors::ScanSurface::plane;
     sensor.scan.field_of_view_rad = 2.0 * core::kPi;
     renderer::World world =
-        tests::world(sensor, plane(), {kBlack, kRough},
+        tests::world(sensor, flat_ground(), {kBlack, kRough},
                      {tests::quad({left_m, right_m, right_m + up, left_m + up}, 1)});
     world.specular = {kPolished};
     std::vector<BounceEcho> echoes;
@@ -340,7 +330,7 @@ TEST_CASE("Double bounce gives the same bytes on any number of threads", "[bounc
     bodies.push_back(tests::quad({at + up, at + along + up, at + along, at}, 1));
   }
   renderer::World world =
-      tests::world(tests::hivision(24), plane(), {kRough, kRough}, std::move(bodies));
+      tests::world(tests::hivision(24), flat_ground(), {kRough, kRough}, std::move(bodies));
   world.specular = {kPolished, kPolished};
   std::vector<renderer::Frame> frames;
   for (const int threads : {1, 2, 5}) {

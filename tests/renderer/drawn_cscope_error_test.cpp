@@ -7,24 +7,24 @@
 #include "renderer/frame_renderer.h"
 #include "tests/renderer/city_world.h"
 
+using namespace fanbeam;
+using tests::kHeight_m;
+
 namespace {
 
-using namespace fanbeam;
-using namespace fanbeam::tests;
 using Mode = sensors::Display::CScopeMode;
 
-constexpr double kHeight_m = 60.0;
 const renderer::Effects kNoisy{.thermal_noise = true};
 
 renderer::World city_in(Mode mode) {
-  sensors::Sensor sensor = narrow(24);
+  sensors::Sensor sensor = tests::narrow(24);
   sensor.display.cscope_mode = mode;
-  return city_world(sensor, everywhere);
+  return tests::city_world(sensor, tests::everywhere);
 }
 
 renderer::Frame frame_of(const renderer::World& world, const renderer::Sampling& sampling,
                          const renderer::Products& products = {}) {
-  return renderer::render_frame(world, sampling, products, kNoisy, level_pose(kHeight_m));
+  return renderer::render_frame(world, sampling, products, kNoisy, tests::level_pose(kHeight_m));
 }
 
 double rms_apart(const std::vector<double>& a, const std::vector<double>& b) {
@@ -38,21 +38,22 @@ double rms_apart(const std::vector<double>& a, const std::vector<double>& b) {
 TEST_CASE("Two samplings are as far apart as the C-scopes that are drawn of them", "[refinement]") {
   for (const Mode mode : {Mode::flat_earth, Mode::shadow}) {
     const renderer::World world = city_in(mode);
-    const sensors::AntennaFrame antenna = renderer::antenna_of(world.sensor, level_pose(kHeight_m));
+    const sensors::AntennaFrame antenna =
+        renderer::antenna_of(world.sensor, tests::level_pose(kHeight_m));
     const auto sums_of = [&](const renderer::Sampling& sampling) {
       renderer::FanSums sums;
-      caster_of(world, sampling)->cast(antenna, false, sums);
+      tests::caster_of(world, sampling)->cast(antenna, false, sums);
       return sums;
     };
     const renderer::ColumnError::Squares apart =
         renderer::ColumnError(world.sensor, true, kHeight_m)
-            .between(sums_of(slices(2)), sums_of(slices(4)));
+            .between(sums_of(tests::slices(2)), sums_of(tests::slices(4)));
     const double found_grey = std::sqrt(
         std::accumulate(apart.cscope_grey2.begin(), apart.cscope_grey2.end(), 0.0) / 24.0);
     INFO("mode " << static_cast<int>(mode));
     CHECK(found_grey > 0.1);
-    CHECK(found_grey == Approx(rms_apart(frame_of(world, slices(2)).cscope_grey,
-                                         frame_of(world, slices(4)).cscope_grey))
+    CHECK(found_grey == Approx(rms_apart(frame_of(world, tests::slices(2)).cscope_grey,
+                                         frame_of(world, tests::slices(4)).cscope_grey))
                             .epsilon(1e-9));
   }
 }
@@ -61,7 +62,7 @@ TEST_CASE("Estimates and accuracies count the C-scope that is drawn from the B-s
           "[refinement]") {
   renderer::Sampling coarse = renderer::sampling_for(1.0);
   coarse.estimate_error = true;
-  renderer::Sampling converged = slices(8);
+  renderer::Sampling converged = tests::slices(8);
   converged.sub_columns = 16;
   converged.slices_per_sub_column = 8;
   for (const Mode mode : {Mode::flat_earth, Mode::shadow}) {

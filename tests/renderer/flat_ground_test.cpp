@@ -10,13 +10,14 @@
 #include "renderer/casting/fan_layout.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
-#include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
+using tests::flat_ground;
+using tests::kGrass;
+using tests::kHeight_m;
 
-constexpr double kHeight_m = 60.0;
+namespace {
 
 // Simpson over the cell, 20 intervals: the integrand is smooth on the scale of a cell.
 double closed_form_W(const sensors::Sensor& sensor, const materials::PhongNrcs& nrcs, int cell,
@@ -85,13 +86,8 @@ renderer::Sampling one_ray_per_cell() {
   return sampling;
 }
 
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
 const materials::PhongNrcs kConstant(0.0, 0.01, 0.0);
 const materials::PhongNrcs kConstantGamma(0.02, 0.0, 1.0);
-
-terrain::HeightField plane() {
-  return tests::ground(4000.0, 250.0, [](double, double) { return 0.0; });
-}
 
 }  // namespace
 
@@ -110,7 +106,7 @@ TEST_CASE("stc shows the NRCS of flat ground with the published table's sensor t
   sensor.display.mapping = sensors::Display::Mapping::stc;
   sensor.display.low_dB = -55.0;
   sensor.display.high_dB = 5.0;
-  const renderer::World world = tests::world(sensor, plane(), {kConstant});  // -20 dB
+  const renderer::World world = tests::world(sensor, flat_ground(), {kConstant});  // -20 dB
   const renderer::Frame frame = renderer::render_frame(
       world, renderer::sampling_for(64.0), {true, false}, {}, tests::level_pose(kHeight_m));
   // Where the boresight meets the ground the beam takes nothing.
@@ -125,7 +121,7 @@ TEST_CASE(
     "R08 flat ground at one ray per cell follows the closed form within 0.5 dB, no cell empty",
     "[flat]") {
   for (const materials::PhongNrcs& nrcs : {kGrass, kConstant, kConstantGamma}) {
-    const renderer::World world = tests::world(tests::hivision(12), plane(), {nrcs});
+    const renderer::World world = tests::world(tests::hivision(12), flat_ground(), {nrcs});
     const Error error = compare(world, one_ray_per_cell(), nrcs);
     CHECK(error.empty == 0);
     CHECK(error.largest_dB < 0.5);
@@ -135,7 +131,7 @@ TEST_CASE(
 
 TEST_CASE("R08 flat ground at reference quality follows the closed form within 0.05 dB", "[flat]") {
   for (const materials::PhongNrcs& nrcs : {kGrass, kConstant}) {
-    const renderer::World world = tests::world(tests::hivision(4), plane(), {nrcs});
+    const renderer::World world = tests::world(tests::hivision(4), flat_ground(), {nrcs});
     const Error error = compare(world, renderer::reference_sampling(1), nrcs);
     INFO("worst cell " << error.worst_cell);
     CHECK(error.empty == 0);
@@ -149,7 +145,7 @@ TEST_CASE("R08 cells of 3 m keep their rays out to 3.7 km: 0.5 dB preview, 0.1 d
   sensors::Sensor sensor = tests::hivision(2);
   sensor.range.cell_m = 3.0;
   sensor.range.cells = 1166;
-  const renderer::World world = tests::world(sensor, plane(), {kConstant});
+  const renderer::World world = tests::world(sensor, flat_ground(), {kConstant});
   const Error preview = compare(world, one_ray_per_cell(), kConstant);
   CHECK(preview.empty == 0);
   CHECK(preview.largest_dB < 0.5);
@@ -203,7 +199,7 @@ TEST_CASE("R01 constant sigma0 falls with R^-3 between cells: -9.0309 dB per dou
   // A beam without elevation pattern leaves the range law alone.
   sensor.antenna.elevation.half_power_width_rad = core::radians(170.0);
   sensor.antenna.elevation.cut_rad = core::radians(80.0);
-  const renderer::World world = tests::world(sensor, plane(), {kConstant});
+  const renderer::World world = tests::world(sensor, flat_ground(), {kConstant});
   const renderer::Frame frame = renderer::render_frame(
       world, renderer::sampling_for(16.0), {true, false}, {}, tests::level_pose(kHeight_m));
   const auto power_W = [&](int cell) {

@@ -10,20 +10,20 @@
 #include "core/errors.h"
 #include "core/parallel.h"
 #include "renderer/casting/ray_caster.h"
-#include "tests/renderer/test_worlds.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kHeight_m;
 
 namespace {
 
-using namespace fanbeam;
-
-constexpr double kHeight_m = 60.0;
-const materials::PhongNrcs kGrass(0.02, 0.1, 4.0);
+const materials::PhongNrcs kStreetGrass(0.02, 0.1, 4.0);
 
 // Level grass with a building that hides some of it.
 renderer::World street(int columns) {
   return tests::world(tests::hivision(columns),
                       tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
-                      {kGrass, materials::PhongNrcs(0.3, 0.0, 1.0)},
+                      {kStreetGrass, materials::PhongNrcs(0.3, 0.0, 1.0)},
                       {tests::box({-60.0, 900.0, 0.0}, {20.0, 940.0, 40.0}, 1)});
 }
 
@@ -210,7 +210,7 @@ TEST_CASE("A scan all round has scatterers behind it as many as ahead", "[frame_
   sensors::Sensor sensor = tests::hivision(36);
   sensor.scan.field_of_view_rad = 2.0 * core::kPi;
   const renderer::World world = tests::world(
-      sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }), {kGrass});
+      sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }), {kStreetGrass});
   renderer::FrameEchoSettings settings = fine(1);
   settings.sampling.sub_columns = 1;
   int ahead = 0, behind = 0;

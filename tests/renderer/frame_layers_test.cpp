@@ -10,15 +10,16 @@
 #include "core/units.h"
 #include "renderer/plan/largest_echo.h"
 #include "sensors/cells.h"
-#include "tests/renderer/test_worlds.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kGrass;
 
 namespace {
 
-using namespace fanbeam;
-
-constexpr double kHeight_m = 100.0, kFront_m = 1000.0, kBack_m = 1020.0, kTop_m = 20.0;
+constexpr double kAntenna_m = 100.0, kFront_m = 1000.0, kBack_m = 1020.0, kTop_m = 20.0;
 constexpr terrain::ObjectId kShed = 3;
-const materials::PhongNrcs kMeadow(0.0325, 0.136, 1.99), kBright(1.0, 1.0, 1.0);
+const materials::PhongNrcs kBright(1.0, 1.0, 1.0);
 
 // Something in every azimuth that slices cannot show: a box around nothing.
 void leave_to_rays(renderer::World& world) {
@@ -30,7 +31,7 @@ renderer::World plain_with_shed(const sensors::Sensor& sensor) {
   shed.mesh.object_of_part = {kShed};
   renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
-                   {kMeadow, kBright}, {shed});
+                   {kGrass, kBright}, {shed});
   const_cast<std::vector<std::string>&>(world.geometry->object_names) = {"terrain", "a", "b",
                                                                          "shed"};
   return world;
@@ -40,7 +41,7 @@ renderer::Frame rendered(const renderer::World& world, const renderer::Sampling&
                          const renderer::Effects& effects = {},
                          const renderer::Products& wanted = {.layers = true,
                                                              .cscope_layers = true}) {
-  return renderer::render_frame(world, sampling, wanted, effects, tests::level_pose(kHeight_m));
+  return renderer::render_frame(world, sampling, wanted, effects, tests::level_pose(kAntenna_m));
 }
 
 constexpr int kColumns = 8;
@@ -49,7 +50,9 @@ std::size_t at(int row, int column = 3) {
 }
 
 // Slant range where the line of sight over the shed's far top edge comes down.
-double shadow_ends_m() { return std::hypot(kBack_m * kHeight_m / (kHeight_m - kTop_m), kHeight_m); }
+double shadow_ends_m() {
+  return std::hypot(kBack_m * kAntenna_m / (kAntenna_m - kTop_m), kAntenna_m);
+}
 
 }  // namespace
 
@@ -60,8 +63,8 @@ TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
   const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
   REQUIRE(frame.layers);
   const renderer::LayerSet& truth = frame.layers->bscope;
-  const double wall_near_m = std::hypot(kFront_m, kHeight_m - kTop_m);
-  const double wall_far_m = std::hypot(kFront_m, kHeight_m);
+  const double wall_near_m = std::hypot(kFront_m, kAntenna_m - kTop_m);
+  const double wall_far_m = std::hypot(kFront_m, kAntenna_m);
   const double step_m = 2.0 * sensor.range.cell_m;  // of the rays
   int ground = 0, wall = 0, dark = 0;
   for (int row = 0; row < sensor.range.cells; ++row) {
@@ -76,20 +79,20 @@ TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
       REQUIRE(truth.visibility[i] == 1.0F);
       REQUIRE(truth.material[i] == 0);
       REQUIRE(truth.object[i] == terrain::kTerrainObject);
-      const double least = kHeight_m / far_m, most = kHeight_m / near_m;
+      const double least = kAntenna_m / far_m, most = kAntenna_m / near_m;
       const auto between = [](double value, double low, double high) {
         return value >= low * 0.9999 && value <= high * 1.0001;
       };
       REQUIRE(between(std::sin(static_cast<double>(truth.grazing_rad[i])), least, most));
       REQUIRE(between(-std::sin(static_cast<double>(truth.elevation_rad[i])), least, most));
       REQUIRE(
-          between(static_cast<double>(truth.nrcs[i]), kMeadow.sigma0(least), kMeadow.sigma0(most)));
+          between(static_cast<double>(truth.nrcs[i]), kGrass.sigma0(least), kGrass.sigma0(most)));
     } else if (near_m < wall_far_m && far_m > wall_near_m) {
       ++wall;
       REQUIRE(truth.object[i] == kShed);
       REQUIRE(truth.material[i] == 1);
       REQUIRE(truth.visibility[i] == 1.0F);
-    } else if (near_m > std::hypot(kBack_m, kHeight_m - kTop_m) &&
+    } else if (near_m > std::hypot(kBack_m, kAntenna_m - kTop_m) &&
                far_m < shadow_ends_m() - sensor.range.cell_m) {
       ++dark;
       REQUIRE(truth.visibility[i] == 0.0F);
@@ -109,8 +112,8 @@ TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_laye
   if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::Frame frame = rendered(world, renderer::profile_sampling_for(2.0));
   const renderer::LayerSet& truth = frame.layers->cscope;
-  const double top_rad = -std::atan((kHeight_m - kTop_m) / kBack_m);
-  const double foot_rad = -std::atan(kHeight_m / kFront_m);
+  const double top_rad = -std::atan((kAntenna_m - kTop_m) / kBack_m);
+  const double foot_rad = -std::atan(kAntenna_m / kFront_m);
   int ground = 0, wall = 0;
   for (int row = 0; row < sensor.display.cscope_rows; ++row) {
     const double high_rad =
@@ -122,21 +125,21 @@ TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_laye
     const double step_rad = 0.0015;  // of the rays around the shed
     const bool above = low_rad > top_rad + step_rad, below = high_rad < foot_rad - step_rad;
     // The ground ends with the range window, and the beam at -19.4 deg.
-    if (high_rad > -std::asin(kHeight_m / (sensor.range.maximum_m() - 50.0)) || low_rad < -0.33)
+    if (high_rad > -std::asin(kAntenna_m / (sensor.range.maximum_m() - 50.0)) || low_rad < -0.33)
       continue;
     REQUIRE(truth.visibility[i] == 1.0F);
     if (above || below) {
       ++ground;
       REQUIRE(truth.object[i] == terrain::kTerrainObject);
       const double range_m = static_cast<double>(truth.range_m[i]);
-      REQUIRE(range_m >= kHeight_m / std::sin(-low_rad) * 0.9999);
-      REQUIRE(range_m <= kHeight_m / std::sin(-high_rad) * 1.0001);
-    } else if (high_rad < -std::atan((kHeight_m - kTop_m) / kFront_m) && low_rad > foot_rad) {
+      REQUIRE(range_m >= kAntenna_m / std::sin(-low_rad) * 0.9999);
+      REQUIRE(range_m <= kAntenna_m / std::sin(-high_rad) * 1.0001);
+    } else if (high_rad < -std::atan((kAntenna_m - kTop_m) / kFront_m) && low_rad > foot_rad) {
       ++wall;
       REQUIRE(truth.object[i] == kShed);
       REQUIRE(truth.range_m[i] >
-              static_cast<float>(std::hypot(kFront_m, kHeight_m - kTop_m)) - 0.1F);
-      REQUIRE(truth.range_m[i] < static_cast<float>(std::hypot(kFront_m, kHeight_m)) + 0.1F);
+              static_cast<float>(std::hypot(kFront_m, kAntenna_m - kTop_m)) - 0.1F);
+      REQUIRE(truth.range_m[i] < static_cast<float>(std::hypot(kFront_m, kAntenna_m)) + 0.1F);
     }
   }
   CHECK(ground > 100);
@@ -157,9 +160,9 @@ TEST_CASE("In the C-scope's truth power counts with the cube of the range", "[fr
     walls[k].mesh.object_of_part = {static_cast<terrain::ObjectId>(k + 1)};
   renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
-                   {kMeadow, kBright}, walls);
+                   {kGrass, kBright}, walls);
   if (GENERATE(false, true)) leave_to_rays(world);
-  REQUIRE(kMeadow.sigma0(1.0) / (kNear_m * kNear_m) > kBright.sigma0(1.0) / (kFar_m * kFar_m));
+  REQUIRE(kGrass.sigma0(1.0) / (kNear_m * kNear_m) > kBright.sigma0(1.0) / (kFar_m * kFar_m));
   const renderer::LayerSet truth = rendered(world, renderer::sampling_for(4.0)).layers->cscope;
   for (const double elevation_deg : {-2.5, -2.0, -1.5, -1.0}) {
     INFO(elevation_deg << " deg");
@@ -183,7 +186,7 @@ TEST_CASE("Roads two cells wide across the view are told in every column", "[fra
   const sensors::Sensor sensor = tests::hivision(kColumns);
   renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
-                   {kMeadow, kBright}, {}, roads);
+                   {kGrass, kBright}, {}, roads);
   if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::LayerSet truth =
       rendered(world, renderer::profile_sampling_for(2.0)).layers->bscope;
@@ -194,7 +197,7 @@ TEST_CASE("Roads two cells wide across the view are told in every column", "[fra
         // Straight ahead; a degree beside they lie 0.15 m farther in a thousand.
         const auto north_m = [&](int edge) {
           const double range_m = sensors::range_edge_m(sensor.range, edge);
-          return std::sqrt(range_m * range_m - kHeight_m * kHeight_m);
+          return std::sqrt(range_m * range_m - kAntenna_m * kAntenna_m);
         };
         const double middle_m = 1000.0 + 170.0 * road, slack_m = 0.7;
         if (north_m(row) < middle_m - kWide_m / 2.0 + slack_m ||
@@ -223,13 +226,13 @@ TEST_CASE("What lies beyond the range gate is in neither scope", "[frame_layers]
     const double low_rad =
         sensor.display.cscope_top_rad - sensors::cscope_edge_rad(sensor.display, row + 1);
     INFO("row " << core::degrees(low_rad) << " to " << core::degrees(high_rad));
-    const bool near = high_rad < -std::asin(kHeight_m / sensor.range.minimum_m);
-    const bool far = low_rad > -std::asin(kHeight_m / sensor.range.maximum_m());
+    const bool near = high_rad < -std::asin(kAntenna_m / sensor.range.minimum_m);
+    const bool far = low_rad > -std::asin(kAntenna_m / sensor.range.maximum_m());
     const float seen = frame.layers->cscope.visibility[at(row)];
     if (near || far) REQUIRE(seen == 0.0F);
     const double one_rad = high_rad - low_rad;
-    if (high_rad < -std::asin(kHeight_m / sensor.range.maximum_m()) - one_rad &&
-        low_rad > -std::asin(kHeight_m / sensor.range.minimum_m) + one_rad) {
+    if (high_rad < -std::asin(kAntenna_m / sensor.range.maximum_m()) - one_rad &&
+        low_rad > -std::asin(kAntenna_m / sensor.range.minimum_m) + one_rad) {
       ++lit;
       REQUIRE(seen == 1.0F);
     }
@@ -280,7 +283,7 @@ TEST_CASE("A point target brighter than the ground gives its number", "[frame_la
   const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
   const sensors::Sensor& sensor = world.sensor;
   for (const std::size_t k : {0U, 1U}) {
-    const glm::dvec3 to_m = world.targets[k].path[0].position_m - glm::dvec3(0.0, 0.0, kHeight_m);
+    const glm::dvec3 to_m = world.targets[k].path[0].position_m - glm::dvec3(0.0, 0.0, kAntenna_m);
     const int row = sensors::range_row(sensor.range, glm::length(to_m));
     const int column = sensors::azimuth_column(sensor.scan, std::atan2(to_m.x, to_m.y));
     CHECK(frame.layers->bscope.object[at(row, column)] == 4 + k);
@@ -305,8 +308,8 @@ TEST_CASE("A point target counts from the power of its cell's ground on", "[fram
       // In the middle of a cell, whose ground sends as this does.
       const int row = sensors::range_row(sensor.range, range_m);
       const double middle_m = sensors::range_middle_m(sensor.range, row);
-      const double sine = kHeight_m / middle_m, cosine = std::sqrt(1.0 - sine * sine);
-      const double ground_m2 = kMeadow.sigma0(sine) * renderer::azimuth_width_rad(sensor) *
+      const double sine = kAntenna_m / middle_m, cosine = std::sqrt(1.0 - sine * sine);
+      const double ground_m2 = kGrass.sigma0(sine) * renderer::azimuth_width_rad(sensor) *
                                middle_m * sensor.range.cell_m / cosine;
       const double azimuth_rad = sensors::column_middle_rad(sensor.scan, 3);
       world.targets.push_back({.name = "post",
@@ -330,13 +333,13 @@ TEST_CASE("Low walls that hide next to nothing are told in every column", "[fram
   }
   renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
-                   {kMeadow, kBright}, walls);
+                   {kGrass, kBright}, walls);
   if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::LayerSet truth = rendered(world, renderer::sampling_for(4.0)).layers->bscope;
   for (double front_m = 1300.0; front_m < 3000.0; front_m += 140.0)
     for (int column = 0; column < kColumns; ++column) {
       INFO("wall at " << front_m << " m, column " << column);
-      const int row = sensors::range_row(sensor.range, std::hypot(front_m, kHeight_m));
+      const int row = sensors::range_row(sensor.range, std::hypot(front_m, kAntenna_m));
       const bool told =
           truth.object[at(row, column)] == kShed || truth.object[at(row + 1, column)] == kShed;
       CHECK(told);
@@ -348,7 +351,7 @@ TEST_CASE("Where a wall stands on a mirror most of the power bounces twice", "[f
   renderer::World world = plain_with_shed(sensor);
   world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
                     materials::SpecularSurface{{1.0, 1e9}, 0.0}};
-  const int corner = sensors::range_row(sensor.range, std::hypot(kFront_m, kHeight_m));
+  const int corner = sensors::range_row(sensor.range, std::hypot(kFront_m, kAntenna_m));
   const renderer::Effects bounces{.double_bounce = true};
   for (const renderer::Sampling& sampling :
        {renderer::profile_sampling_for(4.0),
@@ -374,7 +377,7 @@ TEST_CASE("Where bounces are all there is their share is one at any sampling", "
         renderer::refined_sampling(CasterKind::rays, 0.25)}) {
     const renderer::Frame frame = rendered(world, sampling, bounces);
     const renderer::LayerSet& truth = frame.layers->bscope;
-    const int first = sensors::range_row(sensor.range, std::hypot(kBack_m, kHeight_m)) + 2;
+    const int first = sensors::range_row(sensor.range, std::hypot(kBack_m, kAntenna_m)) + 2;
     const int last = sensors::range_row(sensor.range, shadow_ends_m()) - 2;
     INFO("accuracy " << sampling.target_grey << ", slices " << frame.slices);
     int lit = 0;
@@ -392,7 +395,7 @@ TEST_CASE("All of a plain is lit for a rolled antenna", "[frame_layers]") {
   sensors::Sensor sensor = tests::hivision(160);
   sensor.scan.stabilised = false;
   const renderer::World world = tests::world(
-      sensor, tests::ground(5000.0, 50.0, [](double, double) { return 0.0; }), {kMeadow, kBright});
+      sensor, tests::ground(5000.0, 50.0, [](double, double) { return 0.0; }), {kGrass, kBright});
   renderer::FramePose pose = tests::level_pose(60.0);
   pose.q_NB = pose.q_NB * glm::angleAxis(core::radians(30.0), glm::dvec3(1.0, 0.0, 0.0));
   const renderer::Frame frame =
@@ -431,7 +434,7 @@ TEST_CASE("In rain with bounces a frame has the same bytes with layers and with 
     CHECK(other.cscope_W_m3 == plain.cscope_W_m3);
   }
   const renderer::LayerSet truth = rendered(world, sampling, effects).layers->bscope;
-  const int corner = sensors::range_row(world.sensor.range, std::hypot(kFront_m, kHeight_m));
+  const int corner = sensors::range_row(world.sensor.range, std::hypot(kFront_m, kAntenna_m));
   CHECK(truth.double_bounce[at(corner)] > 0.3F);
   CHECK(truth.double_bounce[at(corner - 20)] == 0.0F);
 }

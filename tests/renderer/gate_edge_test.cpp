@@ -6,13 +6,12 @@
 #include <catch2/catch.hpp>
 
 #include "sensors/antenna/beam_pattern.h"
-#include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
+using tests::kGrass;
 
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
+namespace {
 
 // `gated`: what lies inside the range gate only.
 double row_W_m3(const sensors::Sensor& sensor, double height_m, int row, bool gated) {

@@ -3,17 +3,16 @@
 
 #include "core/pose.h"
 #include "core/units.h"
-#include "tests/renderer/test_worlds.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kGrass;
+using tests::kHeight_m;
+using tests::kWall;
 
 namespace {
 
-using namespace fanbeam;
-
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
-const materials::PhongNrcs kWall(0.05, 0.3, 4.0);
-constexpr double kHeight_m = 60.0;
-
-terrain::HeightField plane() {
+terrain::HeightField fine_plane() {
   return tests::ground(4000.0, 100.0, [](double, double) { return 0.0; });
 }
 
@@ -39,9 +38,9 @@ TEST_CASE("The radar shadow of a wall ends where the line over its top meets the
           "[geometry]") {
   constexpr double kWall_m = 1000.0, kTop_m = 20.0;
   const renderer::World world =
-      tests::world(tests::hivision(12), plane(), {kGrass, kWall},
+      tests::world(tests::hivision(12), fine_plane(), {kGrass, kWall},
                    {tests::box({-300.0, kWall_m, -1.0}, {300.0, kWall_m + 1.0, kTop_m}, 1)});
-  const renderer::World open = tests::world(tests::hivision(12), plane(), {kGrass});
+  const renderer::World open = tests::world(tests::hivision(12), fine_plane(), {kGrass});
   const std::vector<double> with = middle_column(world);
   const std::vector<double> without = middle_column(open);
   // Similar triangles from the far upper edge: ground distance (y + 1) h / (h - top).
@@ -67,9 +66,10 @@ TEST_CASE("A tower lies over: its top is nearer than its foot", "[geometry]") {
   sensors::Sensor sensor = tests::hivision(12);
   sensor.range.cell_m = 1.0;
   sensor.range.cells = 400;
-  const renderer::World world = tests::world(
-      sensor, plane(), {kGrass, kWall}, {tests::box({-30.0, 400.0, 0.0}, {30.0, 401.0, 40.0}, 1)});
-  const renderer::World open = tests::world(sensor, plane(), {kGrass});
+  const renderer::World world =
+      tests::world(sensor, fine_plane(), {kGrass, kWall},
+                   {tests::box({-30.0, 400.0, 0.0}, {30.0, 401.0, 40.0}, 1)});
+  const renderer::World open = tests::world(sensor, fine_plane(), {kGrass});
   const std::vector<double> with = middle_column(world, 200.0);
   const std::vector<double> without = middle_column(open, 200.0);
   const auto ratio_dB = [&](double range_m) {
@@ -88,7 +88,7 @@ TEST_CASE("A rolled, pitched and unstabilised antenna sees the same ground", "[g
   for (const sensors::ScanSurface surface :
        {sensors::ScanSurface::plane, sensors::ScanSurface::cone}) {
     sensor.scan.surface = surface;
-    const renderer::World world = tests::world(sensor, plane(), {kGrass});
+    const renderer::World world = tests::world(sensor, fine_plane(), {kGrass});
     renderer::FramePose pose = tests::level_pose(kHeight_m);
     pose.q_NB = core::quaternion_from({core::radians(10.0), core::radians(-5.0), 0.0});
     const renderer::Frame coarse =
@@ -109,7 +109,7 @@ TEST_CASE("A rolled, pitched and unstabilised antenna sees the same ground", "[g
 }
 
 TEST_CASE("The C-scope leaves no empty row inside lit ground", "[geometry]") {
-  const renderer::World world = tests::world(tests::hivision(8), plane(), {kGrass});
+  const renderer::World world = tests::world(tests::hivision(8), fine_plane(), {kGrass});
   const renderer::Frame frame = renderer::render_frame(world, renderer::sampling_for(2.0), {}, {},
                                                        tests::level_pose(kHeight_m));
   const sensors::Display& display = world.sensor.display;

@@ -8,12 +8,12 @@
 #include "sensors/antenna/beam_pattern.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
 
-const materials::PhongNrcs kBright(0.0325, 0.136, 1.99);
-const materials::PhongNrcs kDark(0.002, 0.01, 2.5);
+namespace {
+
+const materials::PhongNrcs kBrightGround(0.0325, 0.136, 1.99);
+const materials::PhongNrcs kDarkGround(0.002, 0.01, 2.5);
 
 struct Border {
   sensors::Sensor sensor = tests::hivision(4);
@@ -52,16 +52,17 @@ double largest_error(const renderer::Sampling& sampling) {
     border.north_m = 280.0;
     const renderer::World world = tests::world(
         border.sensor, tests::ground(4000.0, 250.0, [](double, double) { return 0.0; }),
-        {kBright, kDark}, {},
+        {kBrightGround, kDarkGround}, {},
         {terrain::rectangle_patch({0.0, 140.0}, {0.0, 1.0}, 280.0, 400.0, 1)});
     const renderer::Frame frame =
         renderer::render_frame(world, sampling, {}, {}, tests::level_pose(height_m));
     for (int row = border.border_row() - 6; row <= border.border_row() + 6; ++row) {
       const double expected_W_m3 = border.row_W_m3(row, [&](double depression_rad, double sine) {
-        return depression_rad > border.border_rad() ? kDark.sigma0(sine) : kBright.sigma0(sine);
+        return depression_rad > border.border_rad() ? kDarkGround.sigma0(sine)
+                                                    : kBrightGround.sigma0(sine);
       });
       const double bright_W_m3 =
-          border.row_W_m3(row, [](double, double sine) { return kBright.sigma0(sine); });
+          border.row_W_m3(row, [](double, double sine) { return kBrightGround.sigma0(sine); });
       const double got_W_m3 =
           frame.cscope_W_m3[static_cast<std::size_t>(row * border.sensor.scan.columns + 1)];
       largest = std::max(largest, std::abs(got_W_m3 - expected_W_m3) / bright_W_m3);

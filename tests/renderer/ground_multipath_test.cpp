@@ -8,22 +8,18 @@
 #include "renderer/stages/point_targets.h"
 #include "renderer/surfaces/bistatic_nrcs.h"
 #include "sensors/antenna/beam_pattern.h"
-#include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
 using renderer::Multipath;
+using tests::antenna_at;
+
+namespace {
 
 // Grass, but 40 dB down: what it scattered it would not mirror.
-const materials::PhongNrcs kGrass(0.0325e-4, 0.136e-4, 1.99);
+const materials::PhongNrcs kFaintGrass(0.0325e-4, 0.136e-4, 1.99);
 // Gamma = -1 in horizontal polarisation to 1e-4.
 const materials::SpecularSurface kMetal{{1.0, 1e9}, 0.0};
-
-sensors::AntennaFrame antenna_at(double height_m) {
-  const renderer::FramePose pose = tests::level_pose(height_m);
-  return sensors::antenna_frame(pose.position_m, pose.north_east_down, pose.q_NB, {}, true);
-}
 
 // A target of 1 m2 over flat ground, and an elevation beam so wide that both paths have its gain.
 renderer::World flat_world(double distance_m, double height_m,
@@ -35,7 +31,7 @@ renderer::World flat_world(double distance_m, double height_m,
   const double half_extent_m = std::max(4000.0, distance_m + 1000.0);
   renderer::World world =
       tests::world(sensor, tests::ground(half_extent_m, 250.0, [](double, double) { return 0.0; }),
-                   {kGrass, kGrass}, std::move(bodies));
+                   {kFaintGrass, kFaintGrass}, std::move(bodies));
   world.specular = {ground};
   world.targets = {
       {"sphere", materials::ConstantRcs{1.0}, {{0.0, {0.0, distance_m, height_m}}}, glm::dmat3(1)}};

@@ -6,15 +6,10 @@
 #include "core/random.h"
 #include "renderer/frame_renderer.h"
 #include "renderer/stages/frame_echoes.h"
-#include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
-
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
-
-}  // namespace
+using tests::kGrass;
 
 TEST_CASE("T13 a sensor in or on the ground sees noise alone and is flagged", "[robust]") {
   const renderer::World world =

@@ -9,9 +9,9 @@
 #include "renderer/frame_renderer.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 bool machine_has(const std::string& set) {
 #if defined(__x86_64__)
@@ -45,11 +45,10 @@ renderer::World village(const std::string& instruction_set) {
   return world;
 }
 
-constexpr std::size_t kFrames = 13;
-
 }  // namespace
 
 TEST_CASE("R11: pictures of SSE4.2, AVX, AVX2 and AVX-512 are statistically one", "[isa]") {
+  constexpr std::size_t kFrames = 13;
   std::vector<double> first_W;
   int sets = 0;
   for (const char* set : {"sse4.2", "avx", "avx2", "avx512"}) {

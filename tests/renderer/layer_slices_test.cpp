@@ -13,9 +13,9 @@
 #include "tests/renderer/city_world.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 renderer::LayerSet truth_of(const renderer::World& world, double height_m, bool of_cscope) {
   const renderer::FrameLayers layers =
@@ -34,9 +34,11 @@ renderer::LayerSet told_of(const std::vector<renderer::LayerEcho>& parts) {
   cells.clear(1);
   for (const renderer::LayerEcho& echo : parts) cells.add(0, renderer::azimuths_in(0.0, 0.5), echo);
   renderer::LayerSet set{.visibility = {0.0F},
+                         .range_m = {},
                          .grazing_rad = {0.0F},
                          .nrcs = {0.0F},
                          .elevation_rad = {0.0F},
+                         .double_bounce = {},
                          .material = {0},
                          .object = {0}};
   cells.write(0, 1, set);

@@ -5,9 +5,9 @@
 
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 double frame_W(const renderer::World& world, const renderer::Sampling& sampling,
                const renderer::FramePose& pose) {

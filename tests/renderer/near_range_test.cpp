@@ -1,6 +1,5 @@
 // R02, R03: echoes from no distance at all, and from straight below.
 #include <catch2/catch.hpp>
-#include <cstring>
 
 #include "core/units.h"
 #include "renderer/casting/echo_density.h"
@@ -8,16 +7,15 @@
 #include "renderer/casting/packet_sender.h"
 #include "renderer/casting/ray_aim.h"
 #include "tests/renderer/profile_closed_form.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
+#include "tests/renderer/values.h"
 
 using namespace fanbeam;
+using tests::kGrass;
+using tests::kHeight_m;
+using tests::same_bytes;
 
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
-
-bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
+namespace {
 
 // Rays of one sub-column from below up: `near_m` first, then level ground from 205 m on.
 renderer::RayChain chain_over_ground(const std::vector<float>& near_m, bool near_is_hit) {
@@ -83,8 +81,6 @@ renderer::Frame frame_of(const sensors::Sensor& sensor, std::vector<tests::Body>
   return renderer::render_frame(world, sampling, {}, {.thermal_noise = true},
                                 tests::level_pose(height_m));
 }
-
-constexpr double kHeight_m = 60.0;
 
 // Straight down: three metres of range before the ground and three behind it.
 sensors::Sensor looking_down(int cells) {

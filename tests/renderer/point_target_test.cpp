@@ -13,9 +13,9 @@
 #include "terrain/local_frame.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 struct Expected {
   double range_m, azimuth_rad, elevation_rad;

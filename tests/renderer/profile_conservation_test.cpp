@@ -3,12 +3,13 @@
 
 #include "renderer/casting/profile/ground_cut.h"
 #include "tests/renderer/profile_closed_form.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kHeight_m;
 
 namespace {
 
-using namespace fanbeam;
-
-constexpr double kHeight_m = 60.0;
 constexpr double kFirst_m = 100.0;  // of the range gate
 constexpr double kHalfExtent_m = 1000.0;
 

@@ -4,9 +4,9 @@
 #include "renderer/casting/profile/ground_cut.h"
 #include "tests/renderer/profile_closed_form.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 // Heights of 0 to 20 m at random, not square, its corner at no round number.
 terrain::HeightField rough(int columns, int rows, double spacing_m) {

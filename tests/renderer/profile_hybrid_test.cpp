@@ -6,25 +6,18 @@
 #include "renderer/casting/ray_caster.h"
 #include "renderer/frame_renderer.h"
 #include "tests/renderer/converged_rays.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kHeight_m;
 
 namespace {
 
-using namespace fanbeam;
+enum YardMaterial : terrain::MaterialId { kYardGround, kYardWall, kYardRoof, kCanopyMetal };
 
-constexpr double kHeight_m = 60.0;
-
-enum Material : terrain::MaterialId { kGrass, kWall, kRoof, kMetal };
-
-std::vector<materials::NrcsCurve> library() {
-  return {materials::PhongNrcs(0.0325, 0.136, 1.99), materials::PhongNrcs(0.05, 0.3, 4.0),
-          materials::PhongNrcs(0.02, 0.2, 3.0), materials::PhongNrcs(0.2, 0.3, 2.0)};
-}
-
-// Twelve columns, ranges to 900 m: rays are slow.
-sensors::Sensor narrow() {
-  sensors::Sensor sensor = tests::hivision(12);
-  sensor.range.cells = 105;
-  return sensor;
+std::vector<materials::NrcsCurve> yard_library() {
+  return {tests::kGrass, tests::kWall, materials::PhongNrcs(0.02, 0.2, 3.0),
+          materials::PhongNrcs(0.2, 0.3, 2.0)};
 }
 
 // A closed body between four corners, counter-clockwise from above, and the same ones lower down.
@@ -50,7 +43,7 @@ tests::Body metal(const std::vector<Slab>& slabs) {
     for (glm::uint i = 0; i < 4; ++i) add_face(i, (i + 1) % 4, (i + 1) % 4 + 4, i + 4);
   }
   mesh.triangle_material.resize(mesh.triangles.size(), 0);
-  return terrain::PlacedMesh{std::move(mesh), {kMetal}};
+  return terrain::PlacedMesh{std::move(mesh), {kCanopyMetal}};
 }
 
 Slab upright(glm::dvec3 low, glm::dvec3 high) {
@@ -83,19 +76,19 @@ terrain::HeightField rough_ground() {
 renderer::World yard(bool with_canopy) {
   std::vector<tests::Body> bodies;
   const auto add_building = [&](const terrain::Ring_m& outline_m, double top_m) {
-    bodies.push_back(tests::building({outline_m, {}, -30.0, top_m}, kWall, kRoof));
+    bodies.push_back(tests::building({outline_m, {}, -30.0, top_m}, kYardWall, kYardRoof));
   };
   add_building({{-14.0, 380.0}, {-8.0, 379.0}, {-7.0, 400.0}, {-14.0, 401.0}}, 24.0);
   add_building({{-7.0, 500.0}, {4.0, 502.0}, {3.0, 520.0}, {-7.0, 518.0}}, 18.0);
   add_building({{7.0, 560.0}, {18.0, 556.0}, {19.0, 570.0}, {8.0, 575.0}}, 16.0);
   if (with_canopy) bodies.push_back(canopy());
-  return tests::world(narrow(), rough_ground(), library(), std::move(bodies));
+  return tests::world(tests::narrow(12), rough_ground(), yard_library(), std::move(bodies));
 }
 
 renderer::World level_world(std::vector<tests::Body> bodies,
-                            const sensors::Sensor& sensor = narrow()) {
+                            const sensors::Sensor& sensor = tests::narrow(12)) {
   return tests::world(sensor, tests::ground(1000.0, 50.0, [](double, double) { return 0.0; }),
-                      library(), std::move(bodies));
+                      yard_library(), std::move(bodies));
 }
 
 template <class Caster>
@@ -173,8 +166,8 @@ TEST_CASE("A canopy among buildings looks as converged rays see it", "[profile]"
 
 TEST_CASE("A building hides the sign behind it, the sign a building, and ground shows under it",
           "[profile]") {
-  const tests::Body front = tests::box({-60.0, 400.0, -5.0}, {60.0, 420.0, 36.0}, kWall);
-  const tests::Body behind = tests::box({-60.0, 540.0, -5.0}, {60.0, 560.0, 20.0}, kWall);
+  const tests::Body front = tests::box({-60.0, 400.0, -5.0}, {60.0, 420.0, 36.0}, kYardWall);
+  const tests::Body behind = tests::box({-60.0, 540.0, -5.0}, {60.0, 560.0, 20.0}, kYardWall);
   const tests::Body sign = metal({upright({-60.0, 500.0, 3.0}, {60.0, 501.0, 30.0})});
   const auto seen = [](std::vector<tests::Body> bodies, double near_m, double far_m) {
     const renderer::World world = level_world(std::move(bodies));
@@ -254,7 +247,7 @@ TEST_CASE("A model behind the sensor, beyond the gate or beside the fan costs no
           "[profile]") {
   const sensors::AntennaFrame antenna = tests::level_antenna({0.0, 0.0, kHeight_m});
   const renderer::FanSums alone = hybrid(level_world({}), 16.0, antenna);
-  const double far_m = narrow().range.maximum_m();
+  const double far_m = tests::narrow(12).range.maximum_m();
   const auto cost = [&](glm::dvec3 low, glm::dvec3 high) {
     const renderer::FanSums sums =
         hybrid(level_world({metal({upright(low, high)})}), 16.0, antenna);

@@ -2,12 +2,12 @@
 #include <catch2/catch.hpp>
 
 #include "tests/renderer/profile_closed_form.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
+using tests::kHeight_m;
 
-constexpr double kHeight_m = 60.0;
+namespace {
 
 // Ranges to 1.2 km: farther cells prove nothing new, and fewer posts are quicker.
 sensors::Sensor short_sensor(sensors::Sensor sensor) {

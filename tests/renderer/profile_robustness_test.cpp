@@ -1,22 +1,19 @@
 // Hard cases of the profile caster: no thread, order, pose or geometry upsets it.
 #include <catch2/catch.hpp>
-#include <cstring>
 
 #include "core/parallel.h"
 #include "core/pose.h"
 #include "renderer/frame_renderer.h"
 #include "tests/renderer/profile_closed_form.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
+#include "tests/renderer/values.h"
 
 using namespace fanbeam;
+using tests::kGrass;
+using tests::kWall;
+using tests::same_bytes;
 
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
-const materials::PhongNrcs kWall(0.05, 0.3, 4.0);
-
-bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
-}
+namespace {
 
 bool all_good(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(),

@@ -2,12 +2,12 @@
 #include <catch2/catch.hpp>
 
 #include "tests/renderer/profile_closed_form.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
 
 using namespace fanbeam;
+using tests::kHeight_m;
 
-constexpr double kHeight_m = 60.0;
+namespace {
 
 sensors::Sensor near_sensor(double cell_m, int cells) {
   sensors::Sensor sensor = tests::even_hivision(4);

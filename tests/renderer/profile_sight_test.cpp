@@ -4,16 +4,17 @@
 
 #include "core/pose.h"
 #include "tests/renderer/profile_closed_form.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kGrass;
+using tests::kHeight_m;
 
 namespace {
 
-using namespace fanbeam;
-
-constexpr double kHeight_m = 60.0;
 constexpr double kGround_m = 800.0;  // half its extent
 constexpr std::uint64_t kWorlds = 16;
 constexpr std::size_t kPoints = 5000;  // in each
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
 
 // A number in (low, high) for each world, thing and draw.
 struct Draws {

@@ -3,12 +3,14 @@
 
 #include "renderer/casting/profile/wedge_strips.h"
 #include "tests/renderer/profile_closed_form.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kHeight_m;
 
 namespace {
 
-using namespace fanbeam;
-
-constexpr double kHeight_m = 60.0, kTop_m = 23.0;
+constexpr double kRoof_m = 23.0;
 
 using Front = std::vector<glm::dvec2>;  // its corners from left to right
 
@@ -22,7 +24,7 @@ renderer::World lone_building(const sensors::Sensor& sensor, const Front& front,
       sensor, tests::ground(1500.0, 10.0, [](double, double) { return 0.0; }),
       {bright_ground ? tests::kGamma : materials::PhongNrcs(),
        bright_ground ? materials::PhongNrcs() : tests::kGamma, materials::PhongNrcs()},
-      {tests::building({ring, {}, -5.0, kTop_m}, 1, 2)});
+      {tests::building({ring, {}, -5.0, kRoof_m}, 1, 2)});
 }
 
 sensors::Sensor near_sensor() {
@@ -57,11 +59,11 @@ double power_W(const sensors::Sensor& sensor, const Front& front, double sensor_
 }
 
 tests::VisiblePiece wall_at(double distance_m) {
-  return {{distance_m, -kHeight_m}, {distance_m, kTop_m - kHeight_m}};
+  return {{distance_m, -kHeight_m}, {distance_m, kRoof_m - kHeight_m}};
 }
 // From the wall's foot to where the ray over its top comes down.
 tests::VisiblePiece shadow_at(double distance_m) {
-  return {{distance_m, -kHeight_m}, {distance_m * kHeight_m / (kHeight_m - kTop_m), -kHeight_m}};
+  return {{distance_m, -kHeight_m}, {distance_m * kHeight_m / (kHeight_m - kRoof_m), -kHeight_m}};
 }
 
 double expected_W(const sensors::Sensor& sensor, const Front& front, double sensor_x_m) {

@@ -11,15 +11,15 @@
 #include "renderer/plan/plan.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/cells.h"
-#include "tests/renderer/test_worlds.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kBlack;
+using tests::kHeight_m;
 
 namespace {
 
-using namespace fanbeam;
-
 constexpr double kFrequency_Hz = 35e9;
-constexpr double kHeight_m = 60.0;
-const materials::PhongNrcs kBlack;
 
 atmosphere::Weather rain(double rate_mm_per_h) {
   atmosphere::Weather weather;

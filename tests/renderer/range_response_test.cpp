@@ -3,17 +3,19 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <numeric>
 
 #include "core/parallel.h"
 #include "renderer/plan/plan.h"
 #include "sensors/receiver/point_response.h"
 #include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/renderer/values.h"
 
 using namespace fanbeam;
 using renderer::RangeResponse;
+using tests::total;
+
+namespace {
+
 using Window = sensors::Waveform::Window;
 
 sensors::Sensor with_window(Window window, int columns = 4, int cells = 524) {
@@ -27,10 +29,6 @@ std::vector<double> impulse(const sensors::Sensor& sensor, int row, int column) 
   std::vector<double> image(static_cast<std::size_t>(sensor.scan.columns * sensor.range.cells));
   image[static_cast<std::size_t>(row * sensor.scan.columns + column)] = 1.0;
   return image;
-}
-
-double total(const std::vector<double>& image) {
-  return std::accumulate(image.begin(), image.end(), 0.0);
 }
 
 // Share of a cell's power that falls more than `rows` cells away on one side.

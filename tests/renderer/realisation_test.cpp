@@ -8,10 +8,10 @@
 #include "sensors/receiver/receiver_figures.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
 using core::Swerling;
+
+namespace {
 
 // Grass with a fluctuating and a steady reflector on it, seen over a few columns.
 renderer::World field_of_two(Swerling swerling, int looks = 1) {
@@ -26,15 +26,15 @@ renderer::World field_of_two(Swerling swerling, int looks = 1) {
   return world;
 }
 
-renderer::Frame rendered(const renderer::World& world, const renderer::Effects& effects,
-                         std::uint64_t frame_index = 0) {
+renderer::Frame frame_with(const renderer::World& world, const renderer::Effects& effects,
+                           std::uint64_t frame_index = 0) {
   renderer::FramePose pose = tests::level_pose(60.0);
   pose.frame_index = frame_index;
   return renderer::render_frame(world, renderer::sampling_for(2.0), {true, true, true}, effects,
                                 pose);
 }
 
-bool same(const renderer::Frame& a, const renderer::Frame& b) {
+bool same_frame(const renderer::Frame& a, const renderer::Frame& b) {
   return a.bscope_W == b.bscope_W && a.cscope_W_m3 == b.cscope_W_m3 &&
          a.bscope_grey == b.bscope_grey && a.cscope_grey == b.cscope_grey &&
          a.detections.size() == b.detections.size();
@@ -93,24 +93,24 @@ TEST_CASE("M06 a realisation is the same for any thread count and order of frame
     {
       const core::ThreadLimit one(1);
       for (const std::uint32_t frame : {0U, 1U, 2U})
-        first.push_back(rendered(world, kSample, frame));
+        first.push_back(frame_with(world, kSample, frame));
     }
     for (const int threads : {2, 3, 8}) {
       const core::ThreadLimit limit(threads);
       for (const std::uint32_t frame : {2U, 0U, 1U})
-        CHECK(same(rendered(world, kSample, frame), first[frame]));
+        CHECK(same_frame(frame_with(world, kSample, frame), first[frame]));
     }
     CHECK_FALSE(first[0].bscope_W == first[1].bscope_W);
     renderer::Effects other = kSample;
     other.seed = 4;
-    CHECK_FALSE(rendered(world, other).bscope_W == first[0].bscope_W);
+    CHECK_FALSE(frame_with(world, other).bscope_W == first[0].bscope_W);
   }
 }
 
 TEST_CASE("M06 a session's realisations do not come back after 2^32 frames", "[M06]") {
   const renderer::World world = field_of_two(Swerling::case2);
-  const renderer::Frame early = rendered(world, kSample, 5);
-  const renderer::Frame late = rendered(world, kSample, 5 + (std::uint64_t{1} << 32U));
+  const renderer::Frame early = frame_with(world, kSample, 5);
+  const renderer::Frame late = frame_with(world, kSample, 5 + (std::uint64_t{1} << 32U));
   CHECK_FALSE(late.bscope_W == early.bscope_W);
   CHECK_FALSE(late.cscope_W_m3 == early.cscope_W_m3);
 }
@@ -120,14 +120,14 @@ TEST_CASE("R19 nothing to fluctuate equals off, byte for byte", "[R19]") {
   const renderer::Effects off{.thermal_noise = true, .seed = 3};
   renderer::Effects swerling = off;
   swerling.swerling = true;
-  CHECK(same(rendered(world, swerling), rendered(world, off)));
+  CHECK(same_frame(frame_with(world, swerling), frame_with(world, off)));
   // Off takes no draw: the seed does not matter.
   renderer::Effects other_seed = off;
   other_seed.seed = 99;
-  CHECK(same(rendered(world, other_seed), rendered(world, off)));
+  CHECK(same_frame(frame_with(world, other_seed), frame_with(world, off)));
   // Speckle of zero power is zero power.
   const renderer::World nothing = tests::world(tests::hivision(8), std::nullopt, {});
-  CHECK(same(rendered(nothing, {.speckle = true}), rendered(nothing, {})));
+  CHECK(same_frame(frame_with(nothing, {.speckle = true}), frame_with(nothing, {})));
 }
 
 TEST_CASE("Realisations average to the expected power with its noise, ground and targets alike",
@@ -136,11 +136,11 @@ TEST_CASE("Realisations average to the expected power with its noise, ground and
   for (const Swerling swerling : {Swerling::steady, Swerling::case1, Swerling::case4}) {
     const renderer::World world = field_of_two(swerling, 2);
     const std::vector<double> expected_W =
-        rendered(world, {.thermal_noise = true}).bscope_W;  // noise is added for display
+        frame_with(world, {.thermal_noise = true}).bscope_W;  // noise is added for display
     const double noise_W = world.sensor.noise_power_W();
     std::vector<double> mean_W(expected_W.size(), 0.0);
     for (std::uint32_t frame = 0; frame < kFrames; ++frame) {
-      const std::vector<double> sample_W = rendered(world, kSample, frame).bscope_W;
+      const std::vector<double> sample_W = frame_with(world, kSample, frame).bscope_W;
       for (std::size_t i = 0; i < mean_W.size(); ++i) mean_W[i] += sample_W[i] / kFrames;
     }
     double worst = 0.0, sum = 0.0;

@@ -10,16 +10,14 @@
 #include "renderer/plan/caster_choice.h"
 #include "tests/renderer/city_world.h"
 
+using namespace fanbeam;
+using tests::kHeight_m;
+
 namespace {
 
-using namespace fanbeam;
-using namespace fanbeam::tests;
-
-constexpr double kHeight_m = 60.0;
-
 renderer::FramePose pose_of(std::uint64_t number) {
-  const auto random = [number](std::uint32_t draw) { return uniform(11, number, draw); };
-  renderer::FramePose pose = level_pose(55.0 + 40.0 * random(0));
+  const auto random = [number](std::uint32_t draw) { return tests::uniform(11, number, draw); };
+  renderer::FramePose pose = tests::level_pose(55.0 + 40.0 * random(0));
   pose.position_m.x = 200.0 * random(1) - 100.0;
   pose.position_m.y = 200.0 * random(2) - 100.0;
   pose.q_NB = core::quaternion_from({0.0, 0.0, 2.0 * core::kPi * random(3)});
@@ -52,7 +50,7 @@ double true_error_grey(const renderer::GreyReference& reference, const renderer:
 // Converged, and not by the other caster: rays are 0.05 to 0.3 grey off where they are `converged`,
 // more than slices have to state. That both come to the same picture is profile_rays_test's.
 renderer::Sampling many_slices() {
-  renderer::Sampling sampling = slices(8);
+  renderer::Sampling sampling = tests::slices(8);
   sampling.sub_columns = 16;
   sampling.slices_per_sub_column = 8;
   return sampling;
@@ -61,7 +59,7 @@ renderer::Sampling many_slices() {
 // Slices begin with so many that hardly anything is left to refine: here with one.
 renderer::Sampling coarse_start(renderer::CasterKind caster, double target_grey) {
   if (caster == renderer::CasterKind::rays) return renderer::refined_sampling(caster, target_grey);
-  renderer::Sampling sampling = slices(1);
+  renderer::Sampling sampling = tests::slices(1);
   sampling.target_grey = target_grey / 10.0;
   return sampling;
 }
@@ -74,7 +72,7 @@ renderer::Sampling coarse_start(renderer::CasterKind caster, double target_grey)
 TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
           "[refinement][statistics]") {
   constexpr std::uint64_t kPoses = 20;
-  const renderer::World world = city_world(narrow(24), everywhere);
+  const renderer::World world = tests::city_world(tests::narrow(24), tests::everywhere);
   // Refined to 1 and to 0.5 grey, and as they come.
   std::vector<renderer::Sampling> samplings;
   for (const renderer::CasterKind caster :
@@ -82,7 +80,7 @@ TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
     samplings.push_back(renderer::refined_sampling(caster, 1.0));
     samplings.push_back(renderer::refined_sampling(caster, 0.5));
     samplings.push_back(caster == renderer::CasterKind::rays ? renderer::sampling_for(4.0)
-                                                             : slices(8));
+                                                             : tests::slices(8));
     samplings.back().estimate_error = true;
   }
   std::vector<Tally> tallies(samplings.size());
@@ -121,10 +119,11 @@ TEST_CASE("The true error over a city lies within a factor 1.5 of its estimate",
 }
 
 TEST_CASE("A city on one side is refined on that side alone", "[refinement]") {
-  const sensors::Sensor sensor = narrow(82);
-  const renderer::World half = city_world(sensor, [](double x, double) { return x < -30.0; });
-  const renderer::World whole = city_world(sensor, everywhere);
-  const sensors::AntennaFrame antenna = level_antenna({0.0, 0.0, kHeight_m});
+  const sensors::Sensor sensor = tests::narrow(82);
+  const renderer::World half =
+      tests::city_world(sensor, [](double x, double) { return x < -30.0; });
+  const renderer::World whole = tests::city_world(sensor, tests::everywhere);
+  const sensors::AntennaFrame antenna = tests::level_antenna({0.0, 0.0, kHeight_m});
   for (const renderer::CasterKind kind :
        {renderer::CasterKind::rays, renderer::CasterKind::profile}) {
     const renderer::Sampling sampling = coarse_start(kind, 0.25);
@@ -132,7 +131,7 @@ TEST_CASE("A city on one side is refined on that side alone", "[refinement]") {
       return static_cast<double>(kind == renderer::CasterKind::rays ? sums.rays : sums.slices);
     };
     const auto refined = [&](const renderer::World& world, renderer::FanSums& sums) {
-      const auto caster = caster_of(world, sampling);
+      const auto caster = tests::caster_of(world, sampling);
       renderer::SightLines none;
       return renderer::Refinement(world, sampling, *caster, nullptr, {})
           .cast(antenna, true, sums, none);
@@ -141,19 +140,19 @@ TEST_CASE("A city on one side is refined on that side alone", "[refinement]") {
     const renderer::ErrorEstimate estimate = refined(half, of_half);
     refined(whole, of_whole);
     REQUIRE(estimate.levels >= 4);
-    const auto caster = caster_of(half, sampling);
+    const auto caster = tests::caster_of(half, sampling);
     // After the first two levels, which every column needs for its estimate.
     double everyone = 0.0, later = 0.0;
     for (int level = 0; level < estimate.levels; ++level)
-      (level < 2 ? everyone : later) += samples(cast_level(*caster, level, antenna));
+      (level < 2 ? everyone : later) += samples(tests::cast_level(*caster, level, antenna));
     INFO(renderer::name_of(kind) << ": " << samples(of_half) << " of " << everyone + later
                                  << ", built up all over " << samples(of_whole));
     CHECK(samples(of_half) - everyone < 0.6 * later);
     CHECK(samples(of_whole) > 1.5 * samples(of_half));
     // The right quarter of the fan holds the first two levels and nothing else.
-    renderer::FanSums first = cast_level(*caster, 0, antenna);
+    renderer::FanSums first = tests::cast_level(*caster, 0, antenna);
     const double share = kind == renderer::CasterKind::rays ? 0.5 : 1.0;
-    mix_in(cast_level(*caster, 1, antenna), share, first);
+    tests::mix_in(tests::cast_level(*caster, 1, antenna), share, first);
     const auto from =
         static_cast<std::ptrdiff_t>(first.sub_columns / 4 * 3) * std::ptrdiff_t{first.cells};
     CHECK(std::equal(first.range_W_per_rad.begin() + from, first.range_W_per_rad.end(),
@@ -162,7 +161,7 @@ TEST_CASE("A city on one side is refined on that side alone", "[refinement]") {
 }
 
 TEST_CASE("R10 refined frames have the same bytes for 1 and 2 threads", "[refinement]") {
-  const renderer::World world = city_world(narrow(24), everywhere);
+  const renderer::World world = tests::city_world(tests::narrow(24), tests::everywhere);
   for (const renderer::CasterKind kind :
        {renderer::CasterKind::rays, renderer::CasterKind::profile}) {
     const renderer::FrameRenderer frames(world, coarse_start(kind, 0.5), {}, {});

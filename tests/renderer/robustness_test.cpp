@@ -11,14 +11,15 @@
 #include "renderer/casting/fan_layout.h"
 #include "renderer/casting/ray_caster.h"
 #include "renderer/frame_renderer.h"
-#include "tests/renderer/test_worlds.h"
-
-namespace {
+#include "tests/renderer/usual_world.h"
+#include "tests/renderer/values.h"
 
 using namespace fanbeam;
+using tests::kBlack;
+using tests::kGrass;
+using tests::same_bytes;
 
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
-const materials::PhongNrcs kDark;
+namespace {
 
 terrain::HeightField rolling_ground() {
   return tests::ground(4000.0, 40.0, [](double x, double y) {
@@ -41,10 +42,6 @@ void check_finite(const renderer::Frame& frame) {
   for (const auto* values :
        {&frame.bscope_W, &frame.cscope_W_m3, &frame.bscope_grey, &frame.cscope_grey})
     for (const double value : *values) REQUIRE((std::isfinite(value) && value >= 0.0));
-}
-
-bool same_bytes(const std::vector<double>& a, const std::vector<double>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
 }  // namespace
@@ -149,8 +146,8 @@ TEST_CASE("R16 nothing in view gives a picture of noise and says so", "[robust]"
 
 TEST_CASE("M02 a perfectly dark surface equals the noise-only picture exactly", "[robust]") {
   const sensors::Sensor sensor = tests::hivision(8);
-  const renderer::World dark = tests::world(sensor, rolling_ground(), {kDark});
-  const renderer::World nothing = tests::world(sensor, std::nullopt, {kDark});
+  const renderer::World dark = tests::world(sensor, rolling_ground(), {kBlack});
+  const renderer::World nothing = tests::world(sensor, std::nullopt, {kBlack});
   for (const bool noise : {true, false}) {
     const renderer::Frame a =
         renderer::render_frame(dark, {}, {}, {.thermal_noise = noise}, tests::level_pose(80.0));
@@ -253,7 +250,7 @@ TEST_CASE("R14 what stands on the ground is visible, what stands behind a wall i
           "[robust]") {
   renderer::World world = tests::world(
       tests::hivision(40), tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
-      {kDark, kDark}, {tests::box({-30.0, 1000.0, 0.0}, {30.0, 1001.0, 20.0}, 1)});
+      {kBlack, kBlack}, {tests::box({-30.0, 1000.0, 0.0}, {30.0, 1001.0, 20.0}, 1)});
   const auto add = [&](const char* name, double x, double y, double z) {
     world.targets.push_back(
         {name, materials::ConstantRcs{1.0}, {{0.0, {x, y, z}}}, glm::dmat3(1.0)});

@@ -10,10 +10,10 @@
 #include "sensors/antenna/beam_pattern.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
 using core::radians;
+
+namespace {
 
 sensors::Sensor with_lobes(double level_dB, double extent_deg, int columns = 40) {
   sensors::Sensor sensor = tests::hivision(columns);
@@ -37,13 +37,13 @@ double grey_of_dB(const sensors::Sensor& sensor, double dB) {
   return dB * 255.0 / (sensor.display.high_dB - sensor.display.low_dB);
 }
 
-renderer::World flat_world(const sensors::Sensor& sensor) {
+renderer::World level_grass(const sensors::Sensor& sensor) {
   return tests::world(sensor, tests::ground(4000.0, 250.0, [](double, double) { return 0.0; }),
                       {materials::PhongNrcs(0.0325, 0.136, 1.99)});
 }
 
 renderer::Frame frame_of(const sensors::Sensor& sensor) {
-  const renderer::World world = flat_world(sensor);
+  const renderer::World world = level_grass(sensor);
   return renderer::render_frame(world, {}, {true, true}, {}, tests::level_pose(60.0));
 }
 
@@ -112,7 +112,7 @@ TEST_CASE("elevation side lobes light the ground that the beam leaves dark", "[s
   // From 300 m the nearest 900 m lie more than 19.4 deg down, below the beam's cut.
   sensors::Sensor sensor = tests::hivision(4);
   const auto nearest = [](const sensors::Sensor& used) {
-    const renderer::World world = flat_world(used);
+    const renderer::World world = level_grass(used);
     return renderer::render_frame(world, {}, {true, false}, {}, tests::level_pose(300.0))
         .bscope_W[30 * 4 + 1];  // 400 m
   };

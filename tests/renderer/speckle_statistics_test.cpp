@@ -8,12 +8,12 @@
 #include "sensors/receiver/detection.h"
 #include "tests/renderer/statistics.h"
 
-namespace {
-
 using namespace fanbeam;
 using core::Swerling;
 using renderer::Fluctuation;
 using renderer::TargetShare;
+
+namespace {
 
 constexpr std::size_t kDraws = 1'000'000;
 

@@ -26,6 +26,13 @@ inline sensors::Sensor hivision(int columns = 164) {
   return sensor;
 }
 
+// Ranges to 900 m: rays are slow.
+inline sensors::Sensor narrow(int columns) {
+  sensors::Sensor sensor = hivision(columns);
+  sensor.range.cells = 105;
+  return sensor;
+}
+
 inline atmosphere::PathAttenuation clear_air() {
   atmosphere::Weather weather;
   weather.simulate_gas = weather.simulate_fog = weather.simulate_rain = false;

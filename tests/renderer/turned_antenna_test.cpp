@@ -2,9 +2,9 @@
 #include "core/pose.h"
 #include "tests/renderer/converged_rays.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 std::vector<materials::NrcsCurve> meadow_and_wall() {
   return {materials::PhongNrcs(0.0325, 0.136, 1.99), materials::PhongNrcs(0.05, 0.3, 4.0)};

@@ -8,18 +8,18 @@
 #include "renderer/casting/sub_column.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
 
-constexpr double kHeight_m = 75.0;
+namespace {
+
+constexpr double kHeightBeforeWall_m = 75.0;
 const glm::dvec3 kNearTop_m(5.0, 1000.0, 12.0);
 
 // A wall that nearly faces the antenna, on black ground; a cell's far border is `deep_m` behind the
 // wall's nearest point.
 renderer::World oblique_wall(double deep_m) {
   sensors::Sensor sensor = tests::hivision(24);
-  const double nearest_m = glm::distance(kNearTop_m, glm::dvec3(0.0, 0.0, kHeight_m));
+  const double nearest_m = glm::distance(kNearTop_m, glm::dvec3(0.0, 0.0, kHeightBeforeWall_m));
   sensor.range.minimum_m = nearest_m + deep_m - 51.0 * sensor.range.cell_m;
   const glm::dvec3 along_m(40.0, 4.0, 0.0), down_m(0.0, 0.0, -kNearTop_m.z);
   return tests::world(sensor, tests::ground(4000.0, 250.0, [](double, double) { return 0.0; }),
@@ -32,7 +32,7 @@ renderer::World oblique_wall(double deep_m) {
 // Of the cell that the wall's end reaches into, in all columns.
 double end_W(const renderer::World& world, const renderer::Sampling& sampling) {
   const renderer::Frame frame =
-      renderer::render_frame(world, sampling, {}, {}, tests::level_pose(kHeight_m));
+      renderer::render_frame(world, sampling, {}, {}, tests::level_pose(kHeightBeforeWall_m));
   double sum_W = 0.0;
   for (int column = 0; column < world.sensor.scan.columns; ++column)
     sum_W += frame.bscope_W[static_cast<std::size_t>(50 * world.sensor.scan.columns + column)];

@@ -2,15 +2,14 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "tests/renderer/test_worlds.h"
+#include "tests/renderer/usual_world.h"
+
+using namespace fanbeam;
+using tests::kGrass;
 
 namespace {
 
-using namespace fanbeam;
-
-const materials::PhongNrcs kGrass(0.0325, 0.136, 1.99);
-
-atmosphere::Weather rain(double rate_mm_per_h) {
+atmosphere::Weather only_rain(double rate_mm_per_h) {
   atmosphere::Weather weather;
   weather.rain_rate_mm_per_h = rate_mm_per_h;
   weather.rain_top_m = 12000.0;
@@ -29,7 +28,7 @@ renderer::Frame frame_of(const renderer::World& world, double height_m,
                                 tests::level_pose(height_m));
 }
 
-bool same(const renderer::Frame& a, const renderer::Frame& b) {
+bool same_pictures(const renderer::Frame& a, const renderer::Frame& b) {
   return a.bscope_W == b.bscope_W && a.cscope_W_m3 == b.cscope_W_m3 &&
          a.bscope_grey == b.bscope_grey && a.cscope_grey == b.cscope_grey;
 }
@@ -43,13 +42,13 @@ TEST_CASE("A02 no rain and nearly no rain give the picture of clear air, value f
   const renderer::Frame clear = frame_of(world, 60.0, effects);
   REQUIRE(*std::max_element(clear.bscope_W.begin(), clear.bscope_W.end()) > 0.0);
 
-  world.attenuation = atmosphere::PathAttenuation(rain(0.0), 35e9);
-  world.volume_echo.emplace(rain(0.0), 35e9);
-  CHECK(same(frame_of(world, 60.0, effects), clear));
+  world.attenuation = atmosphere::PathAttenuation(only_rain(0.0), 35e9);
+  world.volume_echo.emplace(only_rain(0.0), 35e9);
+  CHECK(same_pictures(frame_of(world, 60.0, effects), clear));
 
   // 1e-300 mm/h: a loss and an echo far below the last digit.
-  world.attenuation = atmosphere::PathAttenuation(rain(1e-300), 35e9);
-  world.volume_echo.emplace(rain(1e-300), 35e9);
+  world.attenuation = atmosphere::PathAttenuation(only_rain(1e-300), 35e9);
+  world.volume_echo.emplace(only_rain(1e-300), 35e9);
   CHECK(frame_of(world, 60.0, effects).bscope_grey == clear.bscope_grey);
 }
 
@@ -62,7 +61,7 @@ TEST_CASE("A03 behind 435 dB of rain every pixel is the noise floor, exactly",
   renderer::World world = grass(sensor, 12000.0);
   const renderer::Frame clear = frame_of(world, kHeight_m, {});
   const renderer::Frame clear_noisy = frame_of(world, kHeight_m, noisy);
-  world.attenuation = atmosphere::PathAttenuation(rain(100.0), 35e9);
+  world.attenuation = atmosphere::PathAttenuation(only_rain(100.0), 35e9);
   const renderer::Frame wet = frame_of(world, kHeight_m, {});
   const renderer::Frame wet_noisy = frame_of(world, kHeight_m, noisy);
   const renderer::Frame noise =
@@ -82,7 +81,7 @@ TEST_CASE("A03 behind 435 dB of rain every pixel is the noise floor, exactly",
   // Past the end of double, 3076 dB: nothing is left, and that is black too.
   sensor.range.minimum_m = 80000.0;
   renderer::World far = grass(sensor, 90000.0);
-  far.attenuation = atmosphere::PathAttenuation(rain(100.0), 35e9);
+  far.attenuation = atmosphere::PathAttenuation(only_rain(100.0), 35e9);
   const renderer::Frame drowned = frame_of(far, 6000.0, noisy);
   CHECK(std::all_of(drowned.bscope_W.begin(), drowned.bscope_W.end(),
                     [](double power_W) { return power_W == 0.0; }));

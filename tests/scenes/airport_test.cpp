@@ -9,6 +9,7 @@
 #include "scenes/airport/apt_dat_reader.h"
 #include "scenes/airport/runway_csv_reader.h"
 #include "scenes/airport/runway_ends.h"
+#include "tests/scenes/problem_text.h"
 #include "tests/shared_data.h"
 #include "tests/terrain/ascii_grid.h"
 
@@ -16,14 +17,9 @@ using namespace fanbeam;
 using namespace fanbeam::scenes;
 using Catch::Contains;
 using core::degrees;
+using tests::all_of;
 
 namespace {
-
-std::string all_of(const core::ProblemList& problems) {
-  std::string text;
-  for (const core::Problem& problem : problems.all()) text += core::to_string(problem) + "\n";
-  return text;
-}
 
 // 26 fields as the format has them.
 const std::string kRow =

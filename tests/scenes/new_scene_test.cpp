@@ -13,6 +13,7 @@
 #include "scenes/new_scene/words.h"
 #include "scenes/scene.h"
 #include "terrain/geoid.h"
+#include "tests/scenes/problem_text.h"
 #include "tests/scenes/scene_folder.h"
 #include "tests/shared_data.h"
 #include "tests/terrain/ascii_grid.h"
@@ -21,17 +22,12 @@ using namespace fanbeam;
 using namespace fanbeam::scenes;
 using Catch::Contains;
 using core::VerticalDatum;
+using tests::all_of;
 using Heights = terrain::RasterFacts::Heights;
 
 namespace {
 
-std::string all_of(const core::ProblemList& problems) {
-  std::string text;
-  for (const core::Problem& problem : problems.all()) text += core::to_string(problem) + "\n";
-  return text;
-}
-
-std::string all_of(const Notes& notes) {
+std::string listed(const Notes& notes) {
   std::string text;
   for (const Note& note : notes)
     text += (note.guess ? "? " : "  ") + note.label + ": " + note.text + "\n";
@@ -139,7 +135,7 @@ TEST_CASE("A scene of generated data says all that was guessed, and can be built
   INFO(all_of(problems));
   REQUIRE(scene.has_value());
   INFO(scene->text);
-  CHECK_THAT(all_of(scene->notes),
+  CHECK_THAT(listed(scene->notes),
              Contains("vertical datum: egm96: the file does not say") && Contains("whole metres"));
   CHECK(scene->files.size() == 2);  // the grid and its .prj
   CHECK_THAT(scene->text, Contains("quantisation_step_m = 1.0") &&
@@ -164,8 +160,8 @@ TEST_CASE("Elevations that are not published come from the terrain, and that is 
   const auto scene = make_new_scene(request(plain(data, 130.0), std::nullopt), problems);
   INFO(all_of(problems));
   REQUIRE(scene.has_value());
-  INFO(scene->text << all_of(scene->notes));
-  CHECK_THAT(all_of(scene->notes), Contains("? vertical datum: egm96: assumed") &&
+  INFO(scene->text << listed(scene->notes));
+  CHECK_THAT(listed(scene->notes), Contains("? vertical datum: egm96: assumed") &&
                                        Contains("? elevation of 36: 130.") &&
                                        Contains("m, from the terrain"));
   const tests::Outcome outcome = built(folder, *scene);
@@ -184,7 +180,7 @@ TEST_CASE("Terrain above the ellipsoid takes the runway's published elevations w
   REQUIRE(geoid_m > 40.0);
   const auto scene = make_new_scene(request(plain(data, 80.0 + geoid_m)), problems);
   REQUIRE(scene.has_value());
-  INFO(scene->text << all_of(scene->notes));
+  INFO(scene->text << listed(scene->notes));
   CHECK_THAT(scene->text, Contains("vertical_datum = \"ellipsoid\""));
   const tests::Outcome outcome = built(folder, *scene);
   REQUIRE(outcome.scene != nullptr);
@@ -240,7 +236,7 @@ TEST_CASE("Posts without a height are filled in a new scene", "[new-scene]") {
   const auto scene = make_new_scene(request(file), problems);
   REQUIRE(scene.has_value());
   CHECK_THAT(scene->text, Contains("voids = \"fill\"") && !Contains("quantisation_step_m"));
-  CHECK_THAT(all_of(scene->notes), Contains("1 without a height"));
+  CHECK_THAT(listed(scene->notes), Contains("1 without a height"));
   CHECK(built(folder, *scene).scene != nullptr);
 }
 
@@ -267,17 +263,17 @@ TEST_CASE("The height property of buildings is the one that most features have a
                                 feature(R"("building:height":9.5,"building:levels":3)", 10.001),
                             notes);
   CHECK(some.height_property == "building:height");
-  CHECK_THAT(all_of(notes), Contains("2 footprints, heights from \"building:height\""));
+  CHECK_THAT(listed(notes), Contains("2 footprints, heights from \"building:height\""));
   notes.clear();
   const auto measured = guessed(feature(R"("measuredHeight":12,"min_height":2)", 10.0) + "," +
                                     feature(R"("name":"shed")", 10.001),
                                 notes);
   CHECK(measured.height_property == "measuredHeight");
   CHECK(measured.min_height_property == "min_height");
-  CHECK_THAT(all_of(notes), Contains("of 1 without it 5 m"));
+  CHECK_THAT(listed(notes), Contains("of 1 without it 5 m"));
   notes.clear();
   CHECK(guessed(feature(R"("name":"shed")", 10.0), notes).height_property.empty());
-  CHECK_THAT(all_of(notes), Contains("? buildings") && Contains("5 m each"));
+  CHECK_THAT(listed(notes), Contains("? buildings") && Contains("5 m each"));
 }
 
 TEST_CASE("Foreign text in a scene file is data, whatever is in it", "[new-scene]") {
@@ -337,8 +333,8 @@ TEST_CASE("Friedrichshafen from a runway table and an SRTM tile: datum, heights,
     const auto scene = make_new_scene(wanted, problems);
     INFO(all_of(problems));
     REQUIRE(scene.has_value());
-    INFO(all_of(scene->notes) << scene->text);
-    CHECK_THAT(all_of(scene->notes),
+    INFO(listed(scene->notes) << scene->text);
+    CHECK_THAT(listed(scene->notes),
                Contains("  vertical datum: egm96: as ") && Contains("15299 without a height"));
     const tests::TemporaryFolder folder;
     const tests::Outcome outcome = built(folder, *scene);

@@ -8,6 +8,7 @@
 #include "scenes/new_scene/approach_rows.h"
 #include "scenes/new_scene/track_columns.h"
 #include "scenes/new_scene/track_guess.h"
+#include "tests/scenes/problem_text.h"
 #include "tests/shared_data.h"
 #include "tests/terrain/ascii_grid.h"
 
@@ -15,17 +16,12 @@ using namespace fanbeam;
 using namespace fanbeam::scenes;
 using Catch::Contains;
 using core::VerticalDatum;
+using tests::all_of;
 
 namespace {
 
 constexpr double kGeoid_m = 45.0;
 constexpr double kMetresOfDegree = 111'260.0;  // of latitude at 52 N
-
-std::string all_of(const core::ProblemList& problems) {
-  std::string text;
-  for (const core::Problem& problem : problems.all()) text += core::to_string(problem) + "\n";
-  return text;
-}
 
 // Landing to the north at 52 N 10 E, 80 m above mean sea level, on a plain.
 TrackReference reference() {

@@ -79,13 +79,13 @@ std::string text_at(const LocalScene& scene, const Site& site, EarthModel earth)
          "\nabove_ground_m = " + core::number_text(scene.above_m) + "\n";
 }
 
-struct Seen {
+struct Rendered {
   std::unique_ptr<scenes::Scene> scene;
   renderer::Frame frame;
 };
 
-Seen seen(const TemporaryFolder& folder, const std::string& text, CasterKind kind) {
-  Seen result{tests::good_scene(folder, text), {}};
+Rendered rendered(const TemporaryFolder& folder, const std::string& text, CasterKind kind) {
+  Rendered result{tests::good_scene(folder, text), {}};
   result.frame = renderer::render_frame(
       result.scene->world, renderer::default_sampling(kind), {.bscope = true, .cscope = false},
       renderer::effects_of(result.scene->plan, 1), result.scene->frame_pose(0));
@@ -95,7 +95,7 @@ Seen seen(const TemporaryFolder& folder, const std::string& text, CasterKind kin
 renderer::Frame frame_at(const LocalScene& scene, const Site& site, EarthModel earth,
                          CasterKind kind) {
   const TemporaryFolder folder;
-  return seen(folder, text_at(scene, site, earth), kind).frame;
+  return rendered(folder, text_at(scene, site, earth), kind).frame;
 }
 
 // The same on ground that is bent at `site` as that of home is.
@@ -120,7 +120,7 @@ renderer::Frame bent_as_at_home(LocalScene scene, const Site& site, CasterKind k
     return height_m.str();
   });
   scene.ground += "elevation = \"bent.asc\"\n";
-  return seen(folder, text_at(scene, site, EarthModel::wgs84), kind).frame;
+  return rendered(folder, text_at(scene, site, EarthModel::wgs84), kind).frame;
 }
 
 // Of the cells that receive anything in either picture, by how much they differ.
@@ -230,8 +230,8 @@ TEST_CASE("T03 level ground elsewhere on the ellipsoid changes as its curvature 
     for (const double heading_deg : {0.0, 90.0}) {
       scene.heading_deg = heading_deg;
       const TemporaryFolder folder;
-      const Seen home = seen(folder, text_at(scene, kHome, EarthModel::wgs84), kind);
-      const Seen away = seen(folder, text_at(scene, {0.0, 10.0}, EarthModel::wgs84), kind);
+      const Rendered home = rendered(folder, text_at(scene, kHome, EarthModel::wgs84), kind);
+      const Rendered away = rendered(folder, text_at(scene, {0.0, 10.0}, EarthModel::wgs84), kind);
       const sensors::Sensor& sensor = home.scene->world.sensor;
       const std::vector<std::string>& names = home.scene->world.geometry->material_names;
       const auto name = std::find(names.begin(), names.end(), "short_grass");

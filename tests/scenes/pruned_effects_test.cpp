@@ -10,6 +10,7 @@
 #include "core/effect_plan.h"
 #include "core/files.h"
 #include "renderer/frame.h"
+#include "tests/scenes/effect_scene.h"
 #include "tests/scenes/grey_difference.h"
 #include "tests/scenes/scene_folder.h"
 
@@ -90,11 +91,6 @@ above_ground_m = )" + number(c.height_m) +
                                  "\n[weather]\n" + c.weather + "\n" + target);
 }
 
-struct Shown {
-  renderer::Frame frame;
-  core::EffectPlan plan;
-};
-
 Shown shown(const TemporaryFolder& folder, const std::string& effects) {
   core::ProblemList problems;
   const scenes::SceneDescription description =
@@ -103,9 +99,7 @@ Shown shown(const TemporaryFolder& folder, const std::string& effects) {
   options.accuracy_grey = kAccuracy_grey;
   if (!effects.empty()) options.wishes = renderer::parse_effect_wishes(effects);
   const auto scene = scenes::build_scene(description, options, problems);
-  renderer::Sampling sampling;
-  sampling.sub_columns = 1;
-  return {renderer::render_frame(scene->world, sampling, {true, true},
+  return {renderer::render_frame(scene->world, coarse_sampling(), {true, true},
                                  renderer::effects_of(scene->plan, 1), scene->frame_pose(0)),
           scene->plan};
 }

@@ -5,13 +5,13 @@ using namespace fanbeam;
 
 namespace {
 
-const std::string kTarget =
+const std::string kDrone =
     "[[target]]\nname = \"drone\"\nat = { runway = \"36\", behind_threshold_m = 100.0 }\n"
     "above_ground_m = 20.0\nrcs = { shape = \"constant\" }\n";
 
 std::string scene_text(const std::string& target_key, const std::string& accuracy) {
   return tests::replaced(tests::kSmallScene, "[weather]",
-                         kTarget + target_key + "\n[accuracy]\n" + accuracy + "\n[weather]");
+                         kDrone + target_key + "\n[accuracy]\n" + accuracy + "\n[weather]");
 }
 
 }  // namespace

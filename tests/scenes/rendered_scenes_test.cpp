@@ -7,25 +7,15 @@
 
 #include "core/units.h"
 #include "renderer/frame.h"
-#include "scenes/scene.h"
-#include "scenes/scene_reader.h"
 #include "sensors/cells.h"
 #include "sensors/display/display.h"
+#include "tests/scenes/shipped_scene.h"
 #include "tests/shared_data.h"
 
-namespace {
-
 using namespace fanbeam;
+using tests::shipped_scene;
 
-const std::filesystem::path kSource = FANBEAM_SOURCE_DIR;
-
-std::unique_ptr<scenes::Scene> load(const std::string& name,
-                                    const std::vector<std::filesystem::path>& data = {}) {
-  core::ProblemList problems;
-  const scenes::SceneDescription description =
-      scenes::read_scene(kSource / "scenes" / name, {kSource, data, {}}, problems);
-  return scenes::build_scene(description, {}, problems);
-}
+namespace {
 
 renderer::Frame render(const scenes::Scene& scene, int frame, double rays_per_cell = 16.0) {
   return renderer::render_frame(scene.world, renderer::sampling_for(rays_per_cell), {},
@@ -92,7 +82,7 @@ class Probe {
 
 TEST_CASE("The Braunschweig approach shows runway, lights, fence, hangars and the truck",
           "[rendered]") {
-  const std::unique_ptr<scenes::Scene> scene = load("braunschweig-26");
+  const std::unique_ptr<scenes::Scene> scene = shipped_scene("braunschweig-26");
   // About 1000 m before the threshold.
   int frame = 0;
   while (glm::length(glm::dvec2(scene->frame_pose(frame).position_m)) > 1000.0) ++frame;
@@ -114,7 +104,7 @@ TEST_CASE("The Braunschweig approach shows runway, lights, fence, hangars and th
 
 TEST_CASE("The obstacle field shows wires, poles, reflector and the shadow of the wall",
           "[rendered]") {
-  const std::unique_ptr<scenes::Scene> scene = load("obstacle-field");
+  const std::unique_ptr<scenes::Scene> scene = shipped_scene("obstacle-field");
   const int frame = 200;
   const renderer::Frame picture = render(*scene, frame, 64.0);
   const Probe probe(*scene, frame, picture, "36");
@@ -127,7 +117,7 @@ TEST_CASE("The obstacle field shows wires, poles, reflector and the shadow of th
 }
 
 TEST_CASE("At 94 GHz a shower stands bright before what it hides", "[rendered]") {
-  const std::unique_ptr<scenes::Scene> scene = load("rain-94ghz");
+  const std::unique_ptr<scenes::Scene> scene = shipped_scene("rain-94ghz");
   const int frame = 150;
   const renderer::Frame picture = render(*scene, frame);
   const Probe probe(*scene, frame, picture, "36");
@@ -144,7 +134,7 @@ TEST_CASE("Innsbruck: runway darker than the grass beside it, mountains above th
   const auto data = tests::shared_data("lowi-innsbruck/dem_lowi_wgs84_1arcsec.tif");
   if (!data) return;
   const std::unique_ptr<scenes::Scene> scene =
-      load("innsbruck-26", {data->parent_path().parent_path()});
+      shipped_scene("innsbruck-26", {data->parent_path().parent_path()});
   CHECK(scene->build_s <
         60.0);  // 15 s on a free machine; a hanging build is what this guards against
   int frame = 0;

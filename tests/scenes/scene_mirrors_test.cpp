@@ -8,19 +8,12 @@
 #include "core/files.h"
 #include "materials/dielectric/dielectric_medium.h"
 #include "core/effect_plan.h"
-#include "tests/scenes/scene_folder.h"
-
-namespace {
+#include "tests/scenes/shipped_scene.h"
 
 using namespace fanbeam;
+using tests::shipped_scene;
 
-std::unique_ptr<scenes::Scene> shipped(const std::string& name) {
-  core::ProblemList problems;
-  const std::filesystem::path source = FANBEAM_SOURCE_DIR;
-  const scenes::SceneDescription description =
-      scenes::read_scene(source / "scenes" / name, {source, {}, {}}, problems);
-  return scenes::build_scene(description, {}, problems);
-}
+namespace {
 
 const std::optional<materials::SpecularSurface>& mirror_of(const scenes::Scene& scene,
                                                            const std::string& material) {
@@ -69,7 +62,7 @@ std::vector<core::Problem> about_mirrors(const tests::Outcome& outcome) {
 }  // namespace
 
 TEST_CASE("Materials mirror as their rows say; canopies do not", "[mirrors]") {
-  const auto scene = shipped("obstacle-field");
+  const auto scene = shipped_scene("obstacle-field");
   const auto& concrete = mirror_of(*scene, "concrete");
   REQUIRE(concrete);
   CHECK(concrete->rms_height_m == Approx(0.2e-3));
@@ -78,10 +71,10 @@ TEST_CASE("Materials mirror as their rows say; canopies do not", "[mirrors]") {
 }
 
 TEST_CASE("Walls, targets and mirrors decide which reflections run", "[mirrors]") {
-  const auto field = shipped("obstacle-field");
+  const auto field = shipped_scene("obstacle-field");
   CHECK(field->plan.runs(core::EffectId::double_bounce));
   CHECK(field->plan.runs(core::EffectId::multipath));
-  const auto grass = shipped("flat-grass");
+  const auto grass = shipped_scene("flat-grass");
   CHECK_FALSE(grass->plan.runs(core::EffectId::double_bounce));
   CHECK_FALSE(grass->plan.runs(core::EffectId::multipath));
 }

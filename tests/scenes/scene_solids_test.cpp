@@ -10,6 +10,7 @@
 #include "terrain/buildings/clean_footprint.h"
 #include "terrain/buildings/footprints.h"
 #include "tests/scenes/built_scene.h"
+#include "tests/scenes/shipped_scene.h"
 #include "tests/shared_data.h"
 
 using namespace fanbeam;
@@ -18,17 +19,10 @@ using terrain::Box_m;
 using terrain::Ring_m;
 using terrain::Solid;
 using terrain::Solids;
+using tests::shipped_scene;
 using tests::TemporaryFolder;
 
 namespace {
-
-std::unique_ptr<Scene> shipped(const std::string& name,
-                               const std::vector<std::filesystem::path>& data = {}) {
-  tests::Outcome outcome =
-      tests::build(std::filesystem::path(FANBEAM_SOURCE_DIR) / "scenes" / name, data);
-  REQUIRE(outcome.scene != nullptr);
-  return std::move(outcome.scene);
-}
 
 double area_m2(const std::vector<Ring_m>& rings) {
   double sum_m2 = 0.0;
@@ -158,7 +152,7 @@ TEST_CASE("A storey over a hall is a solid, a canopy is a box and is counted", "
 }
 
 TEST_CASE("Braunschweig's truck is a box around it, its buildings are solids", "[scene_solids]") {
-  const std::unique_ptr<Scene> scene = shipped("braunschweig-26");
+  const std::unique_ptr<Scene> scene = shipped_scene("braunschweig-26");
   REQUIRE(scene->world.solids().others.size() == 1);
   CHECK(scene->floating_buildings == 0);
   const Box_m& truck = scene->world.solids().others.front();
@@ -174,7 +168,7 @@ TEST_CASE("Innsbruck's solids are its footprints, less the parts over open air",
           "[scene_solids][data]") {
   const auto data = tests::shared_data("lowi-innsbruck");
   if (!data) return;
-  const std::unique_ptr<Scene> scene = shipped("innsbruck-26", {data->parent_path()});
+  const std::unique_ptr<Scene> scene = shipped_scene("innsbruck-26", {data->parent_path()});
   const Solids& solids = scene->world.solids();
   // 59 features of the file are raised. 55 lie on the terrain; 22 of them stand on others.
   CHECK(scene->raised_buildings == 55);

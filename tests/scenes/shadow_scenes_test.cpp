@@ -5,7 +5,8 @@
 #include "tests/scenes/shadow_truth.h"
 
 using namespace fanbeam;
-using namespace fanbeam::tests;
+using tests::ShadowScore;
+using tests::ShadowTally;
 
 namespace {
 
@@ -17,7 +18,7 @@ ShadowTally tally_of(const std::string& name, const std::string& wishes, int ste
   scenes::BuildOptions build;
   if (!wishes.empty()) build.wishes = renderer::parse_effect_wishes(wishes);
   const auto scene = scenes::build_scene(description, build, problems);
-  return tally_shadows(*scene, step);
+  return tests::tally_shadows(*scene, step);
 }
 
 // Of the frames with a free shadow at least `least_given` get a height, and those are within.

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "tests/scenes/scene_folder.h"
+#include "tests/scenes/shipped_scene.h"
 #include "tests/shared_data.h"
 
 using namespace fanbeam;
@@ -10,15 +10,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path kScenes = fs::path(FANBEAM_SOURCE_DIR) / "scenes";
-
 std::unique_ptr<scenes::Scene> built(const std::string& name,
                                      const std::vector<fs::path>& data = {}) {
-  tests::Outcome outcome = tests::build(kScenes / name, data);
-  for (const core::Problem& problem : outcome.problems) UNSCOPED_INFO(core::to_string(problem));
-  REQUIRE(outcome.scene != nullptr);
-  CHECK(outcome.scene->description.name == name);
-  return std::move(outcome.scene);
+  std::unique_ptr<scenes::Scene> scene = tests::shipped_scene(name, data);
+  CHECK(scene->description.name == name);
+  return scene;
 }
 
 }  // namespace
@@ -39,7 +35,7 @@ TEST_CASE("Scenes on real terrain say exactly what is missing without their data
        {"terrain.land_cover.file", "terrain.elevation", "buildings[0].file", "trajectory.file"}},
       {"keflavik-10", {"terrain.elevation", "trajectory.file"}}};
   for (const auto& [name, fields] : scenes) {
-    const tests::Outcome outcome = tests::build(kScenes / name);
+    const tests::Outcome outcome = tests::build(tests::kShippedScenes / name);
     std::vector<std::string> missing;
     for (const core::Problem& problem : outcome.problems) {
       CHECK(problem.code == "E-IO");

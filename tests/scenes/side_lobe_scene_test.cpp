@@ -6,9 +6,9 @@
 #include "sensors/antenna/beam_pattern.h"
 #include "tests/scenes/built_scene.h"
 
-namespace {
-
 using namespace fanbeam;
+
+namespace {
 
 std::string sensor_with_level(const std::string& level_dB) {
   const std::string shipped = core::read_file(

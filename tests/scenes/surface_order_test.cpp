@@ -11,11 +11,11 @@
 #include "sensors/cells.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
 
-constexpr double kHeight_m = 80.0;
+namespace {
+
+constexpr double kSensorHeight_m = 80.0;
 
 // Grey of the middle column over flat ground of one material, in the cells seen under 2 to 5 deg.
 std::map<int, double> grey_of(const materials::MaterialLibrary& library, const std::string& name,
@@ -28,11 +28,11 @@ std::map<int, double> grey_of(const materials::MaterialLibrary& library, const s
                    {curves[*library.index_of(name)]});
   const renderer::Frame frame =
       renderer::render_frame(world, renderer::sampling_for(4.0), {true, false},
-                             {.thermal_noise = noise}, tests::level_pose(kHeight_m));
+                             {.thermal_noise = noise}, tests::level_pose(kSensorHeight_m));
   std::map<int, double> grey;
   for (int row = 0; row < sensor.range.cells; ++row) {
     const double grazing_deg =
-        core::degrees(std::asin(kHeight_m / sensors::range_middle_m(sensor.range, row)));
+        core::degrees(std::asin(kSensorHeight_m / sensors::range_middle_m(sensor.range, row)));
     if (grazing_deg >= 2.0 && grazing_deg <= 5.0)
       grey[row] = frame.bscope_grey[static_cast<std::size_t>(row * sensor.scan.columns + 4)];
   }

@@ -13,10 +13,10 @@
 #include "sensors/antenna/beam_pattern.h"
 #include "tests/renderer/test_worlds.h"
 
-namespace {
-
 using namespace fanbeam;
 using core::kPi;
+
+namespace {
 
 constexpr int kSteps = 1000;
 constexpr double kRange_m = 1500.0;

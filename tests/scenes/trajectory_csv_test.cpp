@@ -40,7 +40,7 @@ struct Reading {
   core::ProblemList problems;
 };
 
-Reading read(const std::string& bytes, const TrajectoryColumns& columns = {}) {
+Reading read_csv(const std::string& bytes, const TrajectoryColumns& columns = {}) {
   const TemporaryFile file(bytes);
   Reading reading;
   reading.track = read_track_csv(file.path(), columns, reading.problems);
@@ -50,7 +50,7 @@ Reading read(const std::string& bytes, const TrajectoryColumns& columns = {}) {
 // "E-TIME@3" for each problem.
 std::string codes_and_lines(const std::string& bytes, const TrajectoryColumns& columns = {}) {
   std::string text;
-  const Reading reading = read(bytes, columns);
+  const Reading reading = read_csv(bytes, columns);
   for (const core::Problem& problem : reading.problems.all())
     text += (text.empty() ? "" : " ") + problem.code + "@" + std::to_string(problem.place.line);
   return text;
@@ -87,11 +87,11 @@ TEST_CASE("F09: a clock reading that is too late is told itself, not the rows th
   const std::string text =
       kHeader + "0,47,11,600\n1,47,11,600\n900,47,11,600\n3,47,11,600\n4,47,11,600\n";
   CHECK(codes_and_lines(text) == "E-TIME@4");
-  CHECK_THAT(core::to_string(read(text).problems.all().at(0)),
+  CHECK_THAT(core::to_string(read_csv(text).problems.all().at(0)),
              Catch::Contains("time_s = 900 s: expected earlier than 3 s in line 5"));
   TrajectoryColumns rejecting;
   rejecting.outliers = OutlierPolicy::reject;
-  const Reading reading = read(text, rejecting);
+  const Reading reading = read_csv(text, rejecting);
   CHECK(reading.problems.all().empty());
   CHECK(reading.track.rows.size() == 4);
   REQUIRE(reading.track.rejected.size() == 1);
@@ -101,7 +101,7 @@ TEST_CASE("F09: a clock reading that is too late is told itself, not the rows th
 
 TEST_CASE("F09: one row, CRLF, byte order mark and blank lines are fine", "[trajectory_csv]") {
   const Reading reading =
-      read("\xEF\xBB\xBFtime_s,latitude_deg,longitude_deg,height_m\r\n0,47,-11.5,600\r\n\r\n");
+      read_csv("\xEF\xBB\xBFtime_s,latitude_deg,longitude_deg,height_m\r\n0,47,-11.5,600\r\n\r\n");
   CHECK(reading.problems.all().empty());
   REQUIRE(reading.track.rows.size() == 1);
   CHECK(reading.track.rows[0].position.longitude_rad == core::radians(-11.5));
@@ -146,20 +146,20 @@ TEST_CASE("All problems of a track are reported together, up to a limit", "[traj
         "E-RANGE@2 E-PARSE@2 E-RANGE@3 E-RANGE@3 E-NONFINITE@4");
   std::string many = kHeader;
   for (int i = 0; i < 100'000; ++i) many += "bad,row,of,words\n";
-  CHECK(read(many).problems.all().size() <= core::ProblemList::kMost + 1);
+  CHECK(read_csv(many).problems.all().size() <= core::ProblemList::kMost + 1);
   CHECK(codes_and_lines("a,b\n1,2\n") == "E-PARSE@1 E-PARSE@1 E-PARSE@1 E-PARSE@1");
 }
 
 TEST_CASE("A missing column is named with what was expected", "[trajectory_csv]") {
-  const Reading reading = read("time_s,lat,longitude_deg,height_m\n0,47,11,600\n");
+  const Reading reading = read_csv("time_s,lat,longitude_deg,height_m\n0,47,11,600\n");
   REQUIRE(reading.problems.all().size() == 1);
   CHECK(reading.problems.all()[0].field == "column \"latitude_deg\"");
   TrajectoryColumns unitless;
   unitless.latitude.name = "lat";
-  CHECK_THAT(
-      core::to_string(
-          read("time_s,lat,longitude_deg,height_m\n0,47,11,600\n", unitless).problems.all().at(0)),
-      Catch::Contains("E-PARSE") && Catch::Contains("deg or rad"));
+  CHECK_THAT(core::to_string(read_csv("time_s,lat,longitude_deg,height_m\n0,47,11,600\n", unitless)
+                                 .problems.all()
+                                 .at(0)),
+             Catch::Contains("E-PARSE") && Catch::Contains("deg or rad"));
   unitless.latitude.unit = "deg";
   CHECK(codes_and_lines("time_s,lat,longitude_deg,height_m\n0,47,11,600\n", unitless) == "");
   CHECK(codes_and_lines("time_s,time_s,latitude_deg,longitude_deg,height_m\n0,0,47,11,600\n") ==
@@ -176,7 +176,7 @@ TEST_CASE("Units follow from the name or are stated", "[trajectory_csv]") {
   columns.height.name = "alt_ft";
   columns.height_offset_m = 10.0;
   const Reading reading =
-      read("heading_deg,alt_ft,longitude_deg,lat_rad,clock\n-20,1000,11,0.5,2500\n", columns);
+      read_csv("heading_deg,alt_ft,longitude_deg,lat_rad,clock\n-20,1000,11,0.5,2500\n", columns);
   REQUIRE(reading.problems.all().empty());
   const TrackRow& row = reading.track.rows.at(0);
   CHECK(row.time_s == Approx(2.5));
@@ -193,20 +193,20 @@ TEST_CASE("Windows by time and by row leave the rest unchecked", "[trajectory_cs
   TrajectoryColumns by_row;
   by_row.first_row = 2;
   by_row.last_row = 4;
-  CHECK(read(text, by_row).problems.all().empty());
-  CHECK(read(text, by_row).track.rows.size() == 3);
+  CHECK(read_csv(text, by_row).problems.all().empty());
+  CHECK(read_csv(text, by_row).track.rows.size() == 3);
   TrajectoryColumns by_time;
   by_time.from_time_s = 1.0;
   by_time.to_time_s = 3.0;
-  CHECK(read(text, by_time).problems.all().empty());
-  CHECK(read(text, by_time).track.rows.size() == 3);
+  CHECK(read_csv(text, by_time).problems.all().empty());
+  CHECK(read_csv(text, by_time).track.rows.size() == 3);
   by_time.from_time_s = 100.0;
   by_time.to_time_s.reset();
   CHECK_THAT(codes_and_lines(text, by_time), Catch::Contains("E-PARSE"));
 }
 
 TEST_CASE("Empty positions are counted, empty angles drop the angle", "[trajectory_csv]") {
-  const Reading reading = read(
+  const Reading reading = read_csv(
       "time_s,latitude_deg,longitude_deg,height_m,roll_deg,pitch_deg\n"
       "0,47,11,600,1,2\n1,,11,600,1,2\n2,47,11,,1,2\n3,47,11,600,,2\n");
   REQUIRE(reading.problems.all().size() == 2);

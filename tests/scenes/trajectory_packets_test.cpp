@@ -30,16 +30,17 @@ Bytes line(double clock_s) {
   return {bytes.begin(), bytes.end()};
 }
 
-struct Reading {
+struct PacketReading {
   RawTrack track;
   core::ProblemList problems;
   std::string text;
 };
 
-Reading read(const tests::TemporaryFolder& folder, const Bytes& bytes,
-             std::optional<std::uint16_t> port = {}, const scenes::TrajectoryColumns& window = {}) {
+PacketReading read_packets(const tests::TemporaryFolder& folder, const Bytes& bytes,
+                           std::optional<std::uint16_t> port = {},
+                           const scenes::TrajectoryColumns& window = {}) {
   folder.write("flight.bin", std::string(bytes.begin(), bytes.end()));
-  Reading reading;
+  PacketReading reading;
   reading.track = scenes::read_track_packets(
       folder.path() / "flight.bin", {&feeds::kProtocols[1], port}, window, reading.problems);
   for (const core::Problem& problem : reading.problems.all())
@@ -59,7 +60,7 @@ TEST_CASE("Rows of packets have the simulator's clock and attitude", "[trajector
   append_raw(recording, 7.0, 9, Bytes{'x'});
   scenes::TrajectoryColumns window;
   window.height_offset_m = 3.0;
-  const Reading reading = read(folder, recording, 9, window);
+  const PacketReading reading = read_packets(folder, recording, 9, window);
   INFO(reading.text);
   CHECK_FALSE(reading.problems.has_errors());
   CHECK(reading.problems.all().size() == 2);
@@ -77,7 +78,7 @@ TEST_CASE("Rows of packets have the simulator's clock and attitude", "[trajector
 
   window.from_time_s = 0.5;
   window.last_row = 4;
-  CHECK(read(folder, recording, 9, window).track.rows.size() == 1);
+  CHECK(read_packets(folder, recording, 9, window).track.rows.size() == 1);
 }
 
 TEST_CASE("The port of a flight must be clear, and its clock go on", "[trajectory]") {
@@ -86,15 +87,15 @@ TEST_CASE("The port of a flight must be clear, and its clock go on", "[trajector
   append_raw(recording, 0.0, 9, line(1.0));
   append_raw(recording, 0.1, 10, line(1.25));
   append_raw(recording, 0.2, 10, line(1.5));
-  const Reading two = read(folder, recording);
+  const PacketReading two = read_packets(folder, recording);
   CHECK(two.text.find("E-REF port = missing: expected one of 9 (1 packets), 10 (2 packets)") !=
         std::string::npos);
-  CHECK(read(folder, recording, 10).track.rows.size() == 2);
-  const Reading none = read(folder, recording, 11);
+  CHECK(read_packets(folder, recording, 10).track.rows.size() == 2);
+  const PacketReading none = read_packets(folder, recording, 11);
   CHECK(none.text.find("E-REF packets = none of fg-generic to port 11") != std::string::npos);
 
   append_raw(recording, 0.3, 10, line(0.25));
-  const Reading reset = read(folder, recording, 10);
+  const PacketReading reset = read_packets(folder, recording, 10);
   CHECK(reset.text.find("E-TIME clock of packets = goes back by 1.25 s at packet 3") !=
         std::string::npos);
 }

@@ -25,7 +25,7 @@ core::Pose pose_at(double time_s, double latitude_deg, double longitude_deg, dou
 
 core::Attitude heading_deg(double heading) { return {0.0, 0.0, core::radians(heading)}; }
 
-std::string refusal(const std::vector<core::Pose>& poses) {
+std::string refusal_of_poses(const std::vector<core::Pose>& poses) {
   try {
     const Trajectory trajectory(poses);
   } catch (const core::InputError& error) {
@@ -158,20 +158,20 @@ TEST_CASE("Frames are those that end before the trajectory does", "[trajectory]"
 }
 
 TEST_CASE("Every impossible pose is named", "[trajectory]") {
-  CHECK_THAT(refusal({}), Catch::Contains("E-RANGE"));
-  CHECK_THAT(refusal({pose_at(0.0, 47.0, 11.0), pose_at(0.0, 47.0, 11.0)}),
+  CHECK_THAT(refusal_of_poses({}), Catch::Contains("E-RANGE"));
+  CHECK_THAT(refusal_of_poses({pose_at(0.0, 47.0, 11.0), pose_at(0.0, 47.0, 11.0)}),
              Catch::Contains("E-TIME pose 1"));
-  CHECK_THAT(refusal({pose_at(0.0, 91.0, 11.0), pose_at(1.0, 47.0, 600.0)}),
+  CHECK_THAT(refusal_of_poses({pose_at(0.0, 91.0, 11.0), pose_at(1.0, 47.0, 600.0)}),
              Catch::Contains("E-RANGE pose 0.latitude_deg") &&
                  Catch::Contains("E-RANGE pose 1.longitude_deg"));
-  CHECK_THAT(refusal({pose_at(0.0, 0.0, 0.0), pose_at(1.0, 0.0, 180.0)}),
+  CHECK_THAT(refusal_of_poses({pose_at(0.0, 0.0, 0.0), pose_at(1.0, 0.0, 180.0)}),
              Catch::Contains("E-RANGE pose 1 distance"));
   core::Pose unturned = pose_at(0.0, 47.0, 11.0);
   unturned.q_NB = {0.0, 0.0, 0.0, 0.0};
-  CHECK_THAT(refusal({unturned}), Catch::Contains("E-RANGE pose 0 attitude"));
+  CHECK_THAT(refusal_of_poses({unturned}), Catch::Contains("E-RANGE pose 0 attitude"));
   core::Pose lost = pose_at(0.0, 47.0, 11.0);
   lost.v_N_mps.y = std::numeric_limits<double>::quiet_NaN();
-  CHECK_THAT(refusal({lost}), Catch::Contains("E-NONFINITE pose 0"));
+  CHECK_THAT(refusal_of_poses({lost}), Catch::Contains("E-NONFINITE pose 0"));
 }
 
 }  // namespace fanbeam::scenes

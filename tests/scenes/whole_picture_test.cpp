@@ -1,26 +1,15 @@
 // The whole picture of shipped scenes, every planned effect in it: slices, whose bounces follow their
 // number, against rays with jittered samples.
 #include <catch2/catch.hpp>
-#include <filesystem>
 
 #include "renderer/accuracy/grey_error.h"
 #include "renderer/frame.h"
-#include "tests/scenes/scene_folder.h"
+#include "tests/scenes/shipped_scene.h"
 #include "tests/shared_data.h"
 
 using namespace fanbeam;
-namespace fs = std::filesystem;
 
 namespace {
-
-const fs::path kScenes = fs::path(FANBEAM_SOURCE_DIR) / "scenes";
-
-std::unique_ptr<scenes::Scene> shipped(const std::string& name, const std::vector<fs::path>& data) {
-  tests::Outcome outcome = tests::build(kScenes / name, data);
-  for (const core::Problem& problem : outcome.problems) UNSCOPED_INFO(core::to_string(problem));
-  REQUIRE(outcome.scene != nullptr);
-  return std::move(outcome.scene);
-}
 
 renderer::FramePower power_of(const scenes::Scene& scene, int frame,
                               const renderer::Sampling& sampling) {
@@ -53,12 +42,12 @@ void check_convergence(const scenes::Scene& scene, int frame) {
 }  // namespace
 
 TEST_CASE("Bounces converge with the slices: an airport", "[scenes][bounce]") {
-  check_convergence(*shipped("braunschweig-26", {}), 1200);
+  check_convergence(*tests::shipped_scene("braunschweig-26"), 1200);
 }
 
 TEST_CASE("Converged slices are converged rays over a city, bounces included",
           "[scenes][bounce][data]") {
   const auto data = tests::shared_data("lowi-innsbruck");
   if (!data) return;
-  check_convergence(*shipped("innsbruck-26", {data->parent_path()}), 700);
+  check_convergence(*tests::shipped_scene("innsbruck-26", {data->parent_path()}), 700);
 }

@@ -3,21 +3,20 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "core/constants.h"
 #include "core/errors.h"
 #include "core/pose.h"
 #include "core/units.h"
+#include "tests/sensors/numbers.h"
 
 using namespace fanbeam;
 using namespace fanbeam::sensors;
 using core::kPi;
 using core::radians;
+using tests::kInfinity;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // North, east, down in a scene frame of east, north, up.
 const glm::dmat3 kNed{{0.0, 1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}};

@@ -61,7 +61,7 @@ TEST_CASE("S10 shapes, lobes, windows and sweeps that make no sense are refused"
     const std::string text = tests::hivision_text(
         shape, "shape = \"cosecant_squared\"\nhalf_power_width_deg = 10.0\ncosecant_from_deg = " +
                    from + "\ncosecant_to_deg = " + to + "\n#");
-    return tests::replaced(text, "cut_deg = 15.625", "# 15.625");
+    return tests::replaced_once(text, "cut_deg = 15.625", "# 15.625");
   };
   check_refused(cosecant("1.0", "40.0"), "E-RANGE", "antenna.elevation.cosecant_from_deg");
   check_refused(cosecant("9.0", "9.0"), "E-RANGE", "antenna.elevation.cosecant_to_deg");
@@ -87,7 +87,7 @@ TEST_CASE("S10 shapes, lobes, windows and sweeps that make no sense are refused"
                           "table_frequency_GHz = [34.0, 36.0], table_azimuth_deg = [-20, 20] }"),
                 "E-RANGE", "scan.field_of_view_deg");
   std::string both = scan_text("sweep = \"whole-scan\"");
-  both = tests::replaced(both, "window = \"none\"", "window = \"hann\"");
+  both = tests::replaced_once(both, "window = \"none\"", "window = \"hann\"");
   check_refused(both, "E-UNSUPPORTED", "waveform.window");
   check_refused(scan_text("sweep = \"whole-scan\"\n" + kFeedLine), "E-RANGE",
                 "waveform.bandwidth_MHz");
@@ -98,11 +98,11 @@ TEST_CASE("a cosecant-squared elevation counts depressions from the horizon", "[
       "shape = \"gaussian\"\nhalf_power_width_deg = 10.0",
       "shape = \"cosecant_squared\"\nhalf_power_width_deg = 10.0\ncosecant_from_deg = 7.8\n"
       "cosecant_to_deg = 45.0\n#");
-  text = tests::replaced(text, "cut_deg = 15.625", "# 15.625");
+  text = tests::replaced_once(text, "cut_deg = 15.625", "# 15.625");
   for (const char* line :
        {"  \"antenna.efficiency\",\n", "efficiency = 0.714", "  \"antenna.elevation.cut_deg\",\n"})
-    text = tests::replaced(text, line, "");
-  text = tests::replaced(text, "peak_gain = 3250.0", "peak_gain = 1500.0");
+    text = tests::replaced_once(text, line, "");
+  text = tests::replaced_once(text, "peak_gain = 3250.0", "peak_gain = 1500.0");
   const auto [sensor, problems] = read(text);
   REQUIRE(problems.empty());
   const BeamCut& cut = sensor.antenna.elevation;

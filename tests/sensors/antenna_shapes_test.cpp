@@ -6,24 +6,18 @@
 #include "core/constants.h"
 #include "core/units.h"
 #include "sensors/antenna/beam_pattern.h"
+#include "tests/decibel.h"
+#include "tests/sensors/beam_cut.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
 using namespace fanbeam::sensors;
 using core::kPi;
 using core::radians;
+using tests::cut_of;
+using tests::dB;
 
 namespace {
-
-double dB(double power) { return 10.0 * std::log10(power); }
-
-BeamCut cut_of(BeamCut::Shape shape, double width_deg, double cut_deg) {
-  BeamCut cut;
-  cut.shape = shape;
-  cut.half_power_width_rad = radians(width_deg);
-  cut.cut_rad = radians(cut_deg);
-  return cut;
-}
 
 // Peak 4 deg below the horizon, cosecant from 8 to 40 deg of depression.
 BeamCut cosecant() {

@@ -2,12 +2,13 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 
 #include "core/constants.h"
 #include "core/decibel.h"
 #include "core/units.h"
 #include "sensors/antenna/antenna_frame.h"
+#include "tests/sensors/beam_cut.h"
+#include "tests/sensors/numbers.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
@@ -15,18 +16,10 @@ using namespace fanbeam::sensors;
 using core::degrees;
 using core::kPi;
 using core::radians;
+using tests::cut_of;
+using tests::kInfinity;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-BeamCut cut_of(BeamCut::Shape shape, double width_deg, double cut_deg) {
-  BeamCut cut;
-  cut.shape = shape;
-  cut.half_power_width_rad = radians(width_deg);
-  cut.cut_rad = radians(cut_deg);
-  return cut;
-}
 
 // Lopsided on purpose, so that left and right cannot be mixed up.
 BeamCut triangle() {

@@ -2,19 +2,18 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 
 #include "core/random.h"
+#include "tests/sensors/numbers.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
 using namespace fanbeam::sensors;
 using core::kPi;
 using core::radians;
+using tests::kInfinity;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 Scan full_circle(int columns) {
   Scan scan;

@@ -7,10 +7,12 @@
 #include <functional>
 
 #include "core/errors.h"
+#include "tests/decibel.h"
 
 using namespace fanbeam;
 using boost::math::gamma_q;
 using core::Swerling;
+using tests::dB;
 using namespace fanbeam::sensors;
 
 namespace {
@@ -18,7 +20,6 @@ namespace {
 constexpr Swerling kCases[] = {Swerling::steady, Swerling::case1, Swerling::case2, Swerling::case3,
                                Swerling::case4};
 
-double dB(double ratio) { return 10.0 * std::log10(ratio); }
 double linear(double level_dB) { return std::pow(10.0, level_dB / 10.0); }
 
 double simpson(const std::function<double(double)>& f, double from, double to, int steps) {

@@ -2,28 +2,26 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "core/errors.h"
 #include "core/units.h"
 #include "sensors/cells.h"
+#include "tests/sensors/numbers.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
 using namespace fanbeam::sensors;
 using core::radians;
+using tests::cubed;
+using tests::kInfinity;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<double> bscope_of(const Sensor& sensor, double value) {
   return std::vector<double>(static_cast<std::size_t>(sensor.range.cells * sensor.scan.columns),
                              value);
 }
-
-double cubed(double x) { return x * x * x; }
 
 }  // namespace
 

@@ -4,21 +4,20 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <vector>
 
 #include "core/errors.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/display/display.h"
 #include "sensors/display/seed_signal.h"
+#include "tests/sensors/numbers.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
 using namespace fanbeam::sensors;
+using tests::kInfinity;
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 core::ErrorClass class_of(const std::function<void()>& call) {
   try {

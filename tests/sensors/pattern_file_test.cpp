@@ -72,7 +72,7 @@ std::vector<core::Problem> problems_of(const fs::path& file, PatternPlane plane)
 std::string sensor_text(const std::string& elevation) {
   const std::string text =
       tests::hivision_text("shape = \"gaussian\"\nhalf_power_width_deg = 10.0", elevation + "\n#");
-  return tests::replaced(text, "cut_deg = 15.625", "# 15.625");
+  return tests::replaced_once(text, "cut_deg = 15.625", "# 15.625");
 }
 
 }  // namespace
@@ -211,19 +211,19 @@ TEST_CASE("a sensor file takes a cut, and the gain only when it says so, from a 
     return text;
   };
   std::string text = relaxed(from_file);
-  text = tests::replaced(text, "peak_gain = 3250.0", "peak_gain = 1000.0");
+  text = tests::replaced_once(text, "peak_gain = 3250.0", "peak_gain = 1000.0");
   const auto [stated, problems] = read(text);
   CHECK(problems.empty());
   CHECK(stated.antenna.peak_gain == 1000.0);
   CHECK(core::degrees(stated.antenna.elevation.cut_rad) == Approx(60.0));
   CHECK(core::degrees(stated.antenna.elevation.half_power_width_rad) == Approx(10.0).margin(0.1));
-  text = tests::replaced(text, "peak_gain = 1000.0", "peak_gain_from_file = true");
+  text = tests::replaced_once(text, "peak_gain = 1000.0", "peak_gain_from_file = true");
   const auto [taken, more] = read(text);
   CHECK(more.empty());
   CHECK(taken.antenna.peak_gain == Approx(100.0));
 
   for (const char* outside : {"../beam.msi", "/etc/beam.msi", "http://x/beam.msi"}) {
-    const auto [sensor, refused] = read(tests::replaced(text, "beam.msi", outside));
+    const auto [sensor, refused] = read(tests::replaced_once(text, "beam.msi", outside));
     REQUIRE_FALSE(refused.empty());
     CHECK(refused[0].code == "E-PATH");
     CHECK(refused[0].place.line > 0);

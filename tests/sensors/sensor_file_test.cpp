@@ -75,10 +75,10 @@ TEST_CASE("R06 a last cell that ends on maximum_m fits, whatever the decimals ro
           "[sensor_file]") {
   const auto cells = [](double minimum_m, double cell_m, double maximum_m) {
     std::string text = tests::hivision_text("bandwidth_MHz = 22.473", "bandwidth_MHz = 2000.0");
-    text =
-        tests::replaced(text, "minimum_m = 200.0", "minimum_m = " + core::number_text(minimum_m));
-    text = tests::replaced(text, "cell_m = 6.67", "cell_m = " + core::number_text(cell_m));
-    text = tests::replaced(text, "cells = 524", "maximum_m = " + core::number_text(maximum_m));
+    text = tests::replaced_once(text, "minimum_m = 200.0",
+                                "minimum_m = " + core::number_text(minimum_m));
+    text = tests::replaced_once(text, "cell_m = 6.67", "cell_m = " + core::number_text(cell_m));
+    text = tests::replaced_once(text, "cells = 524", "maximum_m = " + core::number_text(maximum_m));
     core::ProblemList problems;
     const Sensor sensor = read_sensor_text(text, "test.toml", problems);
     for (const core::Problem& problem : problems.all()) UNSCOPED_INFO(core::to_string(problem));
@@ -100,10 +100,10 @@ TEST_CASE("received power has no window of its own: both ends are asked for", "[
   const auto unused = problems_of(seed);  // it has one of its own
   REQUIRE(unused.size() == 2);
   for (const core::Problem& one : unused) CHECK(one.code == "W-UNUSED");
-  seed = tests::replaced(seed, "low_dB = -55.0", "#");
-  seed = tests::replaced(seed, "high_dB = 5.0", "#");
+  seed = tests::replaced_once(seed, "low_dB = -55.0", "#");
+  seed = tests::replaced_once(seed, "high_dB = 5.0", "#");
   CHECK(problems_of(seed).empty());
-  seed = tests::replaced(seed, "minimum_m = 200.0", "minimum_m = 0.0");
+  seed = tests::replaced_once(seed, "minimum_m = 200.0", "minimum_m = 0.0");
   check_single(problems_of(seed), "E-RANGE", "display.mapping");
 }
 

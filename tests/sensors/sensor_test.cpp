@@ -7,16 +7,12 @@
 #include "core/units.h"
 #include "sensors/antenna/beam_pattern.h"
 #include "sensors/display/seed_signal.h"
+#include "tests/decibel.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
 using namespace fanbeam::sensors;
-
-namespace {
-
-double dB(double ratio) { return 10.0 * std::log10(ratio); }
-
-}  // namespace
+using tests::dB;
 
 TEST_CASE("HiVision has the geometry of its published table", "[sensor]") {
   const Sensor sensor = tests::hivision();

@@ -11,16 +11,16 @@
 #include "sensors/display/display.h"
 #include "sensors/shadow/shadow_cscope.h"
 #include "sensors/shadow/shadow_obstacles.h"
+#include "tests/sensors/numbers.h"
 #include "tests/sensors/shipped_sensor.h"
 
 using namespace fanbeam;
 using namespace fanbeam::sensors;
+using tests::cubed;
 
 namespace {
 
 constexpr double kHeight_m = 120.0;
-
-double cubed(double x) { return x * x * x; }
 
 // Even ground of NRCS -28 dB under mean noise.
 class Picture {

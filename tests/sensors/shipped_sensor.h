@@ -26,7 +26,7 @@ inline sensors::Sensor shipped_sensor(const std::string& name) {
 inline sensors::Sensor hivision() { return shipped_sensor("hivision.toml"); }
 
 // The text with the one place where `from` stands replaced.
-inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
+inline std::string replaced_once(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   INFO(from);
   REQUIRE(at != std::string::npos);
@@ -35,7 +35,7 @@ inline std::string replaced(std::string text, const std::string& from, const std
 }
 
 inline std::string hivision_text(const std::string& from, const std::string& to) {
-  return replaced(core::read_file(sensor_path("hivision.toml"), 1U << 20U), from, to);
+  return replaced_once(core::read_file(sensor_path("hivision.toml"), 1U << 20U), from, to);
 }
 
 }  // namespace fanbeam::tests

@@ -8,18 +8,18 @@
 #include "tests/scenes/problem_checks.h"
 #include "tests/scenes/scene_folder.h"
 
-namespace {
-
 using namespace fanbeam;
 using tests::TemporaryFolder;
+
+namespace {
 
 // Without its approach.
 std::string live() {
   return tests::kSmallScene.substr(0, tests::kSmallScene.find("[trajectory.ils]"));
 }
 
-std::unique_ptr<session::Session> opened_text(const TemporaryFolder& folder,
-                                              const std::string& text) {
+std::unique_ptr<session::Session> session_of(const TemporaryFolder& folder,
+                                             const std::string& text) {
   folder.write("scene.toml", text);
   core::ProblemList problems;
   return std::make_unique<session::Session>(
@@ -43,7 +43,7 @@ bool is_outside(const renderer::Frame& frame) {
 TEST_CASE("A scene without a trajectory is planned for the air over its terrain",
           "[flight_volume]") {
   const TemporaryFolder folder;
-  const auto session = opened_text(folder, live());
+  const auto session = session_of(folder, live());
   const auto scene = session->scene();
   CHECK(scene->frame_count() == 0);
   CHECK_FALSE(scene->trajectory);
@@ -62,7 +62,7 @@ TEST_CASE("A stated flight volume is what the plan counts on, with a trajectory 
           "[flight_volume]") {
   const TemporaryFolder folder;
   const std::string stated = "[flight_volume]\nlowest_m = 100.0\nhighest_m = 1000.0\n";
-  const auto session = opened_text(folder, live() + stated);
+  const auto session = session_of(folder, live() + stated);
   // The scene's datum has its zero 50 m below the origin; the Earth falls away by 1 m to the rim.
   CHECK(session->scene()->volume.lowest_m == Approx(50.0).margin(1.1));
   CHECK(session->scene()->volume.highest_m == Approx(950.0).margin(1e-6));
@@ -70,7 +70,7 @@ TEST_CASE("A stated flight volume is what the plan counts on, with a trajectory 
   CHECK(is_outside(session->render(pose(51.99, 80.0), 0)));
   CHECK_FALSE(is_outside(session->render(pose(51.99, 900.0), 0)));
   const TemporaryFolder both;
-  const auto flown = opened_text(both, tests::kSmallScene + "\n" + stated);
+  const auto flown = session_of(both, tests::kSmallScene + "\n" + stated);
   CHECK(flown->scene()->frame_count() > 0);
   CHECK_FALSE(is_outside(flown->render(pose(52.005, 900.0, 180.0), 0)));
 }
@@ -95,7 +95,7 @@ roof = "metal"
   const std::string text =
       open.substr(0, box) + behind + open.substr(weather) + "end = \"decision_height\"\n";
   const TemporaryFolder flight, anywhere;
-  const auto session = opened_text(flight, text);
+  const auto session = session_of(flight, text);
   REQUIRE(session->scene()->frame_count() > 0);
   REQUIRE_FALSE(session->scene()->plan.runs(core::EffectId::double_bounce));
   const auto scene = session->scene();
@@ -107,7 +107,7 @@ roof = "metal"
   const renderer::Frame seen = session->render(back, 0);
   CHECK(is_outside(seen));
   // As a session that counts on any pose shows it.
-  const auto wide = opened_text(anywhere, text + "\n[flight_volume]\n");
+  const auto wide = session_of(anywhere, text + "\n[flight_volume]\n");
   REQUIRE(wide->scene()->plan.runs(core::EffectId::double_bounce));
   const renderer::Frame expected = wide->render(back, 0);
   CHECK_FALSE(is_outside(expected));
@@ -178,6 +178,6 @@ TEST_CASE("A flight volume upside down", "[flight_volume]") {
 
 TEST_CASE("A scene without a trajectory has no frames of its own", "[flight_volume]") {
   const TemporaryFolder folder;
-  const auto session = opened_text(folder, live());
+  const auto session = session_of(folder, live());
   CHECK_THROWS_AS(session->render_flown(0, session->scene()->plan), core::InputError);
 }

@@ -14,10 +14,10 @@
 #include "tests/processor_time.h"
 #include "tests/scenes/scene_folder.h"
 
-namespace {
-
 using namespace fanbeam;
 using tests::TemporaryFolder;
+
+namespace {
 
 std::unique_ptr<session::Session> opened(const TemporaryFolder& folder,
                                          const renderer::CasterWish caster,

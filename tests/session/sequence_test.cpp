@@ -12,10 +12,10 @@
 #include "sensors/display/display.h"
 #include "tests/scenes/scene_folder.h"
 
-namespace {
-
 using namespace fanbeam;
 using tests::TemporaryFolder;
+
+namespace {
 
 std::unique_ptr<session::Session> opened(const TemporaryFolder& folder,
                                          const session::ProductSet& products = {"bscope",

@@ -13,11 +13,11 @@
 #include "session/products/products.h"
 #include "tests/scenes/scene_folder.h"
 
-namespace {
-
 using namespace fanbeam;
 using session::Session;
 using tests::TemporaryFolder;
+
+namespace {
 
 const std::string kMast = R"(
 [[target]]

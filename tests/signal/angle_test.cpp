@@ -12,20 +12,19 @@
 #include "signal/transform/slot_compensation.h"
 #include "signal/transform/top_view.h"
 #include "signal/waveform/array.h"
+#include "tests/signal/reference_radar.h"
 #include "tests/signal/slot_phase.h"
 #include "tests/signal/test_tones.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
+using core::degrees;
 using core::kPi;
 using core::radians;
+using tests::kSlot_s;
+using tests::kWavelength_m;
 
 namespace {
-
-const double kWavelength_m = core::kSpeedOfLight_mps / 76e9;
-constexpr double kSlot_s = 20e-6;
-
-double degrees(double angle_rad) { return angle_rad * 180.0 / kPi; }
 
 Array half_wave_line(int transmitters, int receivers) {
   return line_array(transmitters, receivers, 0.5 * kWavelength_m);

@@ -17,12 +17,12 @@
 #include "signal/scan/column_sweep.h"
 
 using namespace fanbeam;
-using Window = sensors::Waveform::Window;
+using SweepWindow = sensors::Waveform::Window;
 
 namespace {
 
 // The shipped radar, of few columns of 0.25 deg.
-sensors::Sensor narrow(int columns, Window window) {
+sensors::Sensor narrow(int columns, SweepWindow window) {
   core::ProblemList problems;
   sensors::Sensor sensor =
       sensors::read_sensor(FANBEAM_SOURCE_DIR "/sensors/hivision.toml", problems);
@@ -62,7 +62,8 @@ double centroid_m(const sensors::Sensor& sensor, const std::vector<double>& cell
 
 TEST_CASE("A lone echo's cells are samples of the sweep's point response, with every window",
           "[scan]") {
-  for (const Window window : {Window::rectangular, Window::hann, Window::hamming, Window::taylor}) {
+  for (const SweepWindow window :
+       {SweepWindow::rectangular, SweepWindow::hann, SweepWindow::hamming, SweepWindow::taylor}) {
     const sensors::Sensor sensor = narrow(1, window);
     const sensors::PointResponse response(sensor, 0);
     for (const double beside_cells : {0.0, 0.3, 0.5}) {
@@ -86,7 +87,7 @@ TEST_CASE("A lone echo's cells are samples of the sweep's point response, with e
 }
 
 TEST_CASE("Noise of a column's cells is that of the sensor", "[scan]") {
-  const sensors::Sensor sensor = narrow(40, Window::taylor);
+  const sensors::Sensor sensor = narrow(40, SweepWindow::taylor);
   signal::FloatCube beat = signal::scan_beat(sensor, {}, {});
   const double rate_Hz = signal::column_sweep(sensor, 0).sample_rate_Hz[0];
   signal::add_receiver_noise(
@@ -99,7 +100,7 @@ TEST_CASE("Noise of a column's cells is that of the sensor", "[scan]") {
 }
 
 TEST_CASE("Columns see an echo through their two-way beam", "[scan]") {
-  const sensors::Sensor sensor = narrow(11, Window::hann);
+  const sensors::Sensor sensor = narrow(11, SweepWindow::hann);
   core::Echo echo = echo_at(sensors::range_middle_m(sensor.range, 100));
   echo.azimuth_rad = core::radians(0.1);
   const std::vector<double> cells_W = cells_of(sensor, echo);
@@ -115,7 +116,7 @@ TEST_CASE("Columns see an echo through their two-way beam", "[scan]") {
 }
 
 TEST_CASE("70 m/s towards an echo bring it 41.5 m nearer unless they are taken off", "[scan]") {
-  const sensors::Sensor sensor = narrow(1, Window::hann);
+  const sensors::Sensor sensor = narrow(1, SweepWindow::hann);
   const double range_m = 1500.0, speed_mps = 70.0;
   const core::Echo echo = echo_at(range_m, -speed_mps);
   // fc v / S, S = B / dwell.
@@ -131,14 +132,14 @@ TEST_CASE("Sensors without a sweep per column, or without a window, are refused"
   const sensors::Sensor published =
       sensors::read_sensor(FANBEAM_SOURCE_DIR "/sensors/hivision-seed.toml", problems);
   CHECK_FALSE(signal::why_no_column_sweep(published).empty());
-  sensors::Sensor sensor = narrow(1, Window::hann);
+  sensors::Sensor sensor = narrow(1, SweepWindow::hann);
   CHECK(signal::why_no_column_sweep(sensor).empty());
   sensor.scan.sweep = sensors::Scan::Sweep::whole_scan;
   CHECK_THROWS_AS(signal::column_sweep(sensor, 0), core::InputError);
-  sensor = narrow(1, Window::hann);
+  sensor = narrow(1, SweepWindow::hann);
   sensor.range.cell_m = 10.0;
   CHECK_THROWS_AS(signal::scan_beat(sensor, {}, {}), core::InputError);
-  sensor = narrow(1, Window::none);
+  sensor = narrow(1, SweepWindow::none);
   const signal::FloatCube beat = signal::scan_beat(sensor, {}, {});
   CHECK_THROWS_AS(signal::scan_cells_W(sensor, beat, 0.0), core::InputError);
   sensor.scan.columns = 2;

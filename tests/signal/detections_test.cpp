@@ -11,16 +11,16 @@
 #include "signal/detection/cfar_calibration.h"
 #include "signal/synthesis/reference.h"
 #include "signal/waveform/factories.h"
+#include "tests/signal/reference_radar.h"
 #include "tests/signal/test_tones.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
 using core::radians;
+using tests::kSlot_s;
+using tests::kWavelength_m;
 
 namespace {
-
-const double kWavelength_m = core::kSpeedOfLight_mps / 76e9;
-constexpr double kSlot_s = 20e-6;
 
 struct Radar {
   Waveform waveform;

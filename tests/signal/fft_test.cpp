@@ -17,7 +17,7 @@ using core::kPi;
 namespace {
 
 template <typename Real>
-using Values = std::vector<std::complex<Real>>;
+using ValuesOf = std::vector<std::complex<Real>>;
 
 template <typename Real>
 double size(std::complex<Real> value) {
@@ -25,8 +25,8 @@ double size(std::complex<Real> value) {
 }
 
 template <typename Real>
-Values<Real> random_values(int count) {
-  Values<Real> values;
+ValuesOf<Real> random_values(int count) {
+  ValuesOf<Real> values;
   for (int n = 0; n < count; ++n)
     values.push_back(static_cast<std::complex<Real>>(
         tests::noise(1.0, static_cast<std::uint64_t>(n), static_cast<std::uint32_t>(count))));
@@ -35,7 +35,7 @@ Values<Real> random_values(int count) {
 
 // In long double, phases reduced exactly.
 template <typename Real>
-std::vector<std::complex<long double>> direct_sum(const Values<Real>& values) {
+std::vector<std::complex<long double>> direct_sum(const ValuesOf<Real>& values) {
   const auto count = static_cast<long long>(values.size());
   std::vector<std::complex<long double>> lines(values.size());
   for (long long k = 0; k < count; ++k)
@@ -48,7 +48,7 @@ std::vector<std::complex<long double>> direct_sum(const Values<Real>& values) {
 }
 
 template <typename Real>
-double relative_error(const Values<Real>& found,
+double relative_error(const ValuesOf<Real>& found,
                       const std::vector<std::complex<long double>>& expected) {
   long double error = 0.0L;
   long double whole = 0.0L;
@@ -65,22 +65,22 @@ void check_basics(int length, double tolerance) {
   const auto count = static_cast<std::size_t>(length);
   INFO("length " << length);
 
-  Values<Real> impulse(count);
+  ValuesOf<Real> impulse(count);
   impulse[0] = 1;
   fft.run(impulse.data());
   for (const auto& line : impulse) REQUIRE(size(line - std::complex<Real>(1)) <= tolerance);
 
-  Values<Real> constant(count, 1);
+  ValuesOf<Real> constant(count, 1);
   fft.run(constant.data());
   CHECK(size(constant[0] / static_cast<Real>(length) - std::complex<Real>(1)) <= tolerance);
   for (std::size_t k = 1; k < count; ++k) REQUIRE(size(constant[k]) <= tolerance * length);
 
-  Values<Real> zeros(count);
+  ValuesOf<Real> zeros(count);
   fft.run(zeros.data());
   for (const auto& line : zeros) REQUIRE(line == std::complex<Real>(0));
 
-  const Values<Real> values = random_values<Real>(length);
-  Values<Real> lines(count);
+  const ValuesOf<Real> values = random_values<Real>(length);
+  ValuesOf<Real> lines(count);
   fft.run(values.data(), lines.data());
   CHECK(values == random_values<Real>(length));
   if (length <= 1009) CHECK(relative_error(lines, direct_sum(values)) <= tolerance);
@@ -128,7 +128,7 @@ TEST_CASE("batches along any axis are the single transforms", "[fft]") {
     auto together = all;
     Fft<float>(layout, FftDirection::forward).run(together.data());
     for (int b = 0; b < batches; ++b) {
-      Values<float> one;
+      ValuesOf<float> one;
       for (int n = 0; n < length; ++n)
         one.push_back(all[static_cast<std::size_t>(b * layout.distance + n * layout.stride)]);
       single.run(one.data());
@@ -142,8 +142,8 @@ TEST_CASE("batches along any axis are the single transforms", "[fft]") {
 
 TEST_CASE("values that are not aligned are transformed too", "[fft]") {
   const auto values = random_values<float>(257);
-  Values<float> shifted(values.begin() + 1, values.end());
-  Values<float> in_place = values;
+  ValuesOf<float> shifted(values.begin() + 1, values.end());
+  ValuesOf<float> in_place = values;
   const Fft<float> fft({.length = 256}, FftDirection::forward);
   fft.run(shifted.data());
   fft.run(in_place.data() + 1);
@@ -151,7 +151,7 @@ TEST_CASE("values that are not aligned are transformed too", "[fft]") {
 }
 
 TEST_CASE("many threads that need new plans get the same spectra", "[fft]") {
-  std::vector<std::vector<Values<double>>> found(4);
+  std::vector<std::vector<ValuesOf<double>>> found(4);
   std::vector<std::thread> threads;
   for (auto& mine : found)
     threads.emplace_back([&mine] {
@@ -176,7 +176,7 @@ TEST_CASE("G04 a tone 120 dB below another is found at its level in single preci
   for (const double weight : weights) sum += weight;
   const auto strong = tests::tone(length, 500.0, 1.0);
   const auto weak = tests::tone(length, 1500.0, 1e-6);
-  Values<float> values;
+  ValuesOf<float> values;
   for (int n = 0; n < length; ++n) {
     const auto i = static_cast<std::size_t>(n);
     values.push_back(static_cast<std::complex<float>>((strong[i] + weak[i]) * (weights[i] / sum)));

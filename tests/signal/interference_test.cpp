@@ -11,15 +11,15 @@
 #include "signal/receiver/mitigation.h"
 #include "signal/synthesis/beat_synthesis.h"
 #include "signal/waveform/factories.h"
+#include "tests/signal/reference_radar.h"
 #include "tests/signal/test_tones.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
 using core::kPi;
+using tests::kRate_Hz;
 
 namespace {
-
-constexpr double kRate_Hz = 20e6;
 
 // 76 GHz, 250 MHz in 20 us, 400 samples a chirp.
 Waveform chirps(int count) {
@@ -49,7 +49,7 @@ FloatCube heard(const Waveform& waveform, const Array& array, const Interferer& 
 
 double energy(const FloatCube& cube) {
   double sum = 0.0;
-  for (const auto& value : cube.values) sum += std::norm(value);
+  for (const auto& value : cube.values) sum += static_cast<double>(std::norm(value));
   return sum;
 }
 
@@ -68,8 +68,9 @@ TEST_CASE("A crossing brings the power of the band over the difference of slopes
   const double at_s = (250e6 + 12.5e12 * (0.5e-6 + delay_s)) / 25e12;
   double sum = 0.0, weighted = 0.0;
   for (int n = 0; n < 400; ++n) {
-    sum += std::norm(cube.at(0, 3, n));
-    weighted += n / kRate_Hz * std::norm(cube.at(0, 3, n));
+    const double power_W = static_cast<double>(std::norm(cube.at(0, 3, n)));
+    sum += power_W;
+    weighted += n / kRate_Hz * power_W;
   }
   CHECK(weighted / sum == Approx(at_s).margin(0.5 / kRate_Hz));
   // Nothing of it elsewhere.
@@ -139,7 +140,7 @@ TEST_CASE("Mended samples give the echo and the floor back", "[interference]") {
   const auto error = [&](const FloatCube& cube) {
     double sum = 0.0;
     for (std::size_t i = 0; i < cube.values.size(); ++i)
-      sum += std::norm(cube.values[i] - clean.values[i]);
+      sum += static_cast<double>(std::norm(cube.values[i] - clean.values[i]));
     return sum / energy(clean);
   };
   FloatCube zeroed = crossed, filled = crossed, untouched = clean;

@@ -6,14 +6,14 @@
 
 #include "core/constants.h"
 #include "core/errors.h"
+#include "tests/signal/reference_radar.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
 using core::kPi;
+using tests::kRate_Hz;
 
 namespace {
-
-constexpr double kRate_Hz = 20e6;
 
 FloatCube ones(int samples, int chirps) {
   FloatCube cube({samples, chirps, 1});
@@ -42,7 +42,7 @@ TEST_CASE("The variance of a Lorentzian line after a delay is 2 pi D tau", "[rec
   apply_oscillator(lorentzian(width_Hz), delay_s, kRate_Hz, {3, 0, 0}, {}, cube);
   CHECK(phase_variance(cube) == Approx(expected).epsilon(0.03));
   double power = 0.0;
-  for (const auto& value : cube.values) power += std::norm(value);
+  for (const auto& value : cube.values) power += static_cast<double>(std::norm(value));
   CHECK(power / static_cast<double>(cube.values.size()) == Approx(1.0).epsilon(1e-6));
 }
 

@@ -69,9 +69,9 @@ bool match(const RangeSpeed& a, const RangeSpeed& b) {
          std::abs(a.radial_speed_mps - b.radial_speed_mps) <= 1.0;
 }
 
-using Method = std::function<std::vector<RangeSpeed>(int, const std::vector<RangeSpeed>&)>;
+using PairingMethod = std::function<std::vector<RangeSpeed>(int, const std::vector<RangeSpeed>&)>;
 
-Rates rates_of(int count, const Method& method) {
+Rates rates_of(int count, const PairingMethod& method) {
   int missed = 0, ghosts = 0;
   for (int frame = 0; frame < kFrames; ++frame) {
     const std::vector<RangeSpeed> truth = targets_of(frame, count);
@@ -140,12 +140,12 @@ double tolerance(double rate, int targets) {
   return 4.0 * std::sqrt(rate * (1.0 - rate) / (0.5 * kFrames * targets));
 }
 
-struct Row {
+struct PairingRow {
   int targets;
   double sorted_miss, sorted_ghosts, all_ghosts, slopes_miss, slopes_ghosts;
 };
 // Reference simulation; its ghosts depend on which solutions are taken at all, so only to 15 %.
-constexpr Row kRows[] = {
+constexpr PairingRow kPairingRows[] = {
     {2, 0.219, 0.43, 1.29, 0.0, 0.0},      {4, 0.560, 2.19, 7.91, 0.0, 0.008},
     {6, 0.660, 3.79, 18.8, 0.0025, 0.005}, {8, 0.750, 5.70, 34.8, 0.0025, 0.045},
     {10, 0.806, 7.50, 54.3, 0.006, 0.09},  {15, 0.872, 12.0, 124.0, 0.008, 0.40}};
@@ -154,7 +154,7 @@ constexpr Row kRows[] = {
 
 TEST_CASE("Sorted beats of a triangle lose most targets, all pairs none but make ghosts",
           "[pairing][statistics]") {
-  for (const Row& row : kRows) {
+  for (const PairingRow& row : kPairingRows) {
     INFO(row.targets << " targets");
     const Rates by_order = sorted(row.targets);
     CHECK(by_order.miss ==
@@ -167,7 +167,7 @@ TEST_CASE("Sorted beats of a triangle lose most targets, all pairs none but make
 }
 
 TEST_CASE("A second slope keeps the targets and drops the ghosts", "[pairing][statistics]") {
-  for (const Row& row : kRows) {
+  for (const PairingRow& row : kPairingRows) {
     INFO(row.targets << " targets");
     const Rates rates = slopes(row.targets);
     CHECK(rates.miss <= row.slopes_miss + tolerance(0.002, row.targets));
@@ -177,7 +177,7 @@ TEST_CASE("A second slope keeps the targets and drops the ghosts", "[pairing][st
 
 TEST_CASE("Two stages miss at most one target in two hundred, where sorting misses two in three",
           "[pairing][statistics]") {
-  for (const Row& row : kRows) {
+  for (const PairingRow& row : kPairingRows) {
     INFO(row.targets << " targets");
     const Rates rates = stages(row.targets);
     CHECK(rates.miss <= 0.005);

@@ -10,16 +10,17 @@
 #include "signal/receiver/mixer.h"
 #include "signal/receiver/receiver_noise.h"
 #include "signal/synthesis/beat_phase.h"
+#include "tests/decibel.h"
 #include "tests/signal/default_waveform.h"
+#include "tests/signal/reference_radar.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
+using tests::dB;
+using tests::kWavelength_m;
 
 namespace {
 
-constexpr double kWavelength_m = core::kSpeedOfLight_mps / 76e9;
-
-double dB(double ratio) { return 10.0 * std::log10(ratio); }
 double ratio(double level_dB) { return std::pow(10.0, 0.1 * level_dB); }
 double dBm(double power_W) { return dB(power_W / 1e-3); }
 
@@ -28,6 +29,8 @@ double mean_power(const DoubleCube& cube) {
   for (const std::complex<double>& value : cube.values) sum += std::norm(value);
   return sum / static_cast<double>(cube.values.size());
 }
+
+ScatterPath at_rest(double range_m) { return {range_m, 0.0, 0.0, 0.0, {}}; }
 
 }  // namespace
 
@@ -189,15 +192,15 @@ TEST_CASE("Behind the low pass the mixer's product is the difference alone", "[r
     // The sum is there before: half of the product's power of 1/4.
     CHECK(product / static_cast<double>(trace.product.size()) == Approx(0.25).epsilon(0.01));
   }
-  CHECK_THROWS_AS(mixer_trace(tests::default_waveform(WaveformKind::pulsed), ScatterPath{100.0}),
+  CHECK_THROWS_AS(mixer_trace(tests::default_waveform(WaveformKind::pulsed), at_rest(100.0)),
                   core::InputError);
   // Where the sweep is small beside the sample rate no low pass lies between beat and sum.
   ChirpSequenceParameters narrow;
   narrow.bandwidth_Hz = 0.99 * narrow.sample_rate_Hz;
-  CHECK_THROWS_AS(mixer_trace(chirp_sequence(narrow), ScatterPath{100.0}), core::InputError);
+  CHECK_THROWS_AS(mixer_trace(chirp_sequence(narrow), at_rest(100.0)), core::InputError);
   narrow.bandwidth_Hz = narrow.sample_rate_Hz;
   // A beat of 19.6 MHz, and the sum from 20.4 MHz on.
-  CHECK_THROWS_AS(mixer_trace(chirp_sequence(narrow), ScatterPath{2940.0}), core::InputError);
-  for (const double value : mixer_trace(chirp_sequence(narrow), ScatterPath{100.0}).beat)
+  CHECK_THROWS_AS(mixer_trace(chirp_sequence(narrow), at_rest(2940.0)), core::InputError);
+  for (const double value : mixer_trace(chirp_sequence(narrow), at_rest(100.0)).beat)
     CHECK(std::abs(value) < 0.501);
 }

@@ -15,6 +15,7 @@
 #include "signal/fourier/window.h"
 #include "signal/transform/capon_map.h"
 #include "signal/waveform/array.h"
+#include "tests/signal/half_wave_line.h"
 #include "tests/signal/test_tones.h"
 
 using namespace fanbeam;
@@ -22,14 +23,10 @@ using namespace fanbeam::signal;
 using core::degrees;
 using core::kPi;
 using core::radians;
+using tests::kLineWavelength_m;
+using tests::line_of;
 
 namespace {
-
-constexpr double kWavelength_m = 4e-3;
-
-std::vector<glm::dvec3> line_of(int elements) {
-  return virtual_elements_m(line_array(1, elements, 0.5 * kWavelength_m));
-}
 
 struct Wave {
   double azimuth_deg, power, phase_rad;
@@ -40,7 +37,7 @@ Snapshot snapshot_of(const std::vector<glm::dvec3>& elements_m, const std::vecto
   Snapshot snapshot(elements_m.size());
   for (const Wave& wave : waves) {
     const Steering steering =
-        steering_vectors(elements_m, kWavelength_m, {{radians(wave.azimuth_deg)}});
+        steering_vectors(elements_m, kLineWavelength_m, {{radians(wave.azimuth_deg)}});
     for (std::size_t m = 0; m < snapshot.size(); ++m)
       snapshot[m] += std::polar(std::sqrt(wave.power), wave.phase_rad) * steering.values[m];
   }
@@ -52,7 +49,7 @@ Snapshot snapshot_of(const std::vector<glm::dvec3>& elements_m, const std::vecto
 // power 1: of the six real unknowns by the Jacobian of the mean.
 double bound_of_two_rad(const std::vector<glm::dvec3>& elements_m, double snr, double phase_rad) {
   std::array<std::array<double, 6>, 6> information{};
-  const double turns = 2.0 * kPi / kWavelength_m;
+  const double turns = 2.0 * kPi / kLineWavelength_m;
   for (const glm::dvec3& element_m : elements_m) {
     std::array<std::complex<double>, 6> derivatives;
     for (std::size_t w = 0; w < 2; ++w) {
@@ -91,7 +88,7 @@ TEST_CASE("A lone wave stays one, within the Cramer-Rao bound by every method",
       for (int trial = 0; trial < kTrials; ++trial) {
         const auto found = source_directions(
             snapshot_of(elements_m, {{13.0, snr, 0.4}}, static_cast<std::uint32_t>(trial)),
-            elements_m, kWavelength_m, method, 1.0);
+            elements_m, kLineWavelength_m, method, 1.0);
         several += found.size() > 1 ? 1 : 0;
         squares += std::pow(found.front().azimuth_rad - azimuth_rad, 2);
       }
@@ -109,7 +106,7 @@ TEST_CASE("MUSIC of many snapshots reaches the Cramer-Rao bound of one source",
   constexpr double kAzimuth_rad = 0.1, kSnr = 100.0, kStep_rad = 1e-4;
   std::vector<double> azimuths;
   for (int i = -100; i <= 100; ++i) azimuths.push_back(kAzimuth_rad + kStep_rad * i);
-  const Steering grid = steering_vectors(elements_m, kWavelength_m, {azimuths});
+  const Steering grid = steering_vectors(elements_m, kLineWavelength_m, {azimuths});
   double squares = 0.0;
   for (int trial = 0; trial < kTrials; ++trial) {
     Snapshots snapshots;
@@ -143,7 +140,7 @@ TEST_CASE("Two waves within a beamwidth are two by Capon and MUSIC, one by beams
         auto found =
             source_directions(snapshot_of(elements_m, {{-3.0, snr, 0.0}, {3.0, snr, phase_rad}},
                                           static_cast<std::uint32_t>(5000 + trial)),
-                              elements_m, kWavelength_m, method, 1.0);
+                              elements_m, kLineWavelength_m, method, 1.0);
         if (found.size() != 2) continue;
         if (found[0].azimuth_rad > found[1].azimuth_rad) std::swap(found[0], found[1]);
         good += std::abs(degrees(found[0].azimuth_rad) + 3.0) < 3.0 &&
@@ -158,7 +155,7 @@ TEST_CASE("Two waves within a beamwidth are two by Capon and MUSIC, one by beams
       CHECK(good >= least * kTrials);
     }
     CHECK(source_directions(snapshot_of(elements_m, {{-3.0, snr, 0.0}, {3.0, snr, 1.0}}, 1),
-                            elements_m, kWavelength_m, AngleMethod::beamforming, 1.0)
+                            elements_m, kLineWavelength_m, AngleMethod::beamforming, 1.0)
               .size() == 1);
   }
 }
@@ -175,7 +172,7 @@ TEST_CASE("Two waves within a beamwidth reach the bound of two", "[angle][statis
     const std::vector<Wave> waves = {{-3.0, snr, 0.0}, {3.0, snr, phase_rad}};
     auto found =
         source_directions(snapshot_of(elements_m, waves, static_cast<std::uint32_t>(9000 + trial)),
-                          elements_m, kWavelength_m, AngleMethod::music, 1.0);
+                          elements_m, kLineWavelength_m, AngleMethod::music, 1.0);
     if (found.size() != 2) continue;
     ++two;
     if (found[0].azimuth_rad > found[1].azimuth_rad) std::swap(found[0], found[1]);
@@ -192,8 +189,8 @@ TEST_CASE("One element, or several in one place, tell no direction", "[angle]") 
   for (const std::size_t elements : {1U, 3U})
     for (const AngleMethod method : {AngleMethod::beamforming, AngleMethod::music}) {
       const std::vector<glm::dvec3> places(elements, glm::dvec3(0.0, 0.01, 0.0));
-      const auto found =
-          source_directions(Snapshot(elements, {3.0, 4.0}), places, kWavelength_m, method, 1e-3);
+      const auto found = source_directions(Snapshot(elements, {3.0, 4.0}), places,
+                                           kLineWavelength_m, method, 1e-3);
       REQUIRE(found.size() == 1);
       CHECK(found[0].azimuth_rad == 0.0);
       CHECK(found[0].power_W == Approx(25.0));
@@ -204,7 +201,7 @@ TEST_CASE("Powers of two waves beyond a beamwidth are theirs", "[angle]") {
   const auto elements_m = line_of(12);
   const auto found =
       source_directions(snapshot_of(elements_m, {{-20.0, 400.0, 0.3}, {15.0, 100.0, 2.0}}, 3, 1e-6),
-                        elements_m, kWavelength_m, AngleMethod::music, 1e-6);
+                        elements_m, kLineWavelength_m, AngleMethod::music, 1e-6);
   REQUIRE(found.size() == 2);
   CHECK(degrees(found[0].azimuth_rad) == Approx(-20.0).margin(1e-2));
   CHECK(degrees(found[1].azimuth_rad) == Approx(15.0).margin(1e-2));
@@ -217,16 +214,17 @@ TEST_CASE("Capon and MUSIC refuse arrays that are no line, and noise that is non
   bent[3].y += 1e-4;
   CHECK_FALSE(is_uniform_line(bent));
   const Snapshot snapshot(8, 1.0);
-  CHECK_THROWS_AS(source_directions(snapshot, bent, kWavelength_m, AngleMethod::music, 1.0),
+  CHECK_THROWS_AS(source_directions(snapshot, bent, kLineWavelength_m, AngleMethod::music, 1.0),
                   core::InputError);
-  CHECK(source_directions(snapshot, bent, kWavelength_m, AngleMethod::beamforming, 1.0).size() ==
-        1);
+  CHECK(
+      source_directions(snapshot, bent, kLineWavelength_m, AngleMethod::beamforming, 1.0).size() ==
+      1);
   CHECK_THROWS_AS(
-      source_directions(snapshot, line_of(8), kWavelength_m, AngleMethod::capon, std::nan("")),
+      source_directions(snapshot, line_of(8), kLineWavelength_m, AngleMethod::capon, std::nan("")),
       core::InputError);
   // All zero: one direction, no power.
   const auto nothing =
-      source_directions(Snapshot(8), line_of(8), kWavelength_m, AngleMethod::music, 0.0);
+      source_directions(Snapshot(8), line_of(8), kLineWavelength_m, AngleMethod::music, 0.0);
   REQUIRE(nothing.size() == 1);
   CHECK(nothing.front().power_W == 0.0);
 }
@@ -239,28 +237,28 @@ TEST_CASE("An array with elements at two heights tells azimuth and elevation", "
   for (const auto& [azimuth_deg, elevation_deg] :
        {std::pair{11.0, 7.0}, {-35.0, -12.0}, {0.0, 25.0}}) {
     const Steering wave = steering_vectors(
-        elements_m, kWavelength_m, BeamGrid{{radians(azimuth_deg)}, {radians(elevation_deg)}});
-    const AnglePeak peak = direction_peak(wave.values, elements_m, kWavelength_m);
+        elements_m, kLineWavelength_m, BeamGrid{{radians(azimuth_deg)}, {radians(elevation_deg)}});
+    const AnglePeak peak = direction_peak(wave.values, elements_m, kLineWavelength_m);
     INFO(azimuth_deg << ", " << elevation_deg);
     CHECK(degrees(peak.azimuth_rad) == Approx(azimuth_deg).margin(1e-3));
     CHECK(degrees(peak.elevation_rad) == Approx(elevation_deg).margin(1e-3));
     CHECK(peak.power == Approx(1.0));
   }
   // Without heights: as azimuth_peak.
-  const Steering flat = steering_vectors(line_of(6), kWavelength_m, {{0.3}});
-  CHECK(direction_peak(flat.values, line_of(6), kWavelength_m).elevation_rad == 0.0);
+  const Steering flat = steering_vectors(line_of(6), kLineWavelength_m, {{0.3}});
+  CHECK(direction_peak(flat.values, line_of(6), kLineWavelength_m).elevation_rad == 0.0);
 }
 
 TEST_CASE("Capon's map keeps the power of a lone tone and narrows its beam", "[angle]") {
   const auto elements_m = line_of(12);
   FloatCube cube({4, 32, 12});
   tests::add_noise(cube, 1e-6, 5);
-  const Steering wave = steering_vectors(elements_m, kWavelength_m, {{radians(10.0)}});
+  const Steering wave = steering_vectors(elements_m, kLineWavelength_m, {{radians(10.0)}});
   for (int m = 0; m < 12; ++m)
     cube.at(m, 20, 2) += static_cast<std::complex<float>>(3.0 * wave.at(0, m));
   std::vector<double> azimuths;
   for (int i = -30; i <= 30; ++i) azimuths.push_back(radians(i));
-  const PowerMap map = capon_range_azimuth(cube, elements_m, kWavelength_m, azimuths, 1.0);
+  const PowerMap map = capon_range_azimuth(cube, elements_m, kLineWavelength_m, azimuths, 1.0);
   CHECK(map.rows == 61);
   CHECK(map.columns == 4);
   CHECK(map.at(40, 2) == Approx(9.0).epsilon(1e-2));

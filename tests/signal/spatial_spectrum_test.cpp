@@ -10,23 +10,24 @@
 #include "core/units.h"
 #include "signal/angle/covariance.h"
 #include "signal/waveform/array.h"
+#include "tests/signal/half_wave_line.h"
 #include "tests/signal/test_tones.h"
 
 using namespace fanbeam;
 using namespace fanbeam::signal;
 using core::kPi;
 using core::radians;
+using tests::kLineWavelength_m;
+using tests::line_of;
 
 namespace {
 
-constexpr double kWavelength_m = 4e-3;
 constexpr double kGridStep_deg = 0.05;
 
 Steering grid_for(int elements) {
   std::vector<double> azimuths;
   for (int i = -600; i <= 600; ++i) azimuths.push_back(radians(kGridStep_deg * i));
-  return steering_vectors(virtual_elements_m(line_array(1, elements, 0.5 * kWavelength_m)),
-                          kWavelength_m, {azimuths});
+  return steering_vectors(line_of(elements), kLineWavelength_m, {azimuths});
 }
 
 // Of a beam to each direction: a^H R a / N^2.
@@ -47,9 +48,9 @@ double degrees_of(double beam) { return (beam - 600.0) * kGridStep_deg; }
 // Two waves of power `snr` over noise of 1, at +-separation / 2.
 Snapshots two_sources(int elements, int snapshots, double separation_deg, double snr_dB,
                       std::uint32_t trial, bool constant_modulus = false) {
-  const auto waves = steering_vectors(
-      virtual_elements_m(line_array(1, elements, 0.5 * kWavelength_m)), kWavelength_m,
-      {{radians(-0.5 * separation_deg), radians(0.5 * separation_deg)}});
+  const auto waves =
+      steering_vectors(line_of(elements), kLineWavelength_m,
+                       {{radians(-0.5 * separation_deg), radians(0.5 * separation_deg)}});
   const double snr = std::pow(10.0, snr_dB / 10.0);
   Snapshots result;
   for (int t = 0; t < snapshots; ++t) {
@@ -74,11 +75,11 @@ struct Rate {
   double rmse_deg = 0.0;  // where separated
 };
 
-using Method = std::function<std::vector<double>(const Snapshots&)>;
+using SpectrumMethod = std::function<std::vector<double>(const Snapshots&)>;
 
 // Separated: the two strongest peaks are within half the spacing of the truth, one each, and the
 // second is within 15 dB of the first.
-Rate separated(const Method& method, int elements, int snapshots, double separation_deg,
+Rate separated(const SpectrumMethod& method, int elements, int snapshots, double separation_deg,
                double snr_dB, int trials, bool constant_modulus = false) {
   Rate rate;
   int found = 0;
@@ -110,13 +111,13 @@ TEST_CASE("Capon and MUSIC separate two sources at the reference rates", "[angle
   constexpr int kElements = 12;
   constexpr int kTrials = 300;
   const Steering grid = grid_for(kElements);
-  const Method fourier = [&](const Snapshots& s) {
+  const SpectrumMethod fourier = [&](const Snapshots& s) {
     return fourier_spectrum(sample_covariance(s), grid);
   };
-  const Method capon = [&](const Snapshots& s) {
+  const SpectrumMethod capon = [&](const Snapshots& s) {
     return capon_spectrum(sample_covariance(s), grid);
   };
-  const Method music = [&](const Snapshots& s) {
+  const SpectrumMethod music = [&](const Snapshots& s) {
     return music_spectrum(sample_covariance(s), grid, 2);
   };
   struct Case {
@@ -140,7 +141,7 @@ TEST_CASE("Capon and MUSIC separate two sources at the reference rates", "[angle
 TEST_CASE("Capon with a loading of 1e-3 has the reference rates", "[angle][statistics]") {
   constexpr int kTrials = 300;
   const Steering grid = grid_for(12);
-  const Method loaded = [&](const Snapshots& s) {
+  const SpectrumMethod loaded = [&](const Snapshots& s) {
     return capon_spectrum(sample_covariance(s), grid, 1e-3);
   };
   // Twice the trials without the loading separate at 2 deg.
@@ -155,13 +156,13 @@ TEST_CASE("smoothing separates two sources in one snapshot at the reference rate
   constexpr int kTrials = 500;
   const Steering whole = grid_for(12);
   const Steering grid = grid_for(8);
-  const Method fourier = [&](const Snapshots& s) {
+  const SpectrumMethod fourier = [&](const Snapshots& s) {
     return fourier_spectrum(sample_covariance(s), whole);
   };
-  const Method capon = [&](const Snapshots& s) {
+  const SpectrumMethod capon = [&](const Snapshots& s) {
     return capon_spectrum(smoothed_covariance(s, 8), grid, 1e-3);
   };
-  const Method music = [&](const Snapshots& s) {
+  const SpectrumMethod music = [&](const Snapshots& s) {
     return music_spectrum(smoothed_covariance(s, 8), grid, 2);
   };
   const double by_fourier = separated(fourier, 12, 1, 6.0, 20.0, kTrials).share;

@@ -14,18 +14,18 @@ using core::kPi;
 
 namespace {
 
-constexpr int kSamples = 500, kRecords = 12;
+constexpr int kRecordSamples = 500, kRecords = 12;
 
 // Tones of amplitudes that turn from record to record, bent over the record.
 ToneRecords records_of(const std::vector<std::pair<double, double>>& tones, double curvature_bins,
                        std::uint32_t trial) {
-  ToneRecords records(kRecords, std::vector<std::complex<double>>(kSamples));
+  ToneRecords records(kRecords, std::vector<std::complex<double>>(kRecordSamples));
   for (std::size_t c = 0; c < records.size(); ++c)
     for (std::size_t n = 0; n < records[c].size(); ++n) {
-      const double t = (static_cast<double>(n) - 0.5 * (kSamples - 1)) / kSamples;
+      const double t = (static_cast<double>(n) - 0.5 * (kRecordSamples - 1)) / kRecordSamples;
       for (std::size_t k = 0; k < tones.size(); ++k) {
         const double turns =
-            tones[k].first * static_cast<double>(n) / kSamples + 0.5 * curvature_bins * t * t;
+            tones[k].first * static_cast<double>(n) / kRecordSamples + 0.5 * curvature_bins * t * t;
         records[c][n] += std::polar(
             tones[k].second, 2.0 * kPi * turns + (k == 0 ? 0.4 : -0.3) * static_cast<double>(c) +
                                  1.7 * static_cast<double>(trial) * static_cast<double>(k + 1));

@@ -19,12 +19,12 @@ namespace {
 
 constexpr double kHundredKmh_mps = 100.0 / 3.6;
 
-struct Row {
+struct RampRow {
   double ramp_s, slope, bin_Hz, Hz_per_m, beat_100_Hz, beat_200_Hz, doppler_bins, as_m, up_Hz,
       down_Hz;
 };
 // 100 m and 200 m at rest; then 100 m closing at 100 km/h, all at mid ramp.
-constexpr Row kRows[] = {
+constexpr RampRow kRampRows[] = {
     {22.0 / 3.0 * 1e-6, 3.409091e13, 136363.6, 227430.08, 22.743008e6, 45.486015e6, 0.1033, 0.0619,
      22.728924e6, 22.757091e6},
     {2e-3, 1.25e11, 500.0, 833.910238, 83391.024, 166782.048, 28.168, 16.889, 69307.21, 97474.84},
@@ -33,7 +33,7 @@ constexpr Row kRows[] = {
 }  // namespace
 
 TEST_CASE("Beats of the reference radar have their sign and size", "[waveform]") {
-  for (const Row& row : kRows) {
+  for (const RampRow& row : kRampRows) {
     TriangleParameters parameters;
     parameters.ramp_s = row.ramp_s;
     parameters.sample_rate_Hz = 2.5 * row.beat_200_Hz;

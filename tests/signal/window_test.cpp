@@ -19,13 +19,13 @@ using namespace fanbeam::signal;
 
 namespace {
 
-struct Row {
+struct WindowRow {
   const char* name;
   Window window;
   double width_bins, side_lobe_dB, noise_bins, loss_dB, scalloping_dB, bias, bias_padded, variance;
 };
 
-const Row kTable[] = {
+const WindowRow kTable[] = {
     {"rectangular", {}, 0.8858, -13.26, 1.0000, 0.000, 3.922, 0.167, 0.00105, 1.000},
     {"Hann",
      {.kind = WindowKind::hann},
@@ -144,7 +144,7 @@ double tone_bias_bins(const std::vector<double>& weights, int padding) {
 }  // namespace
 
 TEST_CASE("the figures of every window are those of the table", "[window]") {
-  for (const Row& row : kTable) {
+  for (const WindowRow& row : kTable) {
     INFO(row.name);
     const auto weights = window_weights(row.window, 1024);
     const WindowFigures figures = window_figures(weights);
@@ -170,7 +170,7 @@ TEST_CASE("Taylor's half-power width is the 0.7 m of a 250 MHz radar, not its 0.
 }
 
 TEST_CASE("windows are periodic: symmetric about N / 2, and repeating after N", "[window]") {
-  for (const Row& row : kTable)
+  for (const WindowRow& row : kTable)
     for (const int length : {2, 7, 16, 125}) {
       INFO(row.name << " of " << length);
       const auto weights = window_weights(row.window, length);

@@ -53,8 +53,8 @@ std::vector<std::size_t> ring_counts(const std::vector<Polygon_m>& polygons) {
   return counts;
 }
 
-using Counts = std::vector<std::size_t>;
-const Ring_m kSquare{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+using RingCounts = std::vector<std::size_t>;
+const Ring_m kOutline{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
 const Ring_m kYard{{3, 3}, {6, 3}, {6, 7}, {3, 7}};
 
 }  // namespace
@@ -63,12 +63,12 @@ TEST_CASE("Outlines and courtyards have the building on their left, however they
           "[clean_footprint]") {
   for (const bool outline_turned : {false, true})
     for (const bool yard_turned : {false, true}) {
-      Ring_m outline = kSquare;
+      Ring_m outline = kOutline;
       Ring_m yard = kYard;
       if (outline_turned) std::reverse(outline.begin(), outline.end());
       if (yard_turned) std::reverse(yard.begin(), yard.end());
       const auto polygons = clean_footprint(outline, {yard});
-      CHECK(ring_counts(polygons) == Counts{2});
+      CHECK(ring_counts(polygons) == RingCounts{2});
       CHECK(area_m2(polygons) == Approx(100.0 - 12.0).epsilon(1e-14));
       check_sides(polygons);
     }
@@ -76,14 +76,14 @@ TEST_CASE("Outlines and courtyards have the building on their left, however they
 
 TEST_CASE("A ring that crosses itself falls apart where it crosses", "[clean_footprint]") {
   const auto bow_tie = clean_footprint({{0, 0}, {4, 4}, {4, 0}, {0, 4}}, {});
-  CHECK(ring_counts(bow_tie) == Counts{1, 1});
+  CHECK(ring_counts(bow_tie) == RingCounts{1, 1});
   CHECK(area_m2(bow_tie) == Approx(8.0).epsilon(1e-12));
   check_sides(bow_tie);
 
   // Two squares of 4 m and 3 m that share the corner (4, 4), run through in one go.
   const auto eight =
       clean_footprint({{0, 0}, {4, 0}, {4, 4}, {7, 4}, {7, 7}, {4, 7}, {4, 4}, {0, 4}}, {});
-  CHECK(ring_counts(eight) == Counts{1, 1});
+  CHECK(ring_counts(eight) == RingCounts{1, 1});
   CHECK(area_m2(eight) == Approx(16.0 + 9.0).epsilon(1e-12));
   check_sides(eight);
 }
@@ -93,31 +93,31 @@ TEST_CASE("A ring that comes back to a point of its own becomes outline and cour
   // Through (0, 0) twice, cutting a triangle of 4 m2 out of the square.
   const auto pinched =
       clean_footprint({{0, 0}, {10, 0}, {10, 10}, {0, 10}, {0, 0}, {2, 4}, {4, 4}}, {});
-  CHECK(ring_counts(pinched) == Counts{2});
+  CHECK(ring_counts(pinched) == RingCounts{2});
   CHECK(area_m2(pinched) == Approx(96.0).epsilon(1e-12));
   check_sides(pinched);
 }
 
 TEST_CASE("A courtyard may touch the outline, lie along it or reach out of it",
           "[clean_footprint]") {
-  const auto touching_corner = clean_footprint(kSquare, {{{0, 0}, {4, 2}, {2, 4}}});
-  CHECK(ring_counts(touching_corner) == Counts{2});
+  const auto touching_corner = clean_footprint(kOutline, {{{0, 0}, {4, 2}, {2, 4}}});
+  CHECK(ring_counts(touching_corner) == RingCounts{2});
   CHECK(area_m2(touching_corner) == Approx(100.0 - 6.0).epsilon(1e-12));
   check_sides(touching_corner);
 
-  const auto touching_side = clean_footprint(kSquare, {{{0, 4}, {3, 3}, {3, 5}}});
-  CHECK(ring_counts(touching_side) == Counts{2});
+  const auto touching_side = clean_footprint(kOutline, {{{0, 4}, {3, 3}, {3, 5}}});
+  CHECK(ring_counts(touching_side) == RingCounts{2});
   CHECK(area_m2(touching_side) == Approx(100.0 - 3.0).epsilon(1e-12));
   check_sides(touching_side);
 
   // It has no open side: what shares an edge with the outline is filled.
-  const auto along = clean_footprint(kSquare, {{{0, 3}, {3, 3}, {3, 7}, {0, 7}}});
-  CHECK(ring_counts(along) == Counts{1});
+  const auto along = clean_footprint(kOutline, {{{0, 3}, {3, 3}, {3, 7}, {0, 7}}});
+  CHECK(ring_counts(along) == RingCounts{1});
   CHECK(area_m2(along) == Approx(100.0).epsilon(1e-12));
   check_sides(along);
 
   // Half of it outside, where only one ring is around: 100 - 30 + 30.
-  const auto out = clean_footprint(kSquare, {{{5, 2}, {15, 2}, {15, 8}, {5, 8}}});
+  const auto out = clean_footprint(kOutline, {{{5, 2}, {15, 2}, {15, 8}, {5, 8}}});
   CHECK(area_m2(out) == Approx(100.0).epsilon(1e-12));
   check_sides(out);
 }
@@ -126,13 +126,13 @@ TEST_CASE("Repeated points, spikes and slivers leave no ring and no edge", "[cle
   const auto repeated =
       clean_footprint({{0, 0}, {0, 0}, {10, 0}, {10, 10}, {10, 10}, {0, 10}, {0, 0}},
                       {{{3, 3}, {3, 3}, {3, 3}}, {{4, 4}, {6, 6}, {5, 5}}});
-  CHECK(ring_counts(repeated) == Counts{1});
+  CHECK(ring_counts(repeated) == RingCounts{1});
   CHECK(repeated.at(0).at(0).size() == 4);
   check_sides(repeated);
 
   const auto spike =
       clean_footprint({{0, 0}, {10, 0}, {10, 5}, {17, 5}, {10, 5}, {10, 10}, {0, 10}}, {});
-  CHECK(ring_counts(spike) == Counts{1});
+  CHECK(ring_counts(spike) == RingCounts{1});
   CHECK(area_m2(spike) == Approx(100.0).epsilon(1e-12));
 
   // 100 m long, 0.1 nm wide: less than the coordinates of a far building can say.
@@ -143,7 +143,7 @@ TEST_CASE("Repeated points, spikes and slivers leave no ring and no edge", "[cle
   CHECK(clean_footprint(sliver(9e5, 9e5), {}).empty());
   const auto yard_gone =
       clean_footprint({{-10, -10}, {110, -10}, {110, 10}, {-10, 10}}, {sliver(0, 0)});
-  CHECK(ring_counts(yard_gone) == Counts{1});
+  CHECK(ring_counts(yard_gone) == RingCounts{1});
   CHECK(clean_footprint({{0, 0}, {10, 0}}, {}).empty());
   CHECK(clean_footprint({}, {kYard}).empty());
 }

@@ -7,13 +7,14 @@
 
 #include "core/errors.h"
 #include "terrain/buildings/footprints.h"
-#include "terrain/raster/elevation_raster.h"
 #include "tests/terrain/ascii_grid.h"
+#include "tests/terrain/refused_raster.h"
 
 namespace fanbeam::terrain {
 namespace {
 
 using Catch::Contains;
+using tests::refusal_of_raster;
 using tests::TemporaryFolder;
 
 std::string with_crs(const std::string& crs) {
@@ -24,15 +25,6 @@ std::string refusal_of_footprints(const std::filesystem::path& file) {
   try {
     core::ProblemList problems;
     read_footprints(file, {}, problems);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
-std::string refusal_of_raster(const std::filesystem::path& file) {
-  try {
-    ElevationRaster raster(file, {});
   } catch (const core::InputError& error) {
     return error.what();
   }

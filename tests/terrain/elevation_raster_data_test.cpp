@@ -4,11 +4,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "core/errors.h"
+#include "core/files.h"
 #include "core/random.h"
 #include "core/units.h"
 #include "terrain/raster/elevation_raster.h"
@@ -21,14 +20,7 @@ namespace {
 using core::radians;
 using tests::shared_data;
 
-ElevationRaster load(const std::filesystem::path& file) { return {file, ElevationOptions{}}; }
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
-double height_deg(const ElevationRaster& raster, double latitude_deg, double longitude_deg) {
+double known_height_m(const ElevationRaster& raster, double latitude_deg, double longitude_deg) {
   const auto height_m = raster.height_m(radians(latitude_deg), radians(longitude_deg));
   REQUIRE(height_m);
   return *height_m;
@@ -39,10 +31,10 @@ double height_deg(const ElevationRaster& raster, double latitude_deg, double lon
 TEST_CASE("An SRTM cell as .hgt and DTED 1 and 0 holds the same heights", "[elevation][data]") {
   const auto folder = shared_data("srtm-n47e009");
   if (!folder) return;
-  const std::string bytes = bytes_of(*folder / "N47E009.hgt");
-  const ElevationRaster hgt = load(*folder / "N47E009.hgt");
-  const ElevationRaster dted1 = load(*folder / "n47_e009.dt1");
-  const ElevationRaster dted0 = load(*folder / "n47_e009.dt0");
+  const std::string bytes = core::read_file(*folder / "N47E009.hgt", 1U << 24U);
+  const ElevationRaster hgt(*folder / "N47E009.hgt", {});
+  const ElevationRaster dted1(*folder / "n47_e009.dt1", {});
+  const ElevationRaster dted0(*folder / "n47_e009.dt0", {});
   REQUIRE(hgt.width() == 1201);
   REQUIRE(dted1.width() == 1201);
   REQUIRE(dted0.width() == 121);
@@ -69,11 +61,11 @@ TEST_CASE("An SRTM cell as .hgt and DTED 1 and 0 holds the same heights", "[elev
   CHECK(wrong == 0);
   // Samples are points: the first is at 48 N 9 E, the last at 47 N 10 E.
   for (const ElevationRaster* raster : {&hgt, &dted1, &dted0}) {
-    CHECK(height_deg(*raster, 48.0, 9.0) ==
+    CHECK(known_height_m(*raster, 48.0, 9.0) ==
           Approx(*hgt.post_height_m(0, 0)).epsilon(0.0).margin(1e-6));
-    CHECK(height_deg(*raster, 47.0, 10.0) ==
+    CHECK(known_height_m(*raster, 47.0, 10.0) ==
           Approx(*hgt.post_height_m(1200, 1200)).epsilon(0.0).margin(1e-6));
-    CHECK(height_deg(*raster, 47.5, 9.5) ==
+    CHECK(known_height_m(*raster, 47.5, 9.5) ==
           Approx(*hgt.post_height_m(600, 600)).epsilon(0.0).margin(1e-6));
   }
 }
@@ -82,16 +74,16 @@ TEST_CASE("Innsbruck's terrain has the published range and agrees with its UTM c
           "[elevation][data]") {
   const auto folder = shared_data("lowi-innsbruck");
   if (!folder) return;
-  const ElevationRaster wgs84 = load(*folder / "dem_lowi_wgs84_1arcsec.tif");
-  const ElevationRaster utm = load(*folder / "dem_lowi_utm32n_25m_float32.tif");
-  const ElevationRaster core_part = load(*folder / "dem_lowi_core_1arcsec.asc");
+  const ElevationRaster wgs84(*folder / "dem_lowi_wgs84_1arcsec.tif", {});
+  const ElevationRaster utm(*folder / "dem_lowi_utm32n_25m_float32.tif", {});
+  const ElevationRaster core_part(*folder / "dem_lowi_core_1arcsec.asc", {});
   CHECK(wgs84.width() == 1980);
   CHECK(wgs84.height() == 1008);
   CHECK(wgs84.lowest_m() == 528.0);
   CHECK(wgs84.highest_m() == 3003.0);
   // Whole metres at the thresholds 08 and 26 (README of the data).
-  CHECK(std::abs(height_deg(wgs84, 47.2589, 11.3310) - 582.0) < 3.0);
-  CHECK(std::abs(height_deg(wgs84, 47.2617, 11.3571) - 578.0) < 3.0);
+  CHECK(std::abs(known_height_m(wgs84, 47.2589, 11.3310) - 582.0) < 3.0);
+  CHECK(std::abs(known_height_m(wgs84, 47.2617, 11.3571) - 578.0) < 3.0);
 
   double utm_squares = 0.0;
   double largest_core_m = 0.0;
@@ -101,8 +93,8 @@ TEST_CASE("Innsbruck's terrain has the published range and agrees with its UTM c
     // Inside both copies; the core part spans 0.2 deg x 0.08 deg.
     const double latitude_deg = 47.23 + 0.06 * core::uniform_from(words[0]);
     const double longitude_deg = 11.27 + 0.17 * core::uniform_from(words[1]);
-    const double wgs84_m = height_deg(wgs84, latitude_deg, longitude_deg);
-    utm_squares += std::pow(height_deg(utm, latitude_deg, longitude_deg) - wgs84_m, 2);
+    const double wgs84_m = known_height_m(wgs84, latitude_deg, longitude_deg);
+    utm_squares += std::pow(known_height_m(utm, latitude_deg, longitude_deg) - wgs84_m, 2);
     const auto core_m = core_part.height_m(radians(latitude_deg), radians(longitude_deg));
     if (core_m) largest_core_m = std::max(largest_core_m, std::abs(*core_m - wgs84_m));
   }
@@ -118,7 +110,7 @@ TEST_CASE("Innsbruck's terrain has the published range and agrees with its UTM c
 TEST_CASE("Keflavik's posts lie where its description puts them", "[elevation][data]") {
   const auto file = shared_data("bikf-keflavik/dem_bikf_50m.tif");
   if (!file) return;
-  const ElevationRaster raster = load(*file);
+  const ElevationRaster raster(*file, {});
   REQUIRE(raster.width() == 401);
   REQUIRE(raster.height() == 401);
   CHECK(raster.lowest_m() == Approx(-4.6).epsilon(0.0).margin(0.05));
@@ -126,9 +118,10 @@ TEST_CASE("Keflavik's posts lie where its description puts them", "[elevation][d
   double largest_m = 0.0;
   for (int row = 1; row < 400; row += 3)
     for (int column = 1; column < 400; column += 3)
-      largest_m = std::max(largest_m, std::abs(height_deg(raster, 64.0747046 - 0.000448523 * row,
-                                                          -22.8092568 + 0.001021284 * column) -
-                                               *raster.post_height_m(column, row)));
+      largest_m =
+          std::max(largest_m, std::abs(known_height_m(raster, 64.0747046 - 0.000448523 * row,
+                                                      -22.8092568 + 0.001021284 * column) -
+                                       *raster.post_height_m(column, row)));
   INFO("largest difference " << largest_m << " m");
   // The description rounds the spacing: 4e-4 posts at the far end, on slopes up to 60 m per post.
   CHECK(largest_m < 0.05);
@@ -140,15 +133,16 @@ TEST_CASE("Truncated copies of real rasters are refused, never read as zeros",
   if (!root) return;
   const tests::TemporaryFolder folder;
   const auto check = [&](const std::filesystem::path& original) {
-    const std::string whole = bytes_of(original);
+    const std::string whole = core::read_file(original, 1U << 24U);
     for (const double part : {0.01, 0.25, 0.5, 0.9, 0.999}) {
       const auto length = static_cast<std::size_t>(part * static_cast<double>(whole.size()));
       const auto file = folder.write(original.filename().string(), whole.substr(0, length));
       CAPTURE(file.string(), part);
-      CHECK_THROWS_WITH(load(file), Catch::Matchers::Contains("E-PARSE"));
+      CHECK_THROWS_WITH(ElevationRaster(file, {}), Catch::Matchers::Contains("E-PARSE"));
     }
   };
-  folder.write("dem_lowi_core_1arcsec.prj", bytes_of(*root / "dem_lowi_core_1arcsec.prj"));
+  folder.write("dem_lowi_core_1arcsec.prj",
+               core::read_file(*root / "dem_lowi_core_1arcsec.prj", 1U << 24U));
   check(*root / "dem_lowi_core_1arcsec.asc");
   check(*root / "dem_lowi_wgs84_1arcsec.tif");
   check(*root / "dem_lowi_utm32n_25m_float32.tif");

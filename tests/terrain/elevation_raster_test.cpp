@@ -13,6 +13,7 @@
 #include "core/random.h"
 #include "core/units.h"
 #include "tests/terrain/ascii_grid.h"
+#include "tests/terrain/refused_raster.h"
 
 namespace fanbeam::terrain {
 namespace {
@@ -20,6 +21,7 @@ namespace {
 using Catch::Matchers::Contains;
 using core::radians;
 using tests::AsciiGrid;
+using tests::refusal_of_raster;
 using tests::TemporaryFolder;
 
 ElevationRaster load(const std::filesystem::path& file, const ElevationOptions& options = {}) {
@@ -30,15 +32,6 @@ ElevationRaster load_as(const std::filesystem::path& file, Interpolation interpo
   ElevationOptions options;
   options.interpolation = interpolation;
   return load(file, options);
-}
-
-std::string refusal_of(const std::filesystem::path& file, const ElevationOptions& options = {}) {
-  try {
-    load(file, options);
-  } catch (const core::InputError& error) {
-    return error.what();
-  }
-  return "accepted";
 }
 
 double height_deg(const ElevationRaster& raster, double latitude_deg, double longitude_deg) {
@@ -162,7 +155,7 @@ TEST_CASE("Voids are known by post and filled; a file of voids only is refused",
   CHECK(raster.lowest_m() == Approx(250.0));
 
   const auto empty = grid.write(folder, "empty", [](int, int) { return std::string("-9999"); });
-  CHECK_THAT(refusal_of(empty), Contains("E-RANGE") && Contains("all 400"));
+  CHECK_THAT(refusal_of_raster(empty), Contains("E-RANGE") && Contains("all 400"));
 }
 
 TEST_CASE("A void too wide to fill stays a hole and never a height", "[elevation]") {
@@ -186,7 +179,7 @@ TEST_CASE("Undeclared stand-ins for no height are refused", "[elevation]") {
     const auto file = grid.write(folder, "undeclared", [&](int column, int row) {
       return column == 2 && row == 1 ? stand_in : "10";
     });
-    CHECK_THAT(refusal_of(file), Contains("E-RANGE") && Contains("column 2, row 1"));
+    CHECK_THAT(refusal_of_raster(file), Contains("E-RANGE") && Contains("column 2, row 1"));
   }
 }
 
@@ -217,7 +210,7 @@ TEST_CASE("Smoothing removes whole-metre terraces and stays within the rounding"
   CHECK(reduction < 0.1);
 
   options.quantisation_step_m = -1.0;
-  CHECK_THAT(refusal_of(file, options), Contains("E-RANGE quantisation_step_m"));
+  CHECK_THAT(refusal_of_raster(file, options), Contains("E-RANGE quantisation_step_m"));
 }
 
 TEST_CASE("Lookups from many threads agree with those of one", "[elevation]") {

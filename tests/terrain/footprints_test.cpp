@@ -50,7 +50,7 @@ std::vector<Footprint> read(const std::string& text, core::ProblemList& problems
   return read_footprints(folder.write("buildings.geojson", text), options, problems);
 }
 
-std::string refusal_of(const std::string& text) {
+std::string refusal_of_geojson(const std::string& text) {
   core::ProblemList problems;
   try {
     read(text, problems);
@@ -179,9 +179,10 @@ TEST_CASE("An outline tangled beyond use is E-LIMIT at once", "[footprints]") {
     return collection(feature(R"("render_height":5)", "Polygon", "[[" + ring + "]]"));
   };
   const double begin_s = tests::processor_time_s();
-  CHECK_THAT(refusal_of(star(501)), Contains("E-LIMIT feature 0 outline = crosses itself more"));
+  CHECK_THAT(refusal_of_geojson(star(501)),
+             Contains("E-LIMIT feature 0 outline = crosses itself more"));
   CHECK(tests::processor_time_s() - begin_s < tests::kAtOnce_s);
-  CHECK(refusal_of(star(21)) == "accepted");
+  CHECK(refusal_of_geojson(star(21)) == "accepted");
 }
 
 // A spiral of 20 000 corners kept the roof's triangulation busy for minutes.
@@ -196,10 +197,10 @@ TEST_CASE("Outlines with too many corners are E-LIMIT, one alone and all togethe
     }
     return feature(R"("render_height":5)", "Polygon", "[[" + ring + "]]");
   };
-  CHECK_THAT(refusal_of(collection(round(4001))),
+  CHECK_THAT(refusal_of_geojson(collection(round(4001))),
              Contains("E-LIMIT feature 0 corners = 4001: expected at most 4000"));
-  CHECK(refusal_of(collection(round(4000))) == "accepted");
-  CHECK_THAT(refusal_of(collection(round(4000) + "," + round(4000))),
+  CHECK(refusal_of_geojson(collection(round(4000))) == "accepted");
+  CHECK_THAT(refusal_of_geojson(collection(round(4000) + "," + round(4000))),
              Contains("E-LIMIT feature 1 corners = 4000"));
 }
 
@@ -241,15 +242,15 @@ TEST_CASE("Every bad height and coordinate is reported at once", "[footprints]")
   const std::string off_earth = "[[[11,47],[11.1,97],[11.1,47],[11,47]]]";
   const std::string overflow = "[[[11,47],[1e999,47],[11.1,47.1],[11,47]]]";
   const std::string text =
-      refusal_of(collection(feature(R"("render_height":"12 m")", "Polygon", kSquare) + "," +
-                            feature(R"("render_height":-3)", "Polygon", kSquare) + "," +
-                            feature(R"("render_height":5)", "Polygon", off_earth) + "," +
-                            feature(R"("render_height":5)", "Polygon", overflow)));
+      refusal_of_geojson(collection(feature(R"("render_height":"12 m")", "Polygon", kSquare) + "," +
+                                    feature(R"("render_height":-3)", "Polygon", kSquare) + "," +
+                                    feature(R"("render_height":5)", "Polygon", off_earth) + "," +
+                                    feature(R"("render_height":5)", "Polygon", overflow)));
   CHECK_THAT(text, Contains("E-RANGE feature 0 render_height = 12 m") &&
                        Contains("E-RANGE feature 1 render_height = -3") &&
                        Contains("E-RANGE feature 2 coordinates") &&
                        Contains("E-RANGE feature 3 coordinates"));
-  CHECK_THAT(refusal_of(collection(feature(R"("render_height":true)", "Polygon", kSquare))),
+  CHECK_THAT(refusal_of_geojson(collection(feature(R"("render_height":true)", "Polygon", kSquare))),
              Contains("E-PARSE feature 0 render_height = true"));
 }
 
@@ -278,8 +279,9 @@ TEST_CASE("Positions beyond their reference system are refused, where GDAL would
            feature(R"("render_height":5)", type, coordinates) + "]}";
   };
   const std::string far = "[[[1e300,0],[1224100,0],[1224100,100],[1e300,0]]]";
-  CHECK_THAT(refusal_of(mercator("Polygon", far)), Contains("E-RANGE feature 0 coordinates"));
-  CHECK_THAT(refusal_of(mercator("MultiPolygon", "[" + far + "]")),
+  CHECK_THAT(refusal_of_geojson(mercator("Polygon", far)),
+             Contains("E-RANGE feature 0 coordinates"));
+  CHECK_THAT(refusal_of_geojson(mercator("MultiPolygon", "[" + far + "]")),
              Contains("E-RANGE feature 0 coordinates"));
 }
 
@@ -288,10 +290,10 @@ TEST_CASE("Files that are no GeoJSON, cut off, or missing are refused", "[footpr
                                        feature(R"("render_height":6)", "Polygon", kSquare));
   for (std::size_t length = 0; length < whole.size(); length += 7) {
     CAPTURE(length);
-    CHECK_THAT(refusal_of(whole.substr(0, length)), Contains("E-PARSE"));
+    CHECK_THAT(refusal_of_geojson(whole.substr(0, length)), Contains("E-PARSE"));
   }
-  CHECK_THAT(refusal_of("{\"type\":\"Topology\"}"), Contains("E-PARSE"));
-  CHECK_THAT(refusal_of(std::string(100'000, '[')), Contains("E-PARSE"));
+  CHECK_THAT(refusal_of_geojson("{\"type\":\"Topology\"}"), Contains("E-PARSE"));
+  CHECK_THAT(refusal_of_geojson(std::string(100'000, '[')), Contains("E-PARSE"));
   core::ProblemList problems;
   CHECK_THROWS_WITH(read_footprints("/nonexistent.geojson", {}, problems), Contains("E-IO"));
 }

@@ -8,12 +8,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "core/errors.h"
+#include "core/files.h"
 #include "tests/terrain/ascii_grid.h"
 
 namespace fanbeam::terrain {
@@ -30,11 +29,6 @@ std::string refusal_of(const std::filesystem::path& file) {
     return error.what();
   }
   return "accepted";
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 template <typename Number>
@@ -191,7 +185,7 @@ TEST_CASE("Missing, foreign and damaged raster files are refused", "[raster_file
              Contains("E-PARSE"));
   const AsciiGrid grid{30, 30, 11.0, 47.0, 0.01};
   const auto file = grid.write(folder, "whole", [](int, int) { return std::string("250"); });
-  const std::string whole = bytes_of(file);
+  const std::string whole = core::read_file(file, 1U << 20U);
   for (const double part : {0.3, 0.6, 0.97})
     CHECK_THAT(
         refusal_of(folder.write(

@@ -14,15 +14,16 @@ namespace {
 
 using namespace fanbeam;
 
-constexpr double kHalf_m = 3000.0;
+constexpr double kPlaneHalf_m = 3000.0;
 constexpr double kOccluder_m = 0.05;
 
 // A slope without round numbers, so that every vertex is rounded.
 double slope_m(double x_m, double y_m) { return 0.0371 * x_m - 0.0213 * y_m + 123.4567; }
 
 terrain::HeightField plane(double shift_m) {
-  terrain::HeightField field = terrain::make_height_field(shift_m - kHalf_m, shift_m - kHalf_m,
-                                                          shift_m + kHalf_m, shift_m + kHalf_m, 20);
+  terrain::HeightField field =
+      terrain::make_height_field(shift_m - kPlaneHalf_m, shift_m - kPlaneHalf_m,
+                                 shift_m + kPlaneHalf_m, shift_m + kPlaneHalf_m, 20);
   for (int j = 0; j < field.rows; ++j)
     for (int i = 0; i < field.columns; ++i)
       field.height_m[field.post(i, j)] =
@@ -33,8 +34,8 @@ terrain::HeightField plane(double shift_m) {
 // The same slope 5 cm higher, as a mesh.
 terrain::PlacedMesh occluder(double shift_m) {
   terrain::PlacedMesh placed;
-  for (const double y_m : {shift_m - kHalf_m, shift_m + kHalf_m})
-    for (const double x_m : {shift_m - kHalf_m, shift_m + kHalf_m})
+  for (const double y_m : {shift_m - kPlaneHalf_m, shift_m + kPlaneHalf_m})
+    for (const double x_m : {shift_m - kPlaneHalf_m, shift_m + kPlaneHalf_m})
       placed.mesh.vertices_m.emplace_back(x_m, y_m, slope_m(x_m, y_m) + kOccluder_m);
   placed.mesh.triangles = {{0, 1, 3}, {0, 3, 2}};
   placed.mesh.triangle_material.assign(2, 0);
@@ -57,8 +58,9 @@ Counts leave_the_surface(double shift_m) {
   for (int i = 0; i < kHits; ++i) {
     const auto word = core::random_words(key, static_cast<std::uint64_t>(i), 0);
     const auto u = [&](int k) { return core::uniform_from(word[static_cast<std::size_t>(k)]); };
-    const double x_m = shift_m + (u(0) - 0.5) * kHalf_m, y_m = shift_m + (u(1) - 0.5) * kHalf_m;
-    const glm::dvec3 sensor_m(shift_m + (u(2) - 0.5) * kHalf_m, shift_m - 0.9 * kHalf_m,
+    const double x_m = shift_m + (u(0) - 0.5) * kPlaneHalf_m,
+                 y_m = shift_m + (u(1) - 0.5) * kPlaneHalf_m;
+    const glm::dvec3 sensor_m(shift_m + (u(2) - 0.5) * kPlaneHalf_m, shift_m - 0.9 * kPlaneHalf_m,
                               slope_m(shift_m, shift_m) + 100.0 + 100.0 * u(3));
     const glm::dvec3 path_m = glm::dvec3(x_m, y_m, slope_m(x_m, y_m)) - sensor_m;
     const auto hit = bare.intersect(sensor_m, path_m, 2.0 * glm::length(path_m));
@@ -120,7 +122,7 @@ TEST_CASE("What rays hit does not depend on how the library is told they lie", "
       const auto word =
           core::random_words({15, 0, 0}, kLanes * n + static_cast<std::uint64_t>(lane), 0);
       const auto u = [&](int k) { return core::uniform_from(word[static_cast<std::size_t>(k)]); };
-      const glm::dvec3 start_m((u(0) - 0.5) * kHalf_m, (u(1) - 0.5) * kHalf_m, 400.0);
+      const glm::dvec3 start_m((u(0) - 0.5) * kPlaneHalf_m, (u(1) - 0.5) * kPlaneHalf_m, 400.0);
       const double turn_rad = 2.0 * core::kPi * u(2);
       alike.aim(lane, scene.in_caster_m(start_m),
                 {std::cos(turn_rad), std::sin(turn_rad), 0.3 - 1.3 * u(3)}, 2000.0);

@@ -36,7 +36,7 @@ ImmState track(double speed_mps, double sigma_mps) {
   return start_imm(model, state);
 }
 
-RadarMeasurement seen(double speed_mps, double sigma_mps) {
+RadarMeasurement seen_speed(double speed_mps, double sigma_mps) {
   return {60.0, speed_mps, 0.0, 1.0, sigma_mps, 1.0};
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("Tracks that differ in speed alone are told apart by speed alone", "[c
   for (const double after_mps : {0.7, -0.7}) {
     const double kept =
         kept_probability(track(0.5, sigma), track(-0.3, sigma), Measured::range_and_rate,
-                         seen(after_mps - 0.1, sigma), seen(-0.1, sigma));
+                         seen_speed(after_mps - 0.1, sigma), seen_speed(-0.1, sigma));
     CHECK(kept == Approx(kept_by_difference(0.8, variance, after_mps, variance)).epsilon(1e-9));
     CHECK((kept > 0.5) == (after_mps > 0.0));
   }
@@ -71,7 +71,7 @@ TEST_CASE("What tells a pair apart is the axis on which it differs, and neither 
   ImmState left = track(0.0, 0.3), right = track(0.0, 0.3);
   left.states[0].mean[1] = -1.8;
   right.states[0].mean[1] = 1.8;
-  RadarMeasurement c = seen(0.0, 0.3), d = c;
+  RadarMeasurement c = seen_speed(0.0, 0.3), d = c;
   c.azimuth_rad = -0.03;
   d.azimuth_rad = 0.03;
   c.azimuth_sigma_rad = d.azimuth_sigma_rad = 0.001;
@@ -81,10 +81,11 @@ TEST_CASE("What tells a pair apart is the axis on which it differs, and neither 
   // The same for range and rate alone: nothing tells them apart.
   CHECK(kept_probability(left, right, Measured::range_and_rate, c, d) == Approx(0.5));
   const ImmState slow = track(-0.2, 0.3), fast = track(0.3, 0.2);
-  const double kept = kept_probability(slow, fast, kAll, seen(-0.1, 0.3), seen(0.5, 0.2));
-  CHECK(kept_probability(fast, slow, kAll, seen(0.5, 0.2), seen(-0.1, 0.3)) ==
+  const double kept =
+      kept_probability(slow, fast, kAll, seen_speed(-0.1, 0.3), seen_speed(0.5, 0.2));
+  CHECK(kept_probability(fast, slow, kAll, seen_speed(0.5, 0.2), seen_speed(-0.1, 0.3)) ==
         Approx(kept).epsilon(1e-12));
-  CHECK(kept_probability(fast, slow, kAll, seen(-0.1, 0.3), seen(0.5, 0.2)) ==
+  CHECK(kept_probability(fast, slow, kAll, seen_speed(-0.1, 0.3), seen_speed(0.5, 0.2)) ==
         Approx(1.0 - kept).epsilon(1e-9));
 }
 

@@ -58,6 +58,16 @@ inline core::HighwayScenario beaming() {
                 car("C", 49.279238345478035, -8.459117453349801, 0.0, 5.0)});
 }
 
+inline tracking::TrackerSettings settings_for(double radar_speed_mps = kRoadSpeed_mps) {
+  return tracking::road_tracker(highway_radar(), radar_speed_mps);
+}
+
+inline const tracking::Track* track_of(const tracking::Tracker& tracker, int id) {
+  for (const tracking::Track& one : tracker.tracks())
+    if (one.id == id) return &one;
+  return nullptr;
+}
+
 using Frame = tracking::ScenarioFrame;
 
 inline void track_scene(const core::HighwayScenario& scenario,

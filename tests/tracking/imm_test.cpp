@@ -10,11 +10,10 @@
 
 using namespace fanbeam;
 using namespace fanbeam::tracking;
+using tests::kStep_s;
 using tests::run_key;
 
 namespace {
-
-constexpr double kStep_s = 0.05;
 
 ImmModel three_models() {
   ImmModel model;

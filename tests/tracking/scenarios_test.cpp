@@ -13,20 +13,6 @@ using namespace fanbeam;
 using namespace fanbeam::tracking;
 using namespace fanbeam::tests;
 
-namespace {
-
-TrackerSettings settings_for(double radar_speed_mps = kRoadSpeed_mps) {
-  return road_tracker(highway_radar(), radar_speed_mps);
-}
-
-const Track* track_of(const Tracker& tracker, int id) {
-  for (const Track& one : tracker.tracks())
-    if (one.id == id) return &one;
-  return nullptr;
-}
-
-}  // namespace
-
 TEST_CASE("S1 a single car: errors within 1.15 of the bound, no false track",
           "[tracker][statistics]") {
   SimulationSettings simulation;

@@ -12,10 +12,6 @@ using namespace fanbeam::tests;
 
 namespace {
 
-TrackerSettings settings_for(double radar_speed_mps = kRoadSpeed_mps) {
-  return road_tracker(highway_radar(), radar_speed_mps);
-}
-
 RadarMeasurement at(double range_m, double rate_mps, double azimuth_rad = 0.0) {
   return {range_m, rate_mps, azimuth_rad, 0.01, 0.01, 0.001};
 }
@@ -23,12 +19,6 @@ RadarMeasurement at(double range_m, double rate_mps, double azimuth_rad = 0.0) {
 int confirmed(const Tracker& tracker) {
   return static_cast<int>(std::count_if(tracker.tracks().begin(), tracker.tracks().end(),
                                         [](const Track& one) { return one.confirmed; }));
-}
-
-const Track* track_of(const Tracker& tracker, int id) {
-  for (const Track& one : tracker.tracks())
-    if (one.id == id) return &one;
-  return nullptr;
 }
 
 }  // namespace

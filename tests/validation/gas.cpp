@@ -10,7 +10,7 @@ namespace {
 
 using atmosphere::GasAttenuation;
 
-Section itu_examples() {
+Section itu_gas_examples() {
   Section section{"Gas: the ITU's own examples",
                   "ITU-R Study Group 3, validation examples for Recommendation P.676-13 (08/2022), "
                   "specific attenuation, rows up to 120 GHz",
@@ -76,6 +76,6 @@ Section slant_paths() {
 
 }  // namespace
 
-std::vector<Section> gas_sections() { return {itu_examples(), other_air(), slant_paths()}; }
+std::vector<Section> gas_sections() { return {itu_gas_examples(), other_air(), slant_paths()}; }
 
 }  // namespace fanbeam::validation

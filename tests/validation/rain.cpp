@@ -20,7 +20,7 @@ double tilt_rad(const std::string& polarisation) {
   return polarisation == "V" ? std::numbers::pi / 2 : std::numbers::pi / 4;
 }
 
-Section itu_examples() {
+Section itu_rain_examples() {
   Section section{"Rain: the ITU's own examples",
                   "ITU-R Study Group 3, validation examples for Recommendation P.838-3 (03/2005)",
                   "dB/km; k and alpha as in the Recommendation",
@@ -82,7 +82,7 @@ Section attenuation(const std::string& model, RainLaw law, const std::string& so
 }  // namespace
 
 std::vector<Section> rain_sections() {
-  return {itu_examples(), coefficients(),
+  return {itu_rain_examples(), coefficients(),
           attenuation("itu-r-p838-3-rain", RainLaw::itu_p838,
                       "P.838-3 as ITU-Rpy (commit 6d7f35c) evaluates it"),
           attenuation("rain-1.6-r-0.64-w-band", RainLaw::georgia_tech_95,
