@@ -27,7 +27,7 @@ class ClockGate {
     const double ahead_s = last_s_ ? clock_s - *last_s_ : kStep_s;
     const bool paused = ahead_s == 0.0 && arrived_s - arrived_s_ >= kPaused_s;
     const bool on = follows(ahead_s) || paused;
-    after_jump_ = !on && jumped_s_ && follows(clock_s - *jumped_s_);
+    after_jump_ = !on && follows(clock_s - jumped_s_.value_or(clock_s));
     if (!on && !after_jump_) {
       if (!(ahead_s <= 0.0 && ahead_s >= -kStep_s)) {
         jumped_s_ = clock_s;

@@ -21,20 +21,20 @@ using namespace fanbeam;
 namespace {
 
 // volatile: the compiler must leave the work to the processor.
-volatile double zero = 0.0, one = 1.0, largest = 1e308;
+volatile double zero = 0.0, one = 1.0, near_largest = 1e308;
 volatile double not_a_number = std::numeric_limits<double>::quiet_NaN();
-volatile double result = 0.0;
+volatile double last_result = 0.0;
 volatile int whole = 0;
 volatile bool truth = false;
 
 const std::vector<std::pair<std::string, std::function<void()>>> kFaults = {
-    {"invalid", [] { result = zero / zero; }},
-    {"division by zero", [] { result = one / zero; }},
-    {"overflow", [] { result = largest * 10.0; }},
-    {"invalid", [] { result = std::log(-one); }},
-    {"overflow", [] { result = std::exp(1000.0 * one); }},
-    {"invalid", [] { whole = static_cast<int>(largest); }},
-    {"invalid", [] { core::parallel_for(64, [](std::size_t) { result = zero / zero; }); }},
+    {"invalid", [] { last_result = zero / zero; }},
+    {"division by zero", [] { last_result = one / zero; }},
+    {"overflow", [] { last_result = near_largest * 10.0; }},
+    {"invalid", [] { last_result = std::log(-one); }},
+    {"overflow", [] { last_result = std::exp(1000.0 * one); }},
+    {"invalid", [] { whole = static_cast<int>(near_largest); }},
+    {"invalid", [] { core::parallel_for(64, [](std::size_t) { last_result = zero / zero; }); }},
 };
 
 std::pair<bool, std::string> run_itself(const std::string& tag, int number) {
@@ -60,10 +60,10 @@ TEST_CASE("makes the floating-point fault it is told to", "[fault]") {
 TEST_CASE("makes no floating-point fault", "[no_fault]") {
   if (std::getenv("FANBEAM_FAULT") == nullptr) return;
   REQUIRE(tests::fp_traps_are_set());
-  truth = not_a_number >= 0.0;                 // how a check finds a NaN
-  result = std::max(0.0, not_a_number + one);  // goes on quietly
-  result = 1e-300 * (one * 1e-300);            // underflow is rounding
-  result = std::numeric_limits<double>::infinity() * one;
+  truth = not_a_number >= 0.0;                      // how a check finds a NaN
+  last_result = std::max(0.0, not_a_number + one);  // goes on quietly
+  last_result = 1e-300 * (one * 1e-300);            // underflow is rounding
+  last_result = std::numeric_limits<double>::infinity() * one;
   core::parallel_for(64, [](std::size_t) { truth = not_a_number < 1.0; });
 }
 

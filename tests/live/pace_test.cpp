@@ -8,13 +8,13 @@ using fanbeam::live::Pace;
 namespace {
 
 const std::vector<double> kLadder{1, 2, 4, 8};
-constexpr double kPeriod_s = 0.1;
+constexpr double kDeadline_s = 0.1;
 
 // Frames that take `fixed_s` and `each_s` for every sample, for `span_s`. How often the sampling
 // changed.
 int fly(Pace& pace, double& now_s, double span_s, double fixed_s, double each_s) {
   int changes = 0;
-  for (const double end_s = now_s + span_s; now_s < end_s; now_s += kPeriod_s) {
+  for (const double end_s = now_s + span_s; now_s < end_s; now_s += kDeadline_s) {
     const double before = pace.samples();
     if (pace.after(now_s, fixed_s + each_s * before) != before) ++changes;
   }
@@ -24,12 +24,12 @@ int fly(Pace& pace, double& now_s, double span_s, double fixed_s, double each_s)
 }  // namespace
 
 TEST_CASE("Sampling grows to what the period has room for, and no further", "[pace]") {
-  Pace pace(kLadder, kPeriod_s);
+  Pace pace(kLadder, kDeadline_s);
   double now_s = 0.0;
   CHECK(pace.samples() == 1);
   fly(pace, now_s, 30.0, 0.01, 0.01);  // 4 take 50 ms, 8 would take 90 of the 80 there are
   CHECK(pace.samples() == 4);
-  Pace rich(kLadder, kPeriod_s);
+  Pace rich(kLadder, kDeadline_s);
   now_s = 0.0;
   fly(rich, now_s, 30.0, 0.0, 0.001);
   CHECK(rich.samples() == 8);
@@ -38,7 +38,7 @@ TEST_CASE("Sampling grows to what the period has room for, and no further", "[pa
 TEST_CASE(
     "The second of a hundred frames over its share, or a very slow one, and the next is coarser",
     "[pace]") {
-  Pace pace(kLadder, kPeriod_s);
+  Pace pace(kLadder, kDeadline_s);
   double now_s = 0.0;
   fly(pace, now_s, 30.0, 0.01, 0.01);
   // One in a hundred is what the 99th percentile leaves.
@@ -75,15 +75,15 @@ class ByVolume {
     int late = 0;
     for (int i = 0; i < frames; ++i) {
       const double frame_s = outside ? 0.035 * samples() : 0.01 + 0.01 * samples();
-      if (frame_s > Pace::kShare * kPeriod_s) ++late;
-      samples_ = pace_.after(now_s_ += kPeriod_s, frame_s, outside);
+      if (frame_s > Pace::kShare * kDeadline_s) ++late;
+      samples_ = pace_.after(now_s_ += kDeadline_s, frame_s, outside);
     }
     return late;
   }
   double samples() const { return samples_; }
 
  private:
-  fanbeam::live::PaceByVolume pace_{kLadder, kPeriod_s};
+  fanbeam::live::PaceByVolume pace_{kLadder, kDeadline_s};
   double samples_ = pace_.samples(), now_s_ = 0.0;
 };
 
@@ -122,7 +122,7 @@ TEST_CASE("Frames in and out of the volume by turns become as coarse as outside 
 }
 
 TEST_CASE("A step that was too slow is left alone for ten seconds", "[pace]") {
-  Pace pace(kLadder, kPeriod_s);
+  Pace pace(kLadder, kDeadline_s);
   double now_s = 0.0;
   fly(pace, now_s, 30.0, 0.01, 0.01);
   pace.after(now_s, 0.25);

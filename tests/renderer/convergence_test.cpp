@@ -13,7 +13,7 @@ using tests::kHeight_m;
 namespace {
 
 constexpr int kSeeds = 16;
-constexpr int kSteps = 11;  // 1 to 1024 rays per cell
+constexpr int kDensities = 11;  // 1 to 1024 rays per cell
 
 struct Ladder {
   std::vector<double> rms;              // relative error of a cell, by step
@@ -30,7 +30,7 @@ class FlatClutter {
 
   Ladder ladder(bool independent) const {
     Ladder ladder;
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kDensities; ++step) {
       std::vector<double> biases;
       double squares = 0.0, count = 0.0;
       for (int seed = 0; seed < kSeeds; ++seed) {
@@ -101,7 +101,7 @@ TEST_CASE("R18: independent rays converge with slope -0.5 to the closed form, wi
   CHECK(slope(ladder.rms) == Approx(-0.5).margin(0.07).epsilon(0.0));
   CHECK(slope(ladder.rms, 6) ==
         Approx(-0.5).margin(0.07).epsilon(0.0));  // the last decade and a half
-  for (std::size_t i = 0; i < kSteps; ++i) {
+  for (std::size_t i = 0; i < kDensities; ++i) {
     INFO((1 << i) << " rays per cell: bias " << ladder.mean[i] << " +- " << ladder.deviation[i]);
     CHECK(std::abs(ladder.mean[i]) <= 4.0 * ladder.deviation[i]);
   }
@@ -111,7 +111,7 @@ TEST_CASE("R18: stratified rays converge at least as fast", "[convergence]") {
   const Ladder ladder = FlatClutter().ladder(false);
   INFO("rms " << ladder.rms.front() << " to " << ladder.rms.back());
   CHECK(slope(ladder.rms) <= -0.5);
-  for (std::size_t i = 1; i < kSteps; ++i) {
+  for (std::size_t i = 1; i < kDensities; ++i) {
     INFO((1 << i) << " rays per cell: " << ladder.rms[i] << ", bias " << ladder.mean[i] << " +- "
                   << ladder.deviation[i]);
     // Not below the step before: a ray whose range is rounded over a cell's edge weighs 1 / rays.

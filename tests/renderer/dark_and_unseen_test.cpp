@@ -8,6 +8,7 @@
 using namespace fanbeam;
 using tests::kBlack;
 using tests::kGrass;
+using tests::kHeight_m;
 
 namespace {
 
@@ -62,7 +63,6 @@ TEST_CASE("S05 targets abeam, behind and at the antenna are not drawn, and are c
           "[dark_and_unseen][S05]") {
   sensors::Sensor sensor = tests::hivision();
   sensor.range.minimum_m = 0.0;  // zero distance is inside the gate
-  constexpr double kHeight_m = 60.0;
   renderer::World world = tests::world(sensor, std::nullopt, {});
   world.targets = {reflector({20.0, 900.0, 0.0})};
   const auto frame_of = [&world] {

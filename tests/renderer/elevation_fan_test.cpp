@@ -136,20 +136,20 @@ TEST_CASE("Fans of turned antennas hold the ground on both sides of the lowest d
       sensor.antenna.boresight_elevation_rad = core::radians(of.boresight_deg);
       sensor.mounting.roll_rad = core::radians(of.roll_deg);
       sensor.mounting.pitch_rad = core::radians(of.pitch_deg);
-      constexpr double kAzimuth_rad = 0.2, kHeight_m = 300.0;
-      const std::vector<double> edges = edges_of(sensor, kHeight_m, 0.0, kAzimuth_rad);
+      constexpr double kAzimuth_rad = 0.2, kAntenna_m = 300.0;
+      const std::vector<double> edges = edges_of(sensor, kAntenna_m, 0.0, kAzimuth_rad);
       INFO("roll " << of.roll_deg << ", pitch " << of.pitch_deg << ", cone "
                    << (surface == sensors::ScanSurface::cone));
       REQUIRE(edges.size() > 2);
       CHECK(std::is_sorted(edges.begin(), edges.end()));
       const sensors::AntennaFrame antenna =
-          renderer::antenna_of(sensor, tests::level_pose(kHeight_m));
+          renderer::antenna_of(sensor, tests::level_pose(kAntenna_m));
       const double reach_rad = sensors::reach_rad(sensor.antenna.elevation) - 1e-3;
       int seen = 0;
       for (double beside_rad = -reach_rad; beside_rad < reach_rad; beside_rad += 0.01) {
         const double elevation_rad = sensor.antenna.boresight_elevation_rad + beside_rad;
         const double down = -sensors::direction(antenna, kAzimuth_rad, elevation_rad, surface).z;
-        if (!(down * 0.95 * sensor.range.maximum_m() > kHeight_m)) continue;
+        if (!(down * 0.95 * sensor.range.maximum_m() > kAntenna_m)) continue;
         ++seen;
         INFO("elevation " << elevation_rad);
         const auto above = std::lower_bound(edges.begin(), edges.end(), elevation_rad);
@@ -170,18 +170,18 @@ TEST_CASE("What is nearer than the first range cell takes one row on each side o
   sensor.range.minimum_m = 200.0;
   sensor.antenna.elevation.side_lobe_gain = 0.01;
   sensor.antenna.elevation.side_lobe_extent_rad = core::radians(90.0);
-  constexpr double kHeight_m = 60.0;
+  constexpr double kAntenna_m = 60.0;
   for (const double pitch_deg : {-30.0, -90.0}) {
     INFO("pitch " << pitch_deg);
     const double pitch_rad = core::radians(pitch_deg);
-    const std::vector<double> edges = edges_of(sensor, kHeight_m, pitch_rad, 0.0);
+    const std::vector<double> edges = edges_of(sensor, kAntenna_m, pitch_rad, 0.0);
     REQUIRE(edges.size() > 100);
     CHECK(std::is_sorted(edges.begin(), edges.end()));
     const auto below = [&](double elevation_rad) {
       return std::lower_bound(edges.begin(), edges.end(), elevation_rad) - edges.begin();
     };
     const auto ahead_rad = [&](double range_m) {
-      return -std::asin(kHeight_m / range_m) - pitch_rad;
+      return -std::asin(kAntenna_m / range_m) - pitch_rad;
     };
     const double nadir_rad = -core::kPi / 2 - pitch_rad;
     CHECK(below(ahead_rad(160.0)) - below(nadir_rad - 1e-6) == 1);

@@ -17,7 +17,7 @@ using tests::kGrass;
 
 namespace {
 
-constexpr double kAntenna_m = 100.0, kFront_m = 1000.0, kBack_m = 1020.0, kTop_m = 20.0;
+constexpr double kAntennaHeight_m = 100.0, kFront_m = 1000.0, kBack_m = 1020.0, kTop_m = 20.0;
 constexpr terrain::ObjectId kShed = 3;
 const materials::PhongNrcs kBright(1.0, 1.0, 1.0);
 
@@ -41,30 +41,31 @@ renderer::Frame rendered(const renderer::World& world, const renderer::Sampling&
                          const renderer::Effects& effects = {},
                          const renderer::Products& wanted = {.layers = true,
                                                              .cscope_layers = true}) {
-  return renderer::render_frame(world, sampling, wanted, effects, tests::level_pose(kAntenna_m));
+  return renderer::render_frame(world, sampling, wanted, effects,
+                                tests::level_pose(kAntennaHeight_m));
 }
 
-constexpr int kColumns = 8;
+constexpr int kLayerColumns = 8;
 std::size_t at(int row, int column = 3) {
-  return static_cast<std::size_t>(row * kColumns + column);
+  return static_cast<std::size_t>(row * kLayerColumns + column);
 }
 
 // Slant range where the line of sight over the shed's far top edge comes down.
 double shadow_ends_m() {
-  return std::hypot(kBack_m * kAntenna_m / (kAntenna_m - kTop_m), kAntenna_m);
+  return std::hypot(kBack_m * kAntennaHeight_m / (kAntennaHeight_m - kTop_m), kAntennaHeight_m);
 }
 
 }  // namespace
 
 TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
-  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const sensors::Sensor sensor = tests::hivision(kLayerColumns);
   renderer::World world = plain_with_shed(sensor);
   if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
   REQUIRE(frame.layers);
   const renderer::LayerSet& truth = frame.layers->bscope;
-  const double wall_near_m = std::hypot(kFront_m, kAntenna_m - kTop_m);
-  const double wall_far_m = std::hypot(kFront_m, kAntenna_m);
+  const double wall_near_m = std::hypot(kFront_m, kAntennaHeight_m - kTop_m);
+  const double wall_far_m = std::hypot(kFront_m, kAntennaHeight_m);
   const double step_m = 2.0 * sensor.range.cell_m;  // of the rays
   int ground = 0, wall = 0, dark = 0;
   for (int row = 0; row < sensor.range.cells; ++row) {
@@ -79,7 +80,7 @@ TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
       REQUIRE(truth.visibility[i] == 1.0F);
       REQUIRE(truth.material[i] == 0);
       REQUIRE(truth.object[i] == terrain::kTerrainObject);
-      const double least = kAntenna_m / far_m, most = kAntenna_m / near_m;
+      const double least = kAntennaHeight_m / far_m, most = kAntennaHeight_m / near_m;
       const auto between = [](double value, double low, double high) {
         return value >= low * 0.9999 && value <= high * 1.0001;
       };
@@ -92,7 +93,7 @@ TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
       REQUIRE(truth.object[i] == kShed);
       REQUIRE(truth.material[i] == 1);
       REQUIRE(truth.visibility[i] == 1.0F);
-    } else if (near_m > std::hypot(kBack_m, kAntenna_m - kTop_m) &&
+    } else if (near_m > std::hypot(kBack_m, kAntennaHeight_m - kTop_m) &&
                far_m < shadow_ends_m() - sensor.range.cell_m) {
       ++dark;
       REQUIRE(truth.visibility[i] == 0.0F);
@@ -107,13 +108,13 @@ TEST_CASE("Layers tell a plain and a shed as they are", "[frame_layers]") {
 }
 
 TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_layers]") {
-  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const sensors::Sensor sensor = tests::hivision(kLayerColumns);
   renderer::World world = plain_with_shed(sensor);
   if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::Frame frame = rendered(world, renderer::profile_sampling_for(2.0));
   const renderer::LayerSet& truth = frame.layers->cscope;
-  const double top_rad = -std::atan((kAntenna_m - kTop_m) / kBack_m);
-  const double foot_rad = -std::atan(kAntenna_m / kFront_m);
+  const double top_rad = -std::atan((kAntennaHeight_m - kTop_m) / kBack_m);
+  const double foot_rad = -std::atan(kAntennaHeight_m / kFront_m);
   int ground = 0, wall = 0;
   for (int row = 0; row < sensor.display.cscope_rows; ++row) {
     const double high_rad =
@@ -125,21 +126,23 @@ TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_laye
     const double step_rad = 0.0015;  // of the rays around the shed
     const bool above = low_rad > top_rad + step_rad, below = high_rad < foot_rad - step_rad;
     // The ground ends with the range window, and the beam at -19.4 deg.
-    if (high_rad > -std::asin(kAntenna_m / (sensor.range.maximum_m() - 50.0)) || low_rad < -0.33)
+    if (high_rad > -std::asin(kAntennaHeight_m / (sensor.range.maximum_m() - 50.0)) ||
+        low_rad < -0.33)
       continue;
     REQUIRE(truth.visibility[i] == 1.0F);
     if (above || below) {
       ++ground;
       REQUIRE(truth.object[i] == terrain::kTerrainObject);
       const double range_m = static_cast<double>(truth.range_m[i]);
-      REQUIRE(range_m >= kAntenna_m / std::sin(-low_rad) * 0.9999);
-      REQUIRE(range_m <= kAntenna_m / std::sin(-high_rad) * 1.0001);
-    } else if (high_rad < -std::atan((kAntenna_m - kTop_m) / kFront_m) && low_rad > foot_rad) {
+      REQUIRE(range_m >= kAntennaHeight_m / std::sin(-low_rad) * 0.9999);
+      REQUIRE(range_m <= kAntennaHeight_m / std::sin(-high_rad) * 1.0001);
+    } else if (high_rad < -std::atan((kAntennaHeight_m - kTop_m) / kFront_m) &&
+               low_rad > foot_rad) {
       ++wall;
       REQUIRE(truth.object[i] == kShed);
       REQUIRE(truth.range_m[i] >
-              static_cast<float>(std::hypot(kFront_m, kAntenna_m - kTop_m)) - 0.1F);
-      REQUIRE(truth.range_m[i] < static_cast<float>(std::hypot(kFront_m, kAntenna_m)) + 0.1F);
+              static_cast<float>(std::hypot(kFront_m, kAntennaHeight_m - kTop_m)) - 0.1F);
+      REQUIRE(truth.range_m[i] < static_cast<float>(std::hypot(kFront_m, kAntennaHeight_m)) + 0.1F);
     }
   }
   CHECK(ground > 100);
@@ -149,7 +152,7 @@ TEST_CASE("Layers of the C-scope tell how far each elevation sees", "[frame_laye
 // In the left half of a column a near wall, in the right half a far one: of less power, but of more
 // where it counts with R^3.
 TEST_CASE("In the C-scope's truth power counts with the cube of the range", "[frame_layers]") {
-  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const sensors::Sensor sensor = tests::hivision(kLayerColumns);
   const double middle_rad = sensors::column_middle_rad(sensor.scan, 3);
   constexpr double kNear_m = 500.0, kFar_m = 2000.0;
   std::vector<tests::Body> walls;
@@ -183,7 +186,7 @@ TEST_CASE("Roads two cells wide across the view are told in every column", "[fra
         terrain::rectangle_patch({0.0, 1000.0 + 170.0 * road}, {1.0, 0.0}, 3000.0, kWide_m, 1));
     roads.back().object = kRoad;
   }
-  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const sensors::Sensor sensor = tests::hivision(kLayerColumns);
   renderer::World world =
       tests::world(sensor, tests::ground(4000.0, 50.0, [](double, double) { return 0.0; }),
                    {kGrass, kBright}, {}, roads);
@@ -192,12 +195,12 @@ TEST_CASE("Roads two cells wide across the view are told in every column", "[fra
       rendered(world, renderer::profile_sampling_for(2.0)).layers->bscope;
   int cells = 0;
   for (int road = 0; road < 12; ++road)
-    for (int column = 0; column < kColumns; ++column)
+    for (int column = 0; column < kLayerColumns; ++column)
       for (int row = 0; row < sensor.range.cells; ++row) {
         // Straight ahead; a degree beside they lie 0.15 m farther in a thousand.
         const auto north_m = [&](int edge) {
           const double range_m = sensors::range_edge_m(sensor.range, edge);
-          return std::sqrt(range_m * range_m - kAntenna_m * kAntenna_m);
+          return std::sqrt(range_m * range_m - kAntennaHeight_m * kAntennaHeight_m);
         };
         const double middle_m = 1000.0 + 170.0 * road, slack_m = 0.7;
         if (north_m(row) < middle_m - kWide_m / 2.0 + slack_m ||
@@ -209,11 +212,11 @@ TEST_CASE("Roads two cells wide across the view are told in every column", "[fra
         REQUIRE(truth.nrcs[at(row, column)] > 3e-2F);
         ++cells;
       }
-  CHECK(cells >= 12 * kColumns / 2);
+  CHECK(cells >= 12 * kLayerColumns / 2);
 }
 
 TEST_CASE("What lies beyond the range gate is in neither scope", "[frame_layers]") {
-  sensors::Sensor sensor = tests::hivision(kColumns);
+  sensors::Sensor sensor = tests::hivision(kLayerColumns);
   sensor.range.minimum_m = 600.0;
   sensor.range.cells = 200;
   renderer::World world = plain_with_shed(sensor);
@@ -226,13 +229,13 @@ TEST_CASE("What lies beyond the range gate is in neither scope", "[frame_layers]
     const double low_rad =
         sensor.display.cscope_top_rad - sensors::cscope_edge_rad(sensor.display, row + 1);
     INFO("row " << core::degrees(low_rad) << " to " << core::degrees(high_rad));
-    const bool near = high_rad < -std::asin(kAntenna_m / sensor.range.minimum_m);
-    const bool far = low_rad > -std::asin(kAntenna_m / sensor.range.maximum_m());
+    const bool near = high_rad < -std::asin(kAntennaHeight_m / sensor.range.minimum_m);
+    const bool far = low_rad > -std::asin(kAntennaHeight_m / sensor.range.maximum_m());
     const float seen = frame.layers->cscope.visibility[at(row)];
     if (near || far) REQUIRE(seen == 0.0F);
     const double one_rad = high_rad - low_rad;
-    if (high_rad < -std::asin(kAntenna_m / sensor.range.maximum_m()) - one_rad &&
-        low_rad > -std::asin(kAntenna_m / sensor.range.minimum_m) + one_rad) {
+    if (high_rad < -std::asin(kAntennaHeight_m / sensor.range.maximum_m()) - one_rad &&
+        low_rad > -std::asin(kAntennaHeight_m / sensor.range.minimum_m) + one_rad) {
       ++lit;
       REQUIRE(seen == 1.0F);
     }
@@ -241,7 +244,7 @@ TEST_CASE("What lies beyond the range gate is in neither scope", "[frame_layers]
 }
 
 TEST_CASE("Rays and slices, and any number of threads, give one truth", "[frame_layers][threads]") {
-  const renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  const renderer::World world = plain_with_shed(tests::hivision(kLayerColumns));
   const renderer::Frame by_rays = rendered(world, renderer::sampling_for(4.0));
   const core::ThreadLimit one(1);
   const renderer::Frame by_slices = rendered(world, renderer::profile_sampling_for(4.0));
@@ -258,7 +261,7 @@ TEST_CASE("Rays and slices, and any number of threads, give one truth", "[frame_
 }
 
 TEST_CASE("Asking for layers changes no picture, and not asking makes none", "[frame_layers]") {
-  const renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  const renderer::World world = plain_with_shed(tests::hivision(kLayerColumns));
   const renderer::Frame with = rendered(world, renderer::profile_sampling_for(4.0), {},
                                         {.layers = true, .cscope_layers = true});
   const renderer::Frame without = rendered(world, renderer::profile_sampling_for(4.0), {}, {});
@@ -276,14 +279,15 @@ TEST_CASE("Asking for layers changes no picture, and not asking makes none", "[f
 }
 
 TEST_CASE("A point target brighter than the ground gives its number", "[frame_layers]") {
-  renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  renderer::World world = plain_with_shed(tests::hivision(kLayerColumns));
   for (const double north_m : {600.0, 2000.0})
     world.targets.push_back(
         {.name = "post", .rcs = materials::ConstantRcs{1e4}, .path = {{0.0, {0.5, north_m, 5.0}}}});
   const renderer::Frame frame = rendered(world, renderer::sampling_for(4.0));
   const sensors::Sensor& sensor = world.sensor;
   for (const std::size_t k : {0U, 1U}) {
-    const glm::dvec3 to_m = world.targets[k].path[0].position_m - glm::dvec3(0.0, 0.0, kAntenna_m);
+    const glm::dvec3 to_m =
+        world.targets[k].path[0].position_m - glm::dvec3(0.0, 0.0, kAntennaHeight_m);
     const int row = sensors::range_row(sensor.range, glm::length(to_m));
     const int column = sensors::azimuth_column(sensor.scan, std::atan2(to_m.x, to_m.y));
     CHECK(frame.layers->bscope.object[at(row, column)] == 4 + k);
@@ -299,7 +303,7 @@ TEST_CASE("A point target brighter than the ground gives its number", "[frame_la
 }
 
 TEST_CASE("A point target counts from the power of its cell's ground on", "[frame_layers]") {
-  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const sensors::Sensor sensor = tests::hivision(kLayerColumns);
   for (const double range_m : {700.0, 1200.0, 2100.0, 3300.0})
     for (const double over_ground : {0.8, 1.25}) {
       renderer::World world = plain_with_shed(sensor);
@@ -308,7 +312,7 @@ TEST_CASE("A point target counts from the power of its cell's ground on", "[fram
       // In the middle of a cell, whose ground sends as this does.
       const int row = sensors::range_row(sensor.range, range_m);
       const double middle_m = sensors::range_middle_m(sensor.range, row);
-      const double sine = kAntenna_m / middle_m, cosine = std::sqrt(1.0 - sine * sine);
+      const double sine = kAntennaHeight_m / middle_m, cosine = std::sqrt(1.0 - sine * sine);
       const double ground_m2 = kGrass.sigma0(sine) * renderer::azimuth_width_rad(sensor) *
                                middle_m * sensor.range.cell_m / cosine;
       const double azimuth_rad = sensors::column_middle_rad(sensor.scan, 3);
@@ -325,7 +329,7 @@ TEST_CASE("A point target counts from the power of its cell's ground on", "[fram
 }
 
 TEST_CASE("Low walls that hide next to nothing are told in every column", "[frame_layers]") {
-  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const sensors::Sensor sensor = tests::hivision(kLayerColumns);
   std::vector<tests::Body> walls;
   for (double front_m = 1300.0; front_m < 3000.0; front_m += 140.0) {
     walls.push_back(tests::box({-200.0, front_m, -2.0}, {200.0, front_m + 4.0, 2.0}, 1));
@@ -337,9 +341,9 @@ TEST_CASE("Low walls that hide next to nothing are told in every column", "[fram
   if (GENERATE(false, true)) leave_to_rays(world);
   const renderer::LayerSet truth = rendered(world, renderer::sampling_for(4.0)).layers->bscope;
   for (double front_m = 1300.0; front_m < 3000.0; front_m += 140.0)
-    for (int column = 0; column < kColumns; ++column) {
+    for (int column = 0; column < kLayerColumns; ++column) {
       INFO("wall at " << front_m << " m, column " << column);
-      const int row = sensors::range_row(sensor.range, std::hypot(front_m, kAntenna_m));
+      const int row = sensors::range_row(sensor.range, std::hypot(front_m, kAntennaHeight_m));
       const bool told =
           truth.object[at(row, column)] == kShed || truth.object[at(row + 1, column)] == kShed;
       CHECK(told);
@@ -347,11 +351,11 @@ TEST_CASE("Low walls that hide next to nothing are told in every column", "[fram
 }
 
 TEST_CASE("Where a wall stands on a mirror most of the power bounces twice", "[frame_layers]") {
-  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const sensors::Sensor sensor = tests::hivision(kLayerColumns);
   renderer::World world = plain_with_shed(sensor);
   world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
                     materials::SpecularSurface{{1.0, 1e9}, 0.0}};
-  const int corner = sensors::range_row(sensor.range, std::hypot(kFront_m, kAntenna_m));
+  const int corner = sensors::range_row(sensor.range, std::hypot(kFront_m, kAntennaHeight_m));
   const renderer::Effects bounces{.double_bounce = true};
   for (const renderer::Sampling& sampling :
        {renderer::profile_sampling_for(4.0),
@@ -365,7 +369,7 @@ TEST_CASE("Where a wall stands on a mirror most of the power bounces twice", "[f
 
 // What the wall hides gets echoes by the ground alone: whatever the sampling, all of it is bounces.
 TEST_CASE("Where bounces are all there is their share is one at any sampling", "[frame_layers]") {
-  const sensors::Sensor sensor = tests::hivision(kColumns);
+  const sensors::Sensor sensor = tests::hivision(kLayerColumns);
   renderer::World world = plain_with_shed(sensor);
   world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
                     materials::SpecularSurface{{1.0, 1e9}, 0.0}};
@@ -377,7 +381,7 @@ TEST_CASE("Where bounces are all there is their share is one at any sampling", "
         renderer::refined_sampling(CasterKind::rays, 0.25)}) {
     const renderer::Frame frame = rendered(world, sampling, bounces);
     const renderer::LayerSet& truth = frame.layers->bscope;
-    const int first = sensors::range_row(sensor.range, std::hypot(kBack_m, kAntenna_m)) + 2;
+    const int first = sensors::range_row(sensor.range, std::hypot(kBack_m, kAntennaHeight_m)) + 2;
     const int last = sensors::range_row(sensor.range, shadow_ends_m()) - 2;
     INFO("accuracy " << sampling.target_grey << ", slices " << frame.slices);
     int lit = 0;
@@ -413,7 +417,7 @@ TEST_CASE("All of a plain is lit for a rolled antenna", "[frame_layers]") {
 
 TEST_CASE("In rain with bounces a frame has the same bytes with layers and with an estimate",
           "[frame_layers]") {
-  renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  renderer::World world = plain_with_shed(tests::hivision(kLayerColumns));
   world.specular = {materials::SpecularSurface{{1.0, 1e9}, 0.0},
                     materials::SpecularSurface{{1.0, 1e9}, 0.0}};
   atmosphere::Weather weather;
@@ -434,13 +438,13 @@ TEST_CASE("In rain with bounces a frame has the same bytes with layers and with 
     CHECK(other.cscope_W_m3 == plain.cscope_W_m3);
   }
   const renderer::LayerSet truth = rendered(world, sampling, effects).layers->bscope;
-  const int corner = sensors::range_row(world.sensor.range, std::hypot(kFront_m, kAntenna_m));
+  const int corner = sensors::range_row(world.sensor.range, std::hypot(kFront_m, kAntennaHeight_m));
   CHECK(truth.double_bounce[at(corner)] > 0.3F);
   CHECK(truth.double_bounce[at(corner - 20)] == 0.0F);
 }
 
 TEST_CASE("A C-scope that draws no elevations has no truth by elevation", "[frame_layers]") {
-  renderer::World world = plain_with_shed(tests::hivision(kColumns));
+  renderer::World world = plain_with_shed(tests::hivision(kLayerColumns));
   world.sensor.display.cscope_mode = sensors::Display::CScopeMode::flat_earth;
   CHECK_THROWS_AS(rendered(world, renderer::sampling_for(4.0)), core::InputError);
   CHECK_NOTHROW(rendered(world, renderer::sampling_for(4.0), {}, {.layers = true}));

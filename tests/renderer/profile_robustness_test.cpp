@@ -10,6 +10,7 @@
 
 using namespace fanbeam;
 using tests::kGrass;
+using tests::kHeight_m;
 using tests::kWall;
 using tests::same_bytes;
 
@@ -151,7 +152,7 @@ TEST_CASE("A wall exactly along a slice stays where it is", "[profile]") {
   // its shadow may tell.
   sensors::Sensor sensor = tests::even_hivision(6);
   sensor.range.cells = 120;
-  constexpr double kHeight_m = 60.0, kFront_m = 300.0, kBack_m = 340.0, kTop_m = 20.0;
+  constexpr double kFront_m = 300.0, kBack_m = 340.0, kTop_m = 20.0;
   const double from_m = std::hypot(kFront_m, kHeight_m - kTop_m);
   const double to_m = std::hypot(kBack_m * kHeight_m / (kHeight_m - kTop_m), kHeight_m);
   for (int turn = 0; turn < 40; ++turn) {

@@ -56,16 +56,16 @@ TEST_CASE("A03 behind 435 dB of rain every pixel is the noise floor, exactly",
           "[weather_hard_cases][A03]") {
   sensors::Sensor sensor = tests::hivision(4);
   sensor.range = {10000.0 - 8 * 6.67, 6.67, 16};
-  constexpr double kHeight_m = 600.0;
+  constexpr double kAntenna_m = 600.0;
   const renderer::Effects noisy{.thermal_noise = true};
   renderer::World world = grass(sensor, 12000.0);
-  const renderer::Frame clear = frame_of(world, kHeight_m, {});
-  const renderer::Frame clear_noisy = frame_of(world, kHeight_m, noisy);
+  const renderer::Frame clear = frame_of(world, kAntenna_m, {});
+  const renderer::Frame clear_noisy = frame_of(world, kAntenna_m, noisy);
   world.attenuation = atmosphere::PathAttenuation(only_rain(100.0), 35e9);
-  const renderer::Frame wet = frame_of(world, kHeight_m, {});
-  const renderer::Frame wet_noisy = frame_of(world, kHeight_m, noisy);
+  const renderer::Frame wet = frame_of(world, kAntenna_m, {});
+  const renderer::Frame wet_noisy = frame_of(world, kAntenna_m, noisy);
   const renderer::Frame noise =
-      frame_of(tests::world(sensor, std::nullopt, {kGrass}), kHeight_m, noisy);
+      frame_of(tests::world(sensor, std::nullopt, {kGrass}), kAntenna_m, noisy);
 
   for (std::size_t i = 0; i < wet.bscope_W.size(); ++i) {
     // What a ray returns is single precision, which ends at 1e-45: that little may be nothing.

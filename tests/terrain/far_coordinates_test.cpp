@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kHalf_m = 4000.0;
 constexpr double kSensor_m = 60.0;
-constexpr int kRays = 20'000;
+constexpr int kMeasuredRays = 20'000;
 
 const core::Geodetic kCentre{core::radians(47.26), core::radians(11.34), 0.0};
 
@@ -66,7 +66,7 @@ RangeErrors range_errors(const RayScene& scene, const glm::dvec3& sensor_m,
   RangeErrors errors;
   alignas(32) int active[8];
   std::fill_n(active, 8, -1);
-  for (std::uint64_t first = 0; first < kRays; first += 8) {
+  for (std::uint64_t first = 0; first < kMeasuredRays; first += 8) {
     RayPacket<8> packet;
     for (int i = 0; i < 8; ++i)
       packet.aim(i, scene.in_caster_m(sensor_m),
@@ -154,7 +154,7 @@ TEST_CASE("T02: ranges do not depend on what is added to every height", "[far_co
               added_m + swell_m * std::sin(i / 17.0) * std::cos(j / 23.0);
       const RayScene scene(std::move(field), {}, {});
       std::vector<double> ranges_m;
-      for (std::uint64_t i = 0; i < kRays; ++i) {
+      for (std::uint64_t i = 0; i < kMeasuredRays; ++i) {
         const auto hit = scene.intersect({0.0, 0.0, kSensor_m + added_m}, ray(i).direction, 6000.0);
         REQUIRE(hit);
         ranges_m.push_back(hit->distance_m);
