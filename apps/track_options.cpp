@@ -100,10 +100,14 @@ void add_study(CLI::App& command, TrackOptions& options) {
   CLI::Option* study = command.add_flag(
       "--study", options.study,
       "What accuracy costs: buffer, noise figure, reflections, ghosts, waveform and association "
-      "against error and time, and families of random traffic, as tables and plots (two minutes; "
-      "needs gnuplot)");
-  for (const char* studied : {"--waveform", "--association", "--samples", "--plots", "--run"})
+      "against error and time, and families of random traffic, as tables and plots (two minutes); "
+      "with --samples the families alone, from samples (a quarter of an hour); needs gnuplot");
+  for (const char* studied : {"--waveform", "--association", "--plots", "--run"})
     study->excludes(studied);
+  command.add_option("--draws", options.family_draws, "Of each family of a study")
+      ->check(whole_number_from(1, 10000))
+      ->needs(study)
+      ->capture_default_str();
 }
 
 }  // namespace

@@ -21,6 +21,36 @@ constexpr const char* kScenario = R"({"format": "highway-scenarios", "version": 
       {"id": "B", "kind": "car", "swerling": 0, "rcs_m2": 10, "motion": "piecewise-acceleration",
        "position_m": [90, -3], "velocity_mps": [10, 0], "segments": []}]}]})";
 
+using Table = std::vector<std::vector<std::string>>;
+
+// Of a page of Markdown: rows of cells, their two lines of heading included.
+std::vector<Table> tables_of(const std::string& page) {
+  std::vector<Table> tables;
+  std::istringstream lines(page);
+  bool inside = false;
+  for (std::string line; std::getline(lines, line); inside = line.starts_with('|')) {
+    if (!line.starts_with('|')) continue;
+    if (!inside) tables.emplace_back();
+    std::istringstream cells(line.substr(1));
+    tables.back().emplace_back();
+    for (std::string cell; std::getline(cells, cell, '|');) tables.back().back().push_back(cell);
+  }
+  return tables;
+}
+
+// Names kept in every draw of every family, and errors that are what is told: `low` to `high` hold 95 % of the means
+// of so many (chi-square of 4 degrees). A hundred draws are those of tests/tracking/families_test.cpp.
+void check_families(const Table& table, int draws, double low, double high) {
+  REQUIRE(table.size() == 2 + 6);
+  for (std::size_t i = 2; i < table.size(); ++i) {
+    INFO(table[i][0]);
+    CHECK(std::stod(table[i][1]) >= 0.97);
+    CHECK(std::stoi(table[i][3]) == draws);
+    CHECK(std::stod(table[i][4]) >= low);
+    CHECK(std::stod(table[i][4]) <= high);
+  }
+}
+
 }  // namespace
 
 TEST_CASE("track writes tables and metrics, the same bytes again", "[track]") {
@@ -176,6 +206,22 @@ TEST_CASE("track measures from samples, and refuses what does not go with it", "
   CHECK(tests::run_fanbeam(words + " --range-only").exit_code == 2);
 }
 
+TEST_CASE("track --study --samples draws the families from samples", "[track]") {
+  const tests::TemporaryFolder folder;
+  folder.write("two.json", kScenario);
+  const auto result =
+      tests::run_fanbeam("track " + tests::quoted(folder.path() / "two.json") +
+                         " --study --samples --draws 1 -o " + tests::quoted(folder.path() / "out"));
+  INFO(result.output);
+  REQUIRE(result.exit_code == 0);
+  CHECK(result.output.find("stop and go\n") != std::string::npos);  // told once it is done
+  const std::string page = tests::bytes_of(folder.path() / "out" / "study.md");
+  CHECK(page.find("| family, 1 draws from samples |") != std::string::npos);
+  const std::vector<Table> tables = tables_of(page);
+  REQUIRE(tables.size() == 1);
+  check_families(tables[0], 1, 0.48, 11.14);
+}
+
 TEST_CASE("track --study writes its seven tables and their plots, with the figures of the bounds",
           "[track]") {
   const tests::TemporaryFolder folder;
@@ -187,25 +233,15 @@ TEST_CASE("track --study writes its seven tables and their plots, with the figur
       "track " + tests::quoted(folder.path() / "two.json") + " --study --quiet ";
   // What it varies itself is not asked for beside it.
   for (const char* studied :
-       {"--waveform triangle", "--association joint", "--samples", "--plots", "--run 1"}) {
+       {"--waveform triangle", "--association joint", "--plots", "--run 1", "--draws 0"}) {
     INFO(studied);
     CHECK(tests::run_fanbeam(words + studied).exit_code == 2);
   }
-  const auto result = tests::run_fanbeam(words + "-o " + tests::quoted(out));
+  const auto result = tests::run_fanbeam(words + "--draws 10 -o " + tests::quoted(out));
   INFO(result.output);
   REQUIRE(result.exit_code == 0);
   const std::string page = tests::bytes_of(out / "study.md");
-  // Tables of rows of cells, their two lines of heading included.
-  std::vector<std::vector<std::vector<std::string>>> tables;
-  std::istringstream lines(page);
-  bool inside = false;
-  for (std::string line; std::getline(lines, line); inside = line.starts_with('|')) {
-    if (!line.starts_with('|')) continue;
-    if (!inside) tables.emplace_back();
-    std::istringstream cells(line.substr(1));
-    tables.back().emplace_back();
-    for (std::string cell; std::getline(cells, cell, '|');) tables.back().back().push_back(cell);
-  }
+  const std::vector<Table> tables = tables_of(page);
   REQUIRE(tables.size() == 7);
   for (const auto& table : tables)
     for (const auto& row : table) CHECK(row.size() == table[0].size());
@@ -233,13 +269,7 @@ TEST_CASE("track --study writes its seven tables and their plots, with the figur
   // Five waveforms with two associations, and one row from samples; no identity is exchanged.
   REQUIRE(tables[4].size() == 2 + 11);
   for (std::size_t i = 2; i < tables[4].size(); ++i) CHECK(std::stoi(tables[4][i][6]) == 0);
-  // Names kept in 95 of a hundred draws of every family, and errors that are what is told.
-  REQUIRE(tables[5].size() == 2 + 6);
-  for (std::size_t i = 2; i < tables[5].size(); ++i) {
-    CHECK(std::stod(tables[5][i][1]) >= 0.97);
-    CHECK(std::stoi(tables[5][i][3]) >= 95);
-    CHECK(std::stod(tables[5][i][4]) == Approx(3.8).margin(0.8));
-  }
+  check_families(tables[5], 10, 2.44, 5.93);
   // Swaps happen as often as 2 p (1 - p) says: 20000 draws, four standard deviations.
   REQUIRE(tables[6].size() == 2 + 9);
   for (std::size_t i = 2; i < tables[6].size(); ++i)

@@ -16,6 +16,13 @@ void MeanSquare::add(double error) {
   largest_ = std::max(largest_, std::abs(error));
 }
 
+void MeanSquare::add(const MeanSquare& others) {
+  count_ += others.count_;
+  sum_ += others.sum_;
+  squares_ += others.squares_;
+  largest_ = std::max(largest_, others.largest_);
+}
+
 double MeanSquare::rms() const { return count_ == 0 ? 0.0 : std::sqrt(squares_ / count_); }
 
 double MeanSquare::mean() const { return count_ == 0 ? 0.0 : sum_ / count_; }

@@ -13,6 +13,7 @@ namespace fanbeam::tracking {
 class MeanSquare {
  public:
   void add(double error);
+  void add(const MeanSquare& others);
   int count() const { return count_; }
   double rms() const;
   double mean() const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "core/random.h"
 
 namespace fanbeam::tracking {
@@ -151,21 +152,23 @@ int FamilyScore::without_switch() const {
 FamilyScore score_family(const RoadFamily& family, int runs, const core::HighwayRadar& radar,
                          const SettingsOf& settings, const MeasureRun& measure) {
   FamilyScore score;
-  for (int run = 0; run < runs; ++run) {
+  score.runs.resize(static_cast<std::size_t>(runs));
+  std::vector<MeanSquare> nees(score.runs.size());
+  core::parallel_for(score.runs.size(), [&](std::size_t i) {
+    const int run = static_cast<int>(i);
     const core::HighwayScenario scenario = family.draw(run, radar.frame_s);
     ScenarioScore one;
-    MeanSquare nees;
     run_scenario(
         scenario, radar, settings(scenario),
         [&](int frame) { return measure(scenario, static_cast<std::uint32_t>(run), frame); },
         [&](const ScenarioFrame& frame) {
           one.add(scenario, frame);
-          add_nees(frame, one.mot, nees);
-          add_nees(frame, one.mot, score.nees);
+          add_nees(frame, one.mot, nees[i]);
         });
-    score.runs.push_back({one.mot.mota(), one.mot.switches(), {}});
-    if (nees.count() > 0) score.runs.back().nees = nees.mean();
-  }
+    score.runs[i] = {one.mot.mota(), one.mot.switches(), {}};
+    if (nees[i].count() > 0) score.runs[i].nees = nees[i].mean();
+  });
+  for (const MeanSquare& one : nees) score.nees.add(one);
   return score;
 }
 

@@ -60,6 +60,8 @@ using MeasureRun = std::function<std::vector<RadarMeasurement>(
     const core::HighwayScenario& scenario, std::uint32_t run, int frame)>;
 using SettingsOf = std::function<TrackerSettings(const core::HighwayScenario& scenario)>;
 
+// Runs side by side: `settings` and `measure` are called from several threads at once. The same bits for any number of
+// them.
 FamilyScore score_family(const RoadFamily& family, int runs, const core::HighwayRadar& radar,
                          const SettingsOf& settings, const MeasureRun& measure);
 

@@ -32,13 +32,18 @@ void track_study(const std::vector<StudyScenario>& scenarios, const core::Highwa
     }
     told(what);
   };
-  add("buffer", study_buffer(radar, settings.seed));
-  add("noise figure", study_noise_figure(radar, settings.seed));
-  add("noise and reflections", study_reflections(radar, settings.seed));
-  add("ghosts", study_ghosts(radar, settings.seed));
-  add("waveforms and associations", study_tracks(scenarios, settings));
-  add("families of traffic", study_families(radar, settings));
-  add("crossings", study_crossing(settings.seed));
+  const auto families = [&] { add("families of traffic", study_families(radar, settings, told)); };
+  if (settings.samples) {
+    families();
+  } else {
+    add("buffer", study_buffer(radar, settings.seed));
+    add("noise figure", study_noise_figure(radar, settings.seed));
+    add("noise and reflections", study_reflections(radar, settings.seed));
+    add("ghosts", study_ghosts(radar, settings.seed));
+    add("waveforms and associations", study_tracks(scenarios, settings));
+    families();
+    add("crossings", study_crossing(settings.seed));
+  }
   while (page.ends_with("\n\n")) page.pop_back();
   core::write_file_atomically(folder / "study.md", page);
 }

@@ -40,16 +40,18 @@ StudyPart study_reflections(const core::HighwayRadar& radar, std::uint64_t seed)
 StudyPart study_ghosts(const core::HighwayRadar& radar, std::uint64_t seed);
 // Waveforms x associations in each scenario, 10 runs each; and from samples, one.
 StudyPart study_tracks(const std::vector<StudyScenario>& scenarios, const TrackSettings& settings);
-// A hundred draws of each family of traffic (tracking/simulation/road_families.h).
-StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& settings);
+// `family_draws` of each family of traffic (tracking/simulation/road_families.h), from frequencies by two
+// stages or from samples, as the settings say. `told` of each family, once it is done.
+StudyPart study_families(const core::HighwayRadar& radar, const TrackSettings& settings,
+                         const std::function<void(const char* family)>& told);
 // Swaps of a pair 3 km/h apart over what is known of its speeds: the closed form, what the tracker
 // would say on average, and what happens.
 StudyPart study_crossing(std::uint64_t seed);
 
 // Writes study.md and its plots into `folder`. `radar` is the file's, for what has no scenario. Of
 // `settings` every part takes the seed, tracks their acceleration and coasting too, and measurements from
-// frequencies their misses and false ones; association, waveform and samples are what is studied. `told` of
-// each part, once it is done.
+// frequencies their misses and false ones; association and waveform are what is studied. With `samples` the
+// page has the families alone, from samples. `told` of each part and each family, once it is done.
 void track_study(const std::vector<StudyScenario>& scenarios, const core::HighwayRadar& radar,
                  const TrackSettings& settings, const std::filesystem::path& folder,
                  const std::function<void(const char* part)>& told);

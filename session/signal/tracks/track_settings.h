@@ -24,6 +24,7 @@ struct TrackSettings {
   int run = 0;                              // another draw of the same seed
   std::optional<double> noise_figure_dB{};  // instead of the file's
   bool range_only = false;                  // one receiver without azimuth
+  int family_draws = 100;                   // of a study
 };
 
 // Of road scenarios: the radar of the file as the settings change it.
