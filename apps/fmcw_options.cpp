@@ -247,7 +247,8 @@ CLI::App& add_fmcw_command(CLI::App& program, FmcwOptions& options) {
   add_seed_option(command, options.seed);
   add_threads_option(command, options.threads);
   command.footer(
-      "Frequency, sweep and element pattern are those of the scene's sensor. Speeds are positive "
+      "Frequency, sweep and element pattern are those of the scene's sensor where no option says "
+      "otherwise. Speeds are positive "
       "receding, azimuths positive right. docs/fmcw.md explains every step and file.");
   command.parse_complete_callback([&options, chain] {
     for (const CLI::Option* option : chain)

@@ -22,8 +22,8 @@ CLI::App& add_plan_command(CLI::App& program, PlanOptions& options) {
   add_effects_option(command, options.effects, renderer::Touches::pictures);
   command
       .add_option("--products", options.products,
-                  "What frames are wanted for, as of fanbeam render: detections, power and "
-                  "obstacles ask for more effects (default bscope,cscope)")
+                  "What frames are wanted for, as of fanbeam render: detections, power, "
+                  "labels and obstacles ask for more effects (default bscope,cscope)")
       ->type_name("PRODUCT")
       ->check(offers(names_of(session::kProducts)));
   command.add_flag("--per-frame", options.per_frame,

@@ -6,7 +6,6 @@
 // B-scope of a city, to all of it (docs/performance-notes.md), so `automatic`, the default, takes them
 // wherever they show everything:
 //   no buildings                    both come as close in the same time: rays
-//   without ground                  nothing to cut: rays
 //   a fan wider than 150 deg        headings of slices would meet behind the sensor: rays
 //   nothing but ground and prisms   slices, with any antenna
 //   models or prisms over open air  a level antenna sees each azimuth in a vertical half-plane:

@@ -16,10 +16,12 @@ struct WaveformNumber {
   double to_SI;
 };
 inline constexpr std::array kWaveformNumbers = {
-    WaveformNumber{"--frequency", "frequency_GHz", "Centre frequency, GHz (default 76)", 1e-3,
+    WaveformNumber{"--frequency", "frequency_GHz",
+                   "Centre frequency, GHz (default 76; of a scene's signals the sensor's)", 1e-3,
                    1000.0, 1e9},
-    WaveformNumber{"--bandwidth", "bandwidth_MHz", "Swept or stepped over, MHz (default 250)", 1e-6,
-                   1e5, 1e6},
+    WaveformNumber{"--bandwidth", "bandwidth_MHz",
+                   "Swept or stepped over, MHz (default 250; of a scene's signals the sensor's)",
+                   1e-6, 1e5, 1e6},
     WaveformNumber{"--sample-rate", "sample_rate_MHz",
                    "Of the beat, MHz (default: as the kind of waveform needs)", 1e-6, 1e5, 1e6},
     WaveformNumber{"--fine-sample-rate", "fine_sample_rate_MHz",
@@ -38,7 +40,9 @@ inline constexpr std::array kWaveformNumbers = {
     WaveformNumber{"--fine-ramp", "fine_ramp_us", "Of two-stage's triangle, us (default 2000)",
                    1e-3, 1e9, 1e-6},
     WaveformNumber{"--chirps", "chirps", "Chirps of each transmitter (default 256)", 1, 65536, 1},
-    WaveformNumber{"--slots", "slots", "Transmitters in turn (default 1)", 1, 256, 1},
+    WaveformNumber{"--slots", "slots",
+                   "Transmitters in turn (default 1; of a scene's signals by automotive-76ghz all)",
+                   1, 256, 1},
     WaveformNumber{"--modulation", "modulation_Hz", "Of sinusoidal modulation, Hz (default 500)",
                    1e-3, 1e9, 1},
     WaveformNumber{"--flat", "flat_us", "Flat stretch, us (default 2000)", 1e-3, 1e9, 1e-6},
