@@ -12,15 +12,15 @@
 namespace fanbeam::benchmarks {
 namespace {
 
-struct Way {
+struct EstimateWay {
   std::string name;
   renderer::Sampling sampling;
 };
 
-std::vector<Way> ways_of(const scenes::Scene& scene) {
+std::vector<EstimateWay> ways_of(const scenes::Scene& scene) {
   std::vector<renderer::CasterKind> casters = {renderer::CasterKind::rays};
   if (scene.caster.why_no_slices.empty()) casters.push_back(renderer::CasterKind::profile);
-  std::vector<Way> ways;
+  std::vector<EstimateWay> ways;
   for (const renderer::CasterKind caster : casters) {
     const std::string name = caster == renderer::CasterKind::rays ? "rays" : "slices";
     renderer::Sampling sampling = renderer::default_sampling(caster);
@@ -59,14 +59,14 @@ void check_frame(const BenchScene& bench, int frame, const Effort& effort,
   };
   const renderer::FrameError own = GreyReference(scene.world.sensor, first).error_of(second);
   const GreyReference reference(scene.world.sensor, mean_of(first, second));
-  const auto add = [&](const Way& way, const char* scope, double estimate_grey,
+  const auto add = [&](const EstimateWay& way, const char* scope, double estimate_grey,
                        const PictureError& error, const PictureError& of_halves) {
     const double apart_grey = shown_rms(error), own_grey = shown_rms(of_halves) / 2;
     const double true_grey =
         std::sqrt(std::max(apart_grey * apart_grey - own_grey * own_grey, 0.0));
     cases.push_back({bench.name, frame, way.name, scope, estimate_grey, true_grey});
   };
-  for (const Way& way : ways_of(scene)) {
+  for (const EstimateWay& way : ways_of(scene)) {
     renderer::Frame picture = render(way.sampling);
     const renderer::ErrorEstimate told = *picture.error;
     const renderer::FrameError error = reference.error_of(power_of(std::move(picture)));

@@ -21,9 +21,8 @@ install(FILES "${PROJECT_SOURCE_DIR}/bindings/c/fanbeam.h" DESTINATION "${CMAKE_
 install(FILES "${PROJECT_BINARY_DIR}/generated/c/fanbeam.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 install(EXPORT fanbeamCTargets NAMESPACE fanbeam:: DESTINATION "${package}")
 
-# import fanbeam: where Debian's python3 looks, below whichever prefix.
 if(TARGET fanbeam_python)
-  set(python_package "lib/python3/dist-packages/fanbeam")
+  set(python_package "${FANBEAM_PYTHON_DIR}/fanbeam")
   install(TARGETS fanbeam_python fanbeam_python_signal LIBRARY DESTINATION "${python_package}")
   install(DIRECTORY "${PROJECT_SOURCE_DIR}/bindings/python/fanbeam/" DESTINATION "${python_package}"
           FILES_MATCHING PATTERN "*.py" PATTERN "*.pyi" PATTERN "py.typed")

@@ -110,7 +110,7 @@ Sources compiled_together() {
   Sources sources;
   for (const char* room : {"core", "feeds", "materials", "atmosphere", "terrain", "sensors",
                            "renderer", "signal", "tracking", "scenes", "session", "measure",
-                           "datasets", "live", "bindings", "apps", "tests"})
+                           "datasets", "live", "bindings", "apps", "benchmarks", "tests"})
     for (const auto& entry :
          fs::recursive_directory_iterator(fs::path(FANBEAM_SOURCE_DIR) / room)) {
       if (entry.path().extension() != ".cpp") continue;

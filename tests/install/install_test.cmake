@@ -1,6 +1,6 @@
 # Installs into a folder whose name holds a space, renders a frame of the default scene with the installed program from
 # elsewhere, then configures, builds and runs two other projects against the installed package, in C++ and through C.
-# Called with -D BUILD, SCRATCH, SOURCE, CXX, CC.
+# Called with -D BUILD, SCRATCH, SOURCE, CXX, CC, PYTHON_DIR.
 set(prefix "${SCRATCH}/the prefix")
 file(REMOVE_RECURSE "${SCRATCH}")
 file(MAKE_DIRECTORY "${SCRATCH}/elsewhere")
@@ -49,7 +49,13 @@ scene = fanbeam.Scene.open('flat-grass')
 assert fanbeam.__file__.startswith('${prefix}'), fanbeam.__file__
 assert scene.render(0).bscope.shape == (524, 164)
 ")
-run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/lib/python3/dist-packages" /usr/bin/python3 look.py)
+run("${CMAKE_COMMAND}" -E env "PYTHONPATH=${prefix}/${PYTHON_DIR}" /usr/bin/python3 look.py)
+# Below /usr/local, the prefix of docs/installing.md, python3 looks there by itself.
+execute_process(COMMAND /usr/bin/python3 -c "import sys; print(*sys.path, sep='\n')" OUTPUT_VARIABLE looked_at
+                COMMAND_ERROR_IS_FATAL ANY)
+if(NOT looked_at MATCHES "/usr/local/${PYTHON_DIR}\n")
+  message(FATAL_ERROR "python3 does not look in /usr/local/${PYTHON_DIR}:\n${looked_at}")
+endif()
 
 run("${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}/tests/install/consumer" -B "${SCRATCH}/consumer"
     "-DCMAKE_PREFIX_PATH=${prefix}" "-DCMAKE_CXX_COMPILER=${CXX}" -DCMAKE_BUILD_TYPE=Release)
@@ -69,6 +75,16 @@ run("${CMAKE_COMMAND}" -G Ninja -S "${SOURCE}/tests/install/consumer_c" -B "${SC
 run("${CMAKE_COMMAND}" --build "${SCRATCH}/consumer_c")
 run("${SCRATCH}/consumer_c/consumer" "${prefix}/share/fanbeam" "${scene}")
 run("${SCRATCH}/consumer_c/example" "${prefix}/share/fanbeam" "${scene}")
+# A part that there is not is not found, instead of nothing being said.
+file(WRITE "${SCRATCH}/wrong/CMakeLists.txt" "cmake_minimum_required(VERSION 3.25)
+project(wrong CXX)
+find_package(fanbeam COMPONENTS session nonsense)
+if(fanbeam_FOUND OR NOT fanbeam_NOT_FOUND_MESSAGE MATCHES nonsense)
+  message(FATAL_ERROR \"found nonsense: \${fanbeam_NOT_FOUND_MESSAGE}\")
+endif()
+")
+run("${CMAKE_COMMAND}" -G Ninja -S "${SCRATCH}/wrong" -B "${SCRATCH}/wrong/build" "-DCMAKE_PREFIX_PATH=${prefix}"
+    "-DCMAKE_CXX_COMPILER=${CXX}")
 file(SIZE "${SCRATCH}/elsewhere/bscope.pgm" bytes)
 if(NOT bytes EQUAL 85951)  # "P5\n164 524\n255\n" and 164 x 524
   message(FATAL_ERROR "bscope.pgm has ${bytes} bytes")
