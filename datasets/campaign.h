@@ -2,7 +2,7 @@
 //
 //   [campaign]
 //   name = "fog-approaches"
-//   scenes = ["braunschweig-26"]       names of shipped scenes, or folders beside this file; optional
+//   scenes = ["braunschweig-26"]       folders beside this file, else names of shipped scenes; optional
 //                                      where there are airports; each once, and none named as an airport
 //   runs = 200                         of a grid: how often it is gone through, 1 unless given
 //   plan = "sobol"                     "grid", "sobol" or "random"
@@ -12,7 +12,7 @@
 //   isa = "v3"                         every machine makes the same bytes
 //   realisation = "mean"               or "sample"
 //   samples_per_cell = 4               optional, as --rays-per-cell
-//   sensor = "hivision"                optional, a name or a file beside this one
+//   sensor = "hivision"                optional, a file beside this one, else a name
 //   runs_as = "folders"                or "archives": one tar a run
 //
 //   [parameters]                       all optional; values and distributions: distribution.h

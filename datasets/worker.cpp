@@ -112,7 +112,8 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
     setup.seed = campaign_.seed;
     session::plan_for({campaign_.products.begin(), campaign_.products.end()}, setup.build);
     if (!campaign_.sensor.empty())
-      setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor");
+      setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor",
+                                          campaign_.folder());
     core::ProblemList problems;
     stage->session = std::make_unique<session::Session>(scene_path(scene), setup, problems);
     stage->own = stage->session->scene();
@@ -128,15 +129,12 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
   return *stage;
 }
 
-// Of an airport, else a folder beside the campaign's file, else as session::find_scene.
+// Never of the working directory: a run is a pure function of the campaign's file and its number.
 fs::path Worker::scene_path(const std::string& name) const {
   for (const CampaignAirport& airport : campaign_.airports)
     if (airport.name == name)
       return airport_scene(campaign_, airport, settings_.output, settings_.data_folders);
-  const fs::path beside = campaign_.folder() / name;
-  std::error_code refused;
-  if (fs::exists(beside / "scene.toml", refused)) return beside;
-  return session::find_scene(name, settings_.shipped);
+  return session::find_scene(name, settings_.shipped, campaign_.folder());
 }
 
 RunEnd Worker::make(int run) {

@@ -52,9 +52,9 @@ std::vector<std::string> shipped_sensors(const fs::path& shipped) {
   return names;
 }
 
-fs::path find_scene(const fs::path& name, const fs::path& shipped) {
+fs::path find_scene(const fs::path& name, const fs::path& shipped, const fs::path& beside) {
   std::error_code refused;  // such as a name too long to be one
-  for (const fs::path& candidate : {name, shipped / name, shipped / "scenes" / name})
+  for (const fs::path& candidate : {beside / name, shipped / name, shipped / "scenes" / name})
     if (fs::is_regular_file(candidate, refused) || fs::exists(candidate / "scene.toml", refused))
       return candidate;
   core::throw_input_error(core::ErrorClass::io, "scene", "\"" + name.string() + "\" not found",
@@ -62,9 +62,10 @@ fs::path find_scene(const fs::path& name, const fs::path& shipped) {
                               nearest_first(name.string(), shipped_scenes(shipped)));
 }
 
-fs::path find_sensor(const fs::path& name, const fs::path& shipped, const std::string& field) {
+fs::path find_sensor(const fs::path& name, const fs::path& shipped, const std::string& field,
+                     const fs::path& beside) {
   std::error_code refused;
-  for (const fs::path& candidate : {name, shipped / "sensors" / (name.string() + ".toml")})
+  for (const fs::path& candidate : {beside / name, shipped / "sensors" / (name.string() + ".toml")})
     if (fs::is_regular_file(candidate, refused)) return candidate;
   core::throw_input_error(core::ErrorClass::io, field, "\"" + name.string() + "\" not found",
                           "a sensor file, or one of the shipped sensors:" +

@@ -35,8 +35,8 @@ flight.turbulence_deg = 1
 """
 
 
-def told(program, *arguments, exit_code=0):
-    ended = subprocess.run([program, "campaign", *map(str, arguments)], capture_output=True, text=True)
+def told(program, *arguments, exit_code=0, cwd=None):
+    ended = subprocess.run([program, "campaign", *map(str, arguments)], capture_output=True, text=True, cwd=cwd)
     assert ended.returncode == exit_code, ended.stdout + ended.stderr
     return ended.stdout + ended.stderr
 
