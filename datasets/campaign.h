@@ -31,7 +31,7 @@
 //   glide_path_deg = 3                 optional
 //
 //   [[traffic]]                        a point scatterer, from the threshold that the flight lands on
-//   name = "car"
+//   name = "car"                       of no target of the scenes
 //   rcs_m2 = { log_uniform = [1, 30] }
 //   along_m = { uniform = [100, 900] }
 //   across_m = 0

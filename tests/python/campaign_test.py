@@ -461,12 +461,12 @@ products = ["bscope"]
 samples_per_cell = 0.3
 isa = "v2"
 [[traffic]]
-name = "car"
+name = "van"
 along_m = { values = [300, 900] }
 """,
         encoding="utf-8",
     )
     told(program, "run", file, "-o", tmp_path / "out", "-q")
     records = [json.loads(record.read_text(encoding="utf-8")) for record in sorted(tmp_path.glob("out/runs/*/run.json"))]
-    assert len({record["parameters"]["traffic.car.along_m"] for record in records}) == 2
+    assert len({record["parameters"]["traffic.van.along_m"] for record in records}) == 2
     assert len({record["input"] for record in records}) == 2
