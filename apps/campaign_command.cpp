@@ -15,6 +15,7 @@
 #include "core/stop.h"
 #include "core/text.h"
 #include "datasets/campaign.h"
+#include "datasets/draw.h"
 #include "datasets/ledger.h"
 #include "datasets/merge.h"
 #include "datasets/slurm.h"
@@ -66,8 +67,8 @@ void warn_of_change(const Campaign& campaign, const CommonOptions& common) {
 int run(const CampaignOptions& options, const CommonOptions& common, const Campaign& campaign) {
   const core::ThreadLimit threads(options.threads);
   const fs::path output = folder_of(options.output, campaign);
-  const std::vector<int> runs =
-      datasets::shard_of(chosen_runs(options, campaign), options.shard, "--shard");
+  const std::vector<int> runs = datasets::by_scene(
+      campaign, datasets::shard_of(chosen_runs(options, campaign), options.shard, "--shard"));
   datasets::Worker worker(campaign,
                           {output, shipped_folder(), data_folders(options.data), options.replace});
   int made = 0, elsewhere = 0, there = 0;

@@ -88,4 +88,19 @@ Draw Drawer::draw(int run) {
   return draw;
 }
 
+std::string scene_of(const Campaign& campaign, const Draw& draw) {
+  return draw.word("scene").value_or(campaign.scenes.front());
+}
+
+std::vector<int> by_scene(const Campaign& campaign, const std::vector<int>& runs) {
+  if (campaign.find("scene") == nullptr) return runs;
+  Drawer drawer(campaign);
+  std::map<std::string, std::vector<int>> of_scene;
+  for (const int run : runs) of_scene[scene_of(campaign, drawer.draw(run))].push_back(run);
+  std::vector<int> sorted;
+  sorted.reserve(runs.size());
+  for (const auto& [scene, its] : of_scene) sorted.insert(sorted.end(), its.begin(), its.end());
+  return sorted;
+}
+
 }  // namespace fanbeam::datasets

@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "datasets/campaign.h"
 
@@ -36,5 +37,12 @@ class Drawer {
   const Campaign& campaign_;
   std::unique_ptr<Sequence> sequence_;
 };
+
+// The scene that a run flies, as the campaign's file names it.
+std::string scene_of(const Campaign& campaign, const Draw& draw);
+
+// The same runs, those of a scene one after the other, in their order: whoever makes them opens each scene
+// once and holds one at a time.
+std::vector<int> by_scene(const Campaign& campaign, const std::vector<int>& runs);
 
 }  // namespace fanbeam::datasets

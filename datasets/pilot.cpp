@@ -156,7 +156,7 @@ Drawn drawn_of(const Campaign& campaign) {
     add_values(draw, drawn);
     if (weather && !add_refusals(draw, drawn)) continue;
     ++drawn.runs;
-    drawn.scenes[draw.word("scene").value_or(campaign.scenes.front())].add(run);
+    drawn.scenes[scene_of(campaign, draw)].add(run);
   }
   return drawn;
 }

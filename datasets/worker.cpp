@@ -85,6 +85,7 @@ fs::path failed_file(const fs::path& campaign, int run) {
 
 // A scene held open, and what it was when it was opened.
 struct Worker::Stage {
+  std::string scene;
   std::unique_ptr<session::Session> session;
   std::shared_ptr<const scenes::Scene> own;
   std::vector<core::Problem> refused;  // why it could not be opened
@@ -98,10 +99,13 @@ Worker::Worker(const Campaign& campaign, WorkerSettings settings)
 Worker::~Worker() = default;
 
 Worker::Stage& Worker::stage_of(const std::string& scene) {
-  std::unique_ptr<Stage>& stage = stages_[scene];
-  if (stage && stage->refused.empty()) return *stage;
-  if (stage) throw core::InputError(stage->refused);
-  stage = std::make_unique<Stage>();
+  if (stage_ && stage_->scene == scene) {
+    if (stage_->refused.empty()) return *stage_;
+    throw core::InputError(stage_->refused);
+  }
+  stage_.reset();  // before the next takes its memory
+  stage_ = std::make_unique<Stage>();
+  stage_->scene = scene;
   try {
     session::Setup setup;
     setup.shipped = settings_.shipped;
@@ -115,18 +119,18 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
       setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor",
                                           campaign_.folder());
     core::ProblemList problems;
-    stage->session = std::make_unique<session::Session>(scene_path(scene), setup, problems);
-    stage->own = stage->session->scene();
-    if (stage->own->frame_count() == 0)
+    stage_->session = std::make_unique<session::Session>(scene_path(scene), setup, problems);
+    stage_->own = stage_->session->scene();
+    if (stage_->own->frame_count() == 0)
       core::throw_input_error(core::ErrorClass::ref, core::Place{scene}, "[trajectory]", "missing",
                               "a scene with a flight");
     if (campaign_.samples_per_cell > 0.0)
-      stage->session->set(session::Samples{campaign_.samples_per_cell});
+      stage_->session->set(session::Samples{campaign_.samples_per_cell});
   } catch (const core::InputError& error) {
-    stage->refused = error.problems();
+    stage_->refused = error.problems();
     throw;
   }
-  return *stage;
+  return *stage_;
 }
 
 // Never of the working directory: a run is a pure function of the campaign's file and its number.
@@ -207,8 +211,7 @@ void Worker::put_in_place(int run, const fs::path& made) const {
 }
 
 void Worker::render(const Draw& draw, const fs::path& folder) {
-  const std::string scene_name = draw.word("scene").value_or(campaign_.scenes.front());
-  Stage& stage = stage_of(scene_name);
+  Stage& stage = stage_of(scene_of(campaign_, draw));
   session::Session& session = *stage.session;
   set_conditions(session, campaign_, draw, *stage.own);
   const session::Session::Moment now = session.now();

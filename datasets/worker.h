@@ -12,7 +12,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -43,7 +42,8 @@ class Worker {
   ~Worker();
 
   // Throws InputError E-IO for a folder that cannot be written, core::Stopped; all else that is wrong with
-  // a run is written as failed.
+  // a run is written as failed. Opens a scene where the last run was of another: runs in the order of
+  // by_scene (draw.h) open each once.
   RunEnd make(int run);
 
   // What the last made run took.
@@ -70,7 +70,7 @@ class Worker {
   const Campaign& campaign_;
   WorkerSettings settings_;
   Drawer drawer_;
-  std::map<std::string, std::unique_ptr<Stage>> stages_;  // by scene
+  std::unique_ptr<Stage> stage_;  // of the last run: a scene may take hundreds of megabytes
   Cost cost_;
   std::vector<core::Problem> refused_;
 };

@@ -1,0 +1,70 @@
+// What a worker holds of the scenes that its runs fly.
+#include "datasets/worker.h"
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/errors.h"
+#include "datasets/draw.h"
+#include "tests/terrain/ascii_grid.h"
+
+using namespace fanbeam;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Four runs, in turn of two scenes beside the campaign's file.
+class TwoScenes {
+ public:
+  TwoScenes() {
+    for (const char* name : {"one", "two"}) {
+      fs::create_directory(folder_.path() / name);
+      fs::copy_file(FANBEAM_SOURCE_DIR "/scenes/flat-grass/scene.toml", scene(name));
+    }
+    core::ProblemList problems;
+    campaign_ = datasets::read_campaign(
+        folder_.write("campaign.toml",
+                      "[campaign]\nname = \"x\"\nscenes = [\"two\", \"one\"]\nplan = \"grid\"\n"
+                      "runs = 2\nframes = { count = 1 }\nproducts = [\"power\"]\n"
+                      "samples_per_cell = 0.3\nisa = \"v2\"\n"),
+        problems);
+    problems.throw_if_errors();
+  }
+  fs::path scene(const std::string& name) const { return folder_.path() / name / "scene.toml"; }
+  const datasets::Campaign& campaign() const { return campaign_; }
+  datasets::WorkerSettings settings() const {
+    return {folder_.path() / "out", FANBEAM_SOURCE_DIR, {}, true};
+  }
+
+ private:
+  tests::TemporaryFolder folder_;
+  datasets::Campaign campaign_;
+};
+
+}  // namespace
+
+TEST_CASE("Runs by scene are all runs, those of a scene one after the other as they came",
+          "[worker]") {
+  const TwoScenes two;
+  datasets::Drawer drawer(two.campaign());
+  for (int run = 0; run < 4; ++run)
+    REQUIRE(scene_of(two.campaign(), drawer.draw(run)) == (run % 2 == 0 ? "two" : "one"));
+  CHECK(datasets::by_scene(two.campaign(), {0, 1, 2, 3}) == std::vector<int>{1, 3, 0, 2});
+  CHECK(datasets::by_scene(two.campaign(), {3, 2}) == std::vector<int>{3, 2});
+  CHECK(datasets::by_scene(two.campaign(), {}).empty());
+}
+
+// A scene whose file is gone can be flown as long as it is held, and no longer.
+TEST_CASE("A worker holds the scene of its last run, and no other", "[worker]") {
+  const TwoScenes two;
+  datasets::Worker worker(two.campaign(), two.settings());
+  CHECK(worker.make(1) == datasets::RunEnd::made);
+  fs::remove(two.scene("one"));
+  CHECK(worker.make(3) == datasets::RunEnd::made);
+  CHECK(worker.make(0) == datasets::RunEnd::made);
+  CHECK(worker.make(3) == datasets::RunEnd::failed);
+  REQUIRE(worker.refused().size() == 1);
+  CHECK_THAT(worker.refused()[0].value, Catch::Contains("\"one\" not found"));
+}
