@@ -137,8 +137,9 @@ std::vector<int> runs_in(const std::string& text, int runs, const std::string& f
     const auto first = number_in(part.substr(0, colon));
     const auto last = colon == std::string::npos ? first : number_in(part.substr(colon + 1));
     if (!first || !last) refuse(core::ErrorClass::parse, part);
-    const int end = colon == std::string::npos ? *last + 1 : *last;
-    if (*first >= runs || end > runs || end <= *first) refuse(core::ErrorClass::range, part);
+    if (*first >= runs) refuse(core::ErrorClass::range, part);  // the largest of int has no next
+    const int end = colon == std::string::npos ? *first + 1 : *last;
+    if (end > runs || end <= *first) refuse(core::ErrorClass::range, part);
     for (int run = *first; run < end; ++run) chosen.insert(run);
   }
   return {chosen.begin(), chosen.end()};
@@ -166,7 +167,7 @@ std::vector<int> shard_of(const std::vector<int>& runs, const std::string& text,
 std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,
                            const std::vector<int>& runs) {
   std::vector<Damage> damages;
-  const Survey found = survey(output, runs);
+  const Survey found = survey(campaign, output, runs);
   for (const int run : found.missing)
     damages.push_back({run, fs::exists(failed_file(output, run)) ? "failed" : "missing"});
   for (const int run : found.damaged)
@@ -180,7 +181,8 @@ std::vector<Damage> verify(const Campaign& campaign, const fs::path& output,
       continue;
     }
     check_record(run, *files, record, damages);
-    const std::string wrong = wrong_maker(record, campaign, found.usual_maker);
+    std::string wrong = wrong_maker(record, campaign, found.usual_maker);
+    if (wrong.empty()) wrong = wrong_input(record, campaign, found);
     if (!wrong.empty()) damages.push_back({run, wrong});
     if (record.value("run", -1) != run) damages.push_back({run, "the record of another run"});
     const std::string other = wrong_values(record, drawer.draw(run));

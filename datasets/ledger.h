@@ -37,8 +37,9 @@ struct Damage {
   std::string what;  // "missing", "bscope/00600.png: other bytes than recorded", ...
 };
 // Every file of every run that is there against its SHA-256; every record against its own, which those of
-// earlier versions lack, and against the campaign's file, the values that it draws, level of instructions and the
-// program and libraries that made most of the runs. Where all runs are asked for, those beyond them are told too.
+// earlier versions lack, and against the campaign's file, the values that it draws, level of instructions, the
+// program and libraries that made most of the runs, and the files that most runs of its scene are made of. Where
+// all runs are asked for, those beyond them are told too.
 std::vector<Damage> verify(const Campaign& campaign, const std::filesystem::path& output,
                            const std::vector<int>& runs);
 

@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 
 #include "core/files.h"
 #include "datasets/record_seal.h"
@@ -53,8 +52,8 @@ std::string index_rows(const Campaign& campaign, int run, const RunFiles& files,
                        const Json& record) {
   std::string rows;
   for (const Json& frame : record.at("frames")) {
-    rows += fmt::format("{},{},{},{}", run, frame.at("index").get<int>(), cell(record.at("scene")),
-                        cell(frame.at("time_s")));
+    rows += fmt::format("{},{},{},{}", run, frame.at("index").get<int>(),
+                        csv_text(scene_of(campaign, record)), cell(frame.at("time_s")));
     for (const char* key :
          {"latitude_deg", "longitude_deg", "height_m", "roll_deg", "pitch_deg", "heading_deg"})
       rows += "," + cell(frame.at("pose").at(key));
@@ -78,12 +77,12 @@ std::string index_rows(const Campaign& campaign, int run, const RunFiles& files,
 // What of a campaign's runs is merged, one run after the other.
 class Merger {
  public:
-  Merger(const Campaign& campaign, const fs::path& output, std::string usual)
-      : campaign_(campaign), output_(output), usual_(std::move(usual)), drawer_(campaign) {
+  Merger(const Campaign& campaign, const fs::path& output, const Survey& found)
+      : campaign_(campaign), output_(output), found_(found), drawer_(campaign) {
     manifest_ = {{"fanbeam_campaign", 1},
                  {"campaign", campaign.name},
                  {"campaign_sha256", campaign.text_hash},
-                 {"made_by", usual_},
+                 {"made_by", found_.usual_maker},
                  {"runs", Json::object()}};
     index_ = index_head(campaign);
   }
@@ -98,10 +97,15 @@ class Merger {
                        kWhole);
       const bool other_file = is_of_other_file(record, campaign_);
       if (other_file) ++of_other_file_;
-      const std::string wrong = wrong_maker(record, campaign_, usual_);
+      const std::string wrong = wrong_maker(record, campaign_, found_.usual_maker);
       if (!wrong.empty() && !other_file)
         problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
                        "one program for all: " + wrong);
+      const std::string other_input =
+          wrong.empty() ? wrong_input(record, campaign_, found_) : std::string();
+      if (!other_input.empty())
+        problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
+                       "one state of each scene for all: " + other_input);
       const std::string other = wrong_values(record, drawer_.draw(run));
       if (wrong.empty() && !other.empty())
         problems.error(core::ErrorClass::unsupported, place, "run", std::to_string(run),
@@ -141,6 +145,8 @@ class Merger {
     if (labels_.frames() > 0) {
       write_one("coco.json", labels_.coco());
       write_one("lard.csv", labels_.lard());
+    } else {  // of an earlier merge: of other runs
+      for (const char* name : {"coco.json", "lard.csv"}) fs::remove(output_ / name);
     }
     return merged_;
   }
@@ -152,7 +158,8 @@ class Merger {
  private:
   const Campaign& campaign_;
   const fs::path& output_;
-  std::string usual_, index_;
+  const Survey& found_;
+  std::string index_;
   Drawer drawer_;
   Json manifest_;
   session::RunLabels labels_;
@@ -169,14 +176,14 @@ Merged merge(const Campaign& campaign, const fs::path& output) {
   core::ProblemList problems;
   std::vector<int> runs(static_cast<std::size_t>(campaign.runs));
   std::iota(runs.begin(), runs.end(), 0);
-  const Survey found = survey(output, runs);
+  const Survey found = survey(campaign, output, runs);
   for (const int run : found.damaged)
     problems.error(core::ErrorClass::parse, core::Place{run_folder(output, run).string()}, "run",
                    "damaged", Merger::kWhole);
   for (const int run : runs_beyond(output, campaign.runs))
     problems.error(core::ErrorClass::unsupported, core::Place{run_folder(output, run).string()},
                    "run", std::to_string(run), "none " + beyond_text(campaign));
-  Merger merger(campaign, output, found.usual_maker);
+  Merger merger(campaign, output, found);
   for (const int run : found.whole)
     if (const std::optional<RunFiles> files = RunFiles::of(output, run))
       merger.add(run, *files, record_in(*files), problems);

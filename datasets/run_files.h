@@ -16,6 +16,9 @@
 namespace fanbeam::datasets {
 
 inline constexpr const char* kRunRecord = "run.json";
+// In it the fingerprint of the run's scene as it was opened, with its sensor, terrain and the campaign's
+// settings: the same in all runs of the scene, whatever they draw.
+inline constexpr const char* kSceneInput = "scene_input";
 inline constexpr std::uint64_t kLargestRunFile_bytes = 1ULL << 32U;
 
 std::filesystem::path run_folder(const std::filesystem::path& campaign, int run);

@@ -32,6 +32,14 @@ std::string made_by(const Json& record) {
   return text;
 }
 
+// That counts most; empty of none.
+std::string most_counted(const std::map<std::string, int>& counts) {
+  const auto most =
+      std::max_element(counts.begin(), counts.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return most == counts.end() ? "" : most->first;
+}
+
 bool is_text_or_absent(const Json& owner, const char* key) {
   const auto member = owner.find(key);
   return member == owner.end() || member->is_string();
@@ -44,7 +52,7 @@ bool is_record(const Json& json) {
     return false;
   const auto run = json.find("run");
   return (run == json.end() || run->is_number_integer()) &&
-         is_text_or_absent(json, "campaign_sha256") &&
+         is_text_or_absent(json, "campaign_sha256") && is_text_or_absent(json, kSceneInput) &&
          std::all_of(json["files"].begin(), json["files"].end(), [](const Json& file) {
            return file.is_object() && is_text_or_absent(file, "sha256");
          });
@@ -68,19 +76,31 @@ bool is_of_this_program(const Json& record) {
          record.value("commit", Json()) == session::commit_text();
 }
 
-Survey survey(const std::filesystem::path& campaign, const std::vector<int>& runs) {
+std::string scene_of(const Campaign& campaign, const Json& record) {
+  const Json parameters = record.value("parameters", Json());
+  const auto scene = parameters.find("scene");
+  return scene != parameters.end() && scene->is_string() ? scene->get<std::string>()
+                                                         : campaign.scenes.front();
+}
+
+Survey survey(const Campaign& campaign, const std::filesystem::path& output,
+              const std::vector<int>& runs) {
   Survey found;
   std::map<std::string, int> runs_of_maker;
+  std::map<std::string, std::map<std::string, std::map<std::string, int>>> runs_of_input;
   for (const int run : runs) {
-    const std::optional<RunFiles> files = RunFiles::of(campaign, run);
+    const std::optional<RunFiles> files = RunFiles::of(output, run);
     const Json record = files ? record_in(*files) : Json();
     (!files ? found.missing : record.is_object() ? found.whole : found.damaged).push_back(run);
-    if (record.is_object()) ++runs_of_maker[made_by(record)];
+    if (!record.is_object()) continue;
+    const std::string maker = made_by(record);
+    ++runs_of_maker[maker];
+    if (!is_of_other_file(record, campaign))
+      ++runs_of_input[maker][scene_of(campaign, record)][record.value(kSceneInput, "")];
   }
-  const auto most =
-      std::max_element(runs_of_maker.begin(), runs_of_maker.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (most != runs_of_maker.end()) found.usual_maker = most->first;
+  found.usual_maker = most_counted(runs_of_maker);
+  for (const auto& [scene, counts] : runs_of_input[found.usual_maker])
+    found.usual_inputs[scene] = most_counted(counts);
   return found;
 }
 
@@ -123,6 +143,14 @@ std::string wrong_maker(const Json& record, const Campaign& campaign, const std:
   if (made_by(record) != usual)
     return "made by " + made_by(record) + ", most of the others by " + usual;
   return "";
+}
+
+std::string wrong_input(const Json& record, const Campaign& campaign, const Survey& found) {
+  const std::string scene = scene_of(campaign, record), input = record.value(kSceneInput, "");
+  const auto usual = found.usual_inputs.find(scene);
+  if (usual == found.usual_inputs.end() || usual->second == input) return "";
+  return "made of other files of scene, sensor or terrain (" + input + ") than most of scene " +
+         scene + " (" + usual->second + ")";
 }
 
 }  // namespace fanbeam::datasets

@@ -69,6 +69,15 @@ void write_failure(const Campaign& campaign, const fs::path& output, int run, co
   core::write_file_atomically(failed_file(output, run), json.dump(1) + "\n");
 }
 
+session::RunRecord settings_of(const session::Session& session, const session::Session::Moment& now,
+                               const session::ProductSet& products) {
+  session::RunRecord settings;
+  settings.choice.sampling = session.sampling(now);
+  settings.wanted = session::wanted_of(products);
+  settings.seed = session.seed();
+  return settings;
+}
+
 // Where a run is made. A worker that was killed leaves it to the next on this machine.
 fs::path making_place(const Campaign& campaign, const fs::path& output, int run) {
   if (!campaign.archives) return hidden(output, run, "");
@@ -88,6 +97,7 @@ struct Worker::Stage {
   std::string scene;
   std::unique_ptr<session::Session> session;
   std::shared_ptr<const scenes::Scene> own;
+  std::string input;                   // kSceneInput
   std::vector<core::Problem> refused;  // why it could not be opened
 };
 
@@ -114,7 +124,8 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
       setup.data_folders.insert(setup.data_folders.begin(), campaign_.folder());
     setup.sample = campaign_.sample;
     setup.seed = campaign_.seed;
-    session::plan_for({campaign_.products.begin(), campaign_.products.end()}, setup.build);
+    const session::ProductSet products(campaign_.products.begin(), campaign_.products.end());
+    session::plan_for(products, setup.build);
     if (!campaign_.sensor.empty())
       setup.sensor = session::find_sensor(campaign_.sensor, settings_.shipped, "campaign.sensor",
                                           campaign_.folder());
@@ -126,6 +137,8 @@ Worker::Stage& Worker::stage_of(const std::string& scene) {
                               "a scene with a flight");
     if (campaign_.samples_per_cell > 0.0)
       stage_->session->set(session::Samples{campaign_.samples_per_cell});
+    stage_->input = session::input_fingerprint(
+        *stage_->own, settings_of(*stage_->session, stage_->session->now(), products));
   } catch (const core::InputError& error) {
     stage_->refused = error.problems();
     throw;
@@ -220,11 +233,8 @@ void Worker::render(const Draw& draw, const fs::path& folder) {
   std::unique_ptr<const session::Labeller> labeller;
   if (session::want_labels(products)) labeller = std::make_unique<const session::Labeller>(*scene);
 
-  session::RunRecord settings;
-  settings.choice.sampling = session.sampling(now);
-  settings.wanted = session::wanted_of(products);
+  session::RunRecord settings = settings_of(session, now, products);
   settings.set = session::changed_conditions_json(*stage.own, *scene);
-  settings.seed = session.seed();
   const session::OutputSettings output{products, session::input_fingerprint(*scene, settings),
                                        settings.choice.sampling, "", labeller.get()};
   std::vector<MadeFrame> frames;
@@ -270,6 +280,7 @@ std::uint64_t Worker::write_record(const Draw& draw, const Stage& stage, const f
                {"libraries", {terrain::ray_library(), core::image_library()}},
                {"sampling", session::caster_text(stage.session->sampling())},
                {"input", fingerprint},
+               {kSceneInput, stage.input},
                {"parameters", Json::object()}};
   for (const auto& [name, value] : draw.values) json["parameters"][name] = value_json(value);
   json["frames"] = Json::array();

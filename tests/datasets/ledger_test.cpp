@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "core/errors.h"
 #include "datasets/merge.h"
@@ -35,12 +36,12 @@ class Ledger {
   const datasets::Campaign& campaign() const { return campaign_; }
 
   void write(const std::string& name) const { folder_.write("out/" + name, ""); }
-  void make(int run, const std::string& hash) const {
+  void make(int run, const std::string& hash, const std::string& frames = "[{}]") const {
     const std::string name = "runs/00000" + std::to_string(run);
     fs::create_directories(output() / name);
     folder_.write("out/" + name + "/run.json", R"({"run":)" + std::to_string(run) +
                                                    R"(,"campaign_sha256":")" + hash +
-                                                   R"(","files":{},"frames":[{}]})");
+                                                   R"(","files":{},"frames":)" + frames + "}");
   }
   datasets::Status status() const { return datasets::status_of(campaign_, output()); }
 
@@ -87,4 +88,25 @@ TEST_CASE("Merging tells of how many runs some are of another file", "[ledger]")
   ledger.make(4, ledger.campaign().text_hash);
   CHECK_THROWS_WITH(datasets::merge(ledger.campaign(), ledger.output()),
                     Catch::Contains("changed since 3 of 4 runs were made"));
+}
+
+TEST_CASE("Labels of an earlier merge go where the runs have none", "[ledger]") {
+  const Ledger ledger;
+  ledger.make(0, ledger.campaign().text_hash, "[]");
+  for (const char* name : {"coco.json", "lard.csv"}) ledger.write(name);
+  const datasets::Merged merged = datasets::merge(ledger.campaign(), ledger.output());
+  CHECK(merged.runs == 1);
+  for (const char* name : {"coco.json", "lard.csv"})
+    CHECK_FALSE(fs::exists(ledger.output() / name));
+  for (const char* name : {"index.csv", "manifest.json"}) CHECK(fs::exists(ledger.output() / name));
+}
+
+// One more than the largest int is undefined: told under the sanitizers.
+TEST_CASE("Runs beyond the campaign's are refused up to the largest number", "[ledger]") {
+  CHECK(datasets::runs_in("7", 8, "--runs") == std::vector<int>{7});
+  CHECK(datasets::runs_in("6:8,0", 8, "--runs") == std::vector<int>{0, 6, 7});
+  for (const char* text : {"8", "2147483647", "2147483646:2147483647", "7:2147483647", "3:3"}) {
+    INFO(text);
+    CHECK_THROWS_WITH(datasets::runs_in(text, 8, "--runs"), Catch::Contains("E-RANGE --runs"));
+  }
 }
