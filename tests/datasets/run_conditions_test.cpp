@@ -1,11 +1,11 @@
 // What a run sets on its scene: where traffic stands, and what it may be called.
 #include "datasets/run_conditions.h"
 
-#include <fmt/format.h>
-
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <iomanip>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "core/constants.h"
@@ -97,7 +97,8 @@ constexpr const char* kVan = "[[traffic]]\nname = \"van\"\nalong_m = 300\nacross
 
 // Downwind to the south, a half circle to the left, and the last 1.8 km to the north.
 std::string circuit() {
-  std::string rows = "time_s,latitude_deg,longitude_deg,height_m\n";
+  std::ostringstream rows;
+  rows << std::setprecision(12) << "time_s,latitude_deg,longitude_deg,height_m\n";
   constexpr double kSpeed_mps = 60.0, kRadius_m = 750.0, kDownwind_m = 6000.0;
   constexpr double kTurn_m = core::kPi * kRadius_m, kWhole_m = kDownwind_m + kTurn_m + 1800.0;
   for (int second = 0; second * kSpeed_mps < kWhole_m; ++second) {
@@ -111,10 +112,10 @@ std::string circuit() {
       east_m = -kRadius_m * (1.0 + std::cos(angle_rad));
       north_m = -2000.0 - kRadius_m * std::sin(angle_rad);
     }
-    rows += fmt::format("{},{:.9f},{:.9f},150\n", second, 52.0 + north_m / kNorth_m_per_deg,
-                        10.0 + east_m / kEast_m_per_deg);
+    rows << second << ',' << 52.0 + north_m / kNorth_m_per_deg << ','
+         << 10.0 + east_m / kEast_m_per_deg << ",150\n";
   }
-  return rows;
+  return rows.str();
 }
 
 }  // namespace
