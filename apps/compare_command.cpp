@@ -21,6 +21,7 @@ namespace fs = std::filesystem;
 struct Figures {
   double rms = 0.0, largest = 0.0, percent = 0.0;
   std::size_t different = 0;
+  std::size_t not_finite = 0;
   std::size_t only_one_lit = 0;  // of powers: no number of dB
 };
 
@@ -43,6 +44,7 @@ std::string broken_limits(const Figures& figures, const CompareOptions& options)
     hold(figures.rms, options.rms.value_or(0.0), "RMS");
   if (!no_largest) hold(figures.largest, *options.largest, "largest");
   if (options.percent_different) hold(figures.percent, *options.percent_different, "per cent");
+  broken(figures.not_finite > 0, "cells whose difference is no finite number");
   broken(figures.only_one_lit > 0 && !share_alone, "cells lit in one only");
   return text;
 }
@@ -65,9 +67,10 @@ bool judge(const fs::path& file, const core::LayerDifference& difference,
   const double largest = in_dB ? difference.largest_dB : difference.largest;
   const double percent = 100.0 * static_cast<double>(difference.different) /
                          static_cast<double>(std::max<std::size_t>(difference.cells, 1));
-  const std::string broken = broken_limits({rms, largest, percent, difference.different,
-                                            in_dB ? difference.only_one_positive : std::size_t{0}},
-                                           options);
+  const std::string broken =
+      broken_limits({rms, largest, percent, difference.different, difference.not_finite,
+                     in_dB ? difference.only_one_positive : std::size_t{0}},
+                    options);
   const bool ok = broken.empty();
   if (!quiet || !ok)
     fmt::print(

@@ -2,12 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 #include "core/spelling.h"
 
 namespace fanbeam::core {
 namespace {
+
+// A difference that is no finite number is larger than any.
+double magnitude_of(double difference) {
+  return std::isfinite(difference) ? std::abs(difference) : std::numeric_limits<double>::infinity();
+}
 
 LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int columns) {
   LayerDifference result;
@@ -17,16 +23,21 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
   magnitudes.reserve(result.cells);
   double sum = 0.0, squares = 0.0, sum_dB = 0.0, squares_dB = 0.0;
   for (std::size_t i = 0; i < result.cells; ++i) {
-    const double difference = b.values[i] - a.values[i];
-    if (difference != 0.0) ++result.different;
+    const bool equal = a.values[i] == b.values[i];  // infinities too, and a NaN to nothing
+    const double difference = equal ? 0.0 : b.values[i] - a.values[i];
+    if (!equal) ++result.different;
     if (!(std::abs(difference) <=
           1e-4 * std::max({1.0, std::abs(a.values[i]), std::abs(b.values[i])})))
       ++result.changed;
     sum += difference;
     squares += difference * difference;
-    magnitudes.push_back(std::abs(difference));
-    if (magnitudes.back() > result.largest) {
-      result.largest = magnitudes.back();
+    const double magnitude = magnitude_of(difference);
+    if (std::isfinite(magnitude))
+      magnitudes.push_back(magnitude);
+    else
+      ++result.not_finite;
+    if (magnitude > result.largest) {
+      result.largest = magnitude;
       result.largest_column = static_cast<int>(i) % columns;
       result.largest_row = static_cast<int>(i) / columns;
     }
@@ -35,11 +46,11 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
     if (positive_a != positive_b) ++result.only_one_positive;
     if (!positive_a || !positive_b) continue;
     ++result.both_positive;
-    const double dB = 10.0 * std::log10(b.values[i] / a.values[i]);
+    const double dB = equal ? 0.0 : 10.0 * std::log10(b.values[i] / a.values[i]);
     sum_dB += dB;
     squares_dB += dB * dB;
-    if (std::abs(dB) > result.largest_dB) {
-      result.largest_dB = std::abs(dB);
+    if (magnitude_of(dB) > result.largest_dB) {
+      result.largest_dB = magnitude_of(dB);
       result.largest_dB_column = static_cast<int>(i) % columns;
       result.largest_dB_row = static_cast<int>(i) / columns;
     }
@@ -51,7 +62,8 @@ LayerDifference compare_layer(const Image::Layer& a, const Image::Layer& b, int 
   result.mean_dB = sum_dB / positive;
   result.rms_dB = std::sqrt(squares_dB / positive);
   if (!magnitudes.empty()) {
-    const auto at = magnitudes.begin() + static_cast<std::ptrdiff_t>(0.99 * (cells - 1.0));
+    const double last = static_cast<double>(magnitudes.size()) - 1.0;
+    const auto at = magnitudes.begin() + static_cast<std::ptrdiff_t>(0.99 * last);
     std::nth_element(magnitudes.begin(), at, magnitudes.end());
     result.percentile_99 = *at;
   }

@@ -11,12 +11,13 @@ namespace fanbeam::core {
 struct LayerDifference {
   std::string layer;
   std::size_t cells = 0;
-  std::size_t different = 0;  // values that are not equal
-  std::size_t changed = 0;    // by more than 1e-4 of the larger one, or of 1 where that is more
-  double mean = 0.0;          // of B - A, in the layer's own unit (grey levels for 8-bit pictures)
+  std::size_t different = 0;   // values that are not equal; a NaN equals nothing, also no NaN
+  std::size_t not_finite = 0;  // of them, those whose B - A is NaN or infinite
+  std::size_t changed = 0;     // by more than 1e-4 of the larger one, or of 1 where that is more
+  double mean = 0.0;           // of B - A, in the layer's own unit (grey levels for 8-bit pictures)
   double rms = 0.0;
-  double percentile_99 = 0.0;  // of |B - A|
-  double largest = 0.0;
+  double percentile_99 = 0.0;  // of |B - A| where that is finite
+  double largest = 0.0;        // infinite where not
   int largest_column = 0, largest_row = 0;
   // Power layers (positive floats): over cells positive in both, in dB.
   std::size_t both_positive = 0;

@@ -33,6 +33,9 @@ LayerJudgement judge(const core::LayerDifference& difference, session::Differenc
   add("largest", of, in_dB ? difference.largest_dB : difference.largest, limits.largest);
   add("percent", "%", percent_of(difference.different, difference.cells),
       tolerance ? limits.percent : 0.0);
+  // A share allows cells whatever they hold, and power without decibels has no largest.
+  if (difference.not_finite > 0)
+    add("not_finite", "cells", static_cast<double>(difference.not_finite), 0.0);
   if (unit == session::DifferenceUnit::own)
     add("changed_percent", "%", percent_of(difference.changed, difference.cells),
         limits.changed_percent);

@@ -12,7 +12,8 @@ namespace fanbeam::measure {
 
 // Limits per layer: grey levels of pictures, the layer's own unit of ground truth, dB of power
 // layers, where only cells positive in both have decibels. What is absent is not limited; but the cells of a power layer that are lit in one
-// picture only are always counted, and none is allowed unless the limit says so.
+// picture only are always counted, and none is allowed unless the limit says so. A cell whose
+// difference is no finite number is within no limit.
 struct Tolerance {
   std::optional<double> mean{};  // of |mean of new - approved|
   std::optional<double> rms{};
@@ -23,10 +24,11 @@ struct Tolerance {
   std::string reason{};                        // why this much is right
 };
 
-// One figure of a layer beside what is allowed.
+// One figure of a layer beside what is allowed; where there are cells without a finite difference,
+// "not_finite" counts them, which no key allows.
 struct Figure {
   std::string name;  // as the suite's key
-  std::string unit;  // "grey", "dB", "deg", "%"
+  std::string unit;  // "grey", "dB", "deg", "%", "cells"
   double value = 0.0;
   std::optional<double> allowed;
   bool within = true;

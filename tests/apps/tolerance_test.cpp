@@ -6,6 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/image.h"
+#include "measure/regress/case_result.h"
+#include "tests/apps/program.h"
+
 using namespace fanbeam;
 using namespace fanbeam::measure;
 using fanbeam::session::DifferenceUnit;
@@ -33,6 +37,14 @@ std::vector<std::string> beyond(const LayerJudgement& judged) {
 }
 
 using Names = std::vector<std::string>;
+
+// A hundred cells, each 1 but the first.
+void write_cells(const std::filesystem::path& folder, const char* layer, double first) {
+  std::filesystem::create_directories(folder);
+  std::vector<double> values(100, 1.0);
+  values[0] = first;
+  core::write_exr(folder / "00000.exr", {10, 10, {{layer, values}}}, {});
+}
 
 }  // namespace
 
@@ -99,4 +111,50 @@ TEST_CASE("A figure that is no number is within no limit", "[regress]") {
   core::LayerDifference difference = grey_difference();
   difference.rms = std::numeric_limits<double>::quiet_NaN();
   CHECK(beyond(judge(difference, DifferenceUnit::grey, Tolerance{.rms = 100.0})) == Names{"rms"});
+}
+
+// One cell was within any limit but that of the RMS, and within that too where it is in decibels.
+TEST_CASE("A cell that is no number is within no limit, of regress and of compare", "[regress]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const tests::TemporaryFolder place;
+  const auto a = place.path() / "a", b = place.path() / "b";
+  // Of both layers: in its own unit, and in decibels.
+  const auto written = [](const std::filesystem::path& folder, double first) {
+    write_cells(folder / "layers", "elevation_deg", first);
+    write_cells(folder / "power", "power_W", first);
+  };
+  const Tolerance limits[] = {{.mean = 1e6},
+                              {.rms = 1e6},
+                              {.largest = 1e6},
+                              {.percent = 50.0},
+                              {.changed_percent = 50.0},
+                              {.percent = 50.0, .lit_in_one_percent = 50.0}};
+  for (const auto& [before, now] : {std::pair{1.0, nan}, {nan, 1.0}, {nan, nan}}) {
+    INFO(before << " against " << now);
+    written(a, before);
+    written(b, now);
+    for (const Tolerance& limit : limits)
+      for (const PictureResult& result :
+           compare_pictures(a, b, {{"layers", limit}, {"power", limit}})) {
+        INFO(sentence_of(result));
+        REQUIRE(result.tolerance);
+        CHECK(result.state == PictureState::differs);
+        CHECK(what_of(result).find("not_finite 1 cells (0 allowed)") != std::string::npos);
+      }
+    for (const char* file : {"layers/00000.exr", "power/00000.exr"})
+      for (const char* words : {"", "--exact", "--rms 1000", "--largest 1000", "--percent 50"}) {
+        const tests::Result told =
+            tests::run_fanbeam("compare " + std::string(words) + " " + tests::quoted(a / file) +
+                               " " + tests::quoted(b / file));
+        INFO(words << ": " << told.output);
+        CHECK(told.exit_code == 1);
+        CHECK(told.output.rfind("DIFFER", 0) == 0);
+      }
+  }
+  // A number, however far off, is allowed where its share is.
+  written(a, 1.0);
+  written(b, 1e30);
+  const Tolerance half{.percent = 50.0};
+  for (const PictureResult& result : compare_pictures(a, b, {{"layers", half}, {"power", half}}))
+    CHECK(result.state == PictureState::same);
 }

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <limits>
 
 #include "core/errors.h"
 
@@ -58,6 +59,38 @@ TEST_CASE("The 99th percentile leaves out the largest hundredth", "[image_compar
       compare_images(layer("Y", 1000, 1, a), layer("Y", 1000, 1, b), "a", "b").at(0);
   CHECK(d.percentile_99 == 989.0);
   CHECK(d.largest == 999.0);
+}
+
+// It was never the largest, and stood anywhere in the order that the percentile is taken from.
+TEST_CASE("A cell that is no number is the largest difference and leaves the percentile alone",
+          "[image_compare]") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinite = std::numeric_limits<double>::infinity();
+  const std::pair<double, double> odd[] = {
+      {1.0, nan}, {nan, 1.0}, {nan, nan}, {1.0, infinite}, {infinite, nan}};
+  for (const auto& [value_a, value_b] : odd) {
+    INFO(value_a << " against " << value_b);
+    std::vector<double> a(1000, 1.0), b(1000);
+    for (std::size_t i = 0; i < 1000; ++i) b[i] = 1.0 + static_cast<double>(i % 500);
+    a[207] = value_a;
+    b[207] = value_b;
+    const LayerDifference d =
+        compare_images(layer("range_m", 100, 10, a), layer("range_m", 100, 10, b), "a", "b").at(0);
+    CHECK(d.not_finite == 1);
+    CHECK(std::isinf(d.largest));
+    CHECK(d.largest_column == 7);
+    CHECK(d.largest_row == 2);
+    CHECK(d.percentile_99 == 494.0);  // of 999: each of 0 to 499 twice, one 207 less
+    CHECK(d.different == 998);        // all but the two of 1
+  }
+  const Image none = layer("range_m", 2, 1, {nan, nan});
+  const LayerDifference d = compare_images(none, none, "a", "b").at(0);
+  CHECK(d.not_finite == 2);
+  CHECK(d.percentile_99 == 0.0);
+  const Image most = layer("power_W", 2, 1, {infinite, 1.0});
+  const LayerDifference equal = compare_images(most, most, "a", "b").at(0);
+  CHECK(equal.different + equal.not_finite == 0);
+  CHECK(equal.rms_dB == 0.0);
 }
 
 TEST_CASE("Power is compared in dB where both are lit, and counted where only one is",
