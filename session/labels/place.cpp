@@ -24,13 +24,14 @@ PictureSpot Eye::bscope_spot(double azimuth_rad, double range_m) const {
   return spot;
 }
 
-PictureSpot Eye::cscope_spot(double azimuth_rad, double elevation_rad) const {
+PictureSpot Eye::cscope_spot(double azimuth_rad, double elevation_rad, double range_m) const {
   const sensors::Sensor& by = sensor();
   PictureSpot spot;
   spot.at_px = {(azimuth_rad / by.scan.field_of_view_rad + 0.5) * by.scan.columns,
                 (by.display.cscope_top_rad - elevation_rad) / by.display.cscope_span_rad *
                     by.display.cscope_rows};
-  spot.inside = spot.at_px.x >= 0.0 && spot.at_px.x < by.scan.columns && spot.at_px.y >= 0.0 &&
+  // It is made of the same echoes: those inside the gate.
+  spot.inside = bscope_spot(azimuth_rad, range_m).inside && spot.at_px.y >= 0.0 &&
                 spot.at_px.y < by.display.cscope_rows;
   return spot;
 }
@@ -44,7 +45,8 @@ std::optional<PictureSpot> Eye::in_bscope(const glm::dvec3& at_m) const {
 std::optional<PictureSpot> Eye::in_cscope(const glm::dvec3& at_m) const {
   const auto angles = angles_of(at_m);
   if (!angles) return std::nullopt;
-  return cscope_spot(angles->azimuth_rad, angles->elevation_rad);
+  return cscope_spot(angles->azimuth_rad, angles->elevation_rad,
+                     glm::length(at_m - antenna_.position_m));
 }
 
 bool Eye::sees(const glm::dvec3& at_m, double clearance_m) const {
@@ -63,7 +65,7 @@ PlaceLabel Eye::look_at(const glm::dvec3& at_m) const {
     label.azimuth_rad = angles->azimuth_rad;
     label.elevation_rad = angles->elevation_rad;
     label.bscope = bscope_spot(angles->azimuth_rad, label.range_m);
-    label.cscope = cscope_spot(angles->azimuth_rad, angles->elevation_rad);
+    label.cscope = cscope_spot(angles->azimuth_rad, angles->elevation_rad, label.range_m);
   }
   return label;
 }

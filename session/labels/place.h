@@ -4,8 +4,8 @@
 //   y = rows - (slant range - nearest) / cell           B-scope, downwards: the farthest range on top
 //   y = (top - elevation) / span rows                   C-scope, downwards
 // Angles are in the antenna's frame (sensors/antenna/antenna_frame.h). Pixel (0, 0) covers 0 to 1 in
-// x and in y, so its middle is (0.5, 0.5). Positions outside a picture are given too; a place beside or
-// behind the antenna has none.
+// x and in y, so its middle is (0.5, 0.5). Positions outside a picture are given too, and a place beyond
+// the range gate, or before it, is inside neither; a place beside or behind the antenna has none.
 // Line of sight: a straight line past the scene's triangles to kSightHeight_m above the place, ended
 // kSightClearance_m before it.
 // Neglected: refraction.
@@ -56,7 +56,7 @@ class Eye {
   const sensors::Sensor& sensor() const { return scene_.description.sensor; }
   std::optional<sensors::AntennaAngles> angles_of(const glm::dvec3& at_m) const;
   PictureSpot bscope_spot(double azimuth_rad, double range_m) const;
-  PictureSpot cscope_spot(double azimuth_rad, double elevation_rad) const;
+  PictureSpot cscope_spot(double azimuth_rad, double elevation_rad, double range_m) const;
 
   const scenes::Scene& scene_;
   renderer::FramePose pose_;

@@ -152,7 +152,7 @@ struct RunLabels::Coco {
         points.push_back(inside ? (corner.at("in_sight").get<bool>() ? 2 : 1) : 0);
         if (inside) ++seen;
       }
-      if (seen == 0 && runway.at(scope).at("cells") == 0) continue;
+      if (runway.at(scope).at("cells") == 0) continue;
       Json& made = annotate(runway.at(scope), image, "runway", columns, rows);
       made["keypoints"] = std::move(points);
       made["num_keypoints"] = seen;

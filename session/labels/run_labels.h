@@ -1,9 +1,9 @@
 // The labels of all frames of a run in the formats that training programs read.
 //
 //   labels.json  all that labels_json says of each frame; schema docs/labels.schema.json
-//   coco.json    COCO: a picture for each B-scope and C-scope that is there, its runways with four corners
-//                as keypoints (0 outside, 1 hidden, 2 in sight), and everything that has cells: box and
-//                run-length mask
+//   coco.json    COCO: a picture for each B-scope and C-scope that is there, and in it everything that
+//                has cells there: box and run-length mask; of runways the four corners too, as keypoints (0
+//                outside, 1 hidden, 2 in sight)
 //   lard.csv     LARD's columns, a row for each picture that all four corners of a runway are in.
 //                Distances in NM, height in ft; its yaw is 0 at south, its pitch 90 level, its roll
 //                anticlockwise; corners by rising y, then x. Path angles, positive right and up, are seen from

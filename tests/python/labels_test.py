@@ -217,9 +217,9 @@ def test_coco_is_what_its_readers_expect(approach):
         rows, columns = note["segmentation"]["size"]
         assert (rows, columns) == (image["height"], image["width"])
         mask = decoded({"runs": note["segmentation"]["counts"]}, rows, columns)
-        assert mask.sum() == note["area"]
+        assert mask.sum() == note["area"] > 0
         if categories[note["category_id"]]["name"] != "runway":
-            assert "keypoints" not in note and note["area"] > 0
+            assert "keypoints" not in note
             continue
         seen_runways += 1
         points = np.array(note["keypoints"]).reshape(4, 3)
@@ -232,6 +232,20 @@ def test_coco_is_what_its_readers_expect(approach):
             assert left >= points[:, 0].min() - beside and left + width <= points[:, 0].max() + beside
             assert top >= points[:, 1].min() - 1 and top + height <= points[:, 1].max() + 1
     assert seen_runways == 6
+
+
+def test_a_runway_beyond_the_gate_is_in_neither_picture(program, tmp_path):
+    # The gate ends at 3695 m, the near threshold is 5009 m off; both pictures' other limits hold the corners.
+    products = ["--products", "bscope,cscope,labels", "--rays-per-cell", "1", "-q", "-o", tmp_path]
+    subprocess.run([program, "render", "braunschweig-26", "--frames", "0", *products], check=True)
+    (frame,) = json.loads((tmp_path / "labels.json").read_text(encoding="utf-8"))["frames"]
+    for corner in frame["runways"][0]["corners"].values():
+        assert corner["range_m"] > 5000
+        assert 0 < corner["cscope"]["x"] < 164 and 0 < corner["cscope"]["y"] < 524
+        assert not corner["bscope"]["inside"] and not corner["cscope"]["inside"]
+    notes = json.loads((tmp_path / "coco.json").read_text(encoding="utf-8"))["annotations"]
+    assert all(note["category_id"] != 1 and note["area"] > 0 for note in notes)
+    assert len((tmp_path / "lard.csv").read_text(encoding="utf-8").splitlines()) == 1
 
 
 def test_lard_rows_have_its_conventions(approach):

@@ -1,7 +1,9 @@
 // Which things of a scene are one labelled object, how high point targets stand, and what weather labels
 // tell.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -166,6 +168,47 @@ TEST_CASE("Labels of a scene whose only rain is a rain cell tell of rain", "[lab
     CHECK(weather["rain_rate_mm_per_h"] == 0.0);
     CHECK(labelled.lard().find(cell ? ";rain;" : ";fog;") != std::string::npos);
   }
+}
+
+// A C-scope held whatever its angles allowed, and runways in the dark were annotated with no cell.
+TEST_CASE("A place is inside a C-scope only where it is inside the range gate", "[labels]") {
+  const tests::TemporaryFolder folder;
+  const Labelled labelled(folder, tests::kSmallScene);
+  const session::Eye eye(*labelled.scene, labelled.pose);
+  const sensors::RangeGate& gate = labelled.scene->description.sensor.range;
+  const double farthest_m = gate.minimum_m + gate.cells * gate.cell_m;
+  const glm::dvec3 towards =
+      glm::normalize(labelled.scene->runways.at(0).ends[0].threshold_m - eye.at_m());
+  for (const auto& [range_m, inside] : {std::pair{gate.minimum_m - 1.0, false},
+                                        {gate.minimum_m + 1.0, true},
+                                        {farthest_m - 1.0, true},
+                                        {farthest_m + 1.0, false}}) {
+    INFO(range_m);
+    const glm::dvec3 at_m = eye.at_m() + range_m * towards;
+    CHECK(eye.in_cscope(at_m)->inside == inside);
+    CHECK(eye.look_at(at_m).cscope->inside == inside);
+  }
+}
+
+TEST_CASE("Pictures that hold corners of a runway but no cell of it have no annotation",
+          "[labels]") {
+  const tests::TemporaryFolder folder;
+  auto frame = nlohmann::json::parse(Labelled(folder, tests::kSmallScene).json());
+  const auto runways_annotated = [&] {
+    session::RunLabels run;
+    run.add("", {"bscope/00020.png", "cscope/00020.png", "labels/00020.json"}, 1,
+            [&](const std::string&) { return frame.dump(); });
+    const auto notes = nlohmann::json::parse(run.coco())["annotations"];
+    return std::count_if(notes.begin(), notes.end(),
+                         [](const auto& note) { return note["category_id"] == 1; });
+  };
+  auto& runway = frame["runways"][0];
+  CHECK(runways_annotated() == 2);
+  for (const char* scope : {"bscope", "cscope"}) {
+    CHECK(runway["corners"]["near_left"][scope]["inside"] == true);
+    runway[scope]["cells"] = 0;
+  }
+  CHECK(runways_annotated() == 0);
 }
 
 // Over the date line a runway was taken to point round the Earth, and nobody to approach it.
