@@ -258,6 +258,8 @@ ObjectLabel object_label(const Eye& eye, const LabelledThing& thing,
   const Shares shares = facets.empty() ? points.shares() : shares_of(eye, facets);
   label.in_sight_share = shares.in_sight;
   label.in_view_share = shares.in_view;
+  // A line to the middle of a solid ends behind its own face.
+  if (!facets.empty()) label.middle.in_sight = shares.in_sight > 0.0;
   if (places_m.empty()) places_m.push_back(middle_m);
   for (const scenes::RunwayPlace& runway : scene.runways) {
     const RunwayGround ground(scene, runway, 0);

@@ -59,7 +59,7 @@ struct ObjectLabel {
   ObjectGroup group{};
   Placement placement{};
   std::vector<std::uint32_t> ids;  // in layers: of all parts of a model, of targets of one name
-  PlaceLabel middle;               // of the box around it
+  PlaceLabel middle;               // of the box around it; of solids in sight where any of it is
   // Top above the ground below its middle; of points, the most that one is above the ground below it.
   double height_m = 0.0;
   double in_sight_share = 0.0, in_view_share = 0.0;

@@ -186,6 +186,8 @@ height_m = 10.0
     by_name = {thing["name"]: thing for thing in labels["objects"]}
     assert by_name["behind"]["in_sight_share"] == 0.0 and by_name["behind"]["bscope"]["cells"] == 0
     assert by_name["behind"]["view"] == "in_view" and not by_name["behind"]["middle"]["in_sight"]
+    # Its own face stands before a box's middle, and says nothing of the wall.
+    assert by_name["beside"]["middle"]["in_sight"] and by_name["wall"]["middle"]["in_sight"]
     assert by_name["behind"]["signal_to_clutter_dB"] is None
     assert by_name["beside"]["in_sight_share"] == 1.0 and by_name["beside"]["bscope"]["cells"] > 0
     assert by_name["wall"]["in_sight_share"] == 1.0
