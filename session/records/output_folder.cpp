@@ -313,12 +313,16 @@ int OutputFolder::keep_only(const std::set<std::string>& files) const {
     return true;
   });
   std::error_code ignored;  // what cannot be removed is not listed
-  for (const fs::path& relative : old) fs::remove(folder_ / relative, ignored);
+  std::set<int> frames;
+  for (const fs::path& relative : old) {
+    // Asked of each only now: another part of the sequence may have put its own in the place since
+    // this one looked for what to list.
+    if (is_of_this_input(relative)) continue;
+    fs::remove(folder_ / relative, ignored);
+    if (const std::optional<int> index = frame_of(relative)) frames.insert(*index);
+  }
   for (const fs::path& relative : old)
     if (relative.has_parent_path()) fs::remove(folder_ / relative.parent_path(), ignored);
-  std::set<int> frames;
-  for (const fs::path& relative : old)
-    if (const std::optional<int> index = frame_of(relative)) frames.insert(*index);
   return static_cast<int>(frames.size());
 }
 

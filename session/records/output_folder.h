@@ -49,8 +49,8 @@ class OutputFolder {
       const std::map<int, std::set<std::string>>& written) const;
 
   // Removes the files of frames and films that an earlier run.json lists, or with `overwrite` any
-  // frame, unless they are among `files` (relative to the folder). Never leaves the folder. Of how
-  // many frames.
+  // frame, unless they are among `files` (relative to the folder) or frames of this input, which
+  // another part of its sequence may be writing there. Never leaves the folder. Of how many frames.
   int keep_only(const std::set<std::string>& files) const;
 
  private:

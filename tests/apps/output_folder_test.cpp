@@ -353,6 +353,46 @@ TEST_CASE("A killed run of another input leaves only what the next run may repla
   CHECK_NOTHROW(session::OutputFolder(folder.path(), "third input", false));
 }
 
+// At its end a part removed whatever had come since it had looked for frames to list, and the other
+// part listed what was gone.
+TEST_CASE("A part that ends keeps the frames that another part writes meanwhile", "[render]") {
+  for (const bool overwrite : {false, true}) {
+    INFO(overwrite);
+    const TemporaryFolder folder;
+    const auto write = [&](const std::string& product, int index, const std::string& input) {
+      fs::create_directories(folder.path() / product);
+      for (const std::string& name : session::frame_files({product}, index)) {
+        const fs::path file = folder.path() / name;
+        if (file.extension() == ".json")
+          folder.write(name, R"({"metadata": {"fanbeam:input": ")" + input + R"("}})");
+        else
+          core::write_png(file, {1, 1, {0}}, {{"fanbeam:input", input}});
+      }
+    };
+    for (int index = 0; index < 4; ++index) {
+      write("bscope", index, "first input");
+      write("labels", index, "first input");
+    }
+    folder.write("run.json",
+                 R"({"frames": [{"files": ["bscope/00000.png", "bscope/00001.png",)"
+                 R"("bscope/00002.png", "bscope/00003.png", "labels/00000.json",)"
+                 R"("labels/00001.json", "labels/00002.json", "labels/00003.json"]}]})");
+    session::OutputFolder part(folder.path(), "second input", overwrite);
+    part.begin_frames([] { return std::set<std::string>{"bscope/00003.png"}; });
+    write("bscope", 3, "second input");
+    write("bscope", 0, "second input");  // the other part's
+    const auto listed = part.frames({{3, {"bscope"}}});
+    CHECK((listed == std::map<int, std::set<std::string>>{{0, {"bscope"}}, {3, {"bscope"}}}));
+    write("bscope", 1, "second input");  // now it goes on
+    write("labels", 1, "second input");
+    CHECK(part.keep_only({"bscope/00000.png", "bscope/00003.png"}) == 3);  // 0, 2 and 3, in part
+    part.end();
+    CHECK(files_in(folder.path()) ==
+          std::vector<std::string>{"bscope/00000.png", "bscope/00001.png", "bscope/00003.png",
+                                   "labels/00001.json"});
+  }
+}
+
 TEST_CASE("A frame that fmcw refuses leaves no folder", "[fmcw]") {
   const TemporaryFolder folder;
   const fs::path out = folder.path() / "out";
